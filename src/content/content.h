@@ -1,0 +1,75 @@
+// What the panel shows: scenes, elemental images, test patterns, reference photographs. Floor 2.
+#pragma once
+#include "image/compare.h"
+#include "image/image.h"
+#include "model/display.h"
+#include "model/error.h"
+#include "model/geometry.h"
+#include "model/job.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lfdsim {
+
+/// A mesh as read: not yet posed. Loaded in a child process with limits on time and memory.
+class Model;
+
+struct ModelInfo {
+    std::int64_t triangles, vertices, materials, textures;
+    std::vector<std::string> notes;  // what was dropped or repaired, in words
+};
+
+struct LoadOptions {
+    double seconds = 60;  // of the child process
+    std::int64_t bytes = std::int64_t(4) << 30;
+    std::string up;  // "" by format; else "y" or "z"
+};
+
+/// Throws InputError that names the file: missing, unreadable, unknown format, no triangles, crashed or exhausted the reader.
+std::shared_ptr<const Model> load_model(const std::filesystem::path&, const LoadOptions& = {});
+ModelInfo info(const Model&);
+
+/// A model posed before the display (docs/model.md, "Pose"), with its ray-tracing structure. Model data is shared.
+class Scene {
+  public:
+    Scene(std::shared_ptr<const Model>, const Display&, const Geometry&);
+    ~Scene();
+    Scene(Scene&&) noexcept;
+    struct Impl;
+    const Impl& impl() const { return *impl_; }
+
+  private:
+    std::unique_ptr<Impl> impl_;
+};
+
+struct Picture {
+    Image image;            // linear light
+    bool complete = true;   // false: cancelled
+    std::int64_t rays = 0;  // cast (shaded or background)
+    double seconds = 0;
+};
+
+/// Elemental images by the nodal pick-up, one ray a panel pixel; the panel's size. threads 0: all.
+Picture elemental_images(const Display&, const Geometry&, const Scene&, int threads, Job&);
+
+/// The scene seen directly by the display's camera, one ray through each pixel centre (the same pixel filter never applies).
+Picture reference_photograph(const Display&, const Geometry&, const Scene&, int threads, std::optional<Rect> crop, Job&);
+
+/// Test patterns of the panel's size: "checkerboard", "white", "view" (one view white), "edge" (slanted edge), "address" (ramp).
+std::vector<std::string> pattern_names();
+struct PatternOptions {
+    int cell_pixels = 11;           // checkerboard
+    double view_x = 0, view_y = 0;  // view: which, -0.5 .. 0.5 of the elemental image from its centre
+    double edge_deg = 5;            // edge: slant
+    double depth_mm = 0;            // edge: where it stands, from the vertex plane
+};
+/// Code values as linear-light such that writing with the panel's encoding gives the intended codes. Throws InputError for an
+/// unknown name.
+Image pattern(const std::string& name, const Display&, const Geometry&, const PatternOptions& = {});
+
+}  // namespace lfdsim

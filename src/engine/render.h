@@ -1,0 +1,44 @@
+// The picture that an eye or camera sees of a display. Floor 2: threads, kernels, tiles over the optics.
+#pragma once
+#include "image/compare.h"
+#include "image/image.h"
+#include "image/texels.h"
+#include "model/display.h"
+#include "model/geometry.h"
+#include "model/job.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lfdsim {
+
+struct RenderOptions {
+    int threads = 0;           // 0: all
+    std::string kernel;        // scalar | baseline | avx2 | avx512; empty: LFDSIM_KERNEL, else the best this machine has
+    std::optional<Rect> crop;  // of the camera's frame; the image has the crop's size and the full frame's pixels, bit for bit
+};
+
+struct Rendering {
+    Image image;           // linear light, crop's or camera's size
+    bool complete = true;  // false: cancelled; unfinished pixels are black
+    std::string kernel;    // the one that ran
+    int threads = 0;
+    std::int64_t samples = 0;  // traced, all pixels together
+    double seconds = 0;        // of tracing
+};
+
+/// Kernels compiled in, best first, with whether this machine can run them.
+struct KernelInfo {
+    std::string name;
+    bool available;
+    int lanes;
+};
+std::vector<KernelInfo> kernels();
+
+/// The picture of a valid display showing `panel` (its size must be the panel's). Same input and seed: the same bits on any
+/// number of threads and any kernel, for any crop. Throws InputError for a bad kernel, crop, thread count or panel size.
+Rendering render(const Display&, const Geometry&, const Texels& panel, const RenderOptions&, Job&);
+
+}  // namespace lfdsim

@@ -1,0 +1,27 @@
+// Display descriptions (TOML) in and out. Floor 2.
+#pragma once
+#include "model/display.h"
+#include "model/error.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lfdsim {
+
+/// Reads and validates a description. `overrides` are "dotted.key=value" with the value in TOML syntax, applied before validation.
+/// Throws InputError with every problem found, each as file:line:column (or --set key) with what was given and what is allowed;
+/// an unknown key names the nearest known one. content.model becomes relative to the working directory.
+Display read_display(const std::filesystem::path&, const std::vector<std::string>& overrides = {});
+
+/// The same from text; `name` stands for the file in messages. Limits: 1 MiB of text, 16 levels.
+Display parse_display(std::string_view text, std::string_view name, const std::vector<std::string>& overrides = {});
+
+/// A description that reads back as the same display; every key written.
+std::string write_display(const Display&);
+
+/// Every key: name, type, unit, range, default, meaning; docs/format.md is generated from it.
+std::string format_reference_markdown();
+
+}  // namespace lfdsim

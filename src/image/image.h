@@ -1,0 +1,19 @@
+// A picture in linear light. Floor 0.
+#pragma once
+#include <cstddef>
+#include <vector>
+
+namespace lfdsim {
+
+/// Linear-light RGB, float32, row 0 at the top; pixel (column i, row j) has its centre at (i + 0.5, j + 0.5).
+struct Image {
+    int width = 0, height = 0;
+    std::vector<float> rgb;  // height x width x 3
+
+    Image() = default;
+    Image(int w, int h) : width(w), height(h), rgb(std::size_t(w) * h * 3) {}
+    float* at(int column, int row) { return &rgb[(std::size_t(row) * width + column) * 3]; }
+    const float* at(int column, int row) const { return &rgb[(std::size_t(row) * width + column) * 3]; }
+};
+
+}  // namespace lfdsim

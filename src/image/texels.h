@@ -1,0 +1,37 @@
+// The panel image as the renderer reads it. Floor 0.
+#pragma once
+#include "image/image.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+namespace lfdsim {
+
+/// Linear radiance, 4 x float32 (R, G, B, 0) a pixel: one aligned 16-byte load fetches a panel pixel, exactly decoded,
+/// whatever the file's depth. Memory comes in huge pages where the system grants them: the renderer reads it at random.
+class Texels {
+  public:
+    Texels() = default;
+    /// Zeroed. Throws std::bad_alloc. columns x rows < 2^31.
+    Texels(std::int64_t columns, std::int64_t rows);
+
+    std::int64_t columns() const { return columns_; }
+    std::int64_t rows() const { return rows_; }
+    float* data() { return data_.get(); }
+    const float* data() const { return data_.get(); }
+    float* row(std::int64_t r) { return data_.get() + r * columns_ * 4; }
+
+  private:
+    struct Unmap {
+        std::size_t bytes = 0;
+        void operator()(float*) const;
+    };
+    std::int64_t columns_ = 0, rows_ = 0;
+    std::unique_ptr<float[], Unmap> data_;
+};
+
+/// Copies an image.
+Texels make_texels(const Image&);
+
+}  // namespace lfdsim

@@ -1,0 +1,109 @@
+// A light field display and the eye that looks at it, as its description file says it. Floor 0: plain data, no I/O.
+// Lengths in millimetres, angles in degrees (fields that end in _deg). Keys, ranges and defaults: docs/format.md.
+// Frame: the panel lies in z = 0 centred on the origin and faces +z; +x is the viewer's right, +y is up.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lfdsim {
+
+using Vec3d = std::array<double, 3>;
+
+enum class Encoding { srgb, linear };  // of the panel image's code values
+enum class LensType { plano_convex, surfaces, ideal };
+enum class Facing { viewer, panel };           // where the convex side of a plano-convex lens looks
+enum class Surround { opaque, clear, plate };  // what is between the lenses
+enum class Aperture { circle, square };
+enum class Profile { box, gaussian };  // of the diffuser, per axis
+enum class PixelFilter { center, box };
+enum class Sampling { sobol, random };
+enum class Fresnel { exact, schlick, none };
+
+struct Panel {
+    std::array<std::int64_t, 2> pixels{};  // columns, rows
+    double pixel_pitch_mm = 0;
+    Encoding encoding = Encoding::srgb;
+    double emission_exponent = 0;  // m of cos(theta)^m, 0 = Lambertian
+};
+
+/// A surface of revolution about the lens axis, as a lens prescription lists it, from the panel side to the viewer's.
+struct Surface {
+    double curvature_per_mm = 0;       // c; positive sag is +z, so a last surface convex to the viewer has c < 0
+    double conic = 0;                  // k
+    std::vector<double> even_asphere;  // a4, a6, ... (1/mm^3, 1/mm^5, ...)
+    double semi_aperture_mm = 0;
+    double distance_mm = 0;  // vertex to vertex, to the next surface; ignored on the last
+    double index = 1;        // of the medium up to the next surface; ignored on the last
+};
+
+struct Lens {
+    LensType type = LensType::plano_convex;
+    double sphere_radius_mm = 0;               // R (plano_convex)
+    std::optional<double> aperture_radius_mm;  // r (plano_convex, ideal); may be absent for a square aperture
+    double cylinder_height_mm = 0;             // h (plano_convex)
+    double index = 0;                          // n (plano_convex)
+    Facing facing = Facing::viewer;            // (plano_convex)
+    double focal_length_mm = 0;                // f (ideal)
+    std::vector<Surface> surfaces;             // (surfaces)
+    std::optional<double> stop_radius_mm;      // aperture stop in the plane of the curved vertex
+};
+
+struct LensArray {
+    std::array<std::int64_t, 2> count{};  // nx, ny
+    double pitch_mm = 0;                  // p
+    std::optional<double> gap_mm;         // panel to the lens's panel-side principal plane; exactly one of the two
+    std::optional<double> base_z_mm;      // panel to the lens's lowest z
+    Surround surround = Surround::opaque;
+    Aperture aperture = Aperture::circle;
+    std::array<double, 2> offset_mm{};
+    double rotation_deg = 0;  // counter-clockwise as the viewer sees it, about the array's centre, before the offset
+};
+
+struct Diffuser {
+    double distance_mm = 0;             // from the array's viewer-side vertex plane
+    std::array<double, 2> angle_deg{};  // full angles (box) or full widths at half maximum (gaussian): horizontal, vertical
+    Profile profile = Profile::box;
+};
+
+struct Camera {
+    Vec3d position_mm{0, 0, 2000};
+    Vec3d target_mm{0, 0, 0};
+    Vec3d up{0, 1, 0};
+    std::optional<double> frame_width_mm;  // width of the frame in the plane through the target; or fov_deg; default in geometry.h
+    std::optional<double> fov_deg;         // horizontal
+    std::array<std::int64_t, 2> resolution{3840, 2160};
+    PixelFilter pixel_filter = PixelFilter::center;
+    std::optional<double> pupil_diameter_mm;  // thin-lens camera; absent: pinhole
+    std::optional<double> focus_distance_mm;  // along the view axis; default: the target's distance
+};
+
+struct Content {
+    std::string model;                  // mesh file; relative to the description file; empty: none
+    std::optional<double> depth_mm;     // of the model's centre, from the viewer-side vertex plane; default L
+    std::optional<double> height_mm;    // default half the panel's height
+    double yaw_deg = 0;                 // counter-clockwise seen from above
+    double viewing_distance_mm = 2000;  // from the panel; infinity allowed
+};
+
+struct Render {
+    std::int64_t samples = 100;
+    Sampling sampling = Sampling::sobol;
+    Fresnel fresnel = Fresnel::exact;
+    std::int64_t seed = 0;
+};
+
+struct Display {
+    std::string name;
+    Panel panel;
+    Lens lens;
+    LensArray array;
+    std::optional<Diffuser> diffuser;
+    Camera camera;
+    Content content;
+    Render render;
+};
+
+}  // namespace lfdsim

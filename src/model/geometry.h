@@ -1,0 +1,73 @@
+// What follows from a display description: where everything stands, and the paraxial theory. Floor 0.
+#pragma once
+#include "model/display.h"
+#include "model/error.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace lfdsim {
+
+/// A refracting surface in place. z is the vertex on the axis; the sag s(r) is added to it (+z).
+struct PlacedSurface {
+    double z_mm;
+    double curvature_per_mm;
+    double conic;
+    std::vector<double> even_asphere;
+    double semi_aperture_mm;
+    double index_below, index_above;  // media on the panel's and on the viewer's side
+};
+
+/// A valid display resolved to lengths on the z axis. All z in mm from the panel.
+struct Geometry {
+    std::vector<PlacedSurface> surfaces;  // panel side first; plano-convex gives two, ideal none
+    double base_z_mm;                     // lowest z of a lens, rims and sags included
+    double top_z_mm;                      // highest z of a lens, rims and sags included
+    double vertex_plane_mm;               // viewer-side vertex plane: highest z of a lens on its axis
+    double front_principal_mm;            // panel-side principal (= nodal) point
+    double rear_principal_mm;             // viewer-side one
+    double gap_mm;                        // g, panel to front_principal
+    double focal_length_mm;               // f, paraxial; infinite for an afocal lens
+    double glass_radius_mm;    // plano_convex: r of the cap in glass (a square aperture makes it >= p/sqrt 2); else semi aperture
+    double clear_aperture_mm;  // D: 2r, p for a square, twice the stop radius
+    double stop_z_mm;          // plane of the curved vertex (last vertex for surfaces, lens for ideal)
+    std::optional<double> diffuser_z_mm;
+    double panel_width_mm, panel_height_mm;
+    double array_width_mm, array_height_mm;  // nx p, ny p
+    double frame_width_mm;                   // of the camera, resolved from frame_width_mm | fov_deg | default
+    double focus_distance_mm;                // of the camera
+    double content_depth_mm, content_height_mm;
+};
+
+/// Paraxial theory, docs/model.md section "Theory". Infinite where a figure has no finite value.
+struct Theory {
+    double fov_deg;  // 2 atan(p / 2g)
+    double focal_length_mm;
+    double gap_mm;
+    double central_depth_mm;               // L, from the rear principal plane; negative: virtual
+    double pixel_image_mm;                 // P_I = a |L| / g
+    double depth_of_field_mm;              // 2 |L| P_I / D
+    std::array<double, 2> depth_range_mm;  // marginal planes, from the rear principal plane
+    double views;                          // N = p / a
+    double view_step_deg;                  // FOV / N
+    double viewing_zone_parallel_deg;      // whole screen, elemental-image pitch p
+    double viewing_zone_deg;               // whole screen, with the description's viewing distance
+    double elemental_pitch_mm;             // p (1 + g / (D - z_r))
+    double lens_sampling_limit_per_mm;     // 1 / 2p
+    double pixel_image_limit_per_mm;       // 1 / 2 P_I
+    double gap_closing_diffuser_deg;       // 2 atan(p / 2L)
+};
+
+/// All that is wrong with a description, each with its TOML key ("lens.index") as `where`. Empty: valid.
+std::vector<Problem> validate(const Display&);
+
+/// Resolves a valid description. Throws InputError with validate()'s problems otherwise.
+Geometry resolve(const Display&);
+
+Theory theory(const Display&, const Geometry&);
+
+/// Sag z - z_vertex in mm of a surface at distance s from its axis: c s^2/(1 + sqrt(1 - (1+k) c^2 s^2)) + a4 s^4 + ...
+double sag_mm(double curvature, double conic, const std::vector<double>& even_asphere, double s);
+
+}  // namespace lfdsim

@@ -1,0 +1,20 @@
+// What long work reports to and asks. Floor 0.
+#pragma once
+#include <cstdint>
+#include <string_view>
+
+namespace lfdsim {
+
+/// The caller of long work: shows progress, may stop it. The default does neither.
+class Job {
+  public:
+    virtual ~Job() = default;
+    /// A new stage of `units` units of work begins (called from the caller's thread).
+    virtual void stage(std::string_view /*name*/, std::int64_t /*units*/) {}
+    /// `units` more are done. Called from any thread.
+    virtual void advance(std::int64_t /*units*/) {}
+    /// True when the work should end soon, keeping what is complete. Called from any thread, often.
+    virtual bool cancelled() const { return false; }
+};
+
+}  // namespace lfdsim
