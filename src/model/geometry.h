@@ -59,6 +59,9 @@ struct Theory {
     double gap_closing_diffuser_deg;       // 2 atan(p / 2L)
 };
 
+// What any lens maker's prescription needs, and what the kernels hold.
+inline constexpr std::size_t max_surfaces = 16, max_asphere_terms = 8;
+
 /// All that is wrong with a description, each with its TOML key ("lens.index") as `where`. Empty: valid.
 std::vector<Problem> validate(const Display&);
 

@@ -1,0 +1,166 @@
+#include "model/keys.h"
+
+#include <fmt/format.h>
+
+namespace lfdsim {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double two_to_63 = 9223372036854775808.0;  // what the largest 64-bit integer, 2^63 - 1, rounds to
+constexpr Range no_range{-infinity, infinity}, count_range{1, two_to_31, false, true}, index_range{1, 4}, turn{-360, 360};
+constexpr Range angle{0, 180, false, true}, open_angle{0, 180, true, true};
+// Curvatures up to a nanometre's radius, and coefficients of any size: what they make of the sag is checked, not they.
+constexpr Range curvature_range{-1 / shortest_mm, 1 / shortest_mm}, coefficient_range{-1e6, 1e6};
+
+constexpr Key<Display> display_keys[] = {
+    {"name", &Display::name, no_range, false, "What reports and image files call the display."},
+};
+
+constexpr Key<Panel> panel_keys[] = {
+    {"pixels", &Panel::pixels, count_range, true, "Columns and rows. Their product is below 2^31."},
+    {"pixel_pitch_mm", &Panel::pixel_pitch_mm, positive_length, true, "From pixel to pixel, the same in both directions."},
+    {"encoding", &Panel::encoding, no_range, false, "Of the panel image's code values: IEC 61966-2-1, or proportional to light."},
+    {"emission_exponent", &Panel::emission_exponent, Range{0, 100}, false,
+     "m: radiance falls as cos(theta)^m from the normal. 0 is a Lambertian panel."},
+};
+
+constexpr Key<Lens> lens_keys[] = {
+    {"type", &Lens::type, no_range, true,
+     "A spherical plano-convex lens, a prescription of surfaces, or a thin lens without aberrations."},
+    {"sphere_radius_mm",
+     &Lens::sphere_radius_mm,
+     positive_length,
+     true,
+     "R of the spherical cap. R >= r.",
+     {},
+     for_plano_convex,
+     for_plano_convex},
+    {"aperture_radius_mm", &Lens::aperture_radius_mm, positive_length, true,
+     "r, the lens's radius; 2 r is at most the lens pitch for circular apertures. With square apertures it may be absent: the cap "
+     "then reaches the cell's corners, r = pitch/sqrt(2).",
+     "pitch/sqrt(2) with square apertures; required with circular ones", for_plano_convex | for_ideal, 0},
+    {"cylinder_height_mm",
+     &Lens::cylinder_height_mm,
+     length_or_zero,
+     false,
+     "h of the wall under the cap. h <= 2 sqrt(R^2 - r^2).",
+     {},
+     for_plano_convex},
+    {"index", &Lens::index, index_range, true, "Refractive index of the glass.", {}, for_plano_convex, for_plano_convex},
+    {"facing", &Lens::facing, no_range, false, "Where the convex side looks.", {}, for_plano_convex},
+    {"focal_length_mm", &Lens::focal_length_mm, positive_length, true, "Of the thin lens.", {}, for_ideal, for_ideal},
+    {"stop_radius_mm", &Lens::stop_radius_mm, positive_length, false,
+     "An aperture stop in the plane of the curved vertex (of the last surface, of the thin lens): a black sheet with a hole for "
+     "each "
+     "lens.",
+     "none"},
+};
+
+constexpr Key<Surface> surface_keys[] = {
+    {"curvature_per_mm", &Surface::curvature_per_mm, curvature_range, false,
+     "1/R at the vertex. Sag is positive towards the viewer, so a last surface convex to the viewer has a negative curvature."},
+    {"conic", &Surface::conic, coefficient_range, false, "Conic constant k: 0 a sphere, -1 a paraboloid."},
+    {"even_asphere", &Surface::even_asphere, coefficient_range, false, "[a4, a6, ...], in mm^-3, mm^-5, ... At most 8."},
+    {"semi_aperture_mm", &Surface::semi_aperture_mm, positive_length, true, "A ray further than this from the axis is absorbed."},
+    {"distance_mm", &Surface::distance_mm, length_or_zero, false,
+     "From vertex to vertex, to the next surface. Ignored on the last."},
+    {"index", &Surface::index, index_range, false, "Of the medium up to the next surface. Ignored on the last: air follows."},
+};
+
+constexpr Key<LensArray> array_keys[] = {
+    {"count", &LensArray::count, count_range, true, "Lenses across and up. Their product is below 2^31."},
+    {"pitch_mm", &LensArray::pitch_mm, positive_length, true, "From lens to lens, the same in both directions."},
+    {"gap_mm", &LensArray::gap_mm, positive_length, false, "From the panel to the lens's panel-side principal plane.",
+     "given by base_z_mm; exactly one of the two is required"},
+    {"base_z_mm", &LensArray::base_z_mm, length_or_zero, false, "From the panel to the lens's lowest point.",
+     "given by gap_mm; exactly one of the two is required"},
+    {"surround", &LensArray::surround, no_range, false,
+     "Between the lenses: black walls, air and polished walls, or one moulded sheet. The last two take a single glass body."},
+    {"aperture", &LensArray::aperture, no_range, false, "Round lenses, or lenses that fill their square cells."},
+    {"offset_mm", &LensArray::offset_mm, any_length, false, "Of the array's centre from the panel's, after the rotation."},
+    {"rotation_deg", &LensArray::rotation_deg, turn, false, "Counter-clockwise as the viewer sees it, about the array's centre."},
+};
+
+constexpr Key<Diffuser> diffuser_keys[] = {
+    {"distance_mm", &Diffuser::distance_mm, positive_length, true, "From the array's viewer-side vertex plane. Above all glass."},
+    {"angle_deg", &Diffuser::angle_deg, angle, true, "Full angles, or full widths at half maximum: horizontal, vertical."},
+    {"profile", &Diffuser::profile, no_range, false, "Of the spread: even within the angle, or a normal distribution."},
+};
+
+constexpr Key<Camera> camera_keys[] = {
+    {"position_mm", &Camera::position_mm, any_length, false, "Above the lenses and the diffuser."},
+    {"target_mm", &Camera::target_mm, any_length, false, "What the camera looks at."},
+    {"up", &Camera::up, any_length, false, "Upwards in the picture; not along the line of sight. Of any length but 0."},
+    {"frame_width_mm", &Camera::frame_width_mm, positive_length, false,
+     "Width of what the frame shows in the plane through the target across the line of sight. Not together with fov_deg.",
+     "1.03 x the wider of the panel and 16/9 of its height"},
+    {"fov_deg", &Camera::fov_deg, open_angle, false, "Horizontal angle of the frame.", "given by frame_width_mm"},
+    {"resolution", &Camera::resolution, count_range, false, "Columns and rows of the picture. Their product is below 2^31."},
+    {"pixel_filter", &Camera::pixel_filter, no_range, false, "Rays through pixel centres, or spread over the pixel."},
+    {"pupil_diameter_mm", &Camera::pupil_diameter_mm, positive_length, false, "Of a thin-lens camera.", "a pinhole"},
+    {"focus_distance_mm", &Camera::focus_distance_mm, positive_length, false,
+     "Along the line of sight, of a thin-lens camera. Needs pupil_diameter_mm.", "the target's distance"},
+};
+
+constexpr Key<Content> content_keys[] = {
+    {"model", &Content::model, no_range, false, "Mesh file, relative to the description's folder.", "none"},
+    {"depth_mm", &Content::depth_mm, any_length, false, "Of the model's centre, from the array's viewer-side vertex plane.",
+     "the central depth plane, or 0 where that is further from the lenses than half the viewer's distance"},
+    {"height_mm", &Content::height_mm, positive_length, false, "Of the model.", "half the panel's height"},
+    {"yaw_deg", &Content::yaw_deg, turn, false, "The model's turn, counter-clockwise seen from above."},
+    {"viewing_distance_mm", &Content::viewing_distance_mm, Range{shortest_mm, infinity}, false,
+     "From the panel to the viewer that the elemental images are made for. inf: elemental images stand straight behind their "
+     "lenses."},
+};
+
+constexpr Key<Render> render_keys[] = {
+    {"samples", &Render::samples, Range{1, 16777216}, false,
+     "Rays per picture pixel, where a diffuser, filter or pupil spreads them."},
+    {"sampling", &Render::sampling, no_range, false, "Low-discrepancy points, or plain random ones."},
+    {"fresnel", &Render::fresnel, no_range, false,
+     "What each glass surface transmits: Fresnel's equations, Schlick's formula, all."},
+    {"seed", &Render::seed, Range{0, two_to_63}, false, "Of the samples. The same seed, the same picture."},
+};
+
+// A number as a person writes it: powers of two where they are limits.
+std::string number(double x) {
+    if (x == two_to_31) return "2^31";
+    if (x == two_to_63) return "2^63 - 1";
+    return fmt::format("{:g}", x);
+}
+
+}  // namespace
+
+const Table<Display> display_table{"", "", display_keys};
+const Table<Panel> panel_table{"panel", "The screen behind the lenses. It lies in z = 0, centred, and faces the viewer at +z.",
+                               panel_keys};
+const Table<Lens> lens_table{"lens", "One lens of the array.", lens_keys};
+const Table<Surface> surface_table{
+    "lens.surface",
+    "The surfaces of a lens of type \"surfaces\", from the panel's side to the viewer's; one [[lens.surface]] each, at most 16.",
+    surface_keys};
+const Table<LensArray> array_table{"array", "How the lenses stand before the panel.", array_keys};
+const Table<Diffuser> diffuser_table{"diffuser", "A thin scattering sheet before the lenses. Without this table there is none.",
+                                     diffuser_keys};
+const Table<Camera> camera_table{"camera", "The eye or camera that looks at the display.", camera_keys};
+const Table<Content> content_table{"content", "What elemental images and reference photographs show.", content_keys};
+const Table<Render> render_table{"render", "How pictures are computed.", render_keys};
+
+std::string Range::text() const {
+    if (high == infinity) return fmt::format("{} or more, or inf", number(low));
+    return fmt::format("{}{} {} {}", low_open ? "more than " : "", number(low), high_open ? "to below" : "to", number(high));
+}
+
+// clang-format off
+template <> std::span<const std::string_view> words<Encoding>() { static constexpr std::string_view w[] = {"srgb", "linear"}; return w; }
+template <> std::span<const std::string_view> words<LensType>() { static constexpr std::string_view w[] = {"plano_convex", "surfaces", "ideal"}; return w; }
+template <> std::span<const std::string_view> words<Facing>() { static constexpr std::string_view w[] = {"viewer", "panel"}; return w; }
+template <> std::span<const std::string_view> words<Surround>() { static constexpr std::string_view w[] = {"opaque", "clear", "plate"}; return w; }
+template <> std::span<const std::string_view> words<Aperture>() { static constexpr std::string_view w[] = {"circle", "square"}; return w; }
+template <> std::span<const std::string_view> words<Profile>() { static constexpr std::string_view w[] = {"box", "gaussian"}; return w; }
+template <> std::span<const std::string_view> words<PixelFilter>() { static constexpr std::string_view w[] = {"center", "box"}; return w; }
+template <> std::span<const std::string_view> words<Sampling>() { static constexpr std::string_view w[] = {"sobol", "random"}; return w; }
+template <> std::span<const std::string_view> words<Fresnel>() { static constexpr std::string_view w[] = {"exact", "schlick", "none"}; return w; }
+// clang-format on
+
+}  // namespace lfdsim

@@ -1,0 +1,33 @@
+// A lens as a list of surfaces, and what first-order optics says of it. Floor 0.
+#pragma once
+#include "model/geometry.h"
+
+#include <array>
+#include <vector>
+
+namespace lfdsim {
+
+/// Principal planes and focal length of surfaces with air on both sides, where principal and nodal points are the same.
+/// An afocal lens has infinite focal length; its points are then a pair of nodal points, the first in the first vertex.
+struct Cardinal {
+    double focal_length_mm;
+    double front_principal_mm, rear_principal_mm;  // z, in the frame of the surfaces
+};
+Cardinal cardinal_points(const std::vector<PlacedSurface>&);
+
+/// The glass radius r of a plano-convex lens: the given one; with square apertures at least half the cell's diagonal.
+double glass_radius_mm(const Lens&, const LensArray&);
+
+/// The lens's surfaces with the first vertex in z = 0, panel side first; none for an ideal lens.
+std::vector<PlacedSurface> prescription(const Lens&, const LensArray&);
+
+/// Lowest and highest sag within the semi-aperture. NaN where the sag is not real.
+std::array<double, 2> sag_range_mm(const PlacedSurface&);
+
+/// Lowest distance from one surface up to another within both semi-apertures; negative where they cross.
+double clearance_mm(const PlacedSurface& lower, const PlacedSurface& upper);
+
+/// resolve() without validate(): of an invalid description some figures are NaN or wrong.
+Geometry resolve_unchecked(const Display&);
+
+}  // namespace lfdsim

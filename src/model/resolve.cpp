@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <cmath>
+
+#include "model/geometry.h"
+#include "model/prescription.h"
+
+namespace lfdsim {
+namespace {
+
+// Places the lens along z: its surfaces and planes, from gap or base.
+void place_lens(const Lens& lens, const LensArray& array, Geometry& g) {
+    g.surfaces = prescription(lens, array);
+    if (g.surfaces.empty()) {  // ideal: all in its plane
+        const double z = array.base_z_mm.value_or(array.gap_mm.value_or(0));
+        g.base_z_mm = g.top_z_mm = g.vertex_plane_mm = g.front_principal_mm = g.rear_principal_mm = g.stop_z_mm = z;
+        g.focal_length_mm = lens.focal_length_mm;
+        g.glass_radius_mm = glass_radius_mm(lens, array);
+        g.clear_aperture_mm = 2 * lens.aperture_radius_mm.value_or(0);
+    } else {
+        const Cardinal paraxial = cardinal_points(g.surfaces);
+        double lowest = 0, highest = 0, vertex = 0, widest = 0, narrowest = g.surfaces.front().semi_aperture_mm;
+        for (const PlacedSurface& s : g.surfaces) {
+            const auto [low, high] = sag_range_mm(s);
+            lowest = std::min(lowest, s.z_mm + low);
+            highest = std::max(highest, s.z_mm + high);
+            vertex = std::max(vertex, s.z_mm);
+            widest = std::max(widest, s.semi_aperture_mm);
+            narrowest = std::min(narrowest, s.semi_aperture_mm);
+        }
+        const double first = array.base_z_mm ? *array.base_z_mm - lowest : array.gap_mm.value_or(0) - paraxial.front_principal_mm;
+        for (PlacedSurface& s : g.surfaces) s.z_mm += first;
+        g.base_z_mm = array.base_z_mm ? *array.base_z_mm : first + lowest;
+        g.top_z_mm = first + highest;
+        g.vertex_plane_mm = first + vertex;
+        g.front_principal_mm = first + paraxial.front_principal_mm;
+        g.rear_principal_mm = first + paraxial.rear_principal_mm;
+        g.focal_length_mm = paraxial.focal_length_mm;
+        g.glass_radius_mm = widest;
+        g.clear_aperture_mm = 2 * narrowest;
+        // the curved vertex is the first one only for a plano-convex lens that faces the panel
+        const bool first_curved = lens.type == LensType::plano_convex && lens.facing == Facing::panel;
+        g.stop_z_mm = (first_curved ? g.surfaces.front() : g.surfaces.back()).z_mm;
+    }
+    g.gap_mm = array.gap_mm.value_or(g.front_principal_mm);
+    if (array.aperture == Aperture::square) g.clear_aperture_mm = array.pitch_mm;
+    if (lens.stop_radius_mm) g.clear_aperture_mm = 2 * *lens.stop_radius_mm;
+}
+
+double distance_mm(const Vec3d& a, const Vec3d& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+
+}  // namespace
+
+Geometry resolve_unchecked(const Display& d) {
+    Geometry g{};
+    place_lens(d.lens, d.array, g);
+    if (d.diffuser) g.diffuser_z_mm = g.vertex_plane_mm + d.diffuser->distance_mm;
+    g.panel_width_mm = double(d.panel.pixels[0]) * d.panel.pixel_pitch_mm;
+    g.panel_height_mm = double(d.panel.pixels[1]) * d.panel.pixel_pitch_mm;
+    g.array_width_mm = double(d.array.count[0]) * d.array.pitch_mm;
+    g.array_height_mm = double(d.array.count[1]) * d.array.pitch_mm;
+
+    const double target_mm = distance_mm(d.camera.position_mm, d.camera.target_mm), degree = std::acos(-1.0) / 180;
+    // the panel with a margin, also where it is narrower than the usual 16:9 frame
+    g.frame_width_mm = 1.03 * std::max(g.panel_width_mm, g.panel_height_mm * 16 / 9);
+    if (d.camera.frame_width_mm) g.frame_width_mm = *d.camera.frame_width_mm;
+    if (d.camera.fov_deg) g.frame_width_mm = 2 * target_mm * std::tan(*d.camera.fov_deg * degree / 2);
+    g.focus_distance_mm = d.camera.focus_distance_mm.value_or(target_mm);
+
+    // Content stands on the central depth plane, in front or (virtual) behind. A lens that nearly collimates has it out of any
+    // scene's reach; such a display shows depth about its lenses.
+    const double central = g.rear_principal_mm + theory(d, g).central_depth_mm - g.vertex_plane_mm;
+    const double viewer = std::min(d.content.viewing_distance_mm, d.camera.position_mm[2]) - g.vertex_plane_mm;
+    g.content_depth_mm = d.content.depth_mm.value_or(std::abs(central) <= viewer / 2 ? central : 0);
+    g.content_height_mm = d.content.height_mm.value_or(g.panel_height_mm / 2);
+    return g;
+}
+
+Geometry resolve(const Display& d) {
+    if (std::vector<Problem> problems = validate(d); !problems.empty()) throw InputError(std::move(problems));
+    return resolve_unchecked(d);
+}
+
+}  // namespace lfdsim
