@@ -1,0 +1,29 @@
+# The program, its model reader, the libraries for other projects (find_package(lfdsim), target lfdsim::lfdsim), ready displays.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+add_library(lfdsim_umbrella INTERFACE)
+add_library(lfdsim::lfdsim ALIAS lfdsim_umbrella)
+set_target_properties(lfdsim_umbrella PROPERTIES EXPORT_NAME lfdsim)
+set(floors)
+foreach(floor model image engine content files)
+  if(TARGET lfdsim_${floor})
+    list(APPEND floors lfdsim_${floor})
+  endif()
+endforeach()
+target_link_libraries(lfdsim_umbrella INTERFACE ${floors})
+
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/lfdsim)
+install(TARGETS lfdsim_umbrella ${floors} EXPORT lfdsimTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lfdsim)
+install(EXPORT lfdsimTargets NAMESPACE lfdsim:: DESTINATION ${package})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/lfdsimConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_LIST_DIR}/lfdsimConfig.cmake ${CMAKE_CURRENT_LIST_DIR}/dependencies.cmake
+  ${PROJECT_BINARY_DIR}/lfdsimConfigVersion.cmake DESTINATION ${package})
+
+if(TARGET lfdsim)
+  install(TARGETS lfdsim RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+install(DIRECTORY displays DESTINATION ${CMAKE_INSTALL_DATADIR}/lfdsim)
+install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -1,0 +1,2 @@
+// Includes a higher floor: the layering check must find it.
+#include "engine/render.h"
