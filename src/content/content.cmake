@@ -1,0 +1,12 @@
+# The reader of model files is a program of its own: see content/reader/main.cpp.
+include(GNUInstallDirs)
+add_executable(lfdsim-model-reader
+  content/reader/main.cpp content/reader/import.cpp content/reader/axes.cpp content/reader/folder.cpp content/reader/limits.cpp
+  content/reader/textures.cpp)
+target_include_directories(lfdsim-model-reader PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+target_link_libraries(lfdsim-model-reader PRIVATE assimp::assimp lfdsim_image)
+install(TARGETS lfdsim-model-reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/lfdsim)
+
+add_dependencies(lfdsim_content lfdsim-model-reader)
+set_source_files_properties(content/reader_path.cpp PROPERTIES COMPILE_DEFINITIONS
+  "LFDSIM_INSTALLED_READER=\"${CMAKE_INSTALL_FULL_LIBEXECDIR}/lfdsim/lfdsim-model-reader\";LFDSIM_BUILT_READER=\"${CMAKE_BINARY_DIR}/lfdsim-model-reader\"")

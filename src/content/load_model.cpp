@@ -1,0 +1,94 @@
+#include "content/content.h"
+#include "content/model.h"
+#include "content/reader_process.h"
+#include "content/transfer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+namespace fs = std::filesystem;
+
+namespace {
+
+// The reader may have been damaged by the file before it wrote: nothing it sent is taken on trust.
+const char* fault(const Model& m) {
+    const auto finite = [](const std::vector<float>& list) {
+        return std::all_of(list.begin(), list.end(), [](float x) { return std::isfinite(x); });
+    };
+    const std::size_t n = m.vertices();
+    if (m.indices.empty()) return "it has no triangles";
+    if (m.positions.size() != 3 * n || m.normals.size() != 3 * n || m.uvs.size() != 2 * n || m.indices.size() % 3 != 0 ||
+        (!m.colours.empty() && m.colours.size() != 3 * n) || m.material_of.size() != m.triangles())
+        return "its lists do not match";
+    if (!finite(m.positions)) return "it has vertices that are infinite or not a number";
+    if (!finite(m.normals) || !finite(m.uvs) || !finite(m.colours))
+        return "it has normals, texture coordinates or colours that are infinite or not a number";
+    if (std::any_of(m.indices.begin(), m.indices.end(), [&](std::uint32_t i) { return i >= n; }))
+        return "a triangle names a vertex that is not there";
+    if (std::any_of(m.material_of.begin(), m.material_of.end(), [&](std::uint32_t i) { return i >= m.materials.size(); }))
+        return "a triangle names a material that is not there";
+    for (const Material& material : m.materials) {
+        if (material.texture < -1 || material.texture >= std::int64_t(m.textures.size()))
+            return "a material names a texture that is not there";
+        for (const float c : material.colour) {
+            if (!(c >= 0 && c <= 1)) return "a colour is out of range";
+        }
+        for (const Wrap w : {material.wrap_u, material.wrap_v}) {
+            if (w != Wrap::repeat && w != Wrap::clamp && w != Wrap::mirror) return "a texture wraps in an unknown way";
+        }
+    }
+    for (const Texture& t : m.textures) {
+        if (t.width < 1 || t.height < 1 || t.width > 16384 || t.height > 16384 ||
+            t.rgba.size() != std::size_t(t.width) * t.height * 4)
+            return "a texture has a wrong size";
+    }
+    return nullptr;
+}
+
+void check_file(const fs::path& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (!fs::exists(status)) throw InputError(path.string(), "no such model file");
+    if (!fs::is_regular_file(status)) throw InputError(path.string(), "not a file that can hold a model");
+    if (fs::file_size(path, error) == 0 && !error) throw InputError(path.string(), "the model file is empty");
+}
+
+}  // namespace
+
+std::shared_ptr<const Model> load_model(const fs::path& path, const LoadOptions& options) {
+    if (!options.up.empty() && options.up != "y" && options.up != "z")
+        throw InputError("up", fmt::format("\"{}\" given; allowed are \"y\" and \"z\"", options.up));
+    check_file(path);
+    ReaderProcess reader(path, options);
+    const auto refuse = [&](const std::string& why) -> void {
+        throw InputError(path.string(), "cannot be read as a model: " + why);
+    };
+    auto model = std::make_shared<Model>();
+    try {
+        Reply reply{};
+        reader.value(reply);
+        if (reply == Reply::out_of_memory) refuse(fmt::format("it needs more than {} MiB", options.bytes >> 20));
+        if (reply == Reply::refusal) {
+            std::string why;
+            reader.array(why);
+            refuse(why);
+        }
+        if (reply != Reply::model) refuse("the reader's answer makes no sense");
+        transfer(reader, *model);
+        reader.finish();
+    } catch (const ReaderProcess::Failure& failure) {
+        refuse(failure.what());
+    }
+    if (const char* what = fault(*model)) refuse(what);
+    return model;
+}
+
+ModelInfo info(const Model& m) {
+    return {std::int64_t(m.triangles()), std::int64_t(m.vertices()), std::int64_t(m.materials.size()),
+            std::int64_t(m.textures.size()), m.notes};
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,26 @@
+#include "content/reader/axes.h"
+
+#include <initializer_list>
+
+namespace lfdsim::reader {
+namespace {
+
+bool any_of(const std::string& format, std::initializer_list<const char*> names) {
+    for (const char* name : names) {
+        if (format.starts_with(name)) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+Turn turn(const aiScene& scene, const std::string& format, const std::string& up) {
+    const bool turned = any_of(format, {"3D Studio Max"});
+    bool z_up = any_of(format, {"Stereolithography"});
+    if (int axis = 1; scene.mMetaData && scene.mMetaData->Get("UpAxis", axis)) z_up = axis == 2;
+    if (!up.empty()) z_up = up == "z";
+    if (turned) return Turn(up == "y" ? Turn::y_to_z : Turn::none);
+    return Turn(z_up ? Turn::z_to_y : Turn::none);
+}
+
+}  // namespace lfdsim::reader

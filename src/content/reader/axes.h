@@ -1,0 +1,33 @@
+// Which way is up? Formats differ, and Assimp turns some of them but not others.
+#pragma once
+#include <assimp/scene.h>
+
+#include <string>
+
+namespace lfdsim::reader {
+
+/// A quarter turn about x, or none, that leads from the axes Assimp hands over to +y up, front towards +z.
+class Turn {
+  public:
+    enum Quarter { none, z_to_y, y_to_z };
+    explicit Turn(Quarter quarter) : quarter_(quarter) {}
+
+    aiVector3D operator()(const aiVector3D& v) const {
+        switch (quarter_) {
+            case z_to_y:
+                return {v.x, v.z, -v.y};
+            case y_to_z:
+                return {v.x, -v.z, v.y};
+            default:
+                return v;
+        }
+    }
+
+  private:
+    Quarter quarter_;
+};
+
+/// `format`: the name of Assimp's importer; `up`: "y" or "z", the file's axis that points up, "" by format.
+Turn turn(const aiScene& scene, const std::string& format, const std::string& up);
+
+}  // namespace lfdsim::reader

@@ -1,0 +1,35 @@
+#include "content/reader/folder.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace lfdsim::reader {
+namespace fs = std::filesystem;
+
+Folder::Folder(const fs::path& model) : root_(fs::weakly_canonical(fs::absolute(model).parent_path())) {}
+
+bool Folder::inside(const fs::path& file) const {
+    std::error_code error;
+    const fs::path real = fs::weakly_canonical(file, error);
+    return !error && std::mismatch(root_.begin(), root_.end(), real.begin(), real.end()).first == root_.end();
+}
+
+bool Folder::Exists(const char* file) const { return inside(fs::absolute(file)) && fs::is_regular_file(fs::status(file)); }
+
+// Regular files only: a pipe or device named by a model would never end.
+Assimp::IOStream* Folder::Open(const char* file, const char* mode) {
+    if (std::strchr(mode, 'w') || std::strchr(mode, 'a') || !Exists(file)) return nullptr;
+    return DefaultIOSystem::Open(file, mode);
+}
+
+std::optional<fs::path> Folder::find(std::string name) const {
+    std::replace(name.begin(), name.end(), '\\', '/');
+    const fs::path given(name);
+    for (const fs::path& candidate : {root_ / given, root_ / given.filename()}) {
+        std::error_code error;
+        if (inside(candidate) && fs::is_regular_file(candidate, error)) return candidate;
+    }
+    return {};
+}
+
+}  // namespace lfdsim::reader

@@ -1,0 +1,27 @@
+// Files a model may reach: those in its own folder and below, whatever paths it names.
+#pragma once
+#include <assimp/DefaultIOSystem.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace lfdsim::reader {
+
+class Folder : public Assimp::DefaultIOSystem {
+  public:
+    explicit Folder(const std::filesystem::path& model);
+
+    bool Exists(const char* file) const override;
+    Assimp::IOStream* Open(const char* file, const char* mode) override;
+
+    /// The file that a name in the model means: inside the folder, links resolved; backslashes count as slashes, and a path that
+    /// leads out of the folder (often one of the author's own machine) stands for the file of that name beside the model.
+    std::optional<std::filesystem::path> find(std::string name) const;
+
+  private:
+    bool inside(const std::filesystem::path&) const;
+    std::filesystem::path root_;
+};
+
+}  // namespace lfdsim::reader

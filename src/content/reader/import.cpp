@@ -1,0 +1,177 @@
+#include "content/reader/import.h"
+
+#include "content/reader/axes.h"
+#include "content/reader/folder.h"
+#include "content/reader/textures.h"
+#include "image/encoding.h"
+
+#include <assimp/importerdesc.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <assimp/Importer.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+namespace lfdsim::reader {
+namespace {
+
+// A fold sharper than this stays an edge when the file brings no normals.
+constexpr float crease_deg = 50;
+
+// Everything comes as triangles in one frame: node transforms applied, instances copied, points and lines dropped.
+constexpr unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices |
+                           aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices | aiProcess_GenUVCoords |
+                           aiProcess_TransformUVCoords;
+
+Wrap wrap(aiTextureMapMode mode) {
+    switch (mode) {
+        case aiTextureMapMode_Clamp:
+        case aiTextureMapMode_Decal:
+            return Wrap::clamp;
+        case aiTextureMapMode_Mirror:
+            return Wrap::mirror;
+        default:
+            return Wrap::repeat;
+    }
+}
+
+class Conversion {
+  public:
+    Conversion(const aiScene& scene, const Folder& folder, const std::string& format, const Turn& turn)
+        : scene_(scene), textures_(scene, folder), turn_(turn) {
+        linear_ = format.starts_with("glTF");
+        factors_ = linear_ || format.starts_with("Wavefront");
+    }
+
+    Model run() {
+        for (unsigned m = 0; m < scene_.mNumMeshes; ++m) add(*scene_.mMeshes[m]);
+        model_.textures = std::move(textures_.textures);
+        model_.notes.insert(model_.notes.end(), textures_.notes.begin(), textures_.notes.end());
+        if (dropped_ > 0) model_.notes.push_back(std::to_string(dropped_) + " faces left out: degenerate");
+        if (model_.indices.empty()) throw std::runtime_error("has no triangles: nothing to show");
+        return std::move(model_);
+    }
+
+  private:
+    float light(float colour) const {
+        const double c = std::isfinite(colour) ? std::clamp(double(colour), 0., 1.) : 0;
+        return float(linear_ ? c : srgb_to_linear(c));
+    }
+
+    // glTF gives factors in linear light that multiply texture and vertex colour, OBJ display colours that multiply the texture;
+    // elsewhere a texture or a vertex colour stands in the colour's place, and colours are display colours (sRGB).
+    std::uint32_t material(const aiMesh& mesh, int& channel) {
+        const auto key = std::tuple(mesh.mMaterialIndex, mesh.HasTextureCoords(0), mesh.HasVertexColors(0));
+        const aiMaterial& from = *scene_.mMaterials[mesh.mMaterialIndex];
+        Material to;
+        aiString name;
+        unsigned uv = 0;
+        aiTextureMapMode modes[2] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
+        for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
+            if (to.texture >= 0 || !mesh.HasTextureCoords(0)) break;
+            if (from.GetTexture(type, 0, &name, nullptr, &uv, nullptr, nullptr, modes) == aiReturn_SUCCESS)
+                to.texture = textures_.index(name.C_Str());
+        }
+        channel = uv < AI_MAX_NUMBER_OF_TEXTURECOORDS && mesh.HasTextureCoords(uv) ? int(uv) : 0;
+        to.wrap_u = wrap(modes[0]);
+        to.wrap_v = wrap(modes[1]);
+        aiColor4D colour(1, 1, 1, 1);
+        if (factors_ || (to.texture < 0 && !mesh.HasVertexColors(0))) {
+            if (from.Get(AI_MATKEY_BASE_COLOR, colour) != aiReturn_SUCCESS) from.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
+        }
+        for (int c = 0; c < 3; ++c) to.colour[c] = light(colour[unsigned(c)]);
+        const auto [entry, fresh] = known_.try_emplace(key, std::uint32_t(model_.materials.size()));
+        if (fresh) model_.materials.push_back(to);
+        return entry->second;
+    }
+
+    void add(const aiMesh& mesh) {
+        if (!(mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) || !mesh.mVertices || !mesh.mNormals) return;
+        if (mesh.mMaterialIndex >= scene_.mNumMaterials) throw std::runtime_error("a mesh names a material that is not there");
+        int channel = 0;
+        const std::uint32_t own = material(mesh, channel);
+        const std::size_t first = model_.vertices();
+        if (first + mesh.mNumVertices >= std::size_t(1) << 32) throw std::runtime_error("has more than 2^32 vertices");
+        for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+            push(model_.positions, turn_(mesh.mVertices[v]));
+            push(model_.normals, turn_(mesh.mNormals[v]));
+            const aiVector3D uv = mesh.HasTextureCoords(unsigned(channel)) ? mesh.mTextureCoords[channel][v] : aiVector3D();
+            model_.uvs.insert(model_.uvs.end(), {uv.x, uv.y});
+        }
+        if (mesh.HasVertexColors(0)) {
+            model_.colours.resize(first * 3, 1.f);
+            for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+                const aiColor4D& c = mesh.mColors[0][v];
+                push(model_.colours, aiVector3D(light(c.r), light(c.g), light(c.b)));
+            }
+        } else if (!model_.colours.empty()) {
+            model_.colours.resize(model_.positions.size(), 1.f);
+        }
+        for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+            const aiFace& face = mesh.mFaces[f];
+            if (face.mNumIndices != 3) {
+                ++dropped_;
+                continue;
+            }
+            for (int k = 0; k < 3; ++k) {
+                if (face.mIndices[k] >= mesh.mNumVertices) throw std::runtime_error("a face names a vertex that is not there");
+                model_.indices.push_back(std::uint32_t(first + face.mIndices[k]));
+            }
+            model_.material_of.push_back(own);
+        }
+    }
+
+    static void push(std::vector<float>& list, const aiVector3D& v) { list.insert(list.end(), {v.x, v.y, v.z}); }
+
+    const aiScene& scene_;
+    Textures textures_;
+    Turn turn_;
+    bool linear_, factors_;
+    std::map<std::tuple<unsigned, bool, bool>, std::uint32_t> known_;
+    Model model_;
+    std::int64_t dropped_ = 0;
+};
+
+// Flipped, broken or missing normals would leave holes in the shading.
+void mend_normals(Model& model) {
+    const auto bad = [&](std::uint32_t v) {
+        const float* n = &model.normals[3 * std::size_t(v)];
+        const float square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+        return !(square > 0.25f && square < 4.f);
+    };
+    for (std::size_t t = 0; t < model.indices.size(); t += 3) {
+        const std::uint32_t* corner = &model.indices[t];
+        if (!bad(corner[0]) && !bad(corner[1]) && !bad(corner[2])) continue;
+        aiVector3D p[3];
+        for (int k = 0; k < 3; ++k) {
+            const float* at = &model.positions[3 * std::size_t(corner[k])];
+            p[k] = {at[0], at[1], at[2]};
+        }
+        const aiVector3D face = ((p[1] - p[0]) ^ (p[2] - p[0])).NormalizeSafe();
+        for (int k = 0; k < 3; ++k) {
+            if (bad(corner[k])) std::copy_n(&face.x, 3, &model.normals[3 * std::size_t(corner[k])]);
+        }
+    }
+}
+
+}  // namespace
+
+Model import(const std::filesystem::path& file, const std::string& up) {
+    Assimp::Importer importer;
+    auto* folder = new Folder(file);  // the importer's from here on
+    importer.SetIOHandler(folder);
+    importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, crease_deg);
+    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    const aiScene* scene = importer.ReadFile(file.string(), steps);
+    if (!scene) throw std::runtime_error(importer.GetErrorString());
+    const aiImporterDesc* importer_used = importer.GetImporterInfo(std::size_t(importer.GetPropertyInteger("importerIndex", 0)));
+    const std::string format = importer_used ? importer_used->mName : "";
+    Model model = Conversion(*scene, *folder, format, turn(*scene, format, up)).run();
+    mend_normals(model);
+    return model;
+}
+
+}  // namespace lfdsim::reader

@@ -1,0 +1,59 @@
+// lfdsim-model-reader FILE BYTES SECONDS UP: reads a model and writes it to standard output in the form of transfer.h.
+// A process of its own, with limits, since loaders of old formats have memory faults that a hostile file can reach.
+#include "content/reader/import.h"
+#include "content/reader/limits.h"
+#include "content/transfer.h"
+
+#include <unistd.h>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+
+namespace {
+
+class Writer {
+  public:
+    template <class T>
+    void value(const T& x) {
+        put(&x, sizeof x);
+    }
+    template <class Vector>
+    void array(const Vector& v) {
+        value(std::uint64_t(v.size()));
+        put(v.data(), v.size() * sizeof v[0]);
+    }
+    template <class T, class Each>
+    void list(std::vector<T>& v, Each each) {
+        value(std::uint64_t(v.size()));
+        for (T& x : v) each(x);
+    }
+
+  private:
+    static void put(const void* bytes, std::size_t count) {
+        if (std::fwrite(bytes, 1, count, stdout) != count) std::_Exit(1);  // nobody listens any more
+    }
+};
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    if (count != 5) {
+        std::fputs("lfdsim-model-reader is started by lfdsim, not by hand\n", stderr);
+        return 2;
+    }
+    Writer out;
+    try {
+        lfdsim::reader::confine(std::atoll(arguments[2]), std::atof(arguments[3]));
+        lfdsim::Model model = lfdsim::reader::import(arguments[1], arguments[4]);
+        out.value(lfdsim::Reply::model);
+        lfdsim::transfer(out, model);
+    } catch (const std::bad_alloc&) {
+        out.value(lfdsim::Reply::out_of_memory);
+    } catch (const std::exception& refusal) {
+        out.value(lfdsim::Reply::refusal);
+        out.array(std::string(refusal.what()));
+    }
+    std::fflush(stdout);
+    std::_Exit(0);  // no destructors: what a damaged model left behind is not worth the risk
+}

@@ -1,0 +1,81 @@
+#include "content/reader/textures.h"
+
+#include <cstdio>
+#include <cstring>
+
+// One well-kept decoder for the formats that models carry; it runs in this confined process only.
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_MAX_DIMENSIONS 16384
+#define STBI_NO_HDR
+#define STBI_NO_LINEAR
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wunused-but-set-variable"
+#include <stb/stb_image.h>
+#pragma GCC diagnostic pop
+
+namespace lfdsim::reader {
+namespace {
+
+Texture adopt(stbi_uc* pixels, int width, int height) {
+    Texture t{width, height, {}};
+    t.rgba.assign(pixels, pixels + std::size_t(width) * height * 4);
+    stbi_image_free(pixels);
+    return t;
+}
+
+// Assimp keeps either a compressed file (height 0, width its bytes) or BGRA texels.
+bool decode(const aiTexture& embedded, Texture& out) {
+    if (embedded.mHeight == 0) {
+        int width, height, channels;
+        stbi_uc* pixels = stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(embedded.pcData), int(embedded.mWidth), &width,
+                                                &height, &channels, 4);
+        if (pixels) out = adopt(pixels, width, height);
+        return pixels;
+    }
+    if (embedded.mWidth == 0 || embedded.mWidth > STBI_MAX_DIMENSIONS || embedded.mHeight > STBI_MAX_DIMENSIONS) return false;
+    out = {std::int32_t(embedded.mWidth), std::int32_t(embedded.mHeight), {}};
+    const std::size_t texels = std::size_t(embedded.mWidth) * embedded.mHeight;
+    out.rgba.reserve(texels * 4);
+    for (std::size_t i = 0; i < texels; ++i) {
+        const aiTexel& t = embedded.pcData[i];
+        out.rgba.insert(out.rgba.end(), {t.r, t.g, t.b, t.a});
+    }
+    return true;
+}
+
+bool decode(const std::filesystem::path& file, Texture& out) {
+    int width, height, channels;
+    stbi_uc* pixels = stbi_load(file.c_str(), &width, &height, &channels, 4);
+    if (pixels) out = adopt(pixels, width, height);
+    return pixels;
+}
+
+}  // namespace
+
+int Textures::index(const std::string& name) {
+    const auto [entry, fresh] = known_.try_emplace(name, -1);
+    if (fresh) entry->second = load(name);
+    return entry->second;
+}
+
+int Textures::load(const std::string& name) {
+    Texture decoded;
+    if (const aiTexture* embedded = scene_.GetEmbeddedTexture(name.c_str())) {
+        if (!decode(*embedded, decoded)) {
+            notes.push_back("embedded texture \"" + name + "\" left out: " + stbi_failure_reason());
+            return -1;
+        }
+    } else if (const auto file = folder_.find(name); !file) {
+        notes.push_back("texture \"" + name + "\" left out: not found in the model's folder");
+        return -1;
+    } else if (!decode(*file, decoded)) {
+        notes.push_back("texture \"" + name + "\" left out: " + stbi_failure_reason());
+        return -1;
+    }
+    textures.push_back(std::move(decoded));
+    return int(textures.size()) - 1;
+}
+
+}  // namespace lfdsim::reader

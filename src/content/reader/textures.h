@@ -1,0 +1,32 @@
+// Texture files and embedded textures, decoded.
+#pragma once
+#include "content/model.h"
+#include "content/reader/folder.h"
+
+#include <assimp/scene.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lfdsim::reader {
+
+class Textures {
+  public:
+    Textures(const aiScene& scene, const Folder& folder) : scene_(scene), folder_(folder) {}
+
+    /// Index of the texture that the model calls `name`; -1, with a note, when it is missing or cannot be decoded.
+    int index(const std::string& name);
+
+    std::vector<Texture> textures;
+    std::vector<std::string> notes;
+
+  private:
+    int load(const std::string& name);
+
+    const aiScene& scene_;
+    const Folder& folder_;
+    std::map<std::string, int> known_;
+};
+
+}  // namespace lfdsim::reader

@@ -1,0 +1,104 @@
+#include "content/reader_process.h"
+
+#include "content/reader_path.h"
+
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <string>
+#include <system_error>
+
+extern char** environ;
+
+namespace lfdsim {
+namespace {
+
+std::string timeout_text(double seconds) { return fmt::format("reading it took more than {:g} s", seconds); }
+
+}  // namespace
+
+ReaderProcess::ReaderProcess(const std::filesystem::path& model, const LoadOptions& options)
+    : options_(options), left_(options.bytes) {
+    const std::string program = reader_path().string(), bytes = std::to_string(options.bytes),
+                      seconds = fmt::format("{}", options.seconds);
+    const std::string file = std::filesystem::absolute(model).string();
+    const char* arguments[] = {program.c_str(), file.c_str(), bytes.c_str(), seconds.c_str(), options.up.c_str(), nullptr};
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe to the model reader");
+    pipe_ = ends[0];
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
+    posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
+    const int error = posix_spawn(&process_, program.c_str(), &actions, nullptr, const_cast<char**>(arguments), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[1]);
+    if (error != 0) {
+        close(pipe_);
+        throw std::system_error(error, std::generic_category(), "cannot start " + program);
+    }
+    deadline_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(std::int64_t(options.seconds * 1000));
+}
+
+ReaderProcess::~ReaderProcess() {
+    close(pipe_);
+    if (process_ > 0) {
+        kill(process_, SIGKILL);
+        while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+        }
+    }
+}
+
+void ReaderProcess::get(char* to, std::size_t bytes) {
+    left_ -= std::int64_t(bytes);
+    if (left_ < 0) throw Failure(fmt::format("it needs more than {} MiB", options_.bytes >> 20));
+    while (bytes > 0) {
+        const auto wait =
+            std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - std::chrono::steady_clock::now()).count();
+        pollfd ready{pipe_, POLLIN, 0};
+        if (wait <= 0) throw Failure(timeout_text(options_.seconds));
+        if (poll(&ready, 1, int(std::min<std::int64_t>(wait, 1000))) <= 0) continue;
+        const ssize_t got = read(pipe_, to, bytes);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) fail();
+        to += got;
+        bytes -= std::size_t(got);
+    }
+}
+
+std::size_t ReaderProcess::count(std::size_t size) {
+    std::uint64_t n = 0;
+    value(n);
+    if (n > std::uint64_t(left_) / size) throw Failure(fmt::format("it needs more than {} MiB", options_.bytes >> 20));
+    return n;
+}
+
+// The pipe closed early: the way the reader ended says why.
+void ReaderProcess::fail() {
+    int status = 0;
+    while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    }
+    process_ = -1;
+    if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
+        throw Failure(timeout_text(options_.seconds));
+    if (WIFSIGNALED(status))
+        throw Failure(fmt::format("the file is damaged, it made the reader crash ({})", strsignal(WTERMSIG(status))));
+    throw Failure("the reader ended early");
+}
+
+void ReaderProcess::finish() {
+    char more;
+    pollfd ready{pipe_, POLLIN, 0};
+    if (poll(&ready, 1, 1000) <= 0 || read(pipe_, &more, 1) != 0) throw Failure("the reader did not end");
+}
+
+}  // namespace lfdsim

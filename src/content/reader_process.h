@@ -1,0 +1,59 @@
+// The model reader as a process of its own, with the pipe it writes to.
+#pragma once
+#include "content/content.h"
+
+#include <sys/types.h>
+#include <chrono>
+#include <stdexcept>
+
+namespace lfdsim {
+
+/// Starts the reader on construction; an Io for transfer() that takes bytes until the time or the byte limit is spent.
+class ReaderProcess {
+  public:
+    /// It crashed, ran out of time or memory, or wrote something that cannot be.
+    struct Failure : std::runtime_error {
+        using std::runtime_error::runtime_error;
+    };
+
+    /// Throws std::runtime_error if the reader program is missing or cannot start.
+    ReaderProcess(const std::filesystem::path& model, const LoadOptions&);
+    ~ReaderProcess();  // ends the reader if it still runs
+    ReaderProcess(const ReaderProcess&) = delete;
+
+    template <class T>
+    void value(T& x) {
+        get(reinterpret_cast<char*>(&x), sizeof x);
+    }
+    template <class Vector>
+    void array(Vector& v) {
+        constexpr std::size_t size = sizeof(typename Vector::value_type), step = (std::size_t(4) << 20) / size;
+        std::size_t left = count(size);
+        while (left > 0) {  // grows as bytes arrive: a false count allocates little
+            const std::size_t old = v.size(), more = std::min(left, std::max(step, old));
+            v.resize(old + more);
+            get(reinterpret_cast<char*>(v.data() + old), more * size);
+            left -= more;
+        }
+    }
+    template <class T, class Each>
+    void list(std::vector<T>& v, Each each) {
+        for (std::size_t left = count(1); left > 0; --left) each(v.emplace_back());
+    }
+
+    /// After the last byte: it must end by itself, with success.
+    void finish();
+
+  private:
+    void get(char* to, std::size_t bytes);
+    std::size_t count(std::size_t size);
+    [[noreturn]] void fail();
+
+    LoadOptions options_;
+    std::chrono::steady_clock::time_point deadline_;
+    std::int64_t left_;  // bytes
+    int pipe_ = -1;
+    pid_t process_ = -1;
+};
+
+}  // namespace lfdsim

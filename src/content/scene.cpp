@@ -1,0 +1,143 @@
+#include "content/scene.h"
+
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+namespace {
+
+constexpr double radian = 3.14159265358979323846 / 180;
+
+struct Box {
+    Vec3d low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+    void add(const Vec3d& p) {
+        for (int k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], p[k]);
+            high[k] = std::max(high[k], p[k]);
+        }
+    }
+};
+
+// Yaw, counter-clockwise seen from above: a right-handed turn about +y, which carries the front (+z) towards +x.
+struct Yaw {
+    double c, s;
+    explicit Yaw(double degrees) : c(std::cos(degrees * radian)), s(std::sin(degrees * radian)) {}
+    Vec3d operator()(const float* p) const { return {c * p[0] + s * p[2], p[1], c * p[2] - s * p[0]}; }
+    Vec3d inverse(const Vec3d& p) const { return {c * p[0] - s * p[2], p[1], c * p[2] + s * p[0]}; }
+};
+
+void pose(Scene::Impl& scene, const Display& display, const Geometry& geometry) {
+    const Model& model = *scene.model;
+    const Yaw yaw(display.content.yaw_deg);
+    Box box;
+    for (const std::uint32_t i : model.indices) box.add(yaw(&model.positions[3 * std::size_t(i)]));
+    const double extent = box.high[1] - box.low[1];
+    const double scale = geometry.content_height_mm / extent;
+    if (!(extent > 0) || !std::isfinite(scale))
+        throw InputError("content.model",
+                         fmt::format("the model is {} units high and cannot be scaled to {} mm; if it lies flat, turn it up",
+                                     extent, geometry.content_height_mm));
+    scene.centre_mm = {0, 0, geometry.vertex_plane_mm + geometry.content_depth_mm};
+    for (int k = 0; k < 3; ++k) scene.half_mm[k] = 0.5 * scale * (box.high[k] - box.low[k]);
+    scene.positions_mm.resize(model.positions.size() + 1);
+    for (std::size_t v = 0; v < model.vertices(); ++v) {
+        const Vec3d p = yaw(&model.positions[3 * v]);
+        for (int k = 0; k < 3; ++k) scene.positions_mm[3 * v + k] = float(scale * (p[k] - 0.5 * (box.low[k] + box.high[k])));
+    }
+    const Vec3d light = yaw.inverse({0.3, 0.5, 0.81});
+    const double length = std::hypot(light[0], light[1], light[2]);
+    for (int k = 0; k < 3; ++k) scene.light[k] = float(light[k] / length);
+}
+
+// Texels along a millimetre: the square root of (area in texels / area in mm^2).
+void measure_textures(Scene::Impl& scene) {
+    const Model& m = *scene.model;
+    for (const Texture& t : m.textures) scene.textures.emplace_back(t);
+    if (m.textures.empty()) return;
+    scene.texels_per_mm.resize(m.triangles());
+    for (std::size_t t = 0; t < m.triangles(); ++t) {
+        const Material& material = m.materials[m.material_of[t]];
+        if (material.texture < 0) continue;
+        const Texture& texture = m.textures[std::size_t(material.texture)];
+        double e[2][3], s[2][2];
+        for (int k = 0; k < 2; ++k) {
+            const std::size_t a = m.indices[3 * t], b = m.indices[3 * t + 1 + k];
+            for (int c = 0; c < 3; ++c) e[k][c] = double(scene.positions_mm[3 * b + c]) - scene.positions_mm[3 * a + c];
+            for (int c = 0; c < 2; ++c) s[k][c] = double(m.uvs[2 * b + c]) - m.uvs[2 * a + c];
+        }
+        const double area = std::hypot(e[0][1] * e[1][2] - e[0][2] * e[1][1], e[0][2] * e[1][0] - e[0][0] * e[1][2],
+                                       e[0][0] * e[1][1] - e[0][1] * e[1][0]);
+        const double texels = std::abs(s[0][0] * s[1][1] - s[0][1] * s[1][0]) * texture.width * texture.height;
+        scene.texels_per_mm[t] = area > 0 ? float(std::sqrt(texels / area)) : 0;
+    }
+}
+
+void build(Scene::Impl& scene) {
+    const Model& m = *scene.model;
+    scene.device.reset(rtcNewDevice(nullptr));
+    if (!scene.device) throw std::runtime_error("Embree cannot start");
+    scene.tree.reset(rtcNewScene(scene.device.get()));
+    // Robust: rays through shared edges must not fall between the triangles.
+    rtcSetSceneFlags(scene.tree.get(), RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry mesh = rtcNewGeometry(scene.device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, scene.positions_mm.data(), 0, 12, m.vertices());
+    rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, m.indices.data(), 0, 12, m.triangles());
+    rtcCommitGeometry(mesh);
+    rtcAttachGeometry(scene.tree.get(), mesh);
+    rtcReleaseGeometry(mesh);
+    // One thread builds the tree: several would order its leaves by chance, and coincident surfaces could change places.
+    tbb::task_arena alone(1);
+    alone.execute([&] { rtcJoinCommitScene(scene.tree.get()); });
+    if (const RTCError error = rtcGetDeviceError(scene.device.get()); error != RTC_ERROR_NONE)
+        throw std::runtime_error(error == RTC_ERROR_OUT_OF_MEMORY ? "not enough memory for the ray-tracing structure of the model"
+                                                                  : "Embree cannot build the ray-tracing structure of the model");
+}
+
+}  // namespace
+
+Scene::Scene(std::shared_ptr<const Model> model, const Display& display, const Geometry& geometry)
+    : impl_(std::make_unique<Impl>()) {
+    impl_->model = std::move(model);
+    pose(*impl_, display, geometry);
+    measure_textures(*impl_);
+    build(*impl_);
+}
+
+Scene::~Scene() = default;
+Scene::Scene(Scene&&) noexcept = default;
+
+Rgb Scene::Impl::shade(std::uint32_t triangle, float u, float v, float width_mm) const {
+    const Model& m = *model;
+    const std::uint32_t* corner = &m.indices[3 * std::size_t(triangle)];
+    const std::size_t a = corner[0], b = corner[1], c = corner[2];
+    const float w = 1 - u - v;
+    const float* n = m.normals.data();
+    const float nx = w * n[3 * a] + u * n[3 * b] + v * n[3 * c], ny = w * n[3 * a + 1] + u * n[3 * b + 1] + v * n[3 * c + 1],
+                nz = w * n[3 * a + 2] + u * n[3 * b + 2] + v * n[3 * c + 2];
+    const float length = std::sqrt(nx * nx + ny * ny + nz * nz);
+    const float cosine = length > 0 ? (nx * light[0] + ny * light[1] + nz * light[2]) / length : 0;
+    const float shine = 0.2f + 0.8f * std::max(0.f, cosine);
+
+    const Material& material = m.materials[m.material_of[triangle]];
+    Rgb out{material.colour[0] * shine, material.colour[1] * shine, material.colour[2] * shine};
+    if (material.texture >= 0) {
+        const float* t = m.uvs.data();
+        const float level = std::log2(std::max(1.f, width_mm * texels_per_mm[triangle]));
+        const Rgb texel = textures[std::size_t(material.texture)].sample(w * t[2 * a] + u * t[2 * b] + v * t[2 * c],
+                                                                         w * t[2 * a + 1] + u * t[2 * b + 1] + v * t[2 * c + 1],
+                                                                         level, material.wrap_u, material.wrap_v);
+        out = {out.r * texel.r, out.g * texel.g, out.b * texel.b};
+    }
+    if (!m.colours.empty()) {
+        const float* k = m.colours.data();
+        out.r *= w * k[3 * a] + u * k[3 * b] + v * k[3 * c];
+        out.g *= w * k[3 * a + 1] + u * k[3 * b + 1] + v * k[3 * c + 1];
+        out.b *= w * k[3 * a + 2] + u * k[3 * b + 2] + v * k[3 * c + 2];
+    }
+    return out;
+}
+
+}  // namespace lfdsim

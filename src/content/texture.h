@@ -1,0 +1,36 @@
+// Textures, filtered over the width of a ray. Floor 2, internal to content.
+#pragma once
+#include "content/model.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace lfdsim {
+
+struct Rgb {
+    float r, g, b;
+};
+
+/// A mip pyramid: each level halves the one below by averaging 2 x 2 texels in linear light.
+class Pyramid {
+  public:
+    explicit Pyramid(const Texture&);
+
+    /// Trilinear: bilinear in the two levels nearest to `level` (0: full size; larger is clamped), blended.
+    Rgb sample(float u, float v, float level, Wrap wrap_u, Wrap wrap_v) const;
+
+    int width() const { return levels_[0].width; }
+    int height() const { return levels_[0].height; }
+
+  private:
+    struct Level {
+        int width, height;
+        std::vector<std::uint32_t> codes;  // sRGB: 0x00bbggrr
+    };
+    Rgb bilinear(const Level&, float u, float v, Wrap wrap_u, Wrap wrap_v) const;
+
+    std::vector<Level> levels_;
+    const float* light_;  // of each code
+};
+
+}  // namespace lfdsim

@@ -1,0 +1,31 @@
+// How a model travels from the reader process: one description of the bytes, walked by writer and reader alike. Same
+// machine, so native byte order. The receiving end must call validate(), as the sender may have been damaged by its input.
+#pragma once
+#include "content/model.h"
+
+#include <cstdint>
+
+namespace lfdsim {
+
+enum class Reply : std::uint32_t { model = 0x4c6d6f31, refusal, out_of_memory };  // first; a refusal brings a text that says why
+
+/// Io has value(x) for plain values, array(v) for vectors of them, and text(s).
+/// One count is sent before each list; the reader of an Io refuses counts that its limits do not allow.
+template <class Io>
+void transfer(Io& io, Model& model) {
+    io.array(model.positions);
+    io.array(model.normals);
+    io.array(model.uvs);
+    io.array(model.colours);
+    io.array(model.indices);
+    io.array(model.material_of);
+    io.array(model.materials);
+    io.list(model.textures, [&](Texture& t) {
+        io.value(t.width);
+        io.value(t.height);
+        io.array(t.rgba);
+    });
+    io.list(model.notes, [&](std::string& note) { io.array(note); });
+}
+
+}  // namespace lfdsim
