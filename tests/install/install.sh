@@ -1,0 +1,16 @@
+#!/bin/bash
+# Installs a build into an empty folder, builds another project against it and runs that. The folder's name has a space in it.
+# Usage: install.sh BUILD_DIRECTORY CXX_COMPILER
+set -euo pipefail
+here=$(dirname "$0")
+work=$(mktemp -d "${TMPDIR:-/tmp}/lfdsim install.XXXXXX")
+trap 'rm -rf "$work"' EXIT
+
+cmake --install "$1" --prefix "$work/prefix" >/dev/null
+cmake -S "$here" -B "$work/build" -G Ninja -D CMAKE_CXX_COMPILER="$2" -D CMAKE_PREFIX_PATH="$work/prefix"
+cmake --build "$work/build"
+"$work/build/consumer"
+
+# The installed program finds its model reader, and its displays are where the README says.
+"$work/prefix/bin/lfdsim" eia "$work/prefix/share/lfdsim/displays/desktop-ideal.toml" --set 'panel.pixels=[64,36]' \
+    --model /usr/share/assimp/models/BLEND/Suzanne_248.blend -o "$work/eia.png"
