@@ -8,19 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "model/kinds.h"
+
 namespace lfdsim {
 
 using Vec3d = std::array<double, 3>;
-
-enum class Encoding { srgb, linear };  // of the panel image's code values
-enum class LensType { plano_convex, surfaces, ideal };
-enum class Facing { viewer, panel };           // where the convex side of a plano-convex lens looks
-enum class Surround { opaque, clear, plate };  // what is between the lenses
-enum class Aperture { circle, square };
-enum class Profile { box, gaussian };  // of the diffuser, per axis
-enum class PixelFilter { center, box };
-enum class Sampling { sobol, random };
-enum class Fresnel { exact, schlick, none };
 
 struct Panel {
     std::array<std::int64_t, 2> pixels{};  // columns, rows

@@ -1,0 +1,29 @@
+// The work of a kernel, and the table of those compiled in. Plain data, common to all instruction sets. Floor 2.
+#pragma once
+#include "optics/scene.h"
+
+namespace lfdsim {
+
+/// A tile of the picture: pixels x0 .. x1-1, y0 .. y1-1 of the whole frame. Pixel (x, y) goes to
+/// out[((y - crop_y) crop_width + x - crop_x) 3].
+struct Tile {
+    const optics::Scene<float>* scene;
+    const optics::View* view;
+    const optics::Directions* directions;
+    const float* texels;  // 4 floats a panel pixel
+    float* out;
+    std::int32_t crop_x, crop_y, crop_width;
+    std::int32_t x0, y0, x1, y1;
+    std::uint32_t samples;
+    Sampling sampling;
+    int dimensions;  // of the sampler that are in use
+};
+
+using Kernel = void (*)(const Tile&);
+
+void render_tile_scalar(const Tile&);
+void render_tile_baseline(const Tile&);
+void render_tile_avx2(const Tile&);
+void render_tile_avx512(const Tile&);
+
+}  // namespace lfdsim

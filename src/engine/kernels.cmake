@@ -1,0 +1,13 @@
+# One object a kernel: the same source for each instruction set. No errno and no traps from mathematics; contraction is off everywhere.
+function(lfdsim_kernel name isa lanes)
+  add_library(lfdsim_kernel_${name} OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/engine/kernels/${name}.cpp)
+  target_include_directories(lfdsim_kernel_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  target_compile_definitions(lfdsim_kernel_${name} PRIVATE LFDSIM_ISA=${name} LFDSIM_LANES=${lanes} LFDSIM_KERNEL=render_tile_${name})
+  target_compile_options(lfdsim_kernel_${name} PRIVATE -O3 -fno-math-errno -fno-trapping-math ${isa})
+  target_sources(lfdsim_engine PRIVATE $<TARGET_OBJECTS:lfdsim_kernel_${name}>)
+endfunction()
+
+lfdsim_kernel(scalar "" 1)
+lfdsim_kernel(baseline "" 4)
+lfdsim_kernel(avx2 "-mavx2;-mfma;-mbmi2" 8)
+lfdsim_kernel(avx512 "-mavx2;-mfma;-mbmi2;-mavx512f;-mavx512dq;-mavx512bw;-mavx512vl;-mprefer-vector-width=512" 16)

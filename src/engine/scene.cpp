@@ -1,0 +1,225 @@
+#include "engine/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace lfdsim {
+
+namespace {
+
+using optics::kMaxAsphereTerms;
+using optics::kMaxSurfaces;
+using optics::Shape;
+
+constexpr double kRadians = std::numbers::pi / 180;
+
+template <class S>
+optics::Interface<S> interface(double above, double below) {
+    const double r = (above - below) / (above + below);
+    return {S(above / below), S(above), S(below), S(1 - r * r)};
+}
+
+template <class S>
+optics::SurfaceData<S> surface_data(const PlacedSurface& from) {
+    optics::SurfaceData<S> to{};
+    const bool plain = from.even_asphere.empty() ||
+                       std::all_of(from.even_asphere.begin(), from.even_asphere.end(), [](double a) { return a == 0; });
+    to.shape = !plain ? Shape::asphere : from.curvature_per_mm == 0 ? Shape::plane : from.conic == 0 ? Shape::sphere : Shape::conic;
+    to.terms = plain ? 0 : std::int32_t(from.even_asphere.size());
+    if (to.terms > kMaxAsphereTerms) {
+        throw InputError("lens.surface.even_asphere",
+                         std::to_string(to.terms) + " terms; at most " + std::to_string(kMaxAsphereTerms));
+    }
+    for (int i = 0; i < to.terms; ++i) to.asphere[i] = S(from.even_asphere[i]);
+    to.z = S(from.z_mm);
+    to.curvature = S(from.curvature_per_mm);
+    to.conic = S(from.conic);
+    to.semi_aperture = S(from.semi_aperture_mm);
+    const double rim = sag_mm(from.curvature_per_mm, from.conic, from.even_asphere, from.semi_aperture_mm);
+    to.rim = S(rim);
+    to.c_rim = S(from.curvature_per_mm * rim);
+    to.media = interface<S>(from.index_above, from.index_below);
+    return to;
+}
+
+/// Highest and lowest z of a surface within its aperture; the extremum may lie between axis and rim.
+std::pair<double, double> extent(const PlacedSurface& s) {
+    constexpr int kSteps = 1024;
+    double high = s.z_mm, low = s.z_mm;
+    for (int i = 1; i <= kSteps; ++i) {
+        const double z = s.z_mm + sag_mm(s.curvature_per_mm, s.conic, s.even_asphere, s.semi_aperture_mm * i / kSteps);
+        high = std::max(high, z);
+        low = std::min(low, z);
+    }
+    return {high, low};
+}
+
+template <class S>
+void add_lens(optics::Scene<S>& scene, const Display& display, const Geometry& geometry) {
+    const auto& surfaces = geometry.surfaces;
+    scene.lens = display.lens.type;
+    if (surfaces.empty()) {
+        scene.ideal_z = S(geometry.vertex_plane_mm);
+        scene.ideal_power = S(1 / display.lens.focal_length_mm);
+        scene.zone_top = scene.zone_bottom = scene.wall_top = scene.wall_bottom = scene.ideal_z;
+        return;
+    }
+    if (surfaces.size() > kMaxSurfaces) {
+        throw InputError("lens.surface", std::to_string(surfaces.size()) + " surfaces; at most " + std::to_string(kMaxSurfaces));
+    }
+    scene.surface_count = std::int32_t(surfaces.size());
+    double wall_top = -INFINITY, wall_bottom = INFINITY;
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+        const PlacedSurface& s = surfaces[surfaces.size() - 1 - k];  // the viewer's side first
+        scene.surface[k] = surface_data<S>(s);
+        const double rim = s.z_mm + sag_mm(s.curvature_per_mm, s.conic, s.even_asphere, s.semi_aperture_mm);
+        wall_top = std::max(wall_top, rim);
+        wall_bottom = std::min(wall_bottom, rim);
+    }
+    const auto [high, low] = extent(surfaces.back());
+    const double rim = double(scene.surface[0].z) + double(scene.surface[0].rim);
+    // A few millionths more than the caps, so that rounding never starts a ray inside one.
+    scene.dimple = low < surfaces.back().z_mm +
+                             sag_mm(surfaces.back().curvature_per_mm, surfaces.back().conic, surfaces.back().even_asphere,
+                                    surfaces.back().semi_aperture_mm) -
+                             1e-9 ||
+                   rim < wall_top - 1e-9;
+    scene.zone_top = S(scene.dimple ? wall_top : high);
+    scene.zone_bottom = S(scene.dimple ? wall_top : low);
+    scene.wall_top = S(wall_top);
+    scene.wall_bottom = S(wall_bottom);
+}
+
+}  // namespace
+
+template <class S>
+optics::Scene<S> make_scene(const Display& display, const Geometry& geometry) {
+    optics::Scene<S> scene{};
+    const LensArray& array = display.array;
+    scene.columns = std::uint32_t(display.panel.pixels[0]);
+    scene.rows = std::uint32_t(display.panel.pixels[1]);
+    scene.pixels_per_mm = S(1 / display.panel.pixel_pitch_mm);
+    scene.emission_exponent = S(display.panel.emission_exponent);
+
+    scene.aperture = array.aperture;
+    scene.aperture_radius = S(display.lens.aperture_radius_mm.value_or(geometry.glass_radius_mm));
+    scene.has_stop = display.lens.stop_radius_mm.has_value();
+    const double stop = display.lens.stop_radius_mm.value_or(0);
+    scene.stop_z = S(geometry.stop_z_mm);
+    scene.stop_radius2 = S(stop * stop);
+    add_lens(scene, display, geometry);
+
+    scene.surround = array.surround;
+    scene.pitch = S(array.pitch_mm);
+    scene.per_pitch = S(1 / array.pitch_mm);
+    scene.half_pitch = S(array.pitch_mm / 2);
+    scene.pitch_pixels = S(array.pitch_mm / display.panel.pixel_pitch_mm);
+    scene.rotated = array.rotation_deg != 0;
+    scene.cos_rotation = S(std::cos(array.rotation_deg * kRadians));
+    scene.sin_rotation = S(std::sin(array.rotation_deg * kRadians));
+
+    scene.fresnel = display.render.fresnel;
+    scene.has_diffuser = display.diffuser.has_value();
+    const double first = geometry.surfaces.empty() ? geometry.vertex_plane_mm : geometry.surfaces.back().z_mm;
+    if (display.diffuser) {
+        scene.diffuser_profile = display.diffuser->profile;
+        scene.start_above = S(*geometry.diffuser_z_mm - first);
+        scene.small_angles = scene.diffuser_profile == Profile::box;
+        for (int axis = 0; axis < 2; ++axis) {
+            const double angle = display.diffuser->angle_deg[axis] * kRadians;
+            if (scene.diffuser_profile == Profile::box) {
+                scene.half_angle[axis] = S(angle / 2);
+                scene.small_angles = scene.small_angles && angle / 2 <= 0.05;
+            } else {  // sigma sqrt 2 of a normal distribution with this full width at half maximum
+                const double scale = angle / (2 * std::sqrt(std::numbers::ln2));
+                scene.half_angle[axis] = S(scale);
+                scene.gaussian_tail[axis] = S(scale > 0 ? std::erf(89 * kRadians / scale) : 1);
+            }
+        }
+    }
+    scene.box_filter = display.camera.pixel_filter == PixelFilter::box;
+    scene.thin_lens = display.camera.pupil_diameter_mm.value_or(0) > 0;
+    return scene;
+}
+
+template optics::Scene<float> make_scene<float>(const Display&, const Geometry&);
+template optics::Scene<double> make_scene<double>(const Display&, const Geometry&);
+
+optics::View make_view(const Display& display, const Geometry& geometry) {
+    optics::View view{};
+    const Camera& camera = display.camera;
+    auto cross = [](const double* a, const double* b, double* c) {
+        c[0] = a[1] * b[2] - a[2] * b[1];
+        c[1] = a[2] * b[0] - a[0] * b[2];
+        c[2] = a[0] * b[1] - a[1] * b[0];
+    };
+    auto normalise = [](double* a) {
+        const double length = std::hypot(a[0], a[1], a[2]);
+        for (int k = 0; k < 3; ++k) a[k] /= length;
+        return length;
+    };
+    for (int k = 0; k < 3; ++k) {
+        view.position[k] = camera.position_mm[k];
+        view.forward[k] = camera.target_mm[k] - camera.position_mm[k];
+    }
+    view.distance = normalise(view.forward);
+    cross(view.forward, camera.up.data(), view.right);
+    normalise(view.right);
+    cross(view.right, view.forward, view.up);
+    view.width = std::int32_t(camera.resolution[0]);
+    view.height = std::int32_t(camera.resolution[1]);
+    view.pixel_mm = geometry.frame_width_mm / double(camera.resolution[0]);
+    view.pupil_radius = camera.pupil_diameter_mm.value_or(0) / 2;
+    view.frame_per_focus = view.distance / geometry.focus_distance_mm;
+    const double first = geometry.surfaces.empty() ? geometry.vertex_plane_mm : geometry.surfaces.back().z_mm;
+    view.start_z = geometry.diffuser_z_mm.value_or(first);
+    view.pitch = display.array.pitch_mm;
+    for (int k = 0; k < 2; ++k) {
+        view.count[k] = double(display.array.count[k]);
+        view.offset[k] = display.array.offset_mm[k];
+    }
+    view.cos_rotation = std::cos(display.array.rotation_deg * kRadians);
+    view.sin_rotation = std::sin(display.array.rotation_deg * kRadians);
+    view.panel_width = geometry.panel_width_mm;
+    view.panel_height = geometry.panel_height_mm;
+    view.pixels_per_mm = 1 / display.panel.pixel_pitch_mm;
+    view.seed = std::uint64_t(display.render.seed);
+    return view;
+}
+
+int sample_dimensions(const Display& display) {
+    if (display.camera.pupil_diameter_mm.value_or(0) > 0) return 6;
+    if (display.camera.pixel_filter == PixelFilter::box) return 4;
+    return display.diffuser ? 2 : 0;
+}
+
+const optics::Directions& sobol_directions() {
+    static const optics::Directions directions = [] {
+        // s, a and m_1 .. m_s of dimensions 2 .. 6; dimension 1 is van der Corput's sequence.
+        struct Row {
+            int s, a, m[4];
+        };
+        constexpr Row rows[optics::kDimensions - 1] = {
+            {1, 0, {1}}, {2, 1, {1, 3}}, {3, 1, {1, 3, 1}}, {3, 2, {1, 1, 1}}, {4, 1, {1, 1, 3, 3}}};
+        optics::Directions d{};
+        for (int i = 0; i < 32; ++i) d.v[0][i] = 1u << (31 - i);
+        for (int k = 1; k < optics::kDimensions; ++k) {
+            const Row& row = rows[k - 1];
+            std::uint32_t* const v = d.v[k];
+            for (int i = 0; i < 32; ++i) {
+                if (i < row.s) {
+                    v[i] = std::uint32_t(row.m[i]) << (31 - i);
+                    continue;
+                }
+                v[i] = v[i - row.s] ^ (v[i - row.s] >> row.s);
+                for (int j = 1; j < row.s; ++j) v[i] ^= (row.a >> (row.s - 1 - j) & 1) * v[i - j];
+            }
+        }
+        return d;
+    }();
+    return directions;
+}
+
+}  // namespace lfdsim

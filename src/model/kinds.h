@@ -1,0 +1,16 @@
+// The choices that a display description offers. Floor 0; no library headers, so that every kernel may include it.
+#pragma once
+
+namespace lfdsim {
+
+enum class Encoding { srgb, linear };  // of the panel image's code values
+enum class LensType { plano_convex, surfaces, ideal };
+enum class Facing { viewer, panel };           // where the convex side of a plano-convex lens looks
+enum class Surround { opaque, clear, plate };  // what is between the lenses
+enum class Aperture { circle, square };
+enum class Profile { box, gaussian };  // of the diffuser, per axis
+enum class PixelFilter { center, box };
+enum class Sampling { sobol, random };
+enum class Fresnel { exact, schlick, none };
+
+}  // namespace lfdsim

@@ -1,0 +1,15 @@
+// The two macros of the optics. Floor 1.
+#pragma once
+
+// Everything in optics may run on the host and on a CUDA device, and must be inlined for speed on both.
+#ifdef __CUDACC__
+#define LFDSIM_FN __host__ __device__ __forceinline__
+#else
+#define LFDSIM_FN inline __attribute__((always_inline))
+#endif
+
+// The optics is compiled once per instruction set into one program. An inline namespace of its own for each keeps the linker from
+// taking one instruction set's copy of a function for another's.
+#ifndef LFDSIM_ISA
+#define LFDSIM_ISA generic
+#endif

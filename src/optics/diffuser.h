@@ -1,0 +1,31 @@
+// The diffuser: a thin plane that turns a ray by two random angles and takes nothing from it. Floor 1.
+#pragma once
+#include "optics/elementary.h"
+#include "optics/scene.h"
+#include "optics/surface.h"
+
+namespace lfdsim::optics::inline LFDSIM_ISA {
+
+/// The angle in radians for a number uniform in [-1, 1]: box or normal distribution, the normal one cut at +-89 degrees.
+template <class F>
+LFDSIM_FN F diffuser_angle(const Scene<Scalar<F>>& scene, int axis, F uniform) {
+    if (scene.diffuser_profile == Profile::box) return uniform * F(scene.half_angle[axis]);
+    return F(scene.half_angle[axis]) * erfinv(uniform * F(scene.gaussian_tail[axis]));
+}
+
+/// t = Rx(b) Ry(a) i: about y first (spreads horizontally), then about x; right-handed. Unit length stays.
+template <class F>
+LFDSIM_FN Vec3<F> turn(Vec3<F> i, F sin_a, F cos_a, F sin_b, F cos_b) {
+    const F x = cos_a * i.x + sin_a * i.z, z = cos_a * i.z - sin_a * i.x;
+    return {x, cos_b * i.y - sin_b * z, sin_b * i.y + cos_b * z};
+}
+
+template <class F>
+LFDSIM_FN Vec3<F> scatter(const Scene<Scalar<F>>& scene, Vec3<F> to, F uniform_a, F uniform_b) {
+    F sin_a, cos_a, sin_b, cos_b;
+    sincos(diffuser_angle(scene, 0, uniform_a), scene.small_angles, sin_a, cos_a);
+    sincos(diffuser_angle(scene, 1, uniform_b), scene.small_angles, sin_b, cos_b);
+    return turn(to, sin_a, cos_a, sin_b, cos_b);
+}
+
+}  // namespace lfdsim::optics::inline LFDSIM_ISA

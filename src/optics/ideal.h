@@ -1,0 +1,27 @@
+// The ideal thin lens: no aberrations, no losses; the reference that theory speaks of. Floor 1.
+#pragma once
+#include "optics/sequential.h"
+
+namespace lfdsim::optics::inline LFDSIM_ISA {
+
+/// From the plane of the lens to the panel: slope on the panel's side = slope on the viewer's side + q / f.
+template <class F>
+LFDSIM_FN PanelHit<F> trace_ideal(const Scene<Scalar<F>>& scene, const Extent<F>& extent, const PanelBase<F>& base,
+                                  Passage<F> way) {
+    using S = Scalar<F>;
+    const Vec3<F> at = way.ray.at;
+    way.cell = {nearest_cell(scene, at.x), nearest_cell(scene, at.y)};
+    const F qx = at.x - way.cell.i * F(scene.pitch), qy = at.y - way.cell.j * F(scene.pitch), r = F(scene.aperture_radius);
+    const F q2 = qx * qx + qy * qy;
+    way.alive = way.alive && extent.holds(way.cell);
+    if (scene.aperture == Aperture::circle) way.alive = way.alive && (q2 <= r * r);
+    if (scene.has_stop) way.alive = way.alive && (q2 <= F(scene.stop_radius2));
+    const F fall = F(1) / way.ray.to.z;
+    const F mx = way.ray.to.x * fall + qx * F(scene.ideal_power), my = way.ray.to.y * fall + qy * F(scene.ideal_power);
+    if (scene.emission_exponent != S(0)) {
+        way.weight = way.weight * power(F(1) / sqrt(F(1) + mx * mx + my * my), scene.emission_exponent);
+    }
+    return panel_pixel(scene, base, way.cell, qx - mx * F(scene.ideal_z), qy - my * F(scene.ideal_z), way.weight, way.alive);
+}
+
+}  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -1,0 +1,81 @@
+// F, the number type that the optics is written over: float, double, or N float lanes of a SIMD register (simd.h). Floor 1.
+//
+// The optics never says `if` about an F. It says select(mask, a, b), and any(mask) or none(mask) to skip work that no lane needs.
+// Every operation rounds once, as IEEE 754 says, so that all instruction sets agree to the last bit.
+#pragma once
+#include <cmath>
+#include <cstdint>
+
+#include "optics/config.h"
+
+namespace lfdsim::optics::inline LFDSIM_ISA {
+
+// What belongs to an F: its scalar, its mask of truth values and its 32-bit unsigned integer.
+template <class F>
+struct LaneTraits {
+    using Scalar = F;
+    using Mask = bool;
+    using Uint = std::uint32_t;
+    static constexpr int width = 1;
+    static LFDSIM_FN F from_int(std::uint32_t a) { return F(std::int32_t(a)); }
+    static LFDSIM_FN F bits_float(std::uint32_t a) { return F(__builtin_bit_cast(float, a)); }
+    template <class T>
+    static LFDSIM_FN T load(const T* from) {
+        return *from;
+    }
+};
+template <class F>
+using Scalar = typename LaneTraits<F>::Scalar;
+template <class F>
+using Mask = typename LaneTraits<F>::Mask;
+template <class F>
+using Uint = typename LaneTraits<F>::Uint;
+
+LFDSIM_FN bool any(bool m) { return m; }
+LFDSIM_FN float select(bool m, float a, float b) { return m ? a : b; }
+LFDSIM_FN double select(bool m, double a, double b) { return m ? a : b; }
+LFDSIM_FN std::uint32_t select(bool m, std::uint32_t a, std::uint32_t b) { return m ? a : b; }
+LFDSIM_FN float sqrt(float a) { return __builtin_sqrtf(a); }
+LFDSIM_FN double sqrt(double a) { return __builtin_sqrt(a); }
+LFDSIM_FN float floor(float a) { return __builtin_floorf(a); }
+LFDSIM_FN double floor(double a) { return __builtin_floor(a); }
+LFDSIM_FN float abs(float a) { return __builtin_fabsf(a); }
+LFDSIM_FN double abs(double a) { return __builtin_fabs(a); }
+// b if either is NaN, as the SIMD instructions have it
+LFDSIM_FN float min(float a, float b) { return a < b ? a : b; }
+LFDSIM_FN double min(double a, double b) { return a < b ? a : b; }
+LFDSIM_FN float max(float a, float b) { return a > b ? a : b; }
+LFDSIM_FN double max(double a, double b) { return a > b ? a : b; }
+
+/// A whole-numbered `a` as 32-bit two's complement; out of range, NaN too, gives 0x80000000.
+template <class F>
+LFDSIM_FN std::uint32_t to_int(F a) {
+    return a >= F(-2147483648.0) && a < F(2147483648.0) ? std::uint32_t(std::int32_t(a)) : 0x80000000u;
+}
+/// The pattern of a float, for logarithms and powers.
+LFDSIM_FN std::uint32_t float_bits(float a) { return __builtin_bit_cast(std::uint32_t, a); }
+LFDSIM_FN std::uint32_t float_bits(double a) { return __builtin_bit_cast(std::uint32_t, float(a)); }
+/// `a` read as two's complement; read as the pattern of a float; F's lanes from consecutive numbers.
+template <class F>
+LFDSIM_FN F from_int(Uint<F> a) {
+    return LaneTraits<F>::from_int(a);
+}
+template <class F>
+LFDSIM_FN F bits_float(Uint<F> a) {
+    return LaneTraits<F>::bits_float(a);
+}
+template <class F>
+LFDSIM_FN F load(const Scalar<F>* from) {
+    return LaneTraits<F>::template load<F>(from);
+}
+template <class F>
+LFDSIM_FN Uint<F> load(const std::uint32_t* from) {
+    return LaneTraits<F>::template load<Uint<F>>(from);
+}
+
+template <class M>
+LFDSIM_FN bool none(M m) {
+    return !any(m);
+}
+
+}  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -1,0 +1,73 @@
+// Which lens? The lattice, its stops, and the lens that a slanting ray meets first. Floor 1.
+//
+// Positions are in the frame of the array (turned with it), relative to the axis of a base lens near the ray, one for each pixel:
+// single precision then never sees a number much larger than a lens. Cells are whole numbers relative to the base lens.
+#pragma once
+#include "optics/lane.h"
+#include "optics/scene.h"
+#include "optics/surface.h"
+
+namespace lfdsim::optics::inline LFDSIM_ISA {
+
+template <class F>
+struct Cell {
+    F i, j;
+};
+
+/// The cells that hold a lens, relative to the base lens: low .. high inclusive.
+template <class F>
+struct Extent {
+    F low_i, high_i, low_j, high_j;
+    LFDSIM_FN Mask<F> holds(Cell<F> c) const { return (c.i >= low_i) && (c.i <= high_i) && (c.j >= low_j) && (c.j <= high_j); }
+};
+
+template <class F>
+LFDSIM_FN F nearest_cell(const Scene<Scalar<F>>& scene, F x) {
+    return floor(x * F(scene.per_pitch) + F(Scalar<F>(0.5)));
+}
+
+/// A ray that crosses the plane of the stops at (x, y): does it pass a hole?
+template <class F>
+LFDSIM_FN Mask<F> passes_stop(const Scene<Scalar<F>>& scene, const Extent<F>& extent, F x, F y) {
+    const Cell<F> cell{nearest_cell(scene, x), nearest_cell(scene, y)};
+    const F lx = x - cell.i * F(scene.pitch), ly = y - cell.j * F(scene.pitch);
+    return (lx * lx + ly * ly <= F(scene.stop_radius2)) && extent.holds(cell);
+}
+
+/// Walks cell by cell along the line (x + mx s, y + my s), 0 <= s <= depth, in the order in which the line enters them, and calls
+/// try_cell(cell, active) in each that holds a lens; it returns the lanes that are done. Exact at any slope: no cell is jumped
+/// over. s is the way in z, m the lateral way per s.
+template <class F, class Try>
+LFDSIM_FN void walk_cells(const Scene<Scalar<F>>& scene, const Extent<F>& extent, F x, F y, F mx, F my, F depth, Mask<F> active,
+                          Try try_cell) {
+    const F huge = F(Scalar<F>(1e30)), zero = F(0), one = F(1), p = F(scene.pitch), half = F(scene.half_pitch);
+    // Ways to the array's border, so that a ray from outside starts where it enters.
+    auto axis = [&](F at, F m, F low, F high, F& in, F& out) {
+        const F a = (low * p - half - at) / m, b = (high * p + half - at) / m;
+        const Mask<F> still = abs(m) < F(Scalar<F>(1e-20));
+        const Mask<F> within = (at >= low * p - half) && (at <= high * p + half);
+        in = select(still, select(within, -huge, huge), min(a, b));
+        out = select(still, select(within, huge, -huge), max(a, b));
+    };
+    F in_x, out_x, in_y, out_y;
+    axis(x, mx, extent.low_i, extent.high_i, in_x, out_x);
+    axis(y, my, extent.low_j, extent.high_j, in_y, out_y);
+    const F begin = max(max(in_x, in_y), zero), end = min(min(out_x, out_y), depth);
+    active = active && (begin <= end);
+
+    const F step_i = select(mx < zero, -one, one), step_j = select(my < zero, -one, one);
+    Cell<F> cell{min(max(nearest_cell(scene, x + mx * begin), extent.low_i), extent.high_i),
+                 min(max(nearest_cell(scene, y + my * begin), extent.low_j), extent.high_j)};
+    while (any(active)) {
+        active = active && !try_cell(cell, active);
+        // Where the line leaves this cell: through the nearer of its two borders ahead.
+        const F sx = select(abs(mx) < F(Scalar<F>(1e-20)), huge, (cell.i * p + step_i * half - x) / mx);
+        const F sy = select(abs(my) < F(Scalar<F>(1e-20)), huge, (cell.j * p + step_j * half - y) / my);
+        const Mask<F> along_x = sx < sy;
+        cell.i = select(along_x, cell.i + step_i, cell.i);
+        cell.j = select(along_x, cell.j, cell.j + step_j);
+        active = active && (min(sx, sy) <= end) && extent.holds(cell);
+    }
+}
+
+}  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -1,0 +1,54 @@
+// The light that a packet of pixels has gathered from the panel. Floor 1.
+#pragma once
+#include "optics/panel.h"
+
+namespace lfdsim::optics::inline LFDSIM_ISA {
+
+/// Sums of weight x radiance for each lane: R, G, B and an idle number, lane after lane, in four registers of F's width: a texel is
+/// then one load, whatever its depth, and one product serves its three colours.
+template <class F>
+struct Light {
+    static constexpr int N = LaneTraits<F>::width;
+    F sum[4] = {F(0), F(0), F(0), F(0)};
+
+    LFDSIM_FN void add(const float* texels, const PanelHit<F>& hit) {
+        if constexpr (N == 1) {
+            if (!hit.lit) return;
+            const float* const texel = texels + std::size_t(hit.pixel) * 4;
+            for (int c = 0; c < 3; ++c) sum[c] = sum[c] + F(texel[c]) * hit.weight;
+        } else {
+            add_lanes(texels, select(hit.lit, hit.pixel, Uint<F>(0u)), select(hit.lit, hit.weight, F(0)));
+        }
+    }
+    LFDSIM_FN void add(const Light& other) {
+        for (int r = 0; r < 4; ++r) sum[r] = sum[r] + other.sum[r];
+    }
+    /// Colour c of lane k.
+    LFDSIM_FN Scalar<F> operator()(int k, int c) const {
+        if constexpr (N == 1)
+            return sum[c];
+        else
+            return sum[k / (N / 4)].v[k % (N / 4) * 4 + c];
+    }
+
+  private:
+    LFDSIM_FN void add_lanes(const float* texels, Uint<F> pixel, F weight) {
+        std::uint32_t index[N];
+        __builtin_memcpy(index, &pixel, sizeof index);
+        for (int r = 0; r < 4; ++r) sum[r] = sum[r] + four_channels(texels, index + r * (N / 4)) * repeat(weight, r);
+    }
+    /// The texels of N / 4 lanes, side by side.
+    static LFDSIM_FN F four_channels(const float* texels, const std::uint32_t* index) {
+        F texel;
+        for (int k = 0; k < N / 4; ++k) __builtin_memcpy((char*)&texel + 16 * k, texels + std::size_t(index[k]) * 4, 16);
+        return texel;
+    }
+    /// Lanes r N/4 .. (r+1) N/4 - 1, each four times.
+    static LFDSIM_FN F repeat(F weight, int r) {
+        F w;
+        for (int k = 0; k < N; ++k) w.v[k] = weight.v[r * (N / 4) + k / 4];
+        return w;
+    }
+};
+
+}  // namespace lfdsim::optics::inline LFDSIM_ISA

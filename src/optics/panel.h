@@ -1,0 +1,42 @@
+// The panel: which pixel a ray reaches. Floor 1.
+#pragma once
+#include "optics/lane.h"
+#include "optics/lens_array.h"
+#include "optics/scene.h"
+
+namespace lfdsim::optics::inline LFDSIM_ISA {
+
+/// Where the axis of a pixel's base lens meets the panel: whole panel pixel and the rest in [0, 1).
+template <class F>
+struct PanelBase {
+    Uint<F> column, row;
+    F column_rest, row_rest;
+};
+
+/// A panel pixel: its number row x columns + column where `lit`, and what the ray carries of its light.
+template <class F>
+struct PanelHit {
+    Uint<F> pixel;
+    F weight;
+    Mask<F> lit;
+};
+
+/// The pixel under (x, y), mm from the axis of the lens `cell` in the array's frame. Numbers stay small, so that the place is good
+/// to a few millionths of a pixel on any panel.
+template <class F>
+LFDSIM_FN PanelHit<F> panel_pixel(const Scene<Scalar<F>>& scene, const PanelBase<F>& base, Cell<F> cell, F x, F y, F weight,
+                                  Mask<F> lit) {
+    const F k = F(scene.pixels_per_mm), p = F(scene.pitch_pixels);
+    F u = x * k + cell.i * p, v = y * k + cell.j * p;
+    if (scene.rotated) {
+        const F cosine = F(scene.cos_rotation), sine = F(scene.sin_rotation), turned = cosine * u - sine * v;
+        v = sine * u + cosine * v;
+        u = turned;
+    }
+    const Uint<F> column = base.column + to_int(floor(base.column_rest + u));
+    const Uint<F> row = base.row + to_int(floor(base.row_rest - v));
+    lit = lit && (column < Uint<F>(scene.columns)) && (row < Uint<F>(scene.rows));
+    return {row * Uint<F>(scene.columns) + column, weight, lit};
+}
+
+}  // namespace lfdsim::optics::inline LFDSIM_ISA

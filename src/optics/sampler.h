@@ -1,0 +1,58 @@
+// Sample points: a pure function of (seed, pixel, sample, dimension). Floor 1.
+//
+// sobol: points of a Sobol sequence in Gray-code order (Antonov and Saleev 1979), the same for all pixels, scrambled in each pixel
+// and dimension by a random digital shift (exclusive or with 32 random bits), so that every point is uniform: unbiased, and a net.
+// random: independent hashes. Numbers are centred: uniform in [-1, 1].
+#pragma once
+#include "optics/lane.h"
+#include "optics/scene.h"
+
+namespace lfdsim::optics::inline LFDSIM_ISA {
+
+/// Well-mixed bits (the finaliser "lowbias32" by C. Wellons).
+template <class U>
+LFDSIM_FN U mix(U h) {
+    h = h ^ (h >> 16);
+    h = h * U(0x7feb352du);
+    h = h ^ (h >> 15);
+    h = h * U(0x846ca68bu);
+    return h ^ (h >> 16);
+}
+
+/// Keys of a pixel's dimension: its scramble. `pixel` = row x width + column of the whole frame.
+template <class F>
+LFDSIM_FN Uint<F> pixel_key(std::uint64_t seed, int dimension, Uint<F> pixel) {
+    std::uint64_t h = (seed + 1) * 0x9e3779b97f4a7c15u + std::uint64_t(dimension) * 0xd1b54a32d192ed03u;  // splitmix64
+    h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9u;
+    h = (h ^ (h >> 27)) * 0x94d049bb133111ebu;
+    h = h ^ (h >> 31);
+    return mix(mix(pixel + Uint<F>(std::uint32_t(h))) ^ Uint<F>(std::uint32_t(h >> 32)));
+}
+
+/// The sample points of a packet of pixels, in the order of the samples.
+template <class F>
+struct Sampler {
+    Sampling sampling;
+    int dimensions;  // 0 .. dimensions-1 are in use
+    std::uint32_t sample = 0;
+    Uint<F> key[kDimensions];
+    std::uint32_t point[kDimensions] = {};  // of the Sobol sequence, common to all pixels
+
+    LFDSIM_FN Sampler(Sampling kind, int used, std::uint64_t seed, Uint<F> pixel) : sampling(kind), dimensions(used) {
+        for (int d = 0; d < used; ++d) key[d] = pixel_key<F>(seed, d, pixel);
+    }
+    /// The number of dimension d, in [-1, 1].
+    LFDSIM_FN F operator()(int d) const {
+        const Uint<F> bits =
+            sampling == Sampling::sobol ? key[d] ^ Uint<F>(point[d]) : mix(mix(key[d] + Uint<F>(sample * 0x9e3779b9u)) ^ key[d]);
+        return from_int<F>(bits) * F(Scalar<F>(1.0 / 2147483648.0));
+    }
+    /// On to the next sample: in Gray-code order one direction number changes.
+    LFDSIM_FN void next(const Directions& directions) {
+        ++sample;
+        const int bit = __builtin_ctz(sample);
+        for (int d = 0; d < dimensions; ++d) point[d] ^= directions.v[d][bit];
+    }
+};
+
+}  // namespace lfdsim::optics::inline LFDSIM_ISA

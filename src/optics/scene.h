@@ -1,0 +1,103 @@
+// What the tracer is given: plain data without functions, common to all instruction sets.
+// A display as the tracer sees it: plain numbers of one type S (float or double), ready for the device. Floor 1.
+//
+// z in mm from the panel. Surfaces stand in the order in which backward rays meet them: the viewer's side first.
+// Filled by engine/scene.cpp from a Display and its Geometry.
+#pragma once
+#include <cstdint>
+
+#include "model/kinds.h"
+
+namespace lfdsim::optics {
+
+constexpr int kMaxSurfaces = 32;
+constexpr int kMaxAsphereTerms = 16;
+
+enum class Shape : std::int32_t { plane, sphere, conic, asphere };
+
+/// Weight of one passage: what Fresnel's equations need of the two media.
+template <class S>
+struct Interface {
+    S eta;  // index of the viewer's side / index of the panel's side: for rays going down
+    S n_above, n_below;
+    S schlick_t0;  // 1 - R0
+};
+
+/// A surface of revolution about its lens's axis.
+template <class S>
+struct SurfaceData {
+    Shape shape;
+    std::int32_t terms;           // of the even asphere
+    S z;                          // vertex
+    S curvature;                  // 1/mm
+    S conic;                      // k
+    S asphere[kMaxAsphereTerms];  // a4, a6, ...
+    S semi_aperture;
+    S rim;    // sag at the semi aperture
+    S c_rim;  // curvature x rim: c z <= c_rim inside the rim, on the sheet of the vertex
+    Interface<S> media;
+};
+
+template <class S>
+struct Scene {
+    // panel
+    std::uint32_t columns, rows;
+    S pixels_per_mm;
+    S emission_exponent;
+
+    // lens
+    LensType lens;
+    std::int32_t surface_count;
+    SurfaceData<S> surface[kMaxSurfaces];
+    S ideal_z, ideal_power;  // 1/f
+    S aperture_radius;       // circle; of the ideal lens and of walls
+    Aperture aperture;
+    bool has_stop;
+    S stop_z, stop_radius2;
+
+    // array; the tracer works in the frame of the array, turned by the rotation about z
+    Surround surround;
+    S pitch, per_pitch, half_pitch;
+    S pitch_pixels;  // pitch in panel pixels
+    bool rotated;
+    S cos_rotation, sin_rotation;
+    S start_above;            // height of the first plane above the first vertex (ideal: above the lens)
+    S zone_top, zone_bottom;  // where an entering ray may meet the first surface: highest and lowest z of its caps
+    S wall_top, wall_bottom;  // rims: the height of the walls
+    bool dimple;              // the first surface lies below its rim (concave to the viewer): its rim is the entrance
+
+    // light
+    Fresnel fresnel;
+    bool has_diffuser;
+    Profile diffuser_profile;
+    S diffuser_z;
+    S half_angle[2];     // box: omega/2 about y and about x, radians; gaussian: see diffuser.h
+    S gaussian_tail[2];  // gaussian: erf of the cut
+    bool small_angles;   // box: both half angles below 0.05 rad
+
+    // camera samples
+    bool box_filter, thin_lens;
+};
+
+/// The camera and what is needed to begin at a lens, in double precision. Units: mm.
+struct View {
+    double position[3], forward[3], right[3], up[3];  // orthonormal; forward looks into the picture
+    double distance;                                  // to the frame, along forward
+    double pixel_mm;                                  // size of a picture element in the plane of the frame
+    double pupil_radius, frame_per_focus;             // thin lens: radius; distance of the frame / distance of focus
+    std::int32_t width, height;                       // of the whole frame
+    double start_z;                                   // the first plane
+    double pitch, count[2], offset[2], cos_rotation, sin_rotation;
+    double panel_width, panel_height, pixels_per_mm;
+    std::uint64_t seed;
+};
+
+/// Dimensions 0, 1: diffuser; 2, 3: place in the pixel; 4, 5: place in the pupil.
+constexpr int kDimensions = 6;
+
+/// Direction numbers (Joe and Kuo 2008, new-joe-kuo-6), one row a dimension.
+struct Directions {
+    std::uint32_t v[kDimensions][32];
+};
+
+}  // namespace lfdsim::optics

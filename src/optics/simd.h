@@ -1,0 +1,151 @@
+// Lane<N>: N floats in a SIMD register, over the vector extensions of GCC and Clang. Floor 1.
+//
+// The extensions do arithmetic and comparison; intrinsics stand only where they lack an operation (sqrt, floor, min, max) or where
+// the compilers do not find the mask registers of AVX-512 by themselves.
+#pragma once
+#include <immintrin.h>
+
+#include "optics/lane.h"
+
+namespace lfdsim::optics::inline LFDSIM_ISA {
+
+template <int N>
+struct Vectors {  // GCC 12 wants a dependent vector_size inside a struct of its own
+    typedef float Float __attribute__((vector_size(4 * N)));
+    typedef std::uint32_t Uint __attribute__((vector_size(4 * N)));
+    typedef std::int32_t Int __attribute__((vector_size(4 * N)));
+};
+
+template <int N>
+struct LaneMask {
+    typename Vectors<N>::Int v;  // -1 or 0
+    friend LFDSIM_FN LaneMask operator&&(LaneMask a, LaneMask b) { return {a.v & b.v}; }
+    friend LFDSIM_FN LaneMask operator||(LaneMask a, LaneMask b) { return {a.v | b.v}; }
+    friend LFDSIM_FN LaneMask operator!(LaneMask a) { return {~a.v}; }
+};
+
+template <int N>
+struct LaneUint {  // wraps
+    typename Vectors<N>::Uint v;
+    LaneUint() = default;
+    LFDSIM_FN LaneUint(typename Vectors<N>::Uint a) : v(a) {}
+    LFDSIM_FN LaneUint(std::uint32_t a) : v(a + typename Vectors<N>::Uint{}) {}
+    friend LFDSIM_FN LaneUint operator+(LaneUint a, LaneUint b) { return a.v + b.v; }
+    friend LFDSIM_FN LaneUint operator-(LaneUint a, LaneUint b) { return a.v - b.v; }
+    friend LFDSIM_FN LaneUint operator*(LaneUint a, LaneUint b) { return a.v * b.v; }
+    friend LFDSIM_FN LaneUint operator^(LaneUint a, LaneUint b) { return a.v ^ b.v; }
+    friend LFDSIM_FN LaneUint operator&(LaneUint a, LaneUint b) { return a.v & b.v; }
+    friend LFDSIM_FN LaneUint operator|(LaneUint a, LaneUint b) { return a.v | b.v; }
+    friend LFDSIM_FN LaneUint operator>>(LaneUint a, int s) { return a.v >> s; }
+    friend LFDSIM_FN LaneUint operator<<(LaneUint a, int s) { return a.v << s; }
+};
+
+template <int N>
+struct Lane {
+    typename Vectors<N>::Float v;
+    Lane() = default;
+    LFDSIM_FN Lane(typename Vectors<N>::Float a) : v(a) {}
+    LFDSIM_FN Lane(float a) : v(a - typename Vectors<N>::Float{}) {}
+    friend LFDSIM_FN Lane operator+(Lane a, Lane b) { return a.v + b.v; }
+    friend LFDSIM_FN Lane operator-(Lane a, Lane b) { return a.v - b.v; }
+    friend LFDSIM_FN Lane operator*(Lane a, Lane b) { return a.v * b.v; }
+    friend LFDSIM_FN Lane operator/(Lane a, Lane b) { return a.v / b.v; }
+    friend LFDSIM_FN Lane operator-(Lane a) { return -a.v; }
+    friend LFDSIM_FN LaneMask<N> operator<(Lane a, Lane b) { return compare<_CMP_LT_OQ>(a, b, a.v < b.v); }
+    friend LFDSIM_FN LaneMask<N> operator<=(Lane a, Lane b) { return compare<_CMP_LE_OQ>(a, b, a.v <= b.v); }
+    friend LFDSIM_FN LaneMask<N> operator>(Lane a, Lane b) { return compare<_CMP_GT_OQ>(a, b, a.v > b.v); }
+    friend LFDSIM_FN LaneMask<N> operator>=(Lane a, Lane b) { return compare<_CMP_GE_OQ>(a, b, a.v >= b.v); }
+    friend LFDSIM_FN LaneMask<N> operator==(Lane a, Lane b) { return compare<_CMP_EQ_OQ>(a, b, a.v == b.v); }
+
+  private:
+    template <int code>
+    static LFDSIM_FN LaneMask<N> compare(Lane, Lane, typename Vectors<N>::Int result) {
+        return {result};
+    }
+};
+
+template <int N>
+struct LaneTraits<Lane<N>> {
+    using Scalar = float;
+    using Mask = LaneMask<N>;
+    using Uint = LaneUint<N>;
+    static constexpr int width = N;
+    static LFDSIM_FN Lane<N> from_int(Uint a) {
+        return __builtin_convertvector((typename Vectors<N>::Int)a.v, typename Vectors<N>::Float);
+    }
+    static LFDSIM_FN Lane<N> bits_float(Uint a) { return (typename Vectors<N>::Float)a.v; }
+    template <class T>
+    static LFDSIM_FN T load(const void* from) {
+        T value;
+        __builtin_memcpy(&value.v, from, sizeof value.v);
+        return value;
+    }
+};
+
+template <int N>
+LFDSIM_FN LaneMask<N> operator<(LaneUint<N> a, LaneUint<N> b) {
+    return {a.v < b.v};
+}
+template <int N>
+LFDSIM_FN Lane<N> select(LaneMask<N> m, Lane<N> a, Lane<N> b) {
+    return m.v ? a.v : b.v;
+}
+template <int N>
+LFDSIM_FN LaneUint<N> select(LaneMask<N> m, LaneUint<N> a, LaneUint<N> b) {
+    return m.v ? a.v : b.v;
+}
+template <int N>
+LFDSIM_FN Lane<N> abs(Lane<N> a) {
+    return __builtin_bit_cast(typename Vectors<N>::Float, __builtin_bit_cast(typename Vectors<N>::Uint, a.v) & 0x7fffffffu);
+}
+template <int N>
+LFDSIM_FN LaneUint<N> to_int(Lane<N> a) {  // x86 converts what is out of range to 0x80000000
+    return (typename Vectors<N>::Uint) __builtin_convertvector(a.v, typename Vectors<N>::Int);
+}
+template <int N>
+LFDSIM_FN LaneUint<N> float_bits(Lane<N> a) {
+    return (typename Vectors<N>::Uint)a.v;
+}
+#if defined(__AVX512F__)
+template <>
+struct LaneMask<16> {
+    __mmask16 v;
+    friend LFDSIM_FN LaneMask operator&&(LaneMask a, LaneMask b) { return {__mmask16(a.v & b.v)}; }
+    friend LFDSIM_FN LaneMask operator||(LaneMask a, LaneMask b) { return {__mmask16(a.v | b.v)}; }
+    friend LFDSIM_FN LaneMask operator!(LaneMask a) { return {__mmask16(~a.v)}; }
+};
+template <>
+template <int code>
+LFDSIM_FN LaneMask<16> Lane<16>::compare(Lane a, Lane b, Vectors<16>::Int) {
+    return {_mm512_cmp_ps_mask((__m512)a.v, (__m512)b.v, code)};
+}
+LFDSIM_FN LaneMask<16> operator<(LaneUint<16> a, LaneUint<16> b) { return {_mm512_cmplt_epu32_mask((__m512i)a.v, (__m512i)b.v)}; }
+LFDSIM_FN Lane<16> select(LaneMask<16> m, Lane<16> a, Lane<16> b) {
+    return (Vectors<16>::Float)_mm512_mask_blend_ps(m.v, (__m512)b.v, (__m512)a.v);
+}
+LFDSIM_FN LaneUint<16> select(LaneMask<16> m, LaneUint<16> a, LaneUint<16> b) {
+    return (Vectors<16>::Uint)_mm512_mask_blend_epi32(m.v, (__m512i)b.v, (__m512i)a.v);
+}
+LFDSIM_FN bool any(LaneMask<16> m) { return m.v != 0; }
+LFDSIM_FN Lane<16> sqrt(Lane<16> a) { return (Vectors<16>::Float)_mm512_sqrt_ps((__m512)a.v); }
+LFDSIM_FN Lane<16> floor(Lane<16> a) { return (Vectors<16>::Float)_mm512_roundscale_ps((__m512)a.v, 1); }
+LFDSIM_FN Lane<16> min(Lane<16> a, Lane<16> b) { return (Vectors<16>::Float)_mm512_min_ps((__m512)a.v, (__m512)b.v); }
+LFDSIM_FN Lane<16> max(Lane<16> a, Lane<16> b) { return (Vectors<16>::Float)_mm512_max_ps((__m512)a.v, (__m512)b.v); }
+#elif defined(__AVX2__)
+LFDSIM_FN bool any(LaneMask<8> m) { return _mm256_movemask_ps((__m256)m.v) != 0; }
+LFDSIM_FN Lane<8> sqrt(Lane<8> a) { return (Vectors<8>::Float)_mm256_sqrt_ps((__m256)a.v); }
+LFDSIM_FN Lane<8> floor(Lane<8> a) { return (Vectors<8>::Float)_mm256_floor_ps((__m256)a.v); }
+LFDSIM_FN Lane<8> min(Lane<8> a, Lane<8> b) { return (Vectors<8>::Float)_mm256_min_ps((__m256)a.v, (__m256)b.v); }
+LFDSIM_FN Lane<8> max(Lane<8> a, Lane<8> b) { return (Vectors<8>::Float)_mm256_max_ps((__m256)a.v, (__m256)b.v); }
+#else
+LFDSIM_FN bool any(LaneMask<4> m) { return _mm_movemask_ps((__m128)m.v) != 0; }
+LFDSIM_FN Lane<4> sqrt(Lane<4> a) { return (Vectors<4>::Float)_mm_sqrt_ps((__m128)a.v); }
+LFDSIM_FN Lane<4> min(Lane<4> a, Lane<4> b) { return (Vectors<4>::Float)_mm_min_ps((__m128)a.v, (__m128)b.v); }
+LFDSIM_FN Lane<4> max(Lane<4> a, Lane<4> b) { return (Vectors<4>::Float)_mm_max_ps((__m128)a.v, (__m128)b.v); }
+LFDSIM_FN Lane<4> floor(Lane<4> a) {  // SSE2 cannot round: truncate and mend; from 2^23 up every float is whole
+    const Lane<4> t = from_int<Lane<4>>(to_int(a));
+    return select(abs(a) < Lane<4>(8388608.0f), t - select(t > a, Lane<4>(1.0f), Lane<4>(0.0f)), a);
+}
+#endif
+
+}  // namespace lfdsim::optics::inline LFDSIM_ISA

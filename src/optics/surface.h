@@ -1,0 +1,126 @@
+// Refracting surfaces: where a ray meets one, how it goes on, and what Fresnel's equations leave of it. Floor 1.
+#pragma once
+#include "optics/lane.h"
+#include "optics/scene.h"
+
+namespace lfdsim::optics::inline LFDSIM_ISA {
+
+template <class F>
+struct Vec3 {
+    F x, y, z;
+};
+template <class F>
+LFDSIM_FN F dot(Vec3<F> a, Vec3<F> b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/// A ray on its way: mm, position from a lens's axis and from the vertex of the surface at hand, direction of unit length.
+template <class F>
+struct Ray {
+    Vec3<F> at, to;
+};
+
+/// Where a ray meets a surface: there it stands, `normal` points to the viewer's side, `cos` = -to.normal (positive: coming from
+/// that side), cos2 its square to full accuracy.
+template <class F>
+struct Hit {
+    Vec3<F> at, normal;
+    F cos, cos2;
+    Mask<F> ok;
+};
+
+/// Sag and slope of the sheet of the vertex at s2 = x^2 + y^2; `real` where there is one. d = 2 dz/d(s^2), so that the normal is
+/// along
+/// (-x d, -y d, 1).
+template <class F>
+LFDSIM_FN void sag(const SurfaceData<Scalar<F>>& surface, F s2, F& z, F& d, Mask<F>& real) {
+    const F c = surface.curvature, root2 = F(1) - c * c * (F(1) + F(surface.conic)) * s2;
+    real = root2 > F(0);
+    const F root = sqrt(max(root2, F(1e-12f)));
+    z = c * s2 / (F(1) + root);
+    d = c / root;
+    F power = s2;  // s^(2 i) of the term a s^(2 i + 2)
+    for (int i = 0; i < surface.terms; ++i) {
+        const F a = surface.asphere[i];
+        d = d + F(Scalar<F>(2 * (i + 2))) * a * power;
+        power = power * s2;
+        z = z + a * power;
+    }
+}
+
+/// A ray that stands in the vertex plane (at.z = 0) and comes from the viewer's side against a sphere. Root of
+/// c t^2/2 - (dz - c b) t + c s^2/2 = 0 next to the vertex, without cancellation and for c = 0 too (Welford, Aberrations of Optical
+/// Systems, 1986, sec. 4.5); on the sphere the cosine is the root of the discriminant.
+template <class F>
+LFDSIM_FN Hit<F> meet_sphere(const SurfaceData<Scalar<F>>& surface, Ray<F> ray) {
+    const F c = surface.curvature;
+    const F cs2 = c * (ray.at.x * ray.at.x + ray.at.y * ray.at.y);
+    const F g = ray.to.z - c * (ray.at.x * ray.to.x + ray.at.y * ray.to.y);
+    const F cos2 = g * g - c * cs2;
+    const F cosine = sqrt(max(cos2, F(0)));
+    const F t = cs2 / (g - cosine);
+    const F x = ray.at.x + ray.to.x * t, y = ray.at.y + ray.to.y * t, z = ray.to.z * t;
+    const F cz = c * z;
+    Hit<F> hit{{x, y, z}, {-(c * x), -(c * y), F(1) - cz}, cosine, cos2, {}};
+    hit.ok = (cos2 > F(0)) && (cz <= F(surface.c_rim));
+    return hit;
+}
+
+/// The same for conics (closed form, then the normal) and even aspheres (Newton's method from the conic; lanes stop on their own,
+/// so that a lane's bits do not depend on its neighbours).
+template <class F>
+LFDSIM_FN Hit<F> meet_asphere(const SurfaceData<Scalar<F>>& surface, Ray<F> ray) {
+    const F c = surface.curvature, k1 = F(1) + F(surface.conic);
+    // c/2 (|p|^2 + k z^2) - z = 0 along the ray
+    const F cs2 = c * (ray.at.x * ray.at.x + ray.at.y * ray.at.y);
+    const F g = ray.to.z - c * (ray.at.x * ray.to.x + ray.at.y * ray.to.y);
+    const F a = c * (F(1) + (k1 - F(1)) * ray.to.z * ray.to.z);
+    const F disc = g * g - a * cs2;
+    F t = cs2 / (g - sqrt(max(disc, F(0))));
+    F z, d;
+    Mask<F> real = disc > F(0);
+    Vec3<F> p{};
+    auto stand = [&](F at) {
+        p = {ray.at.x + ray.to.x * at, ray.at.y + ray.to.y * at, ray.to.z * at};
+        Mask<F> sheet;
+        sag(surface, p.x * p.x + p.y * p.y, z, d, sheet);
+        return sheet;
+    };
+    Mask<F> sheet = stand(t);
+    if (surface.terms > 0) {
+        // A conic that misses is no place to start from: the vertex plane is.
+        t = select(real, t, F(0));
+        sheet = stand(t);
+        real = sheet || !sheet;
+        Mask<F> moving = real;
+        const F tolerance = F(Scalar<F>(sizeof(Scalar<F>) == 4 ? 1e-6 : 1e-13));
+        for (int step = 0; step < 12 && any(moving); ++step) {
+            const F slope = ray.to.z - d * (p.x * ray.to.x + p.y * ray.to.y);
+            const F change = (p.z - z) / slope;
+            t = select(moving, t - change, t);
+            sheet = stand(t);
+            moving = moving && (abs(change) > tolerance);
+        }
+        real = sheet && (abs(p.z - z) < F(Scalar<F>(1e-4)));
+    }
+    const F length2 = F(1) + d * d * (p.x * p.x + p.y * p.y), per_length = F(1) / sqrt(length2);
+    const Vec3<F> normal{-(p.x * d) * per_length, -(p.y * d) * per_length, per_length};
+    const F cosine = -dot(ray.to, normal);
+    Hit<F> hit{p, normal, cosine, cosine * cosine, {}};
+    hit.ok = real && sheet && (cosine > F(0)) && (p.x * p.x + p.y * p.y <= F(surface.semi_aperture) * F(surface.semi_aperture));
+    return hit;
+}
+
+/// The transmitted share 1 - F; c1 = cosine on the side the light of the backward ray comes from (index n1), c2 on the other.
+template <class F>
+LFDSIM_FN F transmittance(Fresnel fresnel, F schlick_t0, F n1, F n2, F c1, F c2, bool thinner_first) {
+    if (fresnel == Fresnel::schlick) {  // the cosine is the one in the less dense medium, on either passage
+        const F q = F(1) - (thinner_first ? c1 : c2), q2 = q * q;
+        return schlick_t0 - schlick_t0 * (q2 * q2 * q);
+    }
+    // Mean of both polarisations: 2 n1 n2 c1 c2 (1/(n1 c1 + n2 c2)^2 + 1/(n1 c2 + n2 c1)^2)
+    const F s = n1 * c1 + n2 * c2, p = n1 * c2 + n2 * c1, sp = s * p;
+    return (F(2) * n1 * n2) * (c1 * c2) * (s * s + p * p) / (sp * sp);
+}
+
+}  // namespace lfdsim::optics::inline LFDSIM_ISA

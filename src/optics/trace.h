@@ -1,0 +1,51 @@
+// The main idea on one page: a backward ray goes from the camera through the diffuser and the lens array to a panel pixel. Floor 1.
+#pragma once
+#include "optics/camera.h"
+#include "optics/diffuser.h"
+#include "optics/glass.h"
+#include "optics/ideal.h"
+#include "optics/sequential.h"
+
+namespace lfdsim::optics::inline LFDSIM_ISA {
+
+/// One sample of each pixel of a packet.
+template <class F>
+LFDSIM_FN PanelHit<F> trace(const Scene<Scalar<F>>& scene, const View& view, const PixelRays<F>& pixels,
+                            const Sampler<F>& sampler) {
+    using S = Scalar<F>;
+    // The camera
+    Passage<F> way{{{pixels.x, pixels.y, F(0)}, pixels.to}, {F(0), F(0)}, F(1), pixels.alive};
+    Ray<F>& ray = way.ray;
+    if (scene.box_filter || scene.thin_lens) {
+        F jitter_x = F(0), jitter_y = F(0), lens_x = F(0), lens_y = F(0);
+        if (scene.box_filter) {
+            jitter_x = sampler(2);
+            jitter_y = sampler(3);
+        }
+        if (scene.thin_lens) disk(sampler(4), sampler(5), lens_x, lens_y);
+        displace(view, pixels, jitter_x, jitter_y, lens_x, lens_y, ray.at.x, ray.at.y, ray.to);
+    }
+
+    // The diffuser
+    if (scene.has_diffuser) ray.to = scatter(scene, ray.to, sampler(0), sampler(1));
+    way.alive = way.alive && (ray.to.z < F(S(-1e-9)));
+
+    // Into the frame of the array, and to the plane of its first vertex
+    if (scene.rotated) {
+        const F c = F(scene.cos_rotation), s = F(scene.sin_rotation), x = c * ray.to.x + s * ray.to.y;
+        ray.to.y = c * ray.to.y - s * ray.to.x;
+        ray.to.x = x;
+    }
+    if (scene.start_above != S(0)) {
+        const F t = F(-scene.start_above) / ray.to.z;
+        ray.at.x = ray.at.x + ray.to.x * t;
+        ray.at.y = ray.at.y + ray.to.y * t;
+    }
+
+    // The lens array, the panel
+    if (scene.lens == LensType::ideal) return trace_ideal(scene, pixels.extent, pixels.base, way);
+    if (scene.surround == Surround::opaque) return trace_opaque(scene, pixels.extent, pixels.base, way);
+    return trace_glass(scene, pixels.extent, pixels.base, way);
+}
+
+}  // namespace lfdsim::optics::inline LFDSIM_ISA
