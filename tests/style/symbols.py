@@ -1,0 +1,41 @@
+"""No kernel shares a function with the rest of the program.
+
+The kernel's source is compiled once per instruction set, and the linker keeps one copy of each weak symbol: were a function shared, an
+old machine could meet AVX-512 code in it. So each weak symbol of kernel ISA must sit in a namespace called ISA. Looked at are the
+objects of the build and, since optimisation inlines most such functions away, the same compiled without it.
+
+Usage: symbols.py BUILD_DIRECTORY
+"""
+
+import json
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+
+def foreign(kernel, isa):
+    """Weak symbols of an object outside the namespace. DW.ref.* is data of exception tables, the same on every instruction set."""
+    names = subprocess.run(["nm", "-C", kernel], capture_output=True, text=True, check=True).stdout
+    weak = re.findall(r"^[0-9a-f ]{16} [WVu] (.*)", names, re.MULTILINE)
+    return [name for name in weak if f"::{isa}::" not in name and not name.startswith("DW.ref.")]
+
+
+build = pathlib.Path(sys.argv[1])
+checked = bad = 0
+for command in json.loads((build / "compile_commands.json").read_text()):
+    found = re.search(r"-o (\S*kernel_(\w+)\.dir\S+)", command["command"])
+    if not found:
+        continue
+    built, isa = build / found[1], found[2]
+    with tempfile.NamedTemporaryFile(suffix=".o") as unoptimised:
+        subprocess.run(shlex.split(command["command"]) + ["-O0", "-o", unoptimised.name], cwd=command["directory"], check=True)
+        for kernel in built, unoptimised.name:
+            checked += 1
+            for name in foreign(kernel, isa):
+                bad += 1
+                print(f"{isa}: {name}" + (" (without optimisation)" if kernel == unoptimised.name else ""))
+print(f"{checked} objects, {bad} weak symbols outside their kernel's namespace")
+sys.exit(bad > 0 or checked == 0)
