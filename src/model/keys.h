@@ -67,6 +67,19 @@ extern const Table<Camera> camera_table;
 extern const Table<Content> content_table;
 extern const Table<Render> render_table;
 
+/// Calls visit(table, its values) for the tables of a display, in the order of a description. The diffuser's values are optional.
+/// display_table and surface_table are not among them: they are the frame of the whole and a part of [lens].
+template <class Visit>
+void visit_tables(auto& display, Visit&& visit) {
+    visit(panel_table, display.panel);
+    visit(lens_table, display.lens);
+    visit(array_table, display.array);
+    visit(diffuser_table, display.diffuser);
+    visit(camera_table, display.camera);
+    visit(content_table, display.content);
+    visit(render_table, display.render);
+}
+
 /// Words of an enumeration, in the order of its values.
 template <class E>
 std::span<const std::string_view> words();

@@ -1,7 +1,8 @@
 #include "model/validate.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <algorithm>
+#include <cmath>
 
 #include "model/keys.h"
 
@@ -10,15 +11,26 @@ namespace {
 
 class ValueChecks {
   public:
-    ValueChecks(const Display& display, std::vector<Problem>& problems) : type_(display.lens.type), problems_(problems) {}
+    ValueChecks(const Display& display, std::vector<Problem>& problems)
+        : type_(display.lens.type), known_(problems.size()), problems_(problems) {}
+
+    /// False when the key's value could not be read: it has been reported and means nothing.
+    bool was_read(std::string_view key) const {
+        return std::none_of(problems_.begin(), problems_.begin() + std::ptrdiff_t(known_),
+                            [&](const Problem& p) { return p.where == key; });
+    }
 
     template <class T>
     void table(const Table<T>& table, const T& values, const std::string& prefix) {
         for (const Key<T>& key : table.keys) {
             if (!knows(key.lens_types, type_)) continue;
             const std::string where = prefix + std::string(key.name);
-            std::visit([&](auto member) { check(where, key.range, values.*member); }, key.member);
+            if (was_read(where)) std::visit([&](auto member) { check(where, key.range, values.*member); }, key.member);
         }
+    }
+
+    bool sound(std::string_view part) const {
+        return std::none_of(problems_.begin(), problems_.end(), [&](const Problem& p) { return p.where.starts_with(part); });
     }
 
     void add(std::string where, std::string what) { problems_.push_back({std::move(where), std::move(what)}); }
@@ -52,10 +64,12 @@ class ValueChecks {
     }
 
     LensType type_;
+    std::size_t known_;
     std::vector<Problem>& problems_;
 };
 
 void check_lens(const Display& d, ValueChecks& checks) {
+    if (!checks.was_read("lens.type")) return;
     checks.table(lens_table, d.lens, "lens.");
     if (d.lens.type == LensType::surfaces) {
         const std::size_t n = d.lens.surfaces.size();
@@ -65,7 +79,8 @@ void check_lens(const Display& d, ValueChecks& checks) {
             checks.add("lens.surface", fmt::format("{} surfaces, allowed are {}", n, max_surfaces));
         else
             for (std::size_t i = 0; i < n; ++i) checks.table(surface_table, d.lens.surfaces[i], fmt::format("lens.surface.{}.", i));
-    } else if (d.array.aperture == Aperture::circle && !d.lens.aperture_radius_mm) {
+    } else if (d.array.aperture == Aperture::circle && !d.lens.aperture_radius_mm && checks.was_read("array.aperture") &&
+               checks.was_read("lens.aperture_radius_mm")) {
         checks.add("lens.aperture_radius_mm", "is missing; only a lens with array.aperture = \"square\" can do without");
     }
     if (d.array.surround == Surround::opaque) return;
@@ -78,8 +93,27 @@ void check_lens(const Display& d, ValueChecks& checks) {
                                surround, d.lens.surfaces.size()));
 }
 
+// Where the camera is and where it looks, as far as the display's solid does not matter.
+void check_view(const Camera& camera, ValueChecks& checks) {
+    const Vec3d &eye = camera.position_mm, &target = camera.target_mm, &up = camera.up;
+    const Vec3d view{target[0] - eye[0], target[1] - eye[1], target[2] - eye[2]};
+    const double distance = std::hypot(view[0], view[1], view[2]), up_length = std::hypot(up[0], up[1], up[2]);
+    const double cross =
+        std::hypot(view[1] * up[2] - view[2] * up[1], view[2] * up[0] - view[0] * up[2], view[0] * up[1] - view[1] * up[0]);
+    if (eye[2] <= 0)
+        checks.add("camera.position_mm", fmt::format("z = {} mm is {} the panel; the camera must be in front of it, at z > 0",
+                                                     eye[2], eye[2] < 0 ? "behind" : "on"));
+    if (distance < shortest_mm)
+        checks.add("camera.target_mm", "is where the camera is; it must look somewhere");
+    else if (up_length < shortest_mm)
+        checks.add("camera.up", fmt::format("is no direction, its length is {}; take [0, 1, 0]", up_length));
+    else if (cross <= 1e-6 * distance * up_length)
+        checks.add("camera.up", "lies along the line of sight from camera.position_mm to camera.target_mm; take another direction");
+}
+
 void check_camera(const Camera& camera, ValueChecks& checks) {
     checks.table(camera_table, camera, "camera.");
+    if (checks.sound("camera.")) check_view(camera, checks);
     checks.product("camera.resolution", camera.resolution);
     if (camera.frame_width_mm && camera.fov_deg)
         checks.add("camera.fov_deg", "both camera.fov_deg and camera.frame_width_mm given; leave one out");
@@ -98,7 +132,7 @@ void validate_values(const Display& d, std::vector<Problem>& problems) {
     checks.product("array.count", d.array.count);
     if (d.array.gap_mm && d.array.base_z_mm)
         checks.add("array.base_z_mm", "both array.gap_mm and array.base_z_mm given; leave one out");
-    if (!d.array.gap_mm && !d.array.base_z_mm)
+    if (!d.array.gap_mm && !d.array.base_z_mm && checks.was_read("array.gap_mm") && checks.was_read("array.base_z_mm"))
         checks.add("array.gap_mm", "is missing; give array.gap_mm, or array.base_z_mm, to say where the lenses stand");
     if (d.diffuser) checks.table(diffuser_table, *d.diffuser, "diffuser.");
     check_camera(d.camera, checks);

@@ -1,0 +1,51 @@
+#include "files/nearest.h"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace lfdsim {
+namespace {
+
+// Levenshtein's distance: insertions, deletions and replacements from a to b.
+std::size_t edits(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replace = diagonal + (a[i] != b[j]);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replace, row[j] + 1, diagonal + 1});
+        }
+    }
+    return row.back();
+}
+
+}  // namespace
+
+std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates) {
+    std::string_view best;
+    std::size_t least = word.size() / 2 + 2;
+    if (word.size() > 64) return best;  // no key is half as long
+    for (const std::string_view candidate : candidates) {
+        // a name without its unit is the usual slip: sphere_radius for sphere_radius_mm
+        const std::size_t changes = candidate.starts_with(word) && word.size() > 2 ? 1 : edits(word, candidate);
+        if (changes < least) least = changes, best = candidate;
+    }
+    return best;
+}
+
+std::string shortened(std::string_view word) {
+    constexpr std::size_t longest = 40;
+    std::size_t end = std::min(word.size(), longest);
+    while (end < word.size() && end > 0 && (static_cast<unsigned char>(word[end]) & 0xc0) == 0x80)
+        --end;  // no half UTF-8 character
+    std::string text(word.substr(0, end));
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    return end < word.size() ? text + "..." : text;
+}
+
+}  // namespace lfdsim

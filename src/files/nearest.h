@@ -1,0 +1,15 @@
+// Words that are wrong: how to show them, and the known word that was most likely meant. Floor 2.
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lfdsim {
+
+/// The candidate with the fewest letters to change; empty if that would be more than about half of the word.
+std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates);
+
+/// A word from a file as a message may quote it: control characters as ?, at most 40 bytes, and an ellipsis for the rest.
+std::string shortened(std::string_view word);
+
+}  // namespace lfdsim

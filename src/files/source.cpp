@@ -1,0 +1,150 @@
+#include "files/source.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <optional>
+
+#include "files/text_file.h"
+#include "model/keys.h"
+
+namespace lfdsim {
+namespace {
+
+std::vector<std::string_view> split(std::string_view path) {
+    std::vector<std::string_view> parts;
+    for (std::size_t start = 0;;) {
+        const std::size_t dot = path.find('.', start);
+        parts.push_back(path.substr(start, dot - start));
+        if (dot == path.npos) return parts;
+        start = dot + 1;
+    }
+}
+
+std::optional<std::size_t> element(std::string_view part, const toml::array& array) {
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
+    if (error != std::errc{} || end != part.data() + part.size() || index >= array.size()) return std::nullopt;
+    return index;
+}
+
+template <class Node>  // toml::node or const toml::node
+Node* child(Node& node, std::string_view part) {
+    if (auto* table = node.as_table()) return table->get(part);
+    if (auto* array = node.as_array())
+        if (const auto index = element(part, *array)) return array->get(*index);
+    return nullptr;
+}
+
+// The value of an override as a tree of its own, under the key "value".
+toml::table parse_value(std::string_view path, std::string_view value) {
+    toml::table holder;
+    if (takes_word(path) && !value.starts_with('"') && !value.starts_with('\'')) {
+        holder.insert("value", std::string(value));
+        return holder;
+    }
+    const std::string text = fmt::format("value = {}", value);
+    check_text(text, "");
+    holder = toml::parse(text);
+    if (holder.size() != 1 || value.find('\n') != value.npos) throw InputError("", "is more than one value");
+    return holder;
+}
+
+}  // namespace
+
+bool takes_word(std::string_view path) {
+    bool found = path == "name";
+    Display any;
+    visit_tables(any, [&]<class T>(const Table<T>& table, const auto&) {
+        for (const Key<T>& key : table.keys)
+            if (path.starts_with(table.name) && path.substr(table.name.size()) == fmt::format(".{}", key.name))
+                found =
+                    std::visit([]<class Value>(Value T::*) { return std::is_enum_v<Value> || std::is_same_v<Value, std::string>; },
+                               key.member);
+    });
+    return found;
+}
+
+Source::Source(std::string_view text, std::string_view name, const std::vector<std::string>& overrides) : name_(name) {
+    try {
+        root_ = toml::parse(text, name);
+    } catch (const toml::parse_error& error) {
+        throw InputError(at(error.source()).text, std::string(error.description()));
+    }
+    std::vector<Problem> problems;
+    for (const std::string& text_of_one : overrides) {
+        try {
+            apply(text_of_one);
+        } catch (const toml::parse_error& error) {
+            problems.push_back({"--set " + text_of_one, "the value is not TOML: " + std::string(error.description())});
+        } catch (const InputError& error) {
+            problems.push_back({"--set " + text_of_one, error.problems.front().what});
+        }
+    }
+    if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+void Source::apply(const std::string& override_text) {
+    const std::size_t equals = override_text.find('=');
+    const std::string_view path = std::string_view(override_text).substr(0, equals);
+    if (equals == std::string::npos || path.empty()) throw InputError("", "is no key=value, such as array.pitch_mm=8");
+    const std::string_view value = std::string_view(override_text).substr(equals + 1);
+    const std::vector<std::string_view> parts = split(path);
+    if (parts.size() > 4) throw InputError("", fmt::format("the key has {} parts, allowed are 4", parts.size()));
+
+    toml::node* node = &root_;
+    const bool removes = value == "none" && !takes_word(path);
+    for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+        toml::node* next = child(*node, parts[i]);
+        if (!next && removes) return;
+        if (!next && node->is_table()) next = &node->as_table()->insert(parts[i], toml::table{}).first->second;
+        if (!next) throw InputError("", fmt::format("there is no element {} to change", parts[i]));
+        if (!next->is_table() && !next->is_array()) throw InputError("", fmt::format("{} is a value, and has no parts", parts[i]));
+        node = next;
+    }
+    if (removes) {
+        if (toml::table* table = node->as_table())
+            table->erase(parts.back());
+        else
+            throw InputError("", "an element of a list cannot be taken away");
+        return;
+    }
+    toml::table holder = parse_value(path, value);
+    holder.get("value")->visit([&](auto& given) {
+        if (toml::table* table = node->as_table())
+            table->insert_or_assign(parts.back(), std::move(given));
+        else if (const auto index = element(parts.back(), *node->as_array()))
+            node->as_array()->replace(node->as_array()->cbegin() + std::ptrdiff_t(*index), std::move(given));
+        else
+            throw InputError("", fmt::format("there is no element {} to change", parts.back()));
+    });
+    set_[std::string(path)] = override_text;
+}
+
+Place Source::at(const toml::source_region& region) const {
+    return {fmt::format("{}:{}:{}", name_, region.begin.line, region.begin.column), region.begin.line, region.begin.column};
+}
+
+Place Source::place(std::string_view path) const {
+    const toml::node* node = &root_;
+    std::string inside;
+    for (const std::string_view part : split(path)) {
+        const toml::node* next = child(*node, part);
+        if (!next) break;
+        inside += inside.empty() ? "" : ".";
+        inside += part;
+        if (const auto set = set_.find(inside); set != set_.end()) return {"--set " + set->second};
+        node = next;
+    }
+    if (node->source().begin.line) return at(node->source());
+    // a table that stands in no file was made by an override of something in it
+    for (const auto& [key, text] : set_)
+        if (key.starts_with(inside + ".")) return {"--set " + text};
+    return {name_};
+}
+
+Place Source::place(const toml::key& key, std::string_view path) const {
+    return key.source().begin.line && !is_set(path) ? at(key.source()) : place(path);
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,95 @@
+#include "files/text_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "model/error.h"
+
+namespace lfdsim {
+namespace {
+
+constexpr std::size_t largest_bytes = std::size_t(1) << 20;
+constexpr int deepest = 16;  // the format needs 3
+
+[[noreturn]] void refuse_size(std::string_view name, std::uintmax_t bytes) {
+    throw InputError(std::string(name),
+                     fmt::format("has {} bytes, allowed are {}; is this a display description?", bytes, largest_bytes));
+}
+
+// Where a string that starts at `i` ends: behind its closing quotes, or at the end of the line or text that it fails to close in.
+std::size_t skip_string(std::string_view text, std::size_t i) {
+    const char quote = text[i];
+    const std::string_view fence = text.substr(i, 3);
+    const bool multi_line = fence.size() == 3 && fence[1] == quote && fence[2] == quote;
+    const std::string_view end = multi_line ? fence : fence.substr(0, 1);
+    for (i += end.size(); i < text.size(); ++i) {
+        if (text[i] == '\\' && quote == '"')
+            ++i;
+        else if (text[i] == '\n' && !multi_line)
+            return i;
+        else if (text.substr(i, end.size()) == end)
+            return i + end.size();
+    }
+    return text.size();
+}
+
+}  // namespace
+
+std::string read_text(const std::filesystem::path& path) {
+    const std::string name = path.string();
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) throw InputError(name, "there is no such file");
+    if (std::filesystem::is_directory(status)) throw InputError(name, "is a folder; give the description file in it");
+    if (!std::filesystem::is_regular_file(status)) throw InputError(name, "is not a regular file");
+    const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+    if (!error && bytes > largest_bytes) refuse_size(name, bytes);
+    std::ifstream file(path, std::ios::binary);
+    if (!file) throw InputError(name, "cannot be opened for reading; check its permissions");
+    std::string text(largest_bytes + 1, '\0');  // a file that grows meanwhile is no reason to read on
+    file.read(text.data(), std::streamsize(text.size()));
+    text.resize(std::size_t(file.gcount()));
+    if (file.bad()) throw InputError(name, "cannot be read to its end");
+    return text;
+}
+
+void check_text(std::string_view text, std::string_view name) {
+    if (text.size() > largest_bytes) refuse_size(name, text.size());
+    if (text.find('\0') != text.npos) throw InputError(std::string(name), "is a binary file, not a display description in TOML");
+    if (text.find_first_not_of(" \t\r\n") == text.npos)
+        throw InputError(std::string(name), "is empty; a display description starts with schema = 1");
+    // The parser recurses into brackets, and into the tables of a dotted key when it frees them. A scan that knows only strings,
+    // comments, brackets and dots finds how deep; it holds up to the text's first fault, where the parser stops.
+    int brackets = 0, dots = 0, line = 1;
+    for (std::size_t i = 0, line_start = 0; i < text.size();) {
+        const char c = text[i];
+        if (c == '"' || c == '\'') {
+            const std::size_t end = skip_string(text, i);
+            for (; i < end; ++i)
+                if (text[i] == '\n') ++line, line_start = i + 1;
+            continue;
+        }
+        if (c == '#') {
+            i = std::min(text.find('\n', i), text.size());
+            continue;
+        }
+        if (c == '[' || c == '{')
+            ++brackets;
+        else if (c == ']' || c == '}')
+            brackets = std::max(brackets - 1, 0);
+        if (c == '.')
+            ++dots;
+        else if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos)
+            dots = 0;
+        if (brackets + dots > deepest)
+            throw InputError(
+                fmt::format("{}:{}:{}", name, line, i - line_start + 1),
+                fmt::format("is nested {} levels deep, allowed are {}; a display description needs 3", brackets + dots, deepest));
+        if (c == '\n') ++line, line_start = i + 1;
+        ++i;
+    }
+}
+
+}  // namespace lfdsim

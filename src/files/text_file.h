@@ -1,0 +1,16 @@
+// The text of a description before it is parsed. Floor 2.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace lfdsim {
+
+/// The whole text of a regular file of at most 1 MiB. Throws InputError with the file's name otherwise.
+std::string read_text(const std::filesystem::path&);
+
+/// Refuses what a parser should not see: no text at all, NUL bytes, more than 1 MiB, tables and arrays nested deeper than 16.
+/// Throws InputError with `name`, line and column.
+void check_text(std::string_view text, std::string_view name);
+
+}  // namespace lfdsim

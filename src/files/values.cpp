@@ -1,0 +1,89 @@
+#include "files/values.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "files/nearest.h"
+
+namespace lfdsim {
+namespace {
+
+std::string wrong_type(const toml::node& node, std::string_view wanted) {
+    return fmt::format("is {}, wanted is {}", kind_of(node), wanted);
+}
+
+}  // namespace
+
+std::string_view kind_of(const toml::node& node) {
+    switch (node.type()) {
+        case toml::node_type::table:
+            return "a table";
+        case toml::node_type::array:
+            return node.is_array_of_tables() ? "a list of tables" : "a list";
+        case toml::node_type::string:
+            return "a string";
+        case toml::node_type::integer:
+            return "an integer";
+        case toml::node_type::floating_point:
+            return "a number with a fraction";
+        case toml::node_type::boolean:
+            return "true or false";
+        default:
+            return "a date or time";
+    }
+}
+
+std::string read_value(const toml::node& node, double& value) {
+    if (!node.is_number()) return wrong_type(node, "a number");
+    value = *node.value<double>();
+    return {};
+}
+
+std::string read_value(const toml::node& node, std::int64_t& value) {
+    if (!node.is_integer()) return wrong_type(node, "an integer");
+    value = node.as_integer()->get();
+    return {};
+}
+
+std::string read_value(const toml::node& node, std::string& value) {
+    if (!node.is_string()) return wrong_type(node, "a string");
+    value = node.as_string()->get();
+    return {};
+}
+
+std::string read_value(const toml::node& node, std::vector<double>& values) {
+    const toml::array* array = node.as_array();
+    if (!array) return wrong_type(node, "a list of numbers");
+    values.assign(array->size(), 0);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (std::string fault = read_value((*array)[i], values[i]); !fault.empty()) return fmt::format("element {} {}", i, fault);
+    return {};
+}
+
+std::string read_word(const toml::node& node, std::span<const std::string_view> words, std::size_t& index) {
+    if (!node.is_string()) return wrong_type(node, fmt::format("one of \"{}\"", fmt::join(words, "\", \"")));
+    const std::string& given = node.as_string()->get();
+    for (index = 0; index < words.size(); ++index)
+        if (words[index] == given) return {};
+    const std::string_view meant = nearest(given, words);
+    return fmt::format("is \"{}\", allowed are \"{}\"{}", shortened(given), fmt::join(words, "\", \""),
+                       meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant));
+}
+
+std::string toml_text(double value) { return fmt::format("{}", value); }
+std::string toml_text(std::int64_t value) { return fmt::format("{}", value); }
+
+std::string toml_text(const std::string& value) {
+    std::string text = "\"";
+    for (const char c : value) {
+        if (c == '"' || c == '\\')
+            text += '\\', text += c;
+        else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+            text += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+        else
+            text += c;
+    }
+    return text + '"';
+}
+
+}  // namespace lfdsim
