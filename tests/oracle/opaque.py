@@ -1,0 +1,86 @@
+"""Lenses in a black sheet, and the ideal lens: light passes each surface of one lens once, in order, or is absorbed."""
+import numpy as np
+
+from path import ALIVE, BLACK, ESCAPED, TOTAL
+from surface import EPS, refract, transmittance
+
+
+def trace_ideal(path, display, lattice):
+    """A thin lens: the panel-side slope is the viewer-side one plus q / f, q the point of passage from the axis."""
+    rays = path.alive()
+    path.status[rays[path.d[rays, 2] >= 0]] = ESCAPED
+    rays = path.alive()
+    path.advance(rays, (display.lens_z - path.o[rays, 2]) / path.d[rays, 2], display, lattice)
+    rays = path.alive()
+    p, d = path.o[rays], path.d[rays]
+    i, j, on = lattice.cell(p)
+    q = (p - lattice.axis(i, j))[:, :2]
+    inside = on & (display.square | (np.hypot(*q.T) <= getattr(display.lens, "aperture_radius_mm", np.inf)))
+    path.status[rays[~inside]] = BLACK
+    slope = d[:, :2] / d[:, 2:] + q / display.lens.focal_length_mm
+    d = -np.column_stack([slope, np.ones(len(slope))])  # downwards: dz = -1
+    path.d[rays] = d / np.linalg.norm(d, axis=1, keepdims=True)
+    path.to_panel(path.alive(), display, lattice)
+
+
+def trace_opaque(path, display, lattice):
+    surfaces, top = display.surfaces, display.surfaces[-1]
+    # The black sheet fills the heights from the lowest to the highest rim.
+    floor, ceiling = min(s.z_rim for s in surfaces), max(s.z_rim for s in surfaces)
+
+    def enter(o, d, i, j):
+        """Entries through the top surface. One below the sheet's upper face counts if the ray came in through the same lens's hole."""
+        best, normal = np.full(len(o), np.inf), np.zeros((len(o), 3))
+        at_face = o + ((ceiling - o[:, 2]) / d[:, 2])[:, None] * d
+        through = lattice.in_aperture(at_face, top.semi)
+        for t in top.roots(o, d):
+            p = o + np.where(np.isfinite(t), t, 0)[:, None] * d
+            n = top.normal(p)
+            ok = (t > -EPS) & (t < best) & (np.sum(d * n, axis=1) < 0) & lattice.in_aperture(p, top.semi) & (through | (p[:, 2] >= ceiling - EPS))
+            best[ok], normal[ok] = t[ok], n[ok]
+        return best, normal
+
+    rays = path.alive()
+    path.status[rays[path.d[rays, 2] >= 0]] = ESCAPED
+    rays = path.alive()
+    o, d = path.o[rays], path.d[rays]
+    reach = lattice.pitch / 2 if lattice.square else top.semi
+    t0, t1 = (max(top.z_max, ceiling) - o[:, 2]) / d[:, 2], (top.z_min - EPS - o[:, 2]) / d[:, 2]
+    t, normal, i, j = lattice.first_hit(o, d, t0, t1, reach, enter)
+    axis = lattice.axis(i, j)  # of the lens each ray went into
+    hit = np.isfinite(t)
+    path.status[rays[~hit]] = BLACK
+    rays, t, normal, axis = rays[hit], t[hit], normal[hit], axis[hit]
+    for number in reversed(range(len(surfaces))):
+        here = surfaces[number]
+        path.advance(rays, t, display, lattice)
+        n1, n2 = np.full(len(rays), here.n_above), np.full(len(rays), here.n_below)
+        bent, _, cos1, cos2, total = refract(path.d[rays], normal, n1, n2)
+        path.weight[rays] *= transmittance(cos1, cos2, n1, n2, display.render.fresnel)
+        path.d[rays] = bent
+        path.status[rays[total & (path.status[rays] == ALIVE)]] = TOTAL
+        keep = path.status[rays] == ALIVE
+        rays, axis = rays[keep], axis[keep]
+        if number:
+            t, normal = _next(surfaces[number - 1], path.o[rays] - axis, path.d[rays], lattice)
+            missed = ~np.isfinite(t)
+            path.status[rays[missed]] = BLACK
+            rays, t, normal, axis = rays[~missed], t[~missed], normal[~missed], axis[~missed]
+    # A surface hollow towards the panel lies inside the sheet: the way out is through the hole in its lower face.
+    o, d = path.o[rays] - axis, path.d[rays]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        at_face = o + ((floor - o[:, 2]) / d[:, 2])[:, None] * d
+    blocked = (o[:, 2] > floor + EPS) & (d[:, 2] < 0) & ~lattice.in_aperture(at_face, surfaces[0].semi)
+    path.status[rays[blocked]] = BLACK
+    path.to_panel(path.alive(), display, lattice)
+
+
+def _next(surface, o, d, lattice):
+    """The first downward passage through the next surface of the same lens."""
+    best, normal = np.full(len(o), np.inf), np.zeros((len(o), 3))
+    for t in surface.roots(o, d):
+        p = o + np.where(np.isfinite(t), t, 0)[:, None] * d
+        n = surface.normal(p)
+        ok = (t > -EPS) & (t < best) & (np.sum(d * n, axis=1) < 0) & lattice.in_aperture(p, surface.semi)
+        best[ok], normal[ok] = t[ok], n[ok]
+    return best, normal

@@ -1,0 +1,43 @@
+"""The state of a batch of rays on their way from the camera to the panel, and the stop that any of their steps may cross."""
+import numpy as np
+
+ALIVE, PANEL, OFF_PANEL, BLACK, TOTAL, ESCAPED, TOO_MANY, LOST = range(8)
+# ALIVE: under way. PANEL: reached a panel pixel. OFF_PANEL: passed the panel's plane outside it. BLACK: absorbed. TOTAL: total internal
+# reflection, absorbed. ESCAPED: turned away from the panel. TOO_MANY: met more than 16 surfaces. LOST: a fault of this program.
+
+
+class Path:
+    """Rays in the array's frame: points o, unit directions d, Fresnel weight, status, surfaces met."""
+
+    def __init__(self, o, d):
+        n = len(o)
+        self.o, self.d, self.weight = o.copy(), d.copy(), np.ones(n)
+        self.status, self.met = np.full(n, ALIVE), np.zeros(n, np.int64)
+        self.stop_seen = np.zeros(n, bool)
+
+    def alive(self):
+        return np.flatnonzero(self.status == ALIVE)
+
+    def advance(self, rays, t, display, lattice):
+        """Moves rays (indices) by t along their directions; those whose first passage of the stop's plane misses its holes end."""
+        p = self.o[rays] + t[:, None] * self.d[rays]
+        if display.stop_radius:
+            z = display.stop_z
+            crosses = ~self.stop_seen[rays] & (self.o[rays, 2] > z) & (p[:, 2] <= z)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                at = self.o[rays] + ((z - self.o[rays, 2]) / self.d[rays, 2])[:, None] * self.d[rays]
+            at[~crosses] = 0
+            i, j, on = lattice.cell(at)
+            hole = on & (np.hypot(*(at - lattice.axis(i, j))[:, :2].T) <= display.stop_radius)
+            self.stop_seen[rays] |= crosses
+            self.status[rays[crosses & ~hole]] = BLACK
+        self.o[rays] = p
+
+    def to_panel(self, rays, display, lattice):
+        """Rays that meet no more lens go to z = 0, or away from it."""
+        down = self.d[rays, 2] < 0
+        self.status[rays[~down]] = ESCAPED
+        rays = rays[down]
+        self.advance(rays, -self.o[rays, 2] / self.d[rays, 2], display, lattice)
+        rays = rays[self.status[rays] == ALIVE]
+        self.status[rays] = OFF_PANEL  # until the panel is asked

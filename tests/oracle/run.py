@@ -1,0 +1,203 @@
+#!/usr/bin/python3
+"""Renders displays with lfdsim and with this folder's double-precision tracer, and compares: run.py LFDSIM_PROGRAM [--quick] [--only TEXT] [--out FOLDER].
+
+Single rays: away from edges every pixel agrees within 1/255 + 1e-6, and the panel pixel that each ray met (read from the address image)
+is the same for 99.9 % of all rays, 99.4 % through glass in air off axis. Means over samples: see blurred(). The last line counts passed and failed
+comparisons; the exit code is 1 if any failed, and the pictures of those are kept in FOLDER (default: a new temporary folder).
+"""
+import argparse
+import functools
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import tomllib
+
+import numpy as np
+from PIL import Image
+
+import cases
+import tracer
+from display import resolve, theory
+
+GOLDEN = pathlib.Path(__file__).resolve().parent.parent / "golden"
+TOLERANCE = 1 / 255 + 1e-6
+FALSE_ALARM = 1e-7  # probability that chance alone fails one blurred comparison; about ten are made
+
+
+@functools.lru_cache(maxsize=1)
+def panel_images(columns, rows):
+    """checker, address (see golden/README.md) and waves (smooth, so that means over many pixels tell widths) as uint8 (rows, columns, 3)."""
+    r, c = np.mgrid[:rows, :columns]
+    checker = np.repeat((255 * ((r // 11 + c // 11) % 2 == 0))[:, :, None], 3, axis=2)
+    address = np.stack([c // 16, r // 16, c % 16 * 16 + r % 16], axis=2)
+    waves = np.stack([127.5 + 127.5 * np.cos(c / 9.0), 127.5 + 127.5 * np.cos(r / 9.0), 255 * ((r // 11 + c // 11) % 2)], axis=2)
+    return {"checker": checker.astype(np.uint8), "address": address.astype(np.uint8), "waves": waves.astype(np.uint8)}
+
+
+class Harness:
+    def __init__(self, program, folder, only):
+        self.program, self.folder, self.only = program, folder, only
+        self.passed = self.failed = 0
+
+    def wanted(self, name):
+        return self.only in name
+
+    def lfdsim(self, *arguments):
+        done = subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, timeout=600)
+        if done.returncode:
+            raise RuntimeError(f"lfdsim {arguments[0]} ended with {done.returncode}: {done.stderr.strip()[-600:]}")
+        return done.stdout
+
+    def render(self, text, image, *options):
+        """lfdsim's picture (rows, columns, 3) of a description (TOML text) with a panel image (uint8)."""
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            (folder / "display.toml").write_text(text)
+            Image.fromarray(image).save(folder / "panel.png", compress_level=1)
+            self.lfdsim("render", folder / "display.toml", "--panel-image", folder / "panel.png", *options, "-o", folder / "out.npy")
+            return np.load(folder / "out.npy").astype(float)
+
+    def check(self, name, compare):
+        """Runs one comparison: compare() returns (good, what was found, pictures by name)."""
+        try:
+            good, found, pictures = compare()
+        except (RuntimeError, OSError, subprocess.TimeoutExpired, KeyError) as error:
+            good, found, pictures = False, str(error), {}
+        print(("pass  " if good else "FAIL  ") + name + ": " + found, flush=True)
+        self.passed, self.failed = self.passed + good, self.failed + (not good)
+        if not good and pictures:
+            folder = self.folder / "".join(c if c.isalnum() else "_" for c in name)
+            folder.mkdir(parents=True, exist_ok=True)
+            for label, picture in {**pictures, "difference": abs(pictures["got"] - pictures["wanted"])}.items():
+                np.save(folder / f"{label}.npy", picture)
+                Image.fromarray((255 * np.clip(picture, 0, 1)).astype(np.uint8)).save(folder / f"{label}.png")
+
+
+def single_rays(harness, description, pattern, share):
+    """One ray per pixel. share: of the rays that must meet the same panel pixel (pattern "address"), None for other patterns."""
+    display = resolve(description)
+    image = panel_images(*display.panel.pixels)[pattern]
+    linear = tracer.decode(image, display.panel.encoding)
+    x, y = tracer.centers(display)
+    hits = tracer.trace(display, *tracer.camera_rays(display, x, y))
+    wanted = tracer.shade(display, hits, linear)
+    shape = (*display.camera.resolution[::-1], 3)
+    got = harness.render(cases.to_toml(description), image, "--samples", 1).reshape(-1, 3)
+    error = np.abs(got - wanted).max(axis=1)
+    differs = error > TOLERANCE
+    note = f"largest error elsewhere {error[~differs].max():.1e}"
+    good = True
+    if share:
+        differs |= (np.rint(got * 255) != np.rint(wanted * 255)).any(axis=1)
+        good = 1 - differs.mean() >= share
+        note = f"same panel pixel {100 * (1 - differs.mean()):.3f} %"
+    odd = np.flatnonzero(differs)
+    for spokes, rings in ((8, 2), (48, 5)):  # look closer only where few directions found no edge
+        odd = odd[~tracer.near_edge(display, linear, x[odd], y[odd], spokes=spokes, rings=rings)] if len(odd) else odd
+    if len(odd):
+        k = odd[np.argmax(error[odd])]
+        note += f"; {len(odd)} differ off the edges, first at column {x[k] - 0.5:.0f} row {y[k] - 0.5:.0f}: got {got[k]}, wanted {wanted[k]}, status {hits.status[k]}"
+    lit = f"{100 * (hits.column >= 0).mean():.0f} % lit, {differs.sum()} of {len(x)} pixels differ, at edges; "
+    return good and not len(odd), lit + note, {"got": got.reshape(shape), "wanted": wanted.reshape(shape)}
+
+
+def address_of(description):
+    """The same rays with nothing that scales their colour, so that the address image can be read back."""
+    return cases.merge(description, {"panel": {"encoding": "linear", "emission_exponent": 0.0}, "render": {"fresnel": "none"}})
+
+
+def golden(harness, name):
+    """Against the stored exact picture."""
+    text = (GOLDEN / f"{name}.toml").read_text()
+    stored, address = np.load(GOLDEN / f"{name}.npz"), name in ("clear_15_degrees", "opaque_oblique")
+    image = panel_images(3840, 2160)["address" if address else "checker"]
+    got, wanted = harness.render(text, image, "--samples", 1), stored["rgb"].astype(float)
+    wrong = (np.abs(got - wanted).max(axis=2) > TOLERANCE) & ~stored["edge"]
+    found, good = f"{wrong.sum()} pixels differ off the edges", not wrong.any()
+    if address:
+        same = (np.rint(got * 255) == np.rint(wanted * 255)).all(axis=2).mean()
+        good &= same >= (0.994 if name.startswith("clear") else 0.999)
+        found += f"; same panel pixel {100 * same:.3f} %"
+    return good, found, {"got": got, "wanted": wanted}
+
+
+def own_golden(name):
+    """This folder's tracer against the stored exact picture."""
+    display = resolve(tomllib.loads((GOLDEN / f"{name}.toml").read_text()))
+    hits = tracer.trace(display, *tracer.camera_rays(display, *tracer.centers(display)))
+    stored = np.load(GOLDEN / f"{name}.npz")
+    wrong = (np.stack([hits.column, hits.row], axis=1) != stored["panel_pixel"].reshape(-1, 2)).any(axis=1) & ~stored["edge"].ravel()
+    return not wrong.any(), f"{wrong.sum()} panel pixels differ off the edges", {}
+
+
+def blurred(harness, description, count, sampling):
+    """Means of `count` samples per pixel against `count` random ones of ours, per pixel and over the picture.
+
+    For n independent values in [0, b] with variance v, Bernstein: |mean - expectation| <= sqrt(2 v L / n) + 2 b L / (3 n), L = ln(2 / delta), but for a chance of delta.
+    With both means of n values this gives the bound below; v is our sample variance plus its own uncertainty, b = 1. delta is
+    FALSE_ALARM over the number of figures compared. Scrambled Sobol points have at most e times the variance of random ones.
+    """
+    display = resolve(description)
+    image = panel_images(*display.panel.pixels)["waves"]
+    wanted, variance = tracer.sampled(display, tracer.decode(image, display.panel.encoding), count, seed=1)
+    options = ("--samples", count, "--sampling", sampling, "--seed", 7)
+    got = harness.render(cases.to_toml(description), image, *options)
+    shape, got = got.shape, got.reshape(-1, 3)
+    log = np.log(2 * (wanted.size + 3) / FALSE_ALARM)
+    spread = 1.0 + (np.e if sampling == "sobol" else 1.0)
+
+    def bound(v, n):
+        return np.sqrt(2 * spread * (v + np.sqrt(2 * v * log / n)) * log / n) + 4 * log / (3 * n)
+
+    pixel = np.abs(got - wanted) / bound(variance, count)
+    whole = np.abs(got.mean(axis=0) - wanted.mean(axis=0)) / bound(variance.mean(axis=0), count * len(wanted))
+    found = f"largest difference {pixel.max():.2f} of the bound in a pixel, {whole.max():.2f} in the picture's mean ({', '.join(f'{v:.4f}' for v in got.mean(axis=0))})"
+    return bool(pixel.max() <= 1 and whole.max() <= 1), found, {"got": got.reshape(shape), "wanted": wanted.reshape(shape)}
+
+
+def paraxial(harness, description):
+    """The figures of `lfdsim check --json` against our own, to 1e-6."""
+    wanted = theory(resolve(description))
+    with tempfile.TemporaryDirectory() as name:
+        path = pathlib.Path(name) / "display.toml"
+        path.write_text(cases.to_toml(description))
+        got = json.loads(harness.lfdsim("check", path, "--json"))["theory"]
+    wrong = {k: (got[k], v) for k, v in wanted.items() if not abs(got[k] - v) <= 1e-6 * abs(v)}
+    return not wrong, f"got and wanted differ: {wrong}" if wrong else ", ".join(f"{k} {v:.4f}" for k, v in wanted.items()), {}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("program")
+    parser.add_argument("--quick", action="store_true", help="fewer pixels, samples and golden pictures")
+    parser.add_argument("--only", default="", help="comparisons whose name holds this text")
+    parser.add_argument("--out", type=pathlib.Path, help="folder for pictures of failed comparisons")
+    options = parser.parse_args()
+    folder = options.out or pathlib.Path(tempfile.mkdtemp(prefix="lfdsim-oracle-"))
+    harness = Harness(options.program, folder, options.only)
+    todo = []
+    for name in ("clear_on_axis", "clear_15_degrees", "opaque_oblique", "opaque_oblique_exact_fresnel"):
+        todo.append((f"golden {name}, this tracer", lambda name=name: own_golden(name)))
+        todo.append((f"golden {name}", lambda name=name: golden(harness, name)))
+    for name, description in cases.SHARP.items():
+        off_axis = "clear" in name and "on axis" not in name
+        todo.append((f"{name}, address", lambda d=description, o=off_axis: single_rays(harness, address_of(d), "address", 0.994 if o else 0.999)))
+        if not options.quick or description["render"]["fresnel"] != "none" or description["panel"]["emission_exponent"]:
+            todo.append((f"{name}, checker", lambda d=description: single_rays(harness, d, "checker", None)))
+        todo.append((f"{name}, theory", lambda d=description: paraxial(harness, d)))
+    for name, description in cases.BLURRED.items():
+        for sampling in ("sobol",) if options.quick else ("random", "sobol"):
+            todo.append((f"{name}, {sampling}", lambda d=description, s=sampling: blurred(harness, d, 256 if options.quick else 2048, s)))
+    for name, compare in todo:
+        if harness.wanted(name):
+            harness.check(name, compare)
+    if harness.failed:
+        print(f"pictures of what failed: {folder}")
+    print(f"{harness.passed} passed, {harness.failed} failed")
+    return 1 if harness.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

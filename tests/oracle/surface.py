@@ -1,0 +1,132 @@
+"""One refracting surface of revolution, and what happens to light there. Double precision, arrays of rays.
+
+Points and directions are (n, 3) arrays in the lens's own frame: x and y from the lens axis, z from the panel.
+"""
+import numpy as np
+
+EPS = 1e-9  # mm: joins of surfaces overlap by this much, so that no ray slips through between them
+SCAN = 33   # points at which an asphere is sampled to bracket its roots
+
+
+class Surface:
+    """z = z_vertex + sag(s), s <= semi; n_below on the panel's side, n_above on the viewer's."""
+
+    def __init__(self, z, curvature, conic, even, semi, n_below, n_above):
+        self.z, self.c, self.k, self.even, self.semi = z, curvature, conic, list(even), semi
+        self.n_below, self.n_above = n_below, n_above
+        s = np.linspace(0.0, semi, 2001)
+        heights = self.height(s * s)
+        self.z_min, self.z_max, self.z_rim = heights.min(), heights.max(), heights[-1]
+
+    def height(self, s2):
+        """z of the surface at squared distance s2 from the axis."""
+        root = np.sqrt(np.maximum(1 - (1 + self.k) * self.c**2 * s2, 0))
+        return self.z + self.c * s2 / (1 + root) + sum(a * s2 ** (m + 2) for m, a in enumerate(self.even))
+
+    def normal(self, p):
+        """Unit normal with positive z: the gradient of z - height(x^2 + y^2)."""
+        s2 = p[:, 0] ** 2 + p[:, 1] ** 2
+        root = np.sqrt(np.maximum(1 - (1 + self.k) * self.c**2 * s2, 1e-30))
+        slope = self.c / root + sum(2 * (m + 2) * a * s2 ** (m + 1) for m, a in enumerate(self.even))  # (d sag / d s) / s
+        n = np.stack([-slope * p[:, 0], -slope * p[:, 1], np.ones(len(p))], axis=1)
+        return n / np.linalg.norm(n, axis=1, keepdims=True)
+
+    def roots(self, o, d):
+        """All t at which the lines o + t d meet the surface inside its semi-aperture (a list of (n,) arrays, inf: none)."""
+        return self._asphere_roots(o, d) if any(self.even) else self._conic_roots(o, d)
+
+    def _conic_roots(self, o, d):
+        # c (x^2 + y^2 + (1 + k) z^2) - 2 z = 0 with z from the vertex.
+        w = np.array([1.0, 1.0, 1.0 + self.k])
+        o = o - [0, 0, self.z]
+        a = self.c * (d * d) @ w
+        b = self.c * (o * d) @ w - d[:, 2]
+        c = self.c * (o * o) @ w - 2 * o[:, 2]
+        disc = b * b - a * c
+        q = -(b + np.copysign(np.sqrt(np.maximum(disc, 0)), b))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            found = [q / a, c / q]
+        return [self._kept(t, o, d, disc >= 0) for t in found]
+
+    def _kept(self, t, o, d, ok):
+        t = np.where(ok & np.isfinite(t), t, np.inf)
+        p = o + np.where(np.isfinite(t), t, 0)[:, None] * d
+        near_vertex = 1 - (1 + self.k) * self.c * p[:, 2] >= 0  # the sheet that the sag formula describes
+        return np.where(near_vertex & (p[:, 0] ** 2 + p[:, 1] ** 2 <= (self.semi + EPS) ** 2), t, np.inf)
+
+    def _asphere_roots(self, o, d):
+        # Sample height over the stretch of the line inside the surface's bounding cylinder, bracket, bisect, polish.
+        lo, hi = box_interval(o, d, self.semi + EPS, self.z_min - EPS, self.z_max + EPS)
+        some = np.flatnonzero(lo < hi)
+        found = [np.full(len(o), np.inf) for _ in range(4)]
+        if not len(some):
+            return found
+        o, d, lo, hi = o[some], d[some], lo[some], hi[some]
+
+        def above(t):  # (rays, k) -> signed height over the surface
+            p = o[:, None, :] + t[:, :, None] * d[:, None, :]
+            return p[:, :, 2] - self.height(p[:, :, 0] ** 2 + p[:, :, 1] ** 2)
+
+        t = lo[:, None] + (hi - lo)[:, None] * np.linspace(0, 1, SCAN)
+        f = above(t)
+        # A ray that grazes the surface changes sign twice within one step: add the parabola's extremum about each sample.
+        bend = f[:, :-2] - 2 * f[:, 1:-1] + f[:, 2:]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            shift = np.clip(np.nan_to_num(0.5 * (f[:, :-2] - f[:, 2:]) / bend), -1, 1)
+        extra = t[:, 1:-1] + shift * ((hi - lo) / (SCAN - 1))[:, None]
+        t = np.sort(np.concatenate([t, extra], axis=1), axis=1)
+        f = above(t)
+        change = (f[:, :-1] > 0) != (f[:, 1:] > 0)
+        for slot in found:
+            has = change.any(axis=1)
+            if not has.any():
+                break
+            k = change.argmax(axis=1)
+            rows = np.arange(len(k))
+            a, b, fa = t[rows, k], t[rows, k + 1], f[rows, k]
+            for _ in range(52):
+                m = 0.5 * (a + b)
+                same = (above(m[:, None])[:, 0] > 0) == (fa > 0)
+                a, b = np.where(same, m, a), np.where(same, b, m)
+            slot[some[has]] = (0.5 * (a + b))[has]
+            change[rows, k] = False
+        return found
+
+
+def box_interval(o, d, radius, z_min, z_max):
+    """Where the lines are inside the square |x|, |y| <= radius and z_min <= z <= z_max: (t_in, t_out), in > out if never."""
+    lo, hi = np.full(len(o), -np.inf), np.full(len(o), np.inf)
+    for axis, (low, high) in enumerate([(-radius, radius), (-radius, radius), (z_min, z_max)]):
+        with np.errstate(divide="ignore", invalid="ignore"):
+            t = np.sort(np.stack([(low - o[:, axis]) / d[:, axis], (high - o[:, axis]) / d[:, axis]]), axis=0)
+        flat = d[:, axis] == 0
+        inside = (o[:, axis] >= low) & (o[:, axis] <= high)
+        lo = np.maximum(lo, np.where(flat, np.where(inside, -np.inf, np.inf), t[0]))
+        hi = np.minimum(hi, np.where(flat, np.where(inside, np.inf, -np.inf), t[1]))
+    return lo, hi
+
+
+def refract(d, n, n1, n2):
+    """Snell: unit directions d meet a surface with unit normal n (either sign), from index n1 to n2.
+
+    Returns (refracted, reflected, cos1, cos2, total): total marks total internal reflection (refracted is then useless).
+    """
+    n = np.where((np.sum(d * n, axis=1) > 0)[:, None], -n, n)
+    cos1 = -np.sum(d * n, axis=1)
+    eta = n1 / n2
+    radicand = 1 - eta**2 * (1 - cos1**2)
+    cos2 = np.sqrt(np.maximum(radicand, 0))
+    refracted = eta[:, None] * d + (eta * cos1 - cos2)[:, None] * n
+    return refracted, d + 2 * cos1[:, None] * n, cos1, cos2, radicand < 0
+
+
+def transmittance(cos1, cos2, n1, n2, kind):
+    """Share 1 - F of unpolarised light that passes; kind: exact | schlick | none."""
+    if kind == "none":
+        return np.ones_like(cos1)
+    if kind == "schlick":
+        r0 = ((n1 - n2) / (n1 + n2)) ** 2
+        return 1 - (r0 + (1 - r0) * (1 - np.where(n1 < n2, cos1, cos2)) ** 5)  # the angle in the less dense medium
+    across = (n1 * cos1 - n2 * cos2) / (n1 * cos1 + n2 * cos2)
+    along = (n2 * cos1 - n1 * cos2) / (n2 * cos1 + n1 * cos2)
+    return 1 - 0.5 * (across**2 + along**2)
