@@ -1,4 +1,4 @@
-# The program, its model reader, the libraries for other projects (find_package(lfdsim), target lfdsim::lfdsim), ready displays.
+# What other projects use: find_package(lfdsim), target lfdsim::lfdsim. The programs install themselves in src/.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -22,8 +22,5 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/lfdsimConfigVersion.cmake
 install(FILES ${CMAKE_CURRENT_LIST_DIR}/lfdsimConfig.cmake ${CMAKE_CURRENT_LIST_DIR}/dependencies.cmake
   ${PROJECT_BINARY_DIR}/lfdsimConfigVersion.cmake DESTINATION ${package})
 
-if(TARGET lfdsim)
-  install(TARGETS lfdsim RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-endif()
 install(DIRECTORY displays DESTINATION ${CMAKE_INSTALL_DATADIR}/lfdsim)
 install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
