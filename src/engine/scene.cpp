@@ -21,6 +21,18 @@ optics::Interface<S> interface(double above, double below) {
     return {S(above / below), S(above), S(below), S(1 - r * r)};
 }
 
+/// Lowest and highest sag within the aperture; the extremum may lie between axis and rim.
+std::pair<double, double> sag_range(const PlacedSurface& s) {
+    constexpr int kSteps = 1024;
+    double low = 0, high = 0;
+    for (int i = 1; i <= kSteps; ++i) {
+        const double z = sag_mm(s.curvature_per_mm, s.conic, s.even_asphere, s.semi_aperture_mm * i / kSteps);
+        low = std::min(low, z);
+        high = std::max(high, z);
+    }
+    return {low, high};
+}
+
 template <class S>
 optics::SurfaceData<S> surface_data(const PlacedSurface& from) {
     optics::SurfaceData<S> to{};
@@ -40,20 +52,11 @@ optics::SurfaceData<S> surface_data(const PlacedSurface& from) {
     const double rim = sag_mm(from.curvature_per_mm, from.conic, from.even_asphere, from.semi_aperture_mm);
     to.rim = S(rim);
     to.c_rim = S(from.curvature_per_mm * rim);
+    const auto [low, high] = sag_range(from);
+    to.low = S(low);
+    to.high = S(high);
     to.media = interface<S>(from.index_above, from.index_below);
     return to;
-}
-
-/// Highest and lowest z of a surface within its aperture; the extremum may lie between axis and rim.
-std::pair<double, double> extent(const PlacedSurface& s) {
-    constexpr int kSteps = 1024;
-    double high = s.z_mm, low = s.z_mm;
-    for (int i = 1; i <= kSteps; ++i) {
-        const double z = s.z_mm + sag_mm(s.curvature_per_mm, s.conic, s.even_asphere, s.semi_aperture_mm * i / kSteps);
-        high = std::max(high, z);
-        low = std::min(low, z);
-    }
-    return {high, low};
 }
 
 template <class S>
@@ -78,16 +81,14 @@ void add_lens(optics::Scene<S>& scene, const Display& display, const Geometry& g
         wall_top = std::max(wall_top, rim);
         wall_bottom = std::min(wall_bottom, rim);
     }
-    const auto [high, low] = extent(surfaces.back());
-    const double rim = double(scene.surface[0].z) + double(scene.surface[0].rim);
-    // A few millionths more than the caps, so that rounding never starts a ray inside one.
-    scene.dimple = low < surfaces.back().z_mm +
-                             sag_mm(surfaces.back().curvature_per_mm, surfaces.back().conic, surfaces.back().even_asphere,
-                                    surfaces.back().semi_aperture_mm) -
-                             1e-9 ||
-                   rim < wall_top - 1e-9;
-    scene.zone_top = S(scene.dimple ? wall_top : high);
-    scene.zone_bottom = S(scene.dimple ? wall_top : low);
+    const PlacedSurface& first = surfaces.back();
+    const auto [low, high] = sag_range(first);
+    const double rim = sag_mm(first.curvature_per_mm, first.conic, first.even_asphere, first.semi_aperture_mm);
+    scene.dimple = low < rim - 1e-9 || first.z_mm + rim < wall_top - 1e-9;
+    scene.zone_top = S(scene.dimple ? wall_top : first.z_mm + high);
+    scene.zone_bottom = S(scene.dimple ? wall_top : first.z_mm + low);
+    scene.body_top = S(geometry.top_z_mm);
+    scene.body_bottom = S(geometry.base_z_mm);
     scene.wall_top = S(wall_top);
     scene.wall_bottom = S(wall_bottom);
 }

@@ -1,9 +1,324 @@
+// Clear and plate surrounds: polished glass in air, through which a ray finds its own way. Floor 1.
+//
+// A crossing is sought with its sense: from outside a ray can only go in, from inside only out. A ray that stands on a surface
+// after it was refracted or reflected there can thus not meet it again at once, and no distance has to be declared too small to
+// count. z is measured from the panel; x, y from the base lens's axis, in the array's frame.
 #pragma once
 #include "optics/sequential.h"
+
 namespace lfdsim::optics::inline LFDSIM_ISA {
+
+/// The nearest crossing found so far on a ray: way to it, and the normal there, towards the outside.
+template <class F>
+struct Crossing {
+    F t;
+    Vec3<F> normal;
+    Cell<F> cell;
+    Mask<F> found;
+
+    LFDSIM_FN void take(Mask<F> valid, F way, Vec3<F> n, Cell<F> in) {
+        const Mask<F> nearer = valid && (way < t);
+        t = select(nearer, way, t);
+        normal = {select(nearer, n.x, normal.x), select(nearer, n.y, normal.y), select(nearer, n.z, normal.z)};
+        cell = {select(nearer, in.i, cell.i), select(nearer, in.j, cell.j)};
+        found = found || nearer;
+    }
+};
+
+/// Edges of one solid are met by both faces that share them: within this much of them, mm.
+template <class F>
+LFDSIM_FN F slack() {
+    return F(Scalar<F>(sizeof(Scalar<F>) == 4 ? 2e-6 : 1e-11));
+}
+/// A crossing this little behind the ray is where the ray stands, on the wrong side of rounding, mm.
+template <class F>
+LFDSIM_FN Mask<F> ahead(F t) {
+    return t > F(Scalar<F>(sizeof(Scalar<F>) == 4 ? -1e-4 : -1e-9));
+}
+
+/// Root of a t^2 + 2 b t + c = 0 where the left side rises (rising) or falls, without cancellation; found where `real`.
+template <class F>
+LFDSIM_FN F root(F a, F b, F c, bool rising, Mask<F>& real) {
+    const F disc = b * b - a * c;
+    real = disc > F(0);
+    if (!rising) {
+        a = -a;
+        b = -b;
+        c = -c;
+    }
+    const F w = sqrt(max(disc, F(0)));
+    const Mask<F> far = b < F(0);
+    return select(far, w - b, -c) / select(far, a, b + w);
+}
+
+/// Where a ray crosses a surface of revolution downwards (against +z) or upwards: `at` from the lens's axis and the vertex.
+/// Aspheres: the first change of sign of z - sag on the way through the cap's zone, in steps of a 32nd, then bisected.
+template <class F>
+LFDSIM_FN F cross_surface(const SurfaceData<Scalar<F>>& surface, Vec3<F> at, Vec3<F> to, bool downwards, Vec3<F>& up,
+                          Mask<F>& valid) {
+    using S = Scalar<F>;
+    const F c = surface.curvature, k = F(surface.conic), k1 = F(1) + k, r = F(surface.semi_aperture) + slack<F>();
+    F t, z, d;
+    Mask<F> sheet;
+    auto stand = [&](F way) { return Vec3<F>{at.x + to.x * way, at.y + to.y * way, at.z + to.z * way}; };
+    if (surface.shape == Shape::asphere) {
+        // The way through the zone between the vertex and the rim, widened by a thousandth of the aperture for bulging aspheres
+        const F low = F(surface.low) - slack<F>(), high = F(surface.high) + slack<F>();
+        const F a = (low - at.z) / to.z, b = (high - at.z) / to.z;
+        const Mask<F> level = abs(to.z) < F(S(1e-7));
+        const F reach = F(4) * F(surface.semi_aperture);
+        const F begin = max(select(level, F(0), min(a, b)), F(0)), end = min(select(level, reach, max(a, b)), begin + reach);
+        auto height = [&](F way) {
+            const Vec3<F> p = stand(way);
+            sag(surface, p.x * p.x + p.y * p.y, z, d, sheet);
+            return downwards ? p.z - z : z - p.z;
+        };
+        const F step = (end - begin) * F(S(1.0 / 32));
+        F left = begin, right = begin;
+        Mask<F> found = F(0) > F(1), before = height(begin) > F(0);
+        for (int i = 1; i <= 32; ++i) {
+            const F next = begin + step * F(S(i)), here = height(next);
+            const Mask<F> crosses = (begin <= end) && !found && before && (here <= F(0));
+            left = select(crosses, next - step, left);
+            right = select(crosses, next, right);
+            found = found || crosses;
+            before = here > F(0);
+        }
+        for (int i = 0; i < (sizeof(S) == 4 ? 24 : 52); ++i) {
+            const F middle = (left + right) * F(S(0.5));
+            const Mask<F> above = height(middle) > F(0);
+            left = select(above, middle, left);
+            right = select(above, right, middle);
+        }
+        t = right;
+        valid = found;
+    } else {
+        const F b = c * (at.x * to.x + at.y * to.y + k1 * at.z * to.z) - to.z;
+        const F q = c * (at.x * at.x + at.y * at.y + k1 * at.z * at.z) - F(2) * at.z;
+        t = root(c * (F(1) + k * to.z * to.z), b, q, downwards, valid);
+    }
+    const Vec3<F> p = stand(t);
+    const F s2 = p.x * p.x + p.y * p.y;
+    sag(surface, s2, z, d, sheet);
+    const F per = F(1) / sqrt(F(1) + d * d * s2);
+    up = {-(p.x * d * per), -(p.y * d * per), per};
+    const F side = dot(up, to);
+    valid = valid && sheet && ahead(t) && (s2 <= r * r) && (abs(p.z - z) < F(S(1e-3))) && (downwards ? side < F(0) : side > F(0));
+    return t;
+}
+
+/// Faces and walls of the solids in one cell, crossed inwards or outwards. Walls count where `wall_x`, `wall_y` say that there is
+/// air.
+template <class F>
+LFDSIM_FN void cross_face(const Scene<Scalar<F>>& scene, bool top, Vec3<F> at, Vec3<F> to, bool inwards, Cell<F> cell,
+                          Mask<F> active, Crossing<F>& best) {
+    const auto& surface = scene.surface[top ? 0 : scene.surface_count - 1];
+    const Vec3<F> local{at.x - cell.i * F(scene.pitch), at.y - cell.j * F(scene.pitch), at.z - F(surface.z)};
+    Vec3<F> up;
+    Mask<F> valid;
+    const F t = cross_surface(surface, local, to, inwards == top, up, valid);
+    if (scene.aperture == Aperture::square) {
+        const F half = F(scene.half_pitch) + slack<F>();
+        valid = valid && (abs(local.x + to.x * t) <= half) && (abs(local.y + to.y * t) <= half);
+    }
+    const F sense = F(Scalar<F>(top ? 1 : -1));
+    best.take(active && valid, t, {sense * up.x, sense * up.y, sense * up.z}, cell);
+}
+
+/// Is a point of a wall between the faces of its lens? `from` a height on, when the solids begin above a slab.
+template <class F>
+LFDSIM_FN Mask<F> between_faces(const Scene<Scalar<F>>& scene, Vec3<F> local, bool caps_only) {
+    const auto &top = scene.surface[0], &bottom = scene.surface[scene.surface_count - 1];
+    const F s2 = local.x * local.x + local.y * local.y;
+    F high, low, d;
+    Mask<F> sheet;
+    sag(top, s2, high, d, sheet);
+    sag(bottom, s2, low, d, sheet);
+    high = high + F(top.z) + slack<F>();
+    low = low + F(bottom.z) - slack<F>();
+    Mask<F> inside = (local.z <= high) && (local.z >= low);
+    if (caps_only) inside = inside && ((local.z >= F(top.z + top.rim)) || (local.z <= F(bottom.z + bottom.rim)));
+    return inside;
+}
+
+/// The walls of one cell: a cylinder, or four planes. caps_only: the walls above and below a plate, at the array's border.
+template <class F>
+LFDSIM_FN void cross_walls(const Scene<Scalar<F>>& scene, const Extent<F>& extent, Vec3<F> at, Vec3<F> to, bool inwards,
+                           Cell<F> cell, Mask<F> active, bool caps_only, Crossing<F>& best) {
+    const F x = at.x - cell.i * F(scene.pitch), y = at.y - cell.j * F(scene.pitch), zero = F(0);
+    if (scene.aperture == Aperture::circle) {
+        const F r = F(scene.surface[0].semi_aperture), per = F(1) / r;
+        Mask<F> real;
+        const F t = root(to.x * to.x + to.y * to.y, x * to.x + y * to.y, x * x + y * y - r * r, !inwards, real);
+        const Vec3<F> p{x + to.x * t, y + to.y * t, at.z + to.z * t};
+        // On the rim itself the sag is the rim's: do not ask for it beyond.
+        const auto &top = scene.surface[0], &bottom = scene.surface[scene.surface_count - 1];
+        const Mask<F> high = (p.z <= F(top.z + top.rim) + slack<F>()) && (p.z >= F(bottom.z + bottom.rim) - slack<F>());
+        best.take(active && real && ahead(t) && high, t, {p.x * per, p.y * per, zero}, cell);
+        return;
+    }
+    const F half = F(scene.half_pitch), one = F(1);
+    for (int axis = 0; axis < 2; ++axis) {
+        const F place = axis == 0 ? x : y, slope = axis == 0 ? to.x : to.y;
+        const F sign = select(slope < zero, -one, one);  // of the way along the axis
+        const F side = inwards ? -sign : sign;           // of the wall that it crosses
+        const F t = (side * half - place) / slope;
+        const Vec3<F> p{axis == 0 ? side * half : x + to.x * t, axis == 0 ? y + to.y * t : side * half, at.z + to.z * t};
+        Mask<F> valid = active && (abs(slope) > F(Scalar<F>(1e-20))) && ahead(t) &&
+                        (abs(axis == 0 ? p.y : p.x) <= half + slack<F>()) && between_faces(scene, p, caps_only);
+        if (caps_only) {
+            const Cell<F> beyond{axis == 0 ? cell.i + side : cell.i, axis == 0 ? cell.j : cell.j + side};
+            valid = valid && !extent.holds(beyond);
+        }
+        best.take(valid, t, {axis == 0 ? side : zero, axis == 0 ? zero : side, zero}, cell);
+    }
+}
+
+/// The ways at which a ray enters and leaves low <= z <= high.
+template <class F>
+LFDSIM_FN void cross_slab(Vec3<F> at, Vec3<F> to, F low, F high, F& in, F& out) {
+    const F huge = F(Scalar<F>(1e30)), a = (low - at.z) / to.z, b = (high - at.z) / to.z;
+    const Mask<F> level = abs(to.z) < F(Scalar<F>(1e-12));
+    const Mask<F> within = (at.z >= low) && (at.z <= high);
+    in = select(level, select(within, -huge, huge), min(a, b));
+    out = select(level, select(within, huge, -huge), max(a, b));
+}
+
+/// A bundle of rays among glass.
+template <class F>
+struct GlassRays {
+    Vec3<F> at, to;
+    Cell<F> cell;  // whose solid the ray is in
+    Mask<F> inside;
+    Mask<F> below;  // plate: outside on the panel's side
+};
+
+/// Separate solids: from inside to the own faces and walls, from outside to those of the cells on the way.
+template <class F>
+LFDSIM_FN void next_in_clear(const Scene<Scalar<F>>& scene, const Extent<F>& extent, const GlassRays<F>& rays, Mask<F> alive,
+                             Crossing<F>& best) {
+    auto solid = [&](Cell<F> cell, Mask<F> active, bool inwards) {
+        cross_face(scene, true, rays.at, rays.to, inwards, cell, active, best);
+        cross_face(scene, false, rays.at, rays.to, inwards, cell, active, best);
+        cross_walls(scene, extent, rays.at, rays.to, inwards, cell, active, false, best);
+        return best.found;
+    };
+    const Mask<F> within = alive && rays.inside, without = alive && !rays.inside;
+    if (any(within)) solid(rays.cell, within, false);
+    if (none(without)) return;
+    F in, out;
+    cross_slab(rays.at, rays.to, F(scene.body_bottom), F(scene.body_top), in, out);
+    const F begin = max(in, F(0));
+    walk_cells(scene, extent, rays.at.x, rays.at.y, rays.to.x, rays.to.y, begin, out, without,
+               [&](Cell<F> cell, Mask<F> active) { return solid(cell, active, true) && active; });
+}
+
+/// One sheet: the flat of a face between the caps, and the caps of the cells on the way through their zone.
+template <class F>
+LFDSIM_FN void next_on_face(const Scene<Scalar<F>>& scene, const Extent<F>& extent, bool top, bool inwards,
+                            const GlassRays<F>& rays, Mask<F> active, Crossing<F>& best) {
+    using S = Scalar<F>;
+    const auto& surface = scene.surface[top ? 0 : scene.surface_count - 1];
+    const F sense = F(S(top ? 1 : -1));
+    const F flat = (F(surface.z + surface.rim) - rays.at.z) / rays.to.z;
+    const Mask<F> right_way = inwards ? sense * rays.to.z < F(0) : sense * rays.to.z > F(0);
+    const F x = rays.at.x + rays.to.x * flat, y = rays.at.y + rays.to.y * flat;
+    const Cell<F> under{nearest_cell(scene, x), nearest_cell(scene, y)};
+    Mask<F> in_cap = extent.holds(under);
+    if (scene.aperture == Aperture::circle) {
+        const F lx = x - under.i * F(scene.pitch), ly = y - under.j * F(scene.pitch), r = F(surface.semi_aperture);
+        in_cap = in_cap && (lx * lx + ly * ly < r * r);
+    }
+    if (surface.shape == Shape::plane) in_cap = in_cap && (F(0) > F(1));
+    best.take(active && right_way && ahead(flat) && !in_cap, flat, {F(0), F(0), sense}, under);
+    if (surface.shape == Shape::plane) return;
+    F in, out;
+    const F edge = F(S(1e-4));  // mm: the zone's border belongs to it
+    cross_slab(rays.at, rays.to, F(surface.z + surface.low) - edge, F(surface.z + surface.high) + edge, in, out);
+    walk_cells(scene, extent, rays.at.x, rays.at.y, rays.to.x, rays.to.y, max(in, F(0)), out, active,
+               [&](Cell<F> cell, Mask<F> here) {
+                   const F before = best.t;
+                   cross_face(scene, top, rays.at, rays.to, inwards, cell, here, best);
+                   if (scene.aperture == Aperture::square)
+                       cross_walls(scene, extent, rays.at, rays.to, inwards, cell, here, true, best);
+                   return here && (best.t < before);
+               });
+}
+
+template <class F>
+LFDSIM_FN void next_in_plate(const Scene<Scalar<F>>& scene, const Extent<F>& extent, const GlassRays<F>& rays, Mask<F> alive,
+                             Crossing<F>& best) {
+    const Mask<F> within = alive && rays.inside, above = alive && !rays.inside && !rays.below,
+                  below = alive && !rays.inside && rays.below;
+    if (any(within)) {
+        next_on_face(scene, extent, true, false, rays, within, best);
+        next_on_face(scene, extent, false, false, rays, within, best);
+    }
+    if (any(above)) next_on_face(scene, extent, true, true, rays, above, best);
+    if (any(below)) next_on_face(scene, extent, false, true, rays, below, best);
+}
+
+/// Snell's law at a crossing, either way; total internal reflection is followed with weight 1.
+template <class F>
+LFDSIM_FN void cross(const Scene<Scalar<F>>& scene, const Crossing<F>& here, Mask<F> active, GlassRays<F>& rays, F& weight) {
+    const auto& media = scene.surface[0].media;
+    const F air = F(media.n_above), glass = F(media.n_below), one = F(1);
+    const F n1 = select(rays.inside, glass, air), n2 = select(rays.inside, air, glass), eta = n1 / n2;
+    const F facing = select(rays.inside, -one, one);  // the normal that faces the ray
+    const Vec3<F> n{facing * here.normal.x, facing * here.normal.y, facing * here.normal.z}, i = rays.to;
+    const F c1 = -dot(n, i), cos2 = one - eta * eta * (one - c1 * c1), c2 = sqrt(max(cos2, F(0)));
+    const Mask<F> reflected = !(cos2 > F(0)), refracted = active && !reflected;
+    const F k = select(reflected, one, eta), m = select(reflected, F(2) * c1, eta * c1 - c2);
+    const Vec3<F> to{k * i.x + m * n.x, k * i.y + m * n.y, k * i.z + m * n.z};
+    if (scene.fresnel != Fresnel::none) {
+        const F c_thin = select(rays.inside, c2, c1);
+        weight = select(refracted, weight * transmittance(scene.fresnel, F(media.schlick_t0), n1, n2, c1, c2, c_thin), weight);
+    }
+    rays.at = {select(active, i.x * here.t + rays.at.x, rays.at.x), select(active, i.y * here.t + rays.at.y, rays.at.y),
+               select(active, i.z * here.t + rays.at.z, rays.at.z)};
+    rays.to = {select(active, to.x, i.x), select(active, to.y, i.y), select(active, to.z, i.z)};
+    rays.cell = {select(refracted, here.cell.i, rays.cell.i), select(refracted, here.cell.j, rays.cell.j)};
+    rays.below = (rays.below && !refracted) || (refracted && rays.inside && (here.normal.z < F(0)));
+    rays.inside = (rays.inside && !refracted) || (refracted && !rays.inside);
+}
+
+/// From the plane of the first vertex to the panel: at most kMostSurfaces surfaces, refracted or reflected at.
+constexpr int kMostSurfaces = 16;
+
 template <class F>
 LFDSIM_FN PanelHit<F> trace_glass(const Scene<Scalar<F>>& scene, const Extent<F>& extent, const PanelBase<F>& base,
                                   Passage<F> way) {
-    return trace_opaque(scene, extent, base, way);
+    using S = Scalar<F>;
+    // Begin above everything.
+    const F first = F(scene.surface[0].z), up = (F(scene.body_top) - first) / way.ray.to.z;
+    GlassRays<F> rays{{way.ray.at.x + way.ray.to.x * up, way.ray.at.y + way.ray.to.y * up, F(scene.body_top)},
+                      way.ray.to,
+                      {F(0), F(0)},
+                      F(0) > F(1),
+                      F(0) > F(1)};
+    F weight = way.weight;
+    Mask<F> alive = way.alive, arrived = F(0) > F(1), stop_ahead = way.alive;
+    for (int surfaces = 0; surfaces <= kMostSurfaces && any(alive); ++surfaces) {
+        Crossing<F> next{F(S(1e30)), {F(0), F(0), F(1)}, {F(0), F(0)}, F(0) > F(1)};
+        if (scene.surround == Surround::clear)
+            next_in_clear(scene, extent, rays, alive, next);
+        else
+            next_in_plate(scene, extent, rays, alive, next);
+        const Mask<F> leaves = alive && !next.found;
+        if (scene.has_stop) {
+            const F t = (F(scene.stop_z) - rays.at.z) / rays.to.z;
+            const Mask<F> crosses = stop_ahead && (t >= F(0)) && (t <= next.t);
+            const Mask<F> through = passes_stop(scene, extent, rays.at.x + rays.to.x * t, rays.at.y + rays.to.y * t);
+            alive = alive && (through || !crosses);
+            stop_ahead = stop_ahead && !crosses;
+        }
+        arrived = arrived || (alive && leaves && !rays.inside && (rays.to.z < F(0)));
+        alive = alive && next.found;
+        if (surfaces < kMostSurfaces) cross(scene, next, alive, rays, weight);
+    }
+    const F t = -rays.at.z / rays.to.z;
+    if (scene.emission_exponent != S(0)) weight = weight * power(abs(rays.to.z), scene.emission_exponent);
+    return panel_pixel(scene, base, {F(0), F(0)}, rays.at.x + rays.to.x * t, rays.at.y + rays.to.y * t, weight, arrived);
 }
+
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -34,12 +34,12 @@ LFDSIM_FN Mask<F> passes_stop(const Scene<Scalar<F>>& scene, const Extent<F>& ex
     return (lx * lx + ly * ly <= F(scene.stop_radius2)) && extent.holds(cell);
 }
 
-/// Walks cell by cell along the line (x + mx s, y + my s), 0 <= s <= depth, in the order in which the line enters them, and calls
-/// try_cell(cell, active) in each that holds a lens; it returns the lanes that are done. Exact at any slope: no cell is jumped
-/// over. s is the way in z, m the lateral way per s.
+/// Walks cell by cell along the line (x + mx s, y + my s), from <= s <= depth, in the order in which the line enters them, and
+/// calls try_cell(cell, active) in each that holds a lens; it returns the lanes that are done. Exact at any slope: no cell is
+/// jumped over. s is the way in z, m the lateral way per s.
 template <class F, class Try>
-LFDSIM_FN void walk_cells(const Scene<Scalar<F>>& scene, const Extent<F>& extent, F x, F y, F mx, F my, F depth, Mask<F> active,
-                          Try try_cell) {
+LFDSIM_FN void walk_cells(const Scene<Scalar<F>>& scene, const Extent<F>& extent, F x, F y, F mx, F my, F from, F depth,
+                          Mask<F> active, Try try_cell) {
     const F huge = F(Scalar<F>(1e30)), zero = F(0), one = F(1), p = F(scene.pitch), half = F(scene.half_pitch);
     // Ways to the array's border, so that a ray from outside starts where it enters.
     auto axis = [&](F at, F m, F low, F high, F& in, F& out) {
@@ -52,7 +52,7 @@ LFDSIM_FN void walk_cells(const Scene<Scalar<F>>& scene, const Extent<F>& extent
     F in_x, out_x, in_y, out_y;
     axis(x, mx, extent.low_i, extent.high_i, in_x, out_x);
     axis(y, my, extent.low_j, extent.high_j, in_y, out_y);
-    const F begin = max(max(in_x, in_y), zero), end = min(min(out_x, out_y), depth);
+    const F begin = max(max(in_x, in_y), from), end = min(min(out_x, out_y), depth);
     active = active && (begin <= end);
 
     const F step_i = select(mx < zero, -one, one), step_j = select(my < zero, -one, one);

@@ -33,8 +33,9 @@ struct SurfaceData {
     S conic;                      // k
     S asphere[kMaxAsphereTerms];  // a4, a6, ...
     S semi_aperture;
-    S rim;    // sag at the semi aperture
-    S c_rim;  // curvature x rim: c z <= c_rim inside the rim, on the sheet of the vertex
+    S rim;        // sag at the semi aperture
+    S low, high;  // of the sag within the aperture
+    S c_rim;      // curvature x rim: c z <= c_rim inside the rim, on the sheet of the vertex
     Interface<S> media;
 };
 
@@ -63,6 +64,7 @@ struct Scene {
     S cos_rotation, sin_rotation;
     S start_above;            // height of the first plane above the first vertex (ideal: above the lens)
     S zone_top, zone_bottom;  // where an entering ray may meet the first surface: highest and lowest z of its caps
+    S body_top, body_bottom;  // highest and lowest z of a lens
     S wall_top, wall_bottom;  // rims: the height of the walls
     bool dimple;              // the first surface lies below its rim (concave to the viewer): its rim is the entrance
 

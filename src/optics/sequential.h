@@ -49,9 +49,9 @@ LFDSIM_FN void refract_down(const Scene<Scalar<F>>& scene, const SurfaceData<Sca
     }
     way.ray.at = hit.at;
     if (scene.fresnel != Fresnel::none) {
-        way.weight =
-            way.weight * transmittance(scene.fresnel, F(surface.media.schlick_t0), F(surface.media.n_above),
-                                       F(surface.media.n_below), hit.cos, cosine, surface.media.n_above < surface.media.n_below);
+        way.weight = way.weight * transmittance(scene.fresnel, F(surface.media.schlick_t0), F(surface.media.n_above),
+                                                F(surface.media.n_below), hit.cos, cosine,
+                                                surface.media.n_above < surface.media.n_below ? hit.cos : cosine);
     }
 }
 
@@ -92,7 +92,7 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<F>& ext
         const F far = max(abs(x + mx * depth - way.cell.i * p), abs(y + my * depth - way.cell.j * p));
         const Mask<F> astray = way.alive && !(hit.ok) && (far > F(scene.half_pitch));
         if (any(astray)) {
-            walk_cells(scene, extent, x, y, mx, my, depth, astray, [&](Cell<F> cell, Mask<F> active) {
+            walk_cells(scene, extent, x, y, mx, my, F(0), depth, astray, [&](Cell<F> cell, Mask<F> active) {
                 const Hit<F> next = try_cell(cell);
                 const Mask<F> met = active && next.ok;
                 hit = {{select(met, next.at.x, hit.at.x), select(met, next.at.y, hit.at.y), select(met, next.at.z, hit.at.z)},

@@ -111,11 +111,12 @@ LFDSIM_FN Hit<F> meet_asphere(const SurfaceData<Scalar<F>>& surface, Ray<F> ray)
     return hit;
 }
 
-/// The transmitted share 1 - F; c1 = cosine on the side the light of the backward ray comes from (index n1), c2 on the other.
+/// The transmitted share 1 - F; c1 = cosine on the side the light of the backward ray comes from (index n1), c2 on the other,
+/// c_thin the one of both that is in the less dense medium.
 template <class F>
-LFDSIM_FN F transmittance(Fresnel fresnel, F schlick_t0, F n1, F n2, F c1, F c2, bool thinner_first) {
+LFDSIM_FN F transmittance(Fresnel fresnel, F schlick_t0, F n1, F n2, F c1, F c2, F c_thin) {
     if (fresnel == Fresnel::schlick) {  // the cosine is the one in the less dense medium, on either passage
-        const F q = F(1) - (thinner_first ? c1 : c2), q2 = q * q;
+        const F q = F(1) - c_thin, q2 = q * q;
         return schlick_t0 - schlick_t0 * (q2 * q2 * q);
     }
     // Mean of both polarisations: 2 n1 n2 c1 c2 (1/(n1 c1 + n2 c2)^2 + 1/(n1 c2 + n2 c1)^2)
