@@ -21,19 +21,30 @@ struct Box {
     }
 };
 
-// Yaw, counter-clockwise seen from above: a right-handed turn about +y, which carries the front (+z) towards +x.
-struct Yaw {
-    double c, s;
-    explicit Yaw(double degrees) : c(std::cos(degrees * radian)), s(std::sin(degrees * radian)) {}
-    Vec3d operator()(const float* p) const { return {c * p[0] + s * p[2], p[1], c * p[2] - s * p[0]}; }
-    Vec3d inverse(const Vec3d& p) const { return {c * p[0] - s * p[2], p[1], c * p[2] + s * p[0]}; }
+// Tilt about x (positive raises the front, +z towards +y), then yaw about +y, counter-clockwise seen from above (the front goes
+// towards +x).
+struct Turn {
+    double ct, st, cy, sy;
+    explicit Turn(const Content& c)
+        : ct(std::cos(c.tilt_deg * radian)),
+          st(std::sin(c.tilt_deg * radian)),
+          cy(std::cos(c.yaw_deg * radian)),
+          sy(std::sin(c.yaw_deg * radian)) {}
+    Vec3d operator()(const float* p) const {
+        const double y = ct * p[1] + st * p[2], z = ct * p[2] - st * p[1];
+        return {cy * p[0] + sy * z, y, cy * z - sy * p[0]};
+    }
+    Vec3d inverse(const Vec3d& p) const {
+        const double z = cy * p[2] + sy * p[0];
+        return {cy * p[0] - sy * p[2], ct * p[1] - st * z, ct * z + st * p[1]};
+    }
 };
 
 void pose(Scene::Impl& scene, const Display& display, const Geometry& geometry) {
     const Model& model = *scene.model;
-    const Yaw yaw(display.content.yaw_deg);
+    const Turn turn(display.content);
     Box box;
-    for (const std::uint32_t i : model.indices) box.add(yaw(&model.positions[3 * std::size_t(i)]));
+    for (const std::uint32_t i : model.indices) box.add(turn(&model.positions[3 * std::size_t(i)]));
     const double extent = box.high[1] - box.low[1];
     const double scale = geometry.content_height_mm / extent;
     if (!(extent > 0) || !std::isfinite(scale))
@@ -44,10 +55,10 @@ void pose(Scene::Impl& scene, const Display& display, const Geometry& geometry) 
     for (int k = 0; k < 3; ++k) scene.half_mm[k] = 0.5 * scale * (box.high[k] - box.low[k]);
     scene.positions_mm.resize(model.positions.size() + 1);
     for (std::size_t v = 0; v < model.vertices(); ++v) {
-        const Vec3d p = yaw(&model.positions[3 * v]);
+        const Vec3d p = turn(&model.positions[3 * v]);
         for (int k = 0; k < 3; ++k) scene.positions_mm[3 * v + k] = float(scale * (p[k] - 0.5 * (box.low[k] + box.high[k])));
     }
-    const Vec3d light = yaw.inverse({0.3, 0.5, 0.81});
+    const Vec3d light = turn.inverse({0.3, 0.5, 0.81});
     const double length = std::hypot(light[0], light[1], light[2]);
     for (int k = 0; k < 3; ++k) scene.light[k] = float(light[k] / length);
 }

@@ -76,6 +76,7 @@ struct Content {
     std::string model;                  // mesh file; relative to the description file; empty: none
     std::optional<double> depth_mm;     // of the model's centre, from the viewer-side vertex plane; default L
     std::optional<double> height_mm;    // default half the panel's height
+    double tilt_deg = 0;                // about x, before the yaw; positive raises the front
     double yaw_deg = 0;                 // counter-clockwise seen from above
     double viewing_distance_mm = 2000;  // from the panel; infinity allowed
 };

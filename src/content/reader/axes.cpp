@@ -15,8 +15,12 @@ bool any_of(const std::string& format, std::initializer_list<const char*> names)
 }  // namespace
 
 Turn turn(const aiScene& scene, const std::string& format, const std::string& up) {
-    const bool turned = any_of(format, {"3D Studio Max"});
-    bool z_up = any_of(format, {"Stereolithography"});
+    // These Assimp turns to +y up itself; those lie with +z up as their specification or their program has it. The rest is +y up:
+    // by specification (glTF, X3D, Collada after Assimp's own turn) or by custom (OBJ, PLY, OFF).
+    const bool turned =
+        any_of(format, {"3D Studio", "Discreet 3DS", "ASE", "Industry Foundation", "Quake", "Doom 3", "Inter-Quake", "Unreal"});
+    bool z_up = any_of(format, {"Stereolithography", "Blender", "Additive", "3mf", "Drawing Interchange", "TrueSpace", "Valve SMD",
+                                "3D GameStudio Heightmap"});
     if (int axis = 1; scene.mMetaData && scene.mMetaData->Get("UpAxis", axis)) z_up = axis == 2;
     if (!up.empty()) z_up = up == "z";
     if (turned) return Turn(up == "y" ? Turn::y_to_z : Turn::none);

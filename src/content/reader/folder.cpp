@@ -1,5 +1,6 @@
 #include "content/reader/folder.h"
 
+#include <strings.h>
 #include <algorithm>
 #include <cstring>
 
@@ -27,7 +28,13 @@ std::optional<fs::path> Folder::find(std::string name) const {
     const fs::path given(name);
     for (const fs::path& candidate : {root_ / given, root_ / given.filename()}) {
         std::error_code error;
-        if (inside(candidate) && fs::is_regular_file(candidate, error)) return candidate;
+        if (!inside(candidate)) continue;
+        if (fs::is_regular_file(candidate, error)) return candidate;
+        for (const fs::directory_entry& entry : fs::directory_iterator(candidate.parent_path(), error)) {
+            if (entry.is_regular_file(error) && strcasecmp(entry.path().filename().c_str(), candidate.filename().c_str()) == 0 &&
+                inside(entry.path()))
+                return entry.path();
+        }
     }
     return {};
 }

@@ -2,7 +2,9 @@
 
 #include "content/reader/axes.h"
 #include "content/reader/folder.h"
+#include "content/reader/repairs.h"
 #include "content/reader/textures.h"
+#include "content/reader/warnings.h"
 #include "image/encoding.h"
 
 #include <assimp/importerdesc.h>
@@ -19,7 +21,7 @@ namespace lfdsim::reader {
 namespace {
 
 // A fold sharper than this stays an edge when the file brings no normals.
-constexpr float crease_deg = 50;
+constexpr float crease_deg = 60;
 
 // Everything comes as triangles in one frame: node transforms applied, instances copied, points and lines dropped.
 constexpr unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices |
@@ -51,6 +53,7 @@ class Conversion {
         model_.textures = std::move(textures_.textures);
         model_.notes.insert(model_.notes.end(), textures_.notes.begin(), textures_.notes.end());
         if (dropped_ > 0) model_.notes.push_back(std::to_string(dropped_) + " faces left out: degenerate");
+        show_black();
         if (model_.indices.empty()) throw std::runtime_error("has no triangles: nothing to show");
         return std::move(model_);
     }
@@ -124,6 +127,16 @@ class Conversion {
         }
     }
 
+    // Some loaders find no colours; a black model before black would look like a fault of the display.
+    void show_black() {
+        const auto black = [](const Material& m) {
+            return m.texture < 0 && std::max({m.colour[0], m.colour[1], m.colour[2]}) < 1e-3f;
+        };
+        if (!std::all_of(model_.materials.begin(), model_.materials.end(), black)) return;
+        for (Material& m : model_.materials) std::fill_n(m.colour, 3, 0.5f);
+        model_.notes.push_back("every material is black: shown in grey");
+    }
+
     static void push(std::vector<float>& list, const aiVector3D& v) { list.insert(list.end(), {v.x, v.y, v.z}); }
 
     const aiScene& scene_;
@@ -165,11 +178,24 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     importer.SetIOHandler(folder);
     importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, crease_deg);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    const aiScene* scene = importer.ReadFile(file.string(), steps);
-    if (!scene) throw std::runtime_error(importer.GetErrorString());
-    const aiImporterDesc* importer_used = importer.GetImporterInfo(std::size_t(importer.GetPropertyInteger("importerIndex", 0)));
-    const std::string format = importer_used ? importer_used->mName : "";
+    auto* warnings = new Warnings;  // the logger's, likewise
+    Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
+    Assimp::DefaultLogger::get()->attachStream(warnings, Assimp::Logger::Warn | Assimp::Logger::Err);
+
+    const aiScene* scene = importer.ReadFile(file.string(), 0);
+    const aiImporterDesc* used = importer.GetImporterInfo(std::size_t(importer.GetPropertyInteger("importerIndex", 0)));
+    const std::string format = used ? used->mName : "";
+    if (scene && scene->mRootNode) {
+        repair(const_cast<aiScene&>(*scene), file, format);  // the importer's own, handed out as const
+        scene = importer.ApplyPostProcessing(steps);
+    }
+    if (!scene) {
+        if (std::string(importer.GetErrorString()) == "std::bad_alloc") throw std::bad_alloc();
+        throw std::runtime_error(importer.GetErrorString());
+    }
     Model model = Conversion(*scene, *folder, format, turn(*scene, format, up)).run();
+    // Blender's loader warns of every field that a version of the program did not have.
+    if (!format.starts_with("Blender")) model.notes.insert(model.notes.end(), warnings->texts.begin(), warnings->texts.end());
     mend_normals(model);
     return model;
 }

@@ -1,0 +1,43 @@
+#include "content/reader/repairs.h"
+
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+namespace lfdsim::reader {
+namespace {
+
+// glTF 1.0: a node's matrix is translation x rotation x scale, but the loader applies the translation first and so rotates it:
+// a truck loses its wheels. Its linear part is right; the translation is put back as the file gives it.
+void place_gltf1_nodes(aiScene& scene, const std::filesystem::path& file) {
+    std::ifstream text(file);
+    const auto description = nlohmann::json::parse(text, nullptr, false);
+    if (!description.is_object() || !description.contains("nodes") || !description["nodes"].is_object()) return;
+    for (const auto& [name, node] : description["nodes"].items()) {
+        if (!node.is_object() || node.contains("matrix") || !node.contains("translation")) continue;
+        const auto& t = node["translation"];
+        aiNode* placed = scene.mRootNode->FindNode(name.c_str());
+        if (!placed || !t.is_array() || t.size() != 3 || !t[0].is_number() || !t[1].is_number() || !t[2].is_number()) continue;
+        placed->mTransformation.a4 = t[0].get<float>();
+        placed->mTransformation.b4 = t[1].get<float>();
+        placed->mTransformation.c4 = t[2].get<float>();
+    }
+}
+
+// Blender: the normals are those of vertices, also where the faces are flat; cubes come out as pillows. Without them they are
+// made anew, with creases.
+void drop_normals(aiScene& scene) {
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        delete[] scene.mMeshes[m]->mNormals;
+        scene.mMeshes[m]->mNormals = nullptr;
+    }
+}
+
+}  // namespace
+
+void repair(aiScene& scene, const std::filesystem::path& file, const std::string& format) {
+    if (format == "glTF Importer") place_gltf1_nodes(scene, file);
+    if (format.starts_with("Blender")) drop_normals(scene);
+}
+
+}  // namespace lfdsim::reader
