@@ -10,7 +10,8 @@
 #include "files/source.h"
 #include "files/text_file.h"
 #include "files/values.h"
-#include "model/validate.h"
+#include "model/findings.h"
+#include "model/geometry.h"
 
 namespace lfdsim {
 namespace {
@@ -34,10 +35,10 @@ class Reader {
 
   private:
     // A fault at a key: `where` is the key's dotted path, as validate() has it.
-    void add(std::string where, std::string what) { add(source.place(where), std::move(where), std::move(what)); }
-    void add(Place place, std::string where, std::string what) {
-        places.push_back(std::move(place));
-        faults.push_back({std::move(where), std::move(what)});
+    void add(std::string where, std::string what) { faults.push_back({std::move(where), std::move(what)}); }
+    // A key too many; it takes no value away from what validate() may judge.
+    void add_superfluous(Place place, std::string where, std::string what) {
+        superfluous.push_back({std::move(place), std::move(where) + ": " + what});
     }
 
     void read_top_level(Display& display) {
@@ -95,7 +96,8 @@ class Reader {
             if (key.required && (key.required_for == for_all || (lens_type_read && knows(key.required_for, lens_type))))
                 add(path, "is missing");
         } else if (lens_type_read && !knows(key.lens_types, lens_type)) {
-            add(path, fmt::format("has no meaning for a lens of type \"{}\"; leave it out", word(lens_type)));
+            add_superfluous(source.place(path), path,
+                            fmt::format("has no meaning for a lens of type \"{}\"; leave it out", word(lens_type)));
         } else if (std::string fault = std::visit([&](auto member) { return read_value(*node, values.*member); }, key.member);
                    !fault.empty()) {
             add(path, std::move(fault));
@@ -106,8 +108,10 @@ class Reader {
         const std::string path(surface_table.name);
         const toml::array* array = node.as_array();
         if (lens_type_read && lens_type != LensType::surfaces)
-            return add(path, fmt::format("has no meaning for a lens of type \"{}\"; take type = \"surfaces\", or leave it out",
-                                         word(lens_type)));
+            return add_superfluous(
+                source.place(path), path,
+                fmt::format("has no meaning for a lens of type \"{}\"; take type = \"surfaces\", or leave it out",
+                            word(lens_type)));
         if (!array || (!array->empty() && !array->is_array_of_tables()))
             return add(path, fmt::format("is {}, wanted is a list of tables: [[{}]]", kind_of(node), path));
         surfaces.resize(std::min(array->size(), max_surfaces + 1));  // validate() will refuse one too many
@@ -124,36 +128,42 @@ class Reader {
             for (const auto& other : table.keys)
                 if (other.name == key.str()) elsewhere = table.name;
         });
-        add(source.place(key, where), where,
-            elsewhere.empty() ? fmt::format("is unknown; {}", meant.empty() ? fmt::format("known are {}", fmt::join(known, ", "))
-                                                                            : fmt::format("did you mean {}?", meant))
-                              : fmt::format("is unknown here; it belongs into [{}]", elsewhere));
+        add_superfluous(source.place(key, where), where,
+                        elsewhere.empty()
+                            ? fmt::format("is unknown; {}", meant.empty() ? fmt::format("known are {}", fmt::join(known, ", "))
+                                                                          : fmt::format("did you mean {}?", meant))
+                            : fmt::format("is unknown here; it belongs into [{}]", elsewhere));
     }
 
     // Adds what is wrong with the values that could be read, and throws if anything is.
     void judge(const Display& display) {
-        const std::size_t read_faults = faults.size();
-        validate_values(display, faults);
-        validate_layout(display, faults);
-        for (std::size_t i = read_faults; i < faults.size(); ++i)
-            places.push_back(source.place(faults[i].where.substr(0, faults[i].where.find('['))));
-        if (faults.empty()) return;
-
-        std::vector<std::size_t> order(faults.size());
-        for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-            return std::tie(places[a].line, places[a].column) < std::tie(places[b].line, places[b].column);
+        Findings findings(faults);
+        validate_values(display, findings);
+        validate_lens(display, findings);
+        validate_layout(display, findings);
+        std::vector<Located> all = std::move(superfluous);
+        for (const Problem& fault : faults)  // an element's place is its list's
+            all.push_back(
+                {source.place(std::string_view(fault.where).substr(0, fault.where.find('['))), fault.where + ": " + fault.what});
+        if (all.empty()) return;
+        std::stable_sort(all.begin(), all.end(), [](const Located& a, const Located& b) {
+            return std::tie(a.place.line, a.place.column) < std::tie(b.place.line, b.place.column);
         });
         std::vector<Problem> problems;
-        for (const std::size_t i : order) problems.push_back({places[i].text, faults[i].where + ": " + faults[i].what});
+        for (Located& one : all) problems.push_back({std::move(one.place.text), std::move(one.what)});
         throw InputError(std::move(problems));
     }
+
+    struct Located {
+        Place place;
+        std::string what;
+    };
 
     const Source& source;
     LensType lens_type{};
     bool lens_type_read = false;
-    std::vector<Problem> faults;
-    std::vector<Place> places;  // of the faults
+    std::vector<Problem> faults;  // of keys that are missing or could not be read, by dotted path
+    std::vector<Located> superfluous;
 };
 
 }  // namespace

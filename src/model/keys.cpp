@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace lfdsim {
 namespace {
 
@@ -107,6 +109,8 @@ constexpr Key<Content> content_keys[] = {
     {"depth_mm", &Content::depth_mm, any_length, false, "Of the model's centre, from the array's viewer-side vertex plane.",
      "the central depth plane, or 0 where that is further from the lenses than half the viewer's distance"},
     {"height_mm", &Content::height_mm, positive_length, false, "Of the model.", "half the panel's height"},
+    {"tilt_deg", &Content::tilt_deg, turn, false,
+     "The model's turn about the horizontal, before the yaw; positive raises its front."},
     {"yaw_deg", &Content::yaw_deg, turn, false, "The model's turn, counter-clockwise seen from above."},
     {"viewing_distance_mm", &Content::viewing_distance_mm, Range{shortest_mm, infinity}, false,
      "From the panel to the viewer that the elemental images are made for. inf: elemental images stand straight behind their "
@@ -126,7 +130,9 @@ constexpr Key<Render> render_keys[] = {
 std::string number(double x) {
     if (x == two_to_31) return "2^31";
     if (x == two_to_63) return "2^63 - 1";
-    return fmt::format("{:g}", x);
+    if (x == shortest_mm) return "1e-6";
+    if (std::abs(x) == 1e6) return x > 0 ? "1e6" : "-1e6";
+    return fmt::format("{}", x);
 }
 
 }  // namespace

@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "files/display_file.h"
+#include "files/values.h"
+
+namespace lfdsim {
+namespace {
+
+// How a field is written in a file, by its type.
+std::string_view type_text(const double&) { return "number"; }
+std::string_view type_text(const std::optional<double>&) { return "number"; }
+std::string_view type_text(const std::int64_t&) { return "integer"; }
+std::string_view type_text(const std::string&) { return "string"; }
+std::string_view type_text(const std::vector<double>&) { return "list of numbers"; }
+std::string_view type_text(const std::array<double, 2>&) { return "2 numbers"; }
+std::string_view type_text(const std::array<double, 3>&) { return "3 numbers"; }
+std::string_view type_text(const std::array<std::int64_t, 2>&) { return "2 integers"; }
+template <class E>
+requires std::is_enum_v<E> std::string_view type_text(E) { return "string"; }
+
+template <class Value>
+std::string allowed_text(const Range& range, const Value&) {
+    if constexpr (std::is_enum_v<Value>)
+        return fmt::format("`\"{}\"`", fmt::join(words<Value>(), "\"`, `\""));
+    else if constexpr (std::is_same_v<Value, std::string>)
+        return "any";
+    else
+        return range.text();
+}
+
+std::string_view unit(std::string_view name) {
+    if (name.ends_with("_per_mm")) return "1/mm";
+    if (name.ends_with("_mm")) return "mm";
+    return name.ends_with("_deg") ? "degrees" : "";
+}
+
+std::string lens_types_text(unsigned types) {
+    std::vector<std::string_view> names;
+    for (std::size_t i = 0; i < words<LensType>().size(); ++i)
+        if (types >> i & 1u) names.push_back(words<LensType>()[i]);
+    return fmt::format("`{}`", fmt::join(names, "`, `"));
+}
+
+template <class T>
+void append_table(std::string& text, const Table<T>& table) {
+    text += "| key | type | unit | allowed | default | meaning |\n|---|---|---|---|---|---|\n";
+    const T fresh{};
+    for (const Key<T>& key : table.keys) {
+        std::visit(
+            [&](auto member) {
+                const auto& value = fresh.*member;
+                const std::string fallback = key.required && key.required_for ? "required"
+                                             : !key.absent.empty()            ? std::string(key.absent)
+                                                                              : fmt::format("`{}`", toml_text(value));
+                const std::string types =
+                    key.lens_types == for_all ? "" : fmt::format("Lens type {}: ", lens_types_text(key.lens_types));
+                text += fmt::format("| `{}` | {} | {} | {} | {} | {}{} |\n", key.name, type_text(value), unit(key.name),
+                                    allowed_text(key.range, value), fallback, types, key.doc);
+            },
+            key.member);
+    }
+}
+
+}  // namespace
+
+std::string format_reference_markdown() {
+    std::string text =
+        R"(<!-- Written by format_reference_markdown() from the keys in src/model/keys.cpp, which says how to write it anew. -->
+# The display description
+
+A TOML file describes a display, the camera that looks at it and what it shows. Lengths are in millimetres and angles in degrees, as
+the keys' names say. The panel lies in z = 0, centred on the origin; +x is the viewer's right, +y is up, +z is towards the viewer.
+[model.md](model.md) has the optics. `displays/` holds ready descriptions.
+
+A key that is unknown, stands in the wrong table or has no meaning for the lens's type is an error, as is a value of another type or
+outside what is allowed; an integer may stand for a number. All errors are reported together, each with file, line and column.
+
+On the command line `--set key=value` changes one value: the key with its table before a dot, the value as in TOML. Words need no
+quotes (`--set lens.facing=panel`), `none` takes a key or table away (`--set diffuser=none`), and surfaces are counted from 0
+(`--set lens.surface.1.conic=-0.4`). A model named so is relative to the working directory, one named in the file to the file's
+folder. Files have at most 1 MiB and nest at most 16 levels.
+
+## Top level
+
+| key | type | unit | allowed | default | meaning |
+|---|---|---|---|---|---|
+| `schema` | integer |  | 1 | required | Version of this format. |
+)";
+    std::string top;
+    append_table(top, display_table);
+    text += top.substr(top.find("| `"));  // without the head, which stands above
+    const Display any;
+    visit_tables(any, [&]<class T>(const Table<T>& table, const auto&) {
+        text += fmt::format("\n## `[{}]`\n\n{}\n\n", table.name, table.doc);
+        append_table(text, table);
+        if constexpr (std::is_same_v<T, Lens>) {
+            text += fmt::format("\n### `[[{}]]`\n\n{}\n\n", surface_table.name, surface_table.doc);
+            append_table(text, surface_table);
+        }
+    });
+    return text;
+}
+
+}  // namespace lfdsim

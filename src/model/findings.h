@@ -1,0 +1,42 @@
+// What validation has found so far. Floor 0.
+#pragma once
+#include "model/display.h"
+#include "model/error.h"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace lfdsim {
+
+class Findings {
+  public:
+    explicit Findings(std::vector<Problem>& all) : all_(all) {}
+
+    template <class... Args>
+    void add(std::string where, fmt::format_string<Args...> what, Args&&... args) {
+        all_.push_back({std::move(where), fmt::format(what, std::forward<Args>(args)...)});
+    }
+
+    /// Whether nothing is wrong yet with a key ("lens.index") or with any in a table ("lens."): only then may another check build
+    /// on its value.
+    bool sound(std::string_view key) const {
+        return std::none_of(all_.begin(), all_.end(), [&](const Problem& p) { return p.where.starts_with(key); });
+    }
+
+    std::size_t count() const { return all_.size(); }
+
+  private:
+    std::vector<Problem>& all_;
+};
+
+// The steps of validate(), in order. A reader may come first and name the keys that it could not read; they are judged no further.
+void validate_values(const Display&, Findings&);  // each key by itself: ranges, NaN, counts, keys that exclude or need one another
+void validate_lens(const Display&, Findings&);    // whether such a lens can be made and fits its cell
+void validate_layout(const Display&, Findings&);  // what stands in the way of what, by the resolved geometry
+
+}  // namespace lfdsim

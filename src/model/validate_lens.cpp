@@ -1,0 +1,101 @@
+#include <cmath>
+
+#include "model/findings.h"
+#include "model/keys.h"
+#include "model/prescription.h"
+
+namespace lfdsim {
+namespace {
+
+constexpr double rounding_mm = 1e-9;  // of sums of lengths up to a metre
+
+class LensCheck {
+  public:
+    LensCheck(const Display& d, Findings& f) : lens(d.lens), array(d.array), findings(f) {}
+
+    void check() {
+        if (lens.type == LensType::surfaces) return check_surfaces();
+        if (!findings.sound("lens.aperture_radius_mm")) return;
+        if (array.aperture == Aperture::circle) {
+            if (!lens.aperture_radius_mm)
+                return findings.add("lens.aperture_radius_mm",
+                                    "is missing; only lenses of array.aperture = \"square\" can do without");
+            check_width("lens.aperture_radius_mm", *lens.aperture_radius_mm);
+        }
+        if (lens.type == LensType::plano_convex && findings.sound("lens.sphere_radius_mm")) check_ball();
+        check_stop(array.aperture == Aperture::square ? array.pitch_mm / 2 : *lens.aperture_radius_mm);
+    }
+
+  private:
+    void check_width(const std::string& where, double radius) {
+        if (array.aperture == Aperture::circle && radius > array.pitch_mm / 2)
+            findings.add(where, "{} mm makes the lens wider than array.pitch_mm = {} mm; at most {} mm, or a larger pitch", radius,
+                         array.pitch_mm, array.pitch_mm / 2);
+    }
+
+    void check_stop(double radius) {
+        if (lens.stop_radius_mm && findings.sound("lens.") && *lens.stop_radius_mm > radius)
+            findings.add("lens.stop_radius_mm",
+                         "{} mm is wider than the lens, whose radius is {} mm; make it smaller or leave it out",
+                         *lens.stop_radius_mm, radius);
+    }
+
+    // Of a plano-convex lens: its cap is part of a ball, which must reach over the aperture and stay off the flat face.
+    void check_ball() {
+        const double R = lens.sphere_radius_mm, r = glass_radius_mm(lens, array), h = lens.cylinder_height_mm;
+        const bool corner = r > lens.aperture_radius_mm.value_or(0);
+        const double highest = 2 * std::sqrt((R - r) * (R + r));
+        if (R < r)
+            findings.add("lens.sphere_radius_mm",
+                         "R = {} mm is smaller than {} = {} mm, so the ball does not cover the aperture; at least that", R,
+                         corner ? "half the square cell's diagonal" : "the aperture radius r", r);
+        else if (findings.sound("lens.cylinder_height_mm") && h > highest)
+            findings.add("lens.cylinder_height_mm",
+                         "h = {} mm, but the ball of R = {} mm would cut the flat face; at most 2 sqrt(R^2 - r^2) = {} mm", h, R,
+                         highest);
+    }
+
+    void check_surfaces() {
+        const std::vector<PlacedSurface> surfaces = prescription(lens, array);
+        double narrowest = array.pitch_mm / 2;
+        for (std::size_t i = 0; i < surfaces.size(); ++i) {
+            if (!findings.sound(fmt::format("lens.surface.{}.", i))) continue;
+            check_width(fmt::format("lens.surface.{}.semi_aperture_mm", i), surfaces[i].semi_aperture_mm);
+            check_sag(i, surfaces[i]);
+            narrowest = std::min(narrowest, surfaces[i].semi_aperture_mm);
+        }
+        if (!findings.sound("lens.")) return;
+        for (std::size_t i = 0; i + 1 < surfaces.size(); ++i)
+            if (const double clear = clearance_mm(surfaces[i], surfaces[i + 1]); !(clear >= -rounding_mm))
+                findings.add(fmt::format("lens.surface.{}.distance_mm", i),
+                             "{} mm lets the surface and the next one cross within the aperture; at least {:.6g} mm",
+                             lens.surfaces[i].distance_mm, lens.surfaces[i].distance_mm - clear);
+        check_stop(narrowest);
+    }
+
+    void check_sag(std::size_t i, const PlacedSurface& s) {
+        const std::string where = fmt::format("lens.surface.{}.semi_aperture_mm", i);
+        // the conic's own edge, where 1 - (1 + k) c^2 s^2 = 0
+        const double edge = std::sqrt(1 / std::max((1 + s.conic) * s.curvature_per_mm * s.curvature_per_mm, 0.0));
+        const auto [low, high] = sag_range_mm(s);
+        if (s.semi_aperture_mm > edge)
+            findings.add(where, "{} mm, but the curvature of {} per mm with the conic of {} ends {} mm from the axis; at most that",
+                         s.semi_aperture_mm, s.curvature_per_mm, s.conic, edge);
+        else if (!(low >= -longest_mm && high <= longest_mm))
+            findings.add(where, "{} mm, within which the sag grows to {:.6g} mm, allowed is {}", s.semi_aperture_mm,
+                         high > -low ? high : low, any_length.text());
+    }
+
+    const Lens& lens;
+    const LensArray& array;
+    Findings& findings;
+};
+
+}  // namespace
+
+void validate_lens(const Display& d, Findings& findings) {
+    if (findings.sound("lens.type") && findings.sound("array.pitch_mm") && findings.sound("array.aperture"))
+        LensCheck(d, findings).check();
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,132 @@
+#include <cmath>
+
+#include "model/findings.h"
+#include "model/geometry.h"
+#include "model/keys.h"
+
+namespace lfdsim {
+namespace {
+
+// The values of one table against the ranges of its keys.
+class RangeCheck {
+  public:
+    RangeCheck(Findings& findings, LensType type) : findings_(findings), type_(type) {}
+
+    template <class T>
+    void operator()(const Table<T>& table, const T& values) {
+        check_table(table, values, std::string(table.name) + ".");
+    }
+    void operator()(const Table<Diffuser>& table, const std::optional<Diffuser>& values) {
+        if (values) (*this)(table, *values);
+    }
+    void operator()(const Table<Lens>& table, const Lens& lens) {
+        check_table(table, lens, "lens.");
+        if (lens.type != LensType::surfaces) return;
+        if (lens.surfaces.empty() && findings_.sound("lens.surface"))
+            findings_.add("lens.surface", "a lens of type \"surfaces\" needs at least one [[lens.surface]]");
+        if (lens.surfaces.size() > max_surfaces)
+            return findings_.add("lens.surface", "has more than the {} surfaces allowed", max_surfaces);
+        for (std::size_t i = 0; i < lens.surfaces.size(); ++i)
+            check_table(surface_table, lens.surfaces[i], fmt::format("lens.surface.{}.", i));
+    }
+
+  private:
+    template <class T>
+    void check_table(const Table<T>& table, const T& values, const std::string& prefix) {
+        for (const Key<T>& key : table.keys) {
+            const std::string where = prefix + std::string(key.name);
+            if (knows(key.lens_types, type_) && findings_.sound(where))
+                std::visit([&](auto member) { check(where, key.range, values.*member); }, key.member);
+        }
+    }
+
+    template <class Value>
+    void check(const std::string& where, const Range& range, const Value& value) {
+        if constexpr (std::is_arithmetic_v<Value>)  // words and names have no range
+            if (!range.contains(double(value)))
+                findings_.add(where, "is {}, allowed is {}", std::isnan(double(value)) ? "nan" : fmt::to_string(value),
+                              range.text());
+    }
+    void check(const std::string& where, const Range& range, const std::optional<double>& value) {
+        if (value) check(where, range, *value);
+    }
+    template <class Value, std::size_t n>
+    void check(const std::string& where, const Range& range, const std::array<Value, n>& values) {
+        for (std::size_t i = 0; i < n; ++i) check(fmt::format("{}[{}]", where, i), range, values[i]);
+    }
+    void check(const std::string& where, const Range& range, const std::vector<double>& values) {
+        if (values.size() > max_asphere_terms)
+            return findings_.add(where, "has {} coefficients, allowed are {}", values.size(), max_asphere_terms);
+        for (std::size_t i = 0; i < values.size(); ++i) check(fmt::format("{}[{}]", where, i), range, values[i]);
+    }
+
+    Findings& findings_;
+    LensType type_;
+};
+
+void check_product(const std::string& where, const std::array<std::int64_t, 2>& n, Findings& findings) {
+    const double product = double(n[0]) * double(n[1]);
+    if (findings.sound(where) && product >= two_to_31)
+        findings.add(where, "{} x {} = {:.0f}, allowed is a product below 2^31 = {:.0f}", n[0], n[1], product, two_to_31);
+}
+
+void check_surround(const Display& d, Findings& findings) {
+    if (d.array.surround == Surround::opaque || !findings.sound("array.surround")) return;
+    const std::string_view surround = word(d.array.surround);
+    if (d.lens.type == LensType::ideal)
+        findings.add("array.surround", "is \"{}\", but an ideal lens has no glass; take \"opaque\"", surround);
+    if (d.lens.type == LensType::surfaces && d.lens.surfaces.size() != 2)
+        findings.add("array.surround",
+                     "is \"{}\", which takes one glass body of two surfaces, but the lens has {}; take \"opaque\"", surround,
+                     d.lens.surfaces.size());
+}
+
+// Where the camera is and where it looks, as far as the display's solid does not matter.
+void check_view(const Camera& camera, Findings& findings) {
+    const Vec3d &eye = camera.position_mm, &target = camera.target_mm, &up = camera.up;
+    const Vec3d view{target[0] - eye[0], target[1] - eye[1], target[2] - eye[2]};
+    const double distance = std::hypot(view[0], view[1], view[2]), up_length = std::hypot(up[0], up[1], up[2]);
+    const double cross =
+        std::hypot(view[1] * up[2] - view[2] * up[1], view[2] * up[0] - view[0] * up[2], view[0] * up[1] - view[1] * up[0]);
+    if (eye[2] <= 0)
+        findings.add("camera.position_mm", "z = {} mm is {} the panel; the camera must be in front of it, at z > 0", eye[2],
+                     eye[2] < 0 ? "behind" : "on");
+    if (distance < shortest_mm)
+        findings.add("camera.target_mm", "is where the camera is; it must look somewhere");
+    else if (up_length < shortest_mm)
+        findings.add("camera.up", "is no direction, its length is {}; take [0, 1, 0]", up_length);
+    else if (cross <= 1e-6 * distance * up_length)
+        findings.add("camera.up",
+                     "lies along the line of sight from camera.position_mm to camera.target_mm; take another direction");
+}
+
+void check_choices(const Display& d, Findings& findings) {
+    if (d.array.gap_mm && d.array.base_z_mm && findings.sound("array.base_z_mm"))
+        findings.add("array.base_z_mm", "both array.gap_mm and array.base_z_mm given; leave one out");
+    if (!d.array.gap_mm && !d.array.base_z_mm && findings.sound("array.gap_mm") && findings.sound("array.base_z_mm"))
+        findings.add("array.gap_mm", "is missing; give array.gap_mm, or array.base_z_mm, to say where the lenses stand");
+    if (d.camera.frame_width_mm && d.camera.fov_deg && findings.sound("camera.fov_deg"))
+        findings.add("camera.fov_deg", "both camera.fov_deg and camera.frame_width_mm given; leave one out");
+    if (d.camera.focus_distance_mm && !d.camera.pupil_diameter_mm && findings.sound("camera.focus_distance_mm") &&
+        findings.sound("camera.pupil_diameter_mm"))
+        findings.add("camera.focus_distance_mm", "a pinhole has no focus; give camera.pupil_diameter_mm too, or leave this out");
+}
+
+}  // namespace
+
+void validate_values(const Display& d, Findings& findings) {
+    const bool type_known = findings.sound("lens.type");
+    RangeCheck check(findings, d.lens.type);
+    visit_tables(d, [&]<class T>(const Table<T>& table, const auto& values) {
+        if (!std::is_same_v<T, Lens> || type_known) check(table, values);
+    });
+    check_product("panel.pixels", d.panel.pixels, findings);
+    check_product("array.count", d.array.count, findings);
+    check_product("camera.resolution", d.camera.resolution, findings);
+    check_choices(d, findings);
+    if (type_known) check_surround(d, findings);
+    if (findings.sound("camera.position_mm") && findings.sound("camera.target_mm") && findings.sound("camera.up"))
+        check_view(d.camera, findings);
+}
+
+}  // namespace lfdsim
