@@ -24,7 +24,7 @@ class Texels {
 
   private:
     struct Unmap {
-        std::size_t bytes = 0;
+        std::size_t bytes;
         void operator()(float*) const;
     };
     std::int64_t columns_ = 0, rows_ = 0;

@@ -1,0 +1,128 @@
+#include "image/formats.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <thread>
+#include <vector>
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfThreading.h>
+
+namespace lfdsim::detail {
+namespace {
+
+constexpr const char* channel_names[3] = {"R", "G", "B"};
+constexpr int block_rows = 64;  // read at a time: enough for OpenEXR's threads (16 rows a ZIP block)
+
+/// OpenEXR keeps one pool of threads for the process, empty at first.
+void start_threads() {
+    static const bool started = [] {
+        Imf::setGlobalThreadCount(int(std::thread::hardware_concurrency()));
+        return true;
+    }();
+    static_cast<void>(started);
+}
+
+struct Window {
+    std::int64_t x0, y0, columns, rows;
+
+    explicit Window(const Imath::Box2i& box)
+        : x0(box.min.x), y0(box.min.y), columns(std::int64_t(box.max.x) - x0 + 1), rows(std::int64_t(box.max.y) - y0 + 1) {}
+};
+
+void check_channels(const InputFile& file, const Imf::ChannelList& channels) {
+    if (channels.findChannel("A"))
+        file.refuse("has an alpha channel, which a panel cannot show; save it with the channels R, G, B only");
+    for (const char* name : channel_names) {
+        const Imf::Channel* const channel = channels.findChannel(name);
+        if (!channel) file.refuse(fmt::format("has no channel {}; R, G and B are needed", name));
+        if (channel->xSampling != 1 || channel->ySampling != 1) file.refuse(fmt::format("has a subsampled channel {}", name));
+    }
+}
+
+void check_windows(const InputFile& file, const Window& data, const Window& display) {
+    // Bytes: half floats are 2, deflate packs 1032 into one at best; DWA leaves one of 64 values in a flat block.
+    file.check_size(data.columns, data.rows, 1032.0 * 64 / 2);
+    // What no data cover is black and costs no bytes, so a small file may claim a large frame: up to 2^26 pixels or 64 times the
+    // data.
+    const double frame = double(display.columns) * double(display.rows);
+    if (frame >= 0x1p31 || frame > std::max(0x1p26, 64.0 * double(data.columns) * double(data.rows)))
+        file.refuse(fmt::format("is too large: its display window is {} x {} pixels, its data {} x {}", display.columns,
+                                display.rows, data.columns, data.rows));
+}
+
+/// Copies what lies in both windows; outside of the data the picture stays black.
+void read_rows(Imf::InputFile& exr, const Window& data, const Window& display, const Pixels& pixels) {
+    std::vector<float> block(std::size_t(data.columns) * block_rows * 3);
+    const std::int64_t x_begin = std::max(data.x0, display.x0),
+                       x_end = std::min(data.x0 + data.columns, display.x0 + display.columns);
+    const std::int64_t y_begin = std::max(data.y0, display.y0), y_end = std::min(data.y0 + data.rows, display.y0 + display.rows);
+    for (std::int64_t y = y_begin; y < y_end; y += block_rows) {
+        const std::int64_t end = std::min(y + block_rows, y_end);
+        Imf::FrameBuffer frame;
+        for (int c = 0; c < 3; ++c)
+            frame.insert(channel_names[c],
+                         Imf::Slice::Make(Imf::FLOAT, block.data() + c, Imath::V2i(int(data.x0), int(y)), data.columns, end - y,
+                                          3 * sizeof(float), std::size_t(data.columns) * 3 * sizeof(float)));
+        exr.setFrameBuffer(frame);
+        exr.readPixels(int(y), int(end - 1));
+        for (std::int64_t r = y; r < end; ++r) {
+            const float* from = &block[std::size_t(((r - y) * data.columns + (x_begin - data.x0)) * 3)];
+            float* to = pixels.row(r - display.y0) + (x_begin - display.x0) * pixels.stride;
+            for (std::int64_t x = x_begin; x < x_end; ++x, from += 3, to += pixels.stride) std::copy_n(from, 3, to);
+        }
+    }
+}
+
+class OutputStream : public Imf::OStream {
+  public:
+    explicit OutputStream(OutputFile& file) : Imf::OStream("EXR"), file_(file) {}
+    void write(const char bytes[], int count) override { file_.write(bytes, std::size_t(count)); }
+    std::uint64_t tellp() override { return std::uint64_t(file_.position()); }
+    void seekp(std::uint64_t position) override { file_.seek(std::int64_t(position)); }
+
+  private:
+    OutputFile& file_;
+};
+
+}  // namespace
+
+void read_exr(const InputFile& file, const Allocate& allocate) {
+    start_threads();
+    try {
+        Imf::InputFile exr(file.name().c_str(), Imf::globalThreadCount());
+        const Window data(exr.header().dataWindow()), display(exr.header().displayWindow());
+        check_channels(file, exr.header().channels());
+        check_windows(file, data, display);
+        read_rows(exr, data, display, allocate(display.columns, display.rows));
+    } catch (const Iex::BaseExc& error) {
+        file.refuse(fmt::format("is damaged or not an EXR file: {}", error.what()));
+    }
+}
+
+void write_exr(OutputFile& file, const Image& image, const Metadata& metadata) {
+    start_threads();
+    Imf::Header header(image.width, image.height);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    Imf::FrameBuffer frame;
+    for (int c = 0; c < 3; ++c) {
+        header.channels().insert(channel_names[c], Imf::Channel(Imf::FLOAT));
+        char* const base = const_cast<char*>(reinterpret_cast<const char*>(image.rgb.data() + c));
+        frame.insert(channel_names[c],
+                     Imf::Slice(Imf::FLOAT, base, 3 * sizeof(float), std::size_t(image.width) * 3 * sizeof(float)));
+    }
+    for (const auto& [key, value] : metadata) header.insert(key, Imf::StringAttribute(value));
+
+    OutputStream stream(file);
+    Imf::OutputFile exr(stream, header, Imf::globalThreadCount());
+    exr.setFrameBuffer(frame);
+    exr.writePixels(image.height);
+}
+
+}  // namespace lfdsim::detail

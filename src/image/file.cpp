@@ -1,0 +1,97 @@
+#include "image/file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+namespace lfdsim::detail {
+namespace fs = std::filesystem;
+namespace {
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+
+}  // namespace
+
+InputFile::InputFile(const fs::path& path) : name_(path.string()) {
+    // O_NONBLOCK: opening a FIFO that nobody writes to must not hang; regular files ignore it.
+    const int descriptor = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) refuse(fmt::format("cannot be read: {}", reason(errno)));
+    stream_.reset(fdopen(descriptor, "rb"));
+    if (!stream_) {
+        close(descriptor);
+        throw std::bad_alloc();
+    }
+    struct stat status {};
+    if (fstat(descriptor, &status) != 0) refuse(fmt::format("cannot be read: {}", reason(errno)));
+    if (S_ISDIR(status.st_mode)) refuse("is a folder; an image file is needed");
+    if (!S_ISREG(status.st_mode)) refuse("is not a regular file; save the image in one");
+    if (status.st_size == 0) refuse("is empty");
+    size_ = status.st_size;
+}
+
+void InputFile::check_size(std::int64_t columns, std::int64_t rows, double pixels_per_byte) const {
+    const double pixels = double(columns) * double(rows);
+    if (columns < 1 || rows < 1) refuse(fmt::format("has no pixels ({} x {})", columns, rows));
+    if (pixels >= 0x1p31) refuse(fmt::format("is too large: {} x {} pixels; fewer than 2^31 are allowed", columns, rows));
+    if (pixels > pixels_per_byte * double(size_))
+        refuse(fmt::format("is damaged: it claims {} x {} pixels, more than its {} bytes can hold", columns, rows, size_));
+}
+
+OutputFile::OutputFile(const fs::path& path) : path_(path), partial_(fmt::format("{}.partial-{}", path.string(), getpid())) {
+    check_replaceable(path);
+    const int descriptor = open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (descriptor < 0) {
+        if (errno == ENOSPC || errno == EDQUOT || errno == EIO || errno == EMFILE || errno == ENFILE) fail();
+        throw InputError(path.string(), fmt::format("cannot be written: {}", reason(errno)));
+    }
+    stream_.reset(fdopen(descriptor, "wb"));
+    if (stream_) return;
+    close(descriptor);
+    unlink(partial_.c_str());
+    throw std::bad_alloc();
+}
+
+OutputFile::~OutputFile() {
+    if (partial_.empty()) return;
+    stream_.reset();
+    unlink(partial_.c_str());
+}
+
+void OutputFile::fail() const { throw std::runtime_error(fmt::format("{}: cannot be written: {}", path_.string(), reason(errno))); }
+
+void OutputFile::write(const void* data, std::size_t bytes) {
+    if (std::fwrite(data, 1, bytes, stream_.get()) != bytes) fail();
+}
+
+void OutputFile::seek(std::int64_t position) {
+    if (fseeko(stream_.get(), position, SEEK_SET) != 0) fail();
+}
+
+std::int64_t OutputFile::position() const { return ftello(stream_.get()); }
+
+void OutputFile::commit() {
+    // A library may have swallowed the exception of a failed write; the stream remembers.
+    const bool failed = std::ferror(stream_.get()) != 0;
+    if (std::fclose(stream_.release()) != 0 || failed || rename(partial_.c_str(), path_.c_str()) != 0) fail();
+    partial_.clear();
+}
+
+void check_replaceable(const fs::path& path) {
+    const fs::path folder = folder_of(path);
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (fs::is_directory(status)) throw InputError(path.string(), "is a folder; give the name of a file");
+    if (fs::exists(status) && !fs::is_regular_file(status)) throw InputError(path.string(), "exists and is not a regular file");
+    if (!fs::is_directory(folder, error))
+        throw InputError(path.string(), fmt::format("the folder {} does not exist; make it first", folder.string()));
+    if (faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0)
+        throw InputError(path.string(), fmt::format("the folder {} cannot be written: {}", folder.string(), reason(errno)));
+}
+
+}  // namespace lfdsim::detail

@@ -1,0 +1,65 @@
+// Files as the formats read and write them. Internal to src/image. Floor 0.
+#pragma once
+#include "model/error.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace lfdsim::detail {
+
+struct Close {
+    void operator()(std::FILE* stream) const { std::fclose(stream); }
+};
+using Stream = std::unique_ptr<std::FILE, Close>;
+
+/// A regular, non-empty file open for reading. Throws InputError that names it.
+class InputFile {
+  public:
+    explicit InputFile(const std::filesystem::path& path);
+
+    const std::string& name() const { return name_; }
+    std::FILE* stream() const { return stream_.get(); }
+    std::int64_t size() const { return size_; }
+
+    /// Throws InputError.
+    [[noreturn]] void refuse(const std::string& what) const { throw InputError(name_, what); }
+
+    /// To be called before anything is allocated for columns x rows pixels: refuses 2^31 or more, and more than a file of this
+    /// size can hold when each byte yields at most `pixels_per_byte`.
+    void check_size(std::int64_t columns, std::int64_t rows, double pixels_per_byte) const;
+
+  private:
+    std::string name_;
+    Stream stream_;
+    std::int64_t size_ = 0;
+};
+
+/// Writes to PATH.partial-PID; commit() renames it to PATH, and without one the destructor removes it.
+/// Throws InputError when the file cannot be made there, std::runtime_error when writing fails (disk full).
+class OutputFile {
+  public:
+    explicit OutputFile(const std::filesystem::path& path);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    std::string name() const { return path_.string(); }
+    void write(const void* data, std::size_t bytes);
+    void seek(std::int64_t position);
+    std::int64_t position() const;
+    void commit();
+
+  private:
+    [[noreturn]] void fail() const;
+
+    std::filesystem::path path_, partial_;
+    Stream stream_;
+};
+
+/// Throws InputError unless a file can be made or replaced at `path`, as far as can be told without touching anything.
+void check_replaceable(const std::filesystem::path& path);
+
+}  // namespace lfdsim::detail

@@ -1,0 +1,43 @@
+// What each file format gives to image_file.cpp. Internal to src/image. Floor 0.
+#pragma once
+#include "image/file.h"
+#include "image/image.h"
+#include "image/image_file.h"
+#include "model/display.h"
+
+#include <cstdint>
+#include <functional>
+
+namespace lfdsim::detail {
+
+/// Where a reader puts linear light: rows of `columns` pixels, each `stride` floats of which the first three are R, G, B. Zeroed.
+struct Pixels {
+    float* data;
+    std::int64_t columns;
+    int stride;  // 3 in an Image, 4 in Texels
+
+    float* row(std::int64_t r) const { return data + r * columns * stride; }
+};
+
+/// Called once by each reader, when it knows the size and has found it plausible.
+using Allocate = std::function<Pixels(std::int64_t columns, std::int64_t rows)>;
+
+// All throw InputError that names the file and what is wrong. EXR and NPY may hand over values that are not finite.
+void read_png(const InputFile&, Encoding, const Allocate&);
+void read_jpeg(const InputFile&, Encoding, const Allocate&);
+void read_exr(const InputFile&, const Allocate&);
+void read_npy(const InputFile&, const Allocate&);
+
+// All throw std::runtime_error when writing fails.
+void write_png(OutputFile&, const Image&, const WriteOptions&);
+void write_exr(OutputFile&, const Image&, const Metadata&);
+void write_npy(OutputFile&, const Image&);
+
+/// n codes of one row, three a pixel, to light.
+template <class Code>
+void decode_row(const Code* codes, const std::vector<float>& table, std::int64_t columns, int stride, float* light) {
+    for (std::int64_t i = 0; i < columns; ++i)
+        for (int c = 0; c < 3; ++c) light[i * stride + c] = table[codes[i * 3 + c]];
+}
+
+}  // namespace lfdsim::detail

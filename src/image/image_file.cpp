@@ -1,0 +1,125 @@
+#include "image/image_file.h"
+
+#include "image/formats.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace lfdsim {
+namespace {
+
+using namespace detail;
+namespace fs = std::filesystem;
+
+enum class Format { png, exr, npy, jpeg };
+
+std::string extension(const fs::path& path) {
+    std::string text = path.extension().string();
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+Format format_to_read(const fs::path& path) {
+    const std::string e = extension(path);
+    if (e == ".png") return Format::png;
+    if (e == ".exr") return Format::exr;
+    if (e == ".npy") return Format::npy;
+    if (e == ".jpg" || e == ".jpeg") return Format::jpeg;
+    throw InputError(path.string(), fmt::format("unknown image extension \"{}\"; .png, .exr, .npy, .jpg and .jpeg can be read", e));
+}
+
+Format format_to_write(const fs::path& path) {
+    const std::string e = extension(path);
+    if (e == ".png") return Format::png;
+    if (e == ".exr") return Format::exr;
+    if (e == ".npy") return Format::npy;
+    throw InputError(path.string(), fmt::format("unknown image extension \"{}\"; .png, .exr and .npy can be written", e));
+}
+
+/// Refuses what would drive the machine into swapping, or the kernel to kill the program.
+void check_memory(const InputFile& file, std::int64_t columns, std::int64_t rows, int floats_per_pixel) {
+    const double needed = double(columns) * double(rows) * floats_per_pixel * sizeof(float);
+    const double present = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
+    if (needed > present)
+        file.refuse(fmt::format("is too large: {} x {} pixels take {:.1f} GB of memory, this machine has {:.1f} GB", columns, rows,
+                                needed / 1e9, present / 1e9));
+}
+
+enum class Values { finite, radiance };
+
+/// NaN and infinities have no meaning in a picture, nor negative radiance on a panel; the first such value is named.
+void check_values(const InputFile& file, Values allowed, const Pixels& pixels, std::int64_t rows) {
+    const float least = allowed == Values::radiance ? 0 : std::numeric_limits<float>::lowest();
+    for (std::int64_t r = 0; r < rows; ++r) {
+        const float* value = pixels.row(r);
+        for (std::int64_t i = 0; i < pixels.columns; ++i, value += pixels.stride)
+            for (int c = 0; c < 3; ++c)
+                if (!(value[c] >= least && value[c] <= std::numeric_limits<float>::max()))
+                    file.refuse(fmt::format("holds {} in channel {} at column {}, row {}; values must be finite{}", value[c],
+                                            "RGB"[c], i, r, allowed == Values::radiance ? " and not negative" : ""));
+    }
+}
+
+void read(const InputFile& file, Format format, Encoding encoding, Values allowed, const Allocate& allocate) {
+    if (format == Format::png) return read_png(file, encoding, allocate);
+    if (format == Format::jpeg) return read_jpeg(file, encoding, allocate);
+    Pixels pixels{};
+    std::int64_t height = 0;
+    const Allocate remember = [&](std::int64_t columns, std::int64_t rows) {
+        height = rows;
+        return pixels = allocate(columns, rows);
+    };
+    format == Format::exr ? read_exr(file, remember) : read_npy(file, remember);
+    check_values(file, allowed, pixels, height);
+}
+
+}  // namespace
+
+void check_writable(const fs::path& path) {
+    format_to_write(path);
+    check_replaceable(path);
+}
+
+void write_image(const fs::path& path, const Image& image, const WriteOptions& options) {
+    const Format format = format_to_write(path);
+    if (options.bits != 8 && options.bits != 16)
+        throw InputError(path.string(), fmt::format("{} bits; 8 or 16 are possible", options.bits));
+    if (image.width < 1 || image.height < 1 || image.rgb.size() != std::size_t(image.width) * std::size_t(image.height) * 3)
+        throw std::invalid_argument("write_image: the image is empty or its size is wrong");
+    OutputFile file(path);
+    if (format == Format::png) write_png(file, image, options);
+    if (format == Format::exr) write_exr(file, image, options.metadata);
+    if (format == Format::npy) write_npy(file, image);
+    file.commit();
+}
+
+Image read_image(const fs::path& path, Encoding encoding) {
+    const Format format = format_to_read(path);
+    const InputFile file(path);
+    Image image;
+    read(file, format, encoding, Values::finite, [&](std::int64_t columns, std::int64_t rows) {
+        check_memory(file, columns, rows, 3);
+        image = Image(int(columns), int(rows));
+        return Pixels{image.rgb.data(), columns, 3};
+    });
+    return image;
+}
+
+Texels read_panel_image(const fs::path& path, Encoding encoding, std::int64_t columns, std::int64_t rows) {
+    const Format format = format_to_read(path);
+    const InputFile file(path);
+    Texels texels;
+    read(file, format, encoding, Values::radiance, [&](std::int64_t c, std::int64_t r) {
+        if (c != columns || r != rows)
+            file.refuse(fmt::format("is {} x {} pixels, the panel has {} x {}; the sizes must be equal", c, r, columns, rows));
+        check_memory(file, columns, rows, 4);
+        texels = Texels(columns, rows);
+        return Pixels{texels.data(), columns, 4};
+    });
+    return texels;
+}
+
+}  // namespace lfdsim
