@@ -7,6 +7,7 @@
 #include "content/reader/warnings.h"
 #include "image/encoding.h"
 
+#include <assimp/GltfMaterial.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -40,6 +41,13 @@ Wrap wrap(aiTextureMapMode mode) {
     }
 }
 
+// Some loaders (Blender) hand over colours where the file has none, all black.
+bool coloured(const aiMesh& mesh) {
+    if (!mesh.HasVertexColors(0)) return false;
+    const aiColor4D* first = mesh.mColors[0];
+    return std::any_of(first, first + mesh.mNumVertices, [](const aiColor4D& c) { return c.r > 0 || c.g > 0 || c.b > 0; });
+}
+
 class Conversion {
   public:
     Conversion(const aiScene& scene, const Folder& folder, const std::string& format, const Turn& turn)
@@ -53,6 +61,7 @@ class Conversion {
         model_.textures = std::move(textures_.textures);
         model_.notes.insert(model_.notes.end(), textures_.notes.begin(), textures_.notes.end());
         if (dropped_ > 0) model_.notes.push_back(std::to_string(dropped_) + " faces left out: degenerate");
+        if (transparent_) model_.notes.push_back("transparent materials are shown opaque");
         show_black();
         if (model_.indices.empty()) throw std::runtime_error("has no triangles: nothing to show");
         return std::move(model_);
@@ -67,7 +76,7 @@ class Conversion {
     // glTF gives factors in linear light that multiply texture and vertex colour, OBJ display colours that multiply the texture;
     // elsewhere a texture or a vertex colour stands in the colour's place, and colours are display colours (sRGB).
     std::uint32_t material(const aiMesh& mesh, int& channel) {
-        const auto key = std::tuple(mesh.mMaterialIndex, mesh.HasTextureCoords(0), mesh.HasVertexColors(0));
+        const auto key = std::tuple(mesh.mMaterialIndex, mesh.HasTextureCoords(0), coloured(mesh));
         const aiMaterial& from = *scene_.mMaterials[mesh.mMaterialIndex];
         Material to;
         aiString name;
@@ -82,12 +91,17 @@ class Conversion {
         to.wrap_u = wrap(modes[0]);
         to.wrap_v = wrap(modes[1]);
         aiColor4D colour(1, 1, 1, 1);
-        if (factors_ || (to.texture < 0 && !mesh.HasVertexColors(0))) {
+        if (factors_ || (to.texture < 0 && !coloured(mesh))) {
             if (from.Get(AI_MATKEY_BASE_COLOR, colour) != aiReturn_SUCCESS) from.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
         }
         for (int c = 0; c < 3; ++c) to.colour[c] = light(colour[unsigned(c)]);
         const auto [entry, fresh] = known_.try_emplace(key, std::uint32_t(model_.materials.size()));
         if (fresh) model_.materials.push_back(to);
+        float opacity = 1;
+        aiString alpha("OPAQUE");
+        from.Get(AI_MATKEY_OPACITY, opacity);
+        from.Get(AI_MATKEY_GLTF_ALPHAMODE, alpha);
+        transparent_ = transparent_ || opacity < 0.99f || alpha != aiString("OPAQUE");
         return entry->second;
     }
 
@@ -104,7 +118,7 @@ class Conversion {
             const aiVector3D uv = mesh.HasTextureCoords(unsigned(channel)) ? mesh.mTextureCoords[channel][v] : aiVector3D();
             model_.uvs.insert(model_.uvs.end(), {uv.x, uv.y});
         }
-        if (mesh.HasVertexColors(0)) {
+        if (coloured(mesh)) {
             model_.colours.resize(first * 3, 1.f);
             for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
                 const aiColor4D& c = mesh.mColors[0][v];
@@ -146,6 +160,7 @@ class Conversion {
     std::map<std::tuple<unsigned, bool, bool>, std::uint32_t> known_;
     Model model_;
     std::int64_t dropped_ = 0;
+    bool transparent_ = false;
 };
 
 // Flipped, broken or missing normals would leave holes in the shading.
