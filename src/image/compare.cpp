@@ -1,6 +1,5 @@
 #include "image/compare.h"
 
-#include "image/encoding.h"
 #include "model/error.h"
 
 #include <fmt/format.h>
@@ -97,7 +96,11 @@ void compare_light(const Image& a, const Image& b, const Rect& region, Compariso
         for (int i = 0; i < (region.x1 - region.x0) * 3; ++i) {
             const double difference = std::abs(double(pa[i]) - double(pb[i]));
             row.squares += difference * difference;
-            if (difference > row.max) row.max = difference, row.column = region.x0 + i / 3, row.channel = i % 3;
+            if (difference > row.max) {
+                row.max = difference;
+                row.column = region.x0 + i / 3;
+                row.channel = i % 3;
+            }
         }
     });
     double squares = 0;
@@ -106,7 +109,9 @@ void compare_light(const Image& a, const Image& b, const Rect& region, Compariso
         squares += rows[r].squares;
         if (rows[r].max <= result.max_difference) continue;
         result.max_difference = rows[r].max;
-        result.max_column = rows[r].column, result.max_row = region.y0 + int(r), result.max_channel = rows[r].channel;
+        result.max_column = rows[r].column;
+        result.max_row = region.y0 + int(r);
+        result.max_channel = rows[r].channel;
     }
     result.rmse = std::sqrt(squares / (3.0 * double(region.x1 - region.x0) * double(rows.size())));
     result.psnr_db = squares > 0 ? -20 * std::log10(result.rmse) : std::numeric_limits<double>::infinity();

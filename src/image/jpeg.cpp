@@ -67,9 +67,10 @@ void read_jpeg(const InputFile& file, Encoding encoding, const Allocate& allocat
     if (jpeg.num_components != 1 && jpeg.num_components != 3)
         file.refuse(fmt::format("has {} colour components; gray or RGB is needed", jpeg.num_components));
     jpeg.out_color_space = JCS_RGB;
+    // Before libjpeg allocates: a progressive picture takes memory for all its coefficients.
+    const Pixels pixels = allocate(jpeg.image_width, jpeg.image_height);
     jpeg_start_decompress(&jpeg);
 
-    const Pixels pixels = allocate(jpeg.output_width, jpeg.output_height);
     const std::vector<float>& table = decode_table(encoding, 8);
     std::vector<JSAMPLE> codes(std::size_t(pixels.columns) * 3);
     while (jpeg.output_scanline < jpeg.output_height) {
