@@ -18,12 +18,16 @@ namespace lfdsim::detail {
 namespace {
 
 constexpr const char* channel_names[3] = {"R", "G", "B"};
-constexpr int block_rows = 64;  // read at a time: enough for OpenEXR's threads (16 rows a ZIP block)
+constexpr std::int64_t most_block_rows = 64;         // read at a time: enough for OpenEXR's threads (16 rows a ZIP block)
+constexpr std::int64_t most_block_pixels = 1 << 22;  // and at most 48 MiB, unless one row takes more
+constexpr int most_tile = 8192;
 
-/// OpenEXR keeps one pool of threads for the process, empty at first.
-void start_threads() {
+/// OpenEXR's settings are the process's: its pool of threads, empty at first, and a limit against headers that claim enormous
+/// tiles.
+void start_library() {
     static const bool started = [] {
         Imf::setGlobalThreadCount(int(std::thread::hardware_concurrency()));
+        Imf::Header::setMaxTileSize(most_tile, most_tile);
         return true;
     }();
     static_cast<void>(started);
@@ -46,9 +50,11 @@ void check_channels(const InputFile& file, const Imf::ChannelList& channels) {
     }
 }
 
-void check_windows(const InputFile& file, const Window& data, const Window& display) {
-    // Bytes: half floats are 2, deflate packs 1032 into one at best; DWA leaves one of 64 values in a flat block.
-    file.check_size(data.columns, data.rows, 1032.0 * 64 / 2);
+void check_windows(const InputFile& file, const Window& data, const Window& display, Imf::Compression compression) {
+    // Three half floats are 6 bytes; deflate packs 1032 into one at best, PIZ fewer. DWA first keeps one value of a flat 8 x 8
+    // block.
+    const bool dwa = compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
+    file.check_size(data.columns, data.rows, 1032.0 / 6 * (dwa ? 64 : 1));
     // What no data cover is black and costs no bytes, so a small file may claim a large frame: up to 2^26 pixels or 64 times the
     // data.
     const double frame = double(display.columns) * double(display.rows);
@@ -59,7 +65,8 @@ void check_windows(const InputFile& file, const Window& data, const Window& disp
 
 /// Copies what lies in both windows; outside of the data the picture stays black.
 void read_rows(Imf::InputFile& exr, const Window& data, const Window& display, const Pixels& pixels) {
-    std::vector<float> block(std::size_t(data.columns) * block_rows * 3);
+    const std::int64_t block_rows = std::clamp(most_block_pixels / data.columns, std::int64_t(1), most_block_rows);
+    std::vector<float> block(std::size_t(data.columns * block_rows) * 3);
     const std::int64_t x_begin = std::max(data.x0, display.x0),
                        x_end = std::min(data.x0 + data.columns, display.x0 + display.columns);
     const std::int64_t y_begin = std::max(data.y0, display.y0), y_end = std::min(data.y0 + data.rows, display.y0 + display.rows);
@@ -94,12 +101,12 @@ class OutputStream : public Imf::OStream {
 }  // namespace
 
 void read_exr(const InputFile& file, const Allocate& allocate) {
-    start_threads();
+    start_library();
     try {
         Imf::InputFile exr(file.name().c_str(), Imf::globalThreadCount());
         const Window data(exr.header().dataWindow()), display(exr.header().displayWindow());
         check_channels(file, exr.header().channels());
-        check_windows(file, data, display);
+        check_windows(file, data, display, exr.header().compression());
         read_rows(exr, data, display, allocate(display.columns, display.rows));
     } catch (const Iex::BaseExc& error) {
         file.refuse(fmt::format("is damaged or not an EXR file: {}", error.what()));
@@ -107,7 +114,7 @@ void read_exr(const InputFile& file, const Allocate& allocate) {
 }
 
 void write_exr(OutputFile& file, const Image& image, const Metadata& metadata) {
-    start_threads();
+    start_library();
     Imf::Header header(image.width, image.height);
     header.compression() = Imf::ZIP_COMPRESSION;
     Imf::FrameBuffer frame;
@@ -119,10 +126,14 @@ void write_exr(OutputFile& file, const Image& image, const Metadata& metadata) {
     }
     for (const auto& [key, value] : metadata) header.insert(key, Imf::StringAttribute(value));
 
-    OutputStream stream(file);
-    Imf::OutputFile exr(stream, header, Imf::globalThreadCount());
-    exr.setFrameBuffer(frame);
-    exr.writePixels(image.height);
+    try {
+        OutputStream stream(file);
+        Imf::OutputFile exr(stream, header, Imf::globalThreadCount());
+        exr.setFrameBuffer(frame);
+        exr.writePixels(image.height);
+    } catch (const Iex::BaseExc& error) {
+        throw std::runtime_error(fmt::format("{}: cannot be written: {}", file.name(), error.what()));
+    }
 }
 
 }  // namespace lfdsim::detail

@@ -47,7 +47,7 @@ OutputFile::OutputFile(const fs::path& path) : path_(path), partial_(fmt::format
     check_replaceable(path);
     const int descriptor = open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (descriptor < 0) {
-        if (errno == ENOSPC || errno == EDQUOT || errno == EIO || errno == EMFILE || errno == ENFILE) fail();
+        if (errno == ENOSPC || errno == EDQUOT || errno == EIO || errno == EMFILE || errno == ENFILE) fail(errno);
         throw InputError(path.string(), fmt::format("cannot be written: {}", reason(errno)));
     }
     stream_.reset(fdopen(descriptor, "wb"));
@@ -63,22 +63,24 @@ OutputFile::~OutputFile() {
     unlink(partial_.c_str());
 }
 
-void OutputFile::fail() const { throw std::runtime_error(fmt::format("{}: cannot be written: {}", path_.string(), reason(errno))); }
+void OutputFile::fail(int error) {
+    error_ = error;
+    throw std::runtime_error(fmt::format("{}: cannot be written: {}", name(), reason(error)));
+}
 
 void OutputFile::write(const void* data, std::size_t bytes) {
-    if (std::fwrite(data, 1, bytes, stream_.get()) != bytes) fail();
+    if (std::fwrite(data, 1, bytes, stream_.get()) != bytes) fail(errno);
 }
 
 void OutputFile::seek(std::int64_t position) {
-    if (fseeko(stream_.get(), position, SEEK_SET) != 0) fail();
+    if (fseeko(stream_.get(), position, SEEK_SET) != 0) fail(errno);
 }
 
 std::int64_t OutputFile::position() const { return ftello(stream_.get()); }
 
 void OutputFile::commit() {
-    // A library may have swallowed the exception of a failed write; the stream remembers.
-    const bool failed = std::ferror(stream_.get()) != 0;
-    if (std::fclose(stream_.release()) != 0 || failed || rename(partial_.c_str(), path_.c_str()) != 0) fail();
+    if (error_ != 0) fail(error_);  // OpenEXR's destructor swallows exceptions
+    if (std::fclose(stream_.release()) != 0 || rename(partial_.c_str(), path_.c_str()) != 0) fail(errno);
     partial_.clear();
 }
 

@@ -53,10 +53,11 @@ class OutputFile {
     void commit();
 
   private:
-    [[noreturn]] void fail() const;
+    [[noreturn]] void fail(int error);
 
     std::filesystem::path path_, partial_;
     Stream stream_;
+    int error_ = 0;  // errno of the first failure
 };
 
 /// Throws InputError unless a file can be made or replaced at `path`, as far as can be told without touching anything.
