@@ -1,0 +1,128 @@
+// Where everything stands, by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "example.h"
+#include "model/geometry.h"
+
+namespace lfdsim {
+namespace {
+
+constexpr double R = 7.28, n = 1.4918, gap = 16.485;
+const double cap = R - std::sqrt(R * R - 36), T = 1 + cap;
+
+TEST(Resolve, PlanoConvexAtItsGap) {
+    const Geometry g = resolve(example());
+    EXPECT_NEAR(g.base_z_mm, gap - T / n, 1e-12);
+    EXPECT_NEAR(g.top_z_mm, g.base_z_mm + T, 1e-12);
+    EXPECT_NEAR(g.vertex_plane_mm, g.top_z_mm, 1e-12);
+    EXPECT_NEAR(g.stop_z_mm, g.top_z_mm, 1e-12);
+    EXPECT_NEAR(g.front_principal_mm, gap, 1e-12);
+    EXPECT_NEAR(g.rear_principal_mm, g.top_z_mm, 1e-12);
+    EXPECT_EQ(g.gap_mm, gap);
+    EXPECT_EQ(g.clear_aperture_mm, 12);
+    EXPECT_EQ(g.glass_radius_mm, 6);
+    ASSERT_EQ(g.surfaces.size(), 2u);
+    EXPECT_EQ(g.surfaces[0].curvature_per_mm, 0);
+    EXPECT_NEAR(g.surfaces[1].curvature_per_mm, -1 / R, 1e-15);
+    EXPECT_EQ(g.surfaces[0].index_above, n);
+    EXPECT_EQ(g.surfaces[1].index_above, 1);
+    EXPECT_NEAR(g.array_width_mm, 516, 1e-9);
+    EXPECT_NEAR(g.panel_width_mm, 523.6224, 1e-9);
+}
+
+TEST(Resolve, PlanoConvexTurnedRoundIsMirrored) {
+    Display d = example();
+    d.array.gap_mm.reset();
+    d.array.base_z_mm = 10;
+    d.lens.facing = Facing::panel;
+    d.lens.stop_radius_mm = 1;
+    const Geometry g = resolve(d);
+    EXPECT_EQ(g.base_z_mm, 10);
+    EXPECT_NEAR(g.top_z_mm, 10 + T, 1e-12);
+    EXPECT_NEAR(g.gap_mm, 10, 1e-12);  // the principal plane is in the convex vertex
+    EXPECT_NEAR(g.stop_z_mm, 10, 1e-12);
+    EXPECT_EQ(g.clear_aperture_mm, 2);
+    EXPECT_NEAR(g.surfaces[0].curvature_per_mm, 1 / R, 1e-15);
+}
+
+TEST(Resolve, GapAndBaseSayTheSame) {
+    for (Display d : {example(), example_surfaces(), example_ideal()}) {
+        const Geometry a = resolve(d);
+        d.array.gap_mm.reset();
+        d.array.base_z_mm = a.base_z_mm;
+        const Geometry b = resolve(d);
+        EXPECT_NEAR(b.gap_mm, gap, 1e-12);
+        EXPECT_NEAR(b.top_z_mm, a.top_z_mm, 1e-12);
+    }
+}
+
+TEST(Resolve, SquareCellsMeetAtTheirCorners) {
+    Display d = example();
+    d.array.aperture = Aperture::square;
+    d.lens.aperture_radius_mm.reset();
+    d.lens.sphere_radius_mm = 9;
+    const Geometry g = resolve(d);
+    EXPECT_NEAR(g.glass_radius_mm, 6 * std::sqrt(2.0), 1e-12);
+    EXPECT_EQ(g.clear_aperture_mm, 12);
+    EXPECT_NEAR(g.top_z_mm - g.base_z_mm, 1 + 9 - std::sqrt(81.0 - 72.0), 1e-12);  // h + R - sqrt(R^2 - r^2)
+}
+
+// A meniscus bent towards the panel: its rims, not its vertices, are lowest.
+TEST(Resolve, LowestPointMayBeARim) {
+    Display d = example_surfaces();
+    d.lens.surfaces = {{-0.05, 0, {}, 6, 2, 1.5}, {-0.06, 0, {}, 6, 0, 1}};
+    d.array.gap_mm.reset();
+    d.array.base_z_mm = 3;
+    const Geometry g = resolve(d);
+    EXPECT_NEAR(g.surfaces[0].z_mm, 3 + 20 - std::sqrt(400.0 - 36), 1e-9);
+    EXPECT_NEAR(g.top_z_mm, g.surfaces[1].z_mm, 1e-12);
+}
+
+TEST(Resolve, IdealLensIsAllInOnePlane) {
+    const Geometry g = resolve(example_ideal());
+    EXPECT_TRUE(g.surfaces.empty());
+    for (const double z : {g.base_z_mm, g.top_z_mm, g.vertex_plane_mm, g.front_principal_mm, g.rear_principal_mm, g.stop_z_mm})
+        EXPECT_EQ(z, gap);
+    EXPECT_EQ(g.focal_length_mm, 15.7);
+}
+
+TEST(Resolve, CameraDefaults) {
+    Display d = example();
+    EXPECT_NEAR(resolve(d).frame_width_mm, 1.03 * 3840 * 0.13636, 1e-9);
+    EXPECT_EQ(resolve(d).focus_distance_mm, 2000);
+    d.panel.pixels = {2160, 3840};  // upright: the height decides
+    EXPECT_NEAR(resolve(d).frame_width_mm, 1.03 * 3840 * 0.13636 * 16 / 9, 1e-9);
+    d.camera.fov_deg = 90;
+    d.camera.position_mm = {300, 0, 400};
+    EXPECT_NEAR(resolve(d).frame_width_mm, 1000, 1e-9);
+    d.camera.pupil_diameter_mm = 4;
+    d.camera.focus_distance_mm = 123;
+    EXPECT_EQ(resolve(d).focus_distance_mm, 123);
+}
+
+TEST(Resolve, ContentStandsOnTheCentralDepthPlaneWithinReach) {
+    Display d = example_ideal();
+    EXPECT_NEAR(resolve(d).content_depth_mm, 15.7 * gap / (gap - 15.7), 1e-9);
+    EXPECT_NEAR(resolve(d).content_height_mm, 2160 * 0.13636 / 2, 1e-12);
+    d.array.gap_mm = 15;  // virtual: behind the lenses
+    EXPECT_NEAR(resolve(d).content_depth_mm, 15.7 * 15 / (15 - 15.7), 1e-9);
+    d.array.gap_mm = 15.7;  // collimated
+    EXPECT_EQ(resolve(d).content_depth_mm, 0);
+    d.array.gap_mm = 15.8;  // 2480 mm, behind the viewer
+    EXPECT_EQ(resolve(d).content_depth_mm, 0);
+    d.content.depth_mm = -7;
+    EXPECT_EQ(resolve(d).content_depth_mm, -7);
+}
+
+// Facing the panel the rear principal plane lies T/n inside the flat face; depth counts from the face.
+TEST(Resolve, ContentDepthCountsFromTheVertexPlane) {
+    Display d = example();
+    d.lens.facing = Facing::panel;
+    const Geometry g = resolve(d);
+    EXPECT_NEAR(g.content_depth_mm, theory(d, g).central_depth_mm - T / n, 1e-9);
+}
+
+}  // namespace
+}  // namespace lfdsim

@@ -1,0 +1,119 @@
+// Paraxial theory: the figures of the ready displays, limits, and viewing zones by counting lenses.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "example.h"
+#include "model/geometry.h"
+
+namespace lfdsim {
+namespace {
+
+constexpr double degree = 3.14159265358979323846 / 180;
+
+Theory theory_of(const Display& d) { return theory(d, resolve(d)); }
+
+struct Figures {
+    const char* name;
+    Display display;
+    double f, central_depth, pixel_image, near, far;
+};
+
+// Half a unit in the last place that is given.
+TEST(Theory, DesktopDisplays) {
+    Display stopped = example();
+    stopped.lens.stop_radius_mm = 1.1595;
+    Display ideal = example_ideal();
+    ideal.array.aperture = Aperture::square;
+    for (const Figures& want :
+         {Figures{"stopped", stopped, 14.803, 145.1, 1.200, 70, 220}, Figures{"ideal", ideal, 15.700, 329.7, 2.727, 254.8, 404.6},
+          Figures{"asphere", example_surfaces(), 15.699, 329.5, 2.725, 254.6, 404.3}}) {
+        const Theory t = theory_of(want.display);
+        EXPECT_NEAR(t.fov_deg, 40.0, 0.05) << want.name;
+        EXPECT_NEAR(t.focal_length_mm, want.f, 5e-4) << want.name;
+        EXPECT_NEAR(t.central_depth_mm, want.central_depth, 0.05) << want.name;
+        EXPECT_NEAR(t.pixel_image_mm, want.pixel_image, 5e-4) << want.name;
+        EXPECT_NEAR(t.depth_range_mm[0], want.near, 0.2) << want.name;
+        EXPECT_NEAR(t.depth_range_mm[1], want.far, 0.2) << want.name;
+        EXPECT_NEAR(t.depth_of_field_mm, want.far - want.near, 0.2) << want.name;
+        EXPECT_NEAR(t.views, 88, 0.01) << want.name;
+        EXPECT_NEAR(t.view_step_deg, 40.0 / 88, 1e-3) << want.name;
+    }
+    EXPECT_NEAR(theory_of(stopped).gap_closing_diffuser_deg, 4.74, 5e-3);
+    EXPECT_NEAR(theory_of(ideal).gap_closing_diffuser_deg, 2.085, 5e-4);
+}
+
+// Both forms of the depth of field, and both resolution limits.
+TEST(Theory, FormsAgree) {
+    const Display d = example_ideal();
+    const Theory t = theory_of(d);
+    const double L = t.central_depth_mm;
+    EXPECT_NEAR(t.depth_of_field_mm, 4 * std::tan(t.fov_deg * degree / 2) * L * L / (t.views * 12), 1e-9);
+    EXPECT_NEAR(t.lens_sampling_limit_per_mm, 1.0 / 24, 1e-15);
+    EXPECT_NEAR(t.pixel_image_limit_per_mm, 16.485 / (2 * 0.13636 * L), 1e-12);
+    EXPECT_NEAR(t.elemental_pitch_mm, 12 * (1 + 16.485 / (2000 - 16.485)), 1e-12);
+}
+
+TEST(Theory, CollimatedLens) {
+    Display d = example_ideal();
+    d.array.gap_mm = 15.7;
+    const Theory t = theory_of(d);
+    EXPECT_TRUE(std::isinf(t.central_depth_mm) && std::isinf(t.pixel_image_mm) && std::isinf(t.depth_of_field_mm));
+    EXPECT_NEAR(t.depth_range_mm[0], 12 * 15.7 / 0.13636, 1e-9);  // where a pixel's image a z/g has grown to D
+    EXPECT_TRUE(std::isinf(t.depth_range_mm[1]));
+    EXPECT_EQ(t.gap_closing_diffuser_deg, 0);
+    EXPECT_EQ(t.pixel_image_limit_per_mm, 0);
+}
+
+TEST(Theory, VirtualCentralDepthPlane) {
+    Display d = example_ideal();
+    d.array.gap_mm = 15;
+    const Theory t = theory_of(d);
+    const double L = 1 / (1 / 15.7 - 1 / 15.0);
+    EXPECT_LT(t.central_depth_mm, 0);
+    EXPECT_NEAR(t.central_depth_mm, L, 1e-9);
+    EXPECT_NEAR(t.pixel_image_mm, 0.13636 * -L / 15, 1e-9);
+    EXPECT_LT(t.depth_range_mm[0], L);
+    EXPECT_GT(t.depth_range_mm[1], L);
+}
+
+// The widest angle from which every lens of a row shows its own elemental image, by following lines through lens centres.
+double counted_zone_deg(const Display& d, const Geometry& g, double elemental_pitch, double eye_z) {
+    const double p = d.array.pitch_mm, above = eye_z - g.rear_principal_mm;
+    const auto all_show_their_own = [&](double X) {
+        for (std::int64_t i = 0; i < d.array.count[0]; ++i) {
+            const double k = double(i) + 0.5 - double(d.array.count[0]) / 2, lens = k * p;
+            const double seen = lens - g.gap_mm * (X - lens) / above;
+            if (std::abs(seen - k * elemental_pitch) > p / 2) return false;
+        }
+        return true;
+    };
+    if (!all_show_their_own(0)) return 0;
+    double inside = 0, outside = above;
+    for (int i = 0; i < 60; ++i) (all_show_their_own((inside + outside) / 2) ? inside : outside) = (inside + outside) / 2;
+    return 2 * std::atan(inside / above) / degree;
+}
+
+TEST(Theory, ViewingZonesByCountingLenses) {
+    Display d = example_ideal();
+    Geometry g = resolve(d);
+    Theory t = theory(d, g);
+    EXPECT_NEAR(t.viewing_zone_deg, t.fov_deg, 1e-9);
+    EXPECT_NEAR(t.viewing_zone_deg, counted_zone_deg(d, g, t.elemental_pitch_mm, 2000), 1e-6);
+    EXPECT_NEAR(t.viewing_zone_parallel_deg, counted_zone_deg(d, g, 12, 2000), 1e-6);
+    EXPECT_GT(t.viewing_zone_parallel_deg, 20);
+
+    // made for infinity, seen by the camera
+    d.content.viewing_distance_mm = INFINITY;
+    d.camera.position_mm = {0, 0, 1500};
+    t = theory(d, g = resolve(d));
+    EXPECT_EQ(t.elemental_pitch_mm, 12);
+    EXPECT_NEAR(t.viewing_zone_deg, counted_zone_deg(d, g, 12, 1500), 1e-6);
+
+    d.array.count = {400, 24};  // too wide to be seen as a whole
+    d.content.viewing_distance_mm = 2000;
+    EXPECT_EQ(theory_of(d).viewing_zone_parallel_deg, 0);
+}
+
+}  // namespace
+}  // namespace lfdsim

@@ -1,0 +1,187 @@
+// Every rule of validate(): one fault at a time, found once, at its key.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cmath>
+#include <functional>
+
+#include "example.h"
+#include "model/geometry.h"
+
+namespace lfdsim {
+namespace {
+
+using testing::HasSubstr;
+constexpr double nan = NAN, inf = INFINITY;
+constexpr std::int64_t big = 1 << 20;
+
+TEST(Validate, Examples) {
+    for (const Display& d : {example(), example_surfaces(), example_ideal()}) EXPECT_TRUE(validate(d).empty());
+    Display d = example_ideal();  // limits that are allowed
+    d.content.viewing_distance_mm = inf;
+    d.render.samples = 1 << 24;
+    d.render.seed = INT64_MAX;
+    d.array.count = {46340, 46341};
+    d.diffuser = Diffuser{1e-3, {0, 179.999}, Profile::gaussian};
+    EXPECT_TRUE(validate(d).empty());
+}
+
+struct Case {
+    const char* key;
+    const char* says;
+    std::function<void(Display&)> spoil;
+    std::function<Display()> from = example;
+};
+
+class Fault : public testing::TestWithParam<Case> {};
+
+TEST_P(Fault, IsFoundOnceAtItsKey) {
+    Display d = GetParam().from();
+    GetParam().spoil(d);
+    const std::vector<Problem> problems = validate(d);
+    ASSERT_EQ(problems.size(), 1u) << (problems.empty() ? "" : InputError(problems).what());
+    EXPECT_EQ(problems[0].where, GetParam().key);
+    EXPECT_THAT(problems[0].what, HasSubstr(GetParam().says));
+    EXPECT_THROW(resolve(d), InputError);
+}
+
+// clang-format off
+INSTANTIATE_TEST_SUITE_P(Ranges, Fault, testing::Values(
+    Case{"panel.pixels[0]", "is 0, allowed is 1 to below 2^31", [](Display& d) { d.panel.pixels[0] = 0; }},
+    Case{"panel.pixels", "1048576 x 1048576 = 1099511627776", [](Display& d) { d.panel.pixels = {big, big}; d.panel.pixel_pitch_mm = 1e-4; }},
+    Case{"panel.pixels", "allowed is 1000000 mm", [](Display& d) { d.panel.pixels = {big, 1}; d.panel.pixel_pitch_mm = 1; }},
+    Case{"panel.pixel_pitch_mm", "is nan", [](Display& d) { d.panel.pixel_pitch_mm = -nan; }},
+    Case{"panel.pixel_pitch_mm", "is -1", [](Display& d) { d.panel.pixel_pitch_mm = -1; }},
+    Case{"panel.emission_exponent", "is 101", [](Display& d) { d.panel.emission_exponent = 101; }},
+    Case{"lens.index", "is 0.9, allowed is 1 to 4", [](Display& d) { d.lens.index = 0.9; }},
+    Case{"lens.index", "is inf", [](Display& d) { d.lens.index = inf; }},
+    Case{"lens.cylinder_height_mm", "is -0.5", [](Display& d) { d.lens.cylinder_height_mm = -0.5; }},
+    Case{"lens.stop_radius_mm", "is 0", [](Display& d) { d.lens.stop_radius_mm = 0; }},
+    Case{"lens.focal_length_mm", "is -15", [](Display& d) { d.lens.focal_length_mm = -15; }, example_ideal},
+    Case{"lens.surface.1.conic", "is nan", [](Display& d) { d.lens.surfaces[1].conic = nan; }, example_surfaces},
+    Case{"lens.surface.1.even_asphere[1]", "is inf", [](Display& d) { d.lens.surfaces[1].even_asphere[1] = inf; }, example_surfaces},
+    Case{"lens.surface.1.even_asphere", "has 9 coefficients", [](Display& d) { d.lens.surfaces[1].even_asphere.resize(9); }, example_surfaces},
+    Case{"lens.surface", "more than the 16", [](Display& d) { d.lens.surfaces.resize(17, d.lens.surfaces[0]); }, example_surfaces},
+    Case{"lens.surface", "at least one", [](Display& d) { d.lens.surfaces.clear(); }, example_surfaces},
+    Case{"array.count[1]", "is -3", [](Display& d) { d.array.count[1] = -3; }},
+    Case{"array.count", "= 2147483648, allowed is a product below 2^31", [](Display& d) { d.array.count = {65536, 32768}; }},
+    Case{"array.count", "allowed is 1000000 mm", [](Display& d) { d.array.count = {1, big}; }},
+    Case{"array.offset_mm[1]", "is nan", [](Display& d) { d.array.offset_mm[1] = nan; }},
+    Case{"array.rotation_deg", "is 361", [](Display& d) { d.array.rotation_deg = 361; }},
+    Case{"array.gap_mm", "is missing", [](Display& d) { d.array.gap_mm.reset(); }},
+    Case{"array.base_z_mm", "both", [](Display& d) { d.array.base_z_mm = 12; }},
+    Case{"diffuser.angle_deg[0]", "is 180, allowed is 0 to below 180", [](Display& d) { d.diffuser = Diffuser{100, {180, 2}}; }},
+    Case{"diffuser.distance_mm", "is 0", [](Display& d) { d.diffuser = Diffuser{0, {2, 2}}; }},
+    Case{"content.viewing_distance_mm", "is nan", [](Display& d) { d.content.viewing_distance_mm = nan; }},
+    Case{"content.depth_mm", "is inf", [](Display& d) { d.content.depth_mm = inf; }},
+    Case{"content.height_mm", "is 0", [](Display& d) { d.content.height_mm = 0; }},
+    Case{"content.yaw_deg", "is nan", [](Display& d) { d.content.yaw_deg = nan; }},
+    Case{"render.samples", "is 16777217, allowed is 1 to 16777216", [](Display& d) { d.render.samples = (1 << 24) + 1; }},
+    Case{"render.samples", "is 0", [](Display& d) { d.render.samples = 0; }},
+    Case{"render.seed", "is -1, allowed is 0 to 2^63 - 1", [](Display& d) { d.render.seed = -1; }}));
+
+INSTANTIATE_TEST_SUITE_P(Lens, Fault, testing::Values(
+    Case{"lens.aperture_radius_mm", "is missing", [](Display& d) { d.lens.aperture_radius_mm.reset(); }},
+    Case{"lens.aperture_radius_mm", "wider than array.pitch_mm = 12", [](Display& d) { d.lens.aperture_radius_mm = 6.01; }},
+    Case{"lens.aperture_radius_mm", "wider than array.pitch_mm = 12", [](Display& d) { d.lens.aperture_radius_mm = 6.01; }, example_ideal},
+    Case{"lens.sphere_radius_mm", "R = 5 mm is smaller than the aperture radius r = 6", [](Display& d) { d.lens.sphere_radius_mm = 5; }},
+    Case{"lens.sphere_radius_mm", "half the square cell's diagonal = 8.48", [](Display& d) { d.array.aperture = Aperture::square; }},
+    Case{"lens.cylinder_height_mm", "2 sqrt(R^2 - r^2) = 8.24", [](Display& d) { d.lens.cylinder_height_mm = 8.3; }},
+    Case{"lens.stop_radius_mm", "wider than the lens, whose radius is 5", [](Display& d) { d.lens.aperture_radius_mm = 5; d.lens.stop_radius_mm = 5.5; }},
+    Case{"lens.stop_radius_mm", "wider than the lens", [](Display& d) { d.lens.stop_radius_mm = 7; }, example_surfaces},
+    Case{"lens.surface.0.semi_aperture_mm", "wider than array.pitch_mm", [](Display& d) { d.lens.surfaces[0].semi_aperture_mm = 6.5; }, example_surfaces},
+    // conic edge: 1/(c sqrt(1 + k)) = 1/(0.25 * 1) = 4 mm
+    Case{"lens.surface.1.semi_aperture_mm", "ends 4 mm from the axis", [](Display& d) { d.lens.surfaces[1] = {-0.25, 0, {}, 6, 0, 1}; }, example_surfaces},
+    Case{"lens.surface.1.semi_aperture_mm", "sag grows to", [](Display& d) { d.lens.surfaces[1].even_asphere = {1e4}; }, example_surfaces},
+    Case{"lens.surface.0.distance_mm", "cross within the aperture; at least 2.48997", [](Display& d) { d.lens.surfaces[0].distance_mm = 1; }, example_surfaces},
+    Case{"array.surround", "an ideal lens has no glass", [](Display& d) { d.array.surround = Surround::plate; }, example_ideal},
+    Case{"array.surround", "the lens has 3", [](Display& d) { d.array.surround = Surround::clear; d.lens.surfaces.insert(d.lens.surfaces.begin(), {0, 0, {}, 6, 1, 1.6}); }, example_surfaces}));
+
+INSTANTIATE_TEST_SUITE_P(Layout, Fault, testing::Values(
+    Case{"array.gap_mm", "into the panel; at least 2.786", [](Display& d) { d.array.gap_mm = 1; }},
+    // a meniscus whose principal planes lie far below it
+    Case{"array.base_z_mm", "before the panel", [](Display& d) {
+        d.lens.surfaces = {{-0.08, 0, {}, 3, 5, 1.7}, {-0.1, 0, {}, 3, 0, 1}};
+        d.array.gap_mm.reset();
+        d.array.base_z_mm = 0;
+        d.lens.surfaces[0].curvature_per_mm = 0.12, d.lens.surfaces[1].curvature_per_mm = 0.14;
+    }, example_surfaces},
+    // the vertex plane is in the middle of a concave cup whose rim stands 10 - 8 = 2 mm higher
+    Case{"diffuser.distance_mm", "reach 2 mm above the vertex plane", [](Display& d) {
+        d.lens.surfaces[1] = {0.1, 0, {}, 6, 0, 1};
+        d.diffuser = Diffuser{1.5, {2, 2}};
+    }, example_surfaces},
+    Case{"camera.position_mm", "on the panel", [](Display& d) { d.camera.position_mm = {1, 1, 0}; }},
+    Case{"camera.position_mm", "behind the panel", [](Display& d) { d.camera.position_mm = {1, 1, -5}; }},
+    Case{"camera.position_mm", "lenses end 17.85", [](Display& d) { d.camera.position_mm[2] = 16; }},
+    Case{"camera.position_mm", "diffuser stands 162.85", [](Display& d) { d.camera.position_mm[2] = 150; d.diffuser = Diffuser{145, {4, 4}}; }},
+    Case{"camera.pupil_diameter_mm", "pupil's rim to z = 0", [](Display& d) {
+        d.camera.position_mm = {1000, 0, 25}; d.camera.target_mm = {0, 0, 25}; d.camera.pupil_diameter_mm = 50; }},
+    Case{"camera.up", "along the line of sight", [](Display& d) { d.camera.up = {0, 0, -3}; }},
+    Case{"camera.up", "no direction", [](Display& d) { d.camera.up = {0, 0, 0}; }},
+    Case{"camera.up[1]", "is nan", [](Display& d) { d.camera.up[1] = nan; }},
+    Case{"camera.target_mm", "where the camera is", [](Display& d) { d.camera.target_mm = d.camera.position_mm; }},
+    Case{"camera.fov_deg", "both", [](Display& d) { d.camera.fov_deg = 20; d.camera.frame_width_mm = 500; }},
+    Case{"camera.fov_deg", "is 180", [](Display& d) { d.camera.fov_deg = 180; }},
+    Case{"camera.fov_deg", "allowed is 1e-6 to 1e6", [](Display& d) { d.camera.fov_deg = 179.999; }},
+    Case{"camera.resolution", "100000 x 30000 = 3000000000", [](Display& d) { d.camera.resolution = {100000, 30000}; }},
+    Case{"camera.focus_distance_mm", "a pinhole has no focus", [](Display& d) { d.camera.focus_distance_mm = 500; }},
+    Case{"camera.pupil_diameter_mm", "is -4", [](Display& d) { d.camera.pupil_diameter_mm = -4; }},
+    Case{"content.viewing_distance_mm", "inside the display", [](Display& d) { d.content.viewing_distance_mm = 17; }}));
+// clang-format on
+
+TEST(Validate, FindsIndependentFaultsTogether) {
+    Display d = example();
+    d.panel.pixel_pitch_mm = nan;
+    d.lens.index = 9;
+    d.lens.sphere_radius_mm = 5;
+    d.diffuser = Diffuser{-1, {200, 2}};
+    d.camera.up = {0, 0, 1};
+    d.camera.position_mm[2] = -1;
+    d.render.samples = 0;
+    std::vector<std::string> keys;
+    for (const Problem& p : validate(d)) keys.push_back(p.where);
+    EXPECT_THAT(keys,
+                testing::UnorderedElementsAre("panel.pixel_pitch_mm", "lens.index", "lens.sphere_radius_mm", "diffuser.distance_mm",
+                                              "diffuser.angle_deg[0]", "camera.up", "camera.position_mm", "render.samples"));
+}
+
+// Whatever the numbers, a display is refused or resolves to finite lengths.
+TEST(Validate, WhatPassesIsFinite) {
+    EXPECT_TRUE(rc::check([] {
+        Display d = *rc::gen::element(example(), example_surfaces(), example_ideal());
+        const auto hostile = [] {
+            return *rc::gen::element(0.0, -0.0, 1e-300, 1e-6, 0.3, 1.0, 1.5, 5.9, 6.0, 12.0, 16.485, 100.0, 1e5, 1e6, 1e300, -1.0,
+                                     nan, inf, -inf);
+        };
+        std::vector<double*> numbers{&d.panel.pixel_pitch_mm,    &d.lens.sphere_radius_mm,
+                                     &d.lens.cylinder_height_mm, &d.lens.index,
+                                     &d.lens.focal_length_mm,    &d.array.pitch_mm,
+                                     &*d.array.gap_mm,           &d.camera.position_mm[2],
+                                     &d.camera.target_mm[0],     &d.content.viewing_distance_mm};
+        for (Surface& s : d.lens.surfaces) {
+            numbers.insert(numbers.end(), {&s.curvature_per_mm, &s.conic, &s.semi_aperture_mm, &s.distance_mm, &s.index});
+            for (double& a : s.even_asphere) numbers.push_back(&a);
+        }
+        for (int i = *rc::gen::inRange(1, 3); i > 0; --i) *numbers[*rc::gen::inRange<std::size_t>(0, numbers.size())] = hostile();
+        d.array.aperture = *rc::gen::element(Aperture::circle, Aperture::square);
+        d.lens.facing = *rc::gen::element(Facing::viewer, Facing::panel);
+        const bool valid = validate(d).empty();
+        RC_CLASSIFY(valid);
+        if (!valid) return;
+        const Geometry g = resolve(d);
+        for (const double z :
+             {g.base_z_mm, g.top_z_mm, g.vertex_plane_mm, g.front_principal_mm, g.rear_principal_mm, g.gap_mm, g.stop_z_mm,
+              g.glass_radius_mm, g.clear_aperture_mm, g.frame_width_mm, g.focus_distance_mm, g.content_depth_mm})
+            RC_ASSERT(std::isfinite(z));
+        RC_ASSERT(g.base_z_mm > -1e-6 && g.top_z_mm >= g.base_z_mm && g.gap_mm > 0 && g.clear_aperture_mm > 0);
+        const Theory t = theory(d, g);
+        for (const double x : {t.fov_deg, t.central_depth_mm, t.pixel_image_mm, t.depth_of_field_mm, t.depth_range_mm[0],
+                               t.depth_range_mm[1], t.viewing_zone_deg, t.viewing_zone_parallel_deg, t.elemental_pitch_mm})
+            RC_ASSERT(!std::isnan(x));
+    }));
+}
+
+}  // namespace
+}  // namespace lfdsim
