@@ -1,0 +1,89 @@
+#include "cli/advice.h"
+#include "cli/commands.h"
+#include "cli/description.h"
+#include "cli/display_options.h"
+#include "cli/output.h"
+
+#include <fmt/format.h>
+#include <cmath>
+
+namespace lfdsim::cli {
+namespace {
+
+struct Arguments {
+    explicit Arguments(CLI::App& command) : display(command, {camera_options, sample_options, content_options}) {
+        command.add_flag("--json", json, "Print results as JSON");
+    }
+    DisplayOptions display;
+    bool json = false;
+};
+
+std::string text_of(const Json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number_float()) return fmt::format("{:.10g}", value.get<double>());
+    if (!value.is_array()) return value.dump();
+    std::string text;
+    for (const Json& element : value) text += (text.empty() ? "" : ", ") + text_of(element);
+    return text;
+}
+
+std::string table_of(const Setting& s) {
+    const bool absent = s.value.is_null() || s.value == "";
+    std::string text = absent ? "-" : text_of(s.value);
+    if (!absent && !unit(s.key).empty()) text += " " + unit(s.key);
+    std::string note = s.is_default ? "default" : "";
+    if (absent && !s.absent.empty()) note += ": " + s.absent;
+    return fmt::format("  {:<22} {:<32}{}", s.key, text, note);
+}
+
+std::string table_of(const Figure& f) {
+    std::string value = fmt::format("{:.7g} {}", f.value, unit(f.name));
+    if (std::isinf(f.value)) value = f.value > 0 ? "infinite" : "-infinite";
+    if (std::isnan(f.value)) value = "none";
+    return fmt::format("  {:<28} {:<22} {}", f.name, value, f.meaning);
+}
+
+// Trailing blanks of the columns are cut.
+void add_line(std::string& text, std::string line) {
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+}
+
+void run(const Arguments& args) {
+    const Display display = args.display.read();
+    const Geometry geometry = resolve(display);
+    const Theory paraxial = theory(display, geometry);
+    const std::vector<Setting> keys = settings(display);
+    const std::vector<std::string> warnings = advice(display, geometry, paraxial);
+    if (args.json)
+        return print_json(Json{{"display", to_json(keys)},
+                               {"geometry", to_json(figures(geometry))},
+                               {"theory", to_json(figures(paraxial))},
+                               {"warnings", warnings}});
+
+    std::string text = args.display.path() + " is valid.\n", table;
+    for (const Setting& s : keys) {
+        if (s.table != table || s.table.empty()) add_line(text, s.table.empty() ? "" : fmt::format("\n[{}]", s.table));
+        table = s.table;
+        add_line(text, table_of(s));
+    }
+    text += "\nPlaces and sizes (z from the panel)\n";
+    for (const Figure& f : figures(geometry)) add_line(text, table_of(f));
+    text += "\nParaxial theory\n";
+    for (const Figure& f : figures(paraxial)) add_line(text, table_of(f));
+    if (!warnings.empty()) text += "\nWorth knowing\n";
+    for (const std::string& warning : warnings) text += "  - " + warning + "\n";
+    print(text);
+}
+
+}  // namespace
+
+void add_check(CLI::App& program) {
+    CLI::App& command =
+        *program.add_subcommand("check", "Validates a description; prints all it says, what follows, and the paraxial theory");
+    const auto args = std::make_shared<Arguments>(command);
+    command.footer("Example:\n  lfdsim check display.toml --set array.gap_mm=17");
+    command.callback([args] { run(*args); });
+}
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,62 @@
+#include "image/compare.h"
+
+#include "cli/arguments.h"
+#include "cli/commands.h"
+#include "cli/output.h"
+#include "image/image_file.h"
+
+#include <fmt/format.h>
+
+namespace lfdsim::cli {
+namespace {
+
+struct Arguments {
+    std::string a, b, encoding = "srgb", crop;
+    bool json = false;
+};
+
+void run(const Arguments& args) {
+    const Encoding encoding = word("--encoding", args.encoding, {"srgb", "linear"}) == "srgb" ? Encoding::srgb : Encoding::linear;
+    Image a, b;
+    Faults faults;
+    faults.of([&] { a = read_image(args.a, encoding); });
+    faults.of([&] { b = read_image(args.b, encoding); });
+    faults.report();
+    if (a.width != b.width || a.height != b.height)
+        throw InputError(args.b, fmt::format("is {} x {} pixels, {} is {} x {}; only pictures of equal size can be compared",
+                                             b.width, b.height, args.a, a.width, a.height));
+    std::optional<Rect> region;
+    if (!args.crop.empty()) region = rectangle("--crop", args.crop, a.width, a.height);
+    const Comparison c = compare(a, b, region);
+    if (args.json)
+        return print_json(Json{{"ssim", c.ssim},
+                               {"psnr_db", c.psnr_db},
+                               {"rmse", c.rmse},
+                               {"max_difference", c.max_difference},
+                               {"max_column", c.max_column},
+                               {"max_row", c.max_row},
+                               {"max_channel", c.max_channel}});
+    constexpr const char* channels[] = {"red", "green", "blue"};
+    print(
+        fmt::format("SSIM                {:.6f}\n"
+                    "PSNR                {:.3f} dB (linear light)\n"
+                    "RMSE                {:.6g} (linear light)\n"
+                    "greatest difference {:.6g} (linear light) at column {}, row {}, {}\n",
+                    c.ssim, c.psnr_db, c.rmse, c.max_difference, c.max_column, c.max_row, channels[c.max_channel]));
+}
+
+}  // namespace
+
+void add_compare(CLI::App& program) {
+    const auto args = std::make_shared<Arguments>();
+    CLI::App& command = *program.add_subcommand("compare", "How alike two pictures are: SSIM, PSNR, RMSE, greatest difference");
+    command.add_option("A", args->a, "Picture: .png .exr .npy .jpg")->type_name("")->required();
+    command.add_option("B", args->b, "Picture of the same size")->type_name("")->required();
+    command.add_option("--encoding", args->encoding, "How PNG and JPEG code values decode; default srgb")->type_name("srgb|linear");
+    command.add_option("--crop", args->crop, "Only this part: columns X0 to X1-1, rows Y0 to Y1-1")->type_name("X0,Y0,X1,Y1");
+    command.add_flag("--json", args->json, "Print results as JSON");
+    command.footer("Example:\n  lfdsim compare view.png photo.png --crop 800,200,1200,600");
+    command.callback([args] { run(*args); });
+}
+
+}  // namespace lfdsim::cli

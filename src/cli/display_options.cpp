@@ -1,0 +1,102 @@
+#include "cli/display_options.h"
+
+#include "cli/arguments.h"
+#include "files/display_file.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <limits>
+#include <map>
+
+namespace lfdsim::cli {
+namespace {
+
+constexpr KeyOption camera[] = {
+    {"--camera-mm", "camera.position_mm", Form::point, "X,Y,Z",
+     "Camera; the panel's centre is the origin, +x right, +y up, +z to the viewer"},
+    {"--target-mm", "camera.target_mm", Form::point, "X,Y,Z", "What the camera looks at"},
+    {"--frame-width-mm", "camera.frame_width_mm", Form::number, "W", "Width of the frame in the plane through the target"},
+    {"--size", "camera.resolution", Form::size, "WxH", "Pixels of the frame"},
+};
+constexpr KeyOption sample[] = {
+    {"--samples", "render.samples", Form::count, "N", "Rays per pixel, where a diffuser, pixel filter or pupil spreads them"},
+    {"--seed", "render.seed", Form::count, "S", "Seed of the samples"},
+    {"--sampling", "render.sampling", Form::word, "sobol|random", "Low-discrepancy or plain random samples"},
+};
+constexpr KeyOption content[] = {
+    {"--depth-mm", "content.depth_mm", Form::number, "Z", "Depth of the model's centre before the lenses' vertex plane"},
+    {"--height-mm", "content.height_mm", Form::number, "H", "Height of the model"},
+    {"--tilt-deg", "content.tilt_deg", Form::number, "B",
+     "Turn of the model about the horizontal, before the yaw; positive raises the front"},
+    {"--yaw-deg", "content.yaw_deg", Form::number, "A", "Turn of the model, counter-clockwise seen from above"},
+};
+
+// The option's value in TOML syntax.
+std::string toml_value(const KeyOption& option, const std::string& text) {
+    switch (option.form) {
+        case Form::number:
+            return fmt::format("{}", number(option.option, text));
+        case Form::point:
+            return fmt::format("[{}]", fmt::join(numbers(option.option, text, 3), ", "));
+        case Form::size:
+            return fmt::format("[{}]", fmt::join(size(option.option, text), ", "));
+        case Form::count:
+            return fmt::format("{}", whole_number(option.option, text, 0, std::numeric_limits<std::int64_t>::max()));
+        case Form::word:
+            break;
+    }
+    std::vector<std::string> words;
+    for (std::string_view rest = option.value; !rest.empty();) {
+        const std::size_t end = std::min(rest.find('|'), rest.size());
+        words.emplace_back(rest.substr(0, end));
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    return fmt::format("\"{}\"", word(option.option, text, words));
+}
+
+}  // namespace
+
+const std::span<const KeyOption> camera_options = camera;
+const std::span<const KeyOption> sample_options = sample;
+const std::span<const KeyOption> content_options = content;
+
+DisplayOptions::DisplayOptions(CLI::App& command) {
+    command.add_option("DISPLAY.toml", path_, "Description of the display")->type_name("")->required();
+    command.add_option("--set", settings_, "Overrides a key of the description, value in TOML syntax: array.pitch_mm=8")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+}
+
+DisplayOptions::DisplayOptions(CLI::App& command, std::initializer_list<std::span<const KeyOption>> groups)
+    : DisplayOptions(command) {
+    for (const auto group : groups)
+        for (const KeyOption& option : group)
+            options_.emplace_back(&option, command.add_option(option.option, option.help)->type_name(option.value));
+}
+
+Display DisplayOptions::read() const {
+    Faults faults;
+    std::vector<std::string> overrides = settings_;
+    std::map<std::string, std::string> written;  // the place that messages give for an override: what the user wrote
+    for (const auto& [option, given] : options_) {
+        if (given->count() == 0) continue;
+        faults.of([&, o = option, text = given->results().front()] {
+            overrides.push_back(fmt::format("{}={}", o->key, toml_value(*o, text)));
+            written["--set " + overrides.back()] = fmt::format("{} {}", o->option, text);
+        });
+    }
+    Display display;
+    faults.of([&] {
+        try {
+            display = read_display(path_, overrides);
+        } catch (InputError& e) {
+            for (Problem& p : e.problems)
+                if (const auto option = written.find(p.where); option != written.end()) p.where = option->second;
+            throw InputError(std::move(e.problems));
+        }
+    });
+    faults.report();
+    return display;
+}
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,45 @@
+// The description file and the options that override its keys. Floor 4.
+#pragma once
+#include "model/display.h"
+
+#include <CLI/CLI.hpp>
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lfdsim::cli {
+
+enum class Form { number, point, size, count, word };
+
+/// An option that stands for a key of the description.
+struct KeyOption {
+    const char* option;
+    const char* key;
+    Form form;
+    const char* value;  // as help shows it
+    const char* help;
+};
+
+extern const std::span<const KeyOption> camera_options;   // from where and how large the picture is
+extern const std::span<const KeyOption> sample_options;   // how a rendering samples
+extern const std::span<const KeyOption> content_options;  // where the model stands
+
+class DisplayOptions {
+  public:
+    /// Adds DISPLAY.toml and --set.
+    explicit DisplayOptions(CLI::App& command);
+    DisplayOptions(CLI::App& command, std::initializer_list<std::span<const KeyOption>> groups);
+
+    /// The description with all overrides, validated. Throws InputError with all problems; those of an option carry its name.
+    Display read() const;
+    const std::string& path() const { return path_; }
+
+  private:
+    std::string path_;
+    std::vector<std::string> settings_;
+    std::vector<std::pair<const KeyOption*, CLI::Option*>> options_;
+};
+
+}  // namespace lfdsim::cli

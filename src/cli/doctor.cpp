@@ -1,0 +1,102 @@
+#include "cli/commands.h"
+#include "cli/memory.h"
+#include "cli/output.h"
+#include "content/reader_path.h"
+#include "engine/render.h"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/version.h>
+#include <png.h>
+#include <tbb/info.h>
+#include <unistd.h>
+#include <cstdlib>
+#include <fstream>
+
+namespace lfdsim::cli {
+namespace {
+
+std::string processor() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);)
+        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+    return "unknown";
+}
+
+std::string model_reader() {
+    try {
+        return reader_path().string();
+    } catch (const std::exception& error) {
+        return fmt::format("missing: {}; only panel images and patterns can be shown", error.what());
+    }
+}
+
+Json findings() {
+    Json sets = Json::array(), available = Json::array(), unavailable = Json::array();
+    // __builtin_cpu_supports takes literals only
+    const auto add = [&](const char* name, bool there) {
+        if (there) sets.push_back(name);
+    };
+    add("sse4.2", __builtin_cpu_supports("sse4.2"));
+    add("avx", __builtin_cpu_supports("avx"));
+    add("avx2", __builtin_cpu_supports("avx2"));
+    add("fma", __builtin_cpu_supports("fma"));
+    add("avx512f", __builtin_cpu_supports("avx512f"));
+    add("avx512dq", __builtin_cpu_supports("avx512dq"));
+    add("avx512bw", __builtin_cpu_supports("avx512bw"));
+    add("avx512vl", __builtin_cpu_supports("avx512vl"));
+    for (const KernelInfo& k : kernels())
+        (k.available ? available : unavailable).push_back(fmt::format("{} ({} lanes)", k.name, k.lanes));
+    const char* forced = std::getenv("LFDSIM_KERNEL");
+
+    Json all;
+    all["version"] = LFDSIM_VERSION;
+    all["build"] = LFDSIM_COMPILER ", " LFDSIM_BUILD_TYPE;
+    all["processor"] = processor();
+    all["instruction_sets"] = sets;
+    all["kernels"] = available;
+    all["kernels_this_processor_lacks"] = unavailable;
+    all["kernel_forced_by_LFDSIM_KERNEL"] = forced && *forced ? Json(forced) : Json();
+    all["threads"] = tbb::info::default_concurrency();
+    all["memory_gb"] = std::round(memory_bytes() / 1e8) / 10;
+    all["gpu"] = "none used: this build has no CUDA";
+    all["model_reader"] = model_reader();
+    all["current_folder_writable"] = access(".", W_OK) == 0;
+    all["libraries"] = {{"oneTBB", TBB_VERSION_STRING},    {"Embree", LFDSIM_EMBREE},   {"Assimp", LFDSIM_ASSIMP},
+                        {"libpng", PNG_LIBPNG_VER_STRING}, {"OpenEXR", LFDSIM_OPENEXR}, {"toml++", LFDSIM_TOMLPLUSPLUS}};
+    return all;
+}
+
+std::string text_of(const Json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_null()) return "-";
+    if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+    if (!value.is_structured()) return value.dump();
+    std::string text;
+    for (const auto& [key, element] : value.items())
+        text += (text.empty() ? "" : ", ") + (value.is_object() ? key + " " : "") + text_of(element);
+    return text.empty() ? "-" : text;
+}
+
+void run(bool json) {
+    const Json all = findings();
+    if (json) return print_json(all);
+    std::string text;
+    for (const auto& [key, value] : all.items()) {
+        std::string name = key;
+        std::replace(name.begin(), name.end(), '_', ' ');
+        text += fmt::format("{:<32} {}\n", name, text_of(value));
+    }
+    print(text);
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& program) {
+    const auto json = std::make_shared<bool>(false);
+    CLI::App& command = *program.add_subcommand("doctor", "What was found on this machine, and what was not");
+    command.add_flag("--json", *json, "Print results as JSON");
+    command.footer("Example:\n  lfdsim doctor");
+    command.callback([json] { run(*json); });
+}
+
+}  // namespace lfdsim::cli

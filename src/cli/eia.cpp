@@ -1,0 +1,72 @@
+#include "cli/arguments.h"
+#include "cli/commands.h"
+#include "cli/display_options.h"
+#include "cli/memory.h"
+#include "cli/panel_source.h"
+#include "cli/work_options.h"
+
+#include <fmt/format.h>
+
+namespace lfdsim::cli {
+namespace {
+
+struct Arguments {
+    explicit Arguments(CLI::App& command)
+        : display(command, {content_options}),
+          model(command),
+          pattern(command),
+          output(command, ".png with the panel's encoding, or linear .exr .npy"),
+          work(command) {}
+    DisplayOptions display;
+    ModelOption model;
+    PatternOption pattern;
+    OutputOptions output;
+    WorkOptions work;
+};
+
+void run(const Arguments& args) {
+    Faults faults;
+    Display display;
+    PatternOptions pattern_options;
+    faults.of([&] {
+        display = args.display.read();
+        const auto [columns, rows] = display.panel.pixels;
+        require_memory("panel.pixels", fmt::format("an image of the panel's {} x {} pixels", columns, rows),
+                       picture_bytes(columns, rows));
+    });
+    faults.of([&] { pattern_options = args.pattern.read(); });
+    faults.of([&] { args.work.check(); });
+    faults.of([&] { args.output.check(); });
+    if (args.pattern.given() && args.model.given())
+        faults.of([] { throw InputError("--pattern", "cannot be shown together with --model; give one of them"); });
+    faults.report();
+    args.model.apply(display);
+
+    const Geometry geometry = resolve(display);
+    Picture picture;
+    Progress progress(args.work.progress());
+    if (args.pattern.given()) {
+        picture.image = pattern(args.pattern.name(), display, geometry, pattern_options);
+    } else {
+        const Scene scene = load_scene(display, geometry);
+        picture = elemental_images(display, geometry, scene, args.work.threads(), progress);
+    }
+    progress.end();
+    args.output.write(picture.image, display.panel.encoding, display, {{"seconds", fmt::format("{:.3f}", picture.seconds)}},
+                      picture.complete);
+    print_made(Made{args.output.path(), picture.image.width, picture.image.height, "rays", picture.rays, picture.seconds},
+               args.work.json());
+}
+
+}  // namespace
+
+void add_eia(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand("eia", "What the panel shows: the elemental images of a model, or a test pattern");
+    const auto args = std::make_shared<Arguments>(command);
+    command.footer(
+        "Examples:\n  lfdsim eia display.toml --model monkey.blend --height-mm 120 -o eia.png\n"
+        "  lfdsim eia display.toml --pattern checkerboard --cell-pixels 8 -o eia.png");
+    command.callback([args] { run(*args); });
+}
+
+}  // namespace lfdsim::cli

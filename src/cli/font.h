@@ -1,0 +1,15 @@
+// A small bitmap font for the labels of contact sheets. Floor 4.
+#pragma once
+#include "image/image.h"
+
+#include <string_view>
+
+namespace lfdsim::cli {
+
+inline constexpr int glyph_width = 6, glyph_height = 10;  // spacing included
+
+/// Draws text with its upper left corner at (x, y), each dot of the font `scale` pixels wide, cut off at the image's edge. ASCII
+/// and the degree sign; a box stands for any other character.
+void draw_text(Image&, int x, int y, int scale, std::string_view text, float light);
+
+}  // namespace lfdsim::cli

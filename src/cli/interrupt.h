@@ -1,0 +1,30 @@
+// Ctrl-C and SIGTERM. Floor 4.
+#pragma once
+#include <filesystem>
+
+namespace lfdsim::cli {
+
+inline constexpr int interrupted_exit = 130;
+
+/// The work was stopped by the user and what is complete has been dealt with; exit code 130.
+struct Interrupted {};
+
+/// From now on a signal ends the program at once with exit code 130, its partial file removed.
+void catch_signals();
+
+/// Where an image will be written: a signal that ends the program removes what is partly written beside it.
+void guard_output(const std::filesystem::path&);
+
+/// While one of these lives, the first signal only makes interrupted() true, so that the work can end in order; the second ends
+/// the program.
+class HeedSignals {
+  public:
+    HeedSignals();
+    ~HeedSignals();
+    HeedSignals(const HeedSignals&) = delete;
+    HeedSignals& operator=(const HeedSignals&) = delete;
+};
+
+bool interrupted();
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,35 @@
+#include "cli/memory.h"
+
+#include "model/error.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <algorithm>
+#include <fstream>
+
+namespace lfdsim::cli {
+
+double memory_bytes() {
+    double bytes = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE)), limit = 0;
+    if (std::ifstream group("/sys/fs/cgroup/memory.max"); group >> limit)
+        bytes = std::min(bytes, limit);  // "max": no number, no limit
+    return bytes;
+}
+
+// float32 RGB, and 16-bit codes while a PNG is written.
+double picture_bytes(std::int64_t columns, std::int64_t rows) { return double(columns) * double(rows) * (12 + 6); }
+
+double texel_bytes(const Display& d) { return double(d.panel.pixels[0]) * double(d.panel.pixels[1]) * 16; }
+
+void require_memory(const std::string& where, const std::string& what, double bytes) {
+    if (bytes > memory_bytes())
+        throw InputError(where, fmt::format("{} needs {:.1f} GB of memory, this machine has {:.1f} GB", what, bytes / 1e9,
+                                            memory_bytes() / 1e9));
+}
+
+void require_picture_memory(std::int64_t columns, std::int64_t rows, double other) {
+    require_memory("camera.resolution", fmt::format("a picture of {} x {} pixels, with the panel image,", columns, rows),
+                   picture_bytes(columns, rows) + other);
+}
+
+}  // namespace lfdsim::cli

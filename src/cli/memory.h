@@ -1,0 +1,23 @@
+// Refuses work that this machine has not the memory for, before it begins. Floor 4.
+#pragma once
+#include "model/display.h"
+
+#include <cstdint>
+#include <string>
+
+namespace lfdsim::cli {
+
+/// Memory that this program may use: the machine's, or less where a control group says so.
+double memory_bytes();
+
+/// Bytes that pictures of these sizes take, the copies that writing needs included.
+double picture_bytes(std::int64_t columns, std::int64_t rows);
+double texel_bytes(const Display&);
+
+/// Throws InputError with both figures if `bytes` for `what` is more than there is; `where` names the key or option to change.
+void require_memory(const std::string& where, const std::string& what, double bytes);
+
+/// A picture of this many pixels beside `other` bytes.
+void require_picture_memory(std::int64_t columns, std::int64_t rows, double other);
+
+}  // namespace lfdsim::cli

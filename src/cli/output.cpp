@@ -1,0 +1,86 @@
+#include "cli/output.h"
+
+#include "cli/arguments.h"
+#include "cli/interrupt.h"
+#include "files/display_file.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace lfdsim::cli {
+namespace {
+
+// As the shell would need it, so that it can be copied and run again.
+std::string command_line() {
+    std::ifstream file("/proc/self/cmdline", std::ios::binary);
+    const std::string all{std::istreambuf_iterator<char>(file), {}};
+    std::string line;
+    for (std::size_t start = 0; start < all.size();) {
+        const std::string argument = all.c_str() + start;
+        start += argument.size() + 1;
+        std::string quoted;
+        for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+        const bool plain = !argument.empty() && argument.find_first_not_of(
+                                                    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                                    "0123456789_-+=.,:/@%") == argument.npos;
+        line += (line.empty() ? "" : " ") + (plain ? argument : "'" + quoted + "'");
+    }
+    return line;
+}
+
+}  // namespace
+
+void print(std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t written = ::write(STDOUT_FILENO, text.data(), text.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0)
+            throw std::runtime_error(fmt::format("standard output: cannot be written: {}", std::generic_category().message(errno)));
+        text.remove_prefix(std::size_t(written));
+    }
+}
+
+void print_json(const Json& json) { print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"); }
+
+OutputOptions::OutputOptions(CLI::App& command, const std::string& kinds) {
+    command.add_option("-o,--output", path_, "Picture to write: " + kinds)->type_name("FILE")->required();
+    command.add_option("--bits", bits_, "Bits per channel of a .png; default 8")->type_name("8|16");
+}
+
+int OutputOptions::bits() const { return bits_ == "16" ? 16 : 8; }
+
+void OutputOptions::check() const {
+    Faults faults;
+    faults.of([&] { check_writable(path_); });
+    if (!bits_.empty()) {
+        faults.of([&] { word("--bits", bits_, {"8", "16"}); });
+        if (const std::string kind = std::filesystem::path(path_).extension(); kind == ".exr" || kind == ".npy")
+            faults.of([&] { throw InputError("--bits", fmt::format("is for .png alone; {} holds 32-bit floats", kind)); });
+    }
+    faults.report();
+    guard_output(path_);
+}
+
+void OutputOptions::write(const Image& image, Encoding encoding, const Display& display, Metadata about, bool complete) const {
+    about["Software"] = "lfdsim " LFDSIM_VERSION;
+    about["command"] = command_line();
+    about["display"] = write_display(display);
+    if (!complete) about["incomplete"] = "true";
+    write_image(path_, image, {bits(), encoding, about});
+    if (!complete) end_interrupted(path_);
+}
+
+void end_interrupted(const std::string& saved) {
+    spdlog::warn("interrupted; {}", saved.empty()
+                                        ? "nothing was complete, nothing was written"
+                                        : saved + " holds what was complete, the rest is black, and is marked incomplete");
+    throw Interrupted{};
+}
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,40 @@
+// Results: text on standard output, pictures with what made them. Floor 4.
+#pragma once
+#include "image/image_file.h"
+#include "model/display.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <string_view>
+
+namespace lfdsim::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// Writes to standard output and flushes. Throws std::runtime_error when it cannot be written (closed pipe, full disk).
+void print(std::string_view text);
+/// One JSON document; numbers that are not finite become null.
+void print_json(const Json&);
+
+/// -o and --bits.
+class OutputOptions {
+  public:
+    OutputOptions(CLI::App& command, const std::string& kinds);
+    /// To be called before long work. Throws InputError unless the picture can be written there in that depth.
+    void check() const;
+    /// Saves the picture with `about`, the command line, version and display. One that is not complete is marked so, and the
+    /// program then ends as interrupted.
+    void write(const Image&, Encoding, const Display&, Metadata about, bool complete) const;
+    const std::string& path() const { return path_; }
+    int bits() const;
+
+  private:
+    std::string path_, bits_;
+};
+
+/// Says that the work was stopped: what has been saved, or nothing. Throws Interrupted.
+[[noreturn]] void end_interrupted(const std::string& saved);
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,46 @@
+// What the panel shows: an image file, elemental images of a model, or a test pattern. Floor 4.
+#pragma once
+#include "content/content.h"
+#include "image/texels.h"
+#include "model/display.h"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <string>
+
+namespace lfdsim::cli {
+
+/// --model, which stands in for content.model.
+class ModelOption {
+  public:
+    explicit ModelOption(CLI::App& command);
+    bool given() const { return !path_.empty(); }
+    /// Puts the option's file, if there is one, into the display.
+    void apply(Display&) const;
+
+  private:
+    std::string path_;
+};
+
+/// The display's model in its place; says on standard error what was dropped or repaired. Throws InputError.
+Scene load_scene(const Display&, const Geometry&);
+
+/// --pattern and the options that belong to it.
+class PatternOption {
+  public:
+    explicit PatternOption(CLI::App& command);
+    bool given() const { return !name_.empty(); }
+    /// Reads the values strictly. Throws InputError for those that are wrong or belong to no chosen pattern.
+    PatternOptions read() const;
+    const std::string& name() const { return name_; }
+
+  private:
+    std::string name_, cell_, view_, edge_, depth_;
+};
+
+/// The panel as it shows an image of its size: 8-bit codes by the panel's encoding, decoded. What writing `image` to a PNG and
+/// reading it as a panel image gives, bit for bit.
+Texels shown_texels(const Image& image, Encoding encoding);
+
+}  // namespace lfdsim::cli

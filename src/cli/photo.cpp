@@ -1,0 +1,59 @@
+#include "cli/arguments.h"
+#include "cli/commands.h"
+#include "cli/display_options.h"
+#include "cli/panel_source.h"
+#include "cli/work_options.h"
+
+#include <fmt/format.h>
+
+namespace lfdsim::cli {
+namespace {
+
+struct Arguments {
+    explicit Arguments(CLI::App& command)
+        : display(command, {content_options, camera_options}),
+          model(command),
+          crop(command),
+          output(command, ".png (sRGB), or linear .exr .npy"),
+          work(command) {}
+    DisplayOptions display;
+    ModelOption model;
+    CropOption crop;
+    OutputOptions output;
+    WorkOptions work;
+};
+
+void run(const Arguments& args) {
+    Faults faults;
+    Display display;
+    std::optional<Rect> crop;
+    faults.of([&] {
+        display = args.display.read();
+        crop = args.crop.read(display.camera, 0);
+    });
+    faults.of([&] { args.work.check(); });
+    faults.of([&] { args.output.check(); });
+    faults.report();
+    args.model.apply(display);
+
+    const Geometry geometry = resolve(display);
+    const Scene scene = load_scene(display, geometry);
+    Progress progress(args.work.progress());
+    const Picture picture = reference_photograph(display, geometry, scene, args.work.threads(), crop, progress);
+    progress.end();
+    args.output.write(picture.image, Encoding::srgb, display, {{"seconds", fmt::format("{:.3f}", picture.seconds)}},
+                      picture.complete);
+    print_made(Made{args.output.path(), picture.image.width, picture.image.height, "rays", picture.rays, picture.seconds},
+               args.work.json());
+}
+
+}  // namespace
+
+void add_photo(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand("photo", "The reference photograph: the model itself, seen by the same camera");
+    const auto args = std::make_shared<Arguments>(command);
+    command.footer("Example:\n  lfdsim photo display.toml --model monkey.blend --camera-mm 518,0,1932 -o photo.png");
+    command.callback([args] { run(*args); });
+}
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,103 @@
+#include "engine/render.h"
+
+#include "cli/arguments.h"
+#include "cli/commands.h"
+#include "cli/display_options.h"
+#include "cli/memory.h"
+#include "cli/panel_source.h"
+#include "cli/work_options.h"
+#include "engine/devices.h"
+
+#include <fmt/format.h>
+
+namespace lfdsim::cli {
+namespace {
+
+struct Arguments {
+    explicit Arguments(CLI::App& command)
+        : display(command, {camera_options, sample_options, content_options}),
+          model(command),
+          pattern(command),
+          crop(command),
+          output(command, ".png (sRGB), or linear .exr .npy (float32, H x W x 3)"),
+          work(command) {
+        command.add_option("--panel-image", panel_image, "What the panel shows: .png .exr .npy of its size")->type_name("FILE");
+        command
+            .add_option("--kernel", kernel, "Instruction set; default: environment variable LFDSIM_KERNEL, else the best there is")
+            ->type_name("scalar|baseline|avx2|avx512");
+    }
+    DisplayOptions display;
+    ModelOption model;
+    PatternOption pattern;
+    CropOption crop;
+    OutputOptions output;
+    WorkOptions work;
+    std::string panel_image, kernel;
+};
+
+// The panel's light, and how many rays it took to make it.
+struct Shown {
+    Texels texels;
+    Json made = Json::object();
+};
+
+Shown shown(const Arguments& args, const Display& display, const Geometry& geometry, const PatternOptions& pattern_options,
+            Job& job) {
+    const auto [columns, rows] = display.panel.pixels;
+    if (!args.panel_image.empty()) return {read_panel_image(args.panel_image, display.panel.encoding, columns, rows)};
+    if (args.pattern.given())
+        return {shown_texels(pattern(args.pattern.name(), display, geometry, pattern_options), display.panel.encoding)};
+    const Picture picture = elemental_images(display, geometry, load_scene(display, geometry), args.work.threads(), job);
+    if (!picture.complete) end_interrupted("");
+    return {shown_texels(picture.image, display.panel.encoding),
+            {{"elemental_images", {{"rays", picture.rays}, {"seconds", picture.seconds}}}}};
+}
+
+void run(const Arguments& args) {
+    Faults faults;
+    Display display;
+    PatternOptions pattern_options;
+    std::optional<Rect> crop;
+    faults.of([&] {
+        display = args.display.read();
+        const bool from_file = !args.panel_image.empty();  // else there is an image beside the texels for a while
+        crop =
+            args.crop.read(display.camera, texel_bytes(display) +
+                                               (from_file ? 0 : picture_bytes(display.panel.pixels[0], display.panel.pixels[1])));
+    });
+    faults.of([&] { pattern_options = args.pattern.read(); });
+    faults.of([&] { choose_kernel(args.kernel); });
+    faults.of([&] { args.work.check(); });
+    faults.of([&] { args.output.check(); });
+    if (!args.panel_image.empty() + args.model.given() + args.pattern.given() > 1)
+        faults.of([] { throw InputError("--panel-image, --model, --pattern", "the panel shows one thing; give one of them"); });
+    faults.report();
+    args.model.apply(display);
+
+    const Geometry geometry = resolve(display);
+    Progress progress(args.work.progress());
+    const Shown panel = shown(args, display, geometry, pattern_options, progress);
+    const Rendering r = render(display, geometry, panel.texels, {args.work.threads(), args.kernel, crop}, progress);
+    progress.end();
+    const Metadata about{
+        {"kernel", r.kernel}, {"threads", fmt::format("{}", r.threads)}, {"seconds", fmt::format("{:.3f}", r.seconds)}};
+    args.output.write(r.image, Encoding::srgb, display, about, r.complete);
+
+    Json more{{"kernel", r.kernel}, {"threads", r.threads}};
+    more.update(panel.made);
+    print_made(Made{args.output.path(), r.image.width, r.image.height, "samples", r.samples, r.seconds}, args.work.json(),
+               fmt::format(", {}, {} threads", r.kernel, r.threads), more);
+}
+
+}  // namespace
+
+void add_render(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand("render", "What a camera sees of the display");
+    const auto args = std::make_shared<Arguments>(command);
+    command.footer(
+        "Examples:\n  lfdsim render display.toml --panel-image eia.png --camera-mm -300,0,1800 -o view.png\n"
+        "  lfdsim render display.toml --model monkey.blend --set array.pitch_mm=8 lens.aperture_radius_mm=4 -o view.exr");
+    command.callback([args] { run(*args); });
+}
+
+}  // namespace lfdsim::cli
