@@ -3,6 +3,8 @@
 #include "content/scene.h"
 
 #include <oneapi/tbb/blocked_range2d.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -121,7 +123,10 @@ Picture cast(const Scene::Impl& scene, const Beam& beam, int width, int height, 
     };
     job.stage(stage, std::int64_t(columns) * rows);
     const auto start = std::chrono::steady_clock::now();
-    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+    // More threads than processors are granted too, when asked for.
+    const int workers = threads > 0 ? threads : tbb::info::default_concurrency();
+    const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, std::size_t(workers));
+    tbb::task_arena arena(workers);
     arena.execute([&] {
         tbb::parallel_for(tbb::blocked_range2d<int>(0, rows, 0, columns), [&](const tbb::blocked_range2d<int>& range) {
             for (int r = range.rows().begin(); r < range.rows().end(); ++r) {

@@ -61,6 +61,9 @@ void check_file(const fs::path& path) {
 std::shared_ptr<const Model> load_model(const fs::path& path, const LoadOptions& options) {
     if (!options.up.empty() && options.up != "y" && options.up != "z")
         throw InputError("up", fmt::format("\"{}\" given; allowed are \"y\" and \"z\"", options.up));
+    if (!(options.seconds > 0 && options.seconds <= 86400))
+        throw InputError("seconds", fmt::format("{} given; allowed is up to 86400", options.seconds));
+    if (options.bytes < 1) throw InputError("bytes", fmt::format("{} given; allowed is 1 or more", options.bytes));
     check_file(path);
     ReaderProcess reader(path, options);
     const auto refuse = [&](const std::string& why) -> void {

@@ -49,7 +49,7 @@ void pose(Scene::Impl& scene, const Display& display, const Geometry& geometry) 
     const double scale = geometry.content_height_mm / extent;
     if (!(extent > 0) || !std::isfinite(scale))
         throw InputError("content.model",
-                         fmt::format("the model is {} units high and cannot be scaled to {} mm; if it lies flat, turn it up",
+                         fmt::format("the model is {} units high and cannot be scaled to {} mm; if it lies flat, raise it with tilt_deg",
                                      extent, geometry.content_height_mm));
     scene.centre_mm = {0, 0, geometry.vertex_plane_mm + geometry.content_depth_mm};
     for (int k = 0; k < 3; ++k) scene.half_mm[k] = 0.5 * scale * (box.high[k] - box.low[k]);

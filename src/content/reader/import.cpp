@@ -53,7 +53,6 @@ class Conversion {
     Conversion(const aiScene& scene, const Folder& folder, const std::string& format, const Turn& turn)
         : scene_(scene), textures_(scene, folder), turn_(turn) {
         linear_ = format.starts_with("glTF");
-        factors_ = linear_ || format.starts_with("Wavefront");
     }
 
     Model run() {
@@ -73,8 +72,9 @@ class Conversion {
         return float(linear_ ? c : srgb_to_linear(c));
     }
 
-    // glTF gives factors in linear light that multiply texture and vertex colour, OBJ display colours that multiply the texture;
-    // elsewhere a texture or a vertex colour stands in the colour's place, and colours are display colours (sRGB).
+    // glTF's colours are factors in linear light, multiplied with texture and vertex colours. Elsewhere a colour is meant for a
+    // screen (sRGB), and a texture or vertex colours stand in its place: formats and exporters differ in what they multiply,
+    // and loaders fill in greys of their own.
     std::uint32_t material(const aiMesh& mesh, int& channel) {
         const auto key = std::tuple(mesh.mMaterialIndex, mesh.HasTextureCoords(0), coloured(mesh));
         const aiMaterial& from = *scene_.mMaterials[mesh.mMaterialIndex];
@@ -91,7 +91,7 @@ class Conversion {
         to.wrap_u = wrap(modes[0]);
         to.wrap_v = wrap(modes[1]);
         aiColor4D colour(1, 1, 1, 1);
-        if (factors_ || (to.texture < 0 && !coloured(mesh))) {
+        if (linear_ || (to.texture < 0 && !coloured(mesh))) {
             if (from.Get(AI_MATKEY_BASE_COLOR, colour) != aiReturn_SUCCESS) from.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
         }
         for (int c = 0; c < 3; ++c) to.colour[c] = light(colour[unsigned(c)]);
@@ -156,7 +156,7 @@ class Conversion {
     const aiScene& scene_;
     Textures textures_;
     Turn turn_;
-    bool linear_, factors_;
+    bool linear_;
     std::map<std::tuple<unsigned, bool, bool>, std::uint32_t> known_;
     Model model_;
     std::int64_t dropped_ = 0;
