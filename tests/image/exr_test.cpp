@@ -1,0 +1,106 @@
+#include "helpers.h"
+
+#include <gtest/gtest.h>
+#include <limits>
+
+#include <Imath/half.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+namespace lfdsim {
+namespace {
+
+using Imath::Box2i;
+using Imath::V2i;
+
+/// All channels hold 100 * y + x, in the data window's own coordinates.
+template <class Value>
+void save_exr(const std::filesystem::path& path, const Box2i& display, const Box2i& data, Imf::PixelType type,
+              const std::string& channels, Imf::Compression compression = Imf::ZIP_COMPRESSION) {
+    Imf::Header header(display, data, 1, Imath::V2f(0, 0), 1, Imf::INCREASING_Y, compression);
+    const int columns = data.max.x - data.min.x + 1, rows = data.max.y - data.min.y + 1;
+    std::vector<Value> values;
+    for (int y = data.min.y; y <= data.max.y; ++y)
+        for (int x = data.min.x; x <= data.max.x; ++x) values.push_back(Value(float(100 * y + x)));
+    Imf::FrameBuffer frame;
+    for (const char name : channels) {
+        header.channels().insert(std::string(1, name), Imf::Channel(type));
+        frame.insert(std::string(1, name), Imf::Slice::Make(type, values.data(), data.min, columns, rows));
+    }
+    Imf::OutputFile file(path.c_str(), header);
+    file.setFrameBuffer(frame);
+    file.writePixels(rows);
+}
+
+TEST(Exr, FloatComesBackBitForBitWithItsSettings) {
+    const test::TemporaryFolder folder;
+    Image image = test::random_image(131, 77);
+    image.rgb[7] = 1e30f;
+    write_image(folder / "a.exr", image,
+                {.bits = 8, .encoding = Encoding::srgb, .metadata = {{"seed", "7"}, {"display", "caf\xc3\xa9"}}});
+    EXPECT_EQ(read_image(folder / "a.exr", Encoding::srgb).rgb, image.rgb);
+    const Imf::InputFile file((folder / "a.exr").c_str());
+    EXPECT_EQ(file.header().typedAttribute<Imf::StringAttribute>("seed").value(), "7");
+    EXPECT_EQ(file.header().typedAttribute<Imf::StringAttribute>("display").value(), "caf\xc3\xa9");
+}
+
+TEST(Exr, ReadsHalfAndIntegers) {
+    const test::TemporaryFolder folder;
+    const Box2i box(V2i(0, 0), V2i(14, 8));  // values up to 814: exact in a half float
+    save_exr<half>(folder / "half.exr", box, box, Imf::HALF, "RGB", Imf::PIZ_COMPRESSION);
+    save_exr<unsigned>(folder / "uint.exr", box, box, Imf::UINT, "RGB");
+    for (const char* name : {"half.exr", "uint.exr"}) {
+        const Image image = read_image(folder / name, Encoding::srgb);
+        ASSERT_EQ(image.width, 15);
+        ASSERT_EQ(image.height, 9);
+        for (int y = 0; y < 9; ++y)
+            for (int x = 0; x < 15; ++x) EXPECT_EQ(image.at(x, y)[1], float(100 * y + x)) << name;
+    }
+}
+
+// The picture is the display window; data beyond it are cut off, and what they do not reach is black.
+TEST(Exr, PutsTheDataWindowIntoTheDisplayWindow) {
+    const test::TemporaryFolder folder;
+    const Box2i display(V2i(10, 20), V2i(29, 119));
+    for (const Box2i& data : {Box2i(V2i(15, 30), V2i(20, 99)), Box2i(V2i(0, 0), V2i(40, 150)), Box2i(V2i(5, 100), V2i(12, 130))}) {
+        save_exr<float>(folder / "w.exr", display, data, Imf::FLOAT, "RGB");
+        const Image image = read_image(folder / "w.exr", Encoding::srgb);
+        ASSERT_EQ(image.width, 20);
+        ASSERT_EQ(image.height, 100);
+        for (int y = 20; y < 120; ++y)
+            for (int x = 10; x < 30; ++x)
+                ASSERT_EQ(image.at(x - 10, y - 20)[2], data.intersects(V2i(x, y)) ? float(100 * y + x) : 0) << x << ' ' << y;
+    }
+}
+
+TEST(Exr, RefusesWrongChannelsAndWindows) {
+    const test::TemporaryFolder folder;
+    const Box2i box(V2i(0, 0), V2i(3, 3));
+    const auto message = [&] { return test::input_error([&] { read_image(folder / "x.exr", Encoding::srgb); }); };
+    save_exr<float>(folder / "x.exr", box, box, Imf::FLOAT, "RB");
+    EXPECT_NE(message().find("no channel G"), std::string::npos);
+    save_exr<float>(folder / "x.exr", box, box, Imf::FLOAT, "ARGB");
+    EXPECT_NE(message().find("alpha channel"), std::string::npos);
+    save_exr<float>(folder / "x.exr", Box2i(V2i(0, 0), V2i(1 << 20, 1 << 20)), box, Imf::FLOAT, "RGB");
+    EXPECT_NE(message().find("display window"), std::string::npos);
+}
+
+TEST(Exr, RefusesValuesThatNoPanelEmits) {
+    const test::TemporaryFolder folder;
+    for (const float value : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1.0f}) {
+        Image image(5, 4);
+        image.at(3, 2)[1] = value;
+        for (const char* name : {"x.exr", "x.npy"}) {
+            write_image(folder / name, image);
+            const std::string message = test::input_error([&] { read_panel_image(folder / name, Encoding::linear, 5, 4); });
+            EXPECT_NE(message.find("channel G at column 3, row 2"), std::string::npos) << message;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace lfdsim

@@ -1,0 +1,108 @@
+// EXR, NPY and JPEG.
+#include "helpers.h"
+#include "image/encoding.h"
+
+#include <gtest/gtest.h>
+#include <cmath>
+
+#include <jpeglib.h>
+
+namespace lfdsim {
+namespace {
+
+TEST(Npy, FloatComesBackBitForBit) {
+    const test::TemporaryFolder folder;
+    Image image = test::random_image(31, 17);
+    image.rgb[5] = -3e30f;  // a difference or a camera's raw picture may be negative: only panels cannot
+    write_image(folder / "a.npy", image);
+    EXPECT_EQ(read_image(folder / "a.npy", Encoding::srgb).rgb, image.rgb);
+    EXPECT_EQ(std::filesystem::file_size(folder / "a.npy"), 128u + 31 * 17 * 12);
+}
+
+/// An NPY file as numpy.save writes it.
+std::string npy(const std::string& header, const std::string& data) {
+    std::string text = "\x93NUMPY\x01";
+    text += '\0';
+    text += char(header.size() & 255);
+    text += char(header.size() >> 8);
+    return text + header + data;
+}
+
+TEST(Npy, ReadsDouble) {
+    const test::TemporaryFolder folder;
+    const double pixel[3] = {0.1, 0.2, 1e10};
+    test::save(folder / "d.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1, 3), }\n",
+                                     std::string(reinterpret_cast<const char*>(pixel), sizeof pixel)));
+    EXPECT_EQ(read_image(folder / "d.npy", Encoding::srgb).rgb, (std::vector<float>{0.1f, 0.2f, 1e10f}));
+}
+
+TEST(Npy, RefusesOtherArrays) {
+    const test::TemporaryFolder folder;
+    const std::string zeros(12, '\0');
+    for (const char* header : {"{'descr': '>f4', 'fortran_order': False, 'shape': (1, 1, 3), }",
+                               "{'descr': '<f4', 'fortran_order': True, 'shape': (1, 1, 3), }",
+                               "{'descr': '<f4', 'fortran_order': False, 'shape': (1, 3), }",
+                               "{'descr': '<f4', 'fortran_order': False, 'shape': (1, 1, 4), }",
+                               "{'descr': '|O', 'fortran_order': False, 'shape': (1, 1, 3), }"}) {
+        test::save(folder / "x.npy", npy(header, zeros));
+        const std::string message = test::input_error([&] { read_image(folder / "x.npy", Encoding::srgb); });
+        EXPECT_NE(message.find("shape (rows, columns, 3)"), std::string::npos) << header << message;
+    }
+}
+
+void save_jpeg(const std::filesystem::path& path, int width, int height, int components, int progressive) {
+    std::FILE* const file = std::fopen(path.c_str(), "wb");
+    jpeg_compress_struct jpeg{};
+    jpeg_error_mgr error{};
+    jpeg.err = jpeg_std_error(&error);
+    jpeg_create_compress(&jpeg);
+    jpeg_stdio_dest(&jpeg, file);
+    jpeg.image_width = JDIMENSION(width);
+    jpeg.image_height = JDIMENSION(height);
+    jpeg.input_components = components;
+    jpeg.in_color_space = components == 1 ? JCS_GRAYSCALE : components == 3 ? JCS_RGB : JCS_CMYK;
+    jpeg_set_defaults(&jpeg);
+    jpeg_set_quality(&jpeg, 100, TRUE);
+    if (progressive) jpeg_simple_progression(&jpeg);
+    jpeg_start_compress(&jpeg, TRUE);
+    std::vector<JSAMPLE> row(std::size_t(width * components));
+    for (int i = 0; i < width * components; ++i) row[std::size_t(i)] = i % components == 0 ? 200 : 60;
+    JSAMPROW pointer = row.data();
+    for (int y = 0; y < height; ++y) jpeg_write_scanlines(&jpeg, &pointer, 1);
+    jpeg_finish_compress(&jpeg);
+    jpeg_destroy_compress(&jpeg);
+    std::fclose(file);
+}
+
+// A constant colour survives the cosine transform; what is left is rounding, below two codes at quality 100.
+TEST(Jpeg, ReadsGrayAndColour) {
+    const test::TemporaryFolder folder;
+    for (const int progressive : {0, 1})
+        for (const int components : {1, 3}) {
+            save_jpeg(folder / "a.JPG", 21, 19, components, progressive);
+            const Image image = read_image(folder / "a.JPG", Encoding::linear);
+            ASSERT_EQ(image.width, 21);
+            ASSERT_EQ(image.height, 19);
+            for (std::size_t i = 0; i < image.rgb.size(); ++i)
+                EXPECT_NEAR(image.rgb[i] * 255, components == 1 || i % 3 == 0 ? 200 : 60, 2.1);
+        }
+}
+
+TEST(Jpeg, RefusesFourColours) {
+    const test::TemporaryFolder folder;
+    save_jpeg(folder / "cmyk.jpg", 16, 16, 4, 0);
+    EXPECT_NE(test::input_error([&] { read_image(folder / "cmyk.jpg", Encoding::srgb); }).find("4 colour components"),
+              std::string::npos);
+}
+
+// libjpeg only warns of lost data and fills with gray; a panel image with gray in place of data is wrong.
+TEST(Jpeg, RefusesATruncatedFile) {
+    const test::TemporaryFolder folder;
+    save_jpeg(folder / "a.jpg", 300, 300, 3, 0);
+    const std::string whole = test::load(folder / "a.jpg");
+    test::save(folder / "half.jpg", whole.substr(0, whole.size() / 2));
+    EXPECT_NE(test::input_error([&] { read_image(folder / "half.jpg", Encoding::srgb); }).find("is damaged"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lfdsim
