@@ -87,13 +87,12 @@ LFDSIM_FN void disk(F a, F b, F& x, F& y) {
     y = r * select(wide, sine, cosine);
 }
 
-/// Moves a sample from the pixel's centre to `jitter` (half pixels, right and up) and the pinhole to `lens` (half pupils): changes
-/// the rays' place in the first plane and their direction. With the unit direction d through the centre, m = d_xy / d_z and H the
+/// Moves a sample from the pixel's centre to `jitter` (half pixels, right and up) and the pinhole to `lens` (half pupils): the
+/// rays' place in the first plane and their direction then. With the unit direction d through the centre, m = d_xy / d_z and H the
 /// height of the plane above the camera, the change of direction e moves the ray by H (e_xy - m e_z) / (d_z + e_z): no large
 /// numbers cancel.
 template <class F>
-LFDSIM_FN void displace(const View& view, const PixelRays<F>& pixels, F jitter_x, F jitter_y, F lens_x, F lens_y, F& x, F& y,
-                        Vec3<F>& to) {
+LFDSIM_RARE Ray<F> displaced(const View& view, const PixelRays<F>& pixels, F jitter_x, F jitter_y, F lens_x, F lens_y) {
     using S = Scalar<F>;
     const F h = F(S(view.start_z - view.position[2])), half = F(S(0.5 * view.pixel_mm)), pupil = F(S(view.pupil_radius));
     auto along = [&](F right, F up, int axis) { return right * F(S(view.right[axis])) + up * F(S(view.up[axis])); };
@@ -101,6 +100,7 @@ LFDSIM_FN void displace(const View& view, const PixelRays<F>& pixels, F jitter_x
     const F back = F(S(view.frame_per_focus));
     const F ex = jitter_x * half - ox * back, ey = jitter_y * half - oy * back;
     const F k = pixels.per_length;
+    const Vec3<F> to = pixels.to;
     const Vec3<F> e{along(ex, ey, 0) * k, along(ex, ey, 1) * k, along(ex, ey, 2) * k};
     const Vec3<F> moved{to.x + e.x, to.y + e.y, to.z + e.z};
     const Vec3<F> o{along(ox, oy, 0), along(ox, oy, 1), along(ox, oy, 2)};
@@ -108,10 +108,9 @@ LFDSIM_FN void displace(const View& view, const PixelRays<F>& pixels, F jitter_x
     const F shift_x = o.x + (h * (e.x - to.x * m * e.z) - o.z * moved.x) * per_z;
     const F shift_y = o.y + (h * (e.y - to.y * m * e.z) - o.z * moved.y) * per_z;
     const F c = F(S(view.cos_rotation)), s = F(S(view.sin_rotation));
-    x = pixels.x + (c * shift_x + s * shift_y);
-    y = pixels.y + (c * shift_y - s * shift_x);
     const F per = F(1) / sqrt(dot(moved, moved));
-    to = {moved.x * per, moved.y * per, moved.z * per};
+    return {{pixels.x + (c * shift_x + s * shift_y), pixels.y + (c * shift_y - s * shift_x), F(0)},
+            {moved.x * per, moved.y * per, moved.z * per}};
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -1,5 +1,6 @@
 // The light that a packet of pixels has gathered from the panel. Floor 1.
 #pragma once
+#include "optics/pair.h"
 #include "optics/panel.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
@@ -40,7 +41,11 @@ struct Light {
     /// The texels of N / 4 lanes, side by side.
     static LFDSIM_FN F four_channels(const float* texels, const std::uint32_t* index) {
         F texel;
-        for (int k = 0; k < N / 4; ++k) __builtin_memcpy((char*)&texel + 16 * k, texels + std::size_t(index[k]) * 4, 16);
+        for (int k = 0; k < N / 4; ++k) {
+            std::size_t i = index[k];
+            asm("" : "+r"(i));  // or clang computes the addresses as vectors and extracts them again, which is slower
+            __builtin_memcpy((char*)&texel + 16 * k, texels + i * 4, 16);
+        }
         return texel;
     }
     /// Lanes r N/4 .. (r+1) N/4 - 1, each four times.
@@ -49,6 +54,21 @@ struct Light {
         for (int k = 0; k < N; ++k) w.v[k] = weight.v[r * (N / 4) + k / 4];
         return w;
     }
+};
+
+template <class H>
+struct Light<Pair<H>> {
+    Light<H> a, b;
+
+    LFDSIM_FN void add(const float* texels, const PanelHit<Pair<H>>& hit) {
+        a.add(texels, {hit.pixel.a, hit.weight.a, hit.lit.a});
+        b.add(texels, {hit.pixel.b, hit.weight.b, hit.lit.b});
+    }
+    LFDSIM_FN void add(const Light& other) {
+        a.add(other.a);
+        b.add(other.b);
+    }
+    LFDSIM_FN Scalar<H> operator()(int k, int c) const { return k < Light<H>::N ? a(k, c) : b(k - Light<H>::N, c); }
 };
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

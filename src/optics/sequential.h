@@ -16,13 +16,24 @@ struct Passage {
     Mask<F> alive;
 };
 
+/// Which surfaces a display's lens has, as far as the kernel is compiled for it: the 2019 paper's lens without a stop pays for no other.
+enum class Shapes { plano_convex, any };
+
+/// Surface k, counted from the viewer's side.
+template <Shapes shapes, class S>
+LFDSIM_FN Shape shape_of(const Scene<S>& scene, int k) {
+    if (shapes == Shapes::plano_convex) return k == 0 ? Shape::sphere : Shape::plane;
+    return scene.surface[k].shape;
+}
+
 template <class F>
-LFDSIM_FN Hit<F> meet(const SurfaceData<Scalar<F>>& surface, Ray<F> in_vertex_plane) {
-    if (surface.shape == Shape::sphere) return meet_sphere(surface, in_vertex_plane);
-    if (surface.shape != Shape::plane) return meet_asphere(surface, in_vertex_plane);
-    const Vec3<F> p = in_vertex_plane.at;
-    const F cosine = -in_vertex_plane.to.z, r = F(surface.semi_aperture);
-    return {p, {F(0), F(0), F(1)}, cosine, cosine * cosine, p.x * p.x + p.y * p.y <= r * r};
+LFDSIM_FN Hit<F> meet(Shape shape, const SurfaceData<Scalar<F>>& surface, Ray<F> in_vertex_plane) {
+    if (shape == Shape::plane) {
+        const Vec3<F> p = in_vertex_plane.at;
+        const F cosine = -in_vertex_plane.to.z, r = F(surface.semi_aperture);
+        return {p, {F(0), F(0), F(1)}, cosine, cosine * cosine, p.x * p.x + p.y * p.y <= r * r};
+    }
+    return shape == Shape::sphere ? meet_sphere(surface, in_vertex_plane) : meet_asphere(surface, in_vertex_plane);
 }
 
 /// The walls of a square cell; a circle's are its surfaces' semi apertures.
@@ -34,14 +45,14 @@ LFDSIM_FN Mask<F> inside_cell(const Scene<Scalar<F>>& scene, Vec3<F> at, Mask<F>
 
 /// Refracts a ray that comes down from the viewer's side (Snell's law as vectors; total internal reflection ends it).
 template <class F>
-LFDSIM_FN void refract_down(const Scene<Scalar<F>>& scene, const SurfaceData<Scalar<F>>& surface, const Hit<F>& hit,
+LFDSIM_FN void refract_down(const Scene<Scalar<F>>& scene, Shape shape, const SurfaceData<Scalar<F>>& surface, const Hit<F>& hit,
                             Passage<F>& way) {
     const F eta = F(surface.media.eta);
     const F cos2 = (F(1) - eta * eta) + (eta * eta) * hit.cos2;
     const F cosine = sqrt(max(cos2, F(0)));
     way.alive = way.alive && (cos2 > F(0));
     const Vec3<F> i = way.ray.to;
-    if (surface.shape == Shape::plane) {
+    if (shape == Shape::plane) {
         way.ray.to = {eta * i.x, eta * i.y, -cosine};
     } else {
         const F m = eta * hit.cos - cosine;
@@ -55,25 +66,53 @@ LFDSIM_FN void refract_down(const Scene<Scalar<F>>& scene, const SurfaceData<Sca
     }
 }
 
-/// The first surface, from a ray in the plane of its vertex, from the base lens. Most rays meet the cap of the cell they point at;
-/// one that misses it and slants out of the cell before it is as low as the rims looks into the next cells.
+/// The first surface of the lens in `cell`, met by a ray in the plane of its vertex.
+template <Shapes shapes, class F>
+LFDSIM_FN Hit<F> meet_first(const Scene<Scalar<F>>& scene, Ray<F> ray, Cell<F> cell) {
+    ray.at.x = ray.at.x - cell.i * F(scene.pitch);
+    ray.at.y = ray.at.y - cell.j * F(scene.pitch);
+    Hit<F> hit = meet(shape_of<shapes>(scene, 0), scene.surface[0], ray);
+    hit.ok = inside_cell(scene, hit.at, hit.ok);
+    return hit;
+}
+
+/// Can a line from the cell `from`, way (m_x, m_y) for each mm of the zone's depth, meet the cap of another? Not if it ends in a cell
+/// beside `from` (it crosses no third one then) and stays farther than the semi aperture from that lens's axis.
 template <class F>
-LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<F>& extent, Ray<F> ray, Passage<F>& way) {
-    using S = Scalar<F>;
-    const SurfaceData<S>& first = scene.surface[0];
-    const F p = F(scene.pitch);
-    const F fall = F(1) / ray.to.z;  // dx/dz = to.x fall
-    auto in_cell = [&](Cell<F> cell) {
-        Ray<F> local = ray;
-        local.at.x = ray.at.x - cell.i * p;
-        local.at.y = ray.at.y - cell.j * p;
-        return local;
-    };
-    auto try_cell = [&](Cell<F> cell) {
-        Hit<F> hit = meet(first, in_cell(cell));
-        hit.ok = inside_cell(scene, hit.at, hit.ok);
-        return hit;
-    };
+LFDSIM_FN Mask<F> nears_neighbour(const Scene<Scalar<F>>& scene, F x, F y, F mx, F my, Cell<F> from) {
+    const F depth = F(scene.zone_top - scene.zone_bottom), p = F(scene.pitch), r = F(scene.surface[0].semi_aperture) + F(Scalar<F>(1e-3));
+    const Cell<F> to{nearest_cell(scene, x + mx * depth), nearest_cell(scene, y + my * depth)};
+    const F steps = abs(to.i - from.i) + abs(to.j - from.j);
+    const F ax = x - to.i * p, ay = y - to.j * p;  // from the axis of the lens in the last cell
+    const F s = min(max(-(ax * mx + ay * my) / max(mx * mx + my * my, F(Scalar<F>(1e-20))), F(0)), depth);
+    const F nx = ax + mx * s, ny = ay + my * s;
+    return (steps > F(Scalar<F>(1.5))) || (nx * nx + ny * ny <= r * r);
+}
+
+/// Looks for the cap that rays astray meet before they are as low as the rims: (x, y) in the zone's top plane, m = -d(x, y)/dz.
+template <Shapes shapes, class F>
+LFDSIM_RARE void meet_neighbours(const Scene<Scalar<F>>& scene, const Extent<F>& extent, const Ray<F>& ray, F x, F y, F mx, F my,
+                                 Mask<F> astray, Hit<F>& hit, Cell<F>& cell) {
+    walk_cells(scene, extent, x, y, mx, my, F(0), F(scene.zone_top - scene.zone_bottom), astray, [&](Cell<F> here, Mask<F> active) {
+        const Hit<F> next = meet_first<shapes>(scene, ray, here);
+        const Mask<F> met = active && next.ok;
+        auto choose = [&](F a, F b) { return select(met, a, b); };
+        hit = {{choose(next.at.x, hit.at.x), choose(next.at.y, hit.at.y), choose(next.at.z, hit.at.z)},
+               {choose(next.normal.x, hit.normal.x), choose(next.normal.y, hit.normal.y), choose(next.normal.z, hit.normal.z)},
+               choose(next.cos, hit.cos),
+               choose(next.cos2, hit.cos2),
+               hit.ok || met};
+        cell = {choose(here.i, cell.i), choose(here.j, cell.j)};
+        return met;
+    });
+}
+
+/// The first surface, from a ray in the plane of its vertex, from the base lens. Most rays meet the cap of the cell they point at; one
+/// that misses it and slants out of the cell before it is as low as the rims looks into the next cells.
+template <Shapes shapes, class F>
+LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<F>& extent, const Ray<F>& ray, Passage<F>& way) {
+    const auto& first = scene.surface[0];
+    const F p = F(scene.pitch), fall = F(1) / ray.to.z;  // dx/dz = to.x fall
     // The cell is taken where the ray comes to the zone of the caps (the plane of the rims, if they are the highest).
     F x = ray.at.x, y = ray.at.y;
     if (scene.zone_top != first.z) {
@@ -82,28 +121,23 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<F>& ext
         y = y + ray.to.y * up;
     }
     way.cell = {nearest_cell(scene, x), nearest_cell(scene, y)};
-    Hit<F> hit = try_cell(way.cell);
+    Hit<F> hit = meet_first<shapes>(scene, ray, way.cell);
     if (scene.dimple) {  // the entrance is the rim's circle or cell
         const F lx = x - way.cell.i * p, ly = y - way.cell.j * p, r = F(first.semi_aperture);
         hit.ok = hit.ok && (lx * lx + ly * ly <= r * r);
     } else if (scene.zone_top > scene.zone_bottom) {
-        // Does a ray that missed stay in its cell down to the rims?
+        // Does a ray that missed leave its cell before it is down at the rims, and come near another lens?
         const F depth = F(scene.zone_top - scene.zone_bottom), mx = -(ray.to.x * fall), my = -(ray.to.y * fall);
         const F far = max(abs(x + mx * depth - way.cell.i * p), abs(y + my * depth - way.cell.j * p));
-        const Mask<F> astray = way.alive && !(hit.ok) && (far > F(scene.half_pitch));
+        Mask<F> astray = way.alive && !hit.ok && (far > F(scene.half_pitch));
+        if (any(astray)) astray = astray && nears_neighbour(scene, x, y, mx, my, way.cell);
         if (any(astray)) {
-            walk_cells(scene, extent, x, y, mx, my, F(0), depth, astray, [&](Cell<F> cell, Mask<F> active) {
-                const Hit<F> next = try_cell(cell);
-                const Mask<F> met = active && next.ok;
-                hit = {{select(met, next.at.x, hit.at.x), select(met, next.at.y, hit.at.y), select(met, next.at.z, hit.at.z)},
-                       {select(met, next.normal.x, hit.normal.x), select(met, next.normal.y, hit.normal.y),
-                        select(met, next.normal.z, hit.normal.z)},
-                       select(met, next.cos, hit.cos),
-                       select(met, next.cos2, hit.cos2),
-                       Mask<F>(hit.ok || met)};
-                way.cell = {select(met, cell.i, way.cell.i), select(met, cell.j, way.cell.j)};
-                return met;
-            });
+            Hit<F> found = hit;
+            Cell<F> cell = way.cell;
+            const Ray<F> from = ray;
+            meet_neighbours<shapes>(scene, extent, from, x, y, mx, my, astray, found, cell);
+            hit = found;
+            way.cell = cell;
         }
     }
     way.alive = way.alive && hit.ok && extent.holds(way.cell);
@@ -111,7 +145,7 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<F>& ext
 }
 
 /// From the plane of the first vertex to the panel. `way.ray` stands there, from the base lens.
-template <class F>
+template <Shapes shapes, class F>
 LFDSIM_FN PanelHit<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent<F>& extent, const PanelBase<F>& base,
                                    Passage<F> way) {
     using S = Scalar<F>;
@@ -126,32 +160,34 @@ LFDSIM_FN PanelHit<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent<F
         stop_ahead = stop_ahead && !crosses;
     };
 
+    const int count = shapes == Shapes::plano_convex ? 2 : scene.surface_count;
+    const bool has_stop = shapes != Shapes::plano_convex && scene.has_stop;
     const Ray<F> entering = way.ray;
-    Hit<F> hit = enter_array(scene, extent, way.ray, way);
-    if (scene.has_stop) {
+    Hit<F> hit = enter_array<shapes>(scene, extent, entering, way);
+    if (has_stop) {
         const F shift_x = way.cell.i * F(scene.pitch), shift_y = way.cell.j * F(scene.pitch);
         stop_between(F(S(1e30)), hit.at.z + F(scene.surface[0].z), {entering.at.x - shift_x, entering.at.y - shift_y, F(0)},
                      entering.to, F(scene.surface[0].z));
     }
-    refract_down(scene, scene.surface[0], hit, way);
-    for (int k = 1; k < scene.surface_count; ++k) {
+    refract_down(scene, shape_of<shapes>(scene, 0), scene.surface[0], hit, way);
+    for (int k = 1; k < count; ++k) {
         const SurfaceData<S>&above = scene.surface[k - 1], &surface = scene.surface[k];
         const F t = (F(surface.z - above.z) - way.ray.at.z) / way.ray.to.z;  // to its vertex plane
         Ray<F> ray = way.ray;
         ray.at = {ray.at.x + ray.to.x * t, ray.at.y + ray.to.y * t, F(0)};
-        hit = meet(surface, ray);
+        hit = meet(shape_of<shapes>(scene, k), surface, ray);
         hit.ok = inside_cell(scene, hit.at, hit.ok);
-        if (scene.has_stop) {
+        if (has_stop) {
             stop_between(way.ray.at.z + F(above.z), hit.at.z + F(surface.z), way.ray.at, way.ray.to, way.ray.at.z + F(above.z));
         }
         // Downwards throughout: a ray turned up, or meeting a surface behind itself, is absorbed.
         way.alive = way.alive && hit.ok && (way.ray.to.z < F(0));
-        if (surface.shape != Shape::plane) way.alive = way.alive && (hit.at.z + F(surface.z) <= way.ray.at.z + F(above.z));
-        refract_down(scene, surface, hit, way);
+        if (shape_of<shapes>(scene, k) != Shape::plane) way.alive = way.alive && (hit.at.z + F(surface.z) <= way.ray.at.z + F(above.z));
+        refract_down(scene, shape_of<shapes>(scene, k), surface, hit, way);
     }
-    const F z = way.ray.at.z + F(scene.surface[scene.surface_count - 1].z);
-    if (scene.has_stop) stop_between(z, F(0), way.ray.at, way.ray.to, z);
-    way.alive = way.alive && (way.ray.to.z < F(0));
+    const F z = way.ray.at.z + F(scene.surface[count - 1].z);
+    if (has_stop) stop_between(z, F(0), way.ray.at, way.ray.to, z);
+    if (shape_of<shapes>(scene, count - 1) != Shape::plane) way.alive = way.alive && (way.ray.to.z < F(0));
     const F t = -z / way.ray.to.z;
     if (scene.emission_exponent != S(0)) way.weight = way.weight * power(-way.ray.to.z, scene.emission_exponent);
     return panel_pixel(scene, base, way.cell, way.ray.at.x + way.ray.to.x * t, way.ray.at.y + way.ray.to.y * t, way.weight,

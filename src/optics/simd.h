@@ -107,26 +107,7 @@ LFDSIM_FN LaneUint<N> float_bits(Lane<N> a) {
     return (typename Vectors<N>::Uint)a.v;
 }
 #if defined(__AVX512F__)
-template <>
-struct LaneMask<16> {
-    __mmask16 v;
-    friend LFDSIM_FN LaneMask operator&&(LaneMask a, LaneMask b) { return {__mmask16(a.v & b.v)}; }
-    friend LFDSIM_FN LaneMask operator||(LaneMask a, LaneMask b) { return {__mmask16(a.v | b.v)}; }
-    friend LFDSIM_FN LaneMask operator!(LaneMask a) { return {__mmask16(~a.v)}; }
-};
-template <>
-template <int code>
-LFDSIM_FN LaneMask<16> Lane<16>::compare(Lane a, Lane b, Vectors<16>::Int) {
-    return {_mm512_cmp_ps_mask((__m512)a.v, (__m512)b.v, code)};
-}
-LFDSIM_FN LaneMask<16> operator<(LaneUint<16> a, LaneUint<16> b) { return {_mm512_cmplt_epu32_mask((__m512i)a.v, (__m512i)b.v)}; }
-LFDSIM_FN Lane<16> select(LaneMask<16> m, Lane<16> a, Lane<16> b) {
-    return (Vectors<16>::Float)_mm512_mask_blend_ps(m.v, (__m512)b.v, (__m512)a.v);
-}
-LFDSIM_FN LaneUint<16> select(LaneMask<16> m, LaneUint<16> a, LaneUint<16> b) {
-    return (Vectors<16>::Uint)_mm512_mask_blend_epi32(m.v, (__m512i)b.v, (__m512i)a.v);
-}
-LFDSIM_FN bool any(LaneMask<16> m) { return m.v != 0; }
+LFDSIM_FN bool any(LaneMask<16> m) { return _mm512_movepi32_mask((__m512i)m.v) != 0; }
 LFDSIM_FN Lane<16> sqrt(Lane<16> a) { return (Vectors<16>::Float)_mm512_sqrt_ps((__m512)a.v); }
 LFDSIM_FN Lane<16> floor(Lane<16> a) { return (Vectors<16>::Float)_mm512_roundscale_ps((__m512)a.v, 1); }
 LFDSIM_FN Lane<16> min(Lane<16> a, Lane<16> b) { return (Vectors<16>::Float)_mm512_min_ps((__m512)a.v, (__m512)b.v); }

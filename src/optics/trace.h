@@ -8,8 +8,19 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
+/// The ways through an array, one of which a display takes: chosen outside the loop over samples, so that none pays for another.
+enum class Way { plano_convex, opaque, ideal, glass };
+
+template <class S>
+LFDSIM_FN Way way_through(const Scene<S>& scene) {
+    if (scene.lens == LensType::ideal) return Way::ideal;
+    if (scene.surround != Surround::opaque) return Way::glass;
+    const bool plain = scene.surface_count == 2 && scene.surface[0].shape == Shape::sphere && scene.surface[1].shape == Shape::plane;
+    return plain && !scene.has_stop ? Way::plano_convex : Way::opaque;
+}
+
 /// One sample of each pixel of a packet.
-template <class F>
+template <Way through, class F>
 LFDSIM_FN PanelHit<F> trace(const Scene<Scalar<F>>& scene, const View& view, const PixelRays<F>& pixels,
                             const Sampler<F>& sampler) {
     using S = Scalar<F>;
@@ -23,7 +34,8 @@ LFDSIM_FN PanelHit<F> trace(const Scene<Scalar<F>>& scene, const View& view, con
             jitter_y = sampler(3);
         }
         if (scene.thin_lens) disk(sampler(4), sampler(5), lens_x, lens_y);
-        displace(view, pixels, jitter_x, jitter_y, lens_x, lens_y, ray.at.x, ray.at.y, ray.to);
+        const PixelRays<F> centres = pixels;  // a copy, so that the original may stay in registers
+        ray = displaced(view, centres, jitter_x, jitter_y, lens_x, lens_y);
     }
 
     // The diffuser
@@ -43,9 +55,10 @@ LFDSIM_FN PanelHit<F> trace(const Scene<Scalar<F>>& scene, const View& view, con
     }
 
     // The lens array, the panel
-    if (scene.lens == LensType::ideal) return trace_ideal(scene, pixels.extent, pixels.base, way);
-    if (scene.surround == Surround::opaque) return trace_opaque(scene, pixels.extent, pixels.base, way);
-    return trace_glass(scene, pixels.extent, pixels.base, way);
+    if constexpr (through == Way::ideal) return trace_ideal(scene, pixels.extent, pixels.base, way);
+    if constexpr (through == Way::plano_convex) return trace_opaque<Shapes::plano_convex>(scene, pixels.extent, pixels.base, way);
+    if constexpr (through == Way::opaque) return trace_opaque<Shapes::any>(scene, pixels.extent, pixels.base, way);
+    if constexpr (through == Way::glass) return trace_glass(scene, pixels.extent, pixels.base, way);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

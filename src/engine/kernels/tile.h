@@ -1,27 +1,27 @@
 // The kernel's source, compiled once for each instruction set (kernels.cmake): LFDSIM_ISA names it, LFDSIM_LANES is its width.
 // Floor 2. No header of the standard library's templates: a copy of one compiled for AVX-512 must never serve another kernel.
 #include "engine/kernel.h"
-#include "optics/light.h"
-#include "optics/trace.h"
-
 #if LFDSIM_LANES > 1
 #include "optics/simd.h"
 #endif
+#include "optics/light.h"
+#include "optics/trace.h"
 
 namespace lfdsim {
 
 namespace {
 
 #if LFDSIM_LANES > 1
-using F = optics::Lane<LFDSIM_LANES>;
+using F = optics::Pair<optics::Lane<LFDSIM_LANES>>;
 #else
 using F = float;
 #endif
 
-constexpr int kLanes = LFDSIM_LANES;
+constexpr int kLanes = optics::LaneTraits<F>::width;
 constexpr std::uint32_t kBlock = 256;  // samples summed in one go, so that rounding does not grow with their number
 
 /// Lanes are neighbouring pixels and each adds its samples in their order, so that no bit depends on the packet a pixel is in.
+template <optics::Way through>
 LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& pixels, optics::Uint<F> pixel) {
     optics::Sampler<F> sampler(tile.sampling, tile.dimensions, tile.view->seed, pixel);
     optics::Light<F> total;
@@ -29,7 +29,7 @@ LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& 
         optics::Light<F> block;
         const std::uint32_t end = tile.samples - sample < kBlock ? tile.samples : sample + kBlock;
         for (; sample < end; ++sample) {
-            block.add(tile.texels, optics::trace(*tile.scene, *tile.view, pixels, sampler));
+            block.add(tile.texels, optics::trace<through>(*tile.scene, *tile.view, pixels, sampler));
             sampler.next(*tile.directions);
         }
         total.add(block);
@@ -37,22 +37,31 @@ LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& 
     return total;
 }
 
-}  // namespace
-
-void LFDSIM_KERNEL(const Tile& tile) {
+template <optics::Way through>
+void render_tile(const Tile& tile) {
     std::uint32_t lane[kLanes];
     for (int k = 0; k < kLanes; ++k) lane[k] = std::uint32_t(k);
     for (std::int32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::int32_t x = tile.x0; x < tile.x1; x += kLanes) {
-            const auto pixel =
-                optics::load<F>(lane) + optics::Uint<F>(std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x));
-            const optics::Light<F> light = gather(tile, optics::pixel_rays<F>(*tile.view, x, y), pixel);
+            const auto pixel = optics::load<F>(lane) + optics::Uint<F>(std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x));
+            const optics::Light<F> light = gather<through>(tile, optics::pixel_rays<F>(*tile.view, x, y), pixel);
             float* const out = tile.out + (std::int64_t(y - tile.crop_y) * tile.crop_width + (x - tile.crop_x)) * 3;
             const int inside = tile.x1 - x < kLanes ? tile.x1 - x : kLanes;
             for (int k = 0; k < inside; ++k) {
                 for (int c = 0; c < 3; ++c) out[3 * k + c] = light(k, c) / float(tile.samples);
             }
         }
+    }
+}
+
+}  // namespace
+
+void LFDSIM_KERNEL(const Tile& tile) {
+    switch (optics::way_through(*tile.scene)) {
+        case optics::Way::plano_convex: return render_tile<optics::Way::plano_convex>(tile);
+        case optics::Way::opaque: return render_tile<optics::Way::opaque>(tile);
+        case optics::Way::ideal: return render_tile<optics::Way::ideal>(tile);
+        case optics::Way::glass: return render_tile<optics::Way::glass>(tile);
     }
 }
 
