@@ -28,7 +28,7 @@ std::string text_of(const Json& value) {
 }
 
 std::string table_of(const Setting& s) {
-    const bool absent = s.value.is_null() || s.value == "";
+    const bool absent = s.value.is_null() || s.value == "" || s.value == Json::array();
     std::string text = absent ? "-" : text_of(s.value);
     if (!absent && !unit(s.key).empty()) text += " " + unit(s.key);
     std::string note = s.is_default ? "default" : "";

@@ -12,6 +12,7 @@ void add_photo(CLI::App& program);
 void add_render(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_sheet(CLI::App& program);
+void add_bench(CLI::App& program);
 void add_doctor(CLI::App& program);
 
 }  // namespace lfdsim::cli

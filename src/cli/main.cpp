@@ -25,6 +25,7 @@ void run(int argc, char** argv) {
     CLI::App program("Simulates lens-array light field displays: what a viewer sees of panel, lenses and diffuser.", "lfdsim");
     program.set_version_flag("--version", "lfdsim " LFDSIM_VERSION);
     program.require_subcommand(1);
+    program.get_formatter()->column_width(34);
     program.footer(
         "First steps:\n  lfdsim check displays/desktop-asphere.toml\n  lfdsim render displays/desktop-asphere.toml --model "
         "monkey.blend "
@@ -35,6 +36,7 @@ void run(int argc, char** argv) {
     cli::add_render(program);
     cli::add_compare(program);
     cli::add_sheet(program);
+    cli::add_bench(program);
     cli::add_doctor(program);
     try {
         program.parse(cli::arguments(argc, argv));

@@ -26,13 +26,29 @@ std::string suggestion(const std::string& given, const std::vector<std::string>&
     return near.empty() ? "" : fmt::format("; did you mean {}?", near);
 }
 
-std::vector<std::string> option_names(const CLI::App& command) {
+// Dashes are left out of the comparison, as all options have them.
+std::string option_suggestion(const std::string& given, const CLI::App& command) {
     std::vector<std::string> names;
-    for (const CLI::Option* option : command.get_options()) {
-        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-        for (const std::string& name : option->get_snames()) names.push_back("-" + name);
-    }
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back(name);
+    const std::string near = suggestion(given.substr(given.find_first_not_of('-')), names);
+    const std::size_t name = near.rfind(' ') + 1;
+    return near.empty() ? "" : near.substr(0, name) + "--" + near.substr(name);
+}
+
+std::vector<std::string> command_names(const CLI::App& program) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
     return names;
+}
+
+// CLI11's own words, where they can be understood.
+std::string reworded(const CLI::ParseError& error) {
+    const std::string text = error.what();
+    if (!dynamic_cast<const CLI::ArgumentMismatch*>(&error)) return text;
+    const bool many = text.find("At Most") != text.npos;
+    return text.substr(0, text.find(": ")) + (many ? " is given more than once" : " needs a value");
 }
 
 }  // namespace
@@ -49,6 +65,8 @@ std::vector<std::string> arguments(int argc, char** argv) {
         setting |= word == "--set";
         all.push_back(word);
     }
+    if (!all.empty() && all.front() == "help")
+        all = all.size() > 1 ? std::vector{all[1], std::string("--help")} : std::vector{std::string("--help")};
     std::reverse(all.begin(), all.end());
     return all;
 }
@@ -56,25 +74,29 @@ std::vector<std::string> arguments(int argc, char** argv) {
 InputError usage_error(const CLI::App& program, const CLI::ParseError& error) {
     const std::vector<CLI::App*> chosen = program.get_subcommands();
     const CLI::App& command = chosen.empty() ? program : *chosen.front();
-    const std::vector<std::string> left = program.remaining(true);
-    std::vector<Problem> problems;
-    if (chosen.empty() && !left.empty() && !is_option(left.front())) {
-        std::vector<std::string> names;
-        for (const CLI::App* c : program.get_subcommands([](const CLI::App*) { return true; })) names.push_back(c->get_name());
-        problems.push_back({left.front(), fmt::format("unknown command{}; there are {}", suggestion(left.front(), names),
-                                                      fmt::join(names, ", "))});
-    } else {
-        for (const std::string& word : left) {
-            const std::string name = word.substr(0, word.find('='));
-            if (is_option(word)) problems.push_back({name, "unknown option" + suggestion(name, option_names(command))});
-        }
-        // Values of unknown options are left over too, so words are told only where no unknown option explains them.
-        if (problems.empty())
-            for (const std::string& word : left) problems.push_back({word, "one argument too many"});
+    std::vector<Problem> unknown, superfluous;
+    for (const std::string& word : program.remaining(true)) {
+        const std::string name = word.substr(0, word.find('='));
+        if (is_option(word))
+            unknown.push_back({name, "unknown option" + option_suggestion(name, command)});
+        else
+            superfluous.push_back({word, "one argument too many"});
     }
-    if (problems.empty()) problems.push_back({"", error.what()});
-    const std::string name = chosen.empty() ? "lfdsim" : "lfdsim " + command.get_name();
-    problems.back().what += fmt::format(" (all options: {} --help)", name);
+    std::vector<Problem> problems = unknown;
+    if (problems.empty() && chosen.empty()) {
+        const std::vector<std::string> names = command_names(program);
+        if (superfluous.empty())
+            problems.push_back({"", fmt::format("a command is missing; there are {}", fmt::join(names, ", "))});
+        else
+            problems.push_back(
+                {superfluous.front().where, fmt::format("unknown command{}; there are {}",
+                                                        suggestion(superfluous.front().where, names), fmt::join(names, ", "))});
+    }
+    // Values of unknown options are left over too, so superfluous words are told only where no unknown option explains them.
+    if (problems.empty()) problems = superfluous;
+    if (problems.empty()) problems.push_back({"", reworded(error)});
+    problems.back().what +=
+        fmt::format(" (help: lfdsim{}{} --help)", chosen.empty() ? "" : " ", chosen.empty() ? "" : command.get_name());
     return InputError(std::move(problems));
 }
 

@@ -9,7 +9,8 @@
 
 namespace lfdsim::cli {
 
-/// argv for CLI11's parser: reversed, without the program's name, and "--set a=1 b=2" written out as "--set a=1 --set b=2".
+/// argv for CLI11's parser: reversed, without the program's name; "--set a=1 b=2" becomes "--set a=1 --set b=2" and "help render"
+/// becomes "render --help".
 std::vector<std::string> arguments(int argc, char** argv);
 
 /// Unknown commands and options with the nearest known one, values that are missing, and where to find help.

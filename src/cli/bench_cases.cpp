@@ -1,0 +1,71 @@
+#include "cli/bench_cases.h"
+
+namespace lfdsim::cli {
+namespace {
+
+// The same lens as a prescription, its cap an asphere.
+void make_asphere(Display& d) {
+    d.lens = Lens{.type = LensType::surfaces};
+    d.lens.surfaces = {{.semi_aperture_mm = 4.4, .distance_mm = 2.1489, .index = 1.49},
+                       {.curvature_per_mm = -1 / 9.0, .conic = -0.36, .even_asphere = {1e-5, 1e-7}, .semi_aperture_mm = 4.4}};
+}
+
+// A million lenses on the same panel: all lengths of lens and array shrink.
+void make_tiny_lenses(Display& d) {
+    const double shrink = 384.0 / 1000 / 8.8;
+    d.array.count = {1000, 1000};
+    d.array.pitch_mm *= shrink;
+    *d.array.base_z_mm *= shrink;
+    d.lens.sphere_radius_mm *= shrink;
+    *d.lens.aperture_radius_mm *= shrink;
+    d.lens.cylinder_height_mm *= shrink;
+}
+
+constexpr Duty table[] = {
+    {"paper", [](Display&) {}},
+    {"fresnel exact", [](Display& d) { d.render.fresnel = Fresnel::exact; }},
+    {"fresnel none", [](Display& d) { d.render.fresnel = Fresnel::none; }},
+    {"no diffuser", [](Display& d) { d.diffuser.reset(); }},
+    {"gaussian diffuser", [](Display& d) { d.diffuser->profile = Profile::gaussian; }},
+    {"random samples", [](Display& d) { d.render.sampling = Sampling::random; }},
+    {"pixel filter box", [](Display& d) { d.camera.pixel_filter = PixelFilter::box; }},
+    {"thin-lens camera", [](Display& d) { d.camera.pupil_diameter_mm = 4; }},
+    {"emission exponent 1", [](Display& d) { d.panel.emission_exponent = 1; }},
+    {"array turned and moved",
+     [](Display& d) {
+         d.array.rotation_deg = 5;
+         d.array.offset_mm = {1, 2};
+     }},
+    {"facing the panel", [](Display& d) { d.lens.facing = Facing::panel; }},
+    {"square apertures", [](Display& d) { d.array.aperture = Aperture::square; }},
+    {"aperture stop", [](Display& d) { d.lens.stop_radius_mm = 2; }},
+    {"sphere as surfaces",
+     [](Display& d) {
+         make_asphere(d);
+         d.lens.surfaces[1].conic = 0;
+         d.lens.surfaces[1].even_asphere.clear();
+     }},
+    {"asphere", make_asphere},
+    {"ideal lens", [](Display& d) { d.lens = Lens{.type = LensType::ideal, .aperture_radius_mm = 4.4, .focal_length_mm = 18.4}; }},
+    {"surround plate", [](Display& d) { d.array.surround = Surround::plate; }},
+    {"surround clear", [](Display& d) { d.array.surround = Surround::clear; }},
+    {"a million lenses", make_tiny_lenses},
+};
+
+}  // namespace
+
+const std::span<const Duty> duties = table;
+
+Display bench_display() {
+    Display d;
+    d.name = "bench";
+    d.panel = {.pixels = {3840, 2160}, .pixel_pitch_mm = 0.1};
+    d.lens = {.sphere_radius_mm = 9, .aperture_radius_mm = 4.4, .cylinder_height_mm = 1, .index = 1.49};
+    d.array = {.count = {44, 25}, .pitch_mm = 8.8, .base_z_mm = 12};
+    d.diffuser = {.distance_mm = 45.851, .angle_deg = {2.8648, 2.8648}};  // at z = 60 mm, 0.05 rad
+    d.camera.frame_width_mm = 384;
+    d.render.fresnel = Fresnel::schlick;
+    return d;
+}
+
+}  // namespace lfdsim::cli
