@@ -101,11 +101,10 @@ TEST(LoadModel, MemoryIsLimited) {
 #endif
 #endif
     Folder folder;
-    std::string obj;
-    for (int k = 0; k < 300000; ++k) obj += "v " + std::to_string(k % 317) + " " + std::to_string(k % 113) + " 0\n";
-    for (int k = 1; k < 299998; ++k)
-        obj += "f " + std::to_string(k) + " " + std::to_string(k + 1) + " " + std::to_string(k + 2) + "\n";
-    const fs::path model = folder.write("big.obj", obj);
+    std::ostringstream obj;
+    for (int k = 0; k < 300000; ++k) obj << "v " << k % 317 << " " << k % 113 << " 0\n";
+    for (int k = 1; k < 299998; ++k) obj << "f " << k << " " << k + 1 << " " << k + 2 << "\n";
+    const fs::path model = folder.write("big.obj", obj.str());
     EXPECT_THAT(refusal(model, {60, 160 << 20, ""}), testing::HasSubstr("160 MiB"));
     EXPECT_GT(info(*load_model(model)).triangles, 100000);
 }

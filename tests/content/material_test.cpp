@@ -25,10 +25,11 @@ std::array<double, 3> middle(const Image& image) {
 
 // A square with texture coordinates 0 .. uv.
 fs::path write_square(const Folder& folder, const std::string& material, double uv = 1) {
-    folder.write("m.mtl", "newmtl m\n" + material + "\n");
-    const std::string s = std::to_string(uv);
-    return folder.write("m.obj", "mtllib m.mtl\nusemtl m\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt " + s + " 0\nvt " + s +
-                                     " " + s + "\nvt 0 " + s + "\nf 1/1 2/2 3/3 4/4\n");
+    folder.write("m.mtl", "newmtl m\n" + material);
+    std::ostringstream obj;
+    obj << "mtllib m.mtl\nusemtl m\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt " << uv << " 0\nvt " << uv << " " << uv
+        << "\nvt 0 " << uv << "\nf 1/1 2/2 3/3 4/4\n";
+    return folder.write("m.obj", obj.str());
 }
 
 void expect_colour(const std::array<double, 3>& got, double r, double g, double b, double within = 1e-5) {
@@ -104,12 +105,13 @@ TEST(Material, GltfFactorsAreLinear) {
 
 TEST(Material, VertexColours) {
     Folder folder;
-    std::string ply =
-        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar "
-        "red\nproperty uchar green\n"
-        "property uchar blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
-    for (const char* corner : {"-1 -1", "1 -1", "1 1", "-1 1"}) ply += std::string(corner) + " 0 51 102 255\n";
-    expect_colour(middle(shoot(folder.write("c.ply", ply + "4 0 1 2 3\n"))), srgb_to_linear(0.2), srgb_to_linear(0.4), 1, 1e-3);
+    std::ostringstream ply;
+    ply << "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar "
+           "red\nproperty uchar green\n"
+           "property uchar blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const char* corner : {"-1 -1", "1 -1", "1 1", "-1 1"}) ply << corner << " 0 51 102 255\n";
+    ply << "4 0 1 2 3\n";
+    expect_colour(middle(shoot(folder.write("c.ply", ply.str()))), srgb_to_linear(0.2), srgb_to_linear(0.4), 1, 1e-3);
 }
 
 TEST(Material, MissingTextureIsNoted) {

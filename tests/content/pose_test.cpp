@@ -13,14 +13,12 @@ fs::path write_box(const Folder& folder) {
     folder.write("box.mtl",
                  "newmtl left\nKd 1 1 1\nnewmtl right\nKd 0 0 1\nnewmtl top\nKd 1 1 0\nnewmtl bottom\nKd 0 1 1\n"
                  "newmtl front\nKd 1 0 0\nnewmtl back\nKd 0 1 0\n");
-    std::string obj = "mtllib box.mtl\n";
-    for (int k = 0; k < 8; ++k)
-        obj += "v " + std::to_string(10 + 2 * (k & 1)) + " " + std::to_string(20 + 4 * (k >> 1 & 1)) + " " +
-               std::to_string(30 + 6 * (k >> 2)) + "\n";
-    return folder.write("box.obj",
-                        obj +
-                            "usemtl left\nf 1 5 7 3\nusemtl right\nf 2 4 8 6\nusemtl top\nf 3 7 8 4\nusemtl bottom\nf 1 2 6 5\n"
-                            "usemtl front\nf 5 6 8 7\nusemtl back\nf 1 3 4 2\n");
+    std::ostringstream obj;
+    obj << "mtllib box.mtl\no box\n";
+    for (int k = 0; k < 8; ++k) obj << "v " << 10 + 2 * (k & 1) << " " << 20 + 4 * (k >> 1 & 1) << " " << 30 + 6 * (k >> 2) << "\n";
+    obj << "usemtl left\nf 1 5 7 3\nusemtl right\nf 2 4 8 6\nusemtl top\nf 3 7 8 4\nusemtl bottom\nf 1 2 6 5\n"
+           "usemtl front\nf 5 6 8 7\nusemtl back\nf 1 3 4 2\n";
+    return folder.write("box.obj", obj.str());
 }
 
 struct View {

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -70,16 +71,17 @@ struct Patch {
 
 inline fs::path write_patches(const Folder& folder, const std::vector<Patch>& patches) {
     folder.write("patches.mtl", "newmtl red\nKd 1 0 0\nnewmtl green\nKd 0 1 0\nnewmtl blue\nKd 0 0 1\nnewmtl white\nKd 1 1 1\n");
-    std::string obj = "mtllib patches.mtl\no patches\n";
+    std::ostringstream obj;
+    obj << "mtllib patches.mtl\no patches\n";
     int vertex = 1;
     for (const Patch& p : patches) {
         for (const auto& [x, y] : {std::pair(p.x0, p.y0), {p.x1, p.y0}, {p.x1, p.y1}, {p.x0, p.y1}})
-            obj += "v " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(p.z) + "\n";
-        obj += "usemtl " + p.colour + "\nf";
-        for (int k = 0; k < 4; ++k) obj += " " + std::to_string(vertex++);
-        obj += "\n";
+            obj << "v " << x << " " << y << " " << p.z << "\n";
+        obj << "usemtl " << p.colour << "\nf";
+        for (int k = 0; k < 4; ++k) obj << " " << vertex++;
+        obj << "\n";
     }
-    return folder.write("patches.obj", obj);
+    return folder.write("patches.obj", obj.str());
 }
 
 /// What a white surface that faces +z reflects: ambient 0.2 and 0.8 times the cosine to the light from (0.3, 0.5, 0.81).
