@@ -22,8 +22,7 @@ constexpr std::int64_t most_block_rows = 64;         // read at a time: enough f
 constexpr std::int64_t most_block_pixels = 1 << 22;  // and at most 48 MiB, unless one row takes more
 constexpr int most_tile = 8192;
 
-/// OpenEXR's settings are the process's: its pool of threads, empty at first, and a limit against headers that claim enormous
-/// tiles.
+/// OpenEXR's settings are the process's: its pool of threads, empty at first, and a limit on the tiles that a header may claim.
 void start_library() {
     static const bool started = [] {
         Imf::setGlobalThreadCount(int(std::thread::hardware_concurrency()));
@@ -51,14 +50,14 @@ void check_channels(const InputFile& file, const Imf::ChannelList& channels) {
 }
 
 void check_windows(const InputFile& file, const Window& data, const Window& display, Imf::Compression compression) {
-    // Three half floats are 6 bytes; deflate packs 1032 into one at best, PIZ fewer. DWA first keeps one value of a flat 8 x 8
-    // block.
+    // Three half floats are 6 bytes; deflate packs 1032 into one at best, PIZ fewer.
+    // DWA first keeps one value of a flat 8 x 8 block.
     const bool dwa = compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
     file.check_size(data.columns, data.rows, 1032.0 / 6 * (dwa ? 64 : 1));
-    // What no data cover is black and costs no bytes, so a small file may claim a large frame: up to 2^26 pixels or 64 times the
-    // data.
+    // What no data cover is black and costs no bytes, so a small file may claim a large frame:
+    // up to 2^25 pixels (7680 x 4320 are fewer) or 64 times the data.
     const double frame = double(display.columns) * double(display.rows);
-    if (frame >= 0x1p31 || frame > std::max(0x1p26, 64.0 * double(data.columns) * double(data.rows)))
+    if (frame >= 0x1p31 || frame > std::max(0x1p25, 64.0 * double(data.columns) * double(data.rows)))
         file.refuse(fmt::format("is too large: its display window is {} x {} pixels, its data {} x {}", display.columns,
                                 display.rows, data.columns, data.rows));
 }
