@@ -36,23 +36,25 @@ struct Light {
     LFDSIM_FN void add_lanes(const float* texels, Uint<F> pixel, F weight) {
         std::uint32_t index[N];
         __builtin_memcpy(index, &pixel, sizeof index);
-        for (int r = 0; r < 4; ++r) sum[r] = sum[r] + four_channels(texels, index + r * (N / 4)) * repeat(weight, r);
+        asm(""
+            : "+m"(
+                index));  // indices and addresses go by way of memory: compilers like to extract them from vectors, which is slower
+        add_quarter<0>(texels, index, weight);
+        add_quarter<1>(texels, index, weight);
+        add_quarter<2>(texels, index, weight);
+        add_quarter<3>(texels, index, weight);
     }
-    /// The texels of N / 4 lanes, side by side.
-    static LFDSIM_FN F four_channels(const float* texels, const std::uint32_t* index) {
-        F texel;
+    template <int quarter>
+    LFDSIM_FN void add_quarter(const float* texels, const std::uint32_t* index, F weight) {
+        constexpr int first = quarter * (N / 4);
+        F texel, repeated;  // the texels of N / 4 lanes side by side; their weights, each four times
         for (int k = 0; k < N / 4; ++k) {
-            std::size_t i = index[k];
-            asm("" : "+r"(i));  // or clang computes the addresses as vectors and extracts them again, which is slower
+            std::size_t i = index[first + k];
+            asm("" : "+r"(i));
             __builtin_memcpy((char*)&texel + 16 * k, texels + i * 4, 16);
         }
-        return texel;
-    }
-    /// Lanes r N/4 .. (r+1) N/4 - 1, each four times.
-    static LFDSIM_FN F repeat(F weight, int r) {
-        F w;
-        for (int k = 0; k < N; ++k) w.v[k] = weight.v[r * (N / 4) + k / 4];
-        return w;
+        for (int k = 0; k < N; ++k) repeated.v[k] = weight.v[first + k / 4];
+        sum[quarter] = sum[quarter] + texel * repeated;
     }
 };
 

@@ -51,7 +51,10 @@ struct Sampler {
     LFDSIM_FN void next(const Directions& directions) {
         ++sample;
         const int bit = __builtin_ctz(sample);
-        for (int d = 0; d < dimensions; ++d) point[d] ^= directions.v[d][bit];
+        point[0] ^= directions.v[0][bit];
+        point[1] ^= directions.v[1][bit];
+        if (dimensions <= 2) return;
+        for (int d = 2; d < kDimensions; ++d) point[d] ^= directions.v[d][bit];
     }
 };
 

@@ -16,7 +16,8 @@ struct Passage {
     Mask<F> alive;
 };
 
-/// Which surfaces a display's lens has, as far as the kernel is compiled for it: the 2019 paper's lens without a stop pays for no other.
+/// Which surfaces a display's lens has, as far as the kernel is compiled for it: the 2019 paper's lens without a stop pays for no
+/// other.
 enum class Shapes { plano_convex, any };
 
 /// Surface k, counted from the viewer's side.
@@ -76,24 +77,11 @@ LFDSIM_FN Hit<F> meet_first(const Scene<Scalar<F>>& scene, Ray<F> ray, Cell<F> c
     return hit;
 }
 
-/// Can a line from the cell `from`, way (m_x, m_y) for each mm of the zone's depth, meet the cap of another? Not if it ends in a cell
-/// beside `from` (it crosses no third one then) and stays farther than the semi aperture from that lens's axis.
-template <class F>
-LFDSIM_FN Mask<F> nears_neighbour(const Scene<Scalar<F>>& scene, F x, F y, F mx, F my, Cell<F> from) {
-    const F depth = F(scene.zone_top - scene.zone_bottom), p = F(scene.pitch), r = F(scene.surface[0].semi_aperture) + F(Scalar<F>(1e-3));
-    const Cell<F> to{nearest_cell(scene, x + mx * depth), nearest_cell(scene, y + my * depth)};
-    const F steps = abs(to.i - from.i) + abs(to.j - from.j);
-    const F ax = x - to.i * p, ay = y - to.j * p;  // from the axis of the lens in the last cell
-    const F s = min(max(-(ax * mx + ay * my) / max(mx * mx + my * my, F(Scalar<F>(1e-20))), F(0)), depth);
-    const F nx = ax + mx * s, ny = ay + my * s;
-    return (steps > F(Scalar<F>(1.5))) || (nx * nx + ny * ny <= r * r);
-}
-
 /// Looks for the cap that rays astray meet before they are as low as the rims: (x, y) in the zone's top plane, m = -d(x, y)/dz.
 template <Shapes shapes, class F>
 LFDSIM_RARE void meet_neighbours(const Scene<Scalar<F>>& scene, const Extent<F>& extent, const Ray<F>& ray, F x, F y, F mx, F my,
                                  Mask<F> astray, Hit<F>& hit, Cell<F>& cell) {
-    walk_cells(scene, extent, x, y, mx, my, F(0), F(scene.zone_top - scene.zone_bottom), astray, [&](Cell<F> here, Mask<F> active) {
+    auto try_cell = [&](Cell<F> here, Mask<F> active) {
         const Hit<F> next = meet_first<shapes>(scene, ray, here);
         const Mask<F> met = active && next.ok;
         auto choose = [&](F a, F b) { return select(met, a, b); };
@@ -104,11 +92,20 @@ LFDSIM_RARE void meet_neighbours(const Scene<Scalar<F>>& scene, const Extent<F>&
                hit.ok || met};
         cell = {choose(here.i, cell.i), choose(here.j, cell.j)};
         return met;
-    });
+    };
+    const F depth = F(scene.zone_top - scene.zone_bottom);
+    const Cell<F> last{nearest_cell(scene, x + mx * depth), nearest_cell(scene, y + my * depth)};
+    const F steps = abs(last.i - cell.i) + abs(last.j - cell.j);
+    if (none(astray &&
+             (steps > F(Scalar<F>(1.5))))) {  // one border on the way: what is not met in the first cell is met in the last
+        try_cell(last, astray && extent.holds(last));
+        return;
+    }
+    walk_cells(scene, extent, x, y, mx, my, F(0), depth, astray, try_cell);
 }
 
-/// The first surface, from a ray in the plane of its vertex, from the base lens. Most rays meet the cap of the cell they point at; one
-/// that misses it and slants out of the cell before it is as low as the rims looks into the next cells.
+/// The first surface, from a ray in the plane of its vertex, from the base lens. Most rays meet the cap of the cell they point at;
+/// one that misses it and slants out of the cell before it is as low as the rims looks into the next cells.
 template <Shapes shapes, class F>
 LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<F>& extent, const Ray<F>& ray, Passage<F>& way) {
     const auto& first = scene.surface[0];
@@ -126,16 +123,20 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<F>& ext
         const F lx = x - way.cell.i * p, ly = y - way.cell.j * p, r = F(first.semi_aperture);
         hit.ok = hit.ok && (lx * lx + ly * ly <= r * r);
     } else if (scene.zone_top > scene.zone_bottom) {
-        // Does a ray that missed leave its cell before it is down at the rims, and come near another lens?
-        const F depth = F(scene.zone_top - scene.zone_bottom), mx = -(ray.to.x * fall), my = -(ray.to.y * fall);
-        const F far = max(abs(x + mx * depth - way.cell.i * p), abs(y + my * depth - way.cell.j * p));
-        Mask<F> astray = way.alive && !hit.ok && (far > F(scene.half_pitch));
-        if (any(astray)) astray = astray && nears_neighbour(scene, x, y, mx, my, way.cell);
+        // Can a ray that missed meet another lens before it is down at the rims? Not if its way there, (ex, ey) long, ends in the
+        // same cell, nor if it ends in the cell beside that and far from its lens's axis: had it been within the semi aperture r of
+        // it, it would end within sqrt(r^2 + ex^2 + ey^2).
+        const F kd = F(scene.zone_bottom - scene.zone_top) * fall, ex = ray.to.x * kd, ey = ray.to.y * kd;
+        const F ux = abs(x - way.cell.i * p + ex), uy = abs(y - way.cell.j * p + ey);
+        const F wide = max(ux, uy), half = F(scene.half_pitch), r = F(first.semi_aperture);
+        const F ax = min(ux, p - ux), ay = min(uy, p - uy);
+        const Mask<F> near = (ax * ax + ay * ay <= r * r + (ex * ex + ey * ey)) || (min(ux, uy) > half) || (wide > p);
+        const Mask<F> astray = way.alive && !hit.ok && (wide > half) && near;
         if (any(astray)) {
             Hit<F> found = hit;
             Cell<F> cell = way.cell;
             const Ray<F> from = ray;
-            meet_neighbours<shapes>(scene, extent, from, x, y, mx, my, astray, found, cell);
+            meet_neighbours<shapes>(scene, extent, from, x, y, -(ray.to.x * fall), -(ray.to.y * fall), astray, found, cell);
             hit = found;
             way.cell = cell;
         }
@@ -182,7 +183,8 @@ LFDSIM_FN PanelHit<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent<F
         }
         // Downwards throughout: a ray turned up, or meeting a surface behind itself, is absorbed.
         way.alive = way.alive && hit.ok && (way.ray.to.z < F(0));
-        if (shape_of<shapes>(scene, k) != Shape::plane) way.alive = way.alive && (hit.at.z + F(surface.z) <= way.ray.at.z + F(above.z));
+        if (shape_of<shapes>(scene, k) != Shape::plane)
+            way.alive = way.alive && (hit.at.z + F(surface.z) <= way.ray.at.z + F(above.z));
         refract_down(scene, shape_of<shapes>(scene, k), surface, hit, way);
     }
     const F z = way.ray.at.z + F(scene.surface[count - 1].z);

@@ -15,7 +15,8 @@ template <class S>
 LFDSIM_FN Way way_through(const Scene<S>& scene) {
     if (scene.lens == LensType::ideal) return Way::ideal;
     if (scene.surround != Surround::opaque) return Way::glass;
-    const bool plain = scene.surface_count == 2 && scene.surface[0].shape == Shape::sphere && scene.surface[1].shape == Shape::plane;
+    const bool plain =
+        scene.surface_count == 2 && scene.surface[0].shape == Shape::sphere && scene.surface[1].shape == Shape::plane;
     return plain && !scene.has_stop ? Way::plano_convex : Way::opaque;
 }
 
