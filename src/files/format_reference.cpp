@@ -54,9 +54,9 @@ void append_table(std::string& text, const Table<T>& table) {
                                              : !key.absent.empty()            ? std::string(key.absent)
                                                                               : fmt::format("`{}`", toml_text(value));
                 const std::string types =
-                    key.lens_types == for_all ? "" : fmt::format("Lens type {}: ", lens_types_text(key.lens_types));
+                    key.lens_types == for_all ? "" : fmt::format(" Only for {}.", lens_types_text(key.lens_types));
                 text += fmt::format("| `{}` | {} | {} | {} | {} | {}{} |\n", key.name, type_text(value), unit(key.name),
-                                    allowed_text(key.range, value), fallback, types, key.doc);
+                                    allowed_text(key.range, value), fallback, key.doc, types);
             },
             key.member);
     }

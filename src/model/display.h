@@ -19,6 +19,7 @@ struct Panel {
     double pixel_pitch_mm = 0;
     Encoding encoding = Encoding::srgb;
     double emission_exponent = 0;  // m of cos(theta)^m, 0 = Lambertian
+    bool operator==(const Panel&) const = default;
 };
 
 /// A surface of revolution about the lens axis, as a lens prescription lists it, from the panel side to the viewer's.
@@ -29,6 +30,7 @@ struct Surface {
     double semi_aperture_mm = 0;
     double distance_mm = 0;  // vertex to vertex, to the next surface; ignored on the last
     double index = 1;        // of the medium up to the next surface; ignored on the last
+    bool operator==(const Surface&) const = default;
 };
 
 struct Lens {
@@ -41,6 +43,7 @@ struct Lens {
     double focal_length_mm = 0;                // f (ideal)
     std::vector<Surface> surfaces;             // (surfaces)
     std::optional<double> stop_radius_mm;      // aperture stop in the plane of the curved vertex
+    bool operator==(const Lens&) const = default;
 };
 
 struct LensArray {
@@ -52,12 +55,14 @@ struct LensArray {
     Aperture aperture = Aperture::circle;
     std::array<double, 2> offset_mm{};
     double rotation_deg = 0;  // counter-clockwise as the viewer sees it, about the array's centre, before the offset
+    bool operator==(const LensArray&) const = default;
 };
 
 struct Diffuser {
     double distance_mm = 0;             // from the array's viewer-side vertex plane
     std::array<double, 2> angle_deg{};  // full angles (box) or full widths at half maximum (gaussian): horizontal, vertical
     Profile profile = Profile::box;
+    bool operator==(const Diffuser&) const = default;
 };
 
 struct Camera {
@@ -70,6 +75,7 @@ struct Camera {
     PixelFilter pixel_filter = PixelFilter::center;
     std::optional<double> pupil_diameter_mm;  // thin-lens camera; absent: pinhole
     std::optional<double> focus_distance_mm;  // along the view axis; default: the target's distance
+    bool operator==(const Camera&) const = default;
 };
 
 struct Content {
@@ -79,6 +85,7 @@ struct Content {
     double tilt_deg = 0;                // about x, before the yaw; positive raises the front
     double yaw_deg = 0;                 // counter-clockwise seen from above
     double viewing_distance_mm = 2000;  // from the panel; infinity allowed
+    bool operator==(const Content&) const = default;
 };
 
 struct Render {
@@ -86,6 +93,7 @@ struct Render {
     Sampling sampling = Sampling::sobol;
     Fresnel fresnel = Fresnel::exact;
     std::int64_t seed = 0;
+    bool operator==(const Render&) const = default;
 };
 
 struct Display {
@@ -97,6 +105,7 @@ struct Display {
     Camera camera;
     Content content;
     Render render;
+    bool operator==(const Display&) const = default;
 };
 
 }  // namespace lfdsim

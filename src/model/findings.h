@@ -22,13 +22,13 @@ class Findings {
         all_.push_back({std::move(where), fmt::format(what, std::forward<Args>(args)...)});
     }
 
-    /// Whether nothing is wrong yet with a key ("lens.index") or with any in a table ("lens."): only then may another check build
-    /// on its value.
+    /// Whether nothing is wrong yet with a key ("lens.index"), with any in a table ("lens."), or with what it is part of: only then
+    /// may another check build on its value.
     bool sound(std::string_view key) const {
-        return std::none_of(all_.begin(), all_.end(), [&](const Problem& p) { return p.where.starts_with(key); });
+        return std::none_of(all_.begin(), all_.end(), [&](const Problem& p) {
+            return p.where.starts_with(key) || (key.starts_with(p.where) && key.substr(p.where.size()).starts_with('.'));
+        });
     }
-
-    std::size_t count() const { return all_.size(); }
 
   private:
     std::vector<Problem>& all_;

@@ -1,0 +1,53 @@
+// The ready descriptions in displays/ are valid and what their names say.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "files/display_file.h"
+#include "model/geometry.h"
+
+namespace lfdsim {
+namespace {
+
+const std::filesystem::path folder = LFDSIM_SOURCE_DIR "/displays";
+
+TEST(Displays, AllAreValidAndNamedAsTheirFiles) {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        ASSERT_EQ(entry.path().extension(), ".toml");
+        const Display d = read_display(entry.path());
+        EXPECT_EQ(d.name, entry.path().stem());
+        const Geometry g = resolve(d);
+        const Theory t = theory(d, g);
+        EXPECT_NEAR(t.fov_deg, 40.0, 0.05) << d.name;
+        EXPECT_NEAR(t.views, 88, 0.01) << d.name;
+        // the content stands inside the depth of field
+        EXPECT_GT(g.content_depth_mm - g.content_height_mm / 2, t.depth_range_mm[0] - 1) << d.name;
+        EXPECT_LT(g.content_depth_mm + g.content_height_mm / 2, t.depth_range_mm[1] + 1) << d.name;
+        ++count;
+    }
+    EXPECT_GE(count, 8);
+}
+
+TEST(Displays, DiffusersOfTheThreeCloseTheirGaps) {
+    for (const char* name : {"desktop-stopped", "desktop-ideal", "desktop-asphere"}) {
+        const Display d = read_display(folder / (std::string(name) + ".toml"));
+        const Theory t = theory(d, resolve(d));
+        ASSERT_TRUE(d.diffuser) << name;
+        EXPECT_NEAR(d.diffuser->distance_mm, t.central_depth_mm, 0.5) << name;
+        EXPECT_NEAR(d.diffuser->angle_deg[0], t.gap_closing_diffuser_deg, 0.01) << name;
+        EXPECT_EQ(d.diffuser->angle_deg[0], d.diffuser->angle_deg[1]) << name;
+    }
+}
+
+TEST(Displays, SphericalStandsInForTheAsphere) {
+    const Display a = read_display(folder / "desktop-asphere.toml"), s = read_display(folder / "desktop-spherical.toml");
+    const Geometry ga = resolve(a), gs = resolve(s);
+    EXPECT_NEAR(ga.focal_length_mm, gs.focal_length_mm, 1e-3);
+    EXPECT_NEAR(ga.top_z_mm - ga.base_z_mm, gs.top_z_mm - gs.base_z_mm, 1e-3);
+    EXPECT_EQ(ga.clear_aperture_mm, gs.clear_aperture_mm);
+}
+
+}  // namespace
+}  // namespace lfdsim

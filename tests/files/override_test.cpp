@@ -1,0 +1,94 @@
+// --set key=value: what it changes, and what it says when it cannot.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "example.h"
+#include "files/display_file.h"
+
+namespace lfdsim {
+namespace {
+
+using testing::HasSubstr;
+
+Display set(std::vector<std::string> overrides) { return parse_display(example_text, "d", overrides); }
+
+std::string fault_of(std::vector<std::string> overrides) {
+    try {
+        set(std::move(overrides));
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(Override, ValuesOfEveryKind) {
+    EXPECT_EQ(set({"array.pitch_mm=13"}).array.pitch_mm, 13);
+    EXPECT_EQ(set({"array.count=[3, 4]"}).array.count[1], 4);
+    EXPECT_EQ(set({"array.count.0=5"}).array.count[0], 5);
+    EXPECT_EQ(set({"lens.facing=panel"}).lens.facing, Facing::panel);
+    EXPECT_EQ(set({"lens.facing=\"panel\""}).lens.facing, Facing::panel);
+    EXPECT_EQ(set({"render.fresnel=none"}).render.fresnel, Fresnel::none);
+    EXPECT_EQ(set({"name=a = b"}).name, "a = b");
+    EXPECT_EQ(set({"content.model=../my model.glb"}).content.model, "../my model.glb");
+    EXPECT_EQ(set({"render.samples=7", "render.samples=8"}).render.samples, 8);
+    EXPECT_EQ(set({"content.viewing_distance_mm=inf"}).content.viewing_distance_mm, INFINITY);
+    const Display d = set({"diffuser={distance_mm=3, angle_deg=[1, 2]}", "diffuser.profile=gaussian"});
+    EXPECT_EQ(d.diffuser->angle_deg[1], 2);
+    EXPECT_EQ(d.diffuser->profile, Profile::gaussian);
+}
+
+TEST(Override, NoneTakesAway) {
+    EXPECT_FALSE(set({"diffuser={distance_mm=3, angle_deg=[1, 2]}", "diffuser=none"}).diffuser);
+    const Display d = set({"array.gap_mm=none", "array.base_z_mm=12", "camera.pupil_diameter_mm=none"});
+    EXPECT_FALSE(d.array.gap_mm);
+    EXPECT_EQ(d.array.base_z_mm, 12);
+    EXPECT_THAT(fault_of({"panel=none"}), HasSubstr("d:1:1: panel.pixels: is missing"));
+}
+
+TEST(Override, Surfaces) {
+    const std::vector<std::string> lens{
+        "lens={type=\"surfaces\", surface=[{semi_aperture_mm=6, distance_mm=4, index=1.5}, {semi_aperture_mm=6}]}"};
+    std::vector<std::string> all = lens;
+    all.push_back("lens.surface.1.curvature_per_mm=-0.1");
+    EXPECT_EQ(set(all).lens.surfaces.at(1).curvature_per_mm, -0.1);
+    all.back() = "lens.surface.2.conic=0";
+    EXPECT_THAT(fault_of(all), HasSubstr("--set lens.surface.2.conic=0: there is no element 2"));
+}
+
+TEST(Override, FaultsNameTheOption) {
+    EXPECT_EQ(fault_of({"array.pitch=13"}), "--set array.pitch=13: array.pitch: is unknown; did you mean pitch_mm?");
+    EXPECT_EQ(fault_of({"lens.index=0.5"}), "--set lens.index=0.5: lens.index: is 0.5, allowed is 1 to 4");
+    EXPECT_THAT(fault_of({"lens.facing=up"}),
+                HasSubstr("--set lens.facing=up: lens.facing: is \"up\", allowed are \"viewer\", \"panel\""));
+    EXPECT_THAT(fault_of({"diffuser.distance_mm=3"}), HasSubstr("--set diffuser.distance_mm=3: diffuser.angle_deg: is missing"));
+    EXPECT_THAT(fault_of({"array.pitch_mm"}), HasSubstr("--set array.pitch_mm: is no key=value"));
+    EXPECT_THAT(fault_of({"=3"}), HasSubstr("is no key=value"));
+    EXPECT_THAT(fault_of({"array.pitch_mm=abc"}), HasSubstr("--set array.pitch_mm=abc: the value is not TOML"));
+    EXPECT_THAT(fault_of({"array.pitch_mm="}), HasSubstr("the value is not TOML"));
+    EXPECT_THAT(fault_of({"array.pitch_mm=13\nx=3"}), HasSubstr("is more than one value"));
+    EXPECT_THAT(fault_of({"array.pitch_mm.x=3"}), HasSubstr("pitch_mm is a value, and has no parts"));
+    EXPECT_THAT(fault_of({"a.b.c.d.e=3"}), HasSubstr("the key has 5 parts, allowed are 4"));
+    EXPECT_THAT(fault_of({"array.count.7=3"}), HasSubstr("there is no element 7"));
+    EXPECT_THAT(fault_of({"array.count.0=none"}), HasSubstr("cannot be taken away"));
+    EXPECT_THAT(fault_of({"..=3"}), HasSubstr("--set ..=3: "));
+    EXPECT_THAT(fault_of({"lens=" + std::string(100, '[')}), HasSubstr("nested"));
+    EXPECT_THAT(fault_of({"bad", "worse"}), HasSubstr("--set worse"));
+}
+
+// A model named in the file lies beside the file, one named on the command line beside its user.
+TEST(Override, ModelPaths) {
+    const std::filesystem::path folder = std::filesystem::path(LFDSIM_BINARY_DIR) / "model-paths";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "d.toml") << example_text << "[content]\nmodel = \"../meshes/a.glb\"\n";
+    EXPECT_EQ(read_display(folder / "d.toml").content.model, (folder.parent_path() / "meshes/a.glb").string());
+    EXPECT_EQ(read_display(folder / "d.toml", {"content.model=b.glb"}).content.model, "b.glb");
+    EXPECT_EQ(read_display(folder / "d.toml", {"content.model=/c.glb"}).content.model, "/c.glb");
+    std::ofstream(folder / "e.toml") << example_text << "[content]\nmodel = \"/meshes/a.glb\"\n";
+    EXPECT_EQ(read_display(folder / "e.toml").content.model, "/meshes/a.glb");
+}
+
+}  // namespace
+}  // namespace lfdsim

@@ -1,0 +1,90 @@
+// What write_display() writes reads back the same, to the last bit.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "files/display_file.h"
+#include "model/geometry.h"
+#include "model/keys.h"
+
+namespace lfdsim {
+namespace {
+
+// Any value that a key allows, far beyond what displays are made of.
+double any_number(const Range& range) {
+    const double high = std::min(range.high, 1e9);
+    double x = range.low + (high - range.low) * (*rc::gen::inRange(0, 1 << 30) / double(1 << 30));
+    if (*rc::gen::arbitrary<bool>()) x = range.low + (x - range.low) * 1e-12;
+    return range.contains(x) ? x : (range.low + high) / 2;
+}
+void fill(double& x, const Range& range) { x = any_number(range); }
+void fill(std::optional<double>& x, const Range& range) {
+    if (*rc::gen::arbitrary<bool>())
+        x = any_number(range);
+    else
+        x.reset();
+}
+void fill(std::int64_t& x, const Range& range) {
+    x = *rc::gen::arbitrary<bool>() ? std::int64_t(any_number(range)) + 1 : INT64_MAX;
+}
+void fill(std::string& x, const Range&) {
+    x = *rc::gen::container<std::string>(
+        rc::gen::element('a', ' ', '"', '\'', '\\', '\n', '\t', '\x01', '\x7f', '#', '=', '[', '.'));
+    if (*rc::gen::arbitrary<bool>()) x += "\xc3\xa9\xf0\x9f\x94\xad";  // UTF-8
+}
+void fill(std::vector<double>& x, const Range& range) {
+    x.resize(*rc::gen::inRange<std::size_t>(0, max_asphere_terms + 1));
+    for (double& a : x) a = any_number(range);
+}
+template <class T, std::size_t n>
+void fill(std::array<T, n>& x, const Range& range) {
+    for (T& a : x) fill(a, range);
+}
+template <class E>
+requires std::is_enum_v<E>
+void fill(E& x, const Range&) { x = E(*rc::gen::inRange<std::size_t>(0, words<E>().size())); }
+
+template <class T>
+void fill_key(const Key<T>& key, T& values, LensType type) {
+    if (knows(key.lens_types, type)) std::visit([&](auto member) { fill(values.*member, key.range); }, key.member);
+}
+template <class T>
+void fill_table(const Table<T>& table, T& values, LensType type) {
+    for (const Key<T>& key : table.keys) fill_key(key, values, type);
+}
+
+constexpr const char* start_texts[] = {
+    R"(lens = {type = "ideal", focal_length_mm = 2, aperture_radius_mm = 1}
+array = {count = [1, 1], pitch_mm = 2, gap_mm = 3})",
+    R"(lens = {type = "plano_convex", sphere_radius_mm = 9, aperture_radius_mm = 3, index = 1.5}
+array = {count = [1, 1], pitch_mm = 6, gap_mm = 3})",
+    R"(lens = {type = "surfaces", surface = [{semi_aperture_mm = 1, index = 2, distance_mm = 1}, {semi_aperture_mm = 1}]}
+array = {count = [1, 1], pitch_mm = 2, base_z_mm = 3})"};
+
+// Starts from a small display of each lens type and changes it at random; changes that leave it valid stay.
+TEST(WriteDisplay, ReadsBackTheSame) {
+    EXPECT_TRUE(rc::check([] {
+        const std::string start = *rc::gen::elementOf(std::vector<std::string>(std::begin(start_texts), std::end(start_texts)));
+        Display d = parse_display("schema = 1\npanel = {pixels = [1, 1], pixel_pitch_mm = 1}\n" + start, "start");
+        const LensType type = d.lens.type;
+        const auto change = [&](auto&& act) {
+            Display changed = d;
+            act(changed);
+            if (validate(changed).empty()) d = std::move(changed);
+        };
+        change([&](Display& c) { fill(c.name, {}); });
+        change([&](Display& c) { fill_table(diffuser_table, c.diffuser.emplace(), type); });
+        change([&](Display& c) { fill_table(content_table, c.content, type); });
+        change([&](Display& c) { fill_table(render_table, c.render, type); });
+        for (const Key<Camera>& key : camera_table.keys) change([&](Display& c) { fill_key(key, c.camera, type); });
+        for (const Key<LensArray>& key : array_table.keys) change([&](Display& c) { fill_key(key, c.array, type); });
+        for (const Key<Lens>& key : lens_table.keys)
+            if (key.name != "type") change([&](Display& c) { fill_key(key, c.lens, type); });
+        for (std::size_t i = 0; i < d.lens.surfaces.size(); ++i)
+            for (const Key<Surface>& key : surface_table.keys) change([&](Display& c) { fill_key(key, c.lens.surfaces[i], type); });
+        const std::string text = write_display(d);
+        RC_ASSERT(parse_display(text, "written") == d);
+    }));
+}
+
+}  // namespace
+}  // namespace lfdsim
