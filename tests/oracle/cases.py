@@ -29,7 +29,7 @@ def merge(base, over):
     out = copy.deepcopy(base)
     for key, value in over.items():
         out[key] = merge(out[key], value) if isinstance(value, dict) and key in out and key != "lens" else value
-    return {key: value for key, value in out.items() if value is not None}  # None takes a key away
+    return out
 
 
 BASE = {
@@ -51,7 +51,10 @@ def seen_from(right, up=0.0, distance=700.0):
 def case(lens, surround="opaque", aperture="circle", view=None, **over):
     array = {"surround": surround, "aperture": aperture}
     over = merge({"array": array, "camera": seen_from(*(view or (0,)))}, over)
-    return merge(BASE, {"lens": lens, **over})
+    display = merge(BASE, {"lens": lens, **over})
+    if "fov_deg" in display["camera"]:
+        del display["camera"]["frame_width_mm"]
+    return display
 
 
 EXACT, SCHLICK = {"fresnel": "exact"}, {"fresnel": "schlick"}
@@ -83,6 +86,8 @@ SHARP = {
     "clear circle, panel facing, stop, 20 degrees": case({**TURNED, "stop_radius_mm": 2.2}, "clear", view=(20,)),
     "clear square, on axis, exact": case(ROUNDER, "clear", "square", render=EXACT),
     "clear square, 30 degrees": case(ROUNDER, "clear", "square", view=(30,)),
+    "clear square, light guides that meet 12 to 18 surfaces": case({**SPHERE, "sphere_radius_mm": 60.0, "cylinder_height_mm": 80.0}, "clear", "square", view=(35, 20),
+        array={"count": [26, 18], "pitch_mm": 4.0}, camera={"frame_width_mm": 80.0}),
     "clear square, panel facing, rotated, oblique": case(ROUNDER_TURNED, "clear", "square", view=OBLIQUE, array=TILTED, render=EXACT),
     "clear biconvex conics, 15 degrees": case(CONICS, "clear", view=(15,), render=EXACT),
     "clear hollow lens, oblique": case(HOLLOW, "clear", view=OBLIQUE),
@@ -115,10 +120,10 @@ SHARP = {
     "a million lenses, oblique": case({"type": "plano_convex", "sphere_radius_mm": 0.066, "aperture_radius_mm": 0.05, "cylinder_height_mm": 0.03, "index": 1.49}, view=OBLIQUE,
         array={"count": [1000, 1000], "pitch_mm": 0.108, "base_z_mm": 0.1}, panel={"pixels": [3840, 3600], "pixel_pitch_mm": 0.03}, camera={"frame_width_mm": 9.0}),
     "camera close by": case(ROUNDER, "plate", "square", camera={"position_mm": [-20.0, 10.0, 60.0], "target_mm": [5.0, 3.0, 0.0], "frame_width_mm": 90.0, "up": [0.2, 1.0, 0.1]}, render=EXACT),
-    "camera close by, clear, fov_deg": case(SPHERE, "clear", camera={"position_mm": [9.0, -12.0, 45.0], "fov_deg": 70.0, "frame_width_mm": None}),
+    "camera close by, clear, fov_deg": case(SPHERE, "clear", camera={"position_mm": [9.0, -12.0, 45.0], "fov_deg": 70.0}),
 }
 
-SMALL = {"resolution": [24, 14]}  # pictures whose pixels are means over many samples
+SMALL = {"resolution": [8, 5]}  # pictures whose pixels are means over many samples
 DIFFUSER = {"distance_mm": 40.0, "angle_deg": [12.0, 7.0], "profile": "box"}
 PUPIL = {"pupil_diameter_mm": 18.0, "focus_distance_mm": 600.0}
 BLURRED = {

@@ -36,8 +36,11 @@ def body(d, lower, upper, x, y):
     else:
         caps = [(" ".join(faces), low, high)]
     half, out = d.array.pitch_mm / 2 - (GAP if d.array.surround == "clear" else 0), []
+    x0, x1, y0, y1 = x - half, x + half, y - half, y + half
+    if d.array.surround == "plate":  # in each cell its own cap is the highest, so caps may overlap; touching faces would be seen
+        (x1, y1), (x0, y0) = (n * half for n in d.array.count), (-n * half for n in d.array.count)
     for shape, a, b in caps:
-        side = f"box{{<{x - half},{y - half},{a}>,<{x + half},{y + half},{b}>}}" if d.square else f"cylinder{{<{x},{y},{a}>,<{x},{y},{b}>,{lower.semi}}}"
+        side = f"box{{<{x0},{y0},{a}>,<{x1},{y1},{b}>}}" if d.square else f"cylinder{{<{x},{y},{a}>,<{x},{y},{b}>,{lower.semi}}}"
         out.append(f"intersection{{{side} {shape}}}")
     return " ".join(out)
 

@@ -121,18 +121,20 @@ def sampled(display, linear, count, seed):
     """Monte Carlo means over diffuser angles, pupil and pixel area: (mean, variance of one sample), each (pixels, 3)."""
     rng = np.random.default_rng(seed)
     x0, y0 = centers(display)
-    total, squares = np.zeros((len(x0), 3)), np.zeros((len(x0), 3))
-    for _ in range(count):
-        n = len(x0)
-        jitter = rng.random((2, n)) - 0.5 if display.camera.pixel_filter == "box" else np.zeros((2, n))
-        lens = None
+    total, squares, done = np.zeros((len(x0), 3)), np.zeros((len(x0), 3)), 0
+    while done < count:
+        k = min(count - done, max(BATCH // len(x0), 1))  # samples of every pixel at once
+        x, y = np.tile(x0, k), np.tile(y0, k)
+        n, lens, turn = len(x), None, None
+        if display.camera.pixel_filter == "box":
+            x, y = x + rng.random(n) - 0.5, y + rng.random(n) - 0.5
         if getattr(display.camera, "pupil_diameter_mm", 0):
             r, phi = np.sqrt(rng.random(n)), 2 * np.pi * rng.random(n)
             lens = np.stack([r * np.cos(phi), r * np.sin(phi)], axis=1)
-        turn = diffuser_angles(display.diffuser, rng, n) if display.diffuser else None
-        colour = shade(display, trace(display, *camera_rays(display, x0 + jitter[0], y0 + jitter[1], lens), turn), linear)
-        total += colour
-        squares += colour**2
+        if display.diffuser:
+            turn = diffuser_angles(display.diffuser, rng, n)
+        colour = shade(display, trace(display, *camera_rays(display, x, y, lens), turn), linear).reshape(k, -1, 3)
+        total, squares, done = total + colour.sum(axis=0), squares + (colour**2).sum(axis=0), done + k
     mean = total / count
     return mean, np.maximum(squares / count - mean**2, 0) * count / max(count - 1, 1)
 
