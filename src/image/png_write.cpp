@@ -110,6 +110,7 @@ Strip compress(const Bytes& filtered, bool last) {
     stream.avail_out = uInt(strip.deflated.size());
     deflate(&stream, last ? Z_FINISH : Z_SYNC_FLUSH);
     strip.deflated.resize(stream.total_out);
+    strip.deflated.shrink_to_fit();
     deflateEnd(&stream);
     return strip;
 }
