@@ -17,7 +17,7 @@ install_packages() {
     local root=()
     if [ "$(id -u)" != 0 ]; then
         root=(sudo)
-        [ -t 0 ] || root+=(-n) # nobody there to type a password
+        if [ -n "${CI:-}" ] || ! { : </dev/tty; } 2>/dev/null; then root+=(-n); fi # nobody there to type a password
         if ! "${root[@]}" true; then
             echo "error: no right to install packages; as root run: apt-get install --no-install-recommends $missing" >&2
             return 1
