@@ -1,0 +1,50 @@
+"""Ctrl-C: the first ends the work and keeps what is complete, marked; a second ends the program at once."""
+import json
+import signal
+import time
+
+import numpy as np
+
+from program import Checks, Program
+
+program, checks = Program(), Checks()
+program.must("eia tiny.toml --pattern white -o white.png")
+# The slowest kernel: a tile takes a moment, the picture minutes.
+LONG = "render tiny.toml --panel-image white.png --kernel scalar --size 1280x720 --progress json"
+
+
+def begun(process):
+    """Waits until part of the picture is done."""
+    for line in process.stderr:
+        if json.loads(line)["done"] > 0:
+            return
+
+
+for kind, number in [("npy", signal.SIGINT), ("png", signal.SIGINT), ("exr", signal.SIGTERM)]:
+    process = program.start(f"{LONG} --samples 300 -o out.{kind}")
+    begun(process)
+    process.send_signal(number)
+    out, err = process.communicate(timeout=120)
+    checks.that(process.returncode == 130, f"{kind}: exit code {process.returncode}, wanted 130: {err}")
+    checks.that(out == "", f"{kind}: printed {out!r}")
+    checks.that("marked incomplete" in err and f"out.{kind}" in err, f"{kind}: said {err!r}")
+    checks.that((program.folder / f"out.{kind}").exists(), f"{kind}: no picture was kept")
+    if kind == "npy":
+        picture = np.load(program.folder / "out.npy")
+        checks.that(picture.shape == (720, 1280, 3), f"the kept picture is {picture.shape}")
+        checks.that((picture > 0).any() and (picture == 0).all(axis=2).any(), "the kept picture is not partly done")
+    else:
+        checks.that(b"incomplete" in (program.folder / f"out.{kind}").read_bytes(), f"{kind}: the picture is not marked")
+
+before = program.files()
+process = program.start(f"{LONG} --samples 10000000 -o never.png")
+time.sleep(1)
+process.send_signal(signal.SIGINT)
+time.sleep(0.2)
+sent = time.monotonic()
+process.send_signal(signal.SIGINT)
+process.communicate(timeout=60)
+checks.that(process.returncode == 130, f"two signals: exit code {process.returncode}, wanted 130")
+checks.that(time.monotonic() - sent < 10, f"two signals: it ended after {time.monotonic() - sent:.1f} s")
+checks.that(program.files() == before, f"two signals: left {set(program.files()) - set(before)}")
+checks.finish()

@@ -1,0 +1,55 @@
+"""--json prints one JSON document and nothing else; progress goes to standard error, as lines when nobody watches."""
+import json
+import math
+
+from program import Checks, Program
+
+program, checks = Program(), Checks()
+
+
+def result(arguments):
+    return json.loads(program.must(arguments), parse_constant=lambda name: checks.that(False, f"{arguments}: {name} is not JSON"))
+
+
+check = result("check tiny.toml --json")
+theory = check["theory"]
+# 2 atan(p / 2g); f = R/(n - 1); 1/L = 1/f - 1/g; P_I = a L/g; DOF = 2 L P_I/D
+focal = 2.6 / 0.4918
+depth = 1 / (1 / focal - 1 / 5)
+image = 0.5 * abs(depth) / 5
+for name, wanted in [("fov_deg", 2 * math.degrees(math.atan(4 / 10))), ("focal_length_mm", focal), ("central_depth_mm", depth),
+                     ("pixel_image_mm", image), ("depth_of_field_mm", 2 * abs(depth) * image / 3.8)]:
+    checks.that(math.isclose(theory[name], wanted, rel_tol=1e-12), f"theory.{name} is {theory[name]}, wanted {wanted}")
+checks.that(check["display"]["panel"]["pixels"] == [88, 48] and check["display"]["render"]["fresnel"] == "exact", "check: display")
+checks.that(check["geometry"]["panel_width_mm"] == 44, "check: geometry")
+collimated = result(["check", "tiny.toml", "--json", "--set", f"array.gap_mm={focal!r}"])["theory"]
+checks.that(collimated["central_depth_mm"] is None or abs(collimated["central_depth_mm"]) > 1e6, "g = f: L is not infinite")
+
+for arguments, units in [("eia tiny.toml --model pyramid.obj -o eia.png", 88 * 48), ("photo tiny.toml --model pyramid.obj -o photo.png", 96 * 54),
+                         ("render tiny.toml --model pyramid.obj -o view.png", 96 * 54 * 16)]:
+    made = result(arguments + " --json --progress none")
+    checks.that(made.get("rays", made.get("samples")) == units, f"{arguments}: {made}, wanted {units}")
+    checks.that((program.folder / made["output"]).exists() and made["seconds"] >= 0, f"{arguments}: {made}")
+checks.that(made["kernel"] in ["scalar", "baseline", "avx2", "avx512"] and made["threads"] >= 1, f"render: {made}")
+
+same, other = result("compare panel.png panel.png --json"), result("compare view.png photo.png --json")
+checks.that(same["ssim"] == 1 and same["psnr_db"] is None and same["rmse"] == 0 and same["max_difference"] == 0, f"compare, equal: {same}")
+checks.that(-1 <= other["ssim"] < 1 and other["psnr_db"] > 0 and other["rmse"] > 0 and other["max_difference"] > 0, f"compare: {other}")
+checks.that(result("sheet view.png photo.png -o sheet.png --json")["pictures"] == 2, "sheet")
+checks.that(result("doctor --json")["version"], "doctor")
+
+render = "render tiny.toml --panel-image panel.png -o view.npy --json --progress"
+for style in ["auto", "lines", "json", "none", "bar"]:
+    code, out, err = program.run(f"{render} {style}")
+    json.loads(out)
+    checks.that(code == 0, f"--progress {style}: exit code {code}")
+    if style == "none":
+        checks.that(err == "", f"--progress none: {err!r}")
+    if style == "json":
+        last = [json.loads(line) for line in err.splitlines()][-1]
+        checks.that(last["stage"] == "rendering" and last["done"] == last["units"], f"--progress json: {err!r}")
+    if style in ["auto", "lines"]:
+        checks.that(err.startswith("lfdsim: rendering: 100 %"), f"--progress {style}: {err!r}")
+    if style == "bar":
+        checks.that("[=====" in err and err.endswith("\n"), f"--progress bar: {err!r}")
+checks.finish()

@@ -1,0 +1,46 @@
+"""Usage errors name what was probably meant; help and version are at hand; results alone go to standard output."""
+from program import Checks, Program
+
+program, checks = Program(), Checks()
+COMMANDS = ["check", "eia", "photo", "render", "compare", "sheet", "bench", "doctor"]
+
+for name, arguments, words in [
+    ("no command", "", "a command is missing"),
+    ("unknown command", "rendr tiny.toml", "did you mean render?"),
+    ("unknown option", "check tiny.toml --jsn", "did you mean --json?"),
+    ("option without its unit", "render tiny.toml --camera 0,0,400 -o out.png", "did you mean --camera-mm?"),
+    ("unknown option before the command", "--jsn check tiny.toml", "--jsn"),
+    ("option far from any", "check tiny.toml --qqqqqqqq", "--qqqqqqqq: unknown option"),
+    ("no description", "check", "DISPLAY.toml is required"),
+    ("option without value", "render tiny.toml -o out.png --samples", "--samples needs a value"),
+    ("option given twice", "render tiny.toml -o out.png --seed 1 --seed 2", "--seed is given more than once"),
+    ("one file too many", "check tiny.toml panel.png", "panel.png"),
+    ("control characters", ["check", "\x1b[31mred\n.toml"], "?[31mred?.toml"),
+]:
+    checks.refused(program, name, arguments, words)
+
+help_text = program.must("--help")
+for command in COMMANDS:
+    checks.that(command in help_text, f"--help does not name {command}")
+    text = program.must(f"{command} --help")
+    checks.that(f"  lfdsim {command} " in text or text.rstrip().endswith(f"lfdsim {command}"), f"{command} --help has no example:\n{text}")
+    checks.that(program.must(f"help {command}") == text, f"help {command} differs from {command} --help")
+checks.that(program.must("--version").startswith("lfdsim "), "--version")
+
+# Overrides one by one or in a row; numbers with exponents, and negative ones.
+row = program.must("check tiny.toml --json --set lens.index=1.5 array.count=[10,5] --camera-mm -1e1,.5,4e2")
+one = program.must("check tiny.toml --json --set lens.index=1.5 --set array.count=[10,5] --camera-mm=-10,0.5,400")
+checks.that(row == one, "--set a=1 b=2 differs from --set a=1 --set b=2")
+checks.that("1.5" in row and "-10" in row, "overrides are not in force")
+
+table = program.must("check tiny.toml --set diffuser.angle_deg=[1,1]")
+for words in ["pixel_pitch_mm         0.5 mm", "surround               opaque", "default", "field of view", "gap_mm", "weaker than"]:
+    checks.that(words in table, f"check does not print {words!r}:\n{table}")
+
+before = program.files()
+for name in ["check tiny.toml", "doctor", "--help", "compare panel.png panel.png"]:
+    with open("/dev/full", "w") as full:
+        code, _, err = program.run(name, stdout=full)
+    checks.that(code == 1 and "standard output" in err, f"lfdsim {name} > /dev/full: exit code {code}, said {err!r}")
+checks.that(program.files() == before, "files were left")
+checks.finish()
