@@ -18,6 +18,12 @@ namespace {
 
 constexpr std::int64_t known_schema = 1;
 
+// More than a person mends in one go: a file of another kind in TOML can hold a hundred thousand unknown keys.
+constexpr std::size_t most_problems = 50;
+
+// Fills a display from a parsed description, by the tables of keys. It goes on after a fault: a value that cannot be read keeps its
+// default, and its key is passed to validate()'s steps as known to be wrong, so that they judge all others and each fault is
+// reported once. In the end all are sorted by place.
 class Reader {
   public:
     explicit Reader(const Source& s) : source(s) {}
@@ -25,6 +31,7 @@ class Reader {
     Display read() {
         Display display;
         read_top_level(display);
+        // the lens's type first: it decides which keys of [lens] have a meaning
         if (const toml::node* type = source.root().at_path("lens.type").node())
             lens_type_read = read_value(*type, display.lens.type).empty();
         lens_type = display.lens.type;
@@ -34,7 +41,7 @@ class Reader {
     }
 
   private:
-    // A fault at a key: `where` is the key's dotted path, as validate() has it.
+    // A value that is missing or cannot be read: `where` is its key's dotted path, as validate() has it.
     void add(std::string where, std::string what) { faults.push_back({std::move(where), std::move(what)}); }
     // A key too many; it takes no value away from what validate() may judge.
     void add_superfluous(Place place, std::string where, std::string what) {
@@ -63,7 +70,7 @@ class Reader {
     // A table that a display always has, and one that it may lack.
     template <class T>
     void read_table(const Table<T>& table, T& values) {
-        static const toml::table nothing;
+        static const toml::table nothing;  // an absent table is an empty one: required keys are missing, others have defaults
         const std::string path(table.name);
         if (const toml::node* node = source.root().get(path); !node)
             read_keys(table, nothing, path, values);
@@ -92,6 +99,7 @@ class Reader {
     void read_key(const Key<T>& key, const toml::table& from, const std::string& prefix, T& values) {
         const std::string path = prefix + std::string(key.name);
         const toml::node* node = from.get(key.name);
+        // Without a lens type no key of [lens] can be called missing or meaningless.
         if (!node) {
             if (key.required && (key.required_for == for_all || (lens_type_read && knows(key.required_for, lens_type))))
                 add(path, "is missing");
@@ -135,7 +143,8 @@ class Reader {
                             : fmt::format("is unknown here; it belongs into [{}]", elsewhere));
     }
 
-    // Adds what is wrong with the values that could be read, and throws if anything is.
+    // Adds what is wrong with the values that could be read, and throws if anything is. Places without a line, of overrides, come
+    // first: whoever gives a wrong option should not have to look for it below the file's own faults.
     void judge(const Display& display) {
         Findings findings(faults);
         validate_values(display, findings);
@@ -150,7 +159,9 @@ class Reader {
             return std::tie(a.place.line, a.place.column) < std::tie(b.place.line, b.place.column);
         });
         std::vector<Problem> problems;
-        for (Located& one : all) problems.push_back({std::move(one.place.text), std::move(one.what)});
+        for (std::size_t i = 0; i < std::min(all.size(), most_problems); ++i)
+            problems.push_back({std::move(all[i].place.text), std::move(all[i].what)});
+        if (all.size() > most_problems) problems.push_back({"", fmt::format("and {} more", all.size() - most_problems)});
         throw InputError(std::move(problems));
     }
 
@@ -176,6 +187,7 @@ Display parse_display(std::string_view text, std::string_view name, const std::v
 
 Display read_display(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
     Display display = parse_display(read_text(path), path.string(), overrides);
+    // A path on the command line is relative to where it was typed, one in a file to where the file is.
     const bool overridden =
         std::any_of(overrides.begin(), overrides.end(), [](const std::string& o) { return o.starts_with("content.model="); });
     if (!display.content.model.empty() && !overridden)

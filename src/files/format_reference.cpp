@@ -29,6 +29,7 @@ std::string allowed_text(const Range& range, const Value&) {
         return range.text();
 }
 
+// Units stand in the keys' names, and only there.
 std::string_view unit(std::string_view name) {
     if (name.ends_with("_per_mm")) return "1/mm";
     if (name.ends_with("_mm")) return "mm";
@@ -45,7 +46,7 @@ std::string lens_types_text(unsigned types) {
 template <class T>
 void append_table(std::string& text, const Table<T>& table) {
     text += "| key | type | unit | allowed | default | meaning |\n|---|---|---|---|---|---|\n";
-    const T fresh{};
+    const T fresh{};  // holds the defaults
     for (const Key<T>& key : table.keys) {
         std::visit(
             [&](auto member) {

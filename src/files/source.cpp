@@ -11,6 +11,7 @@
 namespace lfdsim {
 namespace {
 
+// The parts of a dotted path. Quoted keys with dots in them are no keys of a description, and no override can name one.
 std::vector<std::string_view> split(std::string_view path) {
     std::vector<std::string_view> parts;
     for (std::size_t start = 0;;) {
@@ -21,6 +22,7 @@ std::vector<std::string_view> split(std::string_view path) {
     }
 }
 
+// The index that a part of a path means in a list; none beyond its end, for an override changes elements and adds none.
 std::optional<std::size_t> element(std::string_view part, const toml::array& array) {
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
@@ -39,12 +41,13 @@ Node* child(Node& node, std::string_view part) {
 // The value of an override as a tree of its own, under the key "value".
 toml::table parse_value(std::string_view path, std::string_view value) {
     toml::table holder;
+    // Unquoted words save the user a second pair of quotes against the shell.
     if (takes_word(path) && !value.starts_with('"') && !value.starts_with('\'')) {
         holder.insert("value", std::string(value));
         return holder;
     }
     const std::string text = fmt::format("value = {}", value);
-    check_text(text, "");
+    check_text(text, "");  // nesting, as in a file
     holder = toml::parse(text);
     if (holder.size() != 1 || value.find('\n') != value.npos) throw InputError("", "is more than one value");
     return holder;
@@ -92,6 +95,7 @@ void Source::apply(const std::string& override_text) {
     const std::vector<std::string_view> parts = split(path);
     if (parts.size() > 4) throw InputError("", fmt::format("the key has {} parts, allowed are 4", parts.size()));
 
+    // Tables on the way are made where they are missing, values are not replaced by tables.
     toml::node* node = &root_;
     const bool removes = value == "none" && !takes_word(path);
     for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
@@ -126,6 +130,7 @@ Place Source::at(const toml::source_region& region) const {
 }
 
 Place Source::place(std::string_view path) const {
+    // Down the path as far as it exists. An override of any part of it gave all that lies below.
     const toml::node* node = &root_;
     std::string inside;
     for (const std::string_view part : split(path)) {

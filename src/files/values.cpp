@@ -15,6 +15,7 @@ std::string wrong_type(const toml::node& node, std::string_view wanted) {
 }  // namespace
 
 std::string_view kind_of(const toml::node& node) {
+    // TOML's own words (floating_point, boolean) mean little to an optics designer
     switch (node.type()) {
         case toml::node_type::table:
             return "a table";
@@ -40,6 +41,7 @@ std::string read_value(const toml::node& node, double& value) {
 }
 
 std::string read_value(const toml::node& node, std::int64_t& value) {
+    // 3840.0 is refused too: a count with a fraction is a slip worth seeing
     if (!node.is_integer()) return wrong_type(node, "an integer");
     value = node.as_integer()->get();
     return {};
@@ -70,9 +72,12 @@ std::string read_word(const toml::node& node, std::span<const std::string_view> 
                        meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant));
 }
 
+// The shortest decimal that reads back as the same bits. TOML has inf and nan; a whole number comes out as an integer, which a
+// reader of numbers takes.
 std::string toml_text(double value) { return fmt::format("{}", value); }
 std::string toml_text(std::int64_t value) { return fmt::format("{}", value); }
 
+// A basic string. TOML allows any UTF-8 in it but quotes, backslashes and control characters.
 std::string toml_text(const std::string& value) {
     std::string text = "\"";
     for (const char c : value) {

@@ -10,6 +10,7 @@ template <class T>
 void write_keys(const Table<T>& table, const T& values, LensType type, std::string& text) {
     for (const Key<T>& key : table.keys) {
         if (!knows(key.lens_types, type)) continue;
+        // an absent optional has no text, and a key without text is left out
         const std::string value = std::visit([&](auto member) { return toml_text(values.*member); }, key.member);
         if (!value.empty()) text += fmt::format("{} = {}\n", key.name, value);
     }
@@ -22,6 +23,7 @@ std::string write_display(const Display& display) {
     const LensType type = display.lens.type;
     write_keys(display_table, display, type, text);
     visit_tables(display, [&]<class T, class Values>(const Table<T>& table, const Values& values) {
+        // the diffuser alone may be absent
         if constexpr (std::is_same_v<Values, T>) {
             text += fmt::format("\n[{}]\n", table.name);
             write_keys(table, values, type, text);

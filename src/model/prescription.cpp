@@ -35,6 +35,7 @@ double lowest(Function f, double end) {
 }  // namespace
 
 double sag_mm(double curvature, double conic, const std::vector<double>& even_asphere, double s) {
+    // This form of the conic holds for c = 0, a plane. The polynomial by Horner's rule in s^2.
     const double s2 = s * s;
     double polynomial = 0;
     for (std::size_t i = even_asphere.size(); i-- > 0;) polynomial = polynomial * s2 + even_asphere[i];
@@ -62,6 +63,7 @@ Cardinal cardinal_points(const std::vector<PlacedSurface>& surfaces) {
         z = s.z_mm;
     }
     const double front = surfaces.front().z_mm;
+    // A parallel pencil shifted by the glass: a ray to z leaves as if from z + (length - b), b the reduced thickness.
     if (c == 0) return {std::numeric_limits<double>::infinity(), front, z - b};
     return {-1 / c, front + (d - 1) / c, z + (1 - a) / c};
 }

@@ -27,6 +27,7 @@ void place_lens(const Lens& lens, const LensArray& array, Geometry& g) {
             widest = std::max(widest, s.semi_aperture_mm);
             narrowest = std::min(narrowest, s.semi_aperture_mm);
         }
+        // where the first vertex comes to stand
         const double first = array.base_z_mm ? *array.base_z_mm - lowest : array.gap_mm.value_or(0) - paraxial.front_principal_mm;
         for (PlacedSurface& s : g.surfaces) s.z_mm += first;
         g.base_z_mm = array.base_z_mm ? *array.base_z_mm : first + lowest;
@@ -41,6 +42,7 @@ void place_lens(const Lens& lens, const LensArray& array, Geometry& g) {
         const bool first_curved = lens.type == LensType::plano_convex && lens.facing == Facing::panel;
         g.stop_z_mm = (first_curved ? g.surfaces.front() : g.surfaces.back()).z_mm;
     }
+    // as given, to the last bit: g = f must stay exactly so
     g.gap_mm = array.gap_mm.value_or(g.front_principal_mm);
     if (array.aperture == Aperture::square) g.clear_aperture_mm = array.pitch_mm;
     if (lens.stop_radius_mm) g.clear_aperture_mm = 2 * *lens.stop_radius_mm;

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double rounding_mm = 1e-9;  // of sums of lengths up to a metre
 
+// The lens must stand before the panel, and the planes that theory measures from must be at finite places.
 void check_heights(const Display& d, const Geometry& g, Findings& findings) {
     const char* given = d.array.gap_mm ? "array.gap_mm" : "array.base_z_mm";
     if (!positive_length.contains(g.gap_mm))
@@ -50,10 +51,9 @@ void check_camera(const Display& d, const Geometry& g, Findings& findings) {
 }  // namespace
 
 void validate_layout(const Display& d, Findings& findings) {
-    if (findings.sound("panel.")) {
+    if (findings.sound("panel."))
         check_size("panel.pixels", double(d.panel.pixels[0]) * d.panel.pixel_pitch_mm,
                    double(d.panel.pixels[1]) * d.panel.pixel_pitch_mm, findings);
-    }
     if (!findings.sound("lens.") || !findings.sound("array.")) return;  // a lens that cannot be made has no place
     const Geometry g = resolve_unchecked(d);
     check_heights(d, g, findings);
@@ -62,6 +62,7 @@ void validate_layout(const Display& d, Findings& findings) {
         findings.add("diffuser.distance_mm",
                      "{} mm puts the diffuser inside the lenses, which reach {:.6g} mm above the vertex plane; more than that",
                      d.diffuser->distance_mm, g.top_z_mm - g.vertex_plane_mm);
+    // a diffuser in the wrong place would put the camera below it: one fault, not two
     if (findings.sound("camera.") && findings.sound("diffuser.")) check_camera(d, g, findings);
     if (findings.sound("content.") && !(d.content.viewing_distance_mm > g.top_z_mm))
         findings.add("content.viewing_distance_mm",

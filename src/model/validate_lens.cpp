@@ -27,12 +27,14 @@ class LensCheck {
     }
 
   private:
+    // Round lenses must not overlap; what is round in a square cell is cut by its borders.
     void check_width(const std::string& where, double radius) {
         if (array.aperture == Aperture::circle && radius > array.pitch_mm / 2)
             findings.add(where, "{} mm makes the lens wider than array.pitch_mm = {} mm; at most {} mm, or a larger pitch", radius,
                          array.pitch_mm, array.pitch_mm / 2);
     }
 
+    // A stop that is wider than the lens stops nothing, and theory would take it for the aperture.
     void check_stop(double radius) {
         if (lens.stop_radius_mm && findings.sound("lens.") && *lens.stop_radius_mm > radius)
             findings.add("lens.stop_radius_mm",
@@ -55,6 +57,7 @@ class LensCheck {
                          highest);
     }
 
+    // Widths and sags one by one, then each pair of neighbours: the medium between them must have a thickness everywhere.
     void check_surfaces() {
         const std::vector<PlacedSurface> surfaces = prescription(lens, array);
         double narrowest = array.pitch_mm / 2;

@@ -64,12 +64,14 @@ class RangeCheck {
     LensType type_;
 };
 
+// Two factors within int64 may overflow it in their product: as doubles they do not, and 53 bits tell 2^31 exactly.
 void check_product(const std::string& where, const std::array<std::int64_t, 2>& n, Findings& findings) {
     const double product = double(n[0]) * double(n[1]);
     if (findings.sound(where) && product >= two_to_31)
         findings.add(where, "{} x {} = {:.0f}, allowed is a product below 2^31 = {:.0f}", n[0], n[1], product, two_to_31);
 }
 
+// A ray that wanders between bodies of glass needs bodies: a thin lens has none, a compound one more than the tracer follows.
 void check_surround(const Display& d, Findings& findings) {
     if (d.array.surround == Surround::opaque || !findings.sound("array.surround")) return;
     const std::string_view surround = word(d.array.surround);
@@ -86,6 +88,7 @@ void check_view(const Camera& camera, Findings& findings) {
     const Vec3d &eye = camera.position_mm, &target = camera.target_mm, &up = camera.up;
     const Vec3d view{target[0] - eye[0], target[1] - eye[1], target[2] - eye[2]};
     const double distance = std::hypot(view[0], view[1], view[2]), up_length = std::hypot(up[0], up[1], up[2]);
+    // |view x up| = |view| |up| sin(angle): below a microradian single precision cannot tell the picture's upright any more
     const double cross =
         std::hypot(view[1] * up[2] - view[2] * up[1], view[2] * up[0] - view[0] * up[2], view[0] * up[1] - view[1] * up[0]);
     if (eye[2] <= 0)
@@ -100,6 +103,7 @@ void check_view(const Camera& camera, Findings& findings) {
                      "lies along the line of sight from camera.position_mm to camera.target_mm; take another direction");
 }
 
+// Keys that exclude one another or need one another.
 void check_choices(const Display& d, Findings& findings) {
     if (d.array.gap_mm && d.array.base_z_mm && findings.sound("array.base_z_mm"))
         findings.add("array.base_z_mm", "both array.gap_mm and array.base_z_mm given; leave one out");

@@ -94,16 +94,16 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Values, BadDescription,
-    testing::Values(Bad{with("7.28", "nan"), "d:8:20", "lens.sphere_radius_mm: is nan, allowed is 1e-6 to 1e6"},
-                    Bad{with("7.28", "-inf"), "d:8:20", "is -inf"},
-                    Bad{with("7.28", "5"), "d:8:20", "R = 5 mm is smaller than the aperture radius r = 6"},
-                    Bad{with("[43, 24]", "[43, 0]"), "d:12:9", "array.count[1]: is 0"},
-                    Bad{with("[3840, 2160]", "[100000, 100000]"), "d:4:10", "panel.pixels: 100000 x 100000 = 10000000000"},
-                    Bad{with("gap_mm = 16.485", ""), "d:11:1", "array.gap_mm: is missing; give array.gap_mm, or array.base_z_mm"},
-                    Bad{with("[camera]", "[render]\nseed = 9223372036854775808\n[camera]"), "d:16:27", "not representable in 64 bits"},
-                    Bad{example_text + "up = [0, 0, 1]\n", "d:17:6", "camera.up: lies along the line of sight"},
-                    Bad{example_text + "[diffuser]\ndistance_mm = -1\nangle_deg = [2, 2]", "d:18:15",
-                        "diffuser.distance_mm: is -1"}));
+    testing::Values(
+        Bad{with("7.28", "nan"), "d:8:20", "lens.sphere_radius_mm: is nan, allowed is 1e-6 to 1e6"},
+        Bad{with("7.28", "-inf"), "d:8:20", "is -inf"},
+        Bad{with("7.28", "5"), "d:8:20", "R = 5 mm is smaller than the aperture radius r = 6"},
+        Bad{with("[43, 24]", "[43, 0]"), "d:12:9", "array.count[1]: is 0"},
+        Bad{with("[3840, 2160]", "[100000, 100000]"), "d:4:10", "panel.pixels: 100000 x 100000 = 10000000000"},
+        Bad{with("gap_mm = 16.485", ""), "d:11:1", "array.gap_mm: is missing; give array.gap_mm, or array.base_z_mm"},
+        Bad{with("[camera]", "[render]\nseed = 9223372036854775808\n[camera]"), "d:16:27", "not representable in 64 bits"},
+        Bad{example_text + "up = [0, 0, 1]\n", "d:17:6", "camera.up: lies along the line of sight"},
+        Bad{example_text + "[diffuser]\ndistance_mm = -1\nangle_deg = [2, 2]", "d:18:15", "diffuser.distance_mm: is -1"}));
 
 TEST(BadDescriptions, AllFaultsTogetherInTheOrderOfTheFile) {
     try {
@@ -123,6 +123,18 @@ TEST(BadDescriptions, AllFaultsTogetherInTheOrderOfTheFile) {
                      "d:7:1: array.gap_mm: is missing; give array.gap_mm, or array.base_z_mm, to say where the lenses stand\n"
                      "d:8:12: array.pitch_mm: is nan, allowed is 1e-6 to 1e6\n"
                      "d:10:11: render.samples: is 0, allowed is 1 to 16777216");
+    }
+}
+
+TEST(BadDescriptions, FloodsAreCutShort) {
+    std::string text = example_text + "[render]\n";
+    for (int i = 0; i < 20000; ++i) text += "key" + std::to_string(i) + " = 1\n";
+    try {
+        parse_display(text, "d");
+        FAIL() << "accepted";
+    } catch (const InputError& error) {
+        ASSERT_EQ(error.problems.size(), 51u);
+        EXPECT_EQ(error.problems.back().what, "and 19950 more");
     }
 }
 
