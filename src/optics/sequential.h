@@ -96,8 +96,7 @@ LFDSIM_RARE void meet_neighbours(const Scene<Scalar<F>>& scene, const Extent<F>&
     const F depth = F(scene.zone_top - scene.zone_bottom);
     const Cell<F> last{nearest_cell(scene, x + mx * depth), nearest_cell(scene, y + my * depth)};
     const F steps = abs(last.i - cell.i) + abs(last.j - cell.j);
-    if (none(astray &&
-             (steps > F(Scalar<F>(1.5))))) {  // one border on the way: what is not met in the first cell is met in the last
+    if (none(astray && (steps > F(Scalar<F>(1.5))))) {  // one border on the way: the last cell is the only other one
         try_cell(last, astray && extent.holds(last));
         return;
     }
@@ -112,17 +111,17 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<F>& ext
     const F p = F(scene.pitch), fall = F(1) / ray.to.z;  // dx/dz = to.x fall
     // The cell is taken where the ray comes to the zone of the caps (the plane of the rims, if they are the highest).
     F x = ray.at.x, y = ray.at.y;
-    if (scene.zone_top != first.z) {
+    if (shapes != Shapes::plano_convex && scene.zone_top != first.z) {
         const F up = F(scene.zone_top - first.z) * fall;
         x = x + ray.to.x * up;
         y = y + ray.to.y * up;
     }
     way.cell = {nearest_cell(scene, x), nearest_cell(scene, y)};
     Hit<F> hit = meet_first<shapes>(scene, ray, way.cell);
-    if (scene.dimple) {  // the entrance is the rim's circle or cell
+    if (shapes != Shapes::plano_convex && scene.dimple) {  // the entrance is the rim's circle or cell
         const F lx = x - way.cell.i * p, ly = y - way.cell.j * p, r = F(first.semi_aperture);
         hit.ok = hit.ok && (lx * lx + ly * ly <= r * r);
-    } else if (scene.zone_top > scene.zone_bottom) {
+    } else if (shapes == Shapes::plano_convex || scene.zone_top > scene.zone_bottom) {
         // Can a ray that missed meet another lens before it is down at the rims? Not if its way there, (ex, ey) long, ends in the
         // same cell, nor if it ends in the cell beside that and far from its lens's axis: had it been within the semi aperture r of
         // it, it would end within sqrt(r^2 + ex^2 + ey^2).

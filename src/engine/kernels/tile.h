@@ -43,7 +43,8 @@ void render_tile(const Tile& tile) {
     for (int k = 0; k < kLanes; ++k) lane[k] = std::uint32_t(k);
     for (std::int32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::int32_t x = tile.x0; x < tile.x1; x += kLanes) {
-            const auto pixel = optics::load<F>(lane) + optics::Uint<F>(std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x));
+            const auto pixel =
+                optics::load<F>(lane) + optics::Uint<F>(std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x));
             const optics::Light<F> light = gather<through>(tile, optics::pixel_rays<F>(*tile.view, x, y), pixel);
             float* const out = tile.out + (std::int64_t(y - tile.crop_y) * tile.crop_width + (x - tile.crop_x)) * 3;
             const int inside = tile.x1 - x < kLanes ? tile.x1 - x : kLanes;
@@ -58,10 +59,14 @@ void render_tile(const Tile& tile) {
 
 void LFDSIM_KERNEL(const Tile& tile) {
     switch (optics::way_through(*tile.scene)) {
-        case optics::Way::plano_convex: return render_tile<optics::Way::plano_convex>(tile);
-        case optics::Way::opaque: return render_tile<optics::Way::opaque>(tile);
-        case optics::Way::ideal: return render_tile<optics::Way::ideal>(tile);
-        case optics::Way::glass: return render_tile<optics::Way::glass>(tile);
+        case optics::Way::plano_convex:
+            return render_tile<optics::Way::plano_convex>(tile);
+        case optics::Way::opaque:
+            return render_tile<optics::Way::opaque>(tile);
+        case optics::Way::ideal:
+            return render_tile<optics::Way::ideal>(tile);
+        case optics::Way::glass:
+            return render_tile<optics::Way::glass>(tile);
     }
 }
 
