@@ -100,7 +100,7 @@ TEST(Compare, AgreesWithScikitImage) {
     const std::pair<Image, Image> pairs[] = {
         pair(0.001f, 1), pair(0.1f, 2), pair(1, 3), {test::random_image(97, 61, 4), test::random_image(97, 61, 5)}};
     const std::string script = LFDSIM_SOURCE_DIR "/tests/image/ssim_reference.py";
-    std::string command = "/usr/bin/python3 " + script;
+    std::string command = "/usr/bin/python3 '" + script + "'";
     for (std::size_t i = 0; i < std::size(pairs); ++i)
         for (const auto& [name, image] : {std::pair("a", &pairs[i].first), std::pair("b", &pairs[i].second)}) {
             const std::filesystem::path path = folder / (name + std::to_string(i) + ".npy");
