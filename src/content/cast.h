@@ -91,6 +91,7 @@ Picture cast(const Scene::Impl& scene, const Beam& beam, int width, int height, 
     if (threads < 0 || threads > 4096) throw InputError("threads", std::to_string(threads) + " given; allowed are 0 (all) to 4096");
     constexpr int tile = 64;
     const int columns = (crop.x1 + tile - 1) / tile - crop.x0 / tile, rows = (crop.y1 + tile - 1) / tile - crop.y0 / tile;
+    const auto start = std::chrono::steady_clock::now();
     Picture out{Image(crop.x1 - crop.x0, crop.y1 - crop.y0), true, 0, 0};
     std::atomic<std::int64_t> cast{0};
     std::atomic<bool> stopped{false};
@@ -122,7 +123,6 @@ Picture cast(const Scene::Impl& scene, const Beam& beam, int width, int height, 
         cast += count;
     };
     job.stage(stage, std::int64_t(columns) * rows);
-    const auto start = std::chrono::steady_clock::now();
     // More threads than processors are granted too, when asked for.
     const int workers = threads > 0 ? threads : tbb::info::default_concurrency();
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, std::size_t(workers));

@@ -25,18 +25,20 @@ struct ModelInfo {
 };
 
 struct LoadOptions {
-    double seconds = 60;  // of the child process
-    std::int64_t bytes = std::int64_t(4) << 30;
-    std::string up;  // "" by format; else "y" or "z"
+    double seconds = 60;                         // of the child process: wall clock, and processor time
+    std::int64_t bytes = std::int64_t(4) << 30;  // its address space, and what it may send
+    std::string up;                              // the file's axis that points up: "y" or "z"; "" by format
 };
 
-/// Throws InputError that names the file: missing, unreadable, unknown format, no triangles, crashed or exhausted the reader.
+/// Throws InputError that names the file: missing, unreadable, unknown format, no triangles, crashed or exhausted the reader;
+/// std::runtime_error if the reader program lfdsim-model-reader is missing.
 std::shared_ptr<const Model> load_model(const std::filesystem::path&, const LoadOptions& = {});
 ModelInfo info(const Model&);
 
 /// A model posed before the display (docs/model.md, "Pose"), with its ray-tracing structure. Model data is shared.
 class Scene {
   public:
+    /// Throws InputError for a model without height (lying flat) or millions of times wider than high.
     Scene(std::shared_ptr<const Model>, const Display&, const Geometry&);
     ~Scene();
     Scene(Scene&&) noexcept;
@@ -54,10 +56,12 @@ struct Picture {
     double seconds = 0;
 };
 
-/// Elemental images by the nodal pick-up, one ray a panel pixel; the panel's size. threads 0: all.
+/// Elemental images by the nodal pick-up, one ray a panel pixel that a lens owns; the panel's size. threads 0: all. The same
+/// bits for any number of threads. Throws InputError for a bad thread count.
 Picture elemental_images(const Display&, const Geometry&, const Scene&, int threads, Job&);
 
-/// The scene seen directly by the display's camera, one ray through each pixel centre (the same pixel filter never applies).
+/// The scene seen directly by the display's camera, one ray through each pixel centre (the pixel filter never applies).
+/// A crop has the full frame's pixels, bit for bit. Throws InputError for a crop outside the frame or a bad thread count.
 Picture reference_photograph(const Display&, const Geometry&, const Scene&, int threads, std::optional<Rect> crop, Job&);
 
 /// Test patterns of the panel's size: "checkerboard", "white", "view" (one view white), "edge" (slanted edge), "address" (ramp).

@@ -81,7 +81,6 @@ std::shared_ptr<const Model> load_model(const fs::path& path, const LoadOptions&
         }
         if (reply != Reply::model) refuse("the reader's answer makes no sense");
         transfer(reader, *model);
-        reader.finish();
     } catch (const ReaderProcess::Failure& failure) {
         refuse(failure.what());
     }

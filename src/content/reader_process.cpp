@@ -29,7 +29,7 @@ ReaderProcess::ReaderProcess(const std::filesystem::path& model, const LoadOptio
     : options_(options), left_(options.bytes) {
     const std::string program = reader_path().string(), bytes = std::to_string(options.bytes),
                       seconds = fmt::format("{}", options.seconds);
-    const std::string file = std::filesystem::absolute(model).string();
+    const std::string file = std::filesystem::canonical(model).string();
     const char* arguments[] = {program.c_str(), file.c_str(), bytes.c_str(), seconds.c_str(), options.up.c_str(), nullptr};
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe to the model reader");
@@ -88,17 +88,13 @@ void ReaderProcess::fail() {
     while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
     }
     process_ = -1;
-    if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
-        throw Failure(timeout_text(options_.seconds));
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) throw Failure(timeout_text(options_.seconds));
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) throw Failure("the reader was killed; perhaps memory ran out");
     if (WIFSIGNALED(status))
         throw Failure(fmt::format("the file is damaged, it made the reader crash ({})", strsignal(WTERMSIG(status))));
+    if (WIFEXITED(status) && WEXITSTATUS(status) != 0)  // as sanitizers report a crash
+        throw Failure(fmt::format("the file is damaged, it made the reader crash (status {})", WEXITSTATUS(status)));
     throw Failure("the reader ended early");
-}
-
-void ReaderProcess::finish() {
-    char more;
-    pollfd ready{pipe_, POLLIN, 0};
-    if (poll(&ready, 1, 1000) <= 0 || read(pipe_, &more, 1) != 0) throw Failure("the reader did not end");
 }
 
 }  // namespace lfdsim

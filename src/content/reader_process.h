@@ -41,9 +41,6 @@ class ReaderProcess {
         for (std::size_t left = count(1); left > 0; --left) each(v.emplace_back());
     }
 
-    /// After the last byte: it must end by itself, with success.
-    void finish();
-
   private:
     void get(char* to, std::size_t bytes);
     std::size_t count(std::size_t size);

@@ -48,11 +48,16 @@ void pose(Scene::Impl& scene, const Display& display, const Geometry& geometry) 
     const double extent = box.high[1] - box.low[1];
     const double scale = geometry.content_height_mm / extent;
     if (!(extent > 0) || !std::isfinite(scale))
-        throw InputError("content.model",
-                         fmt::format("the model is {} units high and cannot be scaled to {} mm; if it lies flat, raise it with tilt_deg",
-                                     extent, geometry.content_height_mm));
+        throw InputError(
+            "content.model",
+            fmt::format("the model is {} units high and cannot be scaled to {} mm; if it lies flat, raise it with tilt_deg", extent,
+                        geometry.content_height_mm));
     scene.centre_mm = {0, 0, geometry.vertex_plane_mm + geometry.content_depth_mm};
     for (int k = 0; k < 3; ++k) scene.half_mm[k] = 0.5 * scale * (box.high[k] - box.low[k]);
+    if (const double longest = 2 * *std::max_element(scene.half_mm.begin(), scene.half_mm.end()); longest > 1e6)
+        throw InputError("content.model",
+                         fmt::format("{} mm high, the model would be {:g} mm wide or deep; allowed is 1e6 mm; is it lying flat?",
+                                     geometry.content_height_mm, longest));
     scene.positions_mm.resize(model.positions.size() + 1);
     for (std::size_t v = 0; v < model.vertices(); ++v) {
         const Vec3d p = turn(&model.positions[3 * v]);

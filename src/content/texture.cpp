@@ -38,19 +38,20 @@ Pyramid::Pyramid(const Texture& t) : light_(decode_table(Encoding::srgb, 8).data
         const Level& fine = levels_.back();
         Level coarse{std::max(1, fine.width / 2), std::max(1, fine.height / 2), {}};
         coarse.codes.resize(std::size_t(coarse.width) * coarse.height);
-        Image mean(coarse.width, coarse.height);
         for (int y = 0; y < coarse.height; ++y) {
+            Image mean(coarse.width, 1);
             for (int x = 0; x < coarse.width; ++x) {
                 for (int k = 0; k < 4; ++k) {
                     const int fx = std::min(2 * x + (k & 1), fine.width - 1), fy = std::min(2 * y + (k >> 1), fine.height - 1);
                     const std::uint32_t code = fine.codes[std::size_t(fy) * fine.width + fx];
-                    for (int c = 0; c < 3; ++c) mean.at(x, y)[c] += 0.25f * light_[code >> (8 * c) & 255];
+                    for (int c = 0; c < 3; ++c) mean.at(x, 0)[c] += 0.25f * light_[code >> (8 * c) & 255];
                 }
             }
+            const std::vector<std::uint8_t> codes = encode8(mean, Encoding::srgb);
+            for (std::size_t x = 0; x < std::size_t(coarse.width); ++x)
+                coarse.codes[std::size_t(y) * coarse.width + x] =
+                    codes[3 * x] | std::uint32_t(codes[3 * x + 1]) << 8 | std::uint32_t(codes[3 * x + 2]) << 16;
         }
-        const std::vector<std::uint8_t> codes = encode8(mean, Encoding::srgb);
-        for (std::size_t i = 0; i < coarse.codes.size(); ++i)
-            coarse.codes[i] = codes[3 * i] | std::uint32_t(codes[3 * i + 1]) << 8 | std::uint32_t(codes[3 * i + 2]) << 16;
         levels_.push_back(std::move(coarse));
     }
 }

@@ -1,5 +1,5 @@
 // How a model travels from the reader process: one description of the bytes, walked by writer and reader alike. Same
-// machine, so native byte order. The receiving end must call validate(), as the sender may have been damaged by its input.
+// machine, so native byte order. The receiving end trusts nothing it is sent, as the sender may have been damaged by its input.
 #pragma once
 #include "content/model.h"
 
@@ -9,8 +9,8 @@ namespace lfdsim {
 
 enum class Reply : std::uint32_t { model = 0x4c6d6f31, refusal, out_of_memory };  // first; a refusal brings a text that says why
 
-/// Io has value(x) for plain values, array(v) for vectors of them, and text(s).
-/// One count is sent before each list; the reader of an Io refuses counts that its limits do not allow.
+/// Io has value(x) for plain values, array(v) for vectors and strings of them, list(v, each) for vectors of anything else. A
+/// count goes before each; the receiver refuses counts beyond its limits.
 template <class Io>
 void transfer(Io& io, Model& model) {
     io.array(model.positions);

@@ -2,6 +2,7 @@
 
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 
@@ -16,11 +17,11 @@
 namespace lfdsim::reader {
 namespace {
 
-void limit(__rlimit_resource what, rlim_t value) {
+// Never above what the system allows already. `grace`: how much more before the limit is hard.
+void limit(__rlimit_resource what, rlim_t value, rlim_t grace = 0) {
     rlimit now{};
     getrlimit(what, &now);
-    if (now.rlim_max != RLIM_INFINITY && now.rlim_max < value) value = now.rlim_max;
-    now = {value, value};
+    now = {std::min(value, now.rlim_max), std::min(value + grace, now.rlim_max)};
     setrlimit(what, &now);
 }
 
@@ -34,7 +35,7 @@ void confine(std::int64_t bytes, double seconds) {
 #else
     (void)bytes;
 #endif
-    limit(RLIMIT_CPU, rlim_t(std::ceil(seconds)));
+    limit(RLIMIT_CPU, rlim_t(std::ceil(seconds)), 1);  // first SIGXCPU, which says why
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_FSIZE, 0);
 }
