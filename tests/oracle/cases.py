@@ -19,6 +19,7 @@ def surfaces(*rows):
 ASPHERE = surfaces(surface(0.0, 3.9, 2.6, 1.4918), surface(-1 / 5.0, 3.9, conic=-0.36, even=[1.2e-4, 3e-6]))
 CONICS = surfaces(surface(0.06, 3.9, 3.4, 1.5, conic=-2.3), surface(-0.11, 3.9, conic=0.8))
 HOLLOW = surfaces(surface(-0.05, 3.9, 1.2, 1.6), surface(0.07, 3.9))                   # both faces hollow
+WIDE_HOLLOW = surfaces(surface(-0.09, 5.61, 1.2, 1.8), surface(0.02, 5.61))              # for square cells
 MENISCUS = surfaces(surface(0.16, 3.9, 3.0, 1.53), surface(0.04, 3.9))                  # hollow to the viewer
 CEMENTED = surfaces(surface(0.03, 3.8, 1.5, 1.62), surface(0.12, 3.8, 3.2, 1.49), surface(-0.12, 3.8))
 SPACED = surfaces(surface(0.02, 3.8, 1.6, 1.5), surface(-0.09, 3.8, 0.8, 1.0), surface(0.05, 3.7, 2.0, 1.58, even=[2e-5]), surface(-0.06, 3.6))
@@ -76,6 +77,9 @@ SHARP = {
     "opaque circle, stop, 15 degrees": case({**SPHERE, "stop_radius_mm": 1.1}, view=(15,), render=EXACT),
     "opaque circle, panel facing, stop, 15 degrees": case({**TURNED, "stop_radius_mm": 1.4}, view=(15,)),
     "opaque circle, tall walls, oblique": case({**SPHERE, "cylinder_height_mm": 4.0}, view=OBLIQUE, array={"base_z_mm": 6.0}),
+    "opaque circle, half balls, on axis": case({**SPHERE, "sphere_radius_mm": 3.9, "cylinder_height_mm": 0.0}, array={"base_z_mm": 2.0}),
+    "opaque circle, half balls, panel facing, 15 degrees": case({**TURNED, "sphere_radius_mm": 3.9, "cylinder_height_mm": 0.0}, view=(15,), array={"base_z_mm": 2.0}),
+    "clear circle, half balls, oblique": case({**SPHERE, "sphere_radius_mm": 3.9, "cylinder_height_mm": 0.0}, "clear", view=OBLIQUE, array={"base_z_mm": 2.0}),
     "clear circle, on axis, exact": case(SPHERE, "clear", render=EXACT),
     "clear circle, 30 degrees": case(SPHERE, "clear", view=(30,)),
     "clear circle, 45 degrees, schlick": case(SPHERE, "clear", view=(45,), render=SCHLICK),
@@ -107,6 +111,7 @@ SHARP = {
     "conics, oblique": case(CONICS, view=OBLIQUE, render=EXACT),
     "meniscus, 30 degrees": case(MENISCUS, view=(30,)),
     "hollow lens, 30 degrees": case(HOLLOW, view=(30,), render=EXACT),
+    "hollow lens, square, 30 degrees": case(WIDE_HOLLOW, aperture="square", view=(30, 15)),
     "cemented doublet, 15 degrees": case(CEMENTED, view=(15,), render=EXACT),
     "two spaced elements, oblique, stop": case({**SPACED, "stop_radius_mm": 2.5}, view=OBLIQUE, render=EXACT),
     "ideal circle, 15 degrees": case(IDEAL, view=(15,)),
