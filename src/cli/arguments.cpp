@@ -13,6 +13,7 @@ namespace {
     throw InputError(std::string(option), fmt::format("\"{}\" is not possible; {}", given, allowed));
 }
 
+// from_chars: no locale, no leading blanks or plus sign, no hexadecimal or octal surprises.
 template <class T>
 std::optional<T> whole_text(std::string_view text) {
     T value{};
@@ -72,6 +73,7 @@ std::array<std::int64_t, 2> size(std::string_view option, std::string_view text)
         const auto columns = whole(parts[0]), rows = whole(parts[1]);
         if (columns && rows && *columns > 0 && *rows > 0) return {*columns, *rows};
     }
+    // Upper limits are the description's: these values become overrides of its keys.
     refuse(option, text, "give columns x rows, such as 1920x1080");
 }
 

@@ -15,6 +15,8 @@
 #include <chrono>
 #include <filesystem>
 
+// lfdsim bench: one display, one change at a time. Rates count samples as traced, so "no diffuser", one ray a pixel, shows what a
+// pixel costs beside its samples. Relative figures come from the same band of rows in the same run, as machines differ and drift.
 namespace lfdsim::cli {
 namespace {
 
@@ -70,7 +72,7 @@ class Bench {
     int repeats() const { return repeats_; }
 
   private:
-    // Like a panel under a diffuser: no pixel says anything about its neighbours.
+    // The worst case for caches and the usual one under a diffuser: no pixel says anything about its neighbours.
     static Texels noise(std::int64_t columns, std::int64_t rows) {
         Texels texels(columns, rows);
         for (std::int64_t i = 0; i < columns * rows * 4; ++i)

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
+// lfdsim check: what a description says, key by key, and what follows from it. Theory names in --json are fixed: scripts use them.
 namespace lfdsim::cli {
 namespace {
 
@@ -36,6 +37,7 @@ std::string table_of(const Setting& s) {
     return fmt::format("  {:<22} {:<32}{}", s.key, text, note);
 }
 
+// Seven digits: more than any length is made to, fewer than double arithmetic carries.
 std::string table_of(const Figure& f) {
     std::string value = fmt::format("{:.7g} {}", f.value, unit(f.name));
     if (std::isinf(f.value)) value = f.value > 0 ? "infinite" : "-infinite";

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+// lfdsim compare: figures of image/compare.h for two files.
 namespace lfdsim::cli {
 namespace {
 
@@ -16,6 +17,7 @@ struct Arguments {
 };
 
 void run(const Arguments& args) {
+    // Errors are measured in linear light: code values have to be decoded as they were written.
     const Encoding encoding = word("--encoding", args.encoding, {"srgb", "linear"}) == "srgb" ? Encoding::srgb : Encoding::linear;
     Image a, b;
     Faults faults;

@@ -19,6 +19,7 @@ Json json_of(const std::optional<T>& value) {
     return value ? json_of(*value) : Json();
 }
 
+// A key's default is that of a fresh struct; required keys have none.
 template <class T>
 void add(const Table<T>& table, const std::string& name, const T& values, LensType lens, std::vector<Setting>& all) {
     const T fresh{};

@@ -15,7 +15,8 @@ constexpr KeyOption camera[] = {
     {"--camera-mm", "camera.position_mm", Form::point, "X,Y,Z",
      "Camera; the panel's centre is the origin, +x right, +y up, +z to the viewer"},
     {"--target-mm", "camera.target_mm", Form::point, "X,Y,Z", "What the camera looks at"},
-    {"--frame-width-mm", "camera.frame_width_mm", Form::number, "W", "Width of the frame in the plane through the target"},
+    {"--frame-width-mm", "camera.frame_width_mm", Form::number, "W", "Width of the frame in the plane through the target",
+     "camera.fov_deg"},
     {"--size", "camera.resolution", Form::size, "WxH", "Pixels of the frame"},
 };
 constexpr KeyOption sample[] = {
@@ -62,7 +63,10 @@ const std::span<const KeyOption> content_options = content;
 
 DisplayOptions::DisplayOptions(CLI::App& command) {
     command.add_option("DISPLAY.toml", path_, "Description of the display")->type_name("")->required();
-    command.add_option("--set", settings_, "Overrides a key of the description, value in TOML syntax: array.pitch_mm=8")
+    command
+        .add_option("--set", settings_,
+                    "Overrides a key of the description, value in TOML syntax: array.pitch_mm=8; none takes a key or table out: "
+                    "diffuser=none")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
 }
@@ -74,12 +78,14 @@ DisplayOptions::DisplayOptions(CLI::App& command, std::initializer_list<std::spa
             options_.emplace_back(&option, command.add_option(option.option, option.help)->type_name(option.value));
 }
 
+// Options become overrides of the description, so that one validation judges file, --set and options together.
 Display DisplayOptions::read() const {
     Faults faults;
     std::vector<std::string> overrides = settings_;
     std::map<std::string, std::string> written;  // the place that messages give for an override: what the user wrote
     for (const auto& [option, given] : options_) {
         if (given->count() == 0) continue;
+        if (option->replaces) overrides.push_back(fmt::format("{}=none", option->replaces));
         faults.of([&, o = option, text = given->results().front()] {
             overrides.push_back(fmt::format("{}={}", o->key, toml_value(*o, text)));
             written["--set " + overrides.back()] = fmt::format("{} {}", o->option, text);

@@ -20,6 +20,7 @@ struct KeyOption {
     Form form;
     const char* value;  // as help shows it
     const char* help;
+    const char* replaces = nullptr;  // a key of the description that says the same in another way
 };
 
 extern const std::span<const KeyOption> camera_options;   // from where and how large the picture is

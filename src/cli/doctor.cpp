@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <fstream>
 
+// lfdsim doctor: what a report of a fault should hold, and the answer to "why is it slow", "why does it not read my model".
 namespace lfdsim::cli {
 namespace {
 

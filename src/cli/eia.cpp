@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+// lfdsim eia: elemental images or a test pattern, in a file that the panel can be fed with: code values by the panel's encoding.
 namespace lfdsim::cli {
 namespace {
 

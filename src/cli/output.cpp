@@ -16,7 +16,7 @@
 namespace lfdsim::cli {
 namespace {
 
-// As the shell would need it, so that it can be copied and run again.
+// The kernel keeps the words as they were given. As the shell would need it, so that it can be copied and run again.
 std::string command_line() {
     std::ifstream file("/proc/self/cmdline", std::ios::binary);
     const std::string all{std::istreambuf_iterator<char>(file), {}};

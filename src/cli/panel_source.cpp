@@ -59,6 +59,8 @@ PatternOptions PatternOption::read() const {
     return options;
 }
 
+// A panel is driven by 8-bit codes. Rounding to them here, as a PNG would, makes the short way and the way by file the same
+// picture.
 Texels shown_texels(const Image& image, Encoding encoding) {
     const std::vector<std::uint8_t> codes = encode8(image, encoding);
     const std::vector<float>& light = decode_table(encoding, 8);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+// lfdsim photo: the model itself before the same camera, with the same shading; what a view of the display is measured against.
 namespace lfdsim::cli {
 namespace {
 

@@ -35,6 +35,7 @@ void Progress::stage(std::string_view name, std::int64_t units) {
     shown_tenths_ = 0;
 }
 
+// Threads that find another one showing go on with their work: the next report will count theirs.
 void Progress::advance(std::int64_t units) {
     const std::int64_t done = done_ += units;
     if (style_ == "none") return;
@@ -48,6 +49,7 @@ void Progress::end() {
 }
 
 void Progress::show(std::int64_t done, bool last) {
+    // Seconds between reports: a bar is to move smoothly, lines in a log are to stay few.
     const Clock::time_point now = Clock::now();
     const double share = double(std::min(done, units_)) / double(units_), spent = seconds(now - begun_),
                  since = seconds(now - shown_);

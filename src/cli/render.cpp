@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+// lfdsim render: panel image in, camera picture out. All that can be wrong with the command line is told before work begins.
 namespace lfdsim::cli {
 namespace {
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+// lfdsim sheet: pictures side by side, for the eye. One picture at a time is in memory at full size.
 namespace lfdsim::cli {
 namespace {
 

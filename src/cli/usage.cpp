@@ -71,6 +71,8 @@ std::vector<std::string> arguments(int argc, char** argv) {
     return all;
 }
 
+// CLI11 stops at the first rule that is broken, often "something is required" where a name was mistyped. What it could not place
+// says more, so that comes first.
 InputError usage_error(const CLI::App& program, const CLI::ParseError& error) {
     const std::vector<CLI::App*> chosen = program.get_subcommands();
     const CLI::App& command = chosen.empty() ? program : *chosen.front();

@@ -33,6 +33,10 @@ one = program.must("check tiny.toml --json --set lens.index=1.5 --set array.coun
 checks.that(row == one, "--set a=1 b=2 differs from --set a=1 --set b=2")
 checks.that("1.5" in row and "-10" in row, "overrides are not in force")
 
+# An option takes the place of what says the same in another way.
+wide = program.must("check tiny.toml --json --set camera.frame_width_mm=none camera.fov_deg=30 --frame-width-mm 50")
+checks.that('"frame_width_mm": 50' in wide and '"fov_deg": null' in wide, "--frame-width-mm does not replace camera.fov_deg")
+
 table = program.must("check tiny.toml --set diffuser.angle_deg=[1,1]")
 for words in ["pixel_pitch_mm         0.5 mm", "surround               opaque", "default", "field of view", "gap_mm", "weaker than"]:
     checks.that(words in table, f"check does not print {words!r}:\n{table}")
