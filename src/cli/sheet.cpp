@@ -67,7 +67,7 @@ void run(const Arguments& args) {
         });
     faults.report();
 
-    const int scale = std::max(1, int(width) / 320), label = args.labels.empty() ? 0 : glyph_height * scale + margin / 2;
+    const int scale = std::max(1, int(width) / 240), label = args.labels.empty() ? 0 : glyph_height * scale + margin / 2;
     columns = std::min<std::int64_t>(columns, std::int64_t(cells.size()));
     std::vector<int> tops;  // of each row
     int bottom = margin;

@@ -5,7 +5,7 @@ function(lfdsim_kernel name isa lanes)
   target_compile_definitions(lfdsim_kernel_${name} PRIVATE LFDSIM_ISA=${name} LFDSIM_LANES=${lanes} LFDSIM_KERNEL=render_tile_${name})
   # GCC 12 takes the undefined vectors of its own AVX-512 headers for a mistake.
   target_compile_options(lfdsim_kernel_${name} PRIVATE -O3 -fno-math-errno -fno-trapping-math ${isa}
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+    "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-uninitialized>")
   target_sources(lfdsim_engine PRIVATE $<TARGET_OBJECTS:lfdsim_kernel_${name}>)
 endfunction()
 
