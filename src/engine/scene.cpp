@@ -1,5 +1,7 @@
 #include "engine/scene.h"
 
+#include "model/prescription.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -21,18 +23,6 @@ optics::Interface<S> interface(double above, double below) {
     return {S(above / below), S(above), S(below), S(1 - r * r)};
 }
 
-/// Lowest and highest sag within the aperture; the extremum may lie between axis and rim.
-std::pair<double, double> sag_range(const PlacedSurface& s) {
-    constexpr int kSteps = 1024;
-    double low = 0, high = 0;
-    for (int i = 1; i <= kSteps; ++i) {
-        const double z = sag_mm(s.curvature_per_mm, s.conic, s.even_asphere, s.semi_aperture_mm * i / kSteps);
-        low = std::min(low, z);
-        high = std::max(high, z);
-    }
-    return {low, high};
-}
-
 template <class S>
 optics::SurfaceData<S> surface_data(const PlacedSurface& from) {
     optics::SurfaceData<S> to{};
@@ -52,7 +42,7 @@ optics::SurfaceData<S> surface_data(const PlacedSurface& from) {
     const double rim = sag_mm(from.curvature_per_mm, from.conic, from.even_asphere, from.semi_aperture_mm);
     to.rim = S(rim);
     to.c_rim = S(from.curvature_per_mm * rim);
-    const auto [low, high] = sag_range(from);
+    const auto [low, high] = sag_range_mm(from);
     to.low = S(low);
     to.high = S(high);
     to.media = interface<S>(from.index_above, from.index_below);
@@ -66,7 +56,7 @@ void add_lens(optics::Scene<S>& scene, const Display& display, const Geometry& g
     if (surfaces.empty()) {
         scene.ideal_z = S(geometry.vertex_plane_mm);
         scene.ideal_power = S(1 / display.lens.focal_length_mm);
-        scene.zone_top = scene.zone_bottom = scene.wall_top = scene.wall_bottom = scene.ideal_z;
+        scene.zone_top = scene.zone_bottom = scene.ideal_z;
         return;
     }
     if (surfaces.size() > kMaxSurfaces) {
@@ -82,15 +72,15 @@ void add_lens(optics::Scene<S>& scene, const Display& display, const Geometry& g
         wall_bottom = std::min(wall_bottom, rim);
     }
     const PlacedSurface& first = surfaces.back();
-    const auto [low, high] = sag_range(first);
+    const auto [low, high] = sag_range_mm(first);
     const double rim = sag_mm(first.curvature_per_mm, first.conic, first.even_asphere, first.semi_aperture_mm);
     scene.dimple = low < rim - 1e-9 || first.z_mm + rim < wall_top - 1e-9;
     scene.zone_top = S(scene.dimple ? wall_top : first.z_mm + high);
     scene.zone_bottom = S(scene.dimple ? wall_top : first.z_mm + low);
     scene.body_top = S(geometry.top_z_mm);
     scene.body_bottom = S(geometry.base_z_mm);
-    scene.wall_top = S(wall_top);
     scene.wall_bottom = S(wall_bottom);
+    scene.hollow_back = surfaces.front().z_mm + sag_range_mm(surfaces.front())[1] > wall_bottom + 1e-9;
 }
 
 }  // namespace

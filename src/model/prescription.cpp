@@ -39,7 +39,9 @@ double sag_mm(double curvature, double conic, const std::vector<double>& even_as
     const double s2 = s * s;
     double polynomial = 0;
     for (std::size_t i = even_asphere.size(); i-- > 0;) polynomial = polynomial * s2 + even_asphere[i];
-    return curvature * s2 / (1 + std::sqrt(1 - (1 + conic) * curvature * curvature * s2)) + polynomial * s2 * s2;
+    double root2 = 1 - (1 + conic) * curvature * curvature * s2;
+    if (root2 < 0 && root2 > -1e-12) root2 = 0;  // the rim of a half ball, but for rounding
+    return curvature * s2 / (1 + std::sqrt(root2)) + polynomial * s2 * s2;
 }
 
 std::array<double, 2> sag_range_mm(const PlacedSurface& s) {

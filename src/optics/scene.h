@@ -65,8 +65,9 @@ struct Scene {
     S start_above;            // height of the first plane above the first vertex (ideal: above the lens)
     S zone_top, zone_bottom;  // where an entering ray may meet the first surface: highest and lowest z of its caps
     S body_top, body_bottom;  // highest and lowest z of a lens
-    S wall_top, wall_bottom;  // rims: the height of the walls
+    S wall_bottom;            // the lowest rim: where the black part ends
     bool dimple;              // the first surface lies below its rim (concave to the viewer): its rim is the entrance
+    bool hollow_back;         // the last surface lies above the lowest rim (concave to the panel)
 
     // light
     Fresnel fresnel;

@@ -189,6 +189,11 @@ LFDSIM_FN PanelHit<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent<F
     const F z = way.ray.at.z + F(scene.surface[count - 1].z);
     if (has_stop) stop_between(z, F(0), way.ray.at, way.ray.to, z);
     if (shape_of<shapes>(scene, count - 1) != Shape::plane) way.alive = way.alive && (way.ray.to.z < F(0));
+    if (shapes != Shapes::plano_convex && scene.hollow_back) {  // the way out is the hole in the black part's lower face
+        const F down = (F(scene.wall_bottom) - z) / way.ray.to.z, r = F(scene.surface[count - 1].semi_aperture);
+        const F x = way.ray.at.x + way.ray.to.x * down, y = way.ray.at.y + way.ray.to.y * down;
+        way.alive = way.alive && (inside_cell(scene, Vec3<F>{x, y, F(0)}, x * x + y * y <= r * r) || (down < F(0)));
+    }
     const F t = -z / way.ray.to.z;
     if (scene.emission_exponent != S(0)) way.weight = way.weight * power(-way.ray.to.z, scene.emission_exponent);
     return panel_pixel(scene, base, way.cell, way.ray.at.x + way.ray.to.x * t, way.ray.at.y + way.ray.to.y * t, way.weight,

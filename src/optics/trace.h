@@ -17,7 +17,7 @@ LFDSIM_FN Way way_through(const Scene<S>& scene) {
     if (scene.surround != Surround::opaque) return Way::glass;
     const bool plain =
         scene.surface_count == 2 && scene.surface[0].shape == Shape::sphere && scene.surface[1].shape == Shape::plane;
-    return plain && !scene.has_stop ? Way::plano_convex : Way::opaque;
+    return plain && !scene.has_stop && !scene.dimple ? Way::plano_convex : Way::opaque;
 }
 
 /// One sample of each pixel of a packet.
