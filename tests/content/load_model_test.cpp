@@ -31,6 +31,13 @@ TEST(LoadModel, CountsWhatItRead) {
     EXPECT_THAT(i.notes, testing::IsEmpty());
 }
 
+// Its own folder, where the material file lies, is the one the link leads to.
+TEST(LoadModel, ModelBehindALink) {
+    Folder folder, other;
+    fs::create_symlink(write_patches(folder, {{-1, 1, -1, 1, 0, "red"}}), other.path() / "link.obj");
+    EXPECT_THAT(info(*load_model(other.path() / "link.obj")).notes, testing::IsEmpty());
+}
+
 TEST(LoadModel, FilesThatAreNoModels) {
     Folder folder;
     EXPECT_THAT(refusal(folder.path() / "missing.obj"), testing::HasSubstr("no such"));
@@ -65,7 +72,9 @@ TEST(LoadModel, BrokenSamples) {
         {"RAW/WithColor.raw", "crash"},
     };
     for (const auto& [name, what] : table) EXPECT_THAT(refusal(fs::path(samples) / name), testing::HasSubstr(what)) << name;
-    if (memory_is_limited) EXPECT_THAT(refusal(fs::path(samples) / "invalid/OutOfMemory.off"), testing::HasSubstr("MiB"));
+    if (memory_is_limited) {
+        EXPECT_THAT(refusal(fs::path(samples) / "invalid/OutOfMemory.off"), testing::HasSubstr("MiB"));
+    }
     // One bad face of a good box is left out, and said so.
     const ModelInfo box = info(*load_model(fs::path(samples) / "glTF2/IndexOutOfRange/IndexOutOfRange.gltf"));
     EXPECT_EQ(box.triangles, 11);
