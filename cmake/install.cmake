@@ -1,4 +1,4 @@
-# What other projects use: find_package(lfdsim), target lfdsim::lfdsim. The programs install themselves in src/.
+# The program, and what other projects use: find_package(lfdsim), target lfdsim::lfdsim. (The model reader: content/content.cmake.)
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -17,5 +17,6 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/lfdsimConfigVersion.cmake
 install(FILES ${CMAKE_CURRENT_LIST_DIR}/lfdsimConfig.cmake ${CMAKE_CURRENT_LIST_DIR}/dependencies.cmake
   ${PROJECT_BINARY_DIR}/lfdsimConfigVersion.cmake DESTINATION ${package})
 
+install(TARGETS lfdsim RUNTIME)
 install(DIRECTORY displays DESTINATION ${CMAKE_INSTALL_DATADIR}/lfdsim)
 install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

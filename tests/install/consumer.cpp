@@ -7,6 +7,7 @@
 
 int main() {
     const lfdsim::Display display = lfdsim::parse_display(R"(
+        schema = 1
         panel = { pixels = [64, 64], pixel_pitch_mm = 0.1 }
         lens = { type = "ideal", focal_length_mm = 3.0 }
         array = { count = [6, 6], pitch_mm = 1.0, gap_mm = 3.3, aperture = "square" }
