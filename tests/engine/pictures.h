@@ -1,0 +1,83 @@
+// Panels and displays for the tests of the renderer.
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "../optics/example.h"
+#include "engine/render.h"
+
+namespace lfdsim {
+
+/// A panel of one light everywhere.
+inline Texels uniform_panel(const Display& d, float light) {
+    Texels panel(d.panel.pixels[0], d.panel.pixels[1]);
+    for (std::int64_t k = 0; k < panel.columns() * panel.rows() * 4; ++k) panel.data()[k] = k % 4 == 3 ? 0 : light;
+    return panel;
+}
+
+/// Light between 0 and 1 at random in each pixel and colour.
+inline Texels noise_panel(const Display& d) {
+    Texels panel(d.panel.pixels[0], d.panel.pixels[1]);
+    Random random(21);
+    for (std::int64_t k = 0; k < panel.columns() * panel.rows() * 4; ++k) panel.data()[k] = k % 4 == 3 ? 0 : float(random(0, 1));
+    return panel;
+}
+
+inline Image picture(const Display& d, const Texels& panel, const RenderOptions& options = {}) {
+    Job job;
+    return render(d, resolve(d), panel, options, job).image;
+}
+
+inline Display ideal_example() {
+    Display d = example();
+    d.lens = {};
+    d.lens.type = LensType::ideal;
+    d.lens.focal_length_mm = 6;
+    d.array.aperture = Aperture::square;
+    return d;
+}
+
+/// One display for every way through an array, and for every option of camera and diffuser.
+inline std::vector<std::pair<std::string, Display>> every_kind() {
+    std::vector<std::pair<std::string, Display>> all;
+    all.emplace_back("plano-convex", example());
+    all.back().second.diffuser = Diffuser{40, {3, 5}, Profile::box};
+    all.emplace_back("plano-convex, square, gaussian, random", example());
+    all.back().second.array.aperture = Aperture::square;
+    all.back().second.diffuser = Diffuser{20, {8, 2}, Profile::gaussian};
+    all.back().second.render.sampling = Sampling::random;
+    all.emplace_back("aspheres, stop, schlick",
+                     with_surfaces({{0.02, 0, {}, 2, 1, 1.6}, {-0.1, 0, {}, 2, 0.8, 1.4}, {-0.25, -0.4, {1e-3, 2e-5}, 2}}));
+    all.back().second.array.pitch_mm = 4;
+    all.back().second.lens.stop_radius_mm = 1.4;
+    all.back().second.render.fresnel = Fresnel::schlick;
+    all.back().second.camera.pixel_filter = PixelFilter::box;
+    all.emplace_back("facing the panel, rotated, emission", example());
+    all.back().second.lens.facing = Facing::panel;
+    all.back().second.array.rotation_deg = 7;
+    all.back().second.array.offset_mm = {0.3, -0.9};
+    all.back().second.panel.emission_exponent = 1.5;
+    all.back().second.diffuser = Diffuser{30, {120, 40}, Profile::box};
+    all.emplace_back("ideal, thin lens", ideal_example());
+    all.back().second.camera.pupil_diameter_mm = 8;
+    all.back().second.diffuser = Diffuser{40, {4, 4}, Profile::box};
+    all.emplace_back("clear", example());
+    all.back().second.array.surround = Surround::clear;
+    all.back().second.diffuser = Diffuser{40, {4, 4}, Profile::box};
+    all.emplace_back("clear, square", example());
+    all.back().second.array.surround = Surround::clear;
+    all.back().second.array.aperture = Aperture::square;
+    all.back().second.camera.pixel_filter = PixelFilter::box;
+    all.emplace_back("plate", example());
+    all.back().second.array.surround = Surround::plate;
+    all.back().second.diffuser = Diffuser{40, {4, 4}, Profile::gaussian};
+    all.back().second.lens.stop_radius_mm = 1.2;
+    for (auto& [name, d] : all) {
+        look_from(d, 20, 400);
+        d.camera.position_mm[1] = 60;
+    }
+    return all;
+}
+
+}  // namespace lfdsim
