@@ -27,9 +27,10 @@ void require_memory(const std::string& where, const std::string& what, double by
                                             memory_bytes() / 1e9));
 }
 
-void require_picture_memory(std::int64_t columns, std::int64_t rows, double other) {
-    require_memory("camera.resolution", fmt::format("a picture of {} x {} pixels, with the panel image,", columns, rows),
-                   picture_bytes(columns, rows) + other);
+void require_picture_memory(std::int64_t columns, std::int64_t rows, double panel_bytes) {
+    const double bytes = picture_bytes(columns, rows);
+    require_memory(bytes > panel_bytes ? "camera.resolution" : "panel.pixels",
+                   fmt::format("a picture of {} x {} pixels, with the panel image,", columns, rows), bytes + panel_bytes);
 }
 
 }  // namespace lfdsim::cli

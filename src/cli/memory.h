@@ -17,7 +17,7 @@ double texel_bytes(const Display&);
 /// Throws InputError with both figures if `bytes` for `what` is more than there is; `where` names the key or option to change.
 void require_memory(const std::string& where, const std::string& what, double bytes);
 
-/// A picture of this many pixels beside `other` bytes.
-void require_picture_memory(std::int64_t columns, std::int64_t rows, double other);
+/// The same for a picture beside what the panel image takes; the larger of the two is named.
+void require_picture_memory(std::int64_t columns, std::int64_t rows, double panel_bytes);
 
 }  // namespace lfdsim::cli

@@ -43,12 +43,13 @@ struct Shown {
 };
 
 Shown shown(const Arguments& args, const Display& display, const Geometry& geometry, const PatternOptions& pattern_options,
-            Job& job) {
+            Progress& progress) {
     const auto [columns, rows] = display.panel.pixels;
     if (!args.panel_image.empty()) return {read_panel_image(args.panel_image, display.panel.encoding, columns, rows)};
     if (args.pattern.given())
         return {shown_texels(pattern(args.pattern.name(), display, geometry, pattern_options), display.panel.encoding)};
-    const Picture picture = elemental_images(display, geometry, load_scene(display, geometry), args.work.threads(), job);
+    const Picture picture = elemental_images(display, geometry, load_scene(display, geometry), args.work.threads(), progress);
+    progress.end();
     if (!picture.complete) end_interrupted("");
     return {shown_texels(picture.image, display.panel.encoding),
             {{"elemental_images", {{"rays", picture.rays}, {"seconds", picture.seconds}}}}};

@@ -28,11 +28,11 @@ CropOption::CropOption(CLI::App& command) {
         ->type_name("X0,Y0,X1,Y1");
 }
 
-std::optional<Rect> CropOption::read(const Camera& camera, double other_bytes) const {
+std::optional<Rect> CropOption::read(const Camera& camera, double panel_bytes) const {
     const auto [width, height] = camera.resolution;
     std::optional<Rect> crop;
     if (!text_.empty()) crop = rectangle("--crop", text_, width, height);
-    require_picture_memory(crop ? crop->x1 - crop->x0 : width, crop ? crop->y1 - crop->y0 : height, other_bytes);
+    require_picture_memory(crop ? crop->x1 - crop->x0 : width, crop ? crop->y1 - crop->y0 : height, panel_bytes);
     return crop;
 }
 

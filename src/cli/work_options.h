@@ -33,8 +33,8 @@ class CropOption {
   public:
     explicit CropOption(CLI::App& command);
     /// The part of the camera's frame that is wanted. Throws InputError if it is not in the frame, or if its picture, beside
-    /// `other_bytes`, is more than memory holds.
-    std::optional<Rect> read(const Camera&, double other_bytes) const;
+    /// the panel image's bytes, is more than memory holds.
+    std::optional<Rect> read(const Camera&, double panel_bytes) const;
 
   private:
     std::string text_;
