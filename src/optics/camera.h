@@ -22,18 +22,26 @@ struct PixelRays {
     PanelBase<F> base;
 };
 
-/// Pixels (column .. column + lanes - 1, row) of the frame. Written as loops over lanes that the compiler makes SIMD code of.
+/// A packet's pixels form a block of the frame, so that its rays see near panel pixels.
+template <class F>
+struct Block {
+    static constexpr int lanes = LaneTraits<F>::width;
+    static constexpr int width = lanes >= 16 ? 8 : lanes >= 8 ? 4 : lanes;
+    static constexpr int height = lanes / width;
+};
+
+/// The rays of the block whose first pixel is (column, row). Written as a loop over lanes that the compiler makes SIMD code of.
 template <class F>
 LFDSIM_FN PixelRays<F> pixel_rays(const View& view, std::int32_t column, std::int32_t row) {
     using S = Scalar<F>;
     constexpr int N = LaneTraits<F>::width;
     S x[N], y[N], dx[N], dy[N], dz[N], per_length[N], low_i[N], high_i[N], low_j[N], high_j[N], column_rest[N], row_rest[N];
     std::uint32_t base_column[N], base_row[N];
-    const double sy = (0.5 * view.height - (row + 0.5)) * view.pixel_mm;
     const double* const o = view.position;
     const double c = view.cos_rotation, s = view.sin_rotation;
     for (int k = 0; k < N; ++k) {
-        const double sx = (column + k + 0.5 - 0.5 * view.width) * view.pixel_mm;
+        const double sx = (column + k % Block<F>::width + 0.5 - 0.5 * view.width) * view.pixel_mm;
+        const double sy = (0.5 * view.height - (row + k / Block<F>::width + 0.5)) * view.pixel_mm;
         double d[3];
         for (int a = 0; a < 3; ++a) d[a] = view.forward[a] * view.distance + view.right[a] * sx + view.up[a] * sy;
         const double inverse = 1 / __builtin_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);

@@ -17,7 +17,6 @@ using F = optics::Pair<optics::Lane<LFDSIM_LANES>>;
 using F = float;
 #endif
 
-constexpr int kLanes = optics::LaneTraits<F>::width;
 constexpr std::uint32_t kBlock = 256;  // samples summed in one go, so that rounding does not grow with their number
 
 /// Lanes are neighbouring pixels and each adds its samples in their order, so that no bit depends on the packet a pixel is in.
@@ -39,17 +38,19 @@ LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& 
 
 template <optics::Way through>
 void render_tile(const Tile& tile) {
-    std::uint32_t lane[kLanes];
-    for (int k = 0; k < kLanes; ++k) lane[k] = std::uint32_t(k);
-    for (std::int32_t y = tile.y0; y < tile.y1; ++y) {
-        for (std::int32_t x = tile.x0; x < tile.x1; x += kLanes) {
+    using Block = optics::Block<F>;
+    std::uint32_t lane[Block::lanes];  // number of its pixel in the frame, from the block's first
+    for (int k = 0; k < Block::lanes; ++k) lane[k] = std::uint32_t(k / Block::width * tile.view->width + k % Block::width);
+    for (std::int32_t y = tile.y0; y < tile.y1; y += Block::height) {
+        for (std::int32_t x = tile.x0; x < tile.x1; x += Block::width) {
             const auto pixel =
                 optics::load<F>(lane) + optics::Uint<F>(std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x));
             const optics::Light<F> light = gather<through>(tile, optics::pixel_rays<F>(*tile.view, x, y), pixel);
-            float* const out = tile.out + (std::int64_t(y - tile.crop_y) * tile.crop_width + (x - tile.crop_x)) * 3;
-            const int inside = tile.x1 - x < kLanes ? tile.x1 - x : kLanes;
-            for (int k = 0; k < inside; ++k) {
-                for (int c = 0; c < 3; ++c) out[3 * k + c] = light(k, c) / float(tile.samples);
+            for (int k = 0; k < Block::lanes; ++k) {
+                const std::int32_t column = x + k % Block::width, row = y + k / Block::width;
+                if (column >= tile.x1 || row >= tile.y1) continue;
+                float* const out = tile.out + (std::int64_t(row - tile.crop_y) * tile.crop_width + (column - tile.crop_x)) * 3;
+                for (int c = 0; c < 3; ++c) out[c] = light(k, c) / float(tile.samples);
             }
         }
     }

@@ -1,0 +1,153 @@
+#!/usr/bin/python3
+"""The figures of docs/performance.md, measured now on this machine and printed as its tables.
+
+Usage: bench/figures.py [--program build/release/lfdsim] [--runs 5] [--quick] [--check]
+--quick: small pictures, one run, no big panel. --check: exit code 1 where a figure misses its loose bound (a third of the goal).
+Each comparison alternates between both sides, so that whatever else the machine does meets both alike; medians are printed.
+"""
+import argparse
+import json
+import os
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+MONKEY = "/usr/share/assimp/models/BLEND/Suzanne_248.blend"
+PAPER = 829.44  # million samples of 3840 x 2160 x 100, which took the 2019 paper's GPU one second
+failures = []
+
+
+def lfdsim(*words):
+    """Runs the program; its JSON, with the seconds of the whole process added."""
+    start = time.monotonic()
+    done = subprocess.run([options.program, *map(str, words), "--json", "--progress", "none"], capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(map(str, words))}: {done.stderr}")
+    return dict(json.loads(done.stdout), process_seconds=time.monotonic() - start)
+
+
+def render_rate(display, panel, *words):
+    size = ["--size", "1920x1080"] if options.quick else []
+    return lfdsim("render", display, "--panel-image", panel, *size, *words, "-o", os.path.join(folder, "out.npy"))["msamples_per_s"]
+
+
+def figure(name, value, goal=None, unit="", loose=None):
+    print(f"| {name} | {value:.4g}{unit} | {goal or ''} |", flush=True)
+    if loose is not None and not loose(value):
+        failures.append(f"{name}: {value:.4g}{unit}")
+
+
+def panel_of(display, name, *words):
+    path = os.path.join(folder, name + ".png")
+    lfdsim("eia", display, "--pattern", "address", "-o", path, *words)
+    return path
+
+
+def against_yardstick(panel):
+    """The renderer and the flat kernel, turn by turn, on all threads and on one."""
+    yardstick = os.path.join(folder, "yardstick")
+    subprocess.run(["clang++-14", "-std=c++20", "-O3", "-march=native", "-ffast-math", os.path.join(ROOT, "bench/yardstick.cpp"),
+                    "-o", yardstick, "-pthread"], check=True)
+    size = ["1920", "1080"] if options.quick else ["3840", "2160"]
+    for threads in sorted({os.cpu_count(), 1}, reverse=True):
+        ours, theirs = [], []
+        for _ in range(options.runs):
+            theirs.append(json.loads(subprocess.check_output([yardstick, "100", str(threads), *size]))["msamples_per_s"])
+            ours.append(render_rate(DISPLAY, panel, "--threads", threads))
+        us, them = statistics.median(ours), statistics.median(theirs)
+        figure(f"plano-convex, opaque, Schlick, box diffuser, {threads} threads, million samples/s", us)
+        figure("the flat kernel of bench/yardstick.cpp", them)
+        figure("ratio", us / them, "0.9", loose=lambda x: x > 0.3)
+        if threads > 1:
+            figure("share of the 2019 paper's GPU (829 million samples/s)", us / PAPER, "1")
+
+
+def duties(panel):
+    """What each duty costs: its rate over the plain case's."""
+    asphere = os.path.join(ROOT, "displays/desktop-asphere.toml")
+    cases = {
+        "plain": [], "no Fresnel weights": ["render.fresnel=none"], "exact Fresnel weights": ["render.fresnel=exact"],
+        "independent random samples": ["render.sampling=random"], "box pixel filter": ["camera.pixel_filter=box"],
+        "pupil of 4 mm": ["camera.pupil_diameter_mm=4"], "gaussian diffuser": ["diffuser.profile=gaussian"],
+        "square cells": ["array.aperture=square"], "aperture stop": ["lens.stop_radius_mm=2"],
+        "array turned by 1 degree": ["array.rotation_deg=1"], "clear surround": ["array.surround=clear"],
+        "plate surround": ["array.surround=plate"], "desktop-asphere, Schlick": ["render.fresnel=schlick"],
+    }
+    crop = ["--crop", "0,500,1920,580"] if options.quick else ["--crop", "0,972,3840,1188"]
+    rates = {name: [] for name in cases}
+    for _ in range(options.runs):
+        for name, changes in cases.items():
+            display = asphere if "asphere" in name else DISPLAY
+            rates[name].append(render_rate(display, panel, *crop, *(["--set", *changes] if changes else [])))
+    plain = statistics.median(rates["plain"])
+    for name, values in rates.items():
+        loose = (lambda x: x > 0.4 / 3) if "asphere" in name else None
+        figure(name + ", of the plain case", statistics.median(values) / plain, "0.4" if "asphere" in name else None, loose=loose)
+
+
+def content():
+    display = os.path.join(ROOT, "displays/desktop-asphere.toml")
+    for name, command in (("elemental images", "eia"), ("reference photograph", "photo")):
+        rates = [lfdsim(command, display, "--model", MONKEY, "-o", os.path.join(folder, "content.png"))["mrays_per_s"]
+                 for _ in range(options.runs)]
+        figure(f"monkey, {name}, million rays/s", statistics.median(rates), "10, aim 30", loose=lambda x: x > 10 / 3)
+
+
+def memory_and_start(panel):
+    seconds = [lfdsim("render", DISPLAY, "--panel-image", panel, "--crop", "0,0,16,16", "-o", os.path.join(folder, "out.npy"))
+               ["process_seconds"] for _ in range(options.runs)]
+    figure("start to the first samples written, 4K panel image, s", statistics.median(seconds), "0.5", loose=lambda x: x < 1.5)
+    code = ("import resource,subprocess,sys; subprocess.run(sys.argv[1:], check=True, stdout=subprocess.DEVNULL);"
+            "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1000)")
+    samples = "1" if options.quick else "100"
+    out = subprocess.check_output([sys.executable, "-c", code, options.program, "render", DISPLAY, "--panel-image", panel, "--samples",
+                                   samples, "--progress", "none", "--json", "-o", os.path.join(folder, "out.png")], text=True)
+    figure("memory of a 3840 x 2160 render to PNG, MB", float(out), "600", loose=lambda x: x < 600)
+
+
+def flatness(panel):
+    """Rate over lens count (one panel, lenses scaled with the pitch) and over panel size (constant pixel and lens pitch)."""
+    base = None
+    for n, m in ((14, 8), (138, 78), (1382, 778)):
+        k = 384 / n / 8.8  # scale of the lens, its gap and its diffuser
+        changes = [f"array.count=[{n},{m}]", f"array.pitch_mm={8.8 * k}", f"lens.sphere_radius_mm={9 * k}",
+                   f"lens.aperture_radius_mm={4.4 * k}", f"lens.cylinder_height_mm={k}", f"array.base_z_mm={12 * k}",
+                   f"diffuser.distance_mm={45.85129 * k}"]
+        rate = statistics.median(render_rate(DISPLAY, panel, "--samples", 25, "--set", *changes) for _ in range(min(3, options.runs)))
+        base = base or rate
+        figure(f"{n * m} lenses on one panel: time per sample over that of the first", base / rate, "1.3")
+    base = None
+    sizes = [(1920, 1080), (3840, 2160), (15360, 8640)] + ([] if options.quick else [(30720, 17280)])
+    for columns, rows in sizes:
+        changes = [f"panel.pixels=[{columns},{rows}]", f"array.count=[{columns // 88},{rows // 88}]", "camera.frame_width_mm=none"]
+        words = ["--set", *changes]
+        big = panel_of(DISPLAY, "big", *words)
+        rate = statistics.median(render_rate(DISPLAY, big, "--samples", 25, *words) for _ in range(min(3, options.runs)))
+        base = base or rate
+        figure(f"panel of {columns} x {rows}, constant pitch: time per sample over that of the first", base / rate, "1.3")
+
+
+parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+parser.add_argument("--program", default=os.path.join(ROOT, "build/release/lfdsim"))
+parser.add_argument("--runs", type=int, default=5)
+parser.add_argument("--quick", action="store_true")
+parser.add_argument("--check", action="store_true")
+options = parser.parse_args()
+if options.quick:
+    options.runs = 1
+DISPLAY = os.path.join(ROOT, "bench/yardstick.toml")
+with tempfile.TemporaryDirectory() as folder:
+    print("| figure | measured | goal |\n|---|---|---|")
+    shown = panel_of(DISPLAY, "panel")
+    against_yardstick(shown)
+    duties(shown)
+    content()
+    memory_and_start(shown)
+    flatness(shown)
+for line in failures:
+    print("misses its loose bound: " + line)
+sys.exit(1 if options.check and failures else 0)
