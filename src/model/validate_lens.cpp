@@ -23,7 +23,7 @@ class LensCheck {
             check_width("lens.aperture_radius_mm", *lens.aperture_radius_mm);
         }
         if (lens.type == LensType::plano_convex && findings.sound("lens.sphere_radius_mm")) check_ball();
-        check_stop(array.aperture == Aperture::square ? array.pitch_mm / 2 : *lens.aperture_radius_mm);
+        check_stop();
     }
 
   private:
@@ -34,12 +34,12 @@ class LensCheck {
                          array.pitch_mm, array.pitch_mm / 2);
     }
 
-    // A stop that is wider than the lens stops nothing, and theory would take it for the aperture.
-    void check_stop(double radius) {
-        if (lens.stop_radius_mm && findings.sound("lens.") && *lens.stop_radius_mm > radius)
+    // The stops of neighbours are holes in one sheet; they must not run into one another.
+    void check_stop() {
+        if (lens.stop_radius_mm && findings.sound("lens.stop_radius_mm") && *lens.stop_radius_mm > array.pitch_mm / 2)
             findings.add("lens.stop_radius_mm",
-                         "{} mm is wider than the lens, whose radius is {} mm; make it smaller or leave it out",
-                         *lens.stop_radius_mm, radius);
+                         "{} mm makes the holes of neighbours overlap at array.pitch_mm = {} mm; at most {} mm, or none",
+                         *lens.stop_radius_mm, array.pitch_mm, array.pitch_mm / 2);
     }
 
     // Of a plano-convex lens: its cap is part of a ball, which must reach over the aperture and stay off the flat face.
@@ -60,20 +60,18 @@ class LensCheck {
     // Widths and sags one by one, then each pair of neighbours: the medium between them must have a thickness everywhere.
     void check_surfaces() {
         const std::vector<PlacedSurface> surfaces = prescription(lens, array);
-        double narrowest = array.pitch_mm / 2;
         for (std::size_t i = 0; i < surfaces.size(); ++i) {
             if (!findings.sound(fmt::format("lens.surface.{}.", i))) continue;
             check_width(fmt::format("lens.surface.{}.semi_aperture_mm", i), surfaces[i].semi_aperture_mm);
             check_sag(i, surfaces[i]);
-            narrowest = std::min(narrowest, surfaces[i].semi_aperture_mm);
         }
+        check_stop();
         if (!findings.sound("lens.")) return;
         for (std::size_t i = 0; i + 1 < surfaces.size(); ++i)
             if (const double clear = clearance_mm(surfaces[i], surfaces[i + 1]); !(clear >= -rounding_mm))
                 findings.add(fmt::format("lens.surface.{}.distance_mm", i),
                              "{} mm lets the surface and the next one cross within the aperture; at least {:.6g} mm",
                              lens.surfaces[i].distance_mm, lens.surfaces[i].distance_mm - clear);
-        check_stop(narrowest);
     }
 
     void check_sag(std::size_t i, const PlacedSurface& s) {

@@ -81,6 +81,12 @@ void check_surround(const Display& d, Findings& findings) {
         findings.add("array.surround",
                      "is \"{}\", which takes one glass body of two surfaces, but the lens has {}; take \"opaque\"", surround,
                      d.lens.surfaces.size());
+    else if (d.lens.type == LensType::surfaces && d.array.surround == Surround::clear && d.array.aperture == Aperture::circle &&
+             d.lens.surfaces[0].semi_aperture_mm != d.lens.surfaces[1].semi_aperture_mm)
+        findings.add(
+            "array.surround",
+            "is \"clear\", whose bodies have a cylinder for a wall, but the semi-apertures are {} and {} mm; make them equal",
+            d.lens.surfaces[0].semi_aperture_mm, d.lens.surfaces[1].semi_aperture_mm);
 }
 
 // Where the camera is and where it looks, as far as the display's solid does not matter.

@@ -88,8 +88,9 @@ INSTANTIATE_TEST_SUITE_P(Lens, Fault, testing::Values(
     Case{"lens.sphere_radius_mm", "R = 5 mm is smaller than the aperture radius r = 6", [](Display& d) { d.lens.sphere_radius_mm = 5; }},
     Case{"lens.sphere_radius_mm", "half the square cell's diagonal = 8.48", [](Display& d) { d.array.aperture = Aperture::square; }},
     Case{"lens.cylinder_height_mm", "2 sqrt(R^2 - r^2) = 8.24", [](Display& d) { d.lens.cylinder_height_mm = 8.3; }},
-    Case{"lens.stop_radius_mm", "wider than the lens, whose radius is 5", [](Display& d) { d.lens.aperture_radius_mm = 5; d.lens.stop_radius_mm = 5.5; }},
-    Case{"lens.stop_radius_mm", "wider than the lens", [](Display& d) { d.lens.stop_radius_mm = 7; }, example_surfaces},
+    Case{"lens.stop_radius_mm", "holes of neighbours overlap", [](Display& d) { d.lens.stop_radius_mm = 6.5; }},
+    Case{"lens.stop_radius_mm", "holes of neighbours overlap", [](Display& d) { d.lens.stop_radius_mm = 7; }, example_surfaces},
+    Case{"array.surround", "make them equal", [](Display& d) { d.array.surround = Surround::clear; d.lens.surfaces[0].semi_aperture_mm = 5; }, example_surfaces},
     Case{"lens.surface.0.semi_aperture_mm", "wider than array.pitch_mm", [](Display& d) { d.lens.surfaces[0].semi_aperture_mm = 6.5; }, example_surfaces},
     // conic edge: 1/(c sqrt(1 + k)) = 1/(0.25 * 1) = 4 mm
     Case{"lens.surface.1.semi_aperture_mm", "ends 4 mm from the axis", [](Display& d) { d.lens.surfaces[1] = {-0.25, 0, {}, 6, 0, 1}; }, example_surfaces},
