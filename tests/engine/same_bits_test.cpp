@@ -11,7 +11,6 @@ namespace {
 class SameBits : public testing::TestWithParam<std::size_t> {
   protected:
     SameBits() : display(every_kind()[GetParam()].second), panel(noise_panel(display)) {
-        SCOPED_TRACE(every_kind()[GetParam()].first);
         reference = picture(display, panel, {1, "scalar", {}});
     }
 

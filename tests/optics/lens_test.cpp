@@ -99,6 +99,24 @@ TEST(Lens, FocalLengthIsGaussInTheLimit) {
     }
 }
 
+// The cap of a plano-convex lens meets its wall at height h whatever the ball's radius. (As the 2019 paper prints it, the ball is
+// centred on the flat face, which holds for R^2 = r^2 + h^2 alone.)
+TEST(Lens, CapMeetsTheWall) {
+    for (double R : {2.0, 2.0615528128088303, 3.0, 10.0}) {
+        Display d = example();
+        d.lens.sphere_radius_mm = R;
+        d.lens.cylinder_height_mm = R == 2 ? 0 : 0.5;
+        const Geometry g = resolve(d);
+        const Scene<double> scene = make_scene<double>(d, g);
+        const double centre = g.base_z_mm + d.lens.cylinder_height_mm - std::sqrt(R * R - 4);
+        EXPECT_NEAR(scene.surface[0].z, centre + R, 1e-12);
+        EXPECT_NEAR(scene.surface[0].z + scene.surface[0].rim, g.base_z_mm + d.lens.cylinder_height_mm, 1e-12);
+        EXPECT_NEAR(scene.surface[0].curvature, -1 / R, 1e-15);
+        EXPECT_NEAR(scene.surface[1].z, g.base_z_mm, 1e-12);
+        EXPECT_EQ(scene.surface[1].curvature, 0);
+    }
+}
+
 TEST(Lens, FocalPointsOfAllSurfacesTogether) {
     for (const char* name : {"desktop-stopped", "desktop-asphere", "desktop-spherical"}) {
         const Display d = shipped(name);
