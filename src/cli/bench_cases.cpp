@@ -5,9 +5,23 @@ namespace {
 
 // The same lens as a prescription, its cap an asphere.
 void make_asphere(Display& d) {
-    d.lens = Lens{.type = LensType::surfaces};
-    d.lens.surfaces = {{.semi_aperture_mm = 4.4, .distance_mm = 2.1489, .index = 1.49},
-                       {.curvature_per_mm = -1 / 9.0, .conic = -0.36, .even_asphere = {1e-5, 1e-7}, .semi_aperture_mm = 4.4}};
+    d.lens = {};
+    d.lens.type = LensType::surfaces;
+    d.lens.surfaces.resize(2);
+    Surface &flat = d.lens.surfaces[0], &cap = d.lens.surfaces[1];
+    flat.semi_aperture_mm = cap.semi_aperture_mm = 4.4;
+    flat.distance_mm = 2.1489;
+    flat.index = 1.49;
+    cap.curvature_per_mm = -1 / 9.0;
+    cap.conic = -0.36;
+    cap.even_asphere = {1e-5, 1e-7};
+}
+
+void make_ideal(Display& d) {
+    d.lens = {};
+    d.lens.type = LensType::ideal;
+    d.lens.aperture_radius_mm = 4.4;
+    d.lens.focal_length_mm = 18.4;  // R/(n - 1)
 }
 
 // A million lenses on the same panel: all lengths of lens and array shrink.
@@ -46,7 +60,7 @@ constexpr Duty table[] = {
          d.lens.surfaces[1].even_asphere.clear();
      }},
     {"asphere", make_asphere},
-    {"ideal lens", [](Display& d) { d.lens = Lens{.type = LensType::ideal, .aperture_radius_mm = 4.4, .focal_length_mm = 18.4}; }},
+    {"ideal lens", make_ideal},
     {"surround plate", [](Display& d) { d.array.surround = Surround::plate; }},
     {"surround clear", [](Display& d) { d.array.surround = Surround::clear; }},
     {"a million lenses", make_tiny_lenses},
@@ -59,10 +73,18 @@ const std::span<const Duty> duties = table;
 Display bench_display() {
     Display d;
     d.name = "bench";
-    d.panel = {.pixels = {3840, 2160}, .pixel_pitch_mm = 0.1};
-    d.lens = {.sphere_radius_mm = 9, .aperture_radius_mm = 4.4, .cylinder_height_mm = 1, .index = 1.49};
-    d.array = {.count = {44, 25}, .pitch_mm = 8.8, .base_z_mm = 12};
-    d.diffuser = {.distance_mm = 45.851, .angle_deg = {2.8648, 2.8648}};  // at z = 60 mm, 0.05 rad
+    d.panel.pixels = {3840, 2160};
+    d.panel.pixel_pitch_mm = 0.1;
+    d.lens.sphere_radius_mm = 9;
+    d.lens.aperture_radius_mm = 4.4;
+    d.lens.cylinder_height_mm = 1;
+    d.lens.index = 1.49;
+    d.array.count = {44, 25};
+    d.array.pitch_mm = 8.8;
+    d.array.base_z_mm = 12;
+    d.diffuser.emplace();
+    d.diffuser->distance_mm = 45.851;          // z = 60 mm
+    d.diffuser->angle_deg = {2.8648, 2.8648};  // 0.05 rad
     d.camera.frame_width_mm = 384;
     d.render.fresnel = Fresnel::schlick;
     return d;
