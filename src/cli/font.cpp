@@ -1,7 +1,5 @@
 #include "cli/font.h"
 
-#include <string>
-
 namespace lfdsim::cli {
 namespace {
 
@@ -20,16 +18,19 @@ constexpr std::string_view glyphs[] = {
     "00V248V",   "2448442",   "4444444",  "8442448",  "008L2",     "CIIC"};
 constexpr std::string_view box = "VHHHHHV";
 
-std::string_view glyph(unsigned char c) { return c >= 0x20 && c <= 0x7f ? glyphs[c - 0x20] : box; }
+// UTF-8 writes the degree sign as c2 b0.
+std::string_view glyph(unsigned char c) {
+    if (c == 0xb0) return glyphs[0x7f - 0x20];
+    return c >= 0x20 && c < 0x7f ? glyphs[c - 0x20] : box;
+}
 
 int dots(char digit) { return digit <= '9' ? digit - '0' : digit - 'A' + 10; }
 
 }  // namespace
 
 void draw_text(Image& image, int x, int y, int scale, std::string_view text, float light) {
-    std::string characters(text);
-    for (std::size_t at; (at = characters.find("\u00b0")) != characters.npos;) characters.replace(at, 2, "\x7f");
-    for (const char c : characters) {
+    for (const char c : text) {
+        if (c == '\xc2') continue;
         const std::string_view rows = glyph(static_cast<unsigned char>(c));
         for (int dot_y = 0; dot_y < int(rows.size()) * scale; ++dot_y)
             for (int dot_x = 0; dot_x < 5 * scale; ++dot_x) {
