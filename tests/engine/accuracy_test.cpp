@@ -17,9 +17,9 @@ using optics::Way;
 
 /// Sample `sample` of a pixel.
 template <class F>
-PanelHit<F> trace(const Scene<F>& scene, const View& view, int column, int row, Sampling sampling, int dimensions, int sample) {
+PanelHit<F> trace(const Scene<F>& scene, const View& view, int column, int row, Sampling sampling, int sample) {
     const std::uint32_t pixel = std::uint32_t(row) * std::uint32_t(view.width) + std::uint32_t(column);
-    Sampler<F> sampler(sampling, dimensions, view.seed, pixel);
+    Sampler<F> sampler(sampling, optics::kDimensions, view.seed, pixel);
     for (int n = 0; n < sample; ++n) sampler.next(sobol_directions());
     const auto rays = optics::pixel_rays<F>(view, column, row);
     switch (optics::way_through(scene)) {
@@ -56,14 +56,13 @@ double share_alike(const Display& d) {
     const Scene<float> narrow = make_scene<float>(d, g);
     const Scene<double> wide = make_scene<double>(d, g);
     const View view = make_view(d, g);
-    const int dimensions = sample_dimensions(d);
     int all = 0, alike = 0;
     for (int row = 3; row < view.height; row += 23) {
         for (int column = 5; column < view.width; column += 23) {
             const int sample = all % 16;
-            const auto a = trace(narrow, view, column, row, d.render.sampling, dimensions, sample);
+            const auto a = trace(narrow, view, column, row, d.render.sampling, sample);
             auto same = [&](const View& seen) {
-                const auto b = trace(wide, seen, column, row, d.render.sampling, dimensions, sample);
+                const auto b = trace(wide, seen, column, row, d.render.sampling, sample);
                 // where both are lit the light is the same too, to 1e-3 near grazing exits
                 return a.lit == b.lit && (!a.lit || (a.pixel == b.pixel && std::abs(double(a.weight) - b.weight) < 1e-3));
             };
@@ -85,8 +84,8 @@ std::vector<std::string> shipped() {
     std::sort(names.begin(), names.end());
     return names;
 }
-INSTANTIATE_TEST_SUITE_P(Shipped, Accuracy, testing::ValuesIn(shipped()), [](const auto& info) {
-    std::string name = info.param;
+INSTANTIATE_TEST_SUITE_P(Shipped, Accuracy, testing::ValuesIn(shipped()), [](const auto& display) {
+    std::string name = display.param;
     std::replace(name.begin(), name.end(), '-', '_');
     return name;
 });

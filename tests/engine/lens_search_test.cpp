@@ -61,7 +61,7 @@ std::int64_t search(const Display& d, const Geometry& g, const V& o, const V& i)
 
 template <class F>
 std::int64_t traced(const optics::Scene<F>& scene, const optics::View& view, int column, int row) {
-    const optics::Sampler<F> sampler(Sampling::sobol, 0, 0, 0);
+    const optics::Sampler<F> sampler(Sampling::sobol, optics::kDimensions, 0, 0);
     const auto hit = optics::trace<optics::Way::plano_convex>(scene, view, optics::pixel_rays<F>(view, column, row), sampler);
     return hit.lit ? std::int64_t(hit.pixel) : -1;
 }

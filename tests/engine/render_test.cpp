@@ -25,7 +25,7 @@ TEST(Means, OfManySamplesAreTheirAverage) {
         const Image image = picture(d, panel, {1, "", Rect{70, 50, 90, 60}});
         for (int y = 50; y < 60; ++y) {
             for (int x = 70; x < 90; ++x) {
-                optics::Sampler<float> sampler(Sampling::sobol, 2, view.seed, std::uint32_t(y * view.width + x));
+                optics::Sampler<float> sampler(Sampling::sobol, optics::kDimensions, view.seed, std::uint32_t(y * view.width + x));
                 double sum[3] = {};
                 for (int n = 0; n < samples; ++n, sampler.next(sobol_directions())) {
                     const auto hit =
@@ -180,8 +180,7 @@ TEST(Cancelling, KeepsWhatIsComplete) {
         EXPECT_EQ(job.units, 160 * 112);
         EXPECT_EQ(r.complete, patience > 160 * 112);
         EXPECT_EQ(r.samples, job.done);  // one ray a pixel: nothing to sample
-        if (r.complete) EXPECT_EQ(r.image.rgb, whole.rgb);
-        std::int64_t pixels = 0;  // those that are the whole picture's, not black
+        std::int64_t pixels = 0;         // those that are the whole picture's, not black
         for (std::size_t k = 0; k < whole.rgb.size(); ++k) {
             ASSERT_TRUE(r.image.rgb[k] == whole.rgb[k] || r.image.rgb[k] == 0);
             pixels += k % 3 == 0 && r.image.rgb[k] == whole.rgb[k];

@@ -109,7 +109,9 @@ TEST(Diffuser, AnglesFollowTheirDensity) {
             // centred: the mean of n angles below h in size is within 5 h / sqrt n of zero
             EXPECT_NEAR(sum / samples, 0, 5 * most / std::sqrt(samples));
             EXPECT_LE(most, (profile == Profile::box ? horizontal / 2 : 89) * degree + 1e-5);
-            if (profile == Profile::box) EXPECT_GT(most, 0.999 * horizontal / 2 * degree);
+            if (profile == Profile::box) {
+                EXPECT_GT(most, 0.999 * horizontal / 2 * degree);
+            }
         }
     }
 }

@@ -155,7 +155,9 @@ TYPED_TEST(Laws, SequentialLightEndsBeyondTheCriticalAngle) {
         Passage<F> way{ray, {F(0), F(0)}, F(1), true};
         refract_down(scene, back.shape, back, meet(back.shape, back, ray), way);
         EXPECT_EQ(way.alive, angle < critical) << angle / degree;
-        if (way.alive) EXPECT_NEAR(double(way.ray.to.x), 1.5 * std::sin(angle), bound<F>);
+        if (way.alive) {
+            EXPECT_NEAR(double(way.ray.to.x), 1.5 * std::sin(angle), bound<F>);
+        }
     }
 }
 
