@@ -4,8 +4,10 @@
 #include "engine/scene.h"
 
 #include <tbb/blocked_range2d.h>
+#include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
 
 #include <fmt/format.h>
@@ -59,18 +61,29 @@ Rendering render(const Display& display, const Geometry& geometry, const Texels&
 
     const auto start = std::chrono::steady_clock::now();
     std::atomic<std::int64_t> done{0};
+    // TBB keeps to the number of processors unless told otherwise; a request for more is the user's to make.
+    const tbb::global_control workers(tbb::global_control::max_allowed_parallelism,
+                                      std::size_t(std::max(result.threads, tbb::info::default_concurrency())));
     tbb::task_arena arena(result.threads);
     arena.execute([&] {
-        const tbb::blocked_range2d<int> tiles(crop.y0, crop.y1, kTileHeight, crop.x0, crop.x1, kTileWidth);
-        tbb::parallel_for(tiles, [&](const tbb::blocked_range2d<int>& r) {
-            if (job.cancelled()) return;
-            kernel.run({&scene, &view, &sobol_directions(), panel.data(), result.image.rgb.data(), crop.x0, crop.y0,
-                        result.image.width, r.cols().begin(), r.rows().begin(), r.cols().end(), r.rows().end(), samples,
-                        display.render.sampling, dimensions});
-            const std::int64_t part = std::int64_t(r.rows().size()) * std::int64_t(r.cols().size());
-            done += part;
-            job.advance(part);
-        });
+        // Tiles lie in a grid of the whole frame, so that none cuts through a packet's block except at the crop's border.
+        const tbb::blocked_range2d<int> tiles(crop.y0 / kTileHeight, (crop.y1 - 1) / kTileHeight + 1, 1, crop.x0 / kTileWidth,
+                                              (crop.x1 - 1) / kTileWidth + 1, 1);
+        tbb::parallel_for(
+            tiles,
+            [&](const tbb::blocked_range2d<int>& r) {
+                if (job.cancelled()) return;
+                const int x0 = std::max(r.cols().begin() * kTileWidth, crop.x0),
+                          x1 = std::min(r.cols().end() * kTileWidth, crop.x1);
+                const int y0 = std::max(r.rows().begin() * kTileHeight, crop.y0),
+                          y1 = std::min(r.rows().end() * kTileHeight, crop.y1);
+                kernel.run({&scene, &view, &sobol_directions(), panel.data(), result.image.rgb.data(), crop.x0, crop.y0,
+                            result.image.width, x0, y0, x1, y1, samples, display.render.sampling, dimensions});
+                const std::int64_t part = std::int64_t(x1 - x0) * (y1 - y0);
+                done += part;
+                job.advance(part);
+            },
+            tbb::simple_partitioner());
     });
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     result.complete = done == pixels;

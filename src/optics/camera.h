@@ -1,7 +1,7 @@
 // The camera: for each pixel the ray through its centre, and how a sample departs from it. Floor 1.
 //
 // The ray through the pixel's centre is followed in double precision to the first plane of the display (the diffuser, or the top of
-// the lens array); the tracer starts there, from the axis of the lens nearest to that point, so that float is enough.
+// the lens array); the tracer starts there, from the axis of a lens near that point, so that float is enough.
 #pragma once
 #include "optics/elementary.h"
 #include "optics/lens_array.h"
@@ -18,60 +18,64 @@ struct PixelRays {
     Vec3<F> to;     // unit, in the display's frame
     F per_length;   // 1 / length of (to scaled to the frame)
     Mask<F> alive;  // looks towards the display
-    Extent<F> extent;
-    PanelBase<F> base;
+    Extent<Scalar<F>> extent;
+    PanelBase<Scalar<F>> base;
 };
 
 /// A packet's pixels form a block of the frame, so that its rays see near panel pixels.
 template <class F>
 struct Block {
     static constexpr int lanes = LaneTraits<F>::width;
-    static constexpr int width = lanes >= 16 ? 8 : lanes >= 8 ? 4 : lanes;
+    static constexpr int width = lanes >= 8 ? 4 : lanes >= 4 ? 2 : lanes;
     static constexpr int height = lanes / width;
 };
 
-/// The rays of the block whose first pixel is (column, row). Written as a loop over lanes that the compiler makes SIMD code of.
+/// The largest block. Its pixels share their base lens, so that this does not depend on the width of the kernel's packets.
+constexpr std::int32_t kSharedWidth = 4, kSharedHeight = 4;
+
+/// The ray through the point (column, row) of the frame, in pixels: its direction, not normalised, and where it crosses the first
+/// plane, in the array's frame. A ray that looks away crosses it nowhere; it gets some finite place.
+LFDSIM_FN void follow_to_first_plane(const View& view, double column, double row, double d[3], double& x, double& y) {
+    const double sx = (column - 0.5 * view.width) * view.pixel_mm, sy = (0.5 * view.height - row) * view.pixel_mm;
+    for (int a = 0; a < 3; ++a) d[a] = view.forward[a] * view.distance + view.right[a] * sx + view.up[a] * sy;
+    const double down = d[2] < -1e-9 * view.distance ? d[2] : -view.distance;
+    const double t = (view.start_z - view.position[2]) / down;
+    const double px = view.position[0] + d[0] * t - view.offset[0], py = view.position[1] + d[1] * t - view.offset[1];
+    x = view.cos_rotation * px + view.sin_rotation * py;
+    y = view.cos_rotation * py - view.sin_rotation * px;
+}
+
+/// The rays of the block whose first pixel is (column, row), multiples of the block's size.
 template <class F>
 LFDSIM_FN PixelRays<F> pixel_rays(const View& view, std::int32_t column, std::int32_t row) {
     using S = Scalar<F>;
     constexpr int N = LaneTraits<F>::width;
-    S x[N], y[N], dx[N], dy[N], dz[N], per_length[N], low_i[N], high_i[N], low_j[N], high_j[N], column_rest[N], row_rest[N];
-    std::uint32_t base_column[N], base_row[N];
-    const double* const o = view.position;
-    const double c = view.cos_rotation, s = view.sin_rotation;
-    for (int k = 0; k < N; ++k) {
-        const double sx = (column + k % Block<F>::width + 0.5 - 0.5 * view.width) * view.pixel_mm;
-        const double sy = (0.5 * view.height - (row + k / Block<F>::width + 0.5)) * view.pixel_mm;
-        double d[3];
-        for (int a = 0; a < 3; ++a) d[a] = view.forward[a] * view.distance + view.right[a] * sx + view.up[a] * sy;
+    double d[3], x0, y0;
+    follow_to_first_plane(view, column / kSharedWidth * kSharedWidth + kSharedWidth / 2,
+                          row / kSharedHeight * kSharedHeight + kSharedHeight / 2, d, x0, y0);
+    auto nearest = [&](double place, double count) {
+        const double i = __builtin_floor(place / view.pitch + 0.5 * count);
+        return i > 0 ? i < count - 1 ? i : count - 1 : 0;
+    };
+    const double nx = view.count[0], ny = view.count[1], i = nearest(x0, nx), j = nearest(y0, ny);
+    const double cx = (i + 0.5 - 0.5 * nx) * view.pitch, cy = (j + 0.5 - 0.5 * ny) * view.pitch;  // the base lens's axis
+    const double u =
+        (view.cos_rotation * cx - view.sin_rotation * cy + view.offset[0] + 0.5 * view.panel_width) * view.pixels_per_mm;
+    const double v =
+        (0.5 * view.panel_height - (view.sin_rotation * cx + view.cos_rotation * cy + view.offset[1])) * view.pixels_per_mm;
+    const double whole_u = __builtin_floor(u), whole_v = __builtin_floor(v);
+
+    S x[N], y[N], dx[N], dy[N], dz[N], per_length[N];
+    for (int k = 0; k < N; ++k) {  // compilers make SIMD code of this
+        double px, py;
+        follow_to_first_plane(view, column + k % Block<F>::width + 0.5, row + k / Block<F>::width + 0.5, d, px, py);
         const double inverse = 1 / __builtin_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-        // A ray that looks away has no such point; any finite one will do for it.
-        const double down = d[2] < -1e-9 * view.distance ? d[2] : -view.distance;
-        const double t = (view.start_z - o[2]) / down;
-        const double px = o[0] + d[0] * t - view.offset[0], py = o[1] + d[1] * t - view.offset[1];
-        const double ax = c * px + s * py, ay = c * py - s * px;  // into the array's frame
-        double i = __builtin_floor(ax / view.pitch + 0.5 * view.count[0]),
-               j = __builtin_floor(ay / view.pitch + 0.5 * view.count[1]);
-        i = i < 0 ? 0 : i > view.count[0] - 1 ? view.count[0] - 1 : i;
-        j = j < 0 ? 0 : j > view.count[1] - 1 ? view.count[1] - 1 : j;
-        const double cx = (i + 0.5 - 0.5 * view.count[0]) * view.pitch, cy = (j + 0.5 - 0.5 * view.count[1]) * view.pitch;
-        const double u = (c * cx - s * cy + view.offset[0] + 0.5 * view.panel_width) * view.pixels_per_mm;
-        const double v = (0.5 * view.panel_height - (s * cx + c * cy + view.offset[1])) * view.pixels_per_mm;
-        const double whole_u = __builtin_floor(u), whole_v = __builtin_floor(v);
-        x[k] = S(ax - cx);
-        y[k] = S(ay - cy);
+        x[k] = S(px - cx);
+        y[k] = S(py - cy);
         dx[k] = S(d[0] * inverse);
         dy[k] = S(d[1] * inverse);
         dz[k] = S(d[2] * inverse);
         per_length[k] = S(inverse);
-        low_i[k] = S(-i);
-        high_i[k] = S(view.count[0] - 1 - i);
-        low_j[k] = S(-j);
-        high_j[k] = S(view.count[1] - 1 - j);
-        column_rest[k] = S(u - whole_u);
-        row_rest[k] = S(v - whole_v);
-        base_column[k] = std::uint32_t(std::int32_t(whole_u));
-        base_row[k] = std::uint32_t(std::int32_t(whole_v));
     }
     const F z = load<F>(dz);
     return {load<F>(x),
@@ -79,8 +83,20 @@ LFDSIM_FN PixelRays<F> pixel_rays(const View& view, std::int32_t column, std::in
             {load<F>(dx), load<F>(dy), z},
             load<F>(per_length),
             z < F(S(-1e-9)),
-            {load<F>(low_i), load<F>(high_i), load<F>(low_j), load<F>(high_j)},
-            {load<F>(base_column), load<F>(base_row), load<F>(column_rest), load<F>(row_rest)}};
+            {S(-i), S(nx - 1 - i), S(-j), S(ny - 1 - j)},
+            {std::uint32_t(std::int32_t(whole_u)), std::uint32_t(std::int32_t(whole_v)), S(u - whole_u), S(v - whole_v)}};
+}
+
+/// The same pixels for two samples at once.
+template <class H>
+LFDSIM_FN PixelRays<Pair<H>> twice(const PixelRays<H>& p) {
+    return {{p.x, p.x},
+            {p.y, p.y},
+            {{p.to.x, p.to.x}, {p.to.y, p.to.y}, {p.to.z, p.to.z}},
+            {p.per_length, p.per_length},
+            {p.alive, p.alive},
+            p.extent,
+            p.base};
 }
 
 /// A point of the unit disk for two numbers in [-1, 1], area preserved (Shirley and Chiu 1997).

@@ -143,7 +143,7 @@ LFDSIM_FN Mask<F> between_faces(const Scene<Scalar<F>>& scene, Vec3<F> local, bo
 
 /// The walls of one cell: a cylinder, or four planes. caps_only: the walls above and below a plate, at the array's border.
 template <class F>
-LFDSIM_FN void cross_walls(const Scene<Scalar<F>>& scene, const Extent<F>& extent, Vec3<F> at, Vec3<F> to, bool inwards,
+LFDSIM_FN void cross_walls(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, Vec3<F> at, Vec3<F> to, bool inwards,
                            Cell<F> cell, Mask<F> active, bool caps_only, Crossing<F>& best) {
     const F x = at.x - cell.i * F(scene.pitch), y = at.y - cell.j * F(scene.pitch), zero = F(0);
     if (scene.aperture == Aperture::circle) {
@@ -195,8 +195,8 @@ struct GlassRays {
 
 /// Separate solids: from inside to the own faces and walls, from outside to those of the cells on the way.
 template <class F>
-LFDSIM_FN void next_in_clear(const Scene<Scalar<F>>& scene, const Extent<F>& extent, const GlassRays<F>& rays, Mask<F> alive,
-                             Crossing<F>& best) {
+LFDSIM_FN void next_in_clear(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const GlassRays<F>& rays,
+                             Mask<F> alive, Crossing<F>& best) {
     auto solid = [&](Cell<F> cell, Mask<F> active, bool inwards) {
         cross_face(scene, true, rays.at, rays.to, inwards, cell, active, best);
         cross_face(scene, false, rays.at, rays.to, inwards, cell, active, best);
@@ -215,7 +215,7 @@ LFDSIM_FN void next_in_clear(const Scene<Scalar<F>>& scene, const Extent<F>& ext
 
 /// One sheet: the flat of a face between the caps, and the caps of the cells on the way through their zone.
 template <class F>
-LFDSIM_FN void next_on_face(const Scene<Scalar<F>>& scene, const Extent<F>& extent, bool top, bool inwards,
+LFDSIM_FN void next_on_face(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, bool top, bool inwards,
                             const GlassRays<F>& rays, Mask<F> active, Crossing<F>& best) {
     using S = Scalar<F>;
     const auto& surface = scene.surface[top ? 0 : scene.surface_count - 1];
@@ -246,8 +246,8 @@ LFDSIM_FN void next_on_face(const Scene<Scalar<F>>& scene, const Extent<F>& exte
 }
 
 template <class F>
-LFDSIM_FN void next_in_plate(const Scene<Scalar<F>>& scene, const Extent<F>& extent, const GlassRays<F>& rays, Mask<F> alive,
-                             Crossing<F>& best) {
+LFDSIM_FN void next_in_plate(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const GlassRays<F>& rays,
+                             Mask<F> alive, Crossing<F>& best) {
     const Mask<F> within = alive && rays.inside, above = alive && !rays.inside && !rays.below,
                   below = alive && !rays.inside && rays.below;
     if (any(within)) {
@@ -286,7 +286,7 @@ LFDSIM_FN void cross(const Scene<Scalar<F>>& scene, const Crossing<F>& here, Mas
 constexpr int kMostSurfaces = 16;
 
 template <class F>
-LFDSIM_FN PanelHit<F> trace_glass(const Scene<Scalar<F>>& scene, const Extent<F>& extent, const PanelBase<F>& base,
+LFDSIM_FN PanelHit<F> trace_glass(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const PanelBase<Scalar<F>>& base,
                                   Passage<F> way) {
     using S = Scalar<F>;
     // Begin above everything.

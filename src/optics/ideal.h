@@ -6,7 +6,7 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 
 /// From the plane of the lens to the panel: slope on the panel's side = slope on the viewer's side + q / f.
 template <class F>
-LFDSIM_FN PanelHit<F> trace_ideal(const Scene<Scalar<F>>& scene, const Extent<F>& extent, const PanelBase<F>& base,
+LFDSIM_FN PanelHit<F> trace_ideal(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const PanelBase<Scalar<F>>& base,
                                   Passage<F> way) {
     using S = Scalar<F>;
     const Vec3<F> at = way.ray.at;

@@ -1,6 +1,6 @@
 // Which lens? The lattice, its stops, and the lens that a slanting ray meets first. Floor 1.
 //
-// Positions are in the frame of the array (turned with it), relative to the axis of a base lens near the ray, one for each pixel:
+// Positions are in the frame of the array (turned with it), relative to the axis of a base lens near the rays of a packet:
 // single precision then never sees a number much larger than a lens. Cells are whole numbers relative to the base lens.
 #pragma once
 #include "optics/lane.h"
@@ -15,10 +15,13 @@ struct Cell {
 };
 
 /// The cells that hold a lens, relative to the base lens: low .. high inclusive.
-template <class F>
+template <class S>
 struct Extent {
-    F low_i, high_i, low_j, high_j;
-    LFDSIM_FN Mask<F> holds(Cell<F> c) const { return (c.i >= low_i) && (c.i <= high_i) && (c.j >= low_j) && (c.j <= high_j); }
+    S low_i, high_i, low_j, high_j;
+    template <class F>
+    LFDSIM_FN Mask<F> holds(Cell<F> c) const {
+        return (c.i >= F(low_i)) && (c.i <= F(high_i)) && (c.j >= F(low_j)) && (c.j <= F(high_j));
+    }
 };
 
 template <class F>
@@ -28,7 +31,7 @@ LFDSIM_FN F nearest_cell(const Scene<Scalar<F>>& scene, F x) {
 
 /// A ray that crosses the plane of the stops at (x, y): does it pass a hole?
 template <class F>
-LFDSIM_FN Mask<F> passes_stop(const Scene<Scalar<F>>& scene, const Extent<F>& extent, F x, F y) {
+LFDSIM_FN Mask<F> passes_stop(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, F x, F y) {
     const Cell<F> cell{nearest_cell(scene, x), nearest_cell(scene, y)};
     const F lx = x - cell.i * F(scene.pitch), ly = y - cell.j * F(scene.pitch);
     return (lx * lx + ly * ly <= F(scene.stop_radius2)) && extent.holds(cell);
@@ -38,7 +41,7 @@ LFDSIM_FN Mask<F> passes_stop(const Scene<Scalar<F>>& scene, const Extent<F>& ex
 /// calls try_cell(cell, active) in each that holds a lens; it returns the lanes that are done. Exact at any slope: no cell is
 /// jumped over. s is the way in z, m the lateral way per s.
 template <class F, class Try>
-LFDSIM_FN void walk_cells(const Scene<Scalar<F>>& scene, const Extent<F>& extent, F x, F y, F mx, F my, F from, F depth,
+LFDSIM_FN void walk_cells(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, F x, F y, F mx, F my, F from, F depth,
                           Mask<F> active, Try try_cell) {
     const F huge = F(Scalar<F>(1e30)), zero = F(0), one = F(1), p = F(scene.pitch), half = F(scene.half_pitch);
     // Ways to the array's border, so that a ray from outside starts where it enters.
@@ -50,14 +53,14 @@ LFDSIM_FN void walk_cells(const Scene<Scalar<F>>& scene, const Extent<F>& extent
         out = select(still, select(within, huge, -huge), max(a, b));
     };
     F in_x, out_x, in_y, out_y;
-    axis(x, mx, extent.low_i, extent.high_i, in_x, out_x);
-    axis(y, my, extent.low_j, extent.high_j, in_y, out_y);
+    axis(x, mx, F(extent.low_i), F(extent.high_i), in_x, out_x);
+    axis(y, my, F(extent.low_j), F(extent.high_j), in_y, out_y);
     const F begin = max(max(in_x, in_y), from), end = min(min(out_x, out_y), depth);
     active = active && (begin <= end);
 
     const F step_i = select(mx < zero, -one, one), step_j = select(my < zero, -one, one);
-    Cell<F> cell{min(max(nearest_cell(scene, x + mx * begin), extent.low_i), extent.high_i),
-                 min(max(nearest_cell(scene, y + my * begin), extent.low_j), extent.high_j)};
+    Cell<F> cell{min(max(nearest_cell(scene, x + mx * begin), F(extent.low_i)), F(extent.high_i)),
+                 min(max(nearest_cell(scene, y + my * begin), F(extent.low_j)), F(extent.high_j))};
     while (any(active)) {
         active = active && !try_cell(cell, active);
         // Where the line leaves this cell: through the nearer of its two borders ahead.

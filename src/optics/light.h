@@ -13,13 +13,13 @@ struct Light {
     F sum[4] = {F(0), F(0), F(0), F(0)};
 
     LFDSIM_FN void add(const float* texels, const PanelHit<F>& hit) {
-        if constexpr (N == 1) {
-            if (!hit.lit) return;
-            const float* const texel = texels + std::size_t(hit.pixel) * 4;
-            for (int c = 0; c < 3; ++c) sum[c] = sum[c] + F(texel[c]) * hit.weight;
-        } else {
-            add_lanes(texels, select(hit.lit, hit.pixel, Uint<F>(0u)), select(hit.lit, hit.weight, F(0)));
-        }
+        const Found found(hit);
+        add_quarters([&](auto quarter) { return found.light(texels, quarter); });
+    }
+    /// Two samples: their sum is formed first.
+    LFDSIM_FN void add(const float* texels, const PanelHit<Pair<F>>& hit) {
+        const Found a({hit.pixel.a, hit.weight.a, hit.lit.a}), b({hit.pixel.b, hit.weight.b, hit.lit.b});
+        add_quarters([&](auto quarter) { return a.light(texels, quarter) + b.light(texels, quarter); });
     }
     LFDSIM_FN void add(const Light& other) {
         for (int r = 0; r < 4; ++r) sum[r] = sum[r] + other.sum[r];
@@ -33,44 +33,47 @@ struct Light {
     }
 
   private:
-    LFDSIM_FN void add_lanes(const float* texels, Uint<F> pixel, F weight) {
-        std::uint32_t index[N];
-        __builtin_memcpy(index, &pixel, sizeof index);
-        asm(""
-            : "+m"(
-                index));  // indices and addresses go by way of memory: compilers like to extract them from vectors, which is slower
-        add_quarter<0>(texels, index, weight);
-        add_quarter<1>(texels, index, weight);
-        add_quarter<2>(texels, index, weight);
-        add_quarter<3>(texels, index, weight);
+    template <int n>
+    struct Number {
+        static constexpr int value = n;
+    };
+    template <class Term>
+    LFDSIM_FN void add_quarters(Term term) {
+        sum[0] = sum[0] + term(Number<0>());
+        sum[1] = sum[1] + term(Number<1>());
+        sum[2] = sum[2] + term(Number<2>());
+        sum[3] = sum[3] + term(Number<3>());
     }
-    template <int quarter>
-    LFDSIM_FN void add_quarter(const float* texels, const std::uint32_t* index, F weight) {
-        constexpr int first = quarter * (N / 4);
-        F texel, repeated;  // the texels of N / 4 lanes side by side; their weights, each four times
-        for (int k = 0; k < N / 4; ++k) {
-            std::size_t i = index[first + k];
-            asm("" : "+r"(i));
-            __builtin_memcpy((char*)&texel + 16 * k, texels + i * 4, 16);
+
+    /// Texels met, and the weights of their light; 0 where a ray met none.
+    struct Found {
+        std::uint32_t index[N];  // in pairs of floats: with a scale of 8 bytes the address needs no shift
+        F weight;
+
+        LFDSIM_FN explicit Found(const PanelHit<F>& hit) : weight(select(hit.lit, hit.weight, F(0))) {
+            const Uint<F> pairs = select(hit.lit, hit.pixel, Uint<F>(0u)) << 1;
+            __builtin_memcpy(index, &pairs, sizeof index);
+            // By way of memory, for compilers like to extract addresses from vectors, which is slower.
+            if constexpr (N > 1) asm("" : "+m"(index));
         }
-        for (int k = 0; k < N; ++k) repeated.v[k] = weight.v[first + k / 4];
-        sum[quarter] = sum[quarter] + texel * repeated;
-    }
-};
-
-template <class H>
-struct Light<Pair<H>> {
-    Light<H> a, b;
-
-    LFDSIM_FN void add(const float* texels, const PanelHit<Pair<H>>& hit) {
-        a.add(texels, {hit.pixel.a, hit.weight.a, hit.lit.a});
-        b.add(texels, {hit.pixel.b, hit.weight.b, hit.lit.b});
-    }
-    LFDSIM_FN void add(const Light& other) {
-        a.add(other.a);
-        b.add(other.b);
-    }
-    LFDSIM_FN Scalar<H> operator()(int k, int c) const { return k < Light<H>::N ? a(k, c) : b(k - Light<H>::N, c); }
+        /// The texels of lanes quarter N/4 .. (quarter + 1) N/4 - 1 side by side, times their weights. One lane: colour `quarter`.
+        template <class Quarter>
+        LFDSIM_FN F light(const float* texels, Quarter) const {
+            if constexpr (N == 1) {
+                return F(texels[std::size_t(index[0]) * 2 + Quarter::value]) * weight;
+            } else {
+                constexpr int first = Quarter::value * (N / 4);
+                F texel, repeated;
+                for (int k = 0; k < N / 4; ++k) {
+                    std::size_t i = index[first + k];
+                    asm("" : "+r"(i));
+                    __builtin_memcpy((char*)&texel + 16 * k, texels + i * 2, 16);
+                }
+                for (int k = 0; k < N; ++k) repeated.v[k] = weight.v[first + k / 4];
+                return texel * repeated;
+            }
+        }
+    };
 };
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -1,7 +1,7 @@
-// Pair<H>: twice the lanes of H, in two registers. Floor 1.
+// Pair<H>: two numbers H side by side, as the tracer uses them for two samples of the same pixels. Floor 1.
 //
-// A sample is one long chain of operations, each waiting for the last. Two chains side by side fill each other's waits: half as
-// fast again (docs/performance.md). The bits do not change, since a lane knows nothing of its neighbours.
+// A sample is one long chain of operations, each waiting for the last. Two chains side by side fill each other's waits, and share
+// what is known of their pixels (docs/performance.md).
 #pragma once
 #include "optics/lane.h"
 

@@ -6,11 +6,11 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// Where the axis of a pixel's base lens meets the panel: whole panel pixel and the rest in [0, 1).
-template <class F>
+/// Where the axis of a packet's base lens meets the panel: whole panel pixel and the rest in [0, 1).
+template <class S>
 struct PanelBase {
-    Uint<F> column, row;
-    F column_rest, row_rest;
+    std::uint32_t column, row;
+    S column_rest, row_rest;
 };
 
 /// A panel pixel: its number row x columns + column where `lit`, and what the ray carries of its light.
@@ -24,7 +24,7 @@ struct PanelHit {
 /// The pixel under (x, y), mm from the axis of the lens `cell` in the array's frame. Numbers stay small, so that the place is good
 /// to a few millionths of a pixel on any panel.
 template <class F>
-LFDSIM_FN PanelHit<F> panel_pixel(const Scene<Scalar<F>>& scene, const PanelBase<F>& base, Cell<F> cell, F x, F y, F weight,
+LFDSIM_FN PanelHit<F> panel_pixel(const Scene<Scalar<F>>& scene, const PanelBase<Scalar<F>>& base, Cell<F> cell, F x, F y, F weight,
                                   Mask<F> lit) {
     const F k = F(scene.pixels_per_mm), p = F(scene.pitch_pixels);
     F u = x * k + cell.i * p, v = y * k + cell.j * p;
@@ -33,8 +33,8 @@ LFDSIM_FN PanelHit<F> panel_pixel(const Scene<Scalar<F>>& scene, const PanelBase
         v = sine * u + cosine * v;
         u = turned;
     }
-    const Uint<F> column = base.column + to_int(floor(base.column_rest + u));
-    const Uint<F> row = base.row + to_int(floor(base.row_rest - v));
+    const Uint<F> column = Uint<F>(base.column) + to_int(floor(F(base.column_rest) + u));
+    const Uint<F> row = Uint<F>(base.row) + to_int(floor(F(base.row_rest) - v));
     lit = lit && (column < Uint<F>(scene.columns)) && (row < Uint<F>(scene.rows));
     return {row * Uint<F>(scene.columns) + column, weight, lit};
 }

@@ -5,6 +5,7 @@
 // random: independent hashes. Numbers are centred: uniform in [-1, 1].
 #pragma once
 #include "optics/lane.h"
+#include "optics/pair.h"
 #include "optics/scene.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
@@ -56,6 +57,13 @@ struct Sampler {
         if (dimensions <= 2) return;
         for (int d = 2; d < kDimensions; ++d) point[d] ^= directions.v[d][bit];
     }
+};
+
+/// Two samples of the same pixels.
+template <class H>
+struct SamplerPair {
+    const Sampler<H>&a, &b;
+    LFDSIM_FN Pair<H> operator()(int d) const { return {a(d), b(d)}; }
 };
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -79,8 +79,8 @@ LFDSIM_FN Hit<F> meet_first(const Scene<Scalar<F>>& scene, Ray<F> ray, Cell<F> c
 
 /// Looks for the cap that rays astray meet before they are as low as the rims: (x, y) in the zone's top plane, m = -d(x, y)/dz.
 template <Shapes shapes, class F>
-LFDSIM_RARE void meet_neighbours(const Scene<Scalar<F>>& scene, const Extent<F>& extent, const Ray<F>& ray, F x, F y, F mx, F my,
-                                 Mask<F> astray, Hit<F>& hit, Cell<F>& cell) {
+LFDSIM_RARE void meet_neighbours(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F x, F y, F mx,
+                                 F my, Mask<F> astray, Hit<F>& hit, Cell<F>& cell) {
     auto try_cell = [&](Cell<F> here, Mask<F> active) {
         const Hit<F> next = meet_first<shapes>(scene, ray, here);
         const Mask<F> met = active && next.ok;
@@ -106,7 +106,7 @@ LFDSIM_RARE void meet_neighbours(const Scene<Scalar<F>>& scene, const Extent<F>&
 /// The first surface, from a ray in the plane of its vertex, from the base lens. Most rays meet the cap of the cell they point at;
 /// one that misses it and slants out of the cell before it is as low as the rims looks into the next cells.
 template <Shapes shapes, class F>
-LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<F>& extent, const Ray<F>& ray, Passage<F>& way) {
+LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, Passage<F>& way) {
     const auto& first = scene.surface[0];
     const F p = F(scene.pitch), fall = F(1) / ray.to.z;  // dx/dz = to.x fall
     // The cell is taken where the ray comes to the zone of the caps (the plane of the rims, if they are the highest).
@@ -146,7 +146,7 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<F>& ext
 
 /// From the plane of the first vertex to the panel. `way.ray` stands there, from the base lens.
 template <Shapes shapes, class F>
-LFDSIM_FN PanelHit<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent<F>& extent, const PanelBase<F>& base,
+LFDSIM_FN PanelHit<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const PanelBase<Scalar<F>>& base,
                                    Passage<F> way) {
     using S = Scalar<F>;
     // The stop is tested where the ray first crosses its plane: before the first surface or after any.

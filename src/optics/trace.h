@@ -20,10 +20,9 @@ LFDSIM_FN Way way_through(const Scene<S>& scene) {
     return plain && !scene.has_stop && !scene.dimple ? Way::plano_convex : Way::opaque;
 }
 
-/// One sample of each pixel of a packet.
-template <Way through, class F>
-LFDSIM_FN PanelHit<F> trace(const Scene<Scalar<F>>& scene, const View& view, const PixelRays<F>& pixels,
-                            const Sampler<F>& sampler) {
+/// One sample of each pixel of a packet; sampler(d) gives its number of dimension d, in [-1, 1].
+template <Way through, class F, class Samples>
+LFDSIM_FN PanelHit<F> trace(const Scene<Scalar<F>>& scene, const View& view, const PixelRays<F>& pixels, const Samples& sampler) {
     using S = Scalar<F>;
     // The camera
     Passage<F> way{{{pixels.x, pixels.y, F(0)}, pixels.to}, {F(0), F(0)}, F(1), pixels.alive};

@@ -12,27 +12,40 @@ namespace lfdsim {
 namespace {
 
 #if LFDSIM_LANES > 1
-using F = optics::Pair<optics::Lane<LFDSIM_LANES>>;
+using F = optics::Lane<LFDSIM_LANES>;
 #else
 using F = float;
 #endif
 
-constexpr std::uint32_t kBlock = 256;  // samples summed in one go, so that rounding does not grow with their number
+constexpr std::uint32_t kBlock = 256;  // samples summed in one go (even), so that rounding does not grow with their number
 
-/// Lanes are neighbouring pixels and each adds its samples in their order, so that no bit depends on the packet a pixel is in.
+template <optics::Way through>
+__attribute__((noinline)) optics::PanelHit<F> trace_one(const Tile& tile, const optics::PixelRays<F>& pixels,
+                                                        const optics::Sampler<F>& sampler) {
+    return optics::trace<through>(*tile.scene, *tile.view, pixels, sampler);
+}
+
+/// Lanes are neighbouring pixels and each adds its samples in their order, two at a time, so that no bit depends on the packet a
+/// pixel is in.
 template <optics::Way through>
 LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& pixels, optics::Uint<F> pixel) {
-    optics::Sampler<F> sampler(tile.sampling, tile.dimensions, tile.view->seed, pixel);
+    optics::Sampler<F> even(tile.sampling, tile.dimensions, tile.view->seed, pixel), odd = even;
+    odd.next(*tile.directions);
+    const auto twice = optics::twice(pixels);
     optics::Light<F> total;
-    for (std::uint32_t sample = 0; sample < tile.samples;) {
+    for (std::uint32_t sample = 0; sample + 1 < tile.samples;) {
         optics::Light<F> block;
         const std::uint32_t end = tile.samples - sample < kBlock ? tile.samples : sample + kBlock;
-        for (; sample < end; ++sample) {
-            block.add(tile.texels, optics::trace<through>(*tile.scene, *tile.view, pixels, sampler));
-            sampler.next(*tile.directions);
+        for (; sample + 1 < end; sample += 2) {
+            block.add(tile.texels, optics::trace<through>(*tile.scene, *tile.view, twice, optics::SamplerPair<F>{even, odd}));
+            even.next(*tile.directions);
+            even.next(*tile.directions);
+            odd.next(*tile.directions);
+            odd.next(*tile.directions);
         }
         total.add(block);
     }
+    if (tile.samples % 2 == 1) total.add(tile.texels, trace_one<through>(tile, pixels, even));
     return total;
 }
 
@@ -41,14 +54,14 @@ void render_tile(const Tile& tile) {
     using Block = optics::Block<F>;
     std::uint32_t lane[Block::lanes];  // number of its pixel in the frame, from the block's first
     for (int k = 0; k < Block::lanes; ++k) lane[k] = std::uint32_t(k / Block::width * tile.view->width + k % Block::width);
-    for (std::int32_t y = tile.y0; y < tile.y1; y += Block::height) {
-        for (std::int32_t x = tile.x0; x < tile.x1; x += Block::width) {
+    for (std::int32_t y = tile.y0 / Block::height * Block::height; y < tile.y1; y += Block::height) {
+        for (std::int32_t x = tile.x0 / Block::width * Block::width; x < tile.x1; x += Block::width) {
             const auto pixel =
                 optics::load<F>(lane) + optics::Uint<F>(std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x));
             const optics::Light<F> light = gather<through>(tile, optics::pixel_rays<F>(*tile.view, x, y), pixel);
             for (int k = 0; k < Block::lanes; ++k) {
                 const std::int32_t column = x + k % Block::width, row = y + k / Block::width;
-                if (column >= tile.x1 || row >= tile.y1) continue;
+                if (column < tile.x0 || column >= tile.x1 || row < tile.y0 || row >= tile.y1) continue;
                 float* const out = tile.out + (std::int64_t(row - tile.crop_y) * tile.crop_width + (column - tile.crop_x)) * 3;
                 for (int c = 0; c < 3; ++c) out[c] = light(k, c) / float(tile.samples);
             }
