@@ -19,7 +19,8 @@ checks.refused(program, "no reader", "photo tiny.toml --model pyramid.obj -o out
                env={"LFDSIM_MODEL_READER": "/none"})
 
 broken = pathlib.Path("/usr/share/assimp/models/glTF2")
-names = ["IndexOutOfRange/AllIndicesOutOfRange.gltf", "BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb", "RecursiveNodes/RecursiveNodes.gltf", "MissingBin/BoxTextured.gltf",
+names = ["IndexOutOfRange/AllIndicesOutOfRange.gltf", "IndexOutOfRange/IndexOutOfRange.gltf",
+         "BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb", "RecursiveNodes/RecursiveNodes.gltf", "MissingBin/BoxTextured.gltf",
          "SchemaFailures/sceneWrongType.gltf"]
 models = [broken / name for name in names if (broken / name).exists()]
 if checks.wrong == 0 and not models:

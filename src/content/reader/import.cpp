@@ -208,6 +208,10 @@ Model import(const std::filesystem::path& file, const std::string& up) {
         if (std::string(importer.GetErrorString()) == "std::bad_alloc") throw std::bad_alloc();
         throw std::runtime_error(importer.GetErrorString());
     }
+    // A face that points at no vertex is damage, not a matter of taste: Assimp would leave it out and go on.
+    for (const std::string& warning : warnings->texts)
+        if (warning.find("out-of-range ind") != std::string::npos)
+            throw std::runtime_error("some faces have indices of vertices that do not exist; the file is damaged, export it again");
     Model model = Conversion(*scene, *folder, format, turn(*scene, format, up)).run();
     // Blender's loader warns of every field that a version of the program did not have.
     if (!format.starts_with("Blender")) model.notes.insert(model.notes.end(), warnings->texts.begin(), warnings->texts.end());
