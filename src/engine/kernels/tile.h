@@ -26,7 +26,7 @@ __attribute__((noinline)) optics::PanelHit<F> trace_one(const Tile& tile, const 
 }
 
 /// Lanes are neighbouring pixels and each adds its samples in their order, two at a time, so that no bit depends on the packet a
-/// pixel is in.
+/// pixel is in. The light of two samples is fetched while the next two are traced: neither then waits for the other.
 template <optics::Way through>
 LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& pixels, optics::Uint<F> pixel) {
     optics::Sampler<F> even(tile.sampling, tile.dimensions, tile.view->seed, pixel), odd = even;
@@ -35,17 +35,22 @@ LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& 
     optics::Light<F> total;
     for (std::uint32_t sample = 0; sample + 1 < tile.samples;) {
         optics::Light<F> block;
+        optics::FetchPair<F> waiting;
         const std::uint32_t end = tile.samples - sample < kBlock ? tile.samples : sample + kBlock;
         for (; sample + 1 < end; sample += 2) {
-            block.add(tile.texels, optics::trace<through>(*tile.scene, *tile.view, twice, optics::SamplerPair<F>{even, odd}));
+            const optics::FetchPair<F> next(
+                optics::trace<through>(*tile.scene, *tile.view, twice, optics::SamplerPair<F>{even, odd}));
+            block.add(tile.texels, waiting);
+            waiting = next;
             even.next(*tile.directions);
             even.next(*tile.directions);
             odd.next(*tile.directions);
             odd.next(*tile.directions);
         }
+        block.add(tile.texels, waiting);
         total.add(block);
     }
-    if (tile.samples % 2 == 1) total.add(tile.texels, trace_one<through>(tile, pixels, even));
+    if (tile.samples % 2 == 1) total.add(tile.texels, optics::Fetch<F>(trace_one<through>(tile, pixels, even)));
     return total;
 }
 
