@@ -35,19 +35,19 @@ LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& 
     optics::Light<F> total;
     for (std::uint32_t sample = 0; sample + 1 < tile.samples;) {
         optics::Light<F> block;
-        optics::FetchPair<F> waiting;
+        optics::Fetch<F> first, second;  // of the last two samples
         const std::uint32_t end = tile.samples - sample < kBlock ? tile.samples : sample + kBlock;
         for (; sample + 1 < end; sample += 2) {
-            const optics::FetchPair<F> next(
-                optics::trace<through>(*tile.scene, *tile.view, twice, optics::SamplerPair<F>{even, odd}));
-            block.add(tile.texels, waiting);
-            waiting = next;
+            const auto hit = optics::trace<through>(*tile.scene, *tile.view, twice, optics::SamplerPair<F>{even, odd});
+            block.add(tile.texels, first, second);
+            first = optics::Fetch<F>({hit.pixel.a, hit.weight.a, hit.lit.a});
+            second = optics::Fetch<F>({hit.pixel.b, hit.weight.b, hit.lit.b});
             even.next(*tile.directions);
             even.next(*tile.directions);
             odd.next(*tile.directions);
             odd.next(*tile.directions);
         }
-        block.add(tile.texels, waiting);
+        block.add(tile.texels, first, second);
         total.add(block);
     }
     if (tile.samples % 2 == 1) total.add(tile.texels, optics::Fetch<F>(trace_one<through>(tile, pixels, even)));
