@@ -113,7 +113,7 @@ def memory_and_start(panel):
 
 
 def flatness(panel):
-    """Rate over lens count (one panel, lenses scaled with the pitch) and over panel size (constant pixel and lens pitch)."""
+    """Rate over lens count (one panel, lenses scaled with the pitch) and over panel size (constant pitches; constant size)."""
     base = None
     for n, m in ((14, 8), (138, 78), (1382, 778)):
         k = 384 / n / 8.8  # scale of the lens, its gap and its diffuser
@@ -132,6 +132,9 @@ def flatness(panel):
         rate = statistics.median(render_rate(DISPLAY, big, *words) for _ in range(min(3, options.runs)))
         base = base or rate
         figure(f"panel of {columns} x {rows}, constant pitch: time per sample over that of the first", base / rate, "1.3")
+    changes = ["panel.pixels=[15360,8640]", "panel.pixel_pitch_mm=0.025"]
+    fine = render_rate(DISPLAY, panel_of(DISPLAY, "fine", "--set", *changes), "--set", *changes)
+    figure("panel of 15360 x 8640, constant size: time per sample over that of 3840 x 2160", render_rate(DISPLAY, panel) / fine)
 
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
