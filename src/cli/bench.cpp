@@ -21,7 +21,7 @@ namespace lfdsim::cli {
 namespace {
 
 struct Arguments {
-    bool json = false, quick = false;
+    bool json = false, quick = false, model_given = false;
     std::string threads, kernel, model = "/usr/share/assimp/models/BLEND/Suzanne_248.blend";
 };
 
@@ -173,6 +173,8 @@ void run(const Arguments& args) {
     const int threads =
         args.threads.empty() ? tbb::info::default_concurrency() : int(whole_number("--threads", args.threads, 1, 1024));
     const std::string kernel = choose_kernel(args.kernel).name;
+    if (std::error_code error; args.model_given && !std::filesystem::exists(args.model, error))
+        throw InputError("--model", args.model + " does not exist");
     const Display display = bench_display();
     require_picture_memory(display.camera.resolution[0], display.camera.resolution[1], texel_bytes(display));
     if (!args.json) print(fmt::format("kernel {}, {} threads, best of {}\n", kernel, threads, args.quick ? 1 : 3));
@@ -194,10 +196,14 @@ void add_bench(CLI::App& program) {
         .add_option("--kernel", args->kernel,
                     "Instruction set; default: environment variable LFDSIM_KERNEL, else the best there is")
         ->type_name("scalar|baseline|avx2|avx512");
-    command.add_option("--model", args->model, "Mesh file for the content's part")->type_name("FILE")->capture_default_str();
+    const CLI::Option* model =
+        command.add_option("--model", args->model, "Mesh file for the content's part")->type_name("FILE")->capture_default_str();
     command.add_flag("--json", args->json, "Print results as JSON");
     command.footer("Example:\n  lfdsim bench --quick --threads 1");
-    command.callback([args] { run(*args); });
+    command.callback([args, model] {
+        args->model_given = model->count() > 0;
+        run(*args);
+    });
 }
 
 }  // namespace lfdsim::cli

@@ -80,6 +80,7 @@ DisplayOptions::DisplayOptions(CLI::App& command, std::initializer_list<std::spa
 
 // Options become overrides of the description, so that one validation judges file, --set and options together.
 Display DisplayOptions::read() const {
+    if (path_.empty()) throw InputError("DISPLAY.toml", "the name is empty; give the description of a display");
     Faults faults;
     std::vector<std::string> overrides = settings_;
     std::map<std::string, std::string> written;  // the place that messages give for an override: what the user wrote

@@ -2,6 +2,7 @@
 #include "cli/memory.h"
 #include "cli/output.h"
 #include "content/reader_path.h"
+#include "engine/devices.h"
 #include "engine/render.h"
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <png.h>
 #include <tbb/info.h>
 #include <unistd.h>
+#include <cctype>
 #include <cstdlib>
 #include <fstream>
 
@@ -31,6 +33,17 @@ std::string model_reader() {
     }
 }
 
+// LFDSIM_KERNEL, and what is wrong with it.
+Json forced_kernel() {
+    const char* forced = std::getenv("LFDSIM_KERNEL");
+    if (!forced || !*forced) return {};
+    try {
+        return choose_kernel("").name;
+    } catch (const InputError& error) {
+        return error.problems.front().what;
+    }
+}
+
 Json findings() {
     Json sets = Json::array(), available = Json::array(), unavailable = Json::array();
     // __builtin_cpu_supports takes literals only
@@ -47,7 +60,6 @@ Json findings() {
     add("avx512vl", __builtin_cpu_supports("avx512vl"));
     for (const KernelInfo& k : kernels())
         (k.available ? available : unavailable).push_back(fmt::format("{} ({} lanes)", k.name, k.lanes));
-    const char* forced = std::getenv("LFDSIM_KERNEL");
 
     Json all;
     all["version"] = LFDSIM_VERSION;
@@ -56,7 +68,7 @@ Json findings() {
     all["instruction_sets"] = sets;
     all["kernels"] = available;
     all["kernels_this_processor_lacks"] = unavailable;
-    all["kernel_forced_by_LFDSIM_KERNEL"] = forced && *forced ? Json(forced) : Json();
+    all["kernel_forced_by_LFDSIM_KERNEL"] = forced_kernel();
     all["threads"] = tbb::info::default_concurrency();
     all["memory_gb"] = std::round(memory_bytes() / 1e8) / 10;
     all["gpu"] = "none used: this build has no CUDA";
@@ -84,7 +96,8 @@ void run(bool json) {
     std::string text;
     for (const auto& [key, value] : all.items()) {
         std::string name = key;
-        std::replace(name.begin(), name.end(), '_', ' ');
+        for (std::size_t i = 1; i < name.size(); ++i)
+            if (name[i] == '_' && std::islower(name[i - 1])) name[i] = ' ';  // not in LFDSIM_KERNEL
         text += fmt::format("{:<32} {}\n", name, text_of(value));
     }
     print(text);

@@ -1,4 +1,4 @@
-// Ctrl-C and SIGTERM. Floor 4.
+// Ctrl-C, SIGTERM and SIGHUP. Floor 4.
 #pragma once
 #include <filesystem>
 

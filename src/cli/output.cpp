@@ -48,6 +48,12 @@ void print(std::string_view text) {
 
 void print_json(const Json& json) { print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"); }
 
+void check_output(const std::string& path) {
+    if (path.empty()) throw InputError("--output", "the name is empty; give the file to write");
+    guard_output(path);
+    check_writable(path);
+}
+
 OutputOptions::OutputOptions(CLI::App& command, const std::string& kinds) {
     command.add_option("-o,--output", path_, "Picture to write: " + kinds)->type_name("FILE")->required();
     command.add_option("--bits", bits_, "Bits per channel of a .png; default 8")->type_name("8|16");
@@ -57,14 +63,13 @@ int OutputOptions::bits() const { return bits_ == "16" ? 16 : 8; }
 
 void OutputOptions::check() const {
     Faults faults;
-    faults.of([&] { check_writable(path_); });
+    faults.of([&] { check_output(path_); });
     if (!bits_.empty()) {
         faults.of([&] { word("--bits", bits_, {"8", "16"}); });
         if (const std::string kind = std::filesystem::path(path_).extension(); kind == ".exr" || kind == ".npy")
             faults.of([&] { throw InputError("--bits", fmt::format("is for .png alone; {} holds 32-bit floats", kind)); });
     }
     faults.report();
-    guard_output(path_);
 }
 
 void OutputOptions::write(const Image& image, Encoding encoding, const Display& display, Metadata about, bool complete) const {
@@ -77,9 +82,12 @@ void OutputOptions::write(const Image& image, Encoding encoding, const Display& 
 }
 
 void end_interrupted(const std::string& saved) {
-    spdlog::warn("interrupted; {}", saved.empty()
-                                        ? "nothing was complete, nothing was written"
-                                        : saved + " holds what was complete, the rest is black, and is marked incomplete");
+    if (saved.empty())
+        spdlog::warn("interrupted; nothing was complete, nothing was written");
+    else
+        spdlog::warn(
+            "interrupted; {} holds what was complete, the rest is black{}", saved,
+            keeps_metadata(saved) ? ", and is marked incomplete" : "; a file of this kind cannot say that it is incomplete");
     throw Interrupted{};
 }
 

@@ -18,6 +18,10 @@ void print(std::string_view text);
 /// One JSON document; numbers that are not finite become null.
 void print_json(const Json&);
 
+/// To be called before long work. From here on a signal removes what is partly written. Throws InputError unless a picture can be
+/// written at `path`, which --output gave.
+void check_output(const std::string& path);
+
 /// -o and --bits.
 class OutputOptions {
   public:

@@ -49,7 +49,7 @@ void run(const Arguments& args) {
     std::int64_t columns = 0, width = 0;
     faults.of([&] { columns = whole_number("--columns", args.columns, 1, 100); });
     faults.of([&] { width = whole_number("--width-px", args.width_px, 16, 16384); });
-    faults.of([&] { check_writable(args.output); });
+    faults.of([&] { check_output(args.output); });
     if (!args.labels.empty() && args.labels.size() != args.images.size())
         faults.of([&] {
             throw InputError("--label", fmt::format("there are {} labels and {} pictures; give one label for each picture, or none",

@@ -31,7 +31,9 @@ std::string option_suggestion(const std::string& given, const CLI::App& command)
     std::vector<std::string> names;
     for (const CLI::Option* option : command.get_options())
         for (const std::string& name : option->get_lnames()) names.push_back(name);
-    const std::string near = suggestion(given.substr(given.find_first_not_of('-')), names);
+    const std::size_t letters = given.find_first_not_of('-');
+    if (letters == given.npos) return "";
+    const std::string near = suggestion(given.substr(letters), names);
     const std::size_t name = near.rfind(' ') + 1;
     return near.empty() ? "" : near.substr(0, name) + "--" + near.substr(name);
 }
@@ -79,7 +81,10 @@ InputError usage_error(const CLI::App& program, const CLI::ParseError& error) {
     std::vector<Problem> unknown, superfluous;
     for (const std::string& word : program.remaining(true)) {
         const std::string name = word.substr(0, word.find('='));
-        if (is_option(word))
+        if (word == "--") continue;  // takes no place itself; CLI11 keeps it with what it could not place
+        if (is_option(word) && command.get_option_no_throw(name))
+            unknown.push_back({name, "is in the wrong place; options come after the command and before any --"});
+        else if (is_option(word))
             unknown.push_back({name, "unknown option" + option_suggestion(name, command)});
         else
             superfluous.push_back({word, "one argument too many"});

@@ -20,8 +20,12 @@ struct WriteOptions {
     Metadata metadata;
 };
 
-/// Throws InputError unless `path` ends in .png, .exr or .npy and its folder exists and can be written. Touches nothing.
+/// Throws InputError unless `path` ends in .png, .exr or .npy and a file can be made there: makes and removes the temporary file of
+/// write_image(). What is at `path` stays as it is.
 void check_writable(const std::filesystem::path& path);
+
+/// Whether a file of this name keeps WriteOptions::metadata. Throws InputError like check_writable() for another extension.
+bool keeps_metadata(const std::filesystem::path& path);
 
 /// Writes beside, then renames, so that no partial file is ever seen. .png: see WriteOptions; .exr: float32 RGB, linear;
 /// .npy: float32, H x W x 3, linear, C order. Throws InputError (folder missing) or std::runtime_error (disk full).

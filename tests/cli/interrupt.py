@@ -1,4 +1,4 @@
-"""Ctrl-C: the first ends the work and keeps what is complete, marked; a second ends the program at once."""
+"""Ctrl-C, SIGTERM, SIGHUP: the first ends the work and keeps what is complete, marked; a second ends the program at once."""
 import json
 import signal
 import time
@@ -20,14 +20,20 @@ def begun(process):
             return
 
 
-for kind, number in [("npy", signal.SIGINT), ("png", signal.SIGINT), ("exr", signal.SIGTERM)]:
-    process = program.start(f"{LONG} --samples 300 -o out.{kind}")
+def hangup(action):
+    """For a child, as nohup (SIG_IGN) or a terminal (SIG_DFL) would start it."""
+    return {"preexec_fn": lambda: signal.signal(signal.SIGHUP, action)}
+
+
+for kind, number in [("npy", signal.SIGINT), ("png", signal.SIGHUP), ("exr", signal.SIGTERM)]:
+    process = program.start(f"{LONG} --samples 300 -o out.{kind}", **hangup(signal.SIG_DFL))
     begun(process)
     process.send_signal(number)
     out, err = process.communicate(timeout=120)
     checks.that(process.returncode == 130, f"{kind}: exit code {process.returncode}, wanted 130: {err}")
     checks.that(out == "", f"{kind}: printed {out!r}")
-    checks.that("marked incomplete" in err and f"out.{kind}" in err, f"{kind}: said {err!r}")
+    marked = "cannot say that it is incomplete" if kind == "npy" else "marked incomplete"  # a .npy holds numbers alone
+    checks.that(marked in err and f"out.{kind}" in err, f"{kind}: said {err!r}")
     checks.that((program.folder / f"out.{kind}").exists(), f"{kind}: no picture was kept")
     if kind == "npy":
         picture = np.load(program.folder / "out.npy")
@@ -35,6 +41,12 @@ for kind, number in [("npy", signal.SIGINT), ("png", signal.SIGINT), ("exr", sig
         checks.that((picture > 0).any() and (picture == 0).all(axis=2).any(), "the kept picture is not partly done")
     else:
         checks.that(b"incomplete" in (program.folder / f"out.{kind}").read_bytes(), f"{kind}: the picture is not marked")
+
+process = program.start(f"{LONG} --samples 4 -o nohup.png", **hangup(signal.SIG_IGN))
+begun(process)
+process.send_signal(signal.SIGHUP)
+process.communicate(timeout=120)
+checks.that(process.returncode == 0, f"SIGHUP under nohup: exit code {process.returncode}, wanted 0")
 
 before = program.files()
 process = program.start(f"{LONG} --samples 10000000 -o never.png")

@@ -11,7 +11,17 @@ for name, arguments, words in [
     ("option without its unit", "render tiny.toml --camera 0,0,400 -o out.png", "did you mean --camera-mm?"),
     ("unknown option before the command", "--jsn check tiny.toml", "--jsn"),
     ("option far from any", "check tiny.toml --qqqqqqqq", "--qqqqqqqq: unknown option"),
+    ("dashes alone", "--", "a command is missing"),
+    ("dashes for a description", "check --", "DISPLAY.toml is required"),
+    ("dashes and no output", "render -- tiny.toml", "--output is required"),
+    ("dashes with a value", "check --=", "--: unknown option"),
+    ("option without a name", "check -=x tiny.toml", "-: unknown option"),
+    ("option after dashes", "render tiny.toml --pattern white -o out.png -- --size", "--size: is in the wrong place"),
+    ("option before the command", "--size 9x9 render tiny.toml --pattern white -o out.png", "--size: is in the wrong place"),
     ("no description", "check", "DISPLAY.toml is required"),
+    ("empty description", ["check", ""], "DISPLAY.toml: the name is empty"),
+    ("empty output", ["eia", "tiny.toml", "--pattern", "white", "-o", ""], "--output: the name is empty"),
+    ("bench of a missing model", "bench --model none.obj", "--model: none.obj does not exist"),
     ("option without value", "render tiny.toml -o out.png --samples", "--samples needs a value"),
     ("option given twice", "render tiny.toml -o out.png --seed 1 --seed 2", "--seed is given more than once"),
     ("one file too many", "check tiny.toml panel.png", "panel.png"),
@@ -40,6 +50,9 @@ checks.that('"frame_width_mm": 50' in wide and '"fov_deg": null' in wide, "--fra
 table = program.must("check tiny.toml --set diffuser.angle_deg=[1,1]")
 for words in ["pixel_pitch_mm         0.5 mm", "surround               opaque", "default", "field of view", "gap_mm", "weaker than"]:
     checks.that(words in table, f"check does not print {words!r}:\n{table}")
+
+text = program.must("doctor", env={"LFDSIM_KERNEL": "abacus"})
+checks.that("forced by LFDSIM_KERNEL" in text and "unknown kernel 'abacus'" in text, f"doctor, unknown kernel:\n{text}")
 
 before = program.files()
 for name in ["check tiny.toml", "doctor", "--help", "compare panel.png panel.png"]:

@@ -11,7 +11,7 @@ def limited():
     resource.setrlimit(resource.RLIMIT_FSIZE, (LIMIT, LIMIT))
 
 
-options = {"preexec_fn": limited, "restore_signals": False}  # Python ignores SIGXFSZ, and so will the program: a write fails instead
+options = {"preexec_fn": limited}  # SIGXFSZ, which ends a program by default, must not
 for arguments in ["render tiny.toml --pattern white --progress none --samples 1 -o out.npy",
                   "render tiny.toml --panel-image panel.png --progress none --bits 16 -o out.png",
                   "photo tiny.toml --model pyramid.obj --size 600x400 --progress none -o out.exr",

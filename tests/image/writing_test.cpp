@@ -99,7 +99,7 @@ TEST(Writing, FolderWithoutPermission) {
     std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
 }
 
-TEST(Writing, CheckTouchesNothing) {
+TEST(Writing, CheckLeavesNothing) {
     const test::TemporaryFolder folder;
     for (const char* name : {"a.png", "a.EXR", "b.Npy"}) EXPECT_NO_THROW(check_writable(folder / name));
     EXPECT_TRUE(names_in(folder.path()).empty());
