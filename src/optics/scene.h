@@ -73,7 +73,6 @@ struct Scene {
     Fresnel fresnel;
     bool has_diffuser;
     Profile diffuser_profile;
-    S diffuser_z;
     S half_angle[2];     // box: omega/2 about y and about x, radians; gaussian: see diffuser.h
     S gaussian_tail[2];  // gaussian: erf of the cut
     bool small_angles;   // box: both half angles below 0.05 rad
