@@ -1,7 +1,9 @@
 #include "image/formats.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
+#include <array>
 #include <thread>
 #include <vector>
 
@@ -17,7 +19,7 @@
 namespace lfdsim::detail {
 namespace {
 
-constexpr const char* channel_names[3] = {"R", "G", "B"};
+using Names = std::array<std::string, 3>;
 constexpr std::int64_t most_block_rows = 64;         // read at a time: enough for OpenEXR's threads (16 rows a ZIP block)
 constexpr std::int64_t most_block_pixels = 1 << 22;  // and at most 48 MiB, unless one row takes more
 constexpr int most_tile = 8192;
@@ -32,6 +34,12 @@ void start_library() {
     static_cast<void>(started);
 }
 
+/// The channels of a layer, or for "" those of the picture itself.
+Names channel_names(const std::string& layer) {
+    const std::string prefix = layer.empty() ? "" : layer + ".";
+    return {prefix + "R", prefix + "G", prefix + "B"};
+}
+
 struct Window {
     std::int64_t x0, y0, columns, rows;
 
@@ -39,12 +47,12 @@ struct Window {
         : x0(box.min.x), y0(box.min.y), columns(std::int64_t(box.max.x) - x0 + 1), rows(std::int64_t(box.max.y) - y0 + 1) {}
 };
 
-void check_channels(const InputFile& file, const Imf::ChannelList& channels) {
+void check_channels(const InputFile& file, const Imf::ChannelList& channels, const Names& names) {
     if (channels.findChannel("A"))
         file.refuse("has an alpha channel, which a panel cannot show; save it with the channels R, G, B only");
-    for (const char* name : channel_names) {
+    for (const std::string& name : names) {
         const Imf::Channel* const channel = channels.findChannel(name);
-        if (!channel) file.refuse(fmt::format("has no channel {}; R, G and B are needed", name));
+        if (!channel) file.refuse(fmt::format("has no channel {}; {} are needed", name, fmt::join(names, ", ")));
         if (channel->xSampling != 1 || channel->ySampling != 1) file.refuse(fmt::format("has a subsampled channel {}", name));
     }
 }
@@ -63,7 +71,7 @@ void check_windows(const InputFile& file, const Window& data, const Window& disp
 }
 
 /// Copies what lies in both windows; outside of the data the picture stays black.
-void read_rows(Imf::InputFile& exr, const Window& data, const Window& display, const Pixels& pixels) {
+void read_rows(Imf::InputFile& exr, const Names& names, const Window& data, const Window& display, const Pixels& pixels) {
     const std::int64_t block_rows = std::clamp(most_block_pixels / data.columns, std::int64_t(1), most_block_rows);
     std::vector<float> block(std::size_t(data.columns * block_rows) * 3);
     const std::int64_t x_begin = std::max(data.x0, display.x0),
@@ -72,10 +80,9 @@ void read_rows(Imf::InputFile& exr, const Window& data, const Window& display, c
     for (std::int64_t y = y_begin; y < y_end; y += block_rows) {
         const std::int64_t end = std::min(y + block_rows, y_end);
         Imf::FrameBuffer frame;
-        for (int c = 0; c < 3; ++c)
-            frame.insert(channel_names[c],
-                         Imf::Slice::Make(Imf::FLOAT, block.data() + c, Imath::V2i(int(data.x0), int(y)), data.columns, end - y,
-                                          3 * sizeof(float), std::size_t(data.columns) * 3 * sizeof(float)));
+        for (std::size_t c = 0; c < 3; ++c)
+            frame.insert(names[c], Imf::Slice::Make(Imf::FLOAT, block.data() + c, Imath::V2i(int(data.x0), int(y)), data.columns,
+                                                    end - y, 3 * sizeof(float), std::size_t(data.columns) * 3 * sizeof(float)));
         exr.setFrameBuffer(frame);
         exr.readPixels(int(y), int(end - 1));
         for (std::int64_t r = y; r < end; ++r) {
@@ -83,6 +90,32 @@ void read_rows(Imf::InputFile& exr, const Window& data, const Window& display, c
             float* to = pixels.row(r - display.y0) + (x_begin - display.x0) * pixels.stride;
             for (std::int64_t x = x_begin; x < x_end; ++x, from += 3, to += pixels.stride) std::copy_n(from, 3, to);
         }
+    }
+}
+
+/// Reads three channels: all must be there, or none where they are not `needed`.
+void read_channels(const InputFile& file, const Names& names, bool needed, const Allocate& allocate) {
+    start_library();
+    try {
+        Imf::InputFile exr(file.name().c_str(), Imf::globalThreadCount());
+        const Imf::ChannelList& channels = exr.header().channels();
+        if (!needed && std::none_of(names.begin(), names.end(), [&](const auto& name) { return channels.findChannel(name); }))
+            return;
+        const Window data(exr.header().dataWindow()), display(exr.header().displayWindow());
+        check_channels(file, channels, names);
+        check_windows(file, data, display, exr.header().compression());
+        read_rows(exr, names, data, display, allocate(display.columns, display.rows));
+    } catch (const Iex::BaseExc& error) {
+        file.refuse(fmt::format("is damaged or not an EXR file: {}", error.what()));
+    }
+}
+
+/// Puts a picture's channels into the file that is being made; the picture must outlive the writing.
+void add_channels(const Names& names, const Image& image, Imf::Header& header, Imf::FrameBuffer& frame) {
+    for (std::size_t c = 0; c < 3; ++c) {
+        header.channels().insert(names[c], Imf::Channel(Imf::FLOAT));
+        char* const base = const_cast<char*>(reinterpret_cast<const char*>(image.rgb.data() + c));
+        frame.insert(names[c], Imf::Slice(Imf::FLOAT, base, 3 * sizeof(float), std::size_t(image.width) * 3 * sizeof(float)));
     }
 }
 
@@ -99,31 +132,20 @@ class OutputStream : public Imf::OStream {
 
 }  // namespace
 
-void read_exr(const InputFile& file, const Allocate& allocate) {
-    start_library();
-    try {
-        Imf::InputFile exr(file.name().c_str(), Imf::globalThreadCount());
-        const Window data(exr.header().dataWindow()), display(exr.header().displayWindow());
-        check_channels(file, exr.header().channels());
-        check_windows(file, data, display, exr.header().compression());
-        read_rows(exr, data, display, allocate(display.columns, display.rows));
-    } catch (const Iex::BaseExc& error) {
-        file.refuse(fmt::format("is damaged or not an EXR file: {}", error.what()));
-    }
+void read_exr(const InputFile& file, const Allocate& allocate) { read_channels(file, channel_names(""), true, allocate); }
+
+void read_exr_layer(const InputFile& file, const std::string& layer, const Allocate& allocate) {
+    read_channels(file, channel_names(layer), false, allocate);
 }
 
-void write_exr(OutputFile& file, const Image& image, const Metadata& metadata) {
+void write_exr(OutputFile& file, const Image& image, const WriteOptions& options) {
     start_library();
     Imf::Header header(image.width, image.height);
     header.compression() = Imf::ZIP_COMPRESSION;
     Imf::FrameBuffer frame;
-    for (int c = 0; c < 3; ++c) {
-        header.channels().insert(channel_names[c], Imf::Channel(Imf::FLOAT));
-        char* const base = const_cast<char*>(reinterpret_cast<const char*>(image.rgb.data() + c));
-        frame.insert(channel_names[c],
-                     Imf::Slice(Imf::FLOAT, base, 3 * sizeof(float), std::size_t(image.width) * 3 * sizeof(float)));
-    }
-    for (const auto& [key, value] : metadata) header.insert(key, Imf::StringAttribute(value));
+    add_channels(channel_names(""), image, header, frame);
+    for (const ImageLayer& layer : options.layers) add_channels(channel_names(layer.name), layer.image, header, frame);
+    for (const auto& [key, value] : options.metadata) header.insert(key, Imf::StringAttribute(value));
 
     try {
         OutputStream stream(file);

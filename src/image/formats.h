@@ -26,11 +26,13 @@ using Allocate = std::function<Pixels(std::int64_t columns, std::int64_t rows)>;
 void read_png(const InputFile&, Encoding, const Allocate&);
 void read_jpeg(const InputFile&, Encoding, const Allocate&);
 void read_exr(const InputFile&, const Allocate&);
+/// The same for a layer; nothing is allocated if the file has none of this name.
+void read_exr_layer(const InputFile&, const std::string& layer, const Allocate&);
 void read_npy(const InputFile&, const Allocate&);
 
 // All throw std::runtime_error when writing fails.
 void write_png(OutputFile&, const Image&, const WriteOptions&);
-void write_exr(OutputFile&, const Image&, const Metadata&);
+void write_exr(OutputFile&, const Image&, const WriteOptions&);
 void write_npy(OutputFile&, const Image&);
 
 /// n codes of one row, three a pixel, to light.

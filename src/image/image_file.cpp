@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <set>
 
 namespace lfdsim {
 namespace {
@@ -63,17 +64,43 @@ void check_values(const InputFile& file, Values allowed, const Pixels& pixels, s
     }
 }
 
-void read(const InputFile& file, Format format, Encoding encoding, Values allowed, const Allocate& allocate) {
-    if (format == Format::png) return read_png(file, encoding, allocate);
-    if (format == Format::jpeg) return read_jpeg(file, encoding, allocate);
+/// For formats that hold any float: what `reader` reads is checked.
+template <class Reader>
+void read_floats(const InputFile& file, Values allowed, const Allocate& allocate, const Reader& reader) {
     Pixels pixels{};
     std::int64_t height = 0;
     const Allocate remember = [&](std::int64_t columns, std::int64_t rows) {
         height = rows;
         return pixels = allocate(columns, rows);
     };
-    format == Format::exr ? read_exr(file, remember) : read_npy(file, remember);
+    reader(file, remember);
     check_values(file, allowed, pixels, height);
+}
+
+void read(const InputFile& file, Format format, Encoding encoding, Values allowed, const Allocate& allocate) {
+    if (format == Format::png) return read_png(file, encoding, allocate);
+    if (format == Format::jpeg) return read_jpeg(file, encoding, allocate);
+    read_floats(file, allowed, allocate, format == Format::exr ? read_exr : read_npy);
+}
+
+Allocate as_image(const InputFile& file, Image& image) {
+    return [&](std::int64_t columns, std::int64_t rows) {
+        check_memory(file, columns, rows, 3);
+        image = Image(int(columns), int(rows));
+        return Pixels{image.rgb.data(), columns, 3};
+    };
+}
+
+void check_layers(const fs::path& path, const Image& image, const std::vector<ImageLayer>& layers) {
+    if (layers.empty()) return;
+    if (!keeps_layers(path))
+        throw InputError(path.string(),
+                         fmt::format("cannot hold the layer \"{}\" beside the picture; layers need an .exr", layers.front().name));
+    std::set<std::string> names;
+    for (const ImageLayer& layer : layers)
+        if (layer.name.empty() || !names.insert(layer.name).second || layer.image.width != image.width ||
+            layer.image.height != image.height || layer.image.rgb.size() != image.rgb.size())
+            throw std::invalid_argument(fmt::format("write_image: layer \"{}\" has a wrong name or size", layer.name));
 }
 
 }  // namespace
@@ -85,15 +112,18 @@ void check_writable(const fs::path& path) {
 
 bool keeps_metadata(const fs::path& path) { return format_to_write(path) != Format::npy; }
 
+bool keeps_layers(const fs::path& path) { return format_to_write(path) == Format::exr; }
+
 void write_image(const fs::path& path, const Image& image, const WriteOptions& options) {
     const Format format = format_to_write(path);
     if (options.bits != 8 && options.bits != 16)
         throw InputError(path.string(), fmt::format("{} bits; 8 or 16 are possible", options.bits));
     if (image.width < 1 || image.height < 1 || image.rgb.size() != std::size_t(image.width) * std::size_t(image.height) * 3)
         throw std::invalid_argument("write_image: the image is empty or its size is wrong");
+    check_layers(path, image, options.layers);
     OutputFile file(path);
     if (format == Format::png) write_png(file, image, options);
-    if (format == Format::exr) write_exr(file, image, options.metadata);
+    if (format == Format::exr) write_exr(file, image, options);
     if (format == Format::npy) write_npy(file, image);
     file.commit();
 }
@@ -102,11 +132,18 @@ Image read_image(const fs::path& path, Encoding encoding) {
     const Format format = format_to_read(path);
     const InputFile file(path);
     Image image;
-    read(file, format, encoding, Values::finite, [&](std::int64_t columns, std::int64_t rows) {
-        check_memory(file, columns, rows, 3);
-        image = Image(int(columns), int(rows));
-        return Pixels{image.rgb.data(), columns, 3};
-    });
+    read(file, format, encoding, Values::finite, as_image(file, image));
+    return image;
+}
+
+std::optional<Image> read_layer(const fs::path& path, const std::string& name) {
+    const Format format = format_to_read(path);
+    const InputFile file(path);
+    Image image;
+    if (format == Format::exr)
+        read_floats(file, Values::finite, as_image(file, image),
+                    [&](const InputFile&, const Allocate& allocate) { read_exr_layer(file, name, allocate); });
+    if (image.rgb.empty()) return std::nullopt;
     return image;
 }
 

@@ -7,17 +7,27 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace lfdsim {
 
 /// Settings that made a picture, kept in it (PNG text chunks, EXR attributes; NPY has no place for them).
 using Metadata = std::map<std::string, std::string>;
 
+/// Something known of every pixel beside its light, of the picture's size; for instance "error", the standard error of each channel
+/// in linear light. EXR keeps it as the channels NAME.R, NAME.G, NAME.B; no other format can.
+struct ImageLayer {
+    std::string name;  // not empty; a dot makes a layer within a layer
+    Image image;
+};
+
 struct WriteOptions {
     int bits = 8;                        // PNG: 8 or 16
     Encoding encoding = Encoding::srgb;  // PNG code values: sRGB (clipped to [0,1]) or linear
     Metadata metadata;
+    std::vector<ImageLayer> layers = {};  // EXR alone: see keeps_layers()
 };
 
 /// Throws InputError unless `path` ends in .png, .exr or .npy and a file can be made there: makes and removes the temporary file of
@@ -27,13 +37,22 @@ void check_writable(const std::filesystem::path& path);
 /// Whether a file of this name keeps WriteOptions::metadata. Throws InputError like check_writable() for another extension.
 bool keeps_metadata(const std::filesystem::path& path);
 
+/// The same for WriteOptions::layers: true for .exr.
+bool keeps_layers(const std::filesystem::path& path);
+
 /// Writes beside, then renames, so that no partial file is ever seen. .png: see WriteOptions; .exr: float32 RGB, linear;
-/// .npy: float32, H x W x 3, linear, C order. Throws InputError (folder missing) or std::runtime_error (disk full).
+/// .npy: float32, H x W x 3, linear, C order. Throws InputError (folder missing, layers that the format cannot keep) or
+/// std::runtime_error (disk full).
 void write_image(const std::filesystem::path& path, const Image&, const WriteOptions& = {});
 
 /// Linear light. `encoding` says how PNG and JPEG code values decode; EXR and NPY are linear. No alpha channel.
 /// Throws InputError that names the file and what is wrong with it: missing, truncated, not an image, too large.
+/// Layers are not looked at.
 Image read_image(const std::filesystem::path& path, Encoding encoding);
+
+/// A layer of an EXR file, its values finite; nothing where the file has no such layer or is of another format. Throws like
+/// read_image().
+std::optional<Image> read_layer(const std::filesystem::path& path, const std::string& name);
 
 /// The same for a panel image, straight into texels, row by row. Throws InputError if its size is not columns x rows (says both).
 Texels read_panel_image(const std::filesystem::path& path, Encoding encoding, std::int64_t columns, std::int64_t rows);
