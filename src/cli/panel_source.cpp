@@ -1,7 +1,6 @@
 #include "cli/panel_source.h"
 
 #include "cli/arguments.h"
-#include "image/encoding.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -57,17 +56,6 @@ PatternOptions PatternOption::read() const {
     value("--edge-depth-mm", depth_, "edge", [&] { options.depth_mm = number("--edge-depth-mm", depth_); });
     faults.report();
     return options;
-}
-
-// A panel is driven by 8-bit codes. Rounding to them here, as a PNG would, makes the short way and the way by file the same
-// picture.
-Texels shown_texels(const Image& image, Encoding encoding) {
-    const std::vector<std::uint8_t> codes = encode8(image, encoding);
-    const std::vector<float>& light = decode_table(encoding, 8);
-    Texels texels(image.width, image.height);
-    for (std::size_t pixel = 0; pixel < codes.size() / 3; ++pixel)
-        for (std::size_t c = 0; c < 3; ++c) texels.data()[pixel * 4 + c] = light[codes[pixel * 3 + c]];
-    return texels;
 }
 
 }  // namespace lfdsim::cli

@@ -39,8 +39,4 @@ class PatternOption {
     std::string name_, cell_, view_, edge_, depth_;
 };
 
-/// The panel as it shows an image of its size: 8-bit codes by the panel's encoding, decoded. What writing `image` to a PNG and
-/// reading it as a panel image gives, bit for bit.
-Texels shown_texels(const Image& image, Encoding encoding);
-
 }  // namespace lfdsim::cli

@@ -90,7 +90,12 @@ void read_rows(Imf::InputFile& exr, const Names& names, const Window& data, cons
             float* to = pixels.row(r - display.y0) + (x_begin - display.x0) * pixels.stride;
             for (std::int64_t x = x_begin; x < x_end; ++x, from += 3, to += pixels.stride) std::copy_n(from, 3, to);
         }
+        pixels.job->advance(end - y);
     }
+}
+
+[[noreturn]] void refuse(const InputFile& file, const Iex::BaseExc& error) {
+    file.refuse(fmt::format("is damaged or not an EXR file: {}", error.what()));
 }
 
 /// Reads three channels: all must be there, or none where they are not `needed`.
@@ -106,7 +111,7 @@ void read_channels(const InputFile& file, const Names& names, bool needed, const
         check_windows(file, data, display, exr.header().compression());
         read_rows(exr, names, data, display, allocate(display.columns, display.rows));
     } catch (const Iex::BaseExc& error) {
-        file.refuse(fmt::format("is damaged or not an EXR file: {}", error.what()));
+        refuse(file, error);
     }
 }
 
@@ -138,7 +143,21 @@ void read_exr_layer(const InputFile& file, const std::string& layer, const Alloc
     read_channels(file, channel_names(layer), false, allocate);
 }
 
-void write_exr(OutputFile& file, const Image& image, const WriteOptions& options) {
+Metadata read_exr_metadata(const InputFile& file) {
+    start_library();
+    try {
+        const Imf::InputFile exr(file.name().c_str());
+        Metadata metadata;
+        for (auto a = exr.header().begin(); a != exr.header().end(); ++a)
+            if (const auto* const text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
+                metadata[a.name()] = text->value();
+        return metadata;
+    } catch (const Iex::BaseExc& error) {
+        refuse(file, error);
+    }
+}
+
+void write_exr(OutputFile& file, const Image& image, const WriteOptions& options, Job& job) {
     start_library();
     Imf::Header header(image.width, image.height);
     header.compression() = Imf::ZIP_COMPRESSION;
@@ -151,7 +170,12 @@ void write_exr(OutputFile& file, const Image& image, const WriteOptions& options
         OutputStream stream(file);
         Imf::OutputFile exr(stream, header, Imf::globalThreadCount());
         exr.setFrameBuffer(frame);
-        exr.writePixels(image.height);
+        const int block_rows = 64 * std::max(1, Imf::globalThreadCount());  // four ZIP blocks for each thread
+        for (int y = 0; y < image.height; y += block_rows) {
+            const int rows = std::min(block_rows, image.height - y);
+            exr.writePixels(rows);
+            job.advance(rows);
+        }
     } catch (const Iex::BaseExc& error) {
         throw std::runtime_error(fmt::format("{}: cannot be written: {}", file.name(), error.what()));
     }

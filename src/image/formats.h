@@ -4,6 +4,7 @@
 #include "image/image.h"
 #include "image/image_file.h"
 #include "model/display.h"
+#include "model/job.h"
 
 #include <cstdint>
 #include <functional>
@@ -11,10 +12,12 @@
 namespace lfdsim::detail {
 
 /// Where a reader puts linear light: rows of `columns` pixels, each `stride` floats of which the first three are R, G, B. Zeroed.
+/// `job` is told of each row that is done.
 struct Pixels {
     float* data;
     std::int64_t columns;
     int stride;  // 3 in an Image, 4 in Texels
+    Job* job;
 
     float* row(std::int64_t r) const { return data + r * columns * stride; }
 };
@@ -30,10 +33,14 @@ void read_exr(const InputFile&, const Allocate&);
 void read_exr_layer(const InputFile&, const std::string& layer, const Allocate&);
 void read_npy(const InputFile&, const Allocate&);
 
-// All throw std::runtime_error when writing fails.
-void write_png(OutputFile&, const Image&, const WriteOptions&);
-void write_exr(OutputFile&, const Image&, const WriteOptions&);
-void write_npy(OutputFile&, const Image&);
+// What the header says in words; the picture is not read. Throw like the readers.
+Metadata read_png_metadata(const InputFile&);
+Metadata read_exr_metadata(const InputFile&);
+
+// All throw std::runtime_error when writing fails, and tell the job of each row that is done.
+void write_png(OutputFile&, const Image&, const WriteOptions&, Job&);
+void write_exr(OutputFile&, const Image&, const WriteOptions&, Job&);
+void write_npy(OutputFile&, const Image&, Job&);
 
 /// n codes of one row, three a pixel, to light.
 template <class Code>

@@ -11,7 +11,7 @@ struct Image {
     std::vector<float> rgb;  // height x width x 3
 
     Image() = default;
-    Image(int w, int h) : width(w), height(h), rgb(std::size_t(w) * h * 3) {}
+    Image(int w, int h);  // black
     float* at(int column, int row) { return &rgb[(std::size_t(row) * width + column) * 3]; }
     const float* at(int column, int row) const { return &rgb[(std::size_t(row) * width + column) * 3]; }
 };

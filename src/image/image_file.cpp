@@ -49,6 +49,15 @@ void check_memory(const InputFile& file, std::int64_t columns, std::int64_t rows
                                 needed / 1e9, present / 1e9));
 }
 
+/// Begins a stage of the caller's, if there is one and the picture is large enough to keep it waiting; else nobody is told.
+Job& stage(Job* caller, const char* name, std::int64_t columns, std::int64_t rows) {
+    constexpr std::int64_t large_pixels = 1 << 24;  // from here on a second or more
+    static Job nobody;
+    if (!caller || columns * rows < large_pixels) return nobody;
+    caller->stage(name, rows);
+    return *caller;
+}
+
 enum class Values { finite, radiance };
 
 /// NaN and infinities have no meaning in a picture, nor negative radiance on a panel; the first such value is named.
@@ -87,7 +96,7 @@ Allocate as_image(const InputFile& file, Image& image) {
     return [&](std::int64_t columns, std::int64_t rows) {
         check_memory(file, columns, rows, 3);
         image = Image(int(columns), int(rows));
-        return Pixels{image.rgb.data(), columns, 3};
+        return Pixels{image.rgb.data(), columns, 3, &stage(nullptr, "reading", columns, rows)};
     };
 }
 
@@ -114,7 +123,7 @@ bool keeps_metadata(const fs::path& path) { return format_to_write(path) != Form
 
 bool keeps_layers(const fs::path& path) { return format_to_write(path) == Format::exr; }
 
-void write_image(const fs::path& path, const Image& image, const WriteOptions& options) {
+void write_image(const fs::path& path, const Image& image, const WriteOptions& options, Job* caller) {
     const Format format = format_to_write(path);
     if (options.bits != 8 && options.bits != 16)
         throw InputError(path.string(), fmt::format("{} bits; 8 or 16 are possible", options.bits));
@@ -122,9 +131,10 @@ void write_image(const fs::path& path, const Image& image, const WriteOptions& o
         throw std::invalid_argument("write_image: the image is empty or its size is wrong");
     check_layers(path, image, options.layers);
     OutputFile file(path);
-    if (format == Format::png) write_png(file, image, options);
-    if (format == Format::exr) write_exr(file, image, options);
-    if (format == Format::npy) write_npy(file, image);
+    Job& job = stage(caller, "writing", image.width, image.height);
+    if (format == Format::png) write_png(file, image, options, job);
+    if (format == Format::exr) write_exr(file, image, options, job);
+    if (format == Format::npy) write_npy(file, image, job);
     file.commit();
 }
 
@@ -147,7 +157,15 @@ std::optional<Image> read_layer(const fs::path& path, const std::string& name) {
     return image;
 }
 
-Texels read_panel_image(const fs::path& path, Encoding encoding, std::int64_t columns, std::int64_t rows) {
+Metadata read_metadata(const fs::path& path) {
+    const Format format = format_to_read(path);
+    const InputFile file(path);
+    if (format == Format::png) return read_png_metadata(file);
+    if (format == Format::exr) return read_exr_metadata(file);
+    return {};
+}
+
+Texels read_panel_image(const fs::path& path, Encoding encoding, std::int64_t columns, std::int64_t rows, Job* caller) {
     const Format format = format_to_read(path);
     const InputFile file(path);
     Texels texels;
@@ -156,7 +174,7 @@ Texels read_panel_image(const fs::path& path, Encoding encoding, std::int64_t co
             file.refuse(fmt::format("is {} x {} pixels, the panel has {} x {}; the sizes must be equal", c, r, columns, rows));
         check_memory(file, columns, rows, 4);
         texels = Texels(columns, rows);
-        return Pixels{texels.data(), columns, 4};
+        return Pixels{texels.data(), columns, 4, &stage(caller, "reading", columns, rows)};
     });
     return texels;
 }

@@ -4,6 +4,7 @@
 #include "image/texels.h"
 #include "model/display.h"
 #include "model/error.h"
+#include "model/job.h"
 
 #include <filesystem>
 #include <map>
@@ -43,18 +44,25 @@ bool keeps_layers(const std::filesystem::path& path);
 /// Writes beside, then renames, so that no partial file is ever seen. .png: see WriteOptions; .exr: float32 RGB, linear;
 /// .npy: float32, H x W x 3, linear, C order. Throws InputError (folder missing, layers that the format cannot keep) or
 /// std::runtime_error (disk full).
-void write_image(const std::filesystem::path& path, const Image&, const WriteOptions& = {});
+/// Large pictures, which take seconds, are a stage of the job, counted in rows; it does not cancel them.
+void write_image(const std::filesystem::path& path, const Image&, const WriteOptions& = {}, Job* = nullptr);
 
 /// Linear light. `encoding` says how PNG and JPEG code values decode; EXR and NPY are linear. No alpha channel.
 /// Throws InputError that names the file and what is wrong with it: missing, truncated, not an image, too large.
 /// Layers are not looked at.
 Image read_image(const std::filesystem::path& path, Encoding encoding);
 
+/// The same for a panel image, straight into texels, row by row. Throws InputError if its size is not columns x rows (says both).
+/// A large one is a stage of the job like those of write_image().
+Texels read_panel_image(const std::filesystem::path& path, Encoding encoding, std::int64_t columns, std::int64_t rows,
+                        Job* = nullptr);
+
+/// What a file keeps of WriteOptions::metadata; nothing where its format has no place for it. Only the file's head is read.
+/// Throws like read_image().
+Metadata read_metadata(const std::filesystem::path& path);
+
 /// A layer of an EXR file, its values finite; nothing where the file has no such layer or is of another format. Throws like
 /// read_image().
 std::optional<Image> read_layer(const std::filesystem::path& path, const std::string& name);
-
-/// The same for a panel image, straight into texels, row by row. Throws InputError if its size is not columns x rows (says both).
-Texels read_panel_image(const std::filesystem::path& path, Encoding encoding, std::int64_t columns, std::int64_t rows);
 
 }  // namespace lfdsim

@@ -78,6 +78,7 @@ void read_jpeg(const InputFile& file, Encoding encoding, const Allocate& allocat
         JSAMPROW row = codes.data();
         jpeg_read_scanlines(&jpeg, &row, 1);
         decode_row(codes.data(), table, pixels.columns, pixels.stride, pixels.row(r));
+        pixels.job->advance(1);
     }
     jpeg_finish_decompress(&jpeg);
 }

@@ -37,6 +37,7 @@ void read_rows(const InputFile& file, std::int64_t rows, const Pixels& pixels) {
         float* const to = pixels.row(r);
         for (std::int64_t i = 0; i < pixels.columns; ++i)
             for (int c = 0; c < 3; ++c) to[i * pixels.stride + c] = float(row[std::size_t(i * 3 + c)]);
+        pixels.job->advance(1);
     }
 }
 
@@ -67,7 +68,7 @@ void read_npy(const InputFile& file, const Allocate& allocate) {
         read_rows<double>(file, rows, pixels);
 }
 
-void write_npy(OutputFile& file, const Image& image) {
+void write_npy(OutputFile& file, const Image& image, Job& job) {
     std::string header =
         fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, 3), }}", image.height, image.width);
     // The data begin at a multiple of 64 bytes, after 10 bytes of preamble and the newline that ends the header.
@@ -77,7 +78,10 @@ void write_npy(OutputFile& file, const Image& image) {
     const std::uint16_t length = std::uint16_t(header.size());
     file.write(&length, 2);
     file.write(header.data(), header.size());
-    file.write(image.rgb.data(), image.rgb.size() * sizeof(float));
+    for (int row = 0; row < image.height; ++row) {
+        file.write(image.at(0, row), std::size_t(image.width) * 3 * sizeof(float));
+        job.advance(1);
+    }
 }
 
 }  // namespace lfdsim::detail

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 #include <png.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -20,6 +23,12 @@ void on_read(png_structp png, png_bytep to, std::size_t bytes) {
     if (std::fread(to, 1, bytes, static_cast<std::FILE*>(png_get_io_ptr(png))) != bytes) png_error(png, "it ends too early");
 }
 
+void check_signature(const InputFile& file) {
+    std::array<png_byte, 8> signature{};
+    if (std::fread(signature.data(), 1, 8, file.stream()) != 8 || png_sig_cmp(signature.data(), 0, 8) != 0)
+        file.refuse("is not a PNG file, whatever its name says");
+}
+
 struct Reader {
     png_structp png;
     png_infop info;
@@ -29,35 +38,64 @@ struct Reader {
           info(png ? png_create_info_struct(png) : nullptr) {
         if (!info) throw std::bad_alloc();
         png_set_read_fn(png, file.stream(), on_read);
+        png_set_sig_bytes(png, 8);  // check_signature() has read them
     }
     ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
     Reader(const Reader&) = delete;
     Reader& operator=(const Reader&) = delete;
 };
 
-/// Reads all rows; `Code` is the type of a sample.
+/// Rows first .. first + rows - 1; `Code` is the type of a sample.
+template <class Code>
+struct Band {
+    std::int64_t first, rows;
+    std::vector<Code> codes;
+};
+
+/// One thread inflates, others turn codes into light: as much work again, most of it the first touch of the memory.
 template <class Code>
 void read_rows(const Reader& reader, int passes, std::int64_t rows, const std::vector<float>& table, const Pixels& pixels) {
+    constexpr std::int64_t band_codes = 1 << 18;  // what fits a core's own cache
+    const std::int64_t row_codes = pixels.columns * 3;
     // Interlaced pictures come in passes, each of which touches every row: all codes must be kept until the last.
-    const std::size_t row_codes = std::size_t(pixels.columns) * 3;
-    std::vector<Code> codes(row_codes * (passes > 1 ? std::size_t(rows) : 1));
-    for (int pass = 0; pass < passes; ++pass)
-        for (std::int64_t r = 0; r < rows; ++r) {
-            Code* const row = codes.data() + (passes > 1 ? std::size_t(r) * row_codes : 0);
-            png_read_row(reader.png, reinterpret_cast<png_bytep>(row), nullptr);
-            if (pass == passes - 1) decode_row(row, table, pixels.columns, pixels.stride, pixels.row(r));
-        }
+    const std::int64_t most_rows = passes > 1 ? rows : std::max<std::int64_t>(1, band_codes / row_codes);
+    std::int64_t next = 0;
+    const auto inflate = [&](tbb::flow_control& flow) {
+        Band<Code> band{next, std::min(most_rows, rows - next), {}};
+        if (band.rows == 0) flow.stop();
+        band.codes.resize(std::size_t(band.rows * row_codes));
+        for (int pass = 0; pass < passes; ++pass)
+            for (std::int64_t r = 0; r < band.rows; ++r)
+                png_read_row(reader.png, reinterpret_cast<png_bytep>(&band.codes[std::size_t(r * row_codes)]), nullptr);
+        next += band.rows;
+        return band;
+    };
+    const auto decode = [&](const Band<Code>& band) {
+        for (std::int64_t r = 0; r < band.rows; ++r)
+            decode_row(&band.codes[std::size_t(r * row_codes)], table, pixels.columns, pixels.stride, pixels.row(band.first + r));
+        pixels.job->advance(band.rows);
+    };
+    tbb::parallel_pipeline(std::size_t(2 * tbb::this_task_arena::max_concurrency()),
+                           tbb::make_filter<void, Band<Code>>(tbb::filter_mode::serial_in_order, inflate) &
+                               tbb::make_filter<Band<Code>, void>(tbb::filter_mode::parallel, decode));
 }
 
 }  // namespace
 
-void read_png(const InputFile& file, Encoding encoding, const Allocate& allocate) {
-    std::array<png_byte, 8> signature{};
-    if (std::fread(signature.data(), 1, 8, file.stream()) != 8 || png_sig_cmp(signature.data(), 0, 8) != 0)
-        file.refuse("is not a PNG file, whatever its name says");
-
+Metadata read_png_metadata(const InputFile& file) {
+    check_signature(file);
     const Reader reader(file);
-    png_set_sig_bytes(reader.png, 8);
+    png_read_info(reader.png, reader.info);
+    png_textp texts = nullptr;
+    const int count = png_get_text(reader.png, reader.info, &texts, nullptr);
+    Metadata metadata;
+    for (int i = 0; i < count; ++i) metadata[texts[i].key] = texts[i].text;
+    return metadata;
+}
+
+void read_png(const InputFile& file, Encoding encoding, const Allocate& allocate) {
+    check_signature(file);
+    const Reader reader(file);
     png_set_user_limits(reader.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // check_size is stricter
     png_set_chunk_cache_max(reader.png, 16);                            // texts are not used: do not collect them
     png_read_info(reader.png, reader.info);

@@ -4,7 +4,8 @@
 
 #include <fmt/format.h>
 #include <png.h>
-#include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
 #include <zlib.h>
 #include <algorithm>
 #include <vector>
@@ -75,6 +76,8 @@ void encode_row(const float* light, const WriteOptions& options, Bytes& codes) {
 }
 
 struct Strip {
+    int begin;  // its first row
+    bool last;
     Bytes deflated;
     uLong adler;  // of what went in
     std::size_t bytes;
@@ -97,13 +100,13 @@ Bytes filter_up(const Image& image, const WriteOptions& options, int begin, int 
 }
 
 /// A part of a deflate stream that ends at a byte, so that parts join by concatenation.
-Strip compress(const Bytes& filtered, bool last) {
+Strip compress(const Bytes& filtered, int begin, bool last) {
     z_stream stream{};
     if (deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, -MAX_WBITS, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK)
         throw std::bad_alloc();
     constexpr std::size_t flush_bytes = 16;  // an empty stored block, which deflateBound does not count
-    Strip strip{Bytes(deflateBound(&stream, filtered.size()) + flush_bytes), adler32_z(1, filtered.data(), filtered.size()),
-                filtered.size()};
+    Strip strip{begin, last, Bytes(deflateBound(&stream, filtered.size()) + flush_bytes),
+                adler32_z(1, filtered.data(), filtered.size()), filtered.size()};
     stream.next_in = const_cast<Bytef*>(filtered.data());
     stream.avail_in = uInt(filtered.size());
     stream.next_out = strip.deflated.data();
@@ -117,7 +120,7 @@ Strip compress(const Bytes& filtered, bool last) {
 
 }  // namespace
 
-void write_png(OutputFile& file, const Image& image, const WriteOptions& options) {
+void write_png(OutputFile& file, const Image& image, const WriteOptions& options, Job& job) {
     constexpr int most = PNG_USER_WIDTH_MAX;  // libpng's own limit; most readers keep it
     if (image.width > most || image.height > most)
         throw InputError(file.name(), fmt::format("{} x {} pixels; a PNG has at most {} columns and rows, use .exr or .npy",
@@ -125,22 +128,32 @@ void write_png(OutputFile& file, const Image& image, const WriteOptions& options
     const Writer writer(file);
     write_header(writer, image, options);
 
-    const int count = (image.height + strip_rows - 1) / strip_rows;
-    std::vector<Strip> strips((std::size_t(count)));
-    tbb::parallel_for(0, count, [&](int s) {
-        const int begin = s * strip_rows, end = std::min(begin + strip_rows, image.height);
-        strips[std::size_t(s)] = compress(filter_up(image, options, begin, end), s == count - 1);
-    });
-
     static constexpr png_byte idat[] = "IDAT", iend[] = "IEND";
+    int next = 0;
     uLong adler = 1;
-    for (Strip& strip : strips) {
+    const auto begin_strip = [&](tbb::flow_control& flow) {
+        const int begin = next;
+        if (begin >= image.height) flow.stop();
+        next += strip_rows;
+        return begin;
+    };
+    const auto compress_strip = [&](int begin) {
+        const int end = std::min(begin + strip_rows, image.height);
+        return compress(filter_up(image, options, begin, end), begin, end == image.height);
+    };
+    const auto write_strip = [&](Strip strip) {
         adler = adler32_combine(adler, strip.adler, z_off_t(strip.bytes));
-        if (&strip == &strips.front()) strip.deflated.insert(strip.deflated.begin(), {0x78, 0x01});  // zlib header: 32 KiB window
-        if (&strip == &strips.back())
+        if (strip.begin == 0) strip.deflated.insert(strip.deflated.begin(), {0x78, 0x01});  // zlib header: 32 KiB window
+        if (strip.last)
             for (int shift = 24; shift >= 0; shift -= 8) strip.deflated.push_back(std::uint8_t(adler >> shift));
         png_write_chunk(writer.png, idat, strip.deflated.data(), strip.deflated.size());
-    }
+        job.advance(std::min(strip_rows, image.height - strip.begin));
+    };
+    // Few strips are in memory at a time, whatever the picture's size.
+    tbb::parallel_pipeline(std::size_t(2 * tbb::this_task_arena::max_concurrency()),
+                           tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, begin_strip) &
+                               tbb::make_filter<int, Strip>(tbb::filter_mode::parallel, compress_strip) &
+                               tbb::make_filter<Strip, void>(tbb::filter_mode::serial_in_order, write_strip));
     png_write_chunk(writer.png, iend, nullptr, 0);
 }
 

@@ -1,12 +1,17 @@
 #include "image/texels.h"
 
+#include "image/encoder.h"
+#include "image/encoding.h"
+#include "image/huge_pages.h"
+
 #include <sys/mman.h>
+#include <tbb/parallel_for.h>
 #include <new>
 
 namespace lfdsim {
 namespace {
 
-constexpr std::size_t huge_page = std::size_t(1) << 21;  // x86-64
+using detail::huge_page;
 constexpr std::size_t texel_bytes = 4 * sizeof(float);
 
 /// Anonymous (zeroed) memory that begins on a huge page: maps one page more than needed and gives the ends back.
@@ -20,6 +25,19 @@ void* map_aligned(std::size_t bytes) {
     return start;
 }
 
+/// Row by row on all threads: most of the time goes into the first touch of the memory.
+template <class Convert>
+Texels converted(const Image& image, const Convert& convert) {
+    Texels texels(image.width, image.height);
+    tbb::parallel_for(0, image.height, [&](int row) {
+        const float* from = image.at(0, row);
+        float* to = texels.row(row);
+        for (int column = 0; column < image.width; ++column, from += 3, to += 4)
+            for (int c = 0; c < 3; ++c) to[c] = convert(from[c]);
+    });
+    return texels;
+}
+
 }  // namespace
 
 void Texels::Unmap::operator()(float* texels) const { munmap(texels, bytes); }
@@ -29,16 +47,17 @@ Texels::Texels(std::int64_t columns, std::int64_t rows) : columns_(columns), row
     if (columns < 1 || rows < 1 || columns >= limit || rows >= limit || columns * rows >= limit) throw std::bad_alloc();
     const std::size_t bytes = (std::size_t(columns * rows) * texel_bytes + huge_page - 1) / huge_page * huge_page;
     data_ = {static_cast<float*>(map_aligned(bytes)), Unmap{bytes}};
-    madvise(data_.get(), bytes, MADV_HUGEPAGE);  // a wish: without it all works, with more TLB misses
+    detail::want_huge_pages(data_.get(), bytes);
 }
 
 Texels make_texels(const Image& image) {
-    Texels texels(image.width, image.height);
-    const float* from = image.rgb.data();
-    float* const to = texels.data();
-    for (std::size_t i = 0; i < image.rgb.size() / 3; ++i)
-        for (std::size_t c = 0; c < 3; ++c) to[4 * i + c] = from[3 * i + c];
-    return texels;
+    return converted(image, [](float light) { return light; });
+}
+
+Texels shown_texels(const Image& image, Encoding encoding) {
+    const Encoder8& code = Encoder8::of(encoding);
+    const std::vector<float>& light = decode_table(encoding, 8);
+    return converted(image, [&](float value) { return light[code(value)]; });
 }
 
 }  // namespace lfdsim

@@ -1,6 +1,7 @@
 // The panel image as the renderer reads it. Floor 0.
 #pragma once
 #include "image/image.h"
+#include "model/display.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -33,5 +34,9 @@ class Texels {
 
 /// Copies an image.
 Texels make_texels(const Image&);
+
+/// The same as a panel shows it, which is driven by 8-bit codes: light rounded to them by the panel's encoding. What writing the
+/// image to a PNG and reading that as a panel image gives, bit for bit.
+Texels shown_texels(const Image&, Encoding);
 
 }  // namespace lfdsim

@@ -3,6 +3,7 @@
 #include "helpers.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <cstdint>
 #include <new>
 
@@ -27,6 +28,18 @@ TEST(Texels, CopiesAnImage) {
             for (int c = 0; c < 3; ++c) EXPECT_EQ(texel[c], image.at(column, row)[c]);
             EXPECT_EQ(texel[3], 0);
         }
+}
+
+TEST(Texels, ShowWhatAPngWouldHold) {
+    const test::TemporaryFolder folder;
+    Image image = test::random_image(301, 99);
+    image.rgb[0] = -1;
+    image.rgb[1] = 7;
+    for (const Encoding encoding : {Encoding::srgb, Encoding::linear}) {
+        write_image(folder / "a.png", image, {.bits = 8, .encoding = encoding, .metadata = {}});
+        const Texels read = read_panel_image(folder / "a.png", encoding, 301, 99), shown = shown_texels(image, encoding);
+        EXPECT_TRUE(std::equal(read.data(), read.data() + 301 * 99 * 4, shown.data()));
+    }
 }
 
 TEST(Texels, MovesWithoutCopying) {

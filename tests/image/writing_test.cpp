@@ -5,6 +5,7 @@
 #include <png.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
+#include <atomic>
 #include <csignal>
 
 namespace lfdsim {
@@ -104,6 +105,47 @@ TEST(Writing, CheckLeavesNothing) {
     for (const char* name : {"a.png", "a.EXR", "b.Npy"}) EXPECT_NO_THROW(check_writable(folder / name));
     EXPECT_TRUE(names_in(folder.path()).empty());
     EXPECT_NO_THROW(check_writable("relative.png"));  // in the current folder
+}
+
+TEST(Writing, SettingsCanBeReadBack) {
+    const test::TemporaryFolder folder;
+    const Metadata metadata{{"command", "lfdsim"}, {"display", "caf\xc3\xa9"}, {"empty", ""}};
+    for (const char* name : formats)
+        write_image(folder / name, test::random_image(3, 3), {.bits = 8, .encoding = Encoding::srgb, .metadata = metadata});
+    EXPECT_EQ(read_metadata(folder / "a.png"), metadata);
+    EXPECT_EQ(read_metadata(folder / "a.exr"), metadata);
+    EXPECT_EQ(read_metadata(folder / "a.npy"), Metadata{});
+    for (const char* name : {"a.png", "a.exr"}) {
+        test::save(folder / name, "no picture");
+        EXPECT_NE(test::input_error([&] { read_metadata(folder / name); }), "") << name;
+    }
+}
+
+/// Counts what it is told.
+struct Counter : Job {
+    void stage(std::string_view stage_name, std::int64_t stage_units) override { name = stage_name, units = stage_units, done = 0; }
+    void advance(std::int64_t more) override { done += more; }
+    std::string name;
+    std::int64_t units = 0;
+    std::atomic<std::int64_t> done{0};
+};
+
+// A picture of 2^24 pixels, which takes a while; its rows are counted. A smaller one is not worth a word.
+TEST(Writing, LargePicturesShowProgress) {
+    const test::TemporaryFolder folder;
+    for (const char* name : formats) {
+        Counter writing, reading, small;
+        write_image(folder / name, Image(1 << 14, 1 << 10), {}, &writing);
+        EXPECT_EQ(writing.name, "writing") << name;
+        read_panel_image(folder / name, Encoding::srgb, 1 << 14, 1 << 10, &reading);
+        EXPECT_EQ(reading.name, "reading") << name;
+        for (const Counter* counter : {&writing, &reading}) {
+            EXPECT_EQ(counter->units, 1 << 10) << name << ' ' << counter->name;
+            EXPECT_EQ(counter->done, 1 << 10) << name << ' ' << counter->name;
+        }
+        write_image(folder / name, Image(64, 64), {}, &small);
+        EXPECT_EQ(small.name, "") << name;
+    }
 }
 
 TEST(Writing, RefusesOtherDepths) {
