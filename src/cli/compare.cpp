@@ -21,8 +21,14 @@ void run(const Arguments& args) {
     const Encoding encoding = word("--encoding", args.encoding, {"srgb", "linear"}) == "srgb" ? Encoding::srgb : Encoding::linear;
     Image a, b;
     Faults faults;
-    faults.of([&] { a = read_image(args.a, encoding); });
-    faults.of([&] { b = read_image(args.b, encoding); });
+    const auto read = [&](const char* argument, const std::string& path, Image& image) {
+        faults.of([&] {
+            check_input(argument, path);
+            image = read_image(path, encoding);
+        });
+    };
+    read("A", args.a, a);
+    read("B", args.b, b);
     faults.report();
     if (a.width != b.width || a.height != b.height)
         throw InputError(args.b, fmt::format("is {} x {} pixels, {} is {} x {}; only pictures of equal size can be compared",

@@ -52,9 +52,8 @@ void run(const Arguments& args) {
         const Scene scene = load_scene(display, geometry);
         picture = elemental_images(display, geometry, scene, args.work.threads(), progress);
     }
-    progress.end();
     args.output.write(picture.image, display.panel.encoding, display, {{"seconds", fmt::format("{:.3f}", picture.seconds)}},
-                      picture.complete);
+                      picture.complete, progress);
     print_made(Made{args.output.path(), picture.image.width, picture.image.height, "rays", picture.rays, picture.seconds},
                args.work.json());
 }

@@ -16,8 +16,8 @@ double memory_bytes() {
     return bytes;
 }
 
-// float32 RGB, and 16-bit codes while a PNG is written.
-double picture_bytes(std::int64_t columns, std::int64_t rows) { return double(columns) * double(rows) * (12 + 6); }
+// float32 RGB; writers keep a few rows beside it.
+double picture_bytes(std::int64_t columns, std::int64_t rows) { return double(columns) * double(rows) * 12; }
 
 double texel_bytes(const Display& d) { return double(d.panel.pixels[0]) * double(d.panel.pixels[1]) * 16; }
 
@@ -25,6 +25,12 @@ void require_memory(const std::string& where, const std::string& what, double by
     if (bytes > memory_bytes())
         throw InputError(where, fmt::format("{} needs {:.1f} GB of memory, this machine has {:.1f} GB", what, bytes / 1e9,
                                             memory_bytes() / 1e9));
+}
+
+void require_panel_memory(const Display& d) {
+    const auto [columns, rows] = d.panel.pixels;
+    require_memory("panel.pixels", fmt::format("making the panel image of {} x {} pixels", columns, rows),
+                   picture_bytes(columns, rows) + texel_bytes(d));
 }
 
 void require_picture_memory(std::int64_t columns, std::int64_t rows, double panel_bytes) {

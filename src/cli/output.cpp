@@ -48,6 +48,10 @@ void print(std::string_view text) {
 
 void print_json(const Json& json) { print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"); }
 
+void check_input(const std::string& argument, const std::string& path) {
+    if (path.empty()) throw InputError(argument, "the name is empty; give the file to read");
+}
+
 void check_output(const std::string& path) {
     if (path.empty()) throw InputError("--output", "the name is empty; give the file to write");
     guard_output(path);
@@ -72,12 +76,15 @@ void OutputOptions::check() const {
     faults.report();
 }
 
-void OutputOptions::write(const Image& image, Encoding encoding, const Display& display, Metadata about, bool complete) const {
+void OutputOptions::write(const Image& image, Encoding encoding, const Display& display, Metadata about, bool complete,
+                          Progress& progress) const {
+    progress.end();
     about["Software"] = "lfdsim " LFDSIM_VERSION;
     about["command"] = command_line();
     about["display"] = write_display(display);
-    if (!complete) about["incomplete"] = "true";
-    write_image(path_, image, {bits(), encoding, about});
+    if (!complete) about[incomplete_mark] = "true";
+    write_image(path_, image, {bits(), encoding, about}, &progress);
+    progress.end();
     if (!complete) end_interrupted(path_);
 }
 

@@ -1,5 +1,6 @@
 // Results: text on standard output, pictures with what made them. Floor 4.
 #pragma once
+#include "cli/progress.h"
 #include "image/image_file.h"
 #include "model/display.h"
 
@@ -18,6 +19,12 @@ void print(std::string_view text);
 /// One JSON document; numbers that are not finite become null.
 void print_json(const Json&);
 
+/// The key of a picture's metadata that says that it is not complete.
+inline constexpr const char* incomplete_mark = "incomplete";
+
+/// Throws InputError that names the argument if no file is named.
+void check_input(const std::string& argument, const std::string& path);
+
 /// To be called before long work. From here on a signal removes what is partly written. Throws InputError unless a picture can be
 /// written at `path`, which --output gave.
 void check_output(const std::string& path);
@@ -28,9 +35,9 @@ class OutputOptions {
     OutputOptions(CLI::App& command, const std::string& kinds);
     /// To be called before long work. Throws InputError unless the picture can be written there in that depth.
     void check() const;
-    /// Saves the picture with `about`, the command line, version and display. One that is not complete is marked so, and the
-    /// program then ends as interrupted.
-    void write(const Image&, Encoding, const Display&, Metadata about, bool complete) const;
+    /// Saves the picture with `about`, the command line, version and display; work before it has shown its progress. One that is
+    /// not complete is marked so, and the program then ends as interrupted.
+    void write(const Image&, Encoding, const Display&, Metadata about, bool complete, Progress&) const;
     const std::string& path() const { return path_; }
     int bits() const;
 

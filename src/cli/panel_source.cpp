@@ -1,16 +1,33 @@
 #include "cli/panel_source.h"
 
 #include "cli/arguments.h"
+#include "cli/output.h"
+#include "image/image_file.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 namespace lfdsim::cli {
 
-ModelOption::ModelOption(CLI::App& command) {
-    command.add_option("--model", path_, "Mesh file to show (any format Assimp reads); default: the description's content.model")
-        ->type_name("FILE");
+PanelImageOption::PanelImageOption(CLI::App& command)
+    : option_(command.add_option("--panel-image", path_, "What the panel shows: .png .exr .npy of its size")->type_name("FILE")) {}
+
+void PanelImageOption::check() const {
+    if (given()) check_input("--panel-image", path_);
 }
+
+PanelImageOption::Read PanelImageOption::read(const Panel& panel, Job& job) const {
+    const bool incomplete = read_metadata(path_).count(incomplete_mark) > 0;
+    if (incomplete)
+        spdlog::warn("{}: is marked incomplete: the run that made it was interrupted, and what it had not done is black", path_);
+    return {read_panel_image(path_, panel.encoding, panel.pixels[0], panel.pixels[1], &job), incomplete};
+}
+
+ModelOption::ModelOption(CLI::App& command)
+    : option_(
+          command
+              .add_option("--model", path_, "Mesh file to show (any format Assimp reads); default: the description's content.model")
+              ->type_name("FILE")) {}
 
 void ModelOption::apply(Display& display) const {
     if (given()) display.content.model = path_;
@@ -24,9 +41,9 @@ Scene load_scene(const Display& display, const Geometry& geometry) {
     return Scene(model, display, geometry);
 }
 
-PatternOption::PatternOption(CLI::App& command) {
-    command.add_option("--pattern", name_, fmt::format("Test pattern to show: {}", fmt::join(pattern_names(), ", ")))
-        ->type_name("NAME");
+PatternOption::PatternOption(CLI::App& command)
+    : option_(command.add_option("--pattern", name_, fmt::format("Test pattern to show: {}", fmt::join(pattern_names(), ", ")))
+                  ->type_name("NAME")) {
     command.add_option("--cell-pixels", cell_, "Checkerboard: side of a square")->type_name("N");
     command.add_option("--view", view_, "View: which one is white, -0.5 .. 0.5 of the elemental image from its centre")
         ->type_name("X,Y");

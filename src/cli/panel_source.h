@@ -3,6 +3,7 @@
 #include "content/content.h"
 #include "image/texels.h"
 #include "model/display.h"
+#include "model/job.h"
 
 #include <CLI/CLI.hpp>
 
@@ -11,16 +12,36 @@
 
 namespace lfdsim::cli {
 
+/// --panel-image.
+class PanelImageOption {
+  public:
+    explicit PanelImageOption(CLI::App& command);
+    bool given() const { return option_->count() > 0; }
+    /// Throws InputError if it is given without a name.
+    void check() const;
+    /// Says on standard error if the image is marked as that of an interrupted run. Throws InputError.
+    struct Read {
+        Texels texels;
+        bool incomplete;
+    };
+    Read read(const Panel&, Job&) const;
+
+  private:
+    std::string path_;
+    CLI::Option* option_;
+};
+
 /// --model, which stands in for content.model.
 class ModelOption {
   public:
     explicit ModelOption(CLI::App& command);
-    bool given() const { return !path_.empty(); }
+    bool given() const { return option_->count() > 0; }
     /// Puts the option's file, if there is one, into the display.
     void apply(Display&) const;
 
   private:
     std::string path_;
+    CLI::Option* option_;
 };
 
 /// The display's model in its place; says on standard error what was dropped or repaired. Throws InputError.
@@ -30,13 +51,14 @@ Scene load_scene(const Display&, const Geometry&);
 class PatternOption {
   public:
     explicit PatternOption(CLI::App& command);
-    bool given() const { return !name_.empty(); }
+    bool given() const { return option_->count() > 0; }
     /// Reads the values strictly. Throws InputError for those that are wrong or belong to no chosen pattern.
     PatternOptions read() const;
     const std::string& name() const { return name_; }
 
   private:
     std::string name_, cell_, view_, edge_, depth_;
+    CLI::Option* option_;
 };
 
 }  // namespace lfdsim::cli

@@ -41,9 +41,8 @@ void run(const Arguments& args) {
     const Scene scene = load_scene(display, geometry);
     Progress progress(args.work.progress());
     const Picture picture = reference_photograph(display, geometry, scene, args.work.threads(), crop, progress);
-    progress.end();
     args.output.write(picture.image, Encoding::srgb, display, {{"seconds", fmt::format("{:.3f}", picture.seconds)}},
-                      picture.complete);
+                      picture.complete, progress);
     print_made(Made{args.output.path(), picture.image.width, picture.image.height, "rays", picture.rays, picture.seconds},
                args.work.json());
 }

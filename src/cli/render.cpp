@@ -17,23 +17,24 @@ namespace {
 struct Arguments {
     explicit Arguments(CLI::App& command)
         : display(command, {camera_options, sample_options, content_options}),
+          panel_image(command),
           model(command),
           pattern(command),
           crop(command),
           output(command, ".png (sRGB), or linear .exr .npy (float32, H x W x 3)"),
           work(command) {
-        command.add_option("--panel-image", panel_image, "What the panel shows: .png .exr .npy of its size")->type_name("FILE");
         command
             .add_option("--kernel", kernel, "Instruction set; default: environment variable LFDSIM_KERNEL, else the best there is")
             ->type_name("scalar|baseline|avx2|avx512");
     }
     DisplayOptions display;
+    PanelImageOption panel_image;
     ModelOption model;
     PatternOption pattern;
     CropOption crop;
     OutputOptions output;
     WorkOptions work;
-    std::string panel_image, kernel;
+    std::string kernel;
 };
 
 // The panel's light, and how many rays it took to make it.
@@ -44,8 +45,10 @@ struct Shown {
 
 Shown shown(const Arguments& args, const Display& display, const Geometry& geometry, const PatternOptions& pattern_options,
             Progress& progress) {
-    const auto [columns, rows] = display.panel.pixels;
-    if (!args.panel_image.empty()) return {read_panel_image(args.panel_image, display.panel.encoding, columns, rows)};
+    if (args.panel_image.given()) {
+        PanelImageOption::Read panel = args.panel_image.read(display.panel, progress);
+        return {std::move(panel.texels), {{"panel_image", {{"incomplete", panel.incomplete}}}}};
+    }
     if (args.pattern.given())
         return {shown_texels(pattern(args.pattern.name(), display, geometry, pattern_options), display.panel.encoding)};
     const Picture picture = elemental_images(display, geometry, load_scene(display, geometry), args.work.threads(), progress);
@@ -62,16 +65,15 @@ void run(const Arguments& args) {
     std::optional<Rect> crop;
     faults.of([&] {
         display = args.display.read();
-        const bool from_file = !args.panel_image.empty();  // else there is an image beside the texels for a while
-        crop =
-            args.crop.read(display.camera, texel_bytes(display) +
-                                               (from_file ? 0 : picture_bytes(display.panel.pixels[0], display.panel.pixels[1])));
+        crop = args.crop.read(display.camera, texel_bytes(display));
+        if (!args.panel_image.given()) require_panel_memory(display);
     });
+    faults.of([&] { args.panel_image.check(); });
     faults.of([&] { pattern_options = args.pattern.read(); });
     faults.of([&] { choose_kernel(args.kernel); });
     faults.of([&] { args.work.check(); });
     faults.of([&] { args.output.check(); });
-    if (!args.panel_image.empty() + args.model.given() + args.pattern.given() > 1)
+    if (args.panel_image.given() + args.model.given() + args.pattern.given() > 1)
         faults.of([] { throw InputError("--panel-image, --model, --pattern", "the panel shows one thing; give one of them"); });
     faults.report();
     args.model.apply(display);
@@ -80,10 +82,9 @@ void run(const Arguments& args) {
     Progress progress(args.work.progress());
     const Shown panel = shown(args, display, geometry, pattern_options, progress);
     const Rendering r = render(display, geometry, panel.texels, {args.work.threads(), args.kernel, crop}, progress);
-    progress.end();
     const Metadata about{
         {"kernel", r.kernel}, {"threads", fmt::format("{}", r.threads)}, {"seconds", fmt::format("{:.3f}", r.seconds)}};
-    args.output.write(r.image, Encoding::srgb, display, about, r.complete);
+    args.output.write(r.image, Encoding::srgb, display, about, r.complete, progress);
 
     Json more{{"kernel", r.kernel}, {"threads", r.threads}};
     more.update(panel.made);

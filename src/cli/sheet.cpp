@@ -60,6 +60,7 @@ void run(const Arguments& args) {
     std::vector<Image> cells;
     for (const std::string& path : args.images)
         faults.of([&] {
+            check_input("IMAGE", path);
             const Image image = read_image(path, Encoding::srgb);
             const double height = std::max(1.0, std::round(double(width) * image.height / image.width));
             require_memory(path, fmt::format("a cell of {} x {:.0f} pixels", width, height), double(width) * height * 12);

@@ -42,6 +42,14 @@ for kind, number in [("npy", signal.SIGINT), ("png", signal.SIGHUP), ("exr", sig
     else:
         checks.that(b"incomplete" in (program.folder / f"out.{kind}").read_bytes(), f"{kind}: the picture is not marked")
 
+# Used as a panel image, the kept picture says so; a complete one does not.
+shown = ["render", "tiny.toml", "--set", "panel.pixels=[1280, 720]", "--samples", "1", "-o", "view.png", "--json", "--progress", "none"]
+program.must(["eia", "tiny.toml", "--set", "panel.pixels=[1280, 720]", "--pattern", "white", "-o", "whole.png"])
+for name, incomplete in [("out.png", True), ("out.exr", True), ("whole.png", False)]:
+    code, out, err = program.run([*shown, "--panel-image", name])
+    checks.that(code == 0 and json.loads(out)["panel_image"] == {"incomplete": incomplete}, f"{name} as panel image: {out} {err}")
+    checks.that((f"{name}: is marked incomplete" in err) == incomplete, f"{name} as panel image: said {err!r}")
+
 process = program.start(f"{LONG} --samples 4 -o nohup.png", **hangup(signal.SIG_IGN))
 begun(process)
 process.send_signal(signal.SIGHUP)
