@@ -1,4 +1,5 @@
 #include "image/encoding.h"
+#include "image/first_failure.h"
 #include "image/formats.h"
 
 #include <fmt/format.h>
@@ -60,13 +61,16 @@ void read_rows(const Reader& reader, int passes, std::int64_t rows, const std::v
     // Interlaced pictures come in passes, each of which touches every row: all codes must be kept until the last.
     const std::int64_t most_rows = passes > 1 ? rows : std::max<std::int64_t>(1, band_codes / row_codes);
     std::int64_t next = 0;
+    FirstFailure failure;
     const auto inflate = [&](tbb::flow_control& flow) {
         Band<Code> band{next, std::min(most_rows, rows - next), {}};
-        if (band.rows == 0) flow.stop();
-        band.codes.resize(std::size_t(band.rows * row_codes));
-        for (int pass = 0; pass < passes; ++pass)
-            for (std::int64_t r = 0; r < band.rows; ++r)
-                png_read_row(reader.png, reinterpret_cast<png_bytep>(&band.codes[std::size_t(r * row_codes)]), nullptr);
+        failure.guard([&] {
+            band.codes.resize(std::size_t(band.rows * row_codes));
+            for (int pass = 0; pass < passes; ++pass)
+                for (std::int64_t r = 0; r < band.rows; ++r)
+                    png_read_row(reader.png, reinterpret_cast<png_bytep>(&band.codes[std::size_t(r * row_codes)]), nullptr);
+        });
+        if (band.rows == 0 || failure.failed()) flow.stop();
         next += band.rows;
         return band;
     };
@@ -78,6 +82,7 @@ void read_rows(const Reader& reader, int passes, std::int64_t rows, const std::v
     tbb::parallel_pipeline(std::size_t(2 * tbb::this_task_arena::max_concurrency()),
                            tbb::make_filter<void, Band<Code>>(tbb::filter_mode::serial_in_order, inflate) &
                                tbb::make_filter<Band<Code>, void>(tbb::filter_mode::parallel, decode));
+    failure.rethrow();
 }
 
 }  // namespace

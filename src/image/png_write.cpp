@@ -1,5 +1,6 @@
 #include "image/encoder.h"
 #include "image/encoding.h"
+#include "image/first_failure.h"
 #include "image/formats.h"
 
 #include <fmt/format.h>
@@ -131,17 +132,22 @@ void write_png(OutputFile& file, const Image& image, const WriteOptions& options
     static constexpr png_byte idat[] = "IDAT", iend[] = "IEND";
     int next = 0;
     uLong adler = 1;
+    FirstFailure failure;
     const auto begin_strip = [&](tbb::flow_control& flow) {
         const int begin = next;
-        if (begin >= image.height) flow.stop();
+        if (begin >= image.height || failure.failed()) flow.stop();
         next += strip_rows;
         return begin;
     };
     const auto compress_strip = [&](int begin) {
-        const int end = std::min(begin + strip_rows, image.height);
-        return compress(filter_up(image, options, begin, end), begin, end == image.height);
+        Strip strip{};
+        failure.guard([&] {
+            const int end = std::min(begin + strip_rows, image.height);
+            strip = compress(filter_up(image, options, begin, end), begin, end == image.height);
+        });
+        return strip;
     };
-    const auto write_strip = [&](Strip strip) {
+    const auto write_strip = [&](Strip& strip) {
         adler = adler32_combine(adler, strip.adler, z_off_t(strip.bytes));
         if (strip.begin == 0) strip.deflated.insert(strip.deflated.begin(), {0x78, 0x01});  // zlib header: 32 KiB window
         if (strip.last)
@@ -153,7 +159,9 @@ void write_png(OutputFile& file, const Image& image, const WriteOptions& options
     tbb::parallel_pipeline(std::size_t(2 * tbb::this_task_arena::max_concurrency()),
                            tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, begin_strip) &
                                tbb::make_filter<int, Strip>(tbb::filter_mode::parallel, compress_strip) &
-                               tbb::make_filter<Strip, void>(tbb::filter_mode::serial_in_order, write_strip));
+                               tbb::make_filter<Strip, void>(tbb::filter_mode::serial_in_order,
+                                                             [&](Strip strip) { failure.guard([&] { write_strip(strip); }); }));
+    failure.rethrow();
     png_write_chunk(writer.png, iend, nullptr, 0);
 }
 

@@ -1,0 +1,32 @@
+// Exceptions in a pipeline of threads. Internal to src/image. Floor 0.
+#pragma once
+#include <atomic>
+#include <exception>
+
+namespace lfdsim::detail {
+
+/// Keeps the first exception until the pipeline has run dry: one that leaves tbb::parallel_pipeline() leaks what is on its way.
+class FirstFailure {
+  public:
+    /// Does the work, unless some has failed before. From any thread.
+    template <class Work>
+    void guard(const Work& work) {
+        if (failed_) return;
+        try {
+            work();
+        } catch (...) {
+            if (!failed_.exchange(true)) error_ = std::current_exception();
+        }
+    }
+    bool failed() const { return failed_; }
+    /// To be called when all threads are done.
+    void rethrow() const {
+        if (error_) std::rethrow_exception(error_);
+    }
+
+  private:
+    std::atomic<bool> failed_{false};
+    std::exception_ptr error_;
+};
+
+}  // namespace lfdsim::detail
