@@ -71,6 +71,16 @@ TEST(Compare, ARegionIsAsIfCutOut) {
     EXPECT_EQ(part.max_row, whole.max_row + 5);
 }
 
+// Windows of 11 rows: those of rows 0-149 and those of rows 140-299 are together those of all, however they are gathered.
+TEST(Compare, PartsAddUpToTheWhole) {
+    const Image a = test::random_image(20, 300, 1);
+    Image b = test::random_image(20, 300, 2);
+    std::copy_n(a.rgb.begin(), b.rgb.size() / 2, b.rgb.begin());  // alike above, unlike below
+    const double above = compare(a, b, Rect{0, 0, 20, 150}).ssim, below = compare(a, b, Rect{0, 140, 20, 300}).ssim;
+    EXPECT_GT(above, below + 0.5);
+    EXPECT_NEAR(compare(a, b).ssim, (140 * above + 150 * below) / 290, 1e-12);
+}
+
 TEST(Compare, RefusesWhatCannotBeCompared) {
     const Image image = test::random_image(40, 30);
     EXPECT_NE(test::input_error([&] { compare(image, test::random_image(30, 40)); }).find("40 x 30 and 30 x 40"),
