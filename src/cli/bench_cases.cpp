@@ -1,5 +1,7 @@
 #include "cli/bench_cases.h"
 
+#include <algorithm>
+
 namespace lfdsim::cli {
 namespace {
 
@@ -35,8 +37,8 @@ void make_tiny_lenses(Display& d) {
     d.lens.cylinder_height_mm *= shrink;
 }
 
-constexpr Duty table[] = {
-    {"paper", [](Display&) {}},
+constexpr Duty duty_table[] = {
+    {"plain", [](Display&) {}},
     {"fresnel exact", [](Display& d) { d.render.fresnel = Fresnel::exact; }},
     {"fresnel none", [](Display& d) { d.render.fresnel = Fresnel::none; }},
     {"no diffuser", [](Display& d) { d.diffuser.reset(); }},
@@ -53,22 +55,53 @@ constexpr Duty table[] = {
     {"facing the panel", [](Display& d) { d.lens.facing = Facing::panel; }},
     {"square apertures", [](Display& d) { d.array.aperture = Aperture::square; }},
     {"aperture stop", [](Display& d) { d.lens.stop_radius_mm = 2; }},
-    {"sphere as surfaces",
+    {"a million lenses", make_tiny_lenses},
+};
+
+template <Surround surround>
+void put_sphere(Display& d) {
+    d.array.surround = surround;
+}
+template <Surround surround>
+void put_asphere(Display& d) {
+    make_asphere(d);
+    d.array.surround = surround;
+}
+
+constexpr Duty glass_table[] = {
+    {"plano-convex, opaque", put_sphere<Surround::opaque>},
+    {"plano-convex, plate", put_sphere<Surround::plate>},
+    {"plano-convex, clear", put_sphere<Surround::clear>},
+    {"sphere as surfaces, opaque",
      [](Display& d) {
          make_asphere(d);
          d.lens.surfaces[1].conic = 0;
          d.lens.surfaces[1].even_asphere.clear();
      }},
-    {"asphere", make_asphere},
-    {"ideal lens", make_ideal},
-    {"surround plate", [](Display& d) { d.array.surround = Surround::plate; }},
-    {"surround clear", [](Display& d) { d.array.surround = Surround::clear; }},
-    {"a million lenses", make_tiny_lenses},
+    {"asphere, opaque", put_asphere<Surround::opaque>},
+    {"asphere, plate", put_asphere<Surround::plate>},
+    {"asphere, clear", put_asphere<Surround::clear>},
+    {"ideal, opaque", make_ideal},
 };
 
 }  // namespace
 
-const std::span<const Duty> duties = table;
+const std::span<const Duty> duties = duty_table;
+const std::span<const Duty> glasses = glass_table;
+
+Texels noise_panel(const Display& d) {
+    const auto [columns, rows] = d.panel.pixels;
+    Texels texels(columns, rows);
+    for (std::int64_t i = 0; i < columns * rows * 4; ++i)
+        texels.data()[i] = i % 4 == 3 ? 0.0f : float(std::uint32_t(i) * 2654435761u >> 8) * 0x1p-24f;
+    return texels;
+}
+
+Rect band(const Display& d, int rows) {
+    const auto [width, height] = d.camera.resolution;
+    const int top = std::max(0, (int(height) - rows) / 2);
+    return {0, top, int(width), std::min(int(height), top + rows)};
+}
 
 Display bench_display() {
     Display d;
@@ -86,6 +119,7 @@ Display bench_display() {
     d.diffuser->distance_mm = 45.851;          // z = 60 mm
     d.diffuser->angle_deg = {2.8648, 2.8648};  // 0.05 rad
     d.camera.frame_width_mm = 384;
+    d.content.tilt_deg = -35;  // Blender's monkey looks up
     d.render.fresnel = Fresnel::schlick;
     return d;
 }

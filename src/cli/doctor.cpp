@@ -1,4 +1,5 @@
 #include "cli/commands.h"
+#include "cli/machine.h"
 #include "cli/memory.h"
 #include "cli/output.h"
 #include "content/reader_path.h"
@@ -12,18 +13,10 @@
 #include <unistd.h>
 #include <cctype>
 #include <cstdlib>
-#include <fstream>
 
 // lfdsim doctor: what a report of a fault should hold, and the answer to "why is it slow", "why does it not read my model".
 namespace lfdsim::cli {
 namespace {
-
-std::string processor() {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);)
-        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-    return "unknown";
-}
 
 std::string model_reader() {
     try {
@@ -63,7 +56,7 @@ Json findings() {
 
     Json all;
     all["version"] = LFDSIM_VERSION;
-    all["build"] = LFDSIM_COMPILER ", " LFDSIM_BUILD_TYPE;
+    all["build"] = compiler() + ", " + build_type();
     all["processor"] = processor();
     all["instruction_sets"] = sets;
     all["kernels"] = available;
