@@ -1,11 +1,13 @@
 #!/usr/bin/python3
 """The figures of docs/performance.md, measured now on this machine and printed as its tables.
 
-Usage: bench/figures.py [--program build/release/lfdsim] [--runs 5] [--quick] [--check]
+Usage: bench/figures.py [--program build/release/lfdsim] [--runs 5] [--quick] [--check] [--write]
 --quick: small pictures, one run, no big panel. --check: exit code 1 where a figure misses its loose bound (a third of the goal).
+--write: puts them in place of the section "Measured" of docs/performance.md.
 Each comparison alternates between both sides, so that whatever else the machine does meets both alike; medians are printed.
 """
 import argparse
+import glob
 import json
 import os
 import shutil
@@ -18,7 +20,7 @@ import time
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 MONKEY = "/usr/share/assimp/models/BLEND/Suzanne_248.blend"
 PAPER = 829.44  # million samples of 3840 x 2160 x 100, which took the 2019 paper's GPU one second
-failures = []
+failures, lines = [], []
 
 
 def lfdsim(*words):
@@ -35,8 +37,13 @@ def render_rate(display, panel, *words):
     return lfdsim("render", display, "--panel-image", panel, *size, *words, "-o", os.path.join(folder, "out.npy"))["msamples_per_s"]
 
 
+def say(line):
+    lines.append(line)
+    print(line, flush=True)
+
+
 def figure(name, value, goal=None, unit="", loose=None):
-    print(f"| {name} | {value:.4g}{unit} | {goal or ''} |", flush=True)
+    say(f"| {name} | {value:.4g}{unit} | {goal or ''} |")
     if loose is not None and not loose(value):
         failures.append(f"{name}: {value:.4g}{unit}")
 
@@ -50,7 +57,7 @@ def panel_of(display, name, *words):
 def against_yardstick(panel):
     """The renderer and the flat kernel, turn by turn, on all threads and on one."""
     if not shutil.which("clang++-14"):
-        print("| the flat kernel | SKIPPED: no clang++-14 to build it with | |")
+        say("| the flat kernel | SKIPPED: no clang++-14 to build it with | |")
         return
     yardstick = os.path.join(folder, "yardstick")
     subprocess.run(["clang++-14", "-std=c++20", "-O3", "-march=native", "-ffast-math", os.path.join(ROOT, "bench/yardstick.cpp"),
@@ -137,24 +144,92 @@ def flatness(panel):
     figure("panel of 15360 x 8640, constant size: time per sample over that of 3840 x 2160", render_rate(DISPLAY, panel) / fine)
 
 
+def bench(*words):
+    """What `lfdsim bench` says of the groups."""
+    made = lfdsim("bench", *words, "--runs", options.runs, *(["--quick"] if options.quick else []))
+    return {group: rows for group, rows in made.items() if isinstance(rows, list)}
+
+
+def parts_of_the_program():
+    """The paper's case as its user meets it; lenses, kernels, threads; finished pictures."""
+    groups = bench("paper", "lenses", "kernels", "threads", "pictures")
+    paper = {row["name"]: row for row in groups["paper"]}
+    whole = "3840 x 2160 x " + ("10" if options.quick else "100")
+    figure(f"{whole}, start of the program to the PNG written, s", paper["start to picture"]["seconds"]["median"],
+           None if options.quick else "1, the 2019 paper's")
+    figure(f"{whole}, of this tracing, s", paper["of this, tracing"]["seconds"]["median"])
+    for group in ("lenses", "kernels", "threads"):
+        for row in groups[group]:
+            figure(f"{row['name']}, million samples/s", row["msamples_per_s"])
+    for row in groups["pictures"]:
+        figure(f"{row['name']}, 3840 x 2160, s", row["seconds"]["median"])
+        figure(f"{row['name']}, million pixels/s", row["mpixels_per_s"])
+
+
+def estimators():
+    """Time to an error, on all shipped displays; the crop is small, as a reference of plate or clear surround takes its time."""
+    words = [] if options.quick else ["--crop", "1840,1035,2000,1125", "--display",
+                                      *sorted(glob.glob(os.path.join(ROOT, "displays/*.toml")))]
+    for row in bench("estimators", *words)["estimators"]:
+        if "not_measured" in row:
+            say(f"| {row['name']} | SKIPPED: {row['not_measured']} | |")
+            continue
+        where = f"{row['display']}, {row['content']}"
+        rmse = {(point["estimator"], point["samples"]): point["rmse"] for point in row["points"]}
+        figure(f"{where}: RMSE of 100 random samples", rmse["point, random", 100])
+        for name, ratio in row["time_to_papers_error_over_papers"].items():
+            if name == "point, random":
+                continue
+            if ratio is None:
+                say(f"| {where}: {name} does not come to that RMSE | | |")
+            else:
+                figure(f"{where}: time to that RMSE by \"{name}\", over that of the 100", ratio)
+
+
+def machine():
+    """What a reader has to know of the figures."""
+    found = lfdsim("bench", "pictures", "--quick")
+    build = found["build"]
+    return (f"{found['machine']['processor']}, {found['machine']['processors']} processors, {found['machine']['memory_gb']:.0f} GB of memory; "
+            f"lfdsim {found['version']}, {build['compiler']}, {build['type']}; kernel {found['kernel']}, "
+            f"`{build['kernel_flags']}`; {time.strftime('%-d %B %Y')}. Medians of {options.runs} (panel and lens counts: of "
+            f"{min(3, options.runs)}).")
+
+
+def write_section(text):
+    """In place of what stands under the heading."""
+    path = os.path.join(ROOT, "docs/performance.md")
+    with open(path) as file:
+        before, _, rest = file.read().partition("## Measured\n")
+    after = rest[rest.index("\n## "):]
+    with open(path, "w") as file:
+        file.write(f"{before}## Measured\n\n{text}\n{after}")
+
+
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 parser.add_argument("--program", default=os.path.join(ROOT, "build/release/lfdsim"))
 parser.add_argument("--runs", type=int, default=5)
-parser.add_argument("--only", default="", help="yardstick, duties, content, memory, flatness: only these, with commas")
+parser.add_argument("--only", default="", help="yardstick, duties, content, memory, flatness, bench, estimators: only these, with commas")
 parser.add_argument("--quick", action="store_true")
 parser.add_argument("--check", action="store_true")
+parser.add_argument("--write", action="store_true")
 options = parser.parse_args()
+if options.write and (options.only or options.quick):
+    parser.error("--write takes all figures, in full")
 if options.quick:
     options.runs = 1
 DISPLAY = os.path.join(ROOT, "bench/yardstick.toml")
 with tempfile.TemporaryDirectory() as folder:
-    print("| figure | measured | goal |\n|---|---|---|")
+    say(machine() + "\n\n| figure | measured | goal |\n|---|---|---|")
     shown = panel_of(DISPLAY, "panel")
     parts = {"yardstick": lambda: against_yardstick(shown), "duties": lambda: duties(shown), "content": content,
-             "memory": lambda: memory_and_start(shown), "flatness": lambda: flatness(shown)}
+             "memory": lambda: memory_and_start(shown), "flatness": lambda: flatness(shown),
+             "bench": parts_of_the_program, "estimators": estimators}
     for name, measure in parts.items():
         if not options.only or name in options.only.split(","):
             measure()
+if options.write:
+    write_section("\n".join(lines))
 for line in failures:
     print("misses its loose bound: " + line)
 sys.exit(1 if options.check and failures else 0)
