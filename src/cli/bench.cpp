@@ -46,7 +46,7 @@ struct Arguments {
         model_option =
             command.add_option("--model", model, "Mesh file for content and estimators")->type_name("FILE")->capture_default_str();
         command.add_option("--display", displays, "Estimators: descriptions to render; default: the display of the other groups")
-            ->type_name("FILE ...");
+            ->type_name("FILE");
         command.add_option("--crop", crop, "Estimators: this part of the frame; default: its middle")->type_name("X0,Y0,X1,Y1");
     }
     std::vector<std::string> chosen, displays;

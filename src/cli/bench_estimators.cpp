@@ -53,13 +53,13 @@ struct Point {
     Measured time;
 };
 
-/// Seconds to an error, along the straight line in logarithms between the two points that enclose it; nothing where the error is
-/// beyond what was measured.
+/// Seconds to an error, along the straight line in logarithms between the two points that enclose it; where the fewest samples have
+/// less, theirs; nothing where the most have more.
 std::optional<double> seconds_to(double rmse, const Estimator& estimator, const std::vector<Point>& points) {
     const Point* last = nullptr;
     for (const Point& p : points) {
         if (p.estimator != &estimator) continue;
-        if (p.error.rmse == rmse) return p.time.median();
+        if (p.error.rmse == rmse || (!last && p.error.rmse < rmse)) return p.time.median();
         if (last && last->error.rmse > rmse && p.error.rmse < rmse) {
             const double share = std::log(last->error.rmse / rmse) / std::log(last->error.rmse / p.error.rmse);
             return last->time.median() * std::pow(p.time.median() / last->time.median(), share);
@@ -115,7 +115,7 @@ std::vector<Point> points_of(const View& view, const Image& truth, Bench& bench)
                              const auto start = std::chrono::steady_clock::now();
                              const Rendering r = view.rendered(bench, *p.estimator, p.samples, view.display.render.seed, job);
                              const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-                             p.error = error_of(r.image, truth);
+                             if (r.complete) p.error = error_of(r.image, truth);
                              return Run{seconds.count(), double(r.samples)};
                          }});
     const std::vector<Measured> times = bench.measure("estimators", cases);
@@ -129,14 +129,14 @@ void report(const View& view, const Reference& reference, const std::vector<Poin
                                      [](const Point& p) { return p.estimator == &papers && p.samples == papers_samples; });
     Json rows = Json::array(), ratios = Json::object();
     std::string text =
-        fmt::format("{} samples a pixel as reference, whose own error is {:.5f}\n", reference.samples, reference.rmse);
+        fmt::format("{} samples a pixel as reference, whose own error is {:.6f}\n", reference.samples, reference.rmse);
     for (const Point& p : points) {
         rows.push_back({{"estimator", p.estimator->name},
                         {"samples", p.samples},
                         {"rmse", p.error.rmse},
                         {"brightness_error", p.error.brightness},
                         {"seconds", spread(p.time)}});
-        text += fmt::format("  {:<20} {:5} samples   RMSE {:.5f}   brightness {:+.3f} %   {:.5f} s ({:.5f} .. {:.5f})\n",
+        text += fmt::format("  {:<20} {:5} samples   RMSE {:.6f}   brightness {:+.3f} %   {:.5f} s ({:.5f} .. {:.5f})\n",
                             p.estimator->name, p.samples, p.error.rmse, p.error.brightness * 100, p.time.median(),
                             p.time.seconds.front(), p.time.seconds.back());
     }

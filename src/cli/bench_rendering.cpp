@@ -59,7 +59,7 @@ void bench_kernels(Bench& bench) {
     const Display d = bench_display();
     for (const KernelInfo& kernel : kernels())
         if (kernel.available)
-            renders.add(fmt::format("{}, {} lanes", kernel.name, kernel.lanes), d,
+            renders.add(fmt::format("{}, {} lane{}", kernel.name, kernel.lanes, kernel.lanes == 1 ? "" : "s"), d,
                         {1, kernel.name, band(d, bench.settings.quick ? 16 : 48)});
     renders.report("kernels");
 }

@@ -42,7 +42,7 @@ for row in made["estimators"]:
     fall = rmse["point, random", 1] / rmse["point, random", 1024]
     checks.that(32 / 1.5 < fall < 32 * 1.5, f"{name}: the error of random samples falls by {fall:.1f} from 1 to 1024 samples, not by 32")
     checks.that(rmse["point, sobol", 1024] < rmse["point, random", 1024], f"{name}: low-discrepancy samples are no better: {rmse}")
-    checks.that(row["reference"]["rmse"] < rmse["point, sobol", 1024] / 2, f"{name}: the reference has too great an error: {row['reference']}")
+    checks.that(0 < row["reference"]["rmse"] < rmse["point, sobol", 1024] / 2, f"{name}: the reference's own error is too great or none: {row['reference']}")
     ratios = row["time_to_papers_error_over_papers"]
     checks.that(ratios["point, random"] == 1 and 0 < ratios["point, sobol"], f"{name}: {ratios}")
 
