@@ -35,10 +35,12 @@ struct Case {
 
 struct Measured {
     std::string name;
-    std::vector<double> seconds;  // of each run, in ascending order; empty: interrupted before
+    std::vector<double> seconds;            // of each run, in ascending order; empty: interrupted before
+    std::vector<double> processor_seconds;  // the same of all threads and child processes: other programs' share is not in them
     double count = 0;
 
     double median() const;
+    double processor_median() const;
     double rate() const { return count / median(); }
 };
 
@@ -70,7 +72,7 @@ class Bench {
     Json groups_ = Json::object();
 };
 
-/// Seconds as JSON: median, least, most, and how many runs.
+/// Seconds as JSON: median, least, most, how many runs, and the median of processor seconds.
 Json spread(const Measured&);
 
 void bench_rendering(Bench&);

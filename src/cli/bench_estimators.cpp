@@ -53,16 +53,26 @@ struct Point {
     Measured time;
 };
 
+using Clock = double (Measured::*)() const;
+struct Ratio {
+    const char *key, *name;
+    Clock clock;
+};
+constexpr Ratio ratios_told[] = {{"time_to_papers_error_over_papers", "time", &Measured::median},
+                                 {"processor_time_to_papers_error_over_papers", "processor time", &Measured::processor_median}};
+
 /// Seconds to an error, along the straight line in logarithms between the two points that enclose it; where the fewest samples have
 /// less, theirs; nothing where the most have more.
-std::optional<double> seconds_to(double rmse, const Estimator& estimator, const std::vector<Point>& points) {
+std::optional<double> seconds_to(double rmse, const Estimator& estimator, const std::vector<Point>& points, Clock clock) {
     const Point* last = nullptr;
     for (const Point& p : points) {
         if (p.estimator != &estimator) continue;
-        if (p.error.rmse == rmse || (!last && p.error.rmse < rmse)) return p.time.median();
+        const double seconds = (p.time.*clock)();
+        if (p.error.rmse == rmse || (!last && p.error.rmse < rmse)) return seconds;
         if (last && last->error.rmse > rmse && p.error.rmse < rmse) {
-            const double share = std::log(last->error.rmse / rmse) / std::log(last->error.rmse / p.error.rmse);
-            return last->time.median() * std::pow(p.time.median() / last->time.median(), share);
+            const double before = (last->time.*clock)();
+            return before *
+                   std::pow(seconds / before, std::log(last->error.rmse / rmse) / std::log(last->error.rmse / p.error.rmse));
         }
         last = &p;
     }
@@ -127,7 +137,7 @@ std::vector<Point> points_of(const View& view, const Image& truth, Bench& bench)
 void report(const View& view, const Reference& reference, const std::vector<Point>& points, Bench& bench) {
     const auto wanted = std::find_if(points.begin(), points.end(),
                                      [](const Point& p) { return p.estimator == &papers && p.samples == papers_samples; });
-    Json rows = Json::array(), ratios = Json::object();
+    Json rows = Json::array();
     std::string text =
         fmt::format("{} samples a pixel as reference, whose own error is {:.6f}\n", reference.samples, reference.rmse);
     for (const Point& p : points) {
@@ -140,25 +150,26 @@ void report(const View& view, const Reference& reference, const std::vector<Poin
                             p.estimator->name, p.samples, p.error.rmse, p.error.brightness * 100, p.time.median(),
                             p.time.seconds.front(), p.time.seconds.back());
     }
-    if (wanted != points.end()) {
-        text += fmt::format("  time to the RMSE of {} samples of \"{}\", over theirs:", papers_samples, papers.name);
-        for (const Estimator& e : estimators) {
-            const std::optional<double> seconds = seconds_to(wanted->error.rmse, e, points);
-            ratios[e.name] = seconds ? Json(*seconds / wanted->time.median()) : Json();
-            text += seconds ? fmt::format(" {} {:.3f};", e.name, *seconds / wanted->time.median())
-                            : fmt::format(" {} not reached;", e.name);
+    Json all{{"display", view.display.name},
+             {"content", view.content},
+             {"crop", {view.crop.x0, view.crop.y0, view.crop.x1, view.crop.y1}},
+             {"reference", {{"samples", reference.samples}, {"rmse", reference.rmse}}},
+             {"points", rows}};
+    if (wanted != points.end())
+        for (const Ratio& c : ratios_told) {
+            text += fmt::format("  {} to the RMSE of {} samples of \"{}\", over theirs:", c.name, papers_samples, papers.name);
+            Json ratios = Json::object();
+            for (const Estimator& e : estimators) {
+                const std::optional<double> seconds = seconds_to(wanted->error.rmse, e, points, c.clock);
+                const double ratio = seconds ? *seconds / (wanted->time.*c.clock)() : NAN;  // null in JSON
+                ratios[e.name] = ratio;
+                text += fmt::format(" {} {};", e.name, seconds ? fmt::format("{:.3f}", ratio) : "not reached");
+            }
+            text.back() = '\n';
+            all[c.key] = std::move(ratios);
         }
-        text.back() = '\n';
-    }
     text.pop_back();
-    bench.row("estimators",
-              {{"display", view.display.name},
-               {"content", view.content},
-               {"crop", {view.crop.x0, view.crop.y0, view.crop.x1, view.crop.y1}},
-               {"reference", {{"samples", reference.samples}, {"rmse", reference.rmse}}},
-               {"points", rows},
-               {"time_to_papers_error_over_papers", ratios}},
-              text);
+    bench.row("estimators", std::move(all), text);
 }
 
 void compare_estimators(const View& view, Bench& bench) {

@@ -1,7 +1,9 @@
 #include "cli/bench.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <algorithm>
+#include <cmath>
 
 namespace lfdsim::cli {
 namespace {
@@ -16,39 +18,59 @@ class OneRun : public Job {
     const Job& all_;
 };
 
+double processor_seconds() {
+    double sum = 0;
+    for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+        rusage used{};
+        getrusage(who, &used);
+        for (const timeval& t : {used.ru_utime, used.ru_stime}) sum += double(t.tv_sec) + double(t.tv_usec) * 1e-6;
+    }
+    return sum;
+}
+
+double median_of(const std::vector<double>& ascending) {
+    const std::size_t n = ascending.size();
+    return n == 0 ? NAN : (ascending[(n - 1) / 2] + ascending[n / 2]) / 2;
+}
+
 std::string range(double least, double most, int digits) {
     return fmt::format("({:.{}f} .. {:.{}f})", least, digits, most, digits);
 }
 
 }  // namespace
 
-double Measured::median() const {
-    const std::size_t n = seconds.size();
-    return (seconds[(n - 1) / 2] + seconds[n / 2]) / 2;
-}
+double Measured::median() const { return median_of(seconds); }
+double Measured::processor_median() const { return median_of(processor_seconds); }
 
 Json spread(const Measured& m) {
-    return {{"median", m.median()}, {"least", m.seconds.front()}, {"most", m.seconds.back()}, {"runs", m.seconds.size()}};
+    return {{"median", m.median()},
+            {"least", m.seconds.front()},
+            {"most", m.seconds.back()},
+            {"runs", m.seconds.size()},
+            {"processor_median", m.processor_median()}};
 }
 
 Bench::Bench(const BenchSettings& s, Progress& progress) : settings(s), progress_(progress) {}
 
 std::vector<Measured> Bench::measure(std::string_view stage, const std::vector<Case>& cases) {
     std::vector<Measured> all;
-    for (const Case& c : cases) all.push_back({c.name, {}, 0});
+    for (const Case& c : cases) all.push_back({c.name, {}, {}, 0});
     progress_.stage(stage, std::int64_t(cases.size()) * settings.runs);
     OneRun job(progress_);
     for (int run = 0; run < settings.runs; ++run)
         for (std::size_t i = 0; i < cases.size() && !cancelled(); ++i) {
+            const double before = processor_seconds();
             const Run r = cases[i].run(job);
             if (cancelled()) break;
             all[i].seconds.push_back(r.seconds);
+            all[i].processor_seconds.push_back(processor_seconds() - before);
             all[i].count = r.count;
             progress_.advance(1);
         }
     progress_.end();
     std::erase_if(all, [](const Measured& m) { return m.seconds.empty(); });
-    for (Measured& m : all) std::sort(m.seconds.begin(), m.seconds.end());
+    for (Measured& m : all)
+        for (auto* values : {&m.seconds, &m.processor_seconds}) std::sort(values->begin(), values->end());
     return all;
 }
 

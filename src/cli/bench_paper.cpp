@@ -135,7 +135,7 @@ void bench_paper(Bench& bench) {
     bench.seconds("paper", "samples", all);
     if (all.size() < 2) return;
     std::sort(traced.begin(), traced.end());
-    bench.seconds("paper", "samples", {{"of this, tracing", traced, samples}});
+    bench.seconds("paper", "samples", {{"of this, tracing", traced, {}, samples}});
     Json paper{{"name", "the 2019 paper"},
                {"gpu", paper_gpu},
                {"seconds", paper_seconds},

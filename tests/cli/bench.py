@@ -28,6 +28,7 @@ checks.that("-fno-math-errno" in made["build"]["kernel_flags"] and "avx" not in 
 for row in made["pictures"]:
     seconds = row["seconds"]
     checks.that(seconds["runs"] == 3 and 0 < seconds["least"] <= seconds["median"] <= seconds["most"], f"pictures: {row}")
+    checks.that(seconds["processor_median"] > 0, f"pictures: {row}")
     checks.that(abs(row["mpixels_per_s"] * seconds["median"] - 8.2944) < 1e-6, f"pictures, rate: {row}")
 checks.that([row["name"] for row in made["pictures"]][-1] == "SSIM, PSNR, RMSE", "pictures: SSIM is missing")
 
