@@ -34,7 +34,7 @@ def lfdsim(*words):
 
 def render_rate(display, panel, *words):
     size = ["--size", "1920x1080"] if options.quick else []
-    return lfdsim("render", display, "--panel-image", panel, *size, *words, "-o", os.path.join(folder, "out.npy"))["msamples_per_s"]
+    return lfdsim("render", display, "--panel-image", panel, "--estimator", "point", *size, *words, "-o", os.path.join(folder, "out.npy"))["msamples_per_s"]
 
 
 def say(line):
@@ -108,13 +108,13 @@ def content():
 
 
 def memory_and_start(panel):
-    seconds = [lfdsim("render", DISPLAY, "--panel-image", panel, "--crop", "0,0,16,16", "-o", os.path.join(folder, "out.npy"))
+    seconds = [lfdsim("render", DISPLAY, "--panel-image", panel, "--estimator", "point", "--crop", "0,0,16,16", "-o", os.path.join(folder, "out.npy"))
                ["process_seconds"] for _ in range(options.runs)]
     figure("start to the first samples written, 4K panel image, s", statistics.median(seconds), "0.5", loose=lambda x: x < 1.5)
     code = ("import resource,subprocess,sys; subprocess.run(sys.argv[1:], check=True, stdout=subprocess.DEVNULL);"
             "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1000)")
     samples = "1" if options.quick else "100"
-    out = subprocess.check_output([sys.executable, "-c", code, options.program, "render", DISPLAY, "--panel-image", panel, "--samples",
+    out = subprocess.check_output([sys.executable, "-c", code, options.program, "render", DISPLAY, "--panel-image", panel, "--estimator", "point", "--samples",
                                    samples, "--progress", "none", "--json", "-o", os.path.join(folder, "out.png")], text=True)
     figure("memory of a 3840 x 2160 render to PNG, MB", float(out), "600", loose=lambda x: x < 600)
 

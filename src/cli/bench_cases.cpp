@@ -121,6 +121,8 @@ Display bench_display() {
     d.camera.frame_width_mm = 384;
     d.content.tilt_deg = -35;  // Blender's monkey looks up
     d.render.fresnel = Fresnel::schlick;
+    d.render.estimator = Estimator::point;  // the paper's way
+    d.render.samples = 100;
     return d;
 }
 

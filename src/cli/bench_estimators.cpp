@@ -23,8 +23,9 @@ struct Estimator {
     void (*choose)(Display&);
 };
 constexpr Estimator estimators[] = {
-    {"point, sobol", [](Display& d) { d.render.sampling = Sampling::sobol; }},
-    {"point, random", [](Display& d) { d.render.sampling = Sampling::random; }},
+    {"point, sobol", [](Display& d) { d.render.estimator = lfdsim::Estimator::point, d.render.sampling = Sampling::sobol; }},
+    {"point, random", [](Display& d) { d.render.estimator = lfdsim::Estimator::point, d.render.sampling = Sampling::random; }},
+    {"filtered", [](Display& d) { d.render.estimator = lfdsim::Estimator::filtered; }},
 };
 constexpr const Estimator &brute_force = estimators[0], &papers = estimators[1];
 
@@ -85,6 +86,7 @@ struct View {
     std::string content;
     Texels panel;
     Rect crop;
+    Pyramid pyramid{panel};  // as for several views: made once
 
     std::string name() const {
         return fmt::format("{}, {}, crop {},{},{},{}", display.name, content, crop.x0, crop.y0, crop.x1, crop.y1);
@@ -94,7 +96,7 @@ struct View {
         how.choose(d);
         d.render.samples = samples;
         d.render.seed = seed;
-        return render(d, resolve(d), panel, {bench.settings.threads, bench.settings.kernel, crop}, job);
+        return render(d, resolve(d), pyramid, {bench.settings.threads, bench.settings.kernel, crop}, job);
     }
 };
 

@@ -20,9 +20,11 @@ constexpr KeyOption camera[] = {
     {"--size", "camera.resolution", Form::size, "WxH", "Pixels of the frame"},
 };
 constexpr KeyOption sample[] = {
-    {"--samples", "render.samples", Form::count, "N", "Rays per pixel, where a diffuser, pixel filter or pupil spreads them"},
+    {"--estimator", "render.estimator", Form::word, "filtered|point",
+     "Means of the panel over footprints, or brute force: one panel pixel a sample"},
+    {"--samples", "render.samples", Form::count, "N", "Per pixel, where a diffuser, pixel filter or pupil spreads the light"},
     {"--seed", "render.seed", Form::count, "S", "Seed of the samples"},
-    {"--sampling", "render.sampling", Form::word, "sobol|random", "Low-discrepancy or plain random samples"},
+    {"--sampling", "render.sampling", Form::word, "sobol|random", "Low-discrepancy or plain random points"},
 };
 constexpr KeyOption content[] = {
     {"--depth-mm", "content.depth_mm", Form::number, "Z", "Depth of the model's centre before the lenses' vertex plane"},

@@ -19,7 +19,8 @@ double memory_bytes() {
 // float32 RGB; writers keep a few rows beside it.
 double picture_bytes(std::int64_t columns, std::int64_t rows) { return double(columns) * double(rows) * 12; }
 
-double texel_bytes(const Display& d) { return double(d.panel.pixels[0]) * double(d.panel.pixels[1]) * 16; }
+// Four floats, and their pyramid.
+double texel_bytes(const Display& d) { return double(d.panel.pixels[0]) * double(d.panel.pixels[1]) * 16 * 4 / 3; }
 
 void require_memory(const std::string& where, const std::string& what, double bytes) {
     if (bytes > memory_bytes())

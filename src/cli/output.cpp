@@ -77,13 +77,13 @@ void OutputOptions::check() const {
 }
 
 void OutputOptions::write(const Image& image, Encoding encoding, const Display& display, Metadata about, bool complete,
-                          Progress& progress) const {
+                          Progress& progress, std::vector<ImageLayer> layers) const {
     progress.end();
     about["Software"] = "lfdsim " LFDSIM_VERSION;
     about["command"] = command_line();
     about["display"] = write_display(display);
     if (!complete) about[incomplete_mark] = "true";
-    write_image(path_, image, {bits(), encoding, about}, &progress);
+    write_image(path_, image, {bits(), encoding, about, std::move(layers)}, &progress);
     progress.end();
     if (!complete) end_interrupted(path_);
 }

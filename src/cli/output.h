@@ -9,6 +9,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lfdsim::cli {
 
@@ -36,8 +37,9 @@ class OutputOptions {
     /// To be called before long work. Throws InputError unless the picture can be written there in that depth.
     void check() const;
     /// Saves the picture with `about`, the command line, version and display; work before it has shown its progress. One that is
-    /// not complete is marked so, and the program then ends as interrupted.
-    void write(const Image&, Encoding, const Display&, Metadata about, bool complete, Progress&) const;
+    /// not complete is marked so, and the program then ends as interrupted. Layers are for the formats that keep them.
+    void write(const Image&, Encoding, const Display&, Metadata about, bool complete, Progress&,
+               std::vector<ImageLayer> = {}) const;
     const std::string& path() const { return path_; }
     int bits() const;
 

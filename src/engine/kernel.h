@@ -11,13 +11,19 @@ struct Tile {
     const optics::View* view;
     const optics::Directions* directions;
     const float* texels;  // 4 floats a panel pixel
+    const optics::PanelLevel* levels;
+    int level_count;
     float* out;
     std::int32_t crop_x, crop_y, crop_width;
     std::int32_t x0, y0, x1, y1;
     std::uint32_t samples;
+    int strata;      // filtered estimator: rows and columns of strata, 1 .. kMostStrata - 2; 0: point samples
+    int block_side;  // filtered estimator: pixels, a multiple of 4
     Sampling sampling;
     int dimensions;  // of the sampler that are in use
 };
+
+constexpr int kMostStrata = 64;
 
 using Kernel = void (*)(const Tile&);
 

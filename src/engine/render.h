@@ -1,5 +1,6 @@
 // The picture that an eye or camera sees of a display. Floor 2: threads, kernels, tiles over the optics.
 #pragma once
+#include "engine/pyramid.h"
 #include "image/compare.h"
 #include "image/image.h"
 #include "image/texels.h"
@@ -18,15 +19,19 @@ struct RenderOptions {
     int threads = 0;           // 0: all
     std::string kernel;        // scalar | baseline | avx2 | avx512; empty: LFDSIM_KERNEL, else the best this machine has
     std::optional<Rect> crop;  // of the camera's frame; the image has the crop's size and the full frame's pixels, bit for bit
+    std::optional<double> target_error = {};  // > 0, linear light: take samples until the error is below it, see refine.h
 };
 
 struct Rendering {
     Image image;           // linear light, crop's or camera's size
+    Image error;           // estimated standard error of each pixel, where a target was given
     bool complete = true;  // false: cancelled; unfinished pixels are black
     std::string kernel;    // the one that ran
     int threads = 0;
-    std::int64_t samples = 0;  // traced, all pixels together
-    double seconds = 0;        // of tracing
+    Estimator estimator = Estimator::point;  // the one that was used
+    std::int64_t samples = 0;                // all pixels together
+    double prepare_seconds = 0;              // of making the panel's pyramid, where it was made on the way
+    double seconds = 0;                      // of rendering
 };
 
 /// Kernels compiled in, best first, with whether this machine can run them.
@@ -38,7 +43,11 @@ struct KernelInfo {
 std::vector<KernelInfo> kernels();
 
 /// The picture of a valid display showing `panel` (its size must be the panel's). Same input and seed: the same bits on any
-/// number of threads and any kernel, for any crop. Throws InputError for a bad kernel, crop, thread count or panel size.
+/// number of threads and any kernel, for any crop. Throws InputError for a bad kernel, crop, thread count, target error, number of
+/// samples or panel size.
 Rendering render(const Display&, const Geometry&, const Texels& panel, const RenderOptions&, Job&);
+
+/// The same for a panel prepared before, as several views of one panel image want it.
+Rendering render(const Display&, const Geometry&, const Pyramid& panel, const RenderOptions&, Job&);
 
 }  // namespace lfdsim

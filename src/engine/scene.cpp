@@ -1,5 +1,6 @@
 #include "engine/scene.h"
 
+#include "engine/kernel.h"
 #include "model/prescription.h"
 
 #include <algorithm>
@@ -83,6 +84,28 @@ void add_lens(optics::Scene<S>& scene, const Display& display, const Geometry& g
     scene.hollow_back = surfaces.front().z_mm + sag_range_mm(surfaces.front())[1] > wall_bottom + 1e-9;
 }
 
+// Seen from above, up to the slope of its cap at the rim, a round lens is its rim's circle, and a square one is its cell at the
+// height of its edges' middles. A stop before the lens may be narrower.
+template <class S>
+void add_holes(optics::Scene<S>& scene, const Display& display, const Geometry& geometry, double start_z) {
+    double z = geometry.vertex_plane_mm, radius = display.array.aperture == Aperture::circle ? double(scene.aperture_radius) : 0;
+    if (!geometry.surfaces.empty()) {
+        const PlacedSurface& first = geometry.surfaces.back();
+        if (radius > 0) radius = first.semi_aperture_mm;
+        z = first.z_mm +
+            sag_mm(first.curvature_per_mm, first.conic, first.even_asphere, radius > 0 ? radius : display.array.pitch_mm / 2);
+    }
+    scene.leaky = display.array.surround != Surround::opaque;
+    const bool before = geometry.surfaces.empty() || std::abs(geometry.stop_z_mm - geometry.surfaces.back().z_mm) < 1e-9;
+    if (display.lens.stop_radius_mm && before && (radius == 0 || *display.lens.stop_radius_mm < radius)) {
+        radius = *display.lens.stop_radius_mm;
+        z = geometry.stop_z_mm;
+        scene.leaky = false;
+    }
+    scene.hole_radius = S(radius);
+    scene.holes_below = S(start_z - z);
+}
+
 }  // namespace
 
 template <class S>
@@ -130,6 +153,7 @@ optics::Scene<S> make_scene(const Display& display, const Geometry& geometry) {
             }
         }
     }
+    add_holes(scene, display, geometry, geometry.diffuser_z_mm.value_or(first));
     scene.box_filter = display.camera.pixel_filter == PixelFilter::box;
     scene.thin_lens = display.camera.pupil_diameter_mm.value_or(0) > 0;
     return scene;
@@ -180,10 +204,35 @@ optics::View make_view(const Display& display, const Geometry& geometry) {
     return view;
 }
 
+Estimator estimator_of(const Display& display) {
+    const bool applies = display.diffuser && display.camera.pixel_filter == PixelFilter::center &&
+                         display.camera.pupil_diameter_mm.value_or(0) == 0 && display.array.rotation_deg == 0;
+    return applies ? display.render.estimator : Estimator::point;
+}
+
+std::int64_t samples_of(const Display& display) {
+    if (sample_dimensions(display) == 0) return 1;
+    if (estimator_of(display) == Estimator::point) return display.render.samples.value_or(100);
+    const double strata = std::ceil(std::sqrt(double(display.render.samples.value_or(4))));
+    return std::int64_t(strata) * std::int64_t(strata);
+}
+
 int sample_dimensions(const Display& display) {
     if (display.camera.pupil_diameter_mm.value_or(0) > 0) return 6;
     if (display.camera.pixel_filter == PixelFilter::box) return 4;
     return display.diffuser ? 2 : 0;
+}
+
+int block_side(const optics::Scene<float>& scene, const optics::View& view) {
+    // The picture's grid on the diffuser, along the line of sight, against a lens and what a diffused ray spans in the plane of the
+    // holes
+    const double pixel = view.pixel_mm * std::abs((view.position[2] - view.start_z) / (view.forward[2] * view.distance));
+    double seen = scene.pitch;
+    for (const float angle : scene.half_angle) {
+        const double span = 2 * double(scene.holes_below) * std::tan(std::min(double(angle), 1.5));
+        if (span > 4 * pixel) seen = std::min(seen, span);  // else the strata move with the pixels, whatever the block
+    }
+    return 16 * pixel < 0.2 * seen ? 16 : 8 * pixel < 0.2 * seen ? 8 : 4;
 }
 
 const optics::Directions& sobol_directions() {

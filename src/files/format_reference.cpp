@@ -10,6 +10,7 @@ namespace {
 // How a field is written in a file, by its type.
 std::string_view type_text(const double&) { return "number"; }
 std::string_view type_text(const std::optional<double>&) { return "number"; }
+std::string_view type_text(const std::optional<std::int64_t>&) { return "integer"; }
 std::string_view type_text(const std::int64_t&) { return "integer"; }
 std::string_view type_text(const std::string&) { return "string"; }
 std::string_view type_text(const std::vector<double>&) { return "list of numbers"; }

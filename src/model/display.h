@@ -89,7 +89,8 @@ struct Content {
 };
 
 struct Render {
-    std::int64_t samples = 100;
+    Estimator estimator = Estimator::filtered;
+    std::optional<std::int64_t> samples;  // default: 4 filtered ones, or 100 points
     Sampling sampling = Sampling::sobol;
     Fresnel fresnel = Fresnel::exact;
     std::int64_t seed = 0;

@@ -118,9 +118,15 @@ constexpr Key<Content> content_keys[] = {
 };
 
 constexpr Key<Render> render_keys[] = {
+    {"estimator", &Render::estimator, no_range, false,
+     "Means of the panel over the footprints of what each lens shows of it, or brute force: one panel pixel a sample. Where there "
+     "is no "
+     "diffuser, or a pixel filter, a pupil or a turned array beside it, samples are points in any case."},
     {"samples", &Render::samples, Range{1, 16777216}, false,
-     "Rays per picture pixel, where a diffuser, filter or pupil spreads them."},
-    {"sampling", &Render::sampling, no_range, false, "Low-discrepancy points, or plain random ones."},
+     "Per picture pixel, where a diffuser, filter or pupil spreads the light. Filtered ones are rounded up to a square number, "
+     "3844 at most.",
+     "4 if filtered, else 100"},
+    {"sampling", &Render::sampling, no_range, false, "Of point samples: low-discrepancy points, or plain random ones."},
     {"fresnel", &Render::fresnel, no_range, false,
      "What each glass surface transmits: Fresnel's equations, Schlick's formula, all."},
     {"seed", &Render::seed, Range{0, two_to_63}, false, "Of the samples. The same seed, the same picture."},
@@ -165,6 +171,7 @@ template <> std::span<const std::string_view> words<Surround>() { static constex
 template <> std::span<const std::string_view> words<Aperture>() { static constexpr std::string_view w[] = {"circle", "square"}; return w; }
 template <> std::span<const std::string_view> words<Profile>() { static constexpr std::string_view w[] = {"box", "gaussian"}; return w; }
 template <> std::span<const std::string_view> words<PixelFilter>() { static constexpr std::string_view w[] = {"center", "box"}; return w; }
+template <> std::span<const std::string_view> words<Estimator>() { static constexpr std::string_view w[] = {"filtered", "point"}; return w; }
 template <> std::span<const std::string_view> words<Sampling>() { static constexpr std::string_view w[] = {"sobol", "random"}; return w; }
 template <> std::span<const std::string_view> words<Fresnel>() { static constexpr std::string_view w[] = {"exact", "schlick", "none"}; return w; }
 // clang-format on

@@ -10,6 +10,7 @@ enum class Surround { opaque, clear, plate };  // what is between the lenses
 enum class Aperture { circle, square };
 enum class Profile { box, gaussian };  // of the diffuser, per axis
 enum class PixelFilter { center, box };
+enum class Estimator { filtered, point };
 enum class Sampling { sobol, random };
 enum class Fresnel { exact, schlick, none };
 

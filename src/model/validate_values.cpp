@@ -47,7 +47,8 @@ class RangeCheck {
                 findings_.add(where, "is {}, allowed is {}", std::isnan(double(value)) ? "nan" : fmt::to_string(value),
                               range.text());
     }
-    void check(const std::string& where, const Range& range, const std::optional<double>& value) {
+    template <class Value>
+    void check(const std::string& where, const Range& range, const std::optional<Value>& value) {
         if (value) check(where, range, *value);
     }
     template <class Value, std::size_t n>

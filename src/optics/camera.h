@@ -45,14 +45,18 @@ LFDSIM_FN void follow_to_first_plane(const View& view, double column, double row
     y = view.cos_rotation * py - view.sin_rotation * px;
 }
 
-/// The rays of the block whose first pixel is (column, row), multiples of the block's size.
-template <class F>
-LFDSIM_FN PixelRays<F> pixel_rays(const View& view, std::int32_t column, std::int32_t row) {
-    using S = Scalar<F>;
-    constexpr int N = LaneTraits<F>::width;
+/// The lens that rays near the point (column, row) of the frame are told from: its axis in the array's frame, what cells hold a
+/// lens beside it, and where its axis meets the panel.
+template <class S>
+struct BaseLens {
+    double x, y;
+    Extent<S> extent;
+    PanelBase<S> panel;
+};
+template <class S>
+LFDSIM_FN BaseLens<S> base_lens(const View& view, double column, double row) {
     double d[3], x0, y0;
-    follow_to_first_plane(view, column / kSharedWidth * kSharedWidth + kSharedWidth / 2,
-                          row / kSharedHeight * kSharedHeight + kSharedHeight / 2, d, x0, y0);
+    follow_to_first_plane(view, column, row, d, x0, y0);
     auto nearest = [&](double place, double count) {
         const double i = __builtin_floor(place / view.pitch + 0.5 * count);
         return i > 0 ? i < count - 1 ? i : count - 1 : 0;
@@ -64,27 +68,33 @@ LFDSIM_FN PixelRays<F> pixel_rays(const View& view, std::int32_t column, std::in
     const double v =
         (0.5 * view.panel_height - (view.sin_rotation * cx + view.cos_rotation * cy + view.offset[1])) * view.pixels_per_mm;
     const double whole_u = __builtin_floor(u), whole_v = __builtin_floor(v);
+    return {cx,
+            cy,
+            {S(-i), S(nx - 1 - i), S(-j), S(ny - 1 - j)},
+            {std::uint32_t(std::int32_t(whole_u)), std::uint32_t(std::int32_t(whole_v)), S(u - whole_u), S(v - whole_v)}};
+}
 
+/// The rays of the block whose first pixel is (column, row), multiples of the block's size.
+template <class F>
+LFDSIM_FN PixelRays<F> pixel_rays(const View& view, std::int32_t column, std::int32_t row) {
+    using S = Scalar<F>;
+    constexpr int N = LaneTraits<F>::width;
+    const BaseLens<S> lens = base_lens<S>(view, column / kSharedWidth * kSharedWidth + kSharedWidth / 2,
+                                          row / kSharedHeight * kSharedHeight + kSharedHeight / 2);
     S x[N], y[N], dx[N], dy[N], dz[N], per_length[N];
     for (int k = 0; k < N; ++k) {  // compilers make SIMD code of this
-        double px, py;
+        double d[3], px, py;
         follow_to_first_plane(view, column + k % Block<F>::width + 0.5, row + k / Block<F>::width + 0.5, d, px, py);
         const double inverse = 1 / __builtin_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-        x[k] = S(px - cx);
-        y[k] = S(py - cy);
+        x[k] = S(px - lens.x);
+        y[k] = S(py - lens.y);
         dx[k] = S(d[0] * inverse);
         dy[k] = S(d[1] * inverse);
         dz[k] = S(d[2] * inverse);
         per_length[k] = S(inverse);
     }
     const F z = load<F>(dz);
-    return {load<F>(x),
-            load<F>(y),
-            {load<F>(dx), load<F>(dy), z},
-            load<F>(per_length),
-            z < F(S(-1e-9)),
-            {S(-i), S(nx - 1 - i), S(-j), S(ny - 1 - j)},
-            {std::uint32_t(std::int32_t(whole_u)), std::uint32_t(std::int32_t(whole_v)), S(u - whole_u), S(v - whole_v)}};
+    return {load<F>(x), load<F>(y), {load<F>(dx), load<F>(dy), z}, load<F>(per_length), z < F(S(-1e-9)), lens.extent, lens.panel};
 }
 
 /// The same pixels for two samples at once.

@@ -32,6 +32,23 @@ LFDSIM_FN void sincos(F a, bool small, F& sine, F& cosine) {
     cosine = F(1) + x * c;
 }
 
+/// Arc tangent; error below 3e-7. Abramowitz and Stegun 4.4.49.
+template <class F>
+LFDSIM_FN F atan(F a) {
+    if constexpr (LaneTraits<F>::width == 1 && sizeof(F) == 8) return __builtin_atan(a);
+    using S = Scalar<F>;
+    constexpr double c[8] = {0.0028662257, -0.0161657367, 0.0429096138, -0.0752896400,
+                             0.1065626393, -0.1420889944, 0.1999355085, -0.3333314528};
+    const F size = abs(a);
+    const Mask<F> steep = size > F(1);
+    const F t = select(steep, F(1) / max(size, F(1)), size), x = t * t;
+    F p = F(S(c[0]));
+    for (int i = 1; i < 8; ++i) p = p * x + F(S(c[i]));
+    p = t + t * x * p;
+    p = select(steep, F(S(1.5707963267948966)) - p, p);
+    return select(a < F(0), -p, p);
+}
+
 /// Base-2 logarithm of a > 0; error below 2e-7 relative to max(1, |result|).
 template <class F>
 LFDSIM_FN F log2(F a) {
@@ -65,6 +82,18 @@ LFDSIM_FN F power(F cosine, Scalar<F> m) {
     if (m == Scalar<F>(1)) return cosine;
     if constexpr (LaneTraits<F>::width == 1 && sizeof(F) == 8) return __builtin_pow(cosine, m);
     return exp2(F(m) * log2(max(cosine, F(Scalar<F>(1e-30)))));
+}
+
+/// The error function; error below 5e-7. Abramowitz and Stegun 7.1.26.
+template <class F>
+LFDSIM_FN F erf(F x) {
+    if constexpr (LaneTraits<F>::width == 1 && sizeof(F) == 8) return __builtin_erf(x);
+    using S = Scalar<F>;
+    const F size = abs(x), t = F(1) / (F(1) + F(S(0.3275911)) * size);
+    const F p = t * (F(S(0.254829592)) +
+                     t * (F(S(-0.284496736)) + t * (F(S(1.421413741)) + t * (F(S(-1.453152027)) + t * F(S(1.061405429))))));
+    const F y = F(1) - p * exp2(size * size * F(S(-1.4426950408889634)));
+    return select(x < F(0), -y, y);
 }
 
 /// The inverse of the error function on [-1, 1], finite at the ends (|x| is kept below 1 - 2^-24): M. Giles, "Approximating the

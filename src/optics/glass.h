@@ -286,8 +286,8 @@ LFDSIM_FN void cross(const Scene<Scalar<F>>& scene, const Crossing<F>& here, Mas
 constexpr int kMostSurfaces = 16;
 
 template <class F>
-LFDSIM_FN PanelHit<F> trace_glass(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const PanelBase<Scalar<F>>& base,
-                                  Passage<F> way) {
+LFDSIM_FN PanelPoint<F> trace_glass(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
+                                    const PanelBase<Scalar<F>>& base, Passage<F> way) {
     using S = Scalar<F>;
     // Begin above everything.
     const F first = F(scene.surface[0].z), up = (F(scene.body_top) - first) / way.ray.to.z;
@@ -318,7 +318,7 @@ LFDSIM_FN PanelHit<F> trace_glass(const Scene<Scalar<F>>& scene, const Extent<Sc
     }
     const F t = -rays.at.z / rays.to.z;
     if (scene.emission_exponent != S(0)) weight = weight * power(abs(rays.to.z), scene.emission_exponent);
-    return panel_pixel(scene, base, {F(0), F(0)}, rays.at.x + rays.to.x * t, rays.at.y + rays.to.y * t, weight, arrived);
+    return panel_point(scene, base, {F(0), F(0)}, rays.at.x + rays.to.x * t, rays.at.y + rays.to.y * t, weight, arrived);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -6,8 +6,8 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 
 /// From the plane of the lens to the panel: slope on the panel's side = slope on the viewer's side + q / f.
 template <class F>
-LFDSIM_FN PanelHit<F> trace_ideal(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const PanelBase<Scalar<F>>& base,
-                                  Passage<F> way) {
+LFDSIM_FN PanelPoint<F> trace_ideal(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
+                                    const PanelBase<Scalar<F>>& base, Passage<F> way) {
     using S = Scalar<F>;
     const Vec3<F> at = way.ray.at;
     way.cell = {nearest_cell(scene, at.x), nearest_cell(scene, at.y)};
@@ -21,7 +21,7 @@ LFDSIM_FN PanelHit<F> trace_ideal(const Scene<Scalar<F>>& scene, const Extent<Sc
     if (scene.emission_exponent != S(0)) {
         way.weight = way.weight * power(F(1) / sqrt(F(1) + mx * mx + my * my), scene.emission_exponent);
     }
-    return panel_pixel(scene, base, way.cell, qx - mx * F(scene.ideal_z), qy - my * F(scene.ideal_z), way.weight, way.alive);
+    return panel_point(scene, base, way.cell, qx - mx * F(scene.ideal_z), qy - my * F(scene.ideal_z), way.weight, way.alive);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

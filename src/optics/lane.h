@@ -23,6 +23,7 @@ struct LaneTraits {
     static LFDSIM_FN T load(const T* from) {
         return *from;
     }
+    static LFDSIM_FN void store(F a, F* to) { *to = a; }
 };
 template <class F>
 using Scalar = typename LaneTraits<F>::Scalar;
@@ -43,6 +44,7 @@ LFDSIM_FN float abs(float a) { return __builtin_fabsf(a); }
 LFDSIM_FN double abs(double a) { return __builtin_fabs(a); }
 // b if either is NaN, as the SIMD instructions have it
 LFDSIM_FN float min(float a, float b) { return a < b ? a : b; }
+LFDSIM_FN int min(int a, int b) { return a < b ? a : b; }
 LFDSIM_FN double min(double a, double b) { return a < b ? a : b; }
 LFDSIM_FN float max(float a, float b) { return a > b ? a : b; }
 LFDSIM_FN double max(double a, double b) { return a > b ? a : b; }
@@ -71,6 +73,12 @@ LFDSIM_FN F load(const Scalar<F>* from) {
 template <class F>
 LFDSIM_FN Uint<F> load(const std::uint32_t* from) {
     return LaneTraits<F>::template load<Uint<F>>(from);
+}
+
+/// F's lanes to consecutive numbers.
+template <class F>
+LFDSIM_FN void store(F a, Scalar<F>* to) {
+    LaneTraits<F>::store(a, to);
 }
 
 template <class M>

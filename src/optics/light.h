@@ -74,6 +74,10 @@ struct Light {
     LFDSIM_FN void add(const Light& other) {
         for (int r = 0; r < 4; ++r) sum[r] = sum[r] + other.sum[r];
     }
+    /// R, G, B and an idle number of each lane.
+    LFDSIM_FN void store(Scalar<F>* to) const {
+        for (int r = 0; r < 4; ++r) optics::store(sum[r], to + r * N);
+    }
     /// Colour c of lane k.
     LFDSIM_FN Scalar<F> operator()(int k, int c) const {
         if constexpr (N == 1)

@@ -13,6 +13,16 @@ struct PanelBase {
     S column_rest, row_rest;
 };
 
+/// Where a ray reaches the panel's plane, in panel pixels right and down from the base's whole pixel, if it does so at all, and
+/// what it carries of the light there. `cell`: the lens that it came through, where that is a single one.
+template <class F>
+struct PanelPoint {
+    F column, row;
+    F weight;
+    Mask<F> alive;
+    Cell<F> cell;
+};
+
 /// A panel pixel: its number row x columns + column where `lit`, and what the ray carries of its light.
 template <class F>
 struct PanelHit {
@@ -21,11 +31,11 @@ struct PanelHit {
     Mask<F> lit;
 };
 
-/// The pixel under (x, y), mm from the axis of the lens `cell` in the array's frame. Numbers stay small, so that the place is good
-/// to a few millionths of a pixel on any panel.
+/// The point (x, y), mm from the axis of the lens `cell` in the array's frame. Numbers stay small, so that the place is good to a
+/// few millionths of a pixel on any panel.
 template <class F>
-LFDSIM_FN PanelHit<F> panel_pixel(const Scene<Scalar<F>>& scene, const PanelBase<Scalar<F>>& base, Cell<F> cell, F x, F y, F weight,
-                                  Mask<F> lit) {
+LFDSIM_FN PanelPoint<F> panel_point(const Scene<Scalar<F>>& scene, const PanelBase<Scalar<F>>& base, Cell<F> cell, F x, F y,
+                                    F weight, Mask<F> alive) {
     const F k = F(scene.pixels_per_mm), p = F(scene.pitch_pixels);
     F u = x * k + cell.i * p, v = y * k + cell.j * p;
     if (scene.rotated) {
@@ -33,10 +43,16 @@ LFDSIM_FN PanelHit<F> panel_pixel(const Scene<Scalar<F>>& scene, const PanelBase
         v = sine * u + cosine * v;
         u = turned;
     }
-    const Uint<F> column = Uint<F>(base.column) + to_int(floor(F(base.column_rest) + u));
-    const Uint<F> row = Uint<F>(base.row) + to_int(floor(F(base.row_rest) - v));
-    lit = lit && (column < Uint<F>(scene.columns)) && (row < Uint<F>(scene.rows));
-    return {row * Uint<F>(scene.columns) + column, weight, lit};
+    return {F(base.column_rest) + u, F(base.row_rest) - v, weight, alive, cell};
+}
+
+/// The pixel under a point.
+template <class F>
+LFDSIM_FN PanelHit<F> panel_pixel(const Scene<Scalar<F>>& scene, const PanelBase<Scalar<F>>& base, const PanelPoint<F>& point) {
+    const Uint<F> column = Uint<F>(base.column) + to_int(floor(point.column));
+    const Uint<F> row = Uint<F>(base.row) + to_int(floor(point.row));
+    const Mask<F> lit = point.alive && (column < Uint<F>(scene.columns)) && (row < Uint<F>(scene.rows));
+    return {row * Uint<F>(scene.columns) + column, point.weight, lit};
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -69,6 +69,11 @@ struct Scene {
     bool dimple;              // the first surface lies below its rim (concave to the viewer): its rim is the entrance
     bool hollow_back;         // the last surface lies above the lowest rim (concave to the panel)
 
+    // the holes through which light enters the lenses, for the filtered estimator (strata.h)
+    S holes_below;  // height of the first plane of the display above the plane of the holes
+    S hole_radius;  // of round ones; 0: the cells themselves
+    bool leaky;     // light goes on between them too
+
     // light
     Fresnel fresnel;
     bool has_diffuser;
@@ -92,6 +97,12 @@ struct View {
     double pitch, count[2], offset[2], cos_rotation, sin_rotation;
     double panel_width, panel_height, pixels_per_mm;
     std::uint64_t seed;
+};
+
+/// A level of the panel's pyramid: columns x rows cells of 4 floats (R, G, B, 0). Level 0 is the panel image itself.
+struct PanelLevel {
+    const float* texels;
+    std::uint32_t columns, rows;
 };
 
 /// Dimensions 0, 1: diffuser; 2, 3: place in the pixel; 4, 5: place in the pupil.

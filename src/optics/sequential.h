@@ -146,8 +146,8 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<
 
 /// From the plane of the first vertex to the panel. `way.ray` stands there, from the base lens.
 template <Shapes shapes, class F>
-LFDSIM_FN PanelHit<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const PanelBase<Scalar<F>>& base,
-                                   Passage<F> way) {
+LFDSIM_FN PanelPoint<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
+                                     const PanelBase<Scalar<F>>& base, Passage<F> way) {
     using S = Scalar<F>;
     // The stop is tested where the ray first crosses its plane: before the first surface or after any.
     Mask<F> stop_ahead = way.alive;
@@ -196,7 +196,7 @@ LFDSIM_FN PanelHit<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent<S
     }
     const F t = -z / way.ray.to.z;
     if (scene.emission_exponent != S(0)) way.weight = way.weight * power(-way.ray.to.z, scene.emission_exponent);
-    return panel_pixel(scene, base, way.cell, way.ray.at.x + way.ray.to.x * t, way.ray.at.y + way.ray.to.y * t, way.weight,
+    return panel_point(scene, base, way.cell, way.ray.at.x + way.ray.to.x * t, way.ray.at.y + way.ray.to.y * t, way.weight,
                        way.alive);
 }
 

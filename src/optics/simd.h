@@ -80,6 +80,7 @@ struct LaneTraits<Lane<N>> {
         __builtin_memcpy(&value.v, from, sizeof value.v);
         return value;
     }
+    static LFDSIM_FN void store(Lane<N> a, float* to) { __builtin_memcpy(to, &a.v, sizeof a.v); }
 };
 
 template <int N>

@@ -20,13 +20,34 @@ LFDSIM_FN Way way_through(const Scene<S>& scene) {
     return plain && !scene.has_stop && !scene.dimple ? Way::plano_convex : Way::opaque;
 }
 
+/// From the first plane, where a ray stands with its direction after the diffuser, to the panel.
+template <Way through, class F>
+LFDSIM_FN PanelPoint<F> trace_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
+                                    const PanelBase<Scalar<F>>& base, Ray<F> ray, Mask<F> alive) {
+    using S = Scalar<F>;
+    Passage<F> way{ray, {F(0), F(0)}, F(1), alive && (ray.to.z < F(S(-1e-9)))};
+    // Into the frame of the array, and to the plane of its first vertex
+    Vec3<F>&at = way.ray.at, &to = way.ray.to;
+    if (scene.rotated) {
+        const F c = F(scene.cos_rotation), s = F(scene.sin_rotation), x = c * to.x + s * to.y;
+        to.y = c * to.y - s * to.x;
+        to.x = x;
+    }
+    if (scene.start_above != S(0)) {
+        const F t = F(-scene.start_above) / to.z;
+        at.x = at.x + to.x * t;
+        at.y = at.y + to.y * t;
+    }
+    if constexpr (through == Way::ideal) return trace_ideal(scene, extent, base, way);
+    if constexpr (through == Way::plano_convex) return trace_opaque<Shapes::plano_convex>(scene, extent, base, way);
+    if constexpr (through == Way::opaque) return trace_opaque<Shapes::any>(scene, extent, base, way);
+    if constexpr (through == Way::glass) return trace_glass(scene, extent, base, way);
+}
+
 /// One sample of each pixel of a packet; sampler(d) gives its number of dimension d, in [-1, 1].
 template <Way through, class F, class Samples>
 LFDSIM_FN PanelHit<F> trace(const Scene<Scalar<F>>& scene, const View& view, const PixelRays<F>& pixels, const Samples& sampler) {
-    using S = Scalar<F>;
-    // The camera
-    Passage<F> way{{{pixels.x, pixels.y, F(0)}, pixels.to}, {F(0), F(0)}, F(1), pixels.alive};
-    Ray<F>& ray = way.ray;
+    Ray<F> ray{{pixels.x, pixels.y, F(0)}, pixels.to};
     if (scene.box_filter || scene.thin_lens) {
         F jitter_x = F(0), jitter_y = F(0), lens_x = F(0), lens_y = F(0);
         if (scene.box_filter) {
@@ -37,28 +58,8 @@ LFDSIM_FN PanelHit<F> trace(const Scene<Scalar<F>>& scene, const View& view, con
         const PixelRays<F> centres = pixels;  // a copy, so that the original may stay in registers
         ray = displaced(view, centres, jitter_x, jitter_y, lens_x, lens_y);
     }
-
-    // The diffuser
     if (scene.has_diffuser) ray.to = scatter(scene, ray.to, sampler(0), sampler(1));
-    way.alive = way.alive && (ray.to.z < F(S(-1e-9)));
-
-    // Into the frame of the array, and to the plane of its first vertex
-    if (scene.rotated) {
-        const F c = F(scene.cos_rotation), s = F(scene.sin_rotation), x = c * ray.to.x + s * ray.to.y;
-        ray.to.y = c * ray.to.y - s * ray.to.x;
-        ray.to.x = x;
-    }
-    if (scene.start_above != S(0)) {
-        const F t = F(-scene.start_above) / ray.to.z;
-        ray.at.x = ray.at.x + ray.to.x * t;
-        ray.at.y = ray.at.y + ray.to.y * t;
-    }
-
-    // The lens array, the panel
-    if constexpr (through == Way::ideal) return trace_ideal(scene, pixels.extent, pixels.base, way);
-    if constexpr (through == Way::plano_convex) return trace_opaque<Shapes::plano_convex>(scene, pixels.extent, pixels.base, way);
-    if constexpr (through == Way::opaque) return trace_opaque<Shapes::any>(scene, pixels.extent, pixels.base, way);
-    if constexpr (through == Way::glass) return trace_glass(scene, pixels.extent, pixels.base, way);
+    return panel_pixel(scene, pixels.base, trace_array<through>(scene, pixels.extent, pixels.base, ray, pixels.alive));
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

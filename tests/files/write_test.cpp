@@ -35,6 +35,10 @@ void fill(std::vector<double>& x, const Range& range) {
     x.resize(*rc::gen::inRange<std::size_t>(0, max_asphere_terms + 1));
     for (double& a : x) a = any_number(range);
 }
+void fill(std::optional<std::int64_t>& x, const Range& range) {
+    x.reset();
+    if (*rc::gen::arbitrary<bool>()) fill(x.emplace(), range);
+}
 template <class T, std::size_t n>
 void fill(std::array<T, n>& x, const Range& range) {
     for (T& a : x) fill(a, range);

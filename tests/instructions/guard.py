@@ -47,7 +47,7 @@ def render(case, samples, folder):
     """(instructions, samples) of one render."""
     counts = folder / f"{case}-{samples}.callgrind"
     made = run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={counts}", options.program, *CASES[case],
-                *options.set, "--pattern", "address", "--size", SIZE, "--samples", samples, "--kernel", "avx2", "--threads", 1,
+                *options.set, "--pattern", "address", "--size", SIZE, "--estimator", "point", "--samples", samples, "--kernel", "avx2", "--threads", 1,
                 "--progress", "none", "--json", "-o", folder / f"{case}-{samples}.npy"])
     return int(re.search(r"^summary: (\d+)", counts.read_text(), re.M)[1]), json.loads(made)["samples"]
 

@@ -29,6 +29,7 @@ inline Display example() {
     d.camera.position_mm = {0, 0, 400};
     d.camera.resolution = {160, 112};
     d.camera.frame_width_mm = 44;
+    d.render.estimator = Estimator::point;
     d.render.samples = 8;
     return d;
 }

@@ -196,7 +196,7 @@ PanelHit<double> through_ideal(const Display& d, double x, double y, double slop
     const Extent<double> extent{0, 0, 0, 0};
     const PanelBase<double> base{std::uint32_t(d.panel.pixels[0] / 2), std::uint32_t(d.panel.pixels[1] / 2), 0, 0};
     const Ray<double> ray{{x, y, 0}, {-slope_x / length, -slope_y / length, -1 / length}};
-    return trace_ideal(scene, extent, base, Passage<double>{ray, {0, 0}, 1, true});
+    return panel_pixel(scene, base, trace_ideal(scene, extent, base, Passage<double>{ray, {0, 0}, 1, true}));
 }
 
 // A line of slope m = dx/dz that passes the lens at q leaves towards the panel with slope m + q/f, and lands at q - g (m + q/f):

@@ -56,7 +56,7 @@ class Harness:
             folder = pathlib.Path(name)
             (folder / "display.toml").write_text(text)
             Image.fromarray(image).save(folder / "panel.png", compress_level=1)
-            self.lfdsim("render", folder / "display.toml", "--panel-image", folder / "panel.png", *options, "-o", folder / "out.npy")
+            self.lfdsim("render", folder / "display.toml", "--panel-image", folder / "panel.png", "--estimator", "point", *options, "-o", folder / "out.npy")
             return np.load(folder / "out.npy").astype(float)
 
     def check(self, name, compare):

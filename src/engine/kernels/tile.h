@@ -17,6 +17,14 @@ using F = optics::Lane<LFDSIM_LANES>;
 using F = float;
 #endif
 
+}  // namespace
+}  // namespace lfdsim
+
+#include "engine/kernels/filtered.h"
+
+namespace lfdsim {
+namespace {
+
 constexpr std::uint32_t kBlock = 256;  // samples summed in one go (even), so that rounding does not grow with their number
 
 template <optics::Way through>
@@ -55,7 +63,7 @@ LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& 
 }
 
 template <optics::Way through>
-void render_tile(const Tile& tile) {
+void render_points(const Tile& tile) {
     using Block = optics::Block<F>;
     std::uint32_t lane[Block::lanes];  // number of its pixel in the frame, from the block's first
     for (int k = 0; k < Block::lanes; ++k) lane[k] = std::uint32_t(k / Block::width * tile.view->width + k % Block::width);
@@ -72,6 +80,11 @@ void render_tile(const Tile& tile) {
             }
         }
     }
+}
+
+template <optics::Way through>
+void render_tile(const Tile& tile) {
+    tile.strata > 0 ? render_filtered<through>(tile) : render_points<through>(tile);
 }
 
 }  // namespace

@@ -1,0 +1,82 @@
+// The filtered estimator: rays of the pixels' own, where a bundle cannot speak for a block.
+// Part of tile.h's source, compiled for each instruction set. Floor 2.
+#pragma once
+#include "engine/kernels/filtered_axis.h"
+#include "optics/footprint.h"
+
+namespace lfdsim {
+
+namespace {
+
+/// Where a pixel's ray ends that the diffuser turns by the numbers (a, b).
+template <optics::Way through>
+__attribute__((noinline)) optics::PanelPoint<F> trace_own(const optics::Scene<S>& scene, const optics::PixelRays<F>& pixels, F a,
+                                                          F b) {
+    return optics::trace_array<through>(scene, pixels.extent, pixels.base,
+                                        optics::Ray<F>{{pixels.x, pixels.y, F(0)}, optics::scatter(scene, pixels.to, a, b)},
+                                        pixels.alive);
+}
+
+/// What the rays of a pixel's own are for: a whole stratum; one of which a round hole covers a known share; what lies beside the
+/// hole.
+enum class Own { all, covered, beside };
+
+/// Rays of the pixels' own for a stratum whose bundle is broken. One at random tells whether light gets through, unless its share
+/// is known; where three others stay together, they tell the footprint to take the light from, else the ray's own end.
+template <optics::Way through>
+__attribute__((noinline)) void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pixels, const Span<F>& x,
+                                            const Span<F>& y, Own part, F weight, optics::Sampler<F> sampler,
+                                            optics::Light<F>& light) {
+    const optics::Scene<S>& scene = *tile.scene;
+    const F half = F(0.5f), quarter = F(0.25f);
+    F a = F(0), b = F(0);
+    optics::Mask<F> found = F(1) < F(0);
+    for (int attempt = 0; attempt < (part == Own::beside ? 8 : 1);
+         ++attempt) {  // the last stands if none of them lies beside the hole
+        ++sampler.sample;
+        const F s = half + half * sampler(0), t = half + half * sampler(1);
+        a = optics::select(found, a, x.low + s * (x.high - x.low));
+        b = optics::select(found, b, y.low + t * (y.high - y.low));
+        const F px = x.to - s * (x.to - x.from), py = y.from + t * (y.to - y.from);  // along x places run against the numbers
+        found = found || (px * px + py * py > F(1));
+    }
+    if (part == Own::covered) {
+        // At the hole's edge: the corner next to the lens's axis lies in it.
+        auto towards_axis = [](const Span<F>& span, F at_from, F at_to) {
+            return optics::select(optics::abs(span.from) < optics::abs(span.to), F(0.9f) * at_from + F(0.1f) * at_to,
+                                  F(0.1f) * at_from + F(0.9f) * at_to);
+        };
+        const F cover = optics::hole_cover(x, y);
+        const optics::Mask<F> at_edge = (cover > F(0.001f)) && (cover < F(0.999f));
+        a = optics::select(at_edge, towards_axis(x, x.high, x.low), a);
+        b = optics::select(at_edge, towards_axis(y, y.low, y.high), b);
+        weight = optics::select(at_edge, weight * cover, weight);
+    }
+    auto one = trace_own<through>(scene, pixels, a, b);
+    weight = optics::select(one.alive, weight * one.weight, F(0));
+    if (part != Own::beside) {
+        const F mid_a = half * (x.low + x.high), mid_b = half * (y.low + y.high);
+        const auto middle = trace_own<through>(scene, pixels, mid_a, mid_b);
+        const auto right = trace_own<through>(scene, pixels, mid_a + quarter * (x.high - x.low), mid_b);
+        const auto above = trace_own<through>(scene, pixels, mid_a, mid_b + quarter * (y.high - y.low));
+        auto near = [&](const optics::PanelPoint<F>& p) {
+            const F far = F(0.25f * scene.pitch_pixels);
+            return p.alive && (p.cell.i == middle.cell.i) && (p.cell.j == middle.cell.j) &&
+                   (optics::abs(p.column - middle.column) < far) && (optics::abs(p.row - middle.row) < far);
+        };
+        const optics::Mask<F> together = one.alive && middle.alive && near(right) && near(above) && near(one);
+        const F wide = F(4) * (optics::abs(right.column - middle.column) + optics::abs(above.column - middle.column)),
+                high = F(4) * (optics::abs(right.row - middle.row) + optics::abs(above.row - middle.row));
+        optics::add_boxes(tile.levels, tile.level_count, pixels.base, together, middle.column, middle.row, wide, high, weight,
+                          light);
+        one.alive = one.alive && !together;
+    }
+    if (optics::none(one.alive)) return;
+    optics::PanelHit<F> hit = optics::panel_pixel(scene, pixels.base, one);
+    hit.weight = weight;
+    light.add(tile.texels, optics::Fetch<F>(hit));
+}
+
+}  // namespace
+
+}  // namespace lfdsim

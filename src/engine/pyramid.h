@@ -1,0 +1,30 @@
+// What the renderer reads of the panel: its image and, for the filtered estimator, the same at ever coarser resolution. Floor 2.
+#pragma once
+#include "image/texels.h"
+
+#include <vector>
+
+namespace lfdsim {
+
+namespace optics {
+struct PanelLevel;  // optics/scene.h
+}
+
+/// Level 0 is the panel image. Level k + 1 has half the columns and rows of level k, rounded up; a cell is the mean of 2 x 2, where
+/// what lies outside the panel is black. A third of the panel image's memory. The panel image must outlive it, unchanged.
+class Pyramid {
+  public:
+    /// threads 0: all. Throws std::bad_alloc.
+    explicit Pyramid(const Texels& panel, int threads = 0);
+    ~Pyramid();
+    Pyramid(Pyramid&&) noexcept;
+    Pyramid& operator=(Pyramid&&) noexcept;
+
+    const std::vector<optics::PanelLevel>& levels() const { return levels_; }
+
+  private:
+    std::vector<Texels> coarse_;
+    std::vector<optics::PanelLevel> levels_;
+};
+
+}  // namespace lfdsim

@@ -1,0 +1,253 @@
+// Bundles: a few rays that tell what a block of neighbouring pixels sees through a stratum. Floor 1.
+//
+// Neighbouring pixels look through the same point of a lens at nearly the same point of the panel. So a grid of rays, the probes,
+// goes through a stratum from the middle of the block only: they tell where on the panel its light comes from, how widely it is
+// spread there, and how much of it gets through. Three rays from other places of the block tell how this footprint moves from pixel
+// to pixel, and whether it does so evenly. Where rays are lost on the way, or end under different lenses, the bundle is broken, and
+// each pixel traces a ray of its own.
+#pragma once
+#include "optics/footprint.h"
+#include "optics/strata.h"
+#include "optics/trace.h"
+
+namespace lfdsim::optics::inline LFDSIM_ISA {
+
+/// A block's rays before the diffuser: through its middle; half a block to the right of it; below; to the left and above.
+constexpr int kBlockRays = 4;
+constexpr int kBlockRight[kBlockRays] = {0, 1, 0, -1};
+constexpr int kBlockDown[kBlockRays] = {0, 0, 1, -1};
+
+/// A block's light is told at the corners of squares of so many pixels: at most 3 x 3 places.
+constexpr int kNodes = 3, kMostNodeStep = 8;
+
+template <class S>
+struct PixelBlock {
+    int reach;  // pixels from the block's middle to its border
+    BaseLens<S> lens;
+    Vec3<S> to[kBlockRays];
+    Sweep<S> sweep[2][kBlockRays];
+    LFDSIM_FN int node_step() const { return 2 * reach < kMostNodeStep ? 2 * reach : kMostNodeStep; }
+    LFDSIM_FN int nodes() const { return 2 * reach / node_step() + 1; }
+    bool alive;  // all rays look at the display, and their places in the block's grid are evenly spaced
+};
+
+/// Strata take the diffuser's two turns as if each moved the ray along its own axis alone. Is that so, to a thousandth of the
+/// light?
+///
+/// A ray in the direction t, |t| = 1, of slopes s and s' meets the solid angle |z'| da db, where z'^2 = 1 - t_x^2 - i_y^2 after the
+/// first turn of the direction i, and that is |t_z|^3 dx dy / H^2 of the plane H below. The strata take da db = dx dy / (H^2 (1 +
+/// s^2)(1 + s'^2)).
+template <class S>
+LFDSIM_FN bool axes_part(const Scene<S>& scene, const PixelBlock<S>& block) {
+    S tangent[2];
+    for (int a = 0; a < 2; ++a) {
+        S sine, cosine;
+        const S widest = scene.diffuser_profile == Profile::box ? scene.half_angle[a] : min(S(1.7) * scene.half_angle[a], S(1.5));
+        sincos(widest, scene.small_angles, sine, cosine);
+        tangent[a] = sine / cosine;
+    }
+    for (int corner = 0; corner < 4; ++corner) {
+        S s[2];
+        for (int a = 0; a < 2; ++a) {
+            const Sweep<S>& sweep = block.sweep[a][0];
+            s[a] = (sweep.place(corner >> a & 1 ? tangent[a] : -tangent[a]) - sweep.at) / scene.holes_below;
+        }
+        const S xx = s[0] * s[0], yy = s[1] * s[1], n2 = S(1) + xx + yy, i_y = block.to[0].y, z2 = S(1) - xx / n2 - i_y * i_y;
+        const S ratio = (S(1) + xx) * (S(1) + yy) / (n2 * sqrt(n2) * sqrt(max(z2, S(1e-6))));
+        if (!(abs(ratio - S(1)) < S(2e-3))) return false;
+    }
+    return true;
+}
+
+/// The block of side x side pixels of which (column, row) is the first. Blocks lie in a grid of the whole frame.
+template <class S>
+LFDSIM_FN PixelBlock<S> pixel_block(const Scene<S>& scene, const View& view, int side, std::int32_t column, std::int32_t row) {
+    PixelBlock<S> block;
+    block.reach = side / 2;
+    const double middle_x = column + block.reach, middle_y = row + block.reach;
+    block.lens = base_lens<S>(view, middle_x, middle_y);
+    block.alive = true;
+    for (int k = 0; k < kBlockRays; ++k) {
+        double d[3], x, y;
+        follow_to_first_plane(view, middle_x + block.reach * kBlockRight[k], middle_y + block.reach * kBlockDown[k], d, x, y);
+        const double inverse = 1 / __builtin_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        const double z = d[2] * inverse;
+        block.to[k] = {S(d[0] * inverse), S(d[1] * inverse), S(z)};
+        block.sweep[0][k] = {S(x - block.lens.x), S(-d[0] / d[2]), scene.holes_below, S(kSense[0])};
+        block.sweep[1][k] = {S(y - block.lens.y), S(-d[1] / d[2]), scene.holes_below, S(kSense[1])};
+        block.alive = block.alive && z < -1e-6;
+    }
+    for (int a = 0; a < 2 && block.alive; ++a) {
+        const Sweep<S>* s = block.sweep[a];
+        const S bend = s[1].at + s[2].at + s[3].at - S(3) * s[0].at,
+                turn = s[1].slope + s[2].slope + s[3].slope - S(3) * s[0].slope;
+        block.alive = abs(bend) + abs(turn * scene.holes_below) < S(1e-3) * scene.pitch;
+    }
+    block.alive = block.alive && axes_part(scene, block);
+    return block;
+}
+
+/// Rays from places in the plane of the diffuser to places in the plane of the holes, mm from the base lens's axis; and where on
+/// the panel they end. Arrays of a fixed length, which compilers make SIMD code of; the sums over them have a fixed order.
+constexpr int kMostProbes = 16;
+template <class S>
+struct Probes {
+    S at_x[kMostProbes], at_y[kMostProbes], x[kMostProbes], y[kMostProbes];
+    S column[kMostProbes], row[kMostProbes], weight[kMostProbes];  // weight 0: lost
+    S cell_i[kMostProbes], cell_j[kMostProbes];                    // the lens
+    S in[kMostProbes];                                             // 1: belongs to the part in question, else 0
+
+    LFDSIM_FN bool lit(int p) const { return in[p] * weight[p] > S(0); }
+};
+
+template <class S>
+LFDSIM_FN S sum_of(const S (&a)[kMostProbes]) {
+    static_assert(kMostProbes == 16);
+    S b[8], c[4];
+    for (int p = 0; p < 8; ++p) b[p] = a[p] + a[p + 8];
+    for (int p = 0; p < 4; ++p) c[p] = b[p] + b[p + 4];
+    return (c[0] + c[2]) + (c[1] + c[3]);
+}
+
+template <Way through, class F>
+LFDSIM_FN void trace_probes(const Scene<Scalar<F>>& scene, const PixelBlock<Scalar<F>>& block, Probes<Scalar<F>>& probes,
+                            int count) {
+    for (int p = 0; p < count; p += LaneTraits<F>::width) {
+        const F x = load<F>(probes.at_x + p), y = load<F>(probes.at_y + p);
+        const F across = load<F>(probes.x + p) - x, up = load<F>(probes.y + p) - y, down = F(scene.holes_below);
+        const F per = F(1) / sqrt(across * across + up * up + down * down);
+        const PanelPoint<F> point = trace_array<through>(
+            scene, block.lens.extent, block.lens.panel, Ray<F>{{x, y, F(0)}, {across * per, up * per, -(down * per)}}, F(0) < F(1));
+        store(point.column, probes.column + p);
+        store(point.row, probes.row + p);
+        store(select(point.alive, point.weight, F(0)), probes.weight + p);
+        store(point.cell.i, probes.cell_i + p);
+        store(point.cell.j, probes.cell_j + p);
+    }
+}
+
+/// What a block sees through a stratum, or through the part of it that lies inside its round hole, or beside that.
+template <class S>
+struct Bundle {
+    enum class State { dark, sharp, soft, broken } state;
+    S column, row;  // mean place on the panel, from the block's base, seen from the block's middle
+    S column_right, row_right, column_down, row_down;  // how that moves per picture pixel
+    S width, height;                                   // of a box that spreads as far, panel pixels
+    S weight;                                          // mean over the part, what is lost on the way counted as 0
+    S x, y;                                            // mm: the probe that stands for it
+    Footprint<S> footprint;                            // sharp: the box, which each pixel reads at its own place
+    bool still;                                        // soft: the same light for all pixels of the block
+    S colour[kNodes * kNodes][3];                      // soft: the light at even places of the block; interpolated between them
+};
+
+/// Sums up the per_axis x per_axis probes of a stratum.
+template <class S>
+LFDSIM_FN Bundle<S> sum_up(const Probes<S>& probes, int per_axis) {
+    using State = typename Bundle<S>::State;
+    S lit[kMostProbes], t[kMostProbes], c[kMostProbes], r[kMostProbes];
+    for (int p = 0; p < kMostProbes; ++p) lit[p] = probes.in[p] * probes.weight[p] > S(0) ? S(1) : S(0);
+    Bundle<S> b;
+    const S part = sum_of(probes.in), count = sum_of(lit);
+    b.state = part > S(0) ? State::dark : State::broken;
+    if (count == S(0)) return b;
+    int one = 0;
+    while (lit[one] == S(0)) ++one;
+    const S per = S(1) / count;
+    auto mean = [&](auto value) {
+        for (int p = 0; p < kMostProbes; ++p) t[p] = lit[p] > S(0) ? value(p) : S(0);
+        return sum_of(t) * per;
+    };
+    const S column = probes.column[one], row = probes.row[one], cell_i = probes.cell_i[one], cell_j = probes.cell_j[one];
+    for (int p = 0; p < kMostProbes; ++p) {  // small numbers
+        c[p] = probes.column[p] - column;
+        r[p] = probes.row[p] - row;
+    }
+    const S mean_c = mean([&](int p) { return c[p]; }), mean_r = mean([&](int p) { return r[p]; });
+    const S x = mean([&](int p) { return probes.x[p]; }), y = mean([&](int p) { return probes.y[p]; });
+    b.column = column + mean_c;
+    b.row = row + mean_r;
+    b.weight = mean([&](int p) { return probes.weight[p]; }) * count / part;
+    // A box of width w seen at n even places spreads by the variance w^2 / 12 (1 - 1/n^2).
+    const S all = S(per_axis * per_axis), spread = S(12) * all / (all - S(1));
+    b.width = sqrt(max(spread * (mean([&](int p) { return c[p] * c[p]; }) - mean_c * mean_c), S(0)));
+    b.height = sqrt(max(spread * (mean([&](int p) { return r[p] * r[p]; }) - mean_r * mean_r), S(0)));
+    const S others = mean([&](int p) { return probes.cell_i[p] == cell_i && probes.cell_j[p] == cell_j ? S(0) : S(1); });
+    S nearest = S(1e30);
+    for (int p = 0; p < kMostProbes; ++p) {
+        const S dx = probes.x[p] - x, dy = probes.y[p] - y;
+        t[p] = lit[p] > S(0) ? dx * dx + dy * dy : S(1e30);
+        nearest = min(nearest, t[p]);
+    }
+    while (t[one] != nearest) ++one;
+    b.x = probes.x[one];
+    b.y = probes.y[one];
+    b.column_right = probes.column[one];  // for follow()
+    b.row_right = probes.row[one];
+    b.state = others == S(0) ? State::sharp : State::broken;
+    return b;
+}
+
+/// Is the footprint so wide that a single box tells too little of it?
+template <class S>
+LFDSIM_FN bool is_soft(const Bundle<S>& b) {
+    return max(b.width, b.height) > S(1);
+}
+
+/// Adds the light over small boxes about the probes, moved by (column, row), each as wide as it is to the next ones.
+template <class F>
+LFDSIM_FN void add_light(const Probes<Scalar<F>>& probes, int per_axis, const PanelLevel* levels, int level_count,
+                         const PanelBase<Scalar<F>>& base, Scalar<F> column, Scalar<F> row, Scalar<F> (&colour)[3]) {
+    using S = Scalar<F>;
+    S width[kMostProbes], height[kMostProbes], weight[kMostProbes], light[4 * kMostProbes];
+    for (int p = 0; p < kMostProbes; ++p) {
+        width[p] = height[p] = weight[p] = S(0);
+        if (!probes.lit(p)) continue;
+        weight[p] = probes.weight[p];
+        auto add_step = [&](int place, int step) {
+            const int next = place + 1 < per_axis && probes.lit(p + step) ? p + step
+                             : place > 0 && probes.lit(p - step)          ? p - step
+                                                                          : p;
+            width[p] = width[p] + abs(probes.column[next] - probes.column[p]);
+            height[p] = height[p] + abs(probes.row[next] - probes.row[p]);
+        };
+        add_step(p % per_axis, 1);
+        add_step(p / per_axis, per_axis);
+    }
+    for (int p = 0; p < kMostProbes; p += LaneTraits<F>::width) {
+        Light<F> lanes;
+        const F w = load<F>(weight + p);
+        add_boxes(levels, level_count, base, w > F(0), load<F>(probes.column + p) + F(column), load<F>(probes.row + p) + F(row),
+                  load<F>(width + p), load<F>(height + p), w, lanes);
+        lanes.store(light + 4 * p);
+    }
+    for (int c = 0; c < 3; ++c) {
+        S of[kMostProbes];
+        for (int p = 0; p < kMostProbes; ++p) of[p] = light[4 * p + c];
+        colour[c] = colour[c] + sum_of(of);
+    }
+}
+
+/// How a bundle moves, from three rays at its probe's point, p .. p + 2, seen from the block's places 1, 2 and 3.
+template <class S>
+LFDSIM_FN void follow(Bundle<S>& b, const Probes<S>& rays, int p, int reach) {
+    const S column = b.column_right, row = b.row_right, per = S(1) / S(reach);
+    b.column_right = (rays.column[p] - column) * per;
+    b.row_right = (rays.row[p] - row) * per;
+    b.column_down = (rays.column[p + 1] - column) * per;
+    b.row_down = (rays.row[p + 1] - row) * per;
+    const S uneven_column = abs(rays.column[p] + rays.column[p + 1] + rays.column[p + 2] - S(3) * column),
+            uneven_row = abs(rays.row[p] + rays.row[p + 1] + rays.row[p + 2] - S(3) * row);
+    bool whole = uneven_column <= S(0.02) + S(0.05) * b.width && uneven_row <= S(0.02) + S(0.05) * b.height;
+    for (int k = p; k < p + 3; ++k)
+        whole = whole && rays.weight[k] > S(0) && rays.cell_i[k] == rays.cell_i[p] && rays.cell_j[k] == rays.cell_j[p];
+    // A footprint that is much wider than its way over the block, or so wide that rays through the same glass go many ways, is
+    // taken to stand still.
+    const S way_column = S(reach) * (abs(b.column_right) + abs(b.column_down)),
+            way_row = S(reach) * (abs(b.row_right) + abs(b.row_down));
+    b.still = way_column <= S(0.02) + S(0.1) * b.width && way_row <= S(0.02) + S(0.1) * b.height;
+    if (whole) return;
+    b.still = max(b.width, b.height) > S(16);
+    if (!b.still) b.state = Bundle<S>::State::broken;
+}
+
+}  // namespace lfdsim::optics::inline LFDSIM_ISA

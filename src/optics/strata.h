@@ -1,0 +1,86 @@
+// Where the filtered estimator looks: the diffuser's square of angles, cut at the borders of the lenses. Floor 1.
+//
+// A pixel's light is a mean over the square [-1, 1]^2 of the diffuser's two numbers. The square is cut into columns and rows; a cut
+// near the border between two lenses is moved onto it, so that a stratum looks through one lens. What a round lens covers of a
+// stratum has a closed form. (docs/model.md, "Filtered estimator".)
+#pragma once
+#include "optics/diffuser.h"
+#include "optics/lens_array.h"
+#include "optics/scene.h"
+
+namespace lfdsim::optics::inline LFDSIM_ISA {
+
+/// How a ray moves over the plane of the holes along one axis when the diffuser turns it about the other, a second turn left out:
+/// its slope is tan(phi + a), or tan(phi - a).
+template <class F>
+struct Sweep {
+    F at;                     // mm from the axis of the base lens: where the ray meets the diffuser
+    F slope;                  // before it is turned
+    Scalar<F> height, sense;  // mm, of the diffuser above the holes; +1 or -1: what a positive angle does to the slope
+
+    LFDSIM_FN F place(F tangent) const {
+        const F t = F(sense) * tangent;
+        return at + F(height) * ((slope + t) / (F(1) - slope * t));
+    }
+    /// Of the angle that sends the ray to `place`.
+    LFDSIM_FN F tangent(F place) const {
+        const F to = (place - at) * F(Scalar<F>(1) / height);
+        return F(sense) * ((to - slope) / (F(1) + slope * to));
+    }
+};
+constexpr int kSense[2] = {-1, 1};  // turning about y by a positive angle sends a ray towards -x; about x, towards +y
+
+/// Half the area of the unit circle between x = 0 and t: (t sqrt(1 - t^2) + asin t) / 2, odd; |t| is cut to 1. The arc sine is
+/// Abramowitz and Stegun's 4.4.46: error 2e-8.
+template <class F>
+LFDSIM_FN F circle_part(F t) {
+    using S = Scalar<F>;
+    constexpr double c[8] = {-0.0012624911, 0.0066700901, -0.0170881256, 0.0308918810,
+                             -0.0501743046, 0.0889789874, -0.2145988016, 1.5707963050};
+    const F size = min(abs(t), F(1)), root = sqrt(F(1) - size);
+    F p = F(S(c[0]));
+    for (int i = 1; i < 8; ++i) p = p * size + F(S(c[i]));
+    const F part = F(S(0.5)) * (size * root * sqrt(F(1) + size) + (F(S(1.5707963267948966)) - root * p));
+    return select(t < F(0), -part, part);
+}
+
+/// A stratum along one axis: its share of the axis and, within the cell of its lens and in units of the hole's radius from the
+/// lens's axis, where it begins and ends.
+template <class F>
+struct Span {
+    F low, high;           // of the diffuser's number
+    F share;               // (high - low) / 2
+    F from, to;            // from <= to
+    F part_from, part_to;  // circle_part of them
+};
+
+/// Area of {0 < X < x, 0 < Y < y} within the unit circle, odd in x and y.
+template <class F>
+LFDSIM_FN F corner_in_circle(F x, F part_x, F y, F part_y) {
+    using S = Scalar<F>;
+    const F quarter = F(S(0.78539816339744831));
+    const F rest = abs(part_x) + abs(part_y) - quarter;
+    const F signed_rest = select(x * y < F(0), -rest, rest);
+    return select(x * x + y * y <= F(1), x * y, signed_rest);
+}
+
+/// The share of a stratum's rectangle that a round hole covers. Of a small one, where the difference of areas would lose its
+/// digits, the hole's edge is taken for straight.
+template <class F>
+LFDSIM_FN F hole_cover(const Span<F>& a, const Span<F>& b) {
+    using S = Scalar<F>;
+    const F width = a.to - a.from, height = b.to - b.from, whole = width * height, least = F(S(1e-4));
+    const F area = corner_in_circle(a.to, a.part_to, b.to, b.part_to) - corner_in_circle(a.from, a.part_from, b.to, b.part_to) -
+                   corner_in_circle(a.to, a.part_to, b.from, b.part_from) +
+                   corner_in_circle(a.from, a.part_from, b.from, b.part_from);
+    F cover = area / max(whole, least);
+    const Mask<F> small = whole < least;
+    if (any(small)) {
+        const F x = F(S(0.5)) * (a.to + a.from), y = F(S(0.5)) * (b.to + b.from), rho = sqrt(x * x + y * y);
+        const F reach = max(abs(x) * width + abs(y) * height, F(S(1e-12)));  // rho times the rectangle's extent across the edge
+        cover = select(small, F(S(0.5)) + (F(1) - rho) * rho / reach, cover);
+    }
+    return select((width > F(0)) && (height > F(0)), min(max(cover, F(0)), F(1)), F(0));
+}
+
+}  // namespace lfdsim::optics::inline LFDSIM_ISA

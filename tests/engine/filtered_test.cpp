@@ -1,0 +1,204 @@
+// The filtered estimator against brute force, and its promises: the same bits everywhere, errors that are what they are said to be.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "engine/scene.h"
+#include "pictures.h"
+
+namespace lfdsim {
+namespace {
+
+/// Every way through an array with a diffuser: as wide as the lenses, narrower than a pixel, wider than three lenses, gaussian.
+std::vector<std::pair<std::string, Display>> diffused() {
+    std::vector<std::pair<std::string, Display>> all;
+    auto add = [&](const std::string& name, Display d, Diffuser diffuser) {
+        d.diffuser = diffuser;
+        d.render.estimator = Estimator::filtered;
+        d.render.samples = 4;
+        d.render.fresnel = Fresnel::exact;
+        all.emplace_back(name, d);
+    };
+    const Diffuser closing{40, {5.7, 5.7}, Profile::box};
+    add("plano-convex", example(), closing);
+    add("plano-convex, oblique", example(), closing);
+    all.back().second.camera.position_mm = {150, -80, 350};
+    add("plano-convex, narrow", example(), {3, {0.5, 0.5}, Profile::box});
+    add("plano-convex, wide and unequal", example(), {40, {17, 3}, Profile::box});
+    add("plano-convex, gaussian", example(), {40, {4, 3}, Profile::gaussian});
+    add("ideal, square", ideal_example(), closing);
+    add("facing the panel", example(), closing);
+    all.back().second.lens.facing = Facing::panel;
+    add("stopped", example(), closing);
+    all.back().second.lens.stop_radius_mm = 0.6;
+    add("clear", example(), closing);
+    all.back().second.array.surround = Surround::clear;
+    add("plate", example(), closing);
+    all.back().second.array.surround = Surround::plate;
+    return all;
+}
+
+/// Squares of light, larger than a panel pixel and smaller than an elemental image, on top of noise.
+Texels patterned_panel(const Display& d) {
+    Texels panel = noise_panel(d);
+    for (std::int64_t r = 0; r < panel.rows(); ++r)
+        for (std::int64_t c = 0; c < panel.columns(); ++c)
+            for (int k = 0; k < 3; ++k)
+                panel.row(r)[4 * c + k] = 0.2f * panel.row(r)[4 * c + k] + ((r / 5 + c / 7) % 2 ? 0.7f : 0.1f);
+    return panel;
+}
+
+double rmse(const Image& a, const Image& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.rgb.size(); ++i) sum += (double(a.rgb[i]) - b.rgb[i]) * (double(a.rgb[i]) - b.rgb[i]);
+    return std::sqrt(sum / double(a.rgb.size()));
+}
+double mean(const Image& a) {
+    double sum = 0;
+    for (const float x : a.rgb) sum += x;
+    return sum / double(a.rgb.size());
+}
+
+class Filtered : public testing::TestWithParam<std::size_t> {
+  protected:
+    Filtered() : name(diffused()[GetParam()].first), display(diffused()[GetParam()].second), panel(patterned_panel(display)) {}
+
+    Image points(std::int64_t samples, Sampling sampling) const {
+        Display d = display;
+        d.render.estimator = Estimator::point;
+        d.render.samples = samples;
+        d.render.sampling = sampling;
+        d.render.seed = 77;
+        return picture(d, panel);
+    }
+    Image filtered(std::int64_t samples, const RenderOptions& options = {}) const {
+        Display d = display;
+        d.render.samples = samples;
+        return picture(d, panel, options);
+    }
+
+    std::string name;
+    Display display;
+    Texels panel;
+};
+INSTANTIATE_TEST_SUITE_P(EveryWay, Filtered, testing::Range(std::size_t(0), diffused().size()));
+
+// On these displays, whose picture and panel pixels are coarse, 16 samples are nearly as good as 100 random points, and 1024 tend
+// to the truth.
+TEST_P(Filtered, TendsToBruteForce) {
+    const Image truth = points(8192, Sampling::sobol), papers = points(100, Sampling::random);
+    const double wanted = rmse(papers, truth);
+    EXPECT_LT(rmse(filtered(16), truth), 2 * wanted) << name;
+    const Image fine = filtered(1024);
+    EXPECT_LT(rmse(fine, truth), 1.0 / 100) << name;
+    EXPECT_NEAR(mean(fine) / mean(truth), 1, 8e-3) << name;
+}
+
+// Seen as finely as the shipped displays are, 4 samples beat 100 random points, and 1024 tell the truth to one in 512.
+TEST(FilteredEstimator, NeedsFewSamples) {
+    for (Display d : {example(), ideal_example()}) {
+        d.diffuser = Diffuser{40, {5.7, 5.7}, Profile::box};
+        d.camera.frame_width_mm = 8;
+        const Texels panel = patterned_panel(d);
+        auto of = [&](Estimator estimator, std::int64_t samples, Sampling sampling, std::int64_t seed) {
+            d.render.estimator = estimator;
+            d.render.samples = samples;
+            d.render.sampling = sampling;
+            d.render.seed = seed;
+            return picture(d, panel, {0, "", Rect{40, 30, 120, 80}});
+        };
+        const Image truth = of(Estimator::point, 1 << 15, Sampling::sobol, 5);
+        EXPECT_LT(rmse(of(Estimator::filtered, 4, Sampling::sobol, 0), truth),
+                  rmse(of(Estimator::point, 100, Sampling::random, 6), truth));
+        const Image fine = of(Estimator::filtered, 1024, Sampling::sobol, 0);
+        EXPECT_LT(rmse(fine, truth), 1.0 / 512);
+        EXPECT_NEAR(mean(fine) / mean(truth), 1, 1e-3);
+    }
+}
+
+TEST_P(Filtered, HasTheSameBitsEverywhere) {
+    const Image reference = filtered(4, {1, "scalar", {}});
+    for (const KernelInfo& kernel : kernels()) {
+        if (!kernel.available) continue;
+        for (const Rect& crop : {Rect{0, 0, 160, 112}, Rect{13, 7, 110, 60}, Rect{64, 16, 65, 17}}) {
+            const Image part = filtered(4, {2, kernel.name, crop});
+            for (int y = crop.y0; y < crop.y1; ++y) {
+                ASSERT_EQ(0, std::memcmp(part.at(0, y - crop.y0), reference.at(crop.x0, y), std::size_t(part.width) * 12))
+                    << name << ", " << kernel.name << ", row " << y;
+            }
+        }
+    }
+}
+
+TEST(FilteredEstimator, SeesAWhitePanelWhite) {
+    Display d = ideal_example();
+    d.diffuser = Diffuser{40, {5.7, 5.7}, Profile::box};
+    d.camera.frame_width_mm = 20;
+    d.render.estimator = Estimator::filtered;
+    const Image image = picture(d, uniform_panel(d, 1));
+    for (const float x : image.rgb) ASSERT_NEAR(x, 1, 1e-6);
+}
+
+TEST(FilteredEstimator, GivesWayToPointsWhereItDoesNotApply) {
+    Display d = example();
+    d.render.estimator = Estimator::filtered;
+    d.render.samples.reset();
+    EXPECT_EQ(estimator_of(d), Estimator::point);
+    EXPECT_EQ(samples_of(d), 1);  // nothing to sample
+    d.diffuser = Diffuser{40, {3, 3}, Profile::box};
+    EXPECT_EQ(estimator_of(d), Estimator::filtered);
+    EXPECT_EQ(samples_of(d), 4);
+    d.render.samples = 5;
+    EXPECT_EQ(samples_of(d), 9);
+    d.render.samples.reset();
+    d.array.rotation_deg = 3;
+    EXPECT_EQ(estimator_of(d), Estimator::point);
+    EXPECT_EQ(samples_of(d), 100);
+}
+
+TEST(FilteredEstimator, RefusesMoreStrataThanItHas) {
+    Display d = diffused()[0].second;
+    d.render.samples = 5000;
+    EXPECT_THROW(picture(d, noise_panel(d)), InputError);
+}
+
+// What is said of the error is checked against the truth, for both estimators: it is not below, and not needlessly above.
+class TargetError : public testing::TestWithParam<Estimator> {};
+INSTANTIATE_TEST_SUITE_P(Both, TargetError, testing::Values(Estimator::filtered, Estimator::point));
+
+TEST_P(TargetError, IsKept) {
+    Display d = diffused()[1].second;
+    const Texels panel = patterned_panel(d);
+    Display brute = d;
+    brute.render.estimator = Estimator::point;
+    brute.render.samples = 1 << 14;
+    brute.render.seed = 99;
+    const RenderOptions part{0, "", Rect{30, 20, 120, 90}};
+    const Image truth = picture(brute, panel, part);
+    d.render.estimator = GetParam();
+    Job job;
+    for (const double target : {0.03, 0.01}) {
+        RenderOptions options = part;
+        options.target_error = target;
+        const Rendering r = render(d, resolve(d), panel, options, job);
+        ASSERT_EQ(r.error.rgb.size(), r.image.rgb.size());
+        double said = 0;
+        for (const float e : r.error.rgb) {
+            said += double(e) * e;
+            ASSERT_LE(e, target * 1.7321);  // root mean square of three colours
+        }
+        said = std::sqrt(said / double(r.error.rgb.size()));
+        const double true_error = rmse(r.image, truth);
+        EXPECT_LT(true_error, 1.2 * said);
+        EXPECT_GT(true_error, said / 12);
+        EXPECT_GT(r.samples, std::int64_t(r.image.rgb.size() / 3));
+        options.crop = Rect{41, 33, 77, 54};
+        const Rendering crop = render(d, resolve(d), panel, options, job);  // no pixel depends on the crop
+        for (int y = 0; y < crop.image.height; ++y)
+            ASSERT_EQ(0, std::memcmp(crop.image.at(0, y), r.image.at(11, y + 13), std::size_t(crop.image.width) * 12));
+    }
+}
+
+}  // namespace
+}  // namespace lfdsim
