@@ -10,3 +10,6 @@ install(TARGETS lfdsim-model-reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECD
 add_dependencies(lfdsim_content lfdsim-model-reader)
 set_source_files_properties(content/reader_path.cpp PROPERTIES COMPILE_DEFINITIONS
   "LFDSIM_INSTALLED_READER=\"${CMAKE_INSTALL_FULL_LIBEXECDIR}/lfdsim/lfdsim-model-reader\";LFDSIM_BUILT_READER=\"${CMAKE_BINARY_DIR}/lfdsim-model-reader\"")
+
+# No errno and no traps from mathematics, so that loops over the lanes of a packet become SIMD.
+target_compile_options(lfdsim_content PRIVATE -fno-math-errno -fno-trapping-math)

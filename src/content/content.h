@@ -35,18 +35,24 @@ struct LoadOptions {
 std::shared_ptr<const Model> load_model(const std::filesystem::path&, const LoadOptions& = {});
 ModelInfo info(const Model&);
 
-/// A model posed before the display (docs/model.md, "Pose"), with its ray-tracing structure. Model data is shared.
+/// A model posed before the display (docs/model.md, "Pose"), with its ray-tracing structure. Copies share both.
 class Scene {
   public:
     /// Throws InputError for a model without height (lying flat) or millions of times wider than high.
     Scene(std::shared_ptr<const Model>, const Display&, const Geometry&);
-    ~Scene();
-    Scene(Scene&&) noexcept;
+
+    /// The same at another depth (content.depth_mm) before the same display: nothing is read, posed or built again, and pictures
+    /// have the bits of a scene made there. Throws InputError for a depth that a display could not have.
+    Scene at_depth(double depth_mm) const;
+
     struct Impl;
     const Impl& impl() const { return *impl_; }
+    /// The middle of the model's box, from the middle of the panel.
+    Vec3d centre_mm() const { return {0, 0, vertex_plane_mm_ + depth_mm_}; }
 
   private:
-    std::unique_ptr<Impl> impl_;
+    std::shared_ptr<const Impl> impl_;
+    double vertex_plane_mm_, depth_mm_;
 };
 
 struct Picture {

@@ -2,28 +2,124 @@
 #include "content/pickup.h"
 
 namespace lfdsim {
+namespace {
 
-Picture elemental_images(const Display& display, const Geometry& geometry, const Scene& scene, int threads, Job& job) {
-    const Scene::Impl& impl = scene.impl();
-    const Pickup pickup(display, geometry);
-    // The viewer's first surface along the line: rays start in the plane z = top, just above the scene on the viewer's side,
-    // and travel towards the panel and beyond it. Their direction has dz = -1, so that t is the depth below the plane.
-    const double half = impl.half_mm[2] * 1.0001 + 1e-3, top = impl.centre_mm[2] + half;
-    const Beam beam{float(2 * half), float(display.panel.pixel_pitch_mm / geometry.gap_mm), float(top - pickup.z_rear)};
-    const auto fill = [&](int column, int row, RayBlock& rays) {
+/// The rays of the nodal pick-up, a block at a time. The viewer's first surface along the line is wanted: rays start in the plane
+/// z = top, just above the scene on the viewer's side, and travel towards the panel and beyond it. Their direction has dz = -1, so
+/// that t is the depth below the plane.
+class PickupRays {
+  public:
+    PickupRays(const Display& display, const Geometry& geometry, const Scene& scene)
+        : pickup_(display, geometry),
+          turned_(display.array.rotation_deg != 0),
+          half_mm_(scene.impl().half_mm),
+          centre_mm_(scene.centre_mm()),
+          half_depth_(half_mm_[2] * 1.0001 + 1e-3),
+          rise_(centre_mm_[2] + half_depth_ - pickup_.z_rear),
+          width_per_t_(float(display.panel.pixel_pitch_mm / geometry.gap_mm)) {
+        if (turned_) return;
+        // The middle of the array, (x, y) here, has an owner.
+        const double x = display.array.offset_mm[0] * pickup_.scale, y = display.array.offset_mm[1] * pickup_.scale;
+        for (std::int64_t i = 0; i < display.panel.pixels[0]; ++i) {
+            const NodalLine line = pickup_.line(pickup_.x_mm(double(i)), y);
+            columns_.add(part(line.x, line.mx, 0), line.owned);
+        }
+        for (std::int64_t j = 0; j < display.panel.pixels[1]; ++j) {
+            const NodalLine line = pickup_.line(x, pickup_.y_mm(double(j)));
+            rows_.add(part(line.y, line.my, 1), line.owned);
+        }
+        columns_.pad();
+        rows_.pad();
+    }
+
+    Beam beam() const { return {width_per_t_, float(rise_)}; }
+
+    void operator()(int column, int row, RayBlock& block) const {
+        RTCRay16& ray = block.packet.ray;
         for (int k = 0; k < RayBlock::lanes; ++k) {
-            const NodalLine line = pickup.line(pickup.x_mm(column + k % RayBlock::side), pickup.y_mm(row + k / RayBlock::side));
-            rays.x[k] = float(line.x + line.mx * (top - pickup.z_rear) - impl.centre_mm[0]);
-            rays.y[k] = float(line.y + line.my * (top - pickup.z_rear) - impl.centre_mm[1]);
-            rays.z[k] = float(half);
-            rays.dx[k] = float(-line.mx);
-            rays.dy[k] = float(-line.my);
-            rays.dz[k] = -1;
-            rays.exists[k] = line.owned;
+            ray.org_z[k] = float(half_depth_);
+            ray.dir_z[k] = -1;
+        }
+        turned_ ? each_alone(column, row, block) : by_column_and_row(column, row, block);
+    }
+
+  private:
+    struct Part {  // of a ray: its x or its y
+        float origin, direction;
+        bool may_hit;  // before its end, where the scene is over, it may come into the scene's box
+    };
+    /// The shares of all columns, or all rows, in rays.
+    struct Shares {
+        std::vector<float> origin, direction;
+        std::vector<int> exists, may_hit;  // -1 or 0
+        void add(const Part& part, bool owned) {
+            origin.push_back(part.origin);
+            direction.push_back(part.direction);
+            exists.push_back(-int(owned));
+            may_hit.push_back(-int(owned && part.may_hit));
+        }
+        void pad() {  // to whole blocks
+            while (origin.size() % RayBlock::side != 0) add({0, 0, false}, false);
         }
     };
+
+    Part part(double axis, double slope, std::size_t k) const {
+        const float origin = float(axis + slope * rise_ - centre_mm_[k]), direction = float(-slope),
+                    end = origin + float(2 * half_depth_) * direction;
+        // The slack covers the rounding of positions (about 1e-7 of the box) and of the arithmetic here.
+        const float h = float(half_mm_[k] * 1.0001 + 1e-6);
+        return {origin, direction, std::min(origin, end) <= h && std::max(origin, end) >= -h};
+    }
+
+    /// Where the array is not turned against the panel, x depends on the column alone and y on the row.
+    void by_column_and_row(int column, int row, RayBlock& block) const {
+        constexpr int side = RayBlock::side;
+        RTCRay16& ray = block.packet.ray;
+        for (int j = 0; j < side; ++j) {
+            const auto r = std::size_t(row + j);
+            const float origin = rows_.origin[r], direction = rows_.direction[r];
+            const int exists = rows_.exists[r], may_hit = rows_.may_hit[r];
+            for (int i = 0; i < side; ++i) {
+                const auto c = std::size_t(column + i);
+                const int k = j * side + i;
+                ray.org_x[k] = columns_.origin[c];
+                ray.org_y[k] = origin;
+                ray.dir_x[k] = columns_.direction[c];
+                ray.dir_y[k] = direction;
+                block.exists.of[k] = columns_.exists[c] & exists;
+                block.may_hit.of[k] = columns_.may_hit[c] & may_hit;
+            }
+        }
+    }
+
+    void each_alone(int column, int row, RayBlock& block) const {
+        RTCRay16& ray = block.packet.ray;
+        for (int k = 0; k < RayBlock::lanes; ++k) {
+            const NodalLine line = pickup_.line(pickup_.x_mm(column + k % RayBlock::side), pickup_.y_mm(row + k / RayBlock::side));
+            const Part x = part(line.x, line.mx, 0), y = part(line.y, line.my, 1);
+            ray.org_x[k] = x.origin;
+            ray.org_y[k] = y.origin;
+            ray.dir_x[k] = x.direction;
+            ray.dir_y[k] = y.direction;
+            block.exists.of[k] = -int(line.owned);
+            block.may_hit.of[k] = -(int(line.owned) & int(x.may_hit) & int(y.may_hit));
+        }
+    }
+
+    Pickup pickup_;
+    bool turned_;
+    Vec3d half_mm_, centre_mm_;  // of the scene's box
+    double half_depth_, rise_;   // rise: of the rays' first plane over the rear nodal points
+    float width_per_t_;
+    Shares columns_, rows_;
+};
+
+}  // namespace
+
+Picture elemental_images(const Display& display, const Geometry& geometry, const Scene& scene, int threads, Job& job) {
+    const PickupRays rays(display, geometry, scene);
     const int width = int(display.panel.pixels[0]), height = int(display.panel.pixels[1]);
-    return cast(impl, beam, width, height, {0, 0, width, height}, threads, "elemental images", job, fill);
+    return cast(scene.impl(), rays.beam(), width, height, {0, 0, width, height}, threads, "elemental images", job, rays);
 }
 
 }  // namespace lfdsim

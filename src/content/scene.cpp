@@ -1,4 +1,5 @@
 #include "content/scene.h"
+#include "model/keys.h"
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
@@ -52,7 +53,6 @@ void pose(Scene::Impl& scene, const Display& display, const Geometry& geometry) 
             "content.model",
             fmt::format("the model is {} units high and cannot be scaled to {} mm; if it lies flat, raise it with tilt_deg", extent,
                         geometry.content_height_mm));
-    scene.centre_mm = {0, 0, geometry.vertex_plane_mm + geometry.content_depth_mm};
     for (int k = 0; k < 3; ++k) scene.half_mm[k] = 0.5 * scale * (box.high[k] - box.low[k]);
     if (const double longest = 2 * *std::max_element(scene.half_mm.begin(), scene.half_mm.end()); longest > 1e6)
         throw InputError("content.model",
@@ -115,45 +115,21 @@ void build(Scene::Impl& scene) {
 }  // namespace
 
 Scene::Scene(std::shared_ptr<const Model> model, const Display& display, const Geometry& geometry)
-    : impl_(std::make_unique<Impl>()) {
-    impl_->model = std::move(model);
-    pose(*impl_, display, geometry);
-    measure_textures(*impl_);
-    build(*impl_);
+    : vertex_plane_mm_(geometry.vertex_plane_mm), depth_mm_(geometry.content_depth_mm) {
+    const auto made = std::make_shared<Impl>();
+    made->model = std::move(model);
+    pose(*made, display, geometry);
+    measure_textures(*made);
+    build(*made);
+    impl_ = made;
 }
 
-Scene::~Scene() = default;
-Scene::Scene(Scene&&) noexcept = default;
-
-Rgb Scene::Impl::shade(std::uint32_t triangle, float u, float v, float width_mm) const {
-    const Model& m = *model;
-    const std::uint32_t* corner = &m.indices[3 * std::size_t(triangle)];
-    const std::size_t a = corner[0], b = corner[1], c = corner[2];
-    const float w = 1 - u - v;
-    const float* n = m.normals.data();
-    const float nx = w * n[3 * a] + u * n[3 * b] + v * n[3 * c], ny = w * n[3 * a + 1] + u * n[3 * b + 1] + v * n[3 * c + 1],
-                nz = w * n[3 * a + 2] + u * n[3 * b + 2] + v * n[3 * c + 2];
-    const float length = std::sqrt(nx * nx + ny * ny + nz * nz);
-    const float cosine = length > 0 ? (nx * light[0] + ny * light[1] + nz * light[2]) / length : 0;
-    const float shine = 0.2f + 0.8f * std::max(0.f, cosine);
-
-    const Material& material = m.materials[m.material_of[triangle]];
-    Rgb out{material.colour[0] * shine, material.colour[1] * shine, material.colour[2] * shine};
-    if (material.texture >= 0) {
-        const float* t = m.uvs.data();
-        const float level = std::log2(std::max(1.f, width_mm * texels_per_mm[triangle]));
-        const Rgb texel = textures[std::size_t(material.texture)].sample(w * t[2 * a] + u * t[2 * b] + v * t[2 * c],
-                                                                         w * t[2 * a + 1] + u * t[2 * b + 1] + v * t[2 * c + 1],
-                                                                         level, material.wrap_u, material.wrap_v);
-        out = {out.r * texel.r, out.g * texel.g, out.b * texel.b};
-    }
-    if (!m.colours.empty()) {
-        const float* k = m.colours.data();
-        out.r *= w * k[3 * a] + u * k[3 * b] + v * k[3 * c];
-        out.g *= w * k[3 * a + 1] + u * k[3 * b + 1] + v * k[3 * c + 1];
-        out.b *= w * k[3 * a + 2] + u * k[3 * b + 2] + v * k[3 * c + 2];
-    }
-    return out;
+Scene Scene::at_depth(double depth_mm) const {
+    if (!any_length.contains(depth_mm))
+        throw InputError("content.depth_mm", fmt::format("is {}, allowed is {}", depth_mm, any_length.text()));
+    Scene moved = *this;
+    moved.depth_mm_ = depth_mm;
+    return moved;
 }
 
 }  // namespace lfdsim

@@ -1,4 +1,4 @@
-// A posed model ready for rays. Floor 2, internal to content.
+// A posed model ready for rays, wherever it stands. Floor 2, internal to content.
 #pragma once
 #include "content/content.h"
 #include "content/model.h"
@@ -12,11 +12,26 @@
 
 namespace lfdsim {
 
+/// A value for each of the sixteen rays of a packet.
+struct alignas(64) Lanes {
+    static constexpr int count = 16;
+    struct alignas(64) Mask {
+        int of[count];  // -1: yes, 0: no
+        bool any() const {
+            int all = 0;
+            for (const int k : of) all |= k;
+            return all != 0;
+        }
+    };
+    float of[count];
+};
+
 struct Scene::Impl {
     std::shared_ptr<const Model> model;
 
-    // Rays live in the frame whose origin is `centre_mm`, the centre of the posed bounding box: there float32 is at its best.
-    Vec3d centre_mm{}, half_mm{};     // half: half the box's extents
+    // Rays live in the frame whose origin is the centre of the posed bounding box: there float32 is at its best, and nothing here
+    // changes when the scene moves.
+    Vec3d half_mm{};                  // half the box's extents
     std::vector<float> positions_mm;  // posed, about the centre; one float more than the vertices need, as Embree asks
 
     std::array<float, 3> light{};  // unit vector towards the light, in the model's own axes
@@ -30,9 +45,9 @@ struct Scene::Impl {
     std::unique_ptr<RTCDeviceTy, Release> device;
     std::unique_ptr<RTCSceneTy, Release> tree;
 
-    /// Linear light of the point with barycentric coordinates (u, v) in `triangle`, seen by a ray `width_mm` wide.
-    /// Depends on nothing else: a surface looks the same from everywhere.
-    Rgb shade(std::uint32_t triangle, float u, float v, float width_mm) const;
+    /// Linear light (red, green, blue) of the points that a packet of rays has hit, seen by rays `width_mm` wide. Depends on
+    /// nothing else: a surface looks the same from everywhere. Lanes without a hit get numbers that mean nothing.
+    void shade(const RTCHit16&, const Lanes::Mask& hit, const Lanes& width_mm, Lanes* light) const;
 };
 
 }  // namespace lfdsim

@@ -1,6 +1,7 @@
 #include "content/texture.h"
 
 #include "image/encoding.h"
+#include "optics/simd.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,12 @@
 namespace lfdsim {
 namespace {
 
+using Four = optics::Lane<4>;
+
+Texel mix(Texel a, Texel b, float t) { return a + (b - a) * t; }
+
 int wrapped(int i, int size, Wrap how) {
+    if (unsigned(i) < unsigned(size)) return i;
     switch (how) {
         case Wrap::clamp:
             return std::clamp(i, 0, size - 1);
@@ -22,9 +28,10 @@ int wrapped(int i, int size, Wrap how) {
 }
 
 // Folded into a few periods first, so that huge coordinates of strange files stay exact enough and fit an int.
-float folded(float x, Wrap how) { return how == Wrap::clamp ? std::clamp(x, -1.f, 2.f) : x - 2 * std::floor(x / 2); }
-
-Rgb mix(const Rgb& a, const Rgb& b, float t) { return {a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t}; }
+float folded(float x, Wrap how) {
+    if (x >= 0 && x < 1) return x;
+    return how == Wrap::clamp ? std::clamp(x, -1.f, 2.f) : x - 2 * std::floor(x / 2);
+}
 
 }  // namespace
 
@@ -54,26 +61,43 @@ Pyramid::Pyramid(const Texture& t) : light_(decode_table(Encoding::srgb, 8).data
         }
         levels_.push_back(std::move(coarse));
     }
+    for (const Level& l : levels_) sizes_.insert(sizes_.end(), {float(l.width), float(l.height)});
+    sizes_.insert(sizes_.end(), {1, 1});  // sample() looks one level further
 }
 
-Rgb Pyramid::bilinear(const Level& l, float u, float v, Wrap wrap_u, Wrap wrap_v) const {
-    // Texel centres lie at half integers, row 0 at the top where v = 1.
-    const float x = folded(u, wrap_u) * float(l.width) - 0.5f, y = folded(1 - v, wrap_v) * float(l.height) - 0.5f;
-    const float left = std::floor(x), top = std::floor(y);
-    const int x0 = wrapped(int(left), l.width, wrap_u), x1 = wrapped(int(left) + 1, l.width, wrap_u);
-    const int y0 = wrapped(int(top), l.height, wrap_v), y1 = wrapped(int(top) + 1, l.height, wrap_v);
+Texel Pyramid::bilinear(const Level& l, int x0, int y0, int x1, int y1, float right, float down) const {
     const auto texel = [&](int i, int j) {
-        const std::uint32_t code = l.codes[std::size_t(j) * l.width + i];
-        return Rgb{light_[code & 255], light_[code >> 8 & 255], light_[code >> 16 & 255]};
+        const std::uint32_t code = l.codes[std::size_t(j) * std::size_t(l.width) + std::size_t(i)];
+        return Texel{light_[code & 255], light_[code >> 8 & 255], light_[code >> 16 & 255], 0};
     };
-    return mix(mix(texel(x0, y0), texel(x1, y0), x - left), mix(texel(x0, y1), texel(x1, y1), x - left), y - top);
+    return mix(mix(texel(x0, y0), texel(x1, y0), right), mix(texel(x0, y1), texel(x1, y1), right), down);
 }
 
-Rgb Pyramid::sample(float u, float v, float level, Wrap wrap_u, Wrap wrap_v) const {
-    const float l = std::clamp(level, 0.f, float(levels_.size() - 1)), below = std::floor(l);
-    const Rgb fine = bilinear(levels_[std::size_t(below)], u, v, wrap_u, wrap_v);
-    if (l == below) return fine;
-    return mix(fine, bilinear(levels_[std::size_t(below) + 1], u, v, wrap_u, wrap_v), l - below);
+Texel Pyramid::sample(float u, float v, float level, Wrap wrap_u, Wrap wrap_v) const {
+    const float l = std::clamp(level, 0.f, float(levels_.size() - 1));
+    const auto below = std::size_t(l);
+    // Four numbers: across and down in the level below, across and down in the one above. Texel centres lie at half integers, row 0
+    // at the top where v = 1.
+    const float x = folded(u, wrap_u), y = folded(1 - v, wrap_v);
+    const Four size = optics::load<Four>(&sizes_[2 * below]), place = Four(Texel{x, y, x, y}) * size - Four(0.5f);
+    const Four first = optics::floor(place), between = place - first;
+    const auto a = optics::to_int(first).v, b = a + 1;
+    int low[4], high[4];
+    for (int k = 0; k < 4; ++k) {
+        low[k] = int(a[k]);
+        high[k] = int(b[k]);
+    }
+    if (optics::any(first < Four(0.f) || first + Four(1.f) >= size)) {
+        for (int k = 0; k < 4; ++k) {
+            const Wrap how = k % 2 ? wrap_v : wrap_u;
+            low[k] = wrapped(low[k], int(size.v[k]), how);
+            high[k] = wrapped(high[k], int(size.v[k]), how);
+        }
+    }
+    const Texel fine = bilinear(levels_[below], low[0], low[1], high[0], high[1], between.v[0], between.v[1]);
+    if (l == float(below)) return fine;
+    const Texel coarse = bilinear(levels_[below + 1], low[2], low[3], high[2], high[3], between.v[2], between.v[3]);
+    return mix(fine, coarse, l - float(below));
 }
 
 }  // namespace lfdsim

@@ -7,9 +7,8 @@
 
 namespace lfdsim {
 
-struct Rgb {
-    float r, g, b;
-};
+/// Linear light in one register: red, green, blue, 0.
+typedef float Texel __attribute__((vector_size(16)));
 
 /// A mip pyramid: each level halves the one below by averaging 2 x 2 texels in linear light.
 class Pyramid {
@@ -17,7 +16,7 @@ class Pyramid {
     explicit Pyramid(const Texture&);
 
     /// Trilinear: bilinear in the two levels nearest to `level` (0: full size; larger is clamped), blended.
-    Rgb sample(float u, float v, float level, Wrap wrap_u, Wrap wrap_v) const;
+    Texel sample(float u, float v, float level, Wrap wrap_u, Wrap wrap_v) const;
 
     int width() const { return levels_[0].width; }
     int height() const { return levels_[0].height; }
@@ -27,10 +26,11 @@ class Pyramid {
         int width, height;
         std::vector<std::uint32_t> codes;  // sRGB: 0x00bbggrr
     };
-    Rgb bilinear(const Level&, float u, float v, Wrap wrap_u, Wrap wrap_v) const;
+    Texel bilinear(const Level&, int x0, int y0, int x1, int y1, float right, float down) const;
 
     std::vector<Level> levels_;
-    const float* light_;  // of each code
+    std::vector<float> sizes_;  // width and height of each level
+    const float* light_;        // of each code
 };
 
 }  // namespace lfdsim

@@ -1,0 +1,63 @@
+// The rays of 4 x 4 pixels, from their set-up to their light. Floor 2, internal to content.
+#pragma once
+#include "content/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+
+/// What all rays of a picture share.
+struct Beam {
+    float width_per_t;  // width of a ray's footprint in mm: width_per_t |t - waist_t|
+    float waist_t;
+};
+
+/// Sixteen rays of a 4 x 4 block of pixels, starting in a plane before the scene; origins about the scene's centre. All that is
+/// done to them is done in loops over all lanes without branches, which the compiler turns into SIMD. Masks are -1 or 0.
+///
+/// Neighbours under one lens make a packet, not equal pixels under neighbouring lenses, whose rays are parallel: z before the
+/// lenses, four neighbours are 4 a z / g apart, four lenses 4 p, which is more for all z < p g / a, more than a metre.
+struct RayBlock {
+    static constexpr int side = 4, lanes = Lanes::count;
+    RTCRayHit16 packet;
+    Lanes::Mask exists;   // a pixel without a lens has no ray
+    Lanes::Mask may_hit;  // only these are traced
+    Lanes::Mask hit;
+    Lanes light[3];  // of the rays that hit
+
+    RayBlock() {
+        // What Embree asks for and never changes.
+        for (int k = 0; k < lanes; ++k) {
+            packet.ray.tnear[k] = 0;
+            packet.ray.time[k] = 0;
+            packet.ray.mask[k] = ~0u;
+            packet.ray.id[k] = 0;
+            packet.ray.flags[k] = 0;
+            packet.hit.primID[k] = 0;
+            packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+            packet.hit.u[k] = packet.hit.v[k] = 0;
+        }
+    }
+};
+
+/// Traces and shades a block: `hit` and `light`. False: no ray meets the scene, and nothing is set.
+inline bool trace(const Scene::Impl& scene, const Beam& beam, RTCIntersectContext& context, RayBlock& block) {
+    if (!block.may_hit.any()) return false;
+    RTCRayHit16& packet = block.packet;
+    for (int k = 0; k < RayBlock::lanes; ++k) {
+        packet.ray.tfar[k] = INFINITY;
+        packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+    }
+    rtcIntersect16(block.may_hit.of, scene.tree.get(), &context, &packet);
+    Lanes width_mm;
+    for (int k = 0; k < RayBlock::lanes; ++k) {
+        block.hit.of[k] = block.may_hit.of[k] & -int(packet.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID);
+        width_mm.of[k] = beam.width_per_t * std::abs(packet.ray.tfar[k] - beam.waist_t);
+    }
+    if (!block.hit.any()) return false;
+    scene.shade(packet.hit, block.hit, width_mm, block.light);
+    return true;
+}
+
+}  // namespace lfdsim
