@@ -19,6 +19,7 @@ import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 MONKEY = "/usr/share/assimp/models/BLEND/Suzanne_248.blend"
+TRUCK = "/usr/share/assimp/models/glTF/CesiumMilkTruck/CesiumMilkTruck.gltf"
 PAPER = 829.44  # million samples of 3840 x 2160 x 100, which took the 2019 paper's GPU one second
 failures, lines = [], []
 
@@ -105,6 +106,19 @@ def content():
         rates = [lfdsim(command, display, "--model", MONKEY, "-o", os.path.join(folder, "content.png"))["mrays_per_s"]
                  for _ in range(options.runs)]
         figure(f"monkey, {name}, million rays/s", statistics.median(rates), "10, aim 30", loose=lambda x: x > 10 / 3)
+    share = os.path.join(os.path.dirname(os.path.abspath(options.program)), "lfdsim-embree-share")
+    if not os.path.exists(share):
+        print("| share of Embree | SKIPPED: lfdsim-embree-share is not built; configure with LFDSIM_BENCHMARKS=ON | |")
+        return
+    for name, model in (("monkey", MONKEY),) if options.quick else (("monkey", MONKEY), ("truck", TRUCK)):
+        made = json.loads(subprocess.check_output([share, display, model, str(options.runs)]))
+        for picture in ("elemental images", "reference photograph"):
+            figures = made[picture.replace(" ", "_")]
+            figure(f"{name}, {picture}, 1 thread, million rays/s", figures["mrays_per_s"])
+            loose = (lambda x: x > 1 / 3) if (name, picture) == ("monkey", "elemental images") else None
+            figure(f"{name}, {picture}: share of Embree in the time", figures["share_of_embree"], "1", loose=loose)
+        figure(f"{name}, elemental images at 31 depths, s", made["31_depths_s"])
+        figure(f"{name}, elemental images at 31 depths, over 31 times those at one", made["over_31_times_one"])
 
 
 def memory_and_start(panel):

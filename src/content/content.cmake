@@ -13,3 +13,8 @@ set_source_files_properties(content/reader_path.cpp PROPERTIES COMPILE_DEFINITIO
 
 # No errno and no traps from mathematics, so that loops over the lanes of a packet become SIMD.
 target_compile_options(lfdsim_content PRIVATE -fno-math-errno -fno-trapping-math)
+
+if(LFDSIM_BENCHMARKS)
+  add_executable(lfdsim-embree-share ${PROJECT_SOURCE_DIR}/bench/embree_share.cpp)
+  target_link_libraries(lfdsim-embree-share PRIVATE lfdsim_content lfdsim_files embree ${CMAKE_DL_LIBS})
+endif()

@@ -90,6 +90,32 @@ TEST(Material, FineTexturesAreAveraged) {
     }
 }
 
+// Rays are shaded in packets of 4 x 4 pixels: here a fine texture, averaged, meets a coarse one, magnified, within one.
+TEST(Material, NeighboursAreFilteredEachForItself) {
+    Folder folder;
+    Image fine(256, 256), coarse(1, 2);
+    for (int j = 0; j < 256; ++j) {
+        for (int i = 0; i < 256; ++i) std::fill_n(fine.at(i, j), 3, (i + j) % 2 ? 1.f : 0.f);
+    }
+    coarse.at(0, 0)[0] = 1;
+    coarse.at(0, 1)[2] = 1;
+    write_image(folder.path() / "fine.png", fine);
+    write_image(folder.path() / "coarse.png", coarse);
+    folder.write("m.mtl", "newmtl fine\nmap_Kd fine.png\nnewmtl coarse\nmap_Kd coarse.png\n");
+    // They meet at x = 0.04, between the columns 121 and 122.
+    const Image image = shoot(folder.write(
+        "m.obj",
+        "mtllib m.mtl\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nv -1 -1 0\nv 0.04 -1 0\nv 0.04 1 0\nv -1 1 0\nv 1 -1 0\nv 1 1 0\n"
+        "usemtl fine\nf 1/1 2/2 3/3 4/4\nusemtl coarse\nf 2/1 5/2 6/3 3/4\n"));
+    for (int row = 53; row < 57; ++row) {  // about the middle of the upper texel
+        for (int column = 72; column < 168; ++column) {
+            const float* c = image.at(column, row);
+            ASSERT_NEAR(c[0] / facing_light, column < 122 ? 0.5 : 1, 0.05) << column;
+            ASSERT_NEAR(c[2] / facing_light, column < 122 ? 0.5 : 0, 0.05) << column;
+        }
+    }
+}
+
 // glTF factors are linear light. A triangle in a binary file beside.
 TEST(Material, GltfFactorsAreLinear) {
     Folder folder;
