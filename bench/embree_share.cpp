@@ -1,6 +1,9 @@
 // How much of the time for elemental images and reference photographs is Embree's? The rest is what this program adds to it:
-// setting up rays, shading, writing pixels. And what do elemental images at many depths cost over those at one? Usage:
-// lfdsim-embree-share DISPLAY.toml MODEL [runs = 5] Prints JSON; the shares are of one thread, medians.
+// setting up rays, shading, writing pixels. And what do elemental images at many depths cost over those at one?
+//
+// Usage: lfdsim-embree-share DISPLAY.toml MODEL [runs = 5]
+//
+// Prints JSON, medians: the shares are of one thread, the depth sweeps (three at most) run on all.
 #include "content/content.h"
 #include "files/display_file.h"
 
