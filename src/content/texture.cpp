@@ -30,7 +30,9 @@ int wrapped(int i, int size, Wrap how) {
 // Folded into a few periods first, so that huge coordinates of strange files stay exact enough and fit an int.
 float folded(float x, Wrap how) {
     if (x >= 0 && x < 1) return x;
-    return how == Wrap::clamp ? std::clamp(x, -1.f, 2.f) : x - 2 * std::floor(x / 2);
+    if (how == Wrap::clamp) return std::max(-1.f, std::min(2.f, x));
+    const float rest = x - 2 * std::floor(x / 2);
+    return rest >= 0 ? rest : 0;  // interpolated between the largest floats, x may be infinite, and its rest not a number
 }
 
 }  // namespace
@@ -87,7 +89,7 @@ Texel Pyramid::sample(float u, float v, float level, Wrap wrap_u, Wrap wrap_v) c
         low[k] = int(a[k]);
         high[k] = int(b[k]);
     }
-    if (optics::any(first < Four(0.f) || first + Four(1.f) >= size)) {
+    if (optics::any(!(first >= Four(0.f) && first + Four(1.f) < size))) {
         for (int k = 0; k < 4; ++k) {
             const Wrap how = k % 2 ? wrap_v : wrap_u;
             low[k] = wrapped(low[k], int(size.v[k]), how);

@@ -76,6 +76,24 @@ TEST(Material, TextureRepeats) {
     }
 }
 
+// The largest floats are finite, but what lies between them may not be.
+TEST(Material, HugeTextureCoordinatesAreHarmless) {
+    Folder folder;
+    Image texels(2, 2);
+    std::fill(texels.rgb.begin(), texels.rgb.end(), 0.5f);
+    write_image(folder.path() / "t.png", texels);
+    for (const double uv : {3.4028234e38, -3.4028234e38, 1e20}) {
+        folder.write("m.mtl", "newmtl m\nmap_Kd t.png");
+        std::ostringstream obj;
+        obj.precision(9);
+        obj << "mtllib m.mtl\nusemtl m\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt " << uv << " " << uv << "\nf 1/1 2/1 3/1 4/1\n";
+        const Image image = shoot(folder.write("m.obj", obj.str()));
+        for (int row = 30; row < 130; ++row) {
+            for (int column = 70; column < 170; ++column) ASSERT_NEAR(image.at(column, row)[0] / facing_light, 0.5, 0.01) << uv;
+        }
+    }
+}
+
 // 256 black and white texels over 100 pixels: each pixel covers several, and shows about their mean, not one of them.
 TEST(Material, FineTexturesAreAveraged) {
     Folder folder;
