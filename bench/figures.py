@@ -108,7 +108,7 @@ def content():
         figure(f"monkey, {name}, million rays/s", statistics.median(rates), "10, aim 30", loose=lambda x: x > 10 / 3)
     share = os.path.join(os.path.dirname(os.path.abspath(options.program)), "lfdsim-embree-share")
     if not os.path.exists(share):
-        print("| share of Embree | SKIPPED: lfdsim-embree-share is not built; configure with LFDSIM_BENCHMARKS=ON | |")
+        say("| share of Embree | SKIPPED: lfdsim-embree-share is not built; configure with LFDSIM_BENCHMARKS=ON | |")
         return
     for name, model in (("monkey", MONKEY),) if options.quick else (("monkey", MONKEY), ("truck", TRUCK)):
         made = json.loads(subprocess.check_output([share, display, model, str(options.runs)]))

@@ -32,18 +32,19 @@ void render_block(const Tile& tile, const EvenCuts& even, std::int32_t x0, std::
     else
         for (int k = 0; k < axis[0].strata * axis[1].strata; ++k) bundles[k].through.state = Bundle::State::broken;
 
-    S right_of[Packet::lanes], below[Packet::lanes];
+    S right_of[Packet::lanes], below[Packet::lanes];  // of a packet's first pixel
     std::uint32_t number[Packet::lanes];
+    for (int k = 0; k < Packet::lanes; ++k) {
+        right_of[k] = S(k % Packet::width);
+        below[k] = S(k / Packet::width);
+        number[k] = std::uint32_t(k / Packet::width * tile.view->width + k % Packet::width);
+    }
+    const F lane_right = optics::load<F>(right_of), lane_below = optics::load<F>(below);
     for (std::int32_t y = y0; y < y0 + tile.block_side; y += Packet::height) {
         for (std::int32_t x = x0; x < x0 + tile.block_side; x += Packet::width) {
             if (x >= tile.x1 || y >= tile.y1 || x + Packet::width <= tile.x0 || y + Packet::height <= tile.y0) continue;
-            for (int k = 0; k < Packet::lanes; ++k) {
-                const std::int32_t column = x + k % Packet::width, row = y + k / Packet::width;
-                right_of[k] = S(column - x0) + S(0.5) - S(block.reach);
-                below[k] = S(row - y0) + S(0.5) - S(block.reach);
-                number[k] = std::uint32_t(row) * std::uint32_t(tile.view->width) + std::uint32_t(column);
-            }
-            const F dx = optics::load<F>(right_of), dy = optics::load<F>(below), per = F(S(1) / S(block.reach));
+            const F dx = lane_right + F(S(x - x0 - block.reach) + S(0.5)), dy = lane_below + F(S(y - y0 - block.reach) + S(0.5)),
+                    per = F(S(1) / S(block.reach));
             Span<F> spans[2][kMostStrata];
             for (int a = 0; a < 2; ++a) spans_of(scene, axis[a], dx * per, dy * per, spans[a]);
 
@@ -51,11 +52,12 @@ void render_block(const Tile& tile, const EvenCuts& even, std::int32_t x0, std::
             F flat[3] = {F(0), F(0), F(0)};
             bool own_ready = false;
             optics::PixelRays<F> pixels;
-            optics::Sampler<F> sampler(Sampling::random, 2, tile.view->seed, optics::load<F>(number));
             auto add_own = [&](const Span<F>& a, const Span<F>& b, Own part, F weight) {
-                sampler.sample = std::uint32_t(&b - spans[1]) * kMostStrata * 8 + std::uint32_t(&a - spans[0]) * 8;
                 if (!own_ready) pixels = optics::pixel_rays<F>(*tile.view, x, y);
                 own_ready = true;
+                const auto first = std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x);
+                optics::Sampler<F> sampler(Sampling::random, 2, tile.view->seed, optics::load<F>(number) + optics::Uint<F>(first));
+                sampler.sample = std::uint32_t((&b - spans[1]) * kMostStrata + (&a - spans[0])) * 8;
                 add_own_rays<through>(tile, pixels, a, b, part, weight, sampler, light);
             };
             const Bundles* next = bundles;
@@ -64,6 +66,7 @@ void render_block(const Tile& tile, const EvenCuts& even, std::int32_t x0, std::
                     const Bundles& b = *next++;
                     const Span<F>&across = spans[0][i], &up = spans[1][j];
                     const F share = across.share * up.share;
+                    if (optics::none(share > F(0))) continue;  // a border that only other packets of the block see
                     if (b.through.state == Bundle::State::broken) {
                         const bool covered =
                             scene.hole_radius > 0 && !scene.leaky && block.alive && !axis[0].straddles[i] && !axis[1].straddles[j];
