@@ -136,8 +136,9 @@ struct Bundle {
     S weight;                                          // mean over the part, what is lost on the way counted as 0
     S x, y;                                            // mm: the probe that stands for it
     Footprint<S> footprint;                            // sharp: the box, which each pixel reads at its own place
-    bool still;                                        // soft: the same light for all pixels of the block
-    S colour[kNodes * kNodes][3];                      // soft: the light at even places of the block; interpolated between them
+    bool still;                                        // soft: the footprint does not move
+    int nodes;                                         // soft: along an axis of the block; 1: its light is the same everywhere
+    S colour[kNodes * kNodes][3];                      // soft: the light there; interpolated between
 };
 
 /// Sums up the per_axis x per_axis probes of a stratum.
@@ -193,12 +194,13 @@ LFDSIM_FN bool is_soft(const Bundle<S>& b) {
     return max(b.width, b.height) > S(1);
 }
 
-/// Adds the light over small boxes about the probes, moved by (column, row), each as wide as it is to the next ones.
+/// The light over small boxes about the probes, moved by (column, row), each as wide as it is to the next ones: R, G, B
+/// and an idle number of each probe, 0 of those lost.
 template <class F>
-LFDSIM_FN void add_light(const Probes<Scalar<F>>& probes, int per_axis, const PanelLevel* levels, int level_count,
-                         const PanelBase<Scalar<F>>& base, Scalar<F> column, Scalar<F> row, Scalar<F> (&colour)[3]) {
+LFDSIM_FN void light_of(const Probes<Scalar<F>>& probes, int per_axis, const PanelLevel* levels, int level_count,
+                        const PanelBase<Scalar<F>>& base, Scalar<F> column, Scalar<F> row, Scalar<F> (&light)[4][kMostProbes]) {
     using S = Scalar<F>;
-    S width[kMostProbes], height[kMostProbes], weight[kMostProbes], light[4 * kMostProbes];
+    S width[kMostProbes], height[kMostProbes], weight[kMostProbes], mixed[4 * kMostProbes];
     for (int p = 0; p < kMostProbes; ++p) {
         width[p] = height[p] = weight[p] = S(0);
         if (!probes.lit(p)) continue;
@@ -218,13 +220,10 @@ LFDSIM_FN void add_light(const Probes<Scalar<F>>& probes, int per_axis, const Pa
         const F w = load<F>(weight + p);
         add_boxes(levels, level_count, base, w > F(0), load<F>(probes.column + p) + F(column), load<F>(probes.row + p) + F(row),
                   load<F>(width + p), load<F>(height + p), w, lanes);
-        lanes.store(light + 4 * p);
+        lanes.store(mixed + 4 * p);
     }
-    for (int c = 0; c < 3; ++c) {
-        S of[kMostProbes];
-        for (int p = 0; p < kMostProbes; ++p) of[p] = light[4 * p + c];
-        colour[c] = colour[c] + sum_of(of);
-    }
+    for (int c = 0; c < 4; ++c)
+        for (int p = 0; p < kMostProbes; ++p) light[c][p] = mixed[4 * p + c];
 }
 
 /// How a bundle moves, from three rays at its probe's point, p .. p + 2, seen from the block's places 1, 2 and 3.

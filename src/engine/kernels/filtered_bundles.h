@@ -108,34 +108,67 @@ class BundleMaker {
         finish();
         if (b.state == Bundle::State::broken) return b;
         b.state = Bundle::State::soft;
+        // What a pixel sees of the outermost strata changes over the block.
+        const bool ends = sees_end(0, i) || sees_end(1, j);
+        b.nodes = b.still && !ends ? 1 : block.nodes();
+        S in[optics::kNodes * optics::kNodes] = {};
+        for (int n = 0; n < b.nodes * b.nodes; ++n)
+            for (int c = 0; c < 3; ++c) b.colour[n][c] = 0;
         // The wider the footprint the more probes.
         const int parts = b.still ? optics::min(most_parts, 1 + int(optics::max(b.width, b.height) * part_per_pixel)) : 1;
-        const int nodes = b.still ? 1 : block.nodes();
-        for (int n = 0; n < nodes * nodes; ++n)
-            for (int c = 0; c < 3; ++c) b.colour[n][c] = 0;
-        S in = 0, lit = 0;
         for (int k = 0; k < parts * parts; ++k) {
             auto part = [parts](Range r, int n) {
                 const S step = (r.to - r.from) / S(parts);
                 return Range{r.from + S(n) * step, r.from + S(n + 1) * step};
             };
-            if (parts > 1) trace(i, part(x, k % parts), j, part(y, k / parts), inside);
-            for (int n = 0; n < nodes * nodes; ++n) {
-                const S right = S(n % nodes * block.node_step() - block.reach),
-                        down = S(n / nodes * block.node_step() - block.reach);
-                const S column = b.still ? S(0) : b.column_right * right + b.column_down * down,
-                        row = b.still ? S(0) : b.row_right * right + b.row_down * down;
-                optics::add_light<F>(probes, per_axis, tile.levels, tile.level_count, block.lens.panel, column, row, b.colour[n]);
-            }
-            for (int p = 0; p < optics::kMostProbes; ++p) {
-                in = in + probes.in[p];
-                lit = lit + probes.in[p] * probes.weight[p];
-            }
+            const Range here_x = part(x, k % parts), here_y = part(y, k / parts);
+            if (parts > 1) trace(i, here_x, j, here_y, inside);
+            add_nodes(b, i, here_x, j, here_y, in);
         }
         b.weight = 1;
-        for (int n = 0; n < nodes * nodes; ++n)
-            for (int c = 0; c < 3; ++c) b.colour[n][c] = b.colour[n][c] / in;
+        for (int n = 0; n < b.nodes * b.nodes; ++n)
+            for (int c = 0; c < 3; ++c) b.colour[n][c] = in[n] > 0 ? b.colour[n][c] / in[n] : S(0);
         return b;
+    }
+
+    bool sees_end(int a, int stratum) const { return !axis[a].moving && (stratum == 0 || stratum == axis[a].strata - 1); }
+
+    /// Adds the probes' light at the nodes, each probe as far as a pixel there sees its part of the range.
+    void add_nodes(Bundle& b, int i, Range x, int j, Range y, S* in) {
+        S light[4][optics::kMostProbes];
+        for (int n = 0; n < b.nodes * b.nodes; ++n) {
+            const S right = b.nodes == 1 ? S(0) : S(n % b.nodes * block.node_step() - block.reach),
+                    down = b.nodes == 1 ? S(0) : S(n / b.nodes * block.node_step() - block.reach);
+            if (n == 0 || !b.still) {
+                const S column = b.still ? S(0) : b.column_right * right + b.column_down * down,
+                        row = b.still ? S(0) : b.row_right * right + b.row_down * down;
+                optics::light_of<F>(probes, per_axis, tile.levels, tile.level_count, block.lens.panel, column, row, light);
+            }
+            S seen[optics::kMostProbes], t[optics::kMostProbes];
+            for (int p = 0; p < optics::kMostProbes; ++p) seen[p] = counts[p];
+            if (sees_end(0, i)) narrow(0, i, x, grid_x, right / S(block.reach), down / S(block.reach), seen);
+            if (sees_end(1, j)) narrow(1, j, y, grid_y, right / S(block.reach), down / S(block.reach), seen);
+            for (int c = 0; c < 3; ++c) {
+                for (int p = 0; p < optics::kMostProbes; ++p) t[p] = seen[p] * light[c][p];
+                b.colour[n][c] = b.colour[n][c] + optics::sum_of(t);
+            }
+            for (int p = 0; p < optics::kMostProbes; ++p) t[p] = seen[p] * probes.in[p];
+            in[n] = in[n] + optics::sum_of(t);
+        }
+    }
+
+    /// Leaves of each probe's part of a range what a pixel at (dx, dy) of the block sees of it.
+    void narrow(int a, int stratum, Range r, const S* grid, S dx, S dy, S* seen) const {
+        const Gradient &first = axis[a].place[0], &last = axis[a].place[axis[a].strata];
+        const S start = first.middle + first.right * dx + first.down * dy, end = last.middle + last.right * dx + last.down * dy,
+                at = axis[a].cell[stratum] * scene.pitch, low = optics::min(start, end) - at, high = optics::max(start, end) - at;
+        const S range = r.to - r.from, half = S(0.5) * range / S(per_axis);
+        if (!(half > 0)) return;
+        const S per = S(0.5) / half;
+        for (int p = 0; p < optics::kMostProbes; ++p) {
+            const S middle = r.from + grid[p] * range, part = optics::min(high, middle + half) - optics::max(low, middle - half);
+            seen[p] = seen[p] * optics::min(optics::max(part * per, S(0)), S(1));
+        }
     }
 
     /// Queues the rays that tell how a bundle moves.
