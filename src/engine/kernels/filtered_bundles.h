@@ -164,10 +164,10 @@ class BundleMaker {
                 at = axis[a].cell[stratum] * scene.pitch, low = optics::min(start, end) - at, high = optics::max(start, end) - at;
         const S range = r.to - r.from, half = S(0.5) * range / S(per_axis);
         if (!(half > 0)) return;
-        const S per = S(0.5) / half;
+        const S per = S(0.5) / half, least = S(1e-3);  // where nothing is seen, all of it tells the light for the pixels beside
         for (int p = 0; p < optics::kMostProbes; ++p) {
             const S middle = r.from + grid[p] * range, part = optics::min(high, middle + half) - optics::max(low, middle - half);
-            seen[p] = seen[p] * optics::min(optics::max(part * per, S(0)), S(1));
+            seen[p] = seen[p] * optics::min(optics::max(part * per, least), S(1));
         }
     }
 
