@@ -26,8 +26,7 @@ struct PixelBlock {
     BaseLens<S> lens;
     Vec3<S> to[kBlockRays];
     Sweep<S> sweep[2][kBlockRays];
-    LFDSIM_FN int node_step() const { return 2 * reach < kMostNodeStep ? 2 * reach : kMostNodeStep; }
-    LFDSIM_FN int nodes() const { return 2 * reach / node_step() + 1; }
+    LFDSIM_FN int nodes() const { return 2 * reach > kMostNodeStep ? 2 * reach / kMostNodeStep + 1 : 2; }
     bool alive;  // all rays look at the display, and their places in the block's grid are evenly spaced
 };
 
@@ -96,8 +95,18 @@ struct Probes {
     S column[kMostProbes], row[kMostProbes], weight[kMostProbes];  // weight 0: lost
     S cell_i[kMostProbes], cell_j[kMostProbes];                    // the lens
     S in[kMostProbes];                                             // 1: belongs to the part in question, else 0
+    S has_right[kMostProbes], has_left[kMostProbes], has_above[kMostProbes], has_below[kMostProbes];  // 1: there is a next one
 
-    LFDSIM_FN bool lit(int p) const { return in[p] * weight[p] > S(0); }
+    /// per_axis x per_axis probes, row after row.
+    LFDSIM_FN void lay_out(int per_axis) {
+        for (int p = 0; p < kMostProbes; ++p) {
+            const int i = p % per_axis, j = p / per_axis;
+            has_right[p] = i + 1 < per_axis ? S(1) : S(0);
+            has_left[p] = i > 0 ? S(1) : S(0);
+            has_above[p] = j + 1 < per_axis ? S(1) : S(0);
+            has_below[p] = j > 0 ? S(1) : S(0);
+        }
+    }
 };
 
 template <class S>
@@ -139,6 +148,9 @@ struct Bundle {
     bool still;                                        // soft: the footprint does not move
     int nodes;                                         // soft: along an axis of the block; 1: its light is the same everywhere
     S colour[kNodes * kNodes][3];                      // soft: the light there; interpolated between
+
+    /// Pixels between nodes, if there are more than one along an axis.
+    LFDSIM_FN int node_step(const PixelBlock<S>& block) const { return 2 * block.reach / (nodes - 1); }
 };
 
 /// Sums up the per_axis x per_axis probes of a stratum.
@@ -200,21 +212,28 @@ template <class F>
 LFDSIM_FN void light_of(const Probes<Scalar<F>>& probes, int per_axis, const PanelLevel* levels, int level_count,
                         const PanelBase<Scalar<F>>& base, Scalar<F> column, Scalar<F> row, Scalar<F> (&light)[4][kMostProbes]) {
     using S = Scalar<F>;
+    constexpr int pad = 4;  // per_axis at most
     S width[kMostProbes], height[kMostProbes], weight[kMostProbes], mixed[4 * kMostProbes];
+    S column_at[kMostProbes + 2 * pad] = {}, row_at[kMostProbes + 2 * pad] = {}, lit[kMostProbes + 2 * pad] = {};
     for (int p = 0; p < kMostProbes; ++p) {
-        width[p] = height[p] = weight[p] = S(0);
-        if (!probes.lit(p)) continue;
-        weight[p] = probes.weight[p];
-        auto add_step = [&](int place, int step) {
-            const int next = place + 1 < per_axis && probes.lit(p + step) ? p + step
-                             : place > 0 && probes.lit(p - step)          ? p - step
-                                                                          : p;
-            width[p] = width[p] + abs(probes.column[next] - probes.column[p]);
-            height[p] = height[p] + abs(probes.row[next] - probes.row[p]);
-        };
-        add_step(p % per_axis, 1);
-        add_step(p / per_axis, per_axis);
+        weight[p] = probes.in[p] * probes.weight[p];
+        lit[pad + p] = weight[p] > S(0) ? S(1) : S(0);
+        column_at[pad + p] = probes.column[p];
+        row_at[pad + p] = probes.row[p];
     }
+    for (int p = 0; p < kMostProbes; ++p) width[p] = height[p] = S(0);
+    auto add_steps = [&](const S* behind, const S* before, int step) {  // to the next probe, else from the last
+        const S *c = column_at + pad, *r = row_at + pad, *l = lit + pad;
+        for (int p = 0; p < kMostProbes; ++p) {
+            const S next_c = abs(c[p + step] - c[p]), last_c = abs(c[p - step] - c[p]), next_r = abs(r[p + step] - r[p]),
+                    last_r = abs(r[p - step] - r[p]);
+            const bool to_next = behind[p] * l[p + step] > S(0), from_last = before[p] * l[p - step] > S(0);
+            width[p] = width[p] + (to_next ? next_c : from_last ? last_c : S(0));
+            height[p] = height[p] + (to_next ? next_r : from_last ? last_r : S(0));
+        }
+    };
+    add_steps(probes.has_right, probes.has_left, 1);
+    add_steps(probes.has_above, probes.has_below, per_axis);
     for (int p = 0; p < kMostProbes; p += LaneTraits<F>::width) {
         Light<F> lanes;
         const F w = load<F>(weight + p);

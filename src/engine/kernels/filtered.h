@@ -11,10 +11,10 @@ namespace {
 /// Colour c of a soft bundle for the packet that begins at pixel (x, y) of the block; dx, dy from its middle, pixels.
 LFDSIM_FN F soft_light(const Bundle& b, const optics::PixelBlock<S>& block, int x, int y, F dx, F dy, int c) {
     if (b.nodes == 1) return F(b.colour[0][c]);
-    const int i = x / block.node_step(), j = y / block.node_step(), n = block.nodes();
+    const int step = b.node_step(block), i = x / step, j = y / step, n = b.nodes;
     const S(*const corner)[3] = b.colour + j * n + i;
     const S a = corner[0][c], right = corner[1][c] - a, down = corner[n][c] - a, both = corner[n + 1][c] - corner[n][c] - right;
-    const S per = S(1) / S(block.node_step());
+    const S per = S(1) / S(step);
     const F s = dx * F(per) + F(S(block.reach) * per - S(i)), t = dy * F(per) + F(S(block.reach) * per - S(j));
     return F(a) + F(right) * s + (F(down) + F(both) * s) * t;
 }

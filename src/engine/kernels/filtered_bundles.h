@@ -42,6 +42,7 @@ class BundleMaker {
           per_axis(t.strata <= 4   ? 4
                    : t.strata <= 8 ? 3
                                    : 2) {
+        probes.lay_out(per_axis);
         for (int p = 0; p < optics::kMostProbes; ++p) {  // the last lanes of a packet trace something, too
             probes.at_x[p] = block.sweep[0][0].at;
             probes.at_y[p] = block.sweep[1][0].at;
@@ -110,7 +111,7 @@ class BundleMaker {
         b.state = Bundle::State::soft;
         // What a pixel sees of the outermost strata changes over the block.
         const bool ends = sees_end(0, i) || sees_end(1, j);
-        b.nodes = b.still && !ends ? 1 : block.nodes();
+        b.nodes = !b.still ? block.nodes() : ends ? 2 : 1;
         S in[optics::kNodes * optics::kNodes] = {};
         for (int n = 0; n < b.nodes * b.nodes; ++n)
             for (int c = 0; c < 3; ++c) b.colour[n][c] = 0;
@@ -137,8 +138,9 @@ class BundleMaker {
     void add_nodes(Bundle& b, int i, Range x, int j, Range y, S* in) {
         S light[4][optics::kMostProbes];
         for (int n = 0; n < b.nodes * b.nodes; ++n) {
-            const S right = b.nodes == 1 ? S(0) : S(n % b.nodes * block.node_step() - block.reach),
-                    down = b.nodes == 1 ? S(0) : S(n / b.nodes * block.node_step() - block.reach);
+            const int step = b.nodes == 1 ? 0 : b.node_step(block);
+            const S right = step == 0 ? S(0) : S(n % b.nodes * step - block.reach),
+                    down = step == 0 ? S(0) : S(n / b.nodes * step - block.reach);
             if (n == 0 || !b.still) {
                 const S column = b.still ? S(0) : b.column_right * right + b.column_down * down,
                         row = b.still ? S(0) : b.row_right * right + b.row_down * down;
