@@ -30,7 +30,7 @@ constexpr Estimator estimators[] = {
 constexpr const Estimator &brute_force = estimators[0], &papers = estimators[1];
 
 constexpr std::int64_t papers_samples = 100;
-constexpr std::int64_t sample_counts[] = {1, 4, 16, 64, papers_samples, 256, 1024};
+constexpr std::int64_t sample_counts[] = {1, 4, 9, 16, 36, 64, papers_samples, 256, 1024};
 constexpr std::int64_t reference_samples = 16384;  // of each of two halves, whose difference tells the error of their mean
 
 struct Error {
@@ -62,22 +62,15 @@ struct Ratio {
 constexpr Ratio ratios_told[] = {{"time_to_papers_error_over_papers", "time", &Measured::median},
                                  {"processor_time_to_papers_error_over_papers", "processor time", &Measured::processor_median}};
 
-/// Seconds to an error, along the straight line in logarithms between the two points that enclose it; where the fewest samples have
-/// less, theirs; nothing where the most have more.
+/// The least seconds among those measured that come to an error.
 std::optional<double> seconds_to(double rmse, const Estimator& estimator, const std::vector<Point>& points, Clock clock) {
-    const Point* last = nullptr;
+    std::optional<double> least;
     for (const Point& p : points) {
-        if (p.estimator != &estimator) continue;
+        if (p.estimator != &estimator || p.error.rmse > rmse) continue;
         const double seconds = (p.time.*clock)();
-        if (p.error.rmse == rmse || (!last && p.error.rmse < rmse)) return seconds;
-        if (last && last->error.rmse > rmse && p.error.rmse < rmse) {
-            const double before = (last->time.*clock)();
-            return before *
-                   std::pow(seconds / before, std::log(last->error.rmse / rmse) / std::log(last->error.rmse / p.error.rmse));
-        }
-        last = &p;
+        least = least ? std::min(*least, seconds) : seconds;
     }
-    return {};
+    return least;
 }
 
 /// A display that shows something, and the part of the frame that is looked at.
