@@ -16,7 +16,7 @@ using Picture = std::array<float, kSide * kSide * 3>;
 /// A block of the frame, whole even where a crop cuts through it, so that no pixel depends on the crop.
 class Block {
   public:
-    Block(Kernel kernel, const Tile& of, int x0, int y0) : kernel_(kernel), tile_(of), view_(*of.view) {
+    Block(Kernel kernel, const Tile& of, int x0, int y0, const Job& job) : kernel_(kernel), tile_(of), view_(*of.view), job_(job) {
         tile_.view = &view_;
         tile_.crop_x = tile_.x0 = x0;
         tile_.crop_y = tile_.y0 = y0;
@@ -53,6 +53,7 @@ class Block {
         }
         return worst;
     }
+    bool cancelled() const { return job_.cancelled(); }
     std::int64_t samples = 0;
 
   private:
@@ -65,6 +66,7 @@ class Block {
     Kernel kernel_;
     Tile tile_;
     optics::View view_;
+    const Job& job_;
     std::uint64_t seed_ = view_.seed;
 };
 
@@ -76,7 +78,7 @@ void refine_filtered(Block& block, double target, Picture& picture, Picture& err
         const Picture finer = block.render(strata, 0, 0);
         for (std::size_t i = 0; i < finer.size(); ++i) error[i] = (finer[i] - picture[i]) * (finer[i] - picture[i]);
         picture = finer;
-        if (block.pool(error) <= target) return;
+        if (block.pool(error) <= target || block.cancelled()) return;
     }
 }
 
@@ -84,6 +86,7 @@ void refine_points(Block& block, double target, Picture& picture, Picture& error
     std::array<double, kSide * kSide * 3> sum{}, squares{};
     for (std::int64_t repetitions = 0, wanted = 8;; wanted *= 2) {
         for (; repetitions < wanted; ++repetitions) {
+            if (block.cancelled()) return;
             const Picture one = block.render(0, kPointsAtOnce, std::uint64_t(repetitions));
             for (std::size_t i = 0; i < one.size(); ++i) {
                 sum[i] += one[i];
@@ -101,16 +104,17 @@ void refine_points(Block& block, double target, Picture& picture, Picture& error
 
 }  // namespace
 
-std::int64_t refine_tile(Kernel kernel, const Tile& tile, double target, float* error) {
+std::optional<std::int64_t> refine_tile(Kernel kernel, const Tile& tile, double target, float* error, const Job& job) {
     std::int64_t samples = 0;
     for (int y0 = tile.y0 / kSide * kSide; y0 < tile.y1; y0 += kSide) {
         for (int x0 = tile.x0 / kSide * kSide; x0 < tile.x1; x0 += kSide) {
-            Block block(kernel, tile, x0, y0);
+            Block block(kernel, tile, x0, y0, job);
             Picture picture{}, errors{};
             if (tile.strata > 0)
                 refine_filtered(block, target, picture, errors);
             else
                 refine_points(block, target, picture, errors);
+            if (job.cancelled()) return {};
             samples += block.samples;
             for (int y = std::max(y0, tile.y0); y < std::min(y0 + kSide, tile.y1); ++y) {
                 for (int x = std::max(x0, tile.x0); x < std::min(x0 + kSide, tile.x1); ++x) {

@@ -110,7 +110,9 @@ Rendering render(const Display& display, const Geometry& geometry, const std::ve
                 tile.y1 = std::min(r.rows().end() * kTileHeight, crop.y1);
                 const std::int64_t part = std::int64_t(tile.x1 - tile.x0) * (tile.y1 - tile.y0);
                 if (refined) {
-                    taken += refine_tile(kernel.run, tile, *options.target_error, result.error.rgb.data());
+                    const auto samples_taken = refine_tile(kernel.run, tile, *options.target_error, result.error.rgb.data(), job);
+                    if (!samples_taken) return;
+                    taken += *samples_taken;
                 } else {
                     kernel.run(tile);
                     taken += part * samples;

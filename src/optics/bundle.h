@@ -30,6 +30,19 @@ struct PixelBlock {
     bool alive;  // all rays look at the display, and their places in the block's grid are evenly spaced
 };
 
+/// Do all rays still go down, and not nearly level, when the diffuser has turned them? Beyond the horizontal they have no place
+/// among the lenses.
+template <class S>
+LFDSIM_FN bool all_go_down(const Scene<S>& scene, const PixelBlock<S>& block) {
+    for (int a = 0; a < 2; ++a) {
+        S sine, cosine;
+        sincos(diffuser_angle(scene, a, S(1)), scene.small_angles, sine, cosine);
+        for (const Sweep<S>& sweep : block.sweep[a])
+            if (!(cosine - abs(sweep.slope) * sine > S(0.2))) return false;
+    }
+    return true;
+}
+
 /// Strata take the diffuser's two turns as if each moved the ray along its own axis alone. Is that so, to a thousandth of the
 /// light?
 ///
@@ -48,8 +61,7 @@ LFDSIM_FN bool axes_part(const Scene<S>& scene, const PixelBlock<S>& block) {
     for (int corner = 0; corner < 4; ++corner) {
         S s[2];
         for (int a = 0; a < 2; ++a) {
-            const Sweep<S>& sweep = block.sweep[a][0];
-            s[a] = (sweep.place(corner >> a & 1 ? tangent[a] : -tangent[a]) - sweep.at) / scene.holes_below;
+            s[a] = block.sweep[a][0].turned(corner >> a & 1 ? tangent[a] : -tangent[a]);
         }
         const S xx = s[0] * s[0], yy = s[1] * s[1], n2 = S(1) + xx + yy, i_y = block.to[0].y, z2 = S(1) - xx / n2 - i_y * i_y;
         const S ratio = (S(1) + xx) * (S(1) + yy) / (n2 * sqrt(n2) * sqrt(max(z2, S(1e-6))));
@@ -82,7 +94,7 @@ LFDSIM_FN PixelBlock<S> pixel_block(const Scene<S>& scene, const View& view, int
                 turn = s[1].slope + s[2].slope + s[3].slope - S(3) * s[0].slope;
         block.alive = abs(bend) + abs(turn * scene.holes_below) < S(1e-3) * scene.pitch;
     }
-    block.alive = block.alive && axes_part(scene, block);
+    block.alive = block.alive && all_go_down(scene, block) && axes_part(scene, block);
     return block;
 }
 

@@ -68,10 +68,8 @@ LFDSIM_FN BaseLens<S> base_lens(const View& view, double column, double row) {
     const double v =
         (0.5 * view.panel_height - (view.sin_rotation * cx + view.cos_rotation * cy + view.offset[1])) * view.pixels_per_mm;
     const double whole_u = __builtin_floor(u), whole_v = __builtin_floor(v);
-    return {cx,
-            cy,
-            {S(-i), S(nx - 1 - i), S(-j), S(ny - 1 - j)},
-            {std::uint32_t(std::int32_t(whole_u)), std::uint32_t(std::int32_t(whole_v)), S(u - whole_u), S(v - whole_v)}};
+    return {
+        cx, cy, {S(-i), S(nx - 1 - i), S(-j), S(ny - 1 - j)}, {to_int(whole_u), to_int(whole_v), S(u - whole_u), S(v - whole_v)}};
 }
 
 /// The rays of the block whose first pixel is (column, row), multiples of the block's size.

@@ -18,10 +18,11 @@ struct Sweep {
     F slope;                  // before it is turned
     Scalar<F> height, sense;  // mm, of the diffuser above the holes; +1 or -1: what a positive angle does to the slope
 
-    LFDSIM_FN F place(F tangent) const {
+    LFDSIM_FN F turned(F tangent) const {
         const F t = F(sense) * tangent;
-        return at + F(height) * ((slope + t) / (F(1) - slope * t));
+        return (slope + t) / (F(1) - slope * t);
     }
+    LFDSIM_FN F place(F tangent) const { return at + F(height) * turned(tangent); }
     /// Of the angle that sends the ray to `place`.
     LFDSIM_FN F tangent(F place) const {
         const F to = (place - at) * F(Scalar<F>(1) / height);
@@ -76,11 +77,12 @@ LFDSIM_FN F hole_cover(const Span<F>& a, const Span<F>& b) {
     F cover = area / max(whole, least);
     const Mask<F> small = whole < least;
     if (any(small)) {
-        const F x = F(S(0.5)) * (a.to + a.from), y = F(S(0.5)) * (b.to + b.from), rho = sqrt(x * x + y * y);
+        const F x = F(S(0.5)) * (a.to + a.from), y = F(S(0.5)) * (b.to + b.from), rho = max(sqrt(x * x + y * y), F(S(1e-6)));
         const F reach = max(abs(x) * width + abs(y) * height, F(S(1e-12)));  // rho times the rectangle's extent across the edge
         cover = select(small, F(S(0.5)) + (F(1) - rho) * rho / reach, cover);
     }
-    return select((width > F(0)) && (height > F(0)), min(max(cover, F(0)), F(1)), F(0));
+    // One without width or height is seen all the same: the diffuser may not turn a ray along that axis.
+    return select((width >= F(0)) && (height >= F(0)), min(max(cover, F(0)), F(1)), F(0));
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -127,8 +127,11 @@ class BundleMaker {
             add_nodes(b, i, here_x, j, here_y, in);
         }
         b.weight = 1;
-        for (int n = 0; n < b.nodes * b.nodes; ++n)
-            for (int c = 0; c < 3; ++c) b.colour[n][c] = in[n] > 0 ? b.colour[n][c] / in[n] : S(0);
+        for (int n = 0; n < b.nodes * b.nodes; ++n) {
+            if (in[n] == S(0))
+                b.state = Bundle::State::broken;  // all that the first probes met of the part were points at its edge
+            for (int c = 0; c < 3; ++c) b.colour[n][c] = b.colour[n][c] / in[n];
+        }
         return b;
     }
 

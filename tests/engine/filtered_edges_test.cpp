@@ -1,0 +1,104 @@
+// Edges of the filtered estimator, each once a fault: diffusers that hardly turn a ray or turn it past the horizontal, places that
+// no 32-bit number holds, and an error that is never reached.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <cmath>
+
+#include "engine/scene.h"
+#include "pictures.h"
+
+namespace lfdsim {
+namespace {
+
+double mean(const Image& a) {
+    double sum = 0;
+    for (const float x : a.rgb) sum += x;
+    return sum / double(a.rgb.size());
+}
+
+/// Round holes without glass: a packet sees the same share of them as brute force does, or more of the wall.
+Display round_ideal() {
+    Display d = ideal_example();
+    d.array.aperture = Aperture::circle;
+    d.lens.aperture_radius_mm = 2;
+    d.render.estimator = Estimator::filtered;
+    d.render.samples = 100;
+    return d;
+}
+
+void expect_brute_force(Display d, const Texels& panel, double tolerance) {
+    const double filtered = mean(picture(d, panel));
+    d.render.estimator = Estimator::point;
+    const double truth = mean(picture(d, panel));
+    EXPECT_GT(truth, 0.05);
+    EXPECT_NEAR(filtered / truth, 1, tolerance)
+        << d.diffuser->angle_deg[0] << " x " << d.diffuser->angle_deg[1] << " degrees, " << d.diffuser->distance_mm << " mm";
+}
+
+TEST(FilteredEdges, ADiffuserMayTurnRaysAlongOneAxisOrNone) {
+    for (const std::array<double, 2>& angles : {std::array{0.0, 0.0}, {0.0, 5.7}, {5.7, 0.0}, {1e-5, 0.0}, {1e-3, 1e-3}}) {
+        for (const double distance : {40.0, 1e-6}) {
+            Display d = round_ideal();
+            d.diffuser = Diffuser{distance, angles, Profile::box};
+            expect_brute_force(d, noise_panel(d), 3e-3);
+        }
+    }
+}
+
+TEST(FilteredEdges, APixelOnTheAxisOfALensSeesAllOfItsLight) {
+    Display d = round_ideal();
+    d.array.count = {1, 1};
+    d.camera.resolution = {1, 1};
+    for (const double angle : {0.0, 1e-4}) {
+        d.diffuser = Diffuser{10, {angle, angle}, Profile::box};
+        d.render.samples = 1;
+        EXPECT_NEAR(mean(picture(d, uniform_panel(d, 1))), 1, 1e-6) << angle;
+    }
+}
+
+TEST(FilteredEdges, RaysTurnedPastTheHorizontalAreLost) {
+    for (const Profile profile : {Profile::box, Profile::gaussian}) {
+        Display d = ideal_example();
+        d.render.estimator = Estimator::filtered;
+        d.render.samples = 1024;
+        d.camera.resolution = {40, 28};
+        look_from(d, 5, 400);
+        d.diffuser = Diffuser{10, {179, 0}, profile};
+        expect_brute_force(d, uniform_panel(d, 1), 0.01);
+    }
+}
+
+TEST(FilteredEdges, AnArrayMayStandFarBesideAFinePanel) {
+    Display d = round_ideal();
+    d.panel.pixel_pitch_mm = 1e-6;
+    d.array.offset_mm = {1e6, -1e6};
+    d.camera.position_mm = {1e6, -1e6, 400};
+    d.camera.target_mm = {1e6, -1e6, 0};
+    d.diffuser = Diffuser{40, {5.7, 5.7}, Profile::box};
+    EXPECT_EQ(mean(picture(d, uniform_panel(d, 1))), 0);
+    d.render.estimator = Estimator::point;
+    EXPECT_EQ(mean(picture(d, uniform_panel(d, 1))), 0);
+}
+
+TEST(FilteredEdges, AnErrorThatIsNeverReachedMayBeCancelled) {
+    struct Impatient : Job {
+        bool cancelled() const override { return ++asked > 20; }
+        mutable std::atomic<int> asked{0};
+    };
+    for (const Estimator estimator : {Estimator::filtered, Estimator::point}) {
+        Display d = round_ideal();
+        d.diffuser = Diffuser{40, {5.7, 5.7}, Profile::box};
+        d.render.estimator = estimator;
+        RenderOptions options{1, "", Rect{0, 0, 64, 16}};  // a single tile
+        options.target_error = 1e-30;
+        Impatient job;
+        const Rendering r = render(d, resolve(d), noise_panel(d), options, job);
+        EXPECT_FALSE(r.complete);
+        EXPECT_LT(job.asked, 30);
+    }
+}
+
+}  // namespace
+}  // namespace lfdsim

@@ -1,0 +1,169 @@
+// The filtered estimator on displays at the ends of what is allowed, drawn at random from a fixed seed: its light stays light.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+
+#include "engine/scene.h"
+#include "pictures.h"
+
+namespace lfdsim {
+namespace {
+
+/// Draws displays; most of their numbers are at, or near, the ends of their ranges.
+class Extremes {
+  public:
+    explicit Extremes(unsigned seed) : random(seed) {}
+
+    /// The next valid one.
+    Display operator()() {
+        for (;;) {
+            const Display d = draw();
+            if (validate(d).empty()) return d;
+        }
+    }
+
+  private:
+    bool chance(double p) { return random(0, 1) < p; }
+    template <class T>
+    T one_of(std::initializer_list<T> choices) {
+        return *std::next(choices.begin(), std::ptrdiff_t(random(0, double(choices.size()))));
+    }
+    double over_decades(double low, double high) { return low * std::pow(high / low, random(0, 1)); }
+    std::int64_t up_to(double most) { return std::int64_t(random(1, most + 1)); }
+
+    Display draw() {
+        Display d = chance(0.3) ? ideal_example() : example();
+        const double pitch = chance(0.5) ? 4 : over_decades(0.05, 200), scale = pitch / 4;
+        d.panel.pixels = {200, 150};
+        if (chance(0.2)) d.panel.pixels = {up_to(200), up_to(200)};
+        if (chance(0.05)) d.panel.pixels = {1, 1};
+        d.panel.pixel_pitch_mm = (chance(0.75) ? 0.25 : over_decades(0.01, 30)) * scale;
+        d.panel.emission_exponent = one_of({0.0, 0.0, 1.0, 7.5});
+        d.array.count = {up_to(50), up_to(50)};
+        if (chance(0.1)) d.array.count = {1, 1};
+        d.array.pitch_mm = pitch;
+        d.array.aperture = one_of({Aperture::circle, Aperture::square});
+        if (chance(0.15)) d.array.offset_mm = {random(-100, 100) * scale, random(-1, 1) * scale};
+        draw_lens(d, scale);
+        draw_diffuser(d, scale);
+        draw_camera(d, scale);
+        d.render.estimator = Estimator::filtered;
+        d.render.fresnel = one_of({Fresnel::exact, Fresnel::none});
+        d.render.samples = one_of<std::int64_t>({1, 4, 9, 100, 1024, 3844});
+        return d;
+    }
+
+    void draw_lens(Display& d, double scale) {
+        d.array.gap_mm = (chance(0.9) ? 7 : over_decades(2, 400)) * scale;
+        if (d.lens.type == LensType::ideal) {
+            d.lens.focal_length_mm = (chance(0.8) ? 6 : over_decades(0.01, 1e4)) * scale;
+            if (d.array.aperture == Aperture::circle)
+                d.lens.aperture_radius_mm = (chance(0.8) ? random(1, 2) : random(0.01, 1)) * scale;
+        } else {
+            d.lens.sphere_radius_mm = (chance(0.5) ? 3 : random(2, 8)) * scale;
+            d.lens.aperture_radius_mm = (chance(0.8) ? random(1, 2) : over_decades(0.01, 1)) * scale;
+            d.lens.cylinder_height_mm = random(0, 1) * scale;
+            d.lens.facing = one_of({Facing::viewer, Facing::viewer, Facing::panel});
+            d.array.surround = one_of({Surround::opaque, Surround::opaque, Surround::clear, Surround::plate});
+        }
+        if (chance(0.15)) d.lens.stop_radius_mm = over_decades(0.2, 2) * scale;
+    }
+
+    void draw_diffuser(Display& d, double scale) {
+        auto angle = [&] { return one_of({0.0, 1e-3, 1.0, 5.7, 5.7, 5.7, 5.7, 20.0, 60.0, 179.0}); };
+        Diffuser diffuser{0, {angle(), angle()}, one_of({Profile::box, Profile::box, Profile::gaussian})};
+        const double depth = chance(0.3) ? over_decades(1e-6, 1) : over_decades(1, chance(0.8) ? 100 : 1e4);
+        const double top = 2 * d.lens.sphere_radius_mm;  // no lens reaches further above its vertex plane
+        diffuser.distance_mm = chance(0.5) ? depth * scale : one_of({1e-6, top}) + depth * scale;
+        d.diffuser = diffuser;
+    }
+
+    void draw_camera(Display& d, double scale) {
+        const double away = (chance(0.7) ? 400 : over_decades(1, 1e5)) * scale + d.diffuser->distance_mm;
+        look_from(d, one_of({0.0, 0.0, 0.0, 1.0, 30.0, 30.0, 60.0, 80.0}), away);
+        d.camera.position_mm[1] = one_of({0.0, 0.0, 0.4, -2.0}) * away;
+        d.camera.target_mm = {random(-5, 5) * scale, random(-5, 5) * scale, chance(0.95) ? 0 : random(0, 2) * away};
+        d.camera.resolution = {up_to(100), up_to(70)};
+        if (chance(0.1)) d.camera.resolution = {1, 1};
+        d.camera.frame_width_mm = (chance(0.8) ? 44 : over_decades(1e-3, 1e3)) * scale;
+    }
+
+    Random random;
+};
+
+std::string about(int number, const Display& d) {
+    auto text = [](double x) { return std::to_string(x) + " "; };
+    return std::to_string(number) + ": lens " + std::to_string(int(d.lens.type)) + ", surround " +
+           std::to_string(int(d.array.surround)) + ", pitch " + text(d.array.pitch_mm) + ", diffuser " +
+           text(d.diffuser->distance_mm) + text(d.diffuser->angle_deg[0]) + text(d.diffuser->angle_deg[1]) +
+           (d.diffuser->profile == Profile::box ? "box" : "gaussian") + ", from " + text(d.camera.position_mm[0]) +
+           text(d.camera.position_mm[1]) + text(d.camera.position_mm[2]) + ", frame " + text(*d.camera.frame_width_mm) +
+           std::to_string(d.camera.resolution[0]) + " x " + std::to_string(d.camera.resolution[1]) + ", samples " +
+           std::to_string(*d.render.samples);
+}
+
+double mean(const Image& a) {
+    double sum = 0;
+    for (const float x : a.rgb) sum += x;
+    return sum / double(a.rgb.size());
+}
+
+constexpr int kDisplays = 400;
+
+/// The part of the frame that keeps the time short.
+Rect small_part(const Display& d, double most_samples) {
+    const double rows = most_samples / double(*d.render.samples) / double(d.camera.resolution[0]);
+    const int height = int(d.camera.resolution[1]);
+    return {0, 0, int(d.camera.resolution[0]), std::clamp(int(rows), 1, height)};
+}
+
+TEST(FilteredExtremes, LightStaysLight) {
+    Extremes extremes(5);
+    int lit = 0;
+    for (int n = 0; n < kDisplays; ++n) {
+        const Display d = extremes();
+        const Texels panel = noise_panel(d);
+        const Rect part = small_part(d, 5e4);
+        const Image reference = picture(d, panel, {1, "scalar", part});
+        for (const float x : reference.rgb) {
+            if (!(x >= 0 && x <= 1 + 1e-5f)) {
+                ADD_FAILURE() << x << ", " << about(n, d);
+                break;
+            }
+        }
+        lit += mean(reference) > 0.01;
+        for (const KernelInfo& kernel : kernels()) {
+            if (!kernel.available || kernel.name == "scalar") continue;
+            const Image other = picture(d, panel, {2, kernel.name, part});
+            EXPECT_EQ(0, std::memcmp(other.rgb.data(), reference.rgb.data(), reference.rgb.size() * sizeof(float)))
+                << kernel.name << ", " << about(n, d);
+        }
+    }
+    EXPECT_GT(lit, kDisplays / 3);
+}
+
+TEST(FilteredExtremes, TheMeanIsThatOfBruteForce) {
+    Extremes extremes(6);
+    int compared = 0;
+    for (int n = 0; n < kDisplays; ++n) {
+        Display d = extremes();
+        d.render.samples = 1024;
+        const Texels panel = noise_panel(d);
+        const Rect part = small_part(d, 2e5);
+        const Image filtered = picture(d, panel, {0, "", part});
+        d.render.estimator = Estimator::point;
+        d.render.sampling = Sampling::random;
+        const Image points = picture(d, panel, {0, "", part});
+        const double truth = mean(points), pixels = double(points.rgb.size()) / 3;
+        const double standard_error = std::sqrt(truth / (pixels * double(*d.render.samples)));  // light is at most 1
+        EXPECT_NEAR(mean(filtered), truth, 4 * standard_error + 0.02 * truth + 1e-4) << about(n, d);
+        compared += truth > 0.01;
+    }
+    EXPECT_GT(compared, kDisplays / 3);
+}
+
+}  // namespace
+}  // namespace lfdsim
