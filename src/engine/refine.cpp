@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace lfdsim {
 
@@ -11,6 +12,8 @@ namespace {
 constexpr int kSide = 16, kGroup = 4;
 constexpr std::int64_t kMostPoints = 1 << 20;  // a pixel
 constexpr std::uint32_t kPointsAtOnce = 16;
+// The first step is a wide one: 1 and 2 strata, or 2 and 4, may have the same cuts, on the lenses' borders, and then show no error.
+constexpr int kStrata[] = {1, 4, 8, 16, 32, kMostStrata - 2};
 using Picture = std::array<float, kSide * kSide * 3>;
 
 /// A block of the frame, whole even where a crop cuts through it, so that no pixel depends on the crop.
@@ -71,11 +74,9 @@ class Block {
 };
 
 void refine_filtered(Block& block, double target, Picture& picture, Picture& error) {
-    picture = block.render(1, 0, 0);
-    for (int strata = 2; strata <= kMostStrata - 2; strata = strata < 32    ? 2 * strata
-                                                             : strata == 32 ? kMostStrata - 2
-                                                                            : kMostStrata) {
-        const Picture finer = block.render(strata, 0, 0);
+    picture = block.render(kStrata[0], 0, 0);
+    for (std::size_t step = 1; step < std::size(kStrata); ++step) {
+        const Picture finer = block.render(kStrata[step], 0, 0);
         for (std::size_t i = 0; i < finer.size(); ++i) error[i] = (finer[i] - picture[i]) * (finer[i] - picture[i]);
         picture = finer;
         if (block.pool(error) <= target || block.cancelled()) return;

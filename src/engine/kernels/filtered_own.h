@@ -25,9 +25,11 @@ enum class Own { all, covered, beside };
 /// is known; where three others stay together, they tell the footprint to take the light from, else the ray's own end.
 template <optics::Way through>
 __attribute__((noinline)) void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pixels, const Span<F>& x,
-                                            const Span<F>& y, Own part, F weight, optics::Sampler<F> sampler,
+                                            const Span<F>& y, Own part, F weight, const optics::Sampler<F>& first,
                                             optics::Light<F>& light) {
     const optics::Scene<S>& scene = *tile.scene;
+    // Not handed over by value: clang's address sanitizer leaves the stack of such a call aligned to 32 bytes, whatever F's width.
+    optics::Sampler<F> sampler = first;
     const F half = F(0.5f), quarter = F(0.25f);
     F a = F(0), b = F(0);
     optics::Mask<F> found = F(1) < F(0);
