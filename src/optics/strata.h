@@ -80,6 +80,14 @@ LFDSIM_FN F hole_cover(const Span<F>& a, const Span<F>& b) {
         const F x = F(S(0.5)) * (a.to + a.from), y = F(S(0.5)) * (b.to + b.from), rho = max(sqrt(x * x + y * y), F(S(1e-6)));
         const F reach = max(abs(x) * width + abs(y) * height, F(S(1e-12)));  // rho times the rectangle's extent across the edge
         cover = select(small, F(S(0.5)) + (F(1) - rho) * rho / reach, cover);
+        // Of a long and thin one, the part within the chord along it.
+        auto chord = [](F along_from, F along_to, F across) {
+            const F c = sqrt(max(F(1) - across * across, F(0)));
+            return max(min(along_to, c) - max(along_from, -c), F(0)) / max(along_to - along_from, F(S(1e-6)));
+        };
+        const F longest = F(S(0.1));
+        cover = select(small && (width > longest), chord(a.from, a.to, y), cover);
+        cover = select(small && (height > longest), chord(b.from, b.to, x), cover);
     }
     // One without width or height is seen all the same: the diffuser may not turn a ray along that axis.
     return select((width >= F(0)) && (height >= F(0)), min(max(cover, F(0)), F(1)), F(0));

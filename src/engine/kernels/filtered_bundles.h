@@ -74,6 +74,9 @@ class BundleMaker {
             return;
         }
         if (r == 0 || clip_to_hole(r, hole_x, hole_y)) b.through = probe(i, hole_x, j, hole_y, true);
+        // Where a stop hides the panel from the middle of a block, other pixels may see through it.
+        if (b.through.state == Bundle::State::dark && scene.has_stop && (axis[0].moving || axis[1].moving))
+            b.through.state = Bundle::State::broken;
         if (scene.leaky && r > 0) b.beside = probe(i, x, j, y, false);
         if (b.through.state == Bundle::State::sharp) follow(b.through);
         if (b.beside.state == Bundle::State::sharp) follow(b.beside);

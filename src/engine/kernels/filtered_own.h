@@ -48,10 +48,17 @@ __attribute__((noinline)) void add_own_rays(const Tile& tile, const optics::Pixe
             return optics::select(optics::abs(span.from) < optics::abs(span.to), F(0.9f) * at_from + F(0.1f) * at_to,
                                   F(0.1f) * at_from + F(0.9f) * at_to);
         };
+        // Or, where the hole is smaller than the stratum, the place that is next to the axis.
+        auto next_to_axis = [](const Span<F>& span, F at_from, F at_to) {
+            const F place = optics::min(optics::max(F(0), span.from), span.to);
+            return at_from + (place - span.from) / optics::max(span.to - span.from, F(1e-6f)) * (at_to - at_from);
+        };
+        const F corner_x = towards_axis(x, x.from, x.to), corner_y = towards_axis(y, y.from, y.to);
+        const optics::Mask<F> corner_in = corner_x * corner_x + corner_y * corner_y < F(1);
         const F cover = optics::hole_cover(x, y);
         const optics::Mask<F> at_edge = (cover > F(0.001f)) && (cover < F(0.999f));
-        a = optics::select(at_edge, towards_axis(x, x.high, x.low), a);
-        b = optics::select(at_edge, towards_axis(y, y.low, y.high), b);
+        a = optics::select(at_edge, optics::select(corner_in, towards_axis(x, x.high, x.low), next_to_axis(x, x.high, x.low)), a);
+        b = optics::select(at_edge, optics::select(corner_in, towards_axis(y, y.low, y.high), next_to_axis(y, y.low, y.high)), b);
         weight = optics::select(at_edge, weight * cover, weight);
     }
     auto one = trace_own<through>(scene, pixels, a, b);
