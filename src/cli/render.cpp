@@ -10,6 +10,7 @@
 #include "model/keys.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <cmath>
 
 // lfdsim render: panel image in, camera picture out. All that can be wrong with the command line is told before work begins.
@@ -103,7 +104,15 @@ void run(const Arguments& args) {
     std::vector<ImageLayer> layers;
     if (target) {
         double squares = 0;
-        for (const float e : r.error.rgb) squares += double(e) * e;
+        std::size_t above = 0;
+        for (std::size_t i = 0; i < r.error.rgb.size(); i += 3) {
+            double pixel = 0;
+            for (std::size_t c = 0; c < 3; ++c) pixel += double(r.error.rgb[i + c]) * r.error.rgb[i + c];
+            squares += pixel;
+            above += std::sqrt(pixel / 3) > 1.0001 * *target;
+        }
+        if (above > 0) spdlog::warn("{} pixels did not come below the target error with the most samples there are", above);
+        more["pixels_above_target"] = above;
         more["error_rms"] = std::sqrt(squares / double(r.error.rgb.size()));
         more["samples_per_pixel"] = double(r.samples) / (double(r.image.width) * r.image.height);
         if (keeps_layers(args.output.path())) layers.push_back({"error", std::move(r.error)});

@@ -14,7 +14,7 @@ namespace lfdsim {
 ///
 /// Points: independent repetitions with seeds of their own, twice as many each time; the error is the standard error of their mean.
 /// Filtered: at least twice as many rows and columns of strata each time; the error is the difference from the time before, which
-/// is that of the coarser picture: on the safe side.
+/// is that of the coarser picture.
 std::optional<std::int64_t> refine_tile(Kernel, const Tile&, double target, float* error, const Job&);
 
 }  // namespace lfdsim
