@@ -232,7 +232,7 @@ int block_side(const optics::Scene<float>& scene, const optics::View& view) {
         const double span = 2 * double(scene.holes_below) * std::tan(std::min(double(angle), 1.5));
         if (span > 4 * pixel) seen = std::min(seen, span);  // else the strata move with the pixels, whatever the block
     }
-    return 16 * pixel < 0.2 * seen ? 16 : 8 * pixel < 0.2 * seen ? 8 : 4;
+    return 16 * pixel < 0.2 * seen ? 16 : 8 * pixel < 0.4 * seen ? 8 : 4;
 }
 
 const optics::Directions& sobol_directions() {
