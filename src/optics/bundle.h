@@ -27,7 +27,7 @@ struct PixelBlock {
     Vec3<S> to[kBlockRays];
     Sweep<S> sweep[2][kBlockRays];
     LFDSIM_FN int nodes() const { return 2 * reach > kMostNodeStep ? 2 * reach / kMostNodeStep + 1 : 2; }
-    bool alive;  // all rays look at the display, and their places in the block's grid are evenly spaced
+    bool alive;  // all rays look at the display, evenly spaced on it, and the diffuser's two turns move them as strata take them to
 };
 
 /// Do all rays still go down, and not nearly level, when the diffuser has turned them? Beyond the horizontal they have no place
@@ -43,8 +43,8 @@ LFDSIM_FN bool all_go_down(const Scene<S>& scene, const PixelBlock<S>& block) {
     return true;
 }
 
-/// Strata take the diffuser's two turns as if each moved the ray along its own axis alone. Is that so, to a thousandth of the
-/// light?
+/// Strata take the diffuser's two turns as if each moved the ray along its own axis alone. Is that so, to two thousandths of
+/// the light?
 ///
 /// A ray in the direction t, |t| = 1, of slopes s and s' meets the solid angle |z'| da db, where z'^2 = 1 - t_x^2 - i_y^2 after the
 /// first turn of the direction i, and that is |t_z|^3 dx dy / H^2 of the plane H below. The strata take da db = dx dy / (H^2 (1 +
