@@ -11,6 +11,7 @@ void add_eia(CLI::App& program);
 void add_photo(CLI::App& program);
 void add_render(CLI::App& program);
 void add_compare(CLI::App& program);
+void add_analyze(CLI::App& program);
 void add_sheet(CLI::App& program);
 void add_bench(CLI::App& program);
 void add_doctor(CLI::App& program);

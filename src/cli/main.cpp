@@ -35,6 +35,7 @@ void run(int argc, char** argv) {
     cli::add_photo(program);
     cli::add_render(program);
     cli::add_compare(program);
+    cli::add_analyze(program);
     cli::add_sheet(program);
     cli::add_bench(program);
     cli::add_doctor(program);

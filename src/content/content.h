@@ -49,6 +49,8 @@ class Scene {
     const Impl& impl() const { return *impl_; }
     /// The middle of the model's box, from the middle of the panel.
     Vec3d centre_mm() const { return {0, 0, vertex_plane_mm_ + depth_mm_}; }
+    /// Half its extents.
+    Vec3d half_size_mm() const;
 
   private:
     std::shared_ptr<const Impl> impl_;

@@ -124,6 +124,8 @@ Scene::Scene(std::shared_ptr<const Model> model, const Display& display, const G
     impl_ = made;
 }
 
+Vec3d Scene::half_size_mm() const { return impl_->half_mm; }
+
 Scene Scene::at_depth(double depth_mm) const {
     if (!any_length.contains(depth_mm))
         throw InputError("content.depth_mm", fmt::format("is {}, allowed is {}", depth_mm, any_length.text()));

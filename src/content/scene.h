@@ -35,7 +35,7 @@ struct Scene::Impl {
     std::vector<float> positions_mm;  // posed, about the centre; one float more than the vertices need, as Embree asks
 
     std::array<float, 3> light{};  // unit vector towards the light, in the model's own axes
-    std::vector<Pyramid> textures;
+    std::vector<MipMap> textures;
     std::vector<float> texels_per_mm;  // of each triangle, the mean over directions; 0: no texture
 
     struct Release {

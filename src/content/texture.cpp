@@ -37,7 +37,7 @@ float folded(float x, Wrap how) {
 
 }  // namespace
 
-Pyramid::Pyramid(const Texture& t) : light_(decode_table(Encoding::srgb, 8).data()) {
+MipMap::MipMap(const Texture& t) : light_(decode_table(Encoding::srgb, 8).data()) {
     Level base{t.width, t.height, {}};
     base.codes.resize(std::size_t(t.width) * t.height);
     for (std::size_t i = 0; i < base.codes.size(); ++i)
@@ -67,7 +67,7 @@ Pyramid::Pyramid(const Texture& t) : light_(decode_table(Encoding::srgb, 8).data
     sizes_.insert(sizes_.end(), {1, 1});  // sample() looks one level further
 }
 
-Texel Pyramid::bilinear(const Level& l, int x0, int y0, int x1, int y1, float right, float down) const {
+Texel MipMap::bilinear(const Level& l, int x0, int y0, int x1, int y1, float right, float down) const {
     const auto texel = [&](int i, int j) {
         const std::uint32_t code = l.codes[std::size_t(j) * std::size_t(l.width) + std::size_t(i)];
         return Texel{light_[code & 255], light_[code >> 8 & 255], light_[code >> 16 & 255], 0};
@@ -75,7 +75,7 @@ Texel Pyramid::bilinear(const Level& l, int x0, int y0, int x1, int y1, float ri
     return mix(mix(texel(x0, y0), texel(x1, y0), right), mix(texel(x0, y1), texel(x1, y1), right), down);
 }
 
-Texel Pyramid::sample(float u, float v, float level, Wrap wrap_u, Wrap wrap_v) const {
+Texel MipMap::sample(float u, float v, float level, Wrap wrap_u, Wrap wrap_v) const {
     const float l = std::clamp(level, 0.f, float(levels_.size() - 1));
     const auto below = std::size_t(l);
     // Four numbers: across and down in the level below, across and down in the one above. Texel centres lie at half integers, row 0

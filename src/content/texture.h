@@ -11,9 +11,9 @@ namespace lfdsim {
 typedef float Texel __attribute__((vector_size(16)));
 
 /// A mip pyramid: each level halves the one below by averaging 2 x 2 texels in linear light.
-class Pyramid {
+class MipMap {
   public:
-    explicit Pyramid(const Texture&);
+    explicit MipMap(const Texture&);
 
     /// Trilinear: bilinear in the two levels nearest to `level` (0: full size; larger is clamped), blended.
     Texel sample(float u, float v, float level, Wrap wrap_u, Wrap wrap_v) const;

@@ -1,0 +1,34 @@
+// The folder in which measures leave what they found. Floor 3.
+#pragma once
+#include "analysis/measure.h"
+
+#include <filesystem>
+#include <string>
+
+namespace lfdsim {
+
+/// Of each measure: NAME.json (its figures, and under "report" what the report shows), CSV tables, SVG plots, PNG pictures. Files
+/// are written beside and renamed; NAME.json comes last, so that where it is, the measure is complete.
+class ResultFolder {
+  public:
+    /// Makes the folder if it is missing. `settings`: all that the results depend on. Throws InputError if that is not possible.
+    ResultFolder(std::filesystem::path, Json settings);
+
+    const std::filesystem::path& path() const { return path_; }
+    const Json& settings() const { return settings_; }
+
+    /// Whether a measure has been finished there with the same settings.
+    bool has(const Measure&) const;
+    /// What NAME.json holds. Throws InputError if it cannot be read.
+    Json read(const Measure&) const;
+    /// Returns what NAME.json then holds. Throws std::runtime_error when writing fails.
+    Json write(const Measure&, const Result&, double seconds) const;
+    /// Writes a text file, beside and renamed.
+    void write_text(const std::string& name, const std::string& text) const;
+
+  private:
+    std::filesystem::path path_;
+    Json settings_;
+};
+
+}  // namespace lfdsim

@@ -1,0 +1,15 @@
+// The field of view, from pictures. Floor 3.
+#pragma once
+#include "analysis/result.h"
+#include "analysis/subject.h"
+
+namespace lfdsim {
+
+/// The angles of the views, horizontally and vertically: those of the options, else every degree as far as 30 on each side, or 12
+/// beyond the edge that theory expects, 80 at most.
+std::vector<double> fov_angles_deg(const Subject&);
+
+std::int64_t fov_steps(const Subject&);
+Result measure_fov(Subject&, Job&);
+
+}  // namespace lfdsim

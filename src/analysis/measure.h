@@ -1,0 +1,29 @@
+// The measures, by name. Floor 3.
+#pragma once
+#include "analysis/result.h"
+#include "analysis/subject.h"
+
+#include <span>
+#include <string_view>
+
+namespace lfdsim {
+
+struct Measure {
+    std::string_view name;    // of the command line and of the files
+    std::string_view title;   // "Field of view"
+    std::string_view says;    // what it means, in a sentence
+    std::string_view source;  // where its definition comes from
+    bool needs_scene;
+    /// About how long it takes, in pictures of the camera's size; the job is told of as many by advance().
+    std::int64_t (*steps)(const Subject&);
+    /// Throws InputError for what does not suit the display, Stopped where the job is cancelled.
+    Result (*run)(Subject&, Job&);
+};
+
+/// All of them, in the order of the report.
+std::span<const Measure> measures();
+
+/// Throws InputError that lists the names.
+const Measure& measure_named(std::string_view name);
+
+}  // namespace lfdsim

@@ -1,0 +1,30 @@
+#include "analysis/dof.h"
+#include "analysis/fov.h"
+#include "analysis/measure.h"
+
+#include <fmt/format.h>
+
+namespace lfdsim {
+namespace {
+
+constexpr Measure all[] = {
+    {"fov", "Field of view", "From which angles the display shows the scene as it is, horizontally and vertically.",
+     "SSIM thresholds of the 2019 paper; Wang et al. 2004 for SSIM; theory 2 atan(p / 2g)", true, fov_steps, measure_fov},
+    {"dof", "Depth of field", "At which depths before the lenses a scene is shown sharply.",
+     "SSIM thresholds of the 2019 paper; spot sizes by ray tracing; paraxial theory", true, dof_steps, measure_dof},
+};
+
+}  // namespace
+
+std::span<const Measure> measures() { return all; }
+
+const Measure& measure_named(std::string_view name) {
+    std::string names;
+    for (const Measure& m : all) {
+        if (m.name == name) return m;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", m.name);
+    }
+    throw InputError("MEASURE", fmt::format("\"{}\" is none; there are: all, {}", name, names));
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,86 @@
+// What a measure finds: figures, curves, pictures. Floor 3: plain data.
+#pragma once
+#include "image/image.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace lfdsim {
+
+using Json = nlohmann::ordered_json;
+
+/// A line of the report's table: a figure as measured, and what theory says. Each is one number or an interval of two; empty: there
+/// is none. A number that is not finite means that there is no bound.
+struct Finding {
+    std::string what, unit;
+    std::vector<double> measured, theory;
+    std::string remark = {};  // where they differ: why; or what the figure means
+};
+
+/// Columns of equal length for a CSV file. Names end in their unit: "angle_deg". NaN: an empty field.
+struct Column {
+    std::string name;
+    std::vector<double> values;
+};
+struct DataTable {
+    std::string name;  // of the file: NAME.csv
+    std::vector<Column> columns;
+};
+
+/// Curves over one axis. NaN breaks a curve.
+struct Series {
+    std::string label;
+    std::vector<double> x, y;
+    bool dots = false;  // points alone, no line
+};
+/// A line across the plot: at a threshold (horizontal), or at what theory says (vertical).
+struct PlotMark {
+    std::string label;
+    double at;
+    bool vertical = true;
+};
+struct Plot {
+    std::string name;  // of the file: NAME.svg
+    std::string title, x_label, y_label;
+    std::vector<Series> series;
+    std::vector<PlotMark> marks = {};
+    bool equal_axes = false;  // a spot diagram: the same scale along both
+};
+
+/// Numbers over a plane, row 0 at the top (the greatest y), as a picture in false colours with a scale. NaN: no value.
+struct ColourMap {
+    std::string name;  // of the file: NAME.svg
+    std::string title, x_label, y_label, value_label;
+    double x0, x1, y0, y1;  // what the map's borders stand for
+    int columns, rows;
+    std::vector<double> values;  // rows x columns
+    double low, high;            // of the colours' scale
+};
+
+struct NamedPicture {
+    std::string name;     // of the file: NAME.png
+    std::string caption;  // a sentence
+    Image image;          // linear light
+};
+
+/// Several pictures one after the other, all of one size: NAME.png, animated.
+struct Animation {
+    std::string name, caption;
+    std::vector<Image> frames;
+    double seconds_per_frame = 0.1;
+};
+
+struct Result {
+    Json figures = Json::object();  // what scripts read: names end in their unit; not finite: null
+    std::vector<Finding> findings;
+    std::vector<std::string> remarks;  // sentences: what bounds a figure, where it differs from theory and why
+    std::vector<DataTable> tables;
+    std::vector<Plot> plots;
+    std::vector<ColourMap> maps;
+    std::vector<NamedPicture> pictures;
+    std::vector<Animation> animations;
+};
+
+}  // namespace lfdsim

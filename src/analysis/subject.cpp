@@ -1,0 +1,70 @@
+#include "analysis/subject.h"
+
+#include "analysis/views.h"
+#include "engine/render.h"
+
+#include <cmath>
+
+namespace lfdsim {
+
+struct Subject::Shown {
+    std::unique_ptr<ShownPanel> panel;
+};
+
+Subject::Subject(Display display, std::optional<Scene> scene, AnalysisOptions options)
+    : display_(std::move(display)),
+      geometry_(resolve(display_)),
+      theory_(lfdsim::theory(display_, geometry_)),
+      scene_(std::move(scene)),
+      options_(std::move(options)) {}
+
+double Subject::viewing_distance_mm() const {
+    const Vec3d& p = display_.camera.position_mm;
+    return options_.viewing_distance_mm.value_or(std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]));
+}
+
+const Scene& Subject::scene() const {
+    if (!scene_) throw InputError("--model", "there is nothing to show; give a mesh file, or set content.model in the description");
+    return *scene_;
+}
+
+ShownPanel::ShownPanel(Texels texels, int threads) : texels_(std::move(texels)), pyramid_(texels_, threads) {}
+
+std::unique_ptr<ShownPanel> elemental_panel(const Display& display, const Geometry& geometry, const Scene& scene, int threads,
+                                            const Job& job) {
+    Quiet quiet(job);
+    const Picture picture = elemental_images(display, geometry, scene, threads, quiet);
+    if (!picture.complete) throw Stopped{};
+    return std::make_unique<ShownPanel>(shown_texels(picture.image, display.panel.encoding), threads);
+}
+
+const Pyramid& Subject::panel(const Job& job) {
+    if (!shown_) shown_ = std::make_shared<const Shown>(Shown{elemental_panel(display_, geometry_, scene(), threads(), job)});
+    return shown_->panel->pyramid();
+}
+
+double Subject::white_field(const Job& job) {
+    if (white_field_) return *white_field_;
+    Texels white(display_.panel.pixels[0], display_.panel.pixels[1]);
+    for (std::int64_t row = 0; row < white.rows(); ++row)
+        for (std::int64_t k = 0; k < white.columns(); ++k)
+            for (int c = 0; c < 3; ++c) white.row(row)[4 * k + c] = 1;
+    const ShownPanel panel(std::move(white), threads());
+    const Display seen = seen_from(display_, 0, 0);
+    const Region screen = screen_region(seen, geometry_);
+    const Rect box = screen.bounds();
+    Quiet quiet(job);
+    const Rendering r = render(seen, geometry_, panel.pyramid(), {threads(), "", box}, quiet);
+    if (!r.complete) throw Stopped{};
+    double sum = 0;
+    const Region part = screen.shifted(-box.x0, -box.y0);
+    for (std::size_t k = 0; k < part.rows.size(); ++k)
+        for (int x = part.rows[k].from; x < part.rows[k].to; ++x) sum += r.image.at(x, part.top + int(k))[1];  // no colour is in it
+    const double mean = sum / double(screen.pixels());
+    if (!(mean > 0))
+        throw InputError("camera", "sees no light of a white panel from straight before it, so that nothing can be compared");
+    white_field_ = mean;
+    return mean;
+}
+
+}  // namespace lfdsim

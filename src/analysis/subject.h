@@ -1,0 +1,87 @@
+// What is measured: a display, what it shows, and how finely one looks. Floor 3.
+#pragma once
+#include "content/content.h"
+#include "engine/pyramid.h"
+#include "model/display.h"
+#include "model/geometry.h"
+#include "model/job.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lfdsim {
+
+struct AnalysisOptions {
+    std::vector<double> angles_deg;  // of the views, rising; empty: see fov.h
+    std::vector<double> depths_mm;   // of the content before the vertex plane, rising; empty: see dof.h
+    std::optional<double> viewing_distance_mm =
+        {};                       // of eyes from the panel; default: the camera's distance from the panel's centre
+    double eye_distance_mm = 65;  // between a viewer's two eyes
+    double wavelength_nm = 550;
+    int threads = 0;  // 0: all
+};
+
+/// Thrown where the caller wants the work to end; nothing of the measure at hand is kept.
+struct Stopped {};
+
+/// Hands over nothing but the wish to stop. The stages of single pictures are not shown: progress is that of the whole run.
+class Quiet : public Job {
+  public:
+    explicit Quiet(const Job& whole) : whole_(whole) {}
+    bool cancelled() const override { return whole_.cancelled(); }
+
+  private:
+    const Job& whole_;
+};
+
+class Subject {
+  public:
+    /// A valid display; the scene may be absent, for measures that need none.
+    Subject(Display, std::optional<Scene>, AnalysisOptions);
+
+    const Display& display() const { return display_; }
+    const Geometry& geometry() const { return geometry_; }
+    const Theory& theory() const { return theory_; }
+    const AnalysisOptions& options() const { return options_; }
+    int threads() const { return options_.threads; }
+    double viewing_distance_mm() const;
+    bool has_scene() const { return scene_.has_value(); }
+    /// Throws InputError where there is none.
+    const Scene& scene() const;
+
+    /// The elemental images of the scene where the description puts it, as the panel shows them: made when first asked for, and
+    /// kept. Throws Stopped.
+    const Pyramid& panel(const Job&);
+
+    /// Mean light that the camera, on axis, sees of the array's rectangle when the panel is white: simulated pictures are divided
+    /// by it, so that what lenses and gaps take of the light does not count as unlikeness. More than 0. Throws Stopped.
+    double white_field(const Job&);
+
+  private:
+    Display display_;
+    Geometry geometry_;
+    Theory theory_;
+    std::optional<Scene> scene_;
+    AnalysisOptions options_;
+    struct Shown;
+    std::shared_ptr<const Shown> shown_;
+    std::optional<double> white_field_;
+};
+
+/// A panel image with its pyramid.
+class ShownPanel {
+  public:
+    ShownPanel(Texels, int threads);
+    const Pyramid& pyramid() const { return pyramid_; }
+
+  private:
+    Texels texels_;
+    Pyramid pyramid_;
+};
+
+/// The elemental images of a scene as the display's panel shows them. Throws Stopped.
+std::unique_ptr<ShownPanel> elemental_panel(const Display&, const Geometry&, const Scene&, int threads, const Job&);
+
+}  // namespace lfdsim

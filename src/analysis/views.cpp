@@ -1,0 +1,144 @@
+#include "analysis/views.h"
+
+#include "engine/render.h"
+#include "engine/scene.h"
+#include "model/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace lfdsim {
+namespace {
+
+constexpr double degree = 3.14159265358979323846 / 180;
+
+Vec3d minus(const Vec3d& a, const Vec3d& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double dot(const Vec3d& a, const Vec3d& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vec3d cross(const Vec3d& a, const Vec3d& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Vec3d unit(const Vec3d& a) {
+    const double length = std::sqrt(dot(a, a));
+    return {a[0] / length, a[1] / length, a[2] / length};
+}
+
+/// From points before the display to the camera's frame, in pixels from its upper left corner.
+class Projection {
+  public:
+    Projection(const Camera& c, const Geometry& g)
+        : position_(c.position_mm), width_(double(c.resolution[0])), height_(double(c.resolution[1])) {
+        const Vec3d towards = minus(c.target_mm, c.position_mm);
+        ahead_ = unit(towards);
+        right_ = unit(cross(ahead_, c.up));
+        up_ = cross(right_, ahead_);
+        per_slope_ = width_ / g.frame_width_mm * std::sqrt(dot(towards, towards));
+    }
+    /// False: it is beside or behind the camera.
+    bool operator()(const Vec3d& point, std::array<double, 2>& at) const {
+        const Vec3d p = minus(point, position_);
+        const double depth = dot(p, ahead_);
+        if (!(depth > 0)) return false;
+        at = {0.5 * width_ + dot(p, right_) / depth * per_slope_, 0.5 * height_ - dot(p, up_) / depth * per_slope_};
+        return true;
+    }
+
+  private:
+    Vec3d position_, ahead_, right_, up_;
+    double width_, height_, per_slope_;
+};
+
+}  // namespace
+
+Display seen_from(const Display& display, double horizontal_deg, double vertical_deg) {
+    Display d = display;
+    Camera& c = d.camera;
+    const double distance = std::sqrt(dot(c.position_mm, c.position_mm)), h = horizontal_deg * degree, v = vertical_deg * degree;
+    c.position_mm = {distance * std::sin(h) * std::cos(v), distance * std::sin(v), distance * std::cos(h) * std::cos(v)};
+    c.target_mm = {0, 0, 0};
+    c.up = {0, 1, 0};
+    return d;
+}
+
+Region screen_region(const Display& d, const Geometry& g) {
+    const double c = std::cos(d.array.rotation_deg * degree), s = std::sin(d.array.rotation_deg * degree);
+    const Projection project(d.camera, g);
+    std::array<std::array<double, 2>, 4> corners;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const double x = (k == 1 || k == 2 ? 0.5 : -0.5) * g.array_width_mm, y = (k < 2 ? 0.5 : -0.5) * g.array_height_mm;
+        const Vec3d point{c * x - s * y + d.array.offset_mm[0], s * x + c * y + d.array.offset_mm[1], g.vertex_plane_mm};
+        if (d.camera.position_mm[2] <= g.vertex_plane_mm || !project(point, corners[k])) return {};
+    }
+    return Region::polygon(corners, int(d.camera.resolution[0]), int(d.camera.resolution[1]));
+}
+
+Region content_region(const Display& d, const Geometry& g, const Scene& scene) {
+    const Vec3d centre = scene.centre_mm(), half = scene.half_size_mm();
+    const Projection project(d.camera, g);
+    const int width = int(d.camera.resolution[0]), height = int(d.camera.resolution[1]);
+    double x0 = width, y0 = height, x1 = 0, y1 = 0;
+    for (unsigned n = 0; n < 8; ++n) {
+        Vec3d corner = centre;
+        for (unsigned k = 0; k < 3; ++k) corner[k] += (n >> k & 1 ? 1 : -1) * half[k];
+        std::array<double, 2> at;
+        if (!project(corner, at)) return {};
+        x0 = std::min(x0, at[0]), x1 = std::max(x1, at[0]), y0 = std::min(y0, at[1]), y1 = std::max(y1, at[1]);
+    }
+    const auto pixel = [](double x, int most) { return int(std::clamp(x, 0., double(most))); };
+    const Rect box{pixel(std::floor(x0), width), pixel(std::floor(y0), height), pixel(std::ceil(x1), width),
+                   pixel(std::ceil(y1), height)};
+    return Region::of(box).intersected(screen_region(d, g));
+}
+
+void expose(Image& image, double white) {
+    const float gain = float(1 / white);
+    for (float& light : image.rgb) light *= gain;
+}
+
+View view_of(const Display& seen, const Geometry& geometry, const Scene& scene, const Pyramid& panel, double white, int threads,
+             const Job& job) {
+    View view;
+    view.screen = screen_region(seen, geometry);
+    const Rect box = view.screen.bounds();
+    if (box.x0 >= box.x1) throw InputError("camera", "no pixel of the camera sees the lens array; move it or widen its frame");
+    Quiet quiet(job);
+    Rendering r = render(seen, geometry, panel, {threads, "", box}, quiet);
+    if (!r.complete) throw Stopped{};
+    view.simulated = std::move(r.image);
+    expose(view.simulated, white);
+    Picture photograph = reference_photograph(seen, geometry, scene, threads, box, quiet);
+    if (!photograph.complete) throw Stopped{};
+    view.photograph = std::move(photograph.image);
+    view.content = content_region(seen, geometry, scene).shifted(-box.x0, -box.y0);
+    view.screen = view.screen.shifted(-box.x0, -box.y0);
+    return view;
+}
+
+Likeness likeness(const View& view) {
+    const std::vector<double> values = ssim(view.simulated, view.photograph, std::array{view.screen, view.content});
+    return {values[0], values[1]};
+}
+
+// Points: another rendering as good errs as much as the first one, and independently. Filtered: one of four times the strata errs
+// much less.
+Likeness likeness_error(const View& view, const Display& seen, const Geometry& geometry, const Pyramid& panel, double white,
+                        int threads, const Job& job) {
+    Display again = seen;
+    const bool filtered = estimator_of(seen) == Estimator::filtered;
+    if (filtered)
+        again.render.samples = std::min<std::int64_t>(4 * samples_of(seen), 3844);
+    else
+        again.render.seed = seen.render.seed ^ 1;
+    const Rect full = screen_region(seen, geometry).bounds();
+    Quiet quiet(job);
+    Rendering r = render(again, geometry, panel, {threads, "", full}, quiet);
+    if (!r.complete) throw Stopped{};
+    expose(r.image, white);
+    const Likeness first = likeness(view);
+    const std::vector<double> other = ssim(r.image, view.photograph, std::array{view.screen, view.content});
+    const double share = filtered ? 1 : std::sqrt(0.5);
+    return {share * std::abs(other[0] - first.screen), share * std::abs(other[1] - first.content)};
+}
+
+}  // namespace lfdsim
