@@ -9,6 +9,10 @@ namespace lfdsim {
 /// beyond the edge that theory expects, 80 at most.
 std::vector<double> fov_angles_deg(const Subject&);
 
+/// Depth of the scene's centre: as described, but no farther from the lenses than lets it be seen before the screen from 2 degrees
+/// beyond the edge that theory expects, along both axes.
+double fov_depth_mm(const Subject&);
+
 std::int64_t fov_steps(const Subject&);
 Result measure_fov(Subject&, Job&);
 

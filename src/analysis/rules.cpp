@@ -65,12 +65,12 @@ Interval where_steady(const Curve& c, double centre, double most) {
     return about(steadiness, centre, -most);
 }
 
-Interval where_edge(const Curve& c, double centre, double plateau) {
+Interval where_edge(const Curve& c, double centre, double plateau, double window) {
     std::vector<double> inner;
     for (std::size_t k = 0; k < c.at.size(); ++k)
         if (std::abs(c.at[k] - centre) <= plateau) inner.push_back(c.value[k]);
     if (inner.empty()) inner.push_back(value_at(c, centre));
-    const double top = median(inner);
+    const double level = median(inner);
     Interval edges;
     for (const int side : {-1, 1}) {
         // Outwards from the centre
@@ -78,17 +78,23 @@ Interval where_edge(const Curve& c, double centre, double plateau) {
         for (std::size_t k = 0; k < c.at.size(); ++k)
             if (side * (c.at[k] - centre) >= 0) places.push_back(k);
         if (side < 0) std::reverse(places.begin(), places.end());
-        double steepest = 0, bottom = top;
+        const auto at = [&](std::size_t n) { return c.at[places[n]]; };
+        const auto value = [&](std::size_t n) { return c.value[places[n]]; };
+        std::size_t step = 0;
+        double steepest = 0;
         for (std::size_t n = 0; n + 1 < places.size(); ++n) {
-            const std::size_t a = places[n], b = places[n + 1];
-            const double fall = (c.value[a] - c.value[b]) / std::abs(c.at[b] - c.at[a]);
-            if (fall <= steepest) continue;
-            steepest = fall;
-            bottom = c.value[b];
-            for (std::size_t m = n + 1; m < places.size(); ++m) bottom = std::min(bottom, c.value[places[m]]);
+            const double fall = (value(n) - value(n + 1)) / std::abs(at(n + 1) - at(n));
+            if (fall > steepest) steepest = fall, step = n;
         }
+        if (steepest == 0) continue;
+        double top = level, bottom = value(step + 1), from = centre;
+        for (std::size_t n = 0; n <= step; ++n)
+            if (std::abs(at(n) - at(step)) <= window && value(n) > top) top = value(n), from = at(n);
+        for (std::size_t n = step + 1; n < places.size(); ++n)
+            if (std::abs(at(n) - at(step + 1)) <= window) bottom = std::min(bottom, value(n));
         if (top - bottom < std::max(0.02, 5 * c.error)) continue;
-        (side < 0 ? edges.low : edges.high) = first_below(c, centre, side, 0.5 * (top + bottom)).limit;
+        const Crossing crossing = first_below(c, from, side, 0.5 * (top + bottom));
+        if (!crossing.at_once) (side < 0 ? edges.low : edges.high) = crossing.limit;
     }
     return edges;
 }

@@ -34,9 +34,10 @@ Interval where_at_least(const Curve&, double centre, double least);
 /// Where it rises or falls by `most` or less per unit. Slopes count in the middle between two places.
 Interval where_steady(const Curve&, double centre, double most);
 
-/// On each side, where the curve first comes down half-way from its median within `plateau` of the centre to its minimum beyond the
-/// steepest step down. Unbounded where no such minimum lies clearly (0.02 and five standard deviations) below the median.
-Interval where_edge(const Curve&, double centre, double plateau);
+/// On each side, half-way down the curve's fall at its steepest step: between its minimum within `window` beyond that step and its
+/// median within `plateau` of the centre, or, where that is higher, its maximum within `window` before the step (SSIM rises while a
+/// scene on black leaves the screen). Unbounded where the fall is less than 0.02 or five standard deviations.
+Interval where_edge(const Curve&, double centre, double plateau, double window);
 
 /// [low, high] with null where unbounded.
 Json limits_json(const Interval&);

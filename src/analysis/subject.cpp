@@ -24,7 +24,7 @@ double Subject::viewing_distance_mm() const {
 }
 
 const Scene& Subject::scene() const {
-    if (!scene_) throw InputError("--model", "there is nothing to show; give a mesh file, or set content.model in the description");
+    if (!scene_) throw InputError("--model", "there is nothing to show; give a mesh file or built-in:spheres");
     return *scene_;
 }
 

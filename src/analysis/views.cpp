@@ -115,10 +115,31 @@ View view_of(const Display& seen, const Geometry& geometry, const Scene& scene, 
     return view;
 }
 
-Likeness likeness(const View& view) {
-    const std::vector<double> values = ssim(view.simulated, view.photograph, std::array{view.screen, view.content});
-    return {values[0], values[1]};
+namespace {
+
+double covered_share(const Image& view, const Image& photograph, const Region& screen) {
+    double sum_v = 0, sum_p = 0, sum_vp = 0, sum_pp = 0;
+    for (std::size_t k = 0; k < screen.rows.size(); ++k) {
+        const int y = screen.top + int(k);
+        for (int x = screen.rows[k].from; x < screen.rows[k].to; ++x) {
+            const float *v = view.at(x, y), *p = photograph.at(x, y);
+            const auto luma = [](const float* c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; };
+            const double a = luma(v), b = luma(p);
+            sum_v += a, sum_p += b, sum_vp += a * b, sum_pp += b * b;
+        }
+    }
+    const double n = double(screen.pixels()), variance = sum_pp - sum_p * sum_p / n;
+    return variance > 1e-9 * sum_pp ? (sum_vp - sum_v * sum_p / n) / variance : std::numeric_limits<double>::quiet_NaN();
 }
+
+Likeness likeness(const Image& view, const View& other) {
+    const std::vector<double> values = ssim(view, other.photograph, std::array{other.screen, other.content});
+    return {values[0], values[1], covered_share(view, other.photograph, other.screen)};
+}
+
+}  // namespace
+
+Likeness likeness(const View& view) { return likeness(view.simulated, view); }
 
 // Points: another rendering as good errs as much as the first one, and independently. Filtered: one of four times the strata errs
 // much less.
@@ -135,10 +156,10 @@ Likeness likeness_error(const View& view, const Display& seen, const Geometry& g
     Rendering r = render(again, geometry, panel, {threads, "", full}, quiet);
     if (!r.complete) throw Stopped{};
     expose(r.image, white);
-    const Likeness first = likeness(view);
-    const std::vector<double> other = ssim(r.image, view.photograph, std::array{view.screen, view.content});
+    const Likeness first = likeness(view), other = likeness(r.image, view);
     const double share = filtered ? 1 : std::sqrt(0.5);
-    return {share * std::abs(other[0] - first.screen), share * std::abs(other[1] - first.content)};
+    return {share * std::abs(other.screen - first.screen), share * std::abs(other.content - first.content),
+            share * std::abs(other.share - first.share)};
 }
 
 }  // namespace lfdsim

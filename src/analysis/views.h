@@ -29,6 +29,9 @@ View view_of(const Display& seen, const Geometry&, const Scene&, const Pyramid& 
 
 struct Likeness {
     double screen, content;  // SSIM; content: NaN where too few pixels see it
+    /// Over the screen, linear light: covariance of view and photograph over the photograph's variance. A view that blends a share
+    /// s of the right picture with one unlike it has s; SSIM falls much faster. NaN where the photograph has one colour.
+    double share;
 };
 Likeness likeness(const View&);
 

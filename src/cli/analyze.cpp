@@ -81,6 +81,14 @@ std::vector<const Measure*> chosen(const std::string& names) {
     return result;
 }
 
+/// What tells that a model file has changed since.
+Json stamp(const std::string& model) {
+    std::error_code error;
+    const auto changed = std::filesystem::last_write_time(model, error);
+    if (error) return {{"file", model}};  // built in
+    return {{"file", model}, {"bytes", std::filesystem::file_size(model, error)}, {"changed", changed.time_since_epoch().count()}};
+}
+
 std::string value_text(const Json& values, const std::string& unit) {
     if (values.empty()) return "";
     std::string text;
@@ -122,16 +130,14 @@ void run(const Arguments& args) {
     if (args.output.empty()) faults.of([] { throw InputError("--output", "the name is empty; give a folder"); });
     faults.report();
     args.model.apply(display);
+    if (display.content.model.empty()) display.content.model = built_in_spheres;
     options.threads = args.work.threads();
 
     std::optional<Scene> scene;
     Json of_model;
     if (std::any_of(wanted.begin(), wanted.end(), [](const Measure* m) { return m->needs_scene; })) {
         scene = load_scene(display, resolve(display));
-        std::error_code error;
-        of_model = {{"file", display.content.model},
-                    {"bytes", std::filesystem::file_size(display.content.model, error)},
-                    {"changed", std::filesystem::last_write_time(display.content.model, error).time_since_epoch().count()}};
+        of_model = stamp(display.content.model);
     }
     Subject subject(display, std::move(scene), options);
     const ResultFolder folder(args.output, Json{{"lfdsim", LFDSIM_VERSION},

@@ -24,10 +24,11 @@ PanelImageOption::Read PanelImageOption::read(const Panel& panel, Job& job) cons
 }
 
 ModelOption::ModelOption(CLI::App& command)
-    : option_(
-          command
-              .add_option("--model", path_, "Mesh file to show (any format Assimp reads); default: the description's content.model")
-              ->type_name("FILE")) {}
+    : option_(command
+                  .add_option(
+                      "--model", path_,
+                      "Mesh file to show (any format Assimp reads), or built-in:spheres; default: the description's content.model")
+                  ->type_name("FILE")) {}
 
 void ModelOption::apply(Display& display) const {
     if (given()) display.content.model = path_;
@@ -35,7 +36,8 @@ void ModelOption::apply(Display& display) const {
 
 Scene load_scene(const Display& display, const Geometry& geometry) {
     if (display.content.model.empty())
-        throw InputError("--model", "there is nothing to show; give a mesh file, or set content.model in the description");
+        throw InputError("--model",
+                         "there is nothing to show; give a mesh file or built-in:spheres, or set content.model in the description");
     const std::shared_ptr<const Model> model = load_model(display.content.model);
     for (const std::string& note : info(*model).notes) spdlog::warn("{}: {}", display.content.model, note);
     return Scene(model, display, geometry);

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lfdsim {
@@ -30,8 +31,12 @@ struct LoadOptions {
     std::string up;                              // the file's axis that points up: "y" or "z"; "" by format
 };
 
-/// Throws InputError that names the file: missing, unreadable, unknown format, no triangles, crashed or exhausted the reader;
-/// std::runtime_error if the reader program lfdsim-model-reader is missing.
+/// A model file's name for the model that is built in: five chequered spheres at five depths.
+inline constexpr std::string_view built_in_spheres = "built-in:spheres";
+std::shared_ptr<const Model> built_in_model();
+
+/// The built-in model, or that of a file. Throws InputError that names the file: missing, unreadable, unknown format, no triangles,
+/// crashed or exhausted the reader; std::runtime_error if the reader program lfdsim-model-reader is missing.
 std::shared_ptr<const Model> load_model(const std::filesystem::path&, const LoadOptions& = {});
 ModelInfo info(const Model&);
 

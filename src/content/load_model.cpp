@@ -64,6 +64,7 @@ std::shared_ptr<const Model> load_model(const fs::path& path, const LoadOptions&
     if (!(options.seconds > 0 && options.seconds <= 86400))
         throw InputError("seconds", fmt::format("{} given; allowed is up to 86400", options.seconds));
     if (options.bytes < 1) throw InputError("bytes", fmt::format("{} given; allowed is 1 or more", options.bytes));
+    if (path == built_in_spheres) return built_in_model();
     check_file(path);
     ReaderProcess reader(path, options);
     const auto refuse = [&](const std::string& why) -> void {

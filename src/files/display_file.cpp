@@ -190,7 +190,7 @@ Display read_display(const std::filesystem::path& path, const std::vector<std::s
     // A path on the command line is relative to where it was typed, one in a file to where the file is.
     const bool overridden =
         std::any_of(overrides.begin(), overrides.end(), [](const std::string& o) { return o.starts_with("content.model="); });
-    if (!display.content.model.empty() && !overridden)
+    if (!display.content.model.empty() && !overridden && !display.content.model.starts_with("built-in:"))
         display.content.model = (path.parent_path() / display.content.model).lexically_normal().string();
     return display;
 }
