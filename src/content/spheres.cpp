@@ -53,8 +53,8 @@ void add(Model& m, const Sphere& s) {
     for (int j = 0; j < steps_up; ++j)
         for (int i = 0; i < steps_round; ++i) {
             // counter-clockwise from outside; those at the poles that have no area are left out
-            if (j > 0) m.indices.insert(m.indices.end(), {vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
-            if (j + 1 < steps_up) m.indices.insert(m.indices.end(), {vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+            if (j > 0) m.indices.insert(m.indices.end(), {vertex(i, j), vertex(i + 1, j + 1), vertex(i + 1, j)});
+            if (j + 1 < steps_up) m.indices.insert(m.indices.end(), {vertex(i, j), vertex(i, j + 1), vertex(i + 1, j + 1)});
         }
     m.material_of.resize(m.triangles(), material);
     m.materials.push_back({{1, 1, 1}, std::int32_t(m.textures.size()), Wrap::repeat, Wrap::clamp});
