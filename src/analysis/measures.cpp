@@ -1,3 +1,5 @@
+#include "analysis/components.h"
+#include "analysis/directions.h"
 #include "analysis/dof.h"
 #include "analysis/fov.h"
 #include "analysis/measure.h"
@@ -8,6 +10,10 @@ namespace lfdsim {
 namespace {
 
 constexpr Measure all[] = {
+    {"components", "Components", "What each part of the display does to a picture, and what they show together.",
+     "the component tests of the 2019 paper", true, components_steps, measure_components},
+    {"directions", "Views from around", "What the display shows from the side and from above, beside the scene itself.",
+     "pictures by ray tracing; photographs of the scene by the same camera", true, directions_steps, measure_directions},
     {"fov", "Field of view", "From which angles the display shows the scene as it is, horizontally and vertically.",
      "SSIM thresholds of the 2019 paper; Wang et al. 2004 for SSIM; theory 2 atan(p / 2g)", true, fov_steps, measure_fov},
     {"dof", "Depth of field", "At which depths before the lenses a scene is shown sharply.",

@@ -1,6 +1,6 @@
+#include "image/sheet.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
-#include "cli/font.h"
 #include "cli/memory.h"
 #include "cli/output.h"
 #include "image/image_file.h"
@@ -18,31 +18,6 @@ struct Arguments {
     std::string output, columns = "2", width_px = "640";
     bool json = false;
 };
-
-constexpr int margin = 12;
-constexpr float background = 0.012f, ink = 0.6f;  // linear light: a dark grey, and a light one
-
-// The mean light over each new pixel's area, so that fine lens dots keep their brightness.
-Image scaled(const Image& from, int width, int height) {
-    Image to(width, height);
-    const double sx = double(from.width) / width, sy = double(from.height) / height;
-    // the share of [low, high] that lies in pixel i
-    const auto share = [](double low, double high, int i) { return std::min(high, i + 1.0) - std::max(low, double(i)); };
-    for (int row = 0; row < height; ++row)
-        for (int column = 0; column < width; ++column) {
-            const double x0 = column * sx, x1 = x0 + sx, y0 = row * sy, y1 = y0 + sy;
-            double sum[3] = {};
-            for (int y = int(y0); y < std::min(int(std::ceil(y1)), from.height); ++y)
-                for (int x = int(x0); x < std::min(int(std::ceil(x1)), from.width); ++x)
-                    for (int c = 0; c < 3; ++c) sum[c] += share(x0, x1, x) * share(y0, y1, y) * from.at(x, y)[c];
-            for (int c = 0; c < 3; ++c) to.at(column, row)[c] = float(sum[c] / (sx * sy));
-        }
-    return to;
-}
-
-void paste(const Image& from, Image& to, int x, int y) {
-    for (int row = 0; row < from.height; ++row) std::copy_n(from.at(0, row), std::size_t(from.width) * 3, to.at(x, y + row));
-}
 
 void run(const Arguments& args) {
     Faults faults;
@@ -68,29 +43,11 @@ void run(const Arguments& args) {
         });
     faults.report();
 
-    const int scale = std::max(1, int(width) / 240), label = args.labels.empty() ? 0 : glyph_height * scale + margin / 2;
-    columns = std::min<std::int64_t>(columns, std::int64_t(cells.size()));
-    std::vector<int> tops;  // of each row
-    int bottom = margin;
-    for (std::size_t first = 0; first < cells.size(); first += std::size_t(columns)) {
-        int tallest = 0;
-        for (std::size_t i = first; i < std::min(cells.size(), first + std::size_t(columns)); ++i)
-            tallest = std::max(tallest, cells[i].height);
-        tops.push_back(bottom);
-        bottom += label + tallest + margin;
-    }
-    const std::int64_t sheet_width = columns * (width + margin) + margin;
-    require_memory("--width-px", fmt::format("a sheet of {} x {} pixels", sheet_width, bottom), picture_bytes(sheet_width, bottom));
-    Image sheet(int(sheet_width), bottom);
-    std::fill(sheet.rgb.begin(), sheet.rgb.end(), background);
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        const int x = margin + int(i % std::size_t(columns)) * int(width + margin), y = tops[i / std::size_t(columns)];
-        if (!args.labels.empty()) {
-            const auto fitting = std::size_t(width / (glyph_width * scale));
-            draw_text(sheet, x, y, scale, args.labels[i].substr(0, fitting), ink);
-        }
-        paste(cells[i], sheet, x, y + label);
-    }
+    double cell_pixels = 0;
+    for (const Image& cell : cells) cell_pixels += double(cell.width) * cell.height;
+    require_memory("--width-px", fmt::format("{} pictures of {} pixels' width beside their sheet", cells.size(), width),
+                   2.2 * 12 * cell_pixels);
+    const Image sheet = contact_sheet(cells, args.labels, int(columns));
     write_image(args.output, sheet, {8, Encoding::srgb, {{"Software", "lfdsim " LFDSIM_VERSION}}});
     if (args.json)
         return print_json(

@@ -1,6 +1,6 @@
-#include "cli/font.h"
+#include "image/font.h"
 
-namespace lfdsim::cli {
+namespace lfdsim {
 namespace {
 
 // ' ' to '~', then the degree sign. Each character of a glyph is a row of five dots, top first, as a digit in base 32 (0-9, A-V; 16
@@ -43,4 +43,4 @@ void draw_text(Image& image, int x, int y, int scale, std::string_view text, flo
     }
 }
 
-}  // namespace lfdsim::cli
+}  // namespace lfdsim

@@ -1,10 +1,10 @@
-// A small bitmap font for the labels of contact sheets. Floor 4.
+// A small bitmap font for labels on pictures. Floor 0.
 #pragma once
 #include "image/image.h"
 
 #include <string_view>
 
-namespace lfdsim::cli {
+namespace lfdsim {
 
 inline constexpr int glyph_width = 6, glyph_height = 10;  // spacing included
 
@@ -12,4 +12,4 @@ inline constexpr int glyph_width = 6, glyph_height = 10;  // spacing included
 /// and the degree sign; a box stands for any other character.
 void draw_text(Image&, int x, int y, int scale, std::string_view text, float light);
 
-}  // namespace lfdsim::cli
+}  // namespace lfdsim
