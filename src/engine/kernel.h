@@ -24,6 +24,7 @@ struct Tile {
 };
 
 constexpr int kMostStrata = 64;
+constexpr int kFewStrata = 8;  // up to so many the filtered estimator looks for speed first, above for exactness
 
 using Kernel = void (*)(const Tile&);
 

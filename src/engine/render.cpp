@@ -59,6 +59,7 @@ Rendering render(const Display& display, const Geometry& geometry, const std::ve
     result.kernel = kernel.name;
     result.estimator = estimator_of(display);
     const bool filtered = result.estimator == Estimator::filtered;
+    const int strata = filtered ? int(std::lround(std::sqrt(double(samples)))) : 0;
     constexpr std::int64_t most = (kMostStrata - 2) * (kMostStrata - 2);
     if (filtered && samples > most)
         throw InputError("render.samples",
@@ -85,8 +86,8 @@ Rendering render(const Display& display, const Geometry& geometry, const std::ve
                      crop.x1,
                      crop.y1,
                      std::uint32_t(samples),
-                     filtered ? int(std::lround(std::sqrt(double(samples)))) : 0,
-                     block_side(scene, view),
+                     strata,
+                     block_side(scene, view, refined ? kMostStrata : strata),
                      display.render.sampling,
                      dimensions};
     const auto start = std::chrono::steady_clock::now();

@@ -223,16 +223,18 @@ int sample_dimensions(const Display& display) {
     return display.diffuser ? 2 : 0;
 }
 
-int block_side(const optics::Scene<float>& scene, const optics::View& view) {
+int block_side(const optics::Scene<float>& scene, const optics::View& view, int strata) {
     // The picture's grid on the diffuser, along the line of sight, against a lens and what a diffused ray spans in the plane of the
     // holes
     const double pixel = view.pixel_mm * std::abs((view.position[2] - view.start_z) / (view.forward[2] * view.distance));
     double seen = scene.pitch;
+    bool moving = false;  // the strata move with the pixels: the lenses' edges, at which blocks break, are sharp in the picture
     for (const float angle : scene.half_angle) {
         const double span = 2 * double(scene.holes_below) * std::tan(std::min(double(angle), 1.5));
-        if (span > 4 * pixel) seen = std::min(seen, span);  // else the strata move with the pixels, whatever the block
+        span > 4 * pixel ? seen = std::min(seen, span) : moving = true;
     }
-    return 16 * pixel < 0.2 * seen ? 16 : 8 * pixel < 0.4 * seen ? 8 : 4;
+    const double wide = moving ? 0.1 : strata <= kFewStrata ? 0.7 : 0.2;
+    return 16 * pixel < wide * seen ? 16 : 8 * pixel < 0.4 * seen ? 8 : 4;
 }
 
 const optics::Directions& sobol_directions() {

@@ -25,9 +25,9 @@ std::int64_t samples_of(const Display&);
 /// Dimensions of the sampler that a display needs; 0: there is nothing to sample, one ray tells all.
 int sample_dimensions(const Display&);
 
-/// Pixels along the side of the blocks in which the filtered estimator shares its rays: 16, 8 or 4, much less than what a pixel
-/// sees of a lens.
-int block_side(const optics::Scene<float>&, const optics::View&);
+/// Pixels along the side of the blocks in which the filtered estimator shares its rays, if it cuts each axis into so many strata:
+/// 16, 8 or 4, less than what a pixel sees of a lens, and much less where many strata ask for a fine picture.
+int block_side(const optics::Scene<float>&, const optics::View&, int strata);
 
 const optics::Directions& sobol_directions();
 

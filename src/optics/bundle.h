@@ -17,7 +17,7 @@ constexpr int kBlockRays = 4;
 constexpr int kBlockRight[kBlockRays] = {0, 1, 0, -1};
 constexpr int kBlockDown[kBlockRays] = {0, 0, 1, -1};
 
-/// A block's light is told at the corners of squares of so many pixels: at most 3 x 3 places.
+/// A soft bundle's light is told at the corners of squares of so many pixels: at most 3 x 3 places.
 constexpr int kNodes = 3, kMostNodeStep = 8;
 
 template <class S>
@@ -155,14 +155,11 @@ struct Bundle {
     S column_right, row_right, column_down, row_down;  // how that moves per picture pixel
     S width, height;                                   // of a box that spreads as far, panel pixels
     S weight;                                          // mean over the part, what is lost on the way counted as 0
-    S x, y;                                            // mm: the probe that stands for it
+    S x, y, probe_column, probe_row;                   // the probe that stands for it: mm, and its place on the panel
     Footprint<S> footprint;                            // sharp: the box, which each pixel reads at its own place
     bool still;                                        // soft: the footprint does not move
     int nodes;                                         // soft: along an axis of the block; 1: its light is the same everywhere
-    S colour[kNodes * kNodes][3];                      // soft: the light there; interpolated between
-
-    /// Pixels between nodes, if there are more than one along an axis.
-    LFDSIM_FN int node_step(const PixelBlock<S>& block) const { return 2 * block.reach / (nodes - 1); }
+    S colour[kNodes * kNodes][4];                      // soft: the light there; interpolated between
 };
 
 /// Sums up the per_axis x per_axis probes of a stratum.
@@ -206,8 +203,8 @@ LFDSIM_FN Bundle<S> sum_up(const Probes<S>& probes, int per_axis) {
     while (t[one] != nearest) ++one;
     b.x = probes.x[one];
     b.y = probes.y[one];
-    b.column_right = probes.column[one];  // for follow()
-    b.row_right = probes.row[one];
+    b.probe_column = probes.column[one];
+    b.probe_row = probes.row[one];
     b.state = others == S(0) ? State::sharp : State::broken;
     return b;
 }
@@ -218,49 +215,55 @@ LFDSIM_FN bool is_soft(const Bundle<S>& b) {
     return max(b.width, b.height) > S(1);
 }
 
-/// The light over small boxes about the probes, moved by (column, row), each as wide as it is to the next ones: R, G, B
-/// and an idle number of each probe, 0 of those lost.
-template <class F>
-LFDSIM_FN void light_of(const Probes<Scalar<F>>& probes, int per_axis, const PanelLevel* levels, int level_count,
-                        const PanelBase<Scalar<F>>& base, Scalar<F> column, Scalar<F> row, Scalar<F> (&light)[4][kMostProbes]) {
-    using S = Scalar<F>;
-    constexpr int pad = 4;  // per_axis at most
-    S width[kMostProbes], height[kMostProbes], weight[kMostProbes], mixed[4 * kMostProbes];
-    S column_at[kMostProbes + 2 * pad] = {}, row_at[kMostProbes + 2 * pad] = {}, lit[kMostProbes + 2 * pad] = {};
-    for (int p = 0; p < kMostProbes; ++p) {
-        weight[p] = probes.in[p] * probes.weight[p];
-        lit[pad + p] = weight[p] > S(0) ? S(1) : S(0);
-        column_at[pad + p] = probes.column[p];
-        row_at[pad + p] = probes.row[p];
-    }
-    for (int p = 0; p < kMostProbes; ++p) width[p] = height[p] = S(0);
-    auto add_steps = [&](const S* behind, const S* before, int step) {  // to the next probe, else from the last
-        const S *c = column_at + pad, *r = row_at + pad, *l = lit + pad;
+/// The panel over small boxes about the probes of a part of a stratum, each as wide as it is to the next probes.
+template <class S>
+struct ProbeBoxes {
+    S width[kMostProbes], height[kMostProbes], weight[kMostProbes];  // panel pixels; 0: lost
+
+    template <class F>
+    LFDSIM_FN void make(const Probes<S>& probes, int per_axis) {
+        constexpr int pad = 4;  // per_axis at most
+        S column[kMostProbes + 2 * pad] = {}, row[kMostProbes + 2 * pad] = {}, lit[kMostProbes + 2 * pad] = {};
         for (int p = 0; p < kMostProbes; ++p) {
-            const S next_c = abs(c[p + step] - c[p]), last_c = abs(c[p - step] - c[p]), next_r = abs(r[p + step] - r[p]),
-                    last_r = abs(r[p - step] - r[p]);
-            const bool to_next = behind[p] * l[p + step] > S(0), from_last = before[p] * l[p - step] > S(0);
-            width[p] = width[p] + (to_next ? next_c : from_last ? last_c : S(0));
-            height[p] = height[p] + (to_next ? next_r : from_last ? last_r : S(0));
+            weight[p] = probes.in[p] * probes.weight[p];
+            lit[pad + p] = weight[p] > S(0) ? S(1) : S(0);
+            column[pad + p] = probes.column[p];
+            row[pad + p] = probes.row[p];
         }
-    };
-    add_steps(probes.has_right, probes.has_left, 1);
-    add_steps(probes.has_above, probes.has_below, per_axis);
-    for (int p = 0; p < kMostProbes; p += LaneTraits<F>::width) {
-        Light<F> lanes;
-        const F w = load<F>(weight + p);
-        add_boxes(levels, level_count, base, w > F(0), load<F>(probes.column + p) + F(column), load<F>(probes.row + p) + F(row),
-                  load<F>(width + p), load<F>(height + p), w, lanes);
-        lanes.store(mixed + 4 * p);
+        for (int p = 0; p < kMostProbes; p += LaneTraits<F>::width) {
+            const int at = pad + p;
+            F wide = F(0), high = F(0);
+            auto add_step = [&](const S* behind, const S* before, int step) {  // to the next probe, else from the last
+                const F c = load<F>(column + at), r = load<F>(row + at);
+                const F next_c = abs(load<F>(column + at + step) - c), last_c = abs(load<F>(column + at - step) - c),
+                        next_r = abs(load<F>(row + at + step) - r), last_r = abs(load<F>(row + at - step) - r);
+                const Mask<F> next = load<F>(behind + p) * load<F>(lit + at + step) > F(0),
+                              last = load<F>(before + p) * load<F>(lit + at - step) > F(0);
+                wide = wide + select(next, next_c, select(last, last_c, F(0)));
+                high = high + select(next, next_r, select(last, last_r, F(0)));
+            };
+            add_step(probes.has_right, probes.has_left, 1);
+            add_step(probes.has_above, probes.has_below, per_axis);
+            store(wide, width + p);
+            store(high, height + p);
+        }
     }
-    for (int c = 0; c < 4; ++c)
-        for (int p = 0; p < kMostProbes; ++p) light[c][p] = mixed[4 * p + c];
-}
+
+    /// The light of each, moved by (column, row): R, G, B and whether the probe belongs to the part.
+    template <class F>
+    LFDSIM_FN void look(const Probes<S>& probes, const PanelLevel* levels, int level_count, const PanelBase<S>& base, S column,
+                        S row, S (&light)[kMostProbes][4]) const {
+        for (int p = 0; p < kMostProbes; p += LaneTraits<F>::width)
+            light_of_boxes(levels, level_count, base, load<F>(probes.column + p) + F(column), load<F>(probes.row + p) + F(row),
+                           load<F>(width + p), load<F>(height + p), load<F>(weight + p), light + p);
+        for (int p = 0; p < kMostProbes; ++p) light[p][3] = probes.in[p];
+    }
+};
 
 /// How a bundle moves, from three rays at its probe's point, p .. p + 2, seen from the block's places 1, 2 and 3.
 template <class S>
 LFDSIM_FN void follow(Bundle<S>& b, const Probes<S>& rays, int p, int reach) {
-    const S column = b.column_right, row = b.row_right, per = S(1) / S(reach);
+    const S column = b.probe_column, row = b.probe_row, per = S(1) / S(reach);
     b.column_right = (rays.column[p] - column) * per;
     b.row_right = (rays.row[p] - row) * per;
     b.column_down = (rays.column[p + 1] - column) * per;

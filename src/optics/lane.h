@@ -47,6 +47,7 @@ LFDSIM_FN float min(float a, float b) { return a < b ? a : b; }
 LFDSIM_FN int min(int a, int b) { return a < b ? a : b; }
 LFDSIM_FN double min(double a, double b) { return a < b ? a : b; }
 LFDSIM_FN float max(float a, float b) { return a > b ? a : b; }
+LFDSIM_FN int max(int a, int b) { return a > b ? a : b; }
 LFDSIM_FN double max(double a, double b) { return a > b ? a : b; }
 
 /// A whole-numbered `a` as 32-bit two's complement; out of range, NaN too, gives 0x80000000.
@@ -79,6 +80,11 @@ LFDSIM_FN Uint<F> load(const std::uint32_t* from) {
 template <class F>
 LFDSIM_FN void store(F a, Scalar<F>* to) {
     LaneTraits<F>::store(a, to);
+}
+
+template <class U>
+LFDSIM_FN void store(U a, std::uint32_t* to) {
+    __builtin_memcpy(to, &a, sizeof a);
 }
 
 template <class M>

@@ -74,6 +74,10 @@ struct Light {
     LFDSIM_FN void add(const Light& other) {
         for (int r = 0; r < 4; ++r) sum[r] = sum[r] + other.sum[r];
     }
+    /// Light of each lane: R, G, B and an idle number.
+    LFDSIM_FN void add(const Scalar<F> (*lanes)[4]) {
+        for (int r = 0; r < 4; ++r) sum[r] = sum[r] + load<F>(lanes[0] + r * N);
+    }
     /// R, G, B and an idle number of each lane.
     LFDSIM_FN void store(Scalar<F>* to) const {
         for (int r = 0; r < 4; ++r) optics::store(sum[r], to + r * N);

@@ -13,6 +13,7 @@ using Bundle = optics::Bundle<S>;
 /// What a block sees through each stratum: through its hole, and beside that where light passes there too.
 struct Bundles {
     Bundle through, beside;
+    bool straddles;  // the stratum sees other lenses too
 };
 
 /// A range of a stratum along one axis, mm from the axis of its lens.
@@ -54,9 +55,15 @@ class BundleMaker {
     }
 
     void make(Bundles* bundles) {
+        Bundles* next = bundles;
         for (int j = 0; j < axis[1].strata; ++j)
-            for (int i = 0; i < axis[0].strata; ++i) make(*bundles++, i, j);
+            for (int i = 0; i < axis[0].strata; ++i) make(*next++, i, j);
         finish();
+        while (bundles != next) {
+            // Where a hole is broken, rays of the pixels' own tell what lies beside it, too.
+            if (bundles->through.state == Bundle::State::broken) bundles->beside.state = Bundle::State::dark;
+            ++bundles;
+        }
     }
 
   private:
@@ -65,11 +72,8 @@ class BundleMaker {
         const Range x{axis[0].from[i], axis[0].to[i]}, y{axis[1].from[j], axis[1].to[j]};
         Range hole_x = x, hole_y = y;
         b.through.state = b.beside.state = Bundle::State::dark;
-        if (axis[0].straddles[i] || axis[1].straddles[j]) {
-            b.through.state = Bundle::State::broken;
-            return;
-        }
-        if (r > 0 && hole_edge_near(x, y)) {
+        b.straddles = axis[0].straddles[i] || axis[1].straddles[j];
+        if (b.straddles || (r > 0 && hole_edge_near(x, y))) {
             b.through.state = Bundle::State::broken;
             return;
         }
@@ -115,9 +119,8 @@ class BundleMaker {
         // What a pixel sees of the outermost strata changes over the block.
         const bool ends = sees_end(0, i) || sees_end(1, j);
         b.nodes = !b.still ? block.nodes() : ends ? 2 : 1;
-        S in[optics::kNodes * optics::kNodes] = {};
         for (int n = 0; n < b.nodes * b.nodes; ++n)
-            for (int c = 0; c < 3; ++c) b.colour[n][c] = 0;
+            for (int c = 0; c < 4; ++c) b.colour[n][c] = 0;
         // The wider the footprint the more probes.
         const int parts = b.still ? optics::min(most_parts, 1 + int(optics::max(b.width, b.height) * part_per_pixel)) : 1;
         for (int k = 0; k < parts * parts; ++k) {
@@ -127,13 +130,13 @@ class BundleMaker {
             };
             const Range here_x = part(x, k % parts), here_y = part(y, k / parts);
             if (parts > 1) trace(i, here_x, j, here_y, inside);
-            add_nodes(b, i, here_x, j, here_y, in);
+            add_nodes(b, i, here_x, j, here_y);
         }
         b.weight = 1;
         for (int n = 0; n < b.nodes * b.nodes; ++n) {
-            if (in[n] == S(0))
-                b.state = Bundle::State::broken;  // all that the first probes met of the part were points at its edge
-            for (int c = 0; c < 3; ++c) b.colour[n][c] = b.colour[n][c] / in[n];
+            const S in = b.colour[n][3];
+            if (in == S(0)) b.state = Bundle::State::broken;  // all that the first probes met of the part were points at its edge
+            for (int c = 0; c < 3; ++c) b.colour[n][c] = b.colour[n][c] / in;
         }
         return b;
     }
@@ -141,27 +144,27 @@ class BundleMaker {
     bool sees_end(int a, int stratum) const { return !axis[a].moving && (stratum == 0 || stratum == axis[a].strata - 1); }
 
     /// Adds the probes' light at the nodes, each probe as far as a pixel there sees its part of the range.
-    void add_nodes(Bundle& b, int i, Range x, int j, Range y, S* in) {
-        S light[4][optics::kMostProbes];
+    void add_nodes(Bundle& b, int i, Range x, int j, Range y) {
+        optics::ProbeBoxes<S> boxes;
+        boxes.make<F>(probes, per_axis);
+        S light[optics::kMostProbes][4];
+        const S step = b.nodes == 1 ? S(0) : S(2) / S(b.nodes - 1), first = b.nodes == 1 ? S(0) : S(-1), reach = S(block.reach);
         for (int n = 0; n < b.nodes * b.nodes; ++n) {
-            const int step = b.nodes == 1 ? 0 : b.node_step(block);
-            const S right = step == 0 ? S(0) : S(n % b.nodes * step - block.reach),
-                    down = step == 0 ? S(0) : S(n / b.nodes * step - block.reach);
+            const S right = first + S(n % b.nodes) * step, down = first + S(n / b.nodes) * step;  // -1 .. 1
             if (n == 0 || !b.still) {
-                const S column = b.still ? S(0) : b.column_right * right + b.column_down * down,
-                        row = b.still ? S(0) : b.row_right * right + b.row_down * down;
-                optics::light_of<F>(probes, per_axis, tile.levels, tile.level_count, block.lens.panel, column, row, light);
+                const S move = b.still ? S(0) : reach;
+                boxes.look<F>(probes, tile.levels, tile.level_count, block.lens.panel,
+                              (b.column_right * right + b.column_down * down) * move,
+                              (b.row_right * right + b.row_down * down) * move, light);
             }
-            S seen[optics::kMostProbes], t[optics::kMostProbes];
+            S seen[optics::kMostProbes];
             for (int p = 0; p < optics::kMostProbes; ++p) seen[p] = counts[p];
-            if (sees_end(0, i)) narrow(0, i, x, grid_x, right / S(block.reach), down / S(block.reach), seen);
-            if (sees_end(1, j)) narrow(1, j, y, grid_y, right / S(block.reach), down / S(block.reach), seen);
-            for (int c = 0; c < 3; ++c) {
-                for (int p = 0; p < optics::kMostProbes; ++p) t[p] = seen[p] * light[c][p];
-                b.colour[n][c] = b.colour[n][c] + optics::sum_of(t);
-            }
-            for (int p = 0; p < optics::kMostProbes; ++p) t[p] = seen[p] * probes.in[p];
-            in[n] = in[n] + optics::sum_of(t);
+            if (sees_end(0, i)) narrow(0, i, x, grid_x, right, down, seen);
+            if (sees_end(1, j)) narrow(1, j, y, grid_y, right, down, seen);
+            S sum[4][4] = {};
+            for (int p = 0; p < optics::kMostProbes; ++p)
+                for (int c = 0; c < 4; ++c) sum[p % 4][c] = sum[p % 4][c] + seen[p] * light[p][c];
+            for (int c = 0; c < 4; ++c) b.colour[n][c] = b.colour[n][c] + ((sum[0][c] + sum[2][c]) + (sum[1][c] + sum[3][c]));
         }
     }
 
@@ -206,8 +209,8 @@ class BundleMaker {
         waiting = 0;
     }
 
-    static constexpr int most_parts = 3;  // of a wide stratum, along an axis
-    static constexpr S part_per_pixel = S(1) / S(12);
+    static constexpr int most_parts = 2;  // of a wide stratum, along an axis
+    static constexpr S part_per_pixel = S(1) / S(24);
     static constexpr int most_waiting = optics::kMostProbes / 3;
     const Tile& tile;
     const optics::Scene<S>& scene;

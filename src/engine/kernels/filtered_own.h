@@ -22,7 +22,7 @@ __attribute__((noinline)) optics::PanelPoint<F> trace_own(const optics::Scene<S>
 enum class Own { all, covered, beside };
 
 /// Rays of the pixels' own for a stratum whose bundle is broken. One at random tells whether light gets through, unless its share
-/// is known; where three others stay together, they tell the footprint to take the light from, else the ray's own end.
+/// is known; where two others stay with it, they tell the footprint to take the light from, else the ray's own end.
 template <optics::Way through>
 __attribute__((noinline)) void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pixels, const Span<F>& x,
                                             const Span<F>& y, Own part, F weight, const optics::Sampler<F>& first,
@@ -64,20 +64,32 @@ __attribute__((noinline)) void add_own_rays(const Tile& tile, const optics::Pixe
     auto one = trace_own<through>(scene, pixels, a, b);
     weight = optics::select(one.alive, weight * one.weight, F(0));
     if (part != Own::beside) {
-        const F mid_a = half * (x.low + x.high), mid_b = half * (y.low + y.high);
-        const auto middle = trace_own<through>(scene, pixels, mid_a, mid_b);
-        const auto right = trace_own<through>(scene, pixels, mid_a + quarter * (x.high - x.low), mid_b);
-        const auto above = trace_own<through>(scene, pixels, mid_a, mid_b + quarter * (y.high - y.low));
+        // Two more rays, a quarter of the stratum towards its middle, tell where the middle looks and how wide.
+        auto step = [&](const Span<F>& span, F at) {
+            const F mid = half * (span.low + span.high), part = quarter * (span.high - span.low);
+            return optics::select(at < mid, part, -part);
+        };
+        auto steps = [&](const Span<F>& span, F at, F step) {  // to the middle
+            return (half * (span.low + span.high) - at) / optics::select(step == F(0), F(1), step);
+        };
+        const F step_a = step(x, a), step_b = step(y, b), to_a = steps(x, a, step_a), to_b = steps(y, b, step_b);
+        const auto across = trace_own<through>(scene, pixels, a + step_a, b);
+        const auto along = trace_own<through>(scene, pixels, a, b + step_b);
         auto near = [&](const optics::PanelPoint<F>& p) {
             const F far = F(0.25f * scene.pitch_pixels);
-            return p.alive && (p.cell.i == middle.cell.i) && (p.cell.j == middle.cell.j) &&
-                   (optics::abs(p.column - middle.column) < far) && (optics::abs(p.row - middle.row) < far);
+            return p.alive && (p.cell.i == one.cell.i) && (p.cell.j == one.cell.j) && (optics::abs(p.column - one.column) < far) &&
+                   (optics::abs(p.row - one.row) < far);
         };
-        const optics::Mask<F> together = one.alive && middle.alive && near(right) && near(above) && near(one);
-        const F wide = F(4) * (optics::abs(right.column - middle.column) + optics::abs(above.column - middle.column)),
-                high = F(4) * (optics::abs(right.row - middle.row) + optics::abs(above.row - middle.row));
-        optics::add_boxes(tile.levels, tile.level_count, pixels.base, together, middle.column, middle.row, wide, high, weight,
-                          light);
+        const optics::Mask<F> together = one.alive && near(across) && near(along);
+        const F across_c = across.column - one.column, across_r = across.row - one.row, along_c = along.column - one.column,
+                along_r = along.row - one.row;
+        const F wide = F(4) * (optics::abs(across_c) + optics::abs(along_c)),
+                high = F(4) * (optics::abs(across_r) + optics::abs(along_r));
+        const F column = one.column + across_c * to_a + along_c * to_b, row = one.row + across_r * to_a + along_r * to_b;
+        S in_box[optics::LaneTraits<F>::width][4];
+        optics::light_of_boxes(tile.levels, tile.level_count, pixels.base, column, row, wide, high,
+                               optics::select(together, weight, F(0)), in_box);
+        light.add(in_box);
         one.alive = one.alive && !together;
     }
     if (optics::none(one.alive)) return;
