@@ -48,9 +48,12 @@ struct Arguments {
         command.add_option("--display", displays, "Estimators: descriptions to render; default: the display of the other groups")
             ->type_name("FILE");
         command.add_option("--crop", crop, "Estimators: this part of the frame; default: its middle")->type_name("X0,Y0,X1,Y1");
+        command
+            .add_option("--angle-deg", angle, "Estimators: walk the camera so far to the right about what it looks at; default 0")
+            ->type_name("A");
     }
     std::vector<std::string> chosen, displays;
-    std::string runs, kernel, crop, model = "/usr/share/assimp/models/BLEND/Suzanne_248.blend";
+    std::string runs, kernel, crop, angle, model = "/usr/share/assimp/models/BLEND/Suzanne_248.blend";
     bool quick = false;
     const CLI::Option* model_option;
     WorkOptions work;
@@ -67,6 +70,7 @@ BenchSettings read(const Arguments& args) {
     s.crop = args.crop;
     Faults faults;
     for (const std::string& name : args.chosen) faults.of([&] { word("GROUP", name, group_names()); });
+    if (!args.angle.empty()) faults.of([&] { s.angle_deg = number("--angle-deg", args.angle); });
     if (!args.runs.empty()) faults.of([&] { s.runs = int(whole_number("--runs", args.runs, 1, 1000)); });
     faults.of([&] { args.work.check(); });
     faults.of([&] { s.kernel = choose_kernel(args.kernel).name; });

@@ -21,6 +21,7 @@ struct BenchSettings {
     bool model_given = false;           // else a description's own goes before it
     std::vector<std::string> displays;  // of the group "estimators"; empty: the display of bench_cases.h
     std::string crop;                   // of it
+    double angle_deg = 0;               // its camera, turned about the vertical through its target
 };
 
 /// What one run took and how much it handled; the unit is the group's.

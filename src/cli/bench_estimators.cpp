@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <optional>
 
 // Group "estimators": error against time. A part of the picture is rendered with many samples of other seeds, the reference; then
@@ -147,6 +148,7 @@ void report(const View& view, const Reference& reference, const std::vector<Poin
     }
     Json all{{"display", view.display.name},
              {"content", view.content},
+             {"angle_deg", bench.settings.angle_deg},
              {"crop", {view.crop.x0, view.crop.y0, view.crop.x1, view.crop.y1}},
              {"reference", {{"samples", reference.samples}, {"rmse", reference.rmse}}},
              {"points", rows}};
@@ -186,6 +188,13 @@ Rect crop_of(const Display& d, const BenchSettings& settings) {
     return {x, y, x + w, y + h};
 }
 
+void walk(Camera& camera, double angle_deg) {
+    const double a = angle_deg * std::numbers::pi / 180, x = camera.position_mm[0] - camera.target_mm[0],
+                 z = camera.position_mm[2] - camera.target_mm[2];
+    camera.position_mm[0] = camera.target_mm[0] + x * std::cos(a) + z * std::sin(a);
+    camera.position_mm[2] = camera.target_mm[2] + z * std::cos(a) - x * std::sin(a);
+}
+
 }  // namespace
 
 std::vector<Display> bench_displays(const BenchSettings& settings) {
@@ -193,6 +202,11 @@ std::vector<Display> bench_displays(const BenchSettings& settings) {
     Faults faults;
     for (const std::string& file : settings.displays) faults.of([&] { all.push_back(read_display(file)); });
     if (settings.displays.empty()) all.push_back(bench_display());
+    for (Display& d : all) {
+        walk(d.camera, settings.angle_deg);
+        if (const std::vector<Problem> wrong = validate(d); !wrong.empty())
+            faults.of([&] { throw InputError("--angle-deg", d.name + ": " + wrong.front().what); });
+    }
     for (const Display& d : all)
         faults.of([&] {
             const Rect crop = crop_of(d, settings);

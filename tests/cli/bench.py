@@ -39,7 +39,7 @@ checks.that([row["content"] for row in made["estimators"]] == ["checkerboard", "
 for row in made["estimators"]:
     name = row["content"]
     rmse = {(p["estimator"], p["samples"]): p["rmse"] for p in row["points"]}
-    checks.that(row["display"] == "tiny" and row["crop"] == [8, 4, 88, 50] and row["reference"]["samples"] == 2 * 16384, f"{name}: {row}")
+    checks.that(row["display"] == "tiny" and row["angle_deg"] == 0 and row["crop"] == [8, 4, 88, 50] and row["reference"]["samples"] == 2 * 16384, f"{name}: {row}")
     fall = rmse["point, random", 1] / rmse["point, random", 1024]
     checks.that(32 / 1.5 < fall < 32 * 1.5, f"{name}: the error of random samples falls by {fall:.1f} from 1 to 1024 samples, not by 32")
     checks.that(rmse["point, sobol", 1024] < rmse["point, random", 1024], f"{name}: low-discrepancy samples are no better: {rmse}")
@@ -60,6 +60,7 @@ for name, arguments, *words in [
     ("no runs", "bench --runs 0", "--runs"),
     ("kernel and threads", "bench --kernel k --threads 0", "unknown kernel", "--threads"),
     ("missing description", "bench estimators --display none.toml", "none.toml"),
+    ("camera behind the panel", "bench estimators --display tiny.toml --angle-deg 100", "--angle-deg", "tiny"),
     ("crop outside", "bench estimators --display tiny.toml --crop 0,0,97,54", "96 x 54"),
 ]:
     checks.refused(program, name, arguments, *words)
