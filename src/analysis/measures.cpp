@@ -3,6 +3,7 @@
 #include "analysis/dof.h"
 #include "analysis/fov.h"
 #include "analysis/measure.h"
+#include "analysis/spot.h"
 
 #include <fmt/format.h>
 
@@ -18,6 +19,8 @@ constexpr Measure all[] = {
      "SSIM thresholds of the 2019 paper; Wang et al. 2004 for SSIM; theory 2 atan(p / 2g)", true, fov_steps, measure_fov},
     {"dof", "Depth of field", "At which depths before the lenses a scene is shown sharply.",
      "SSIM thresholds of the 2019 paper; spot sizes by ray tracing; paraxial theory", true, dof_steps, measure_dof},
+    {"spot", "Spots and distortion", "How one lens images points of the panel over field and depth, and how truly it places them.",
+     "ray tracing by Snell's law; Welford 1986; paraxial theory D |z - L| / |L|", false, spot_steps, measure_spot},
 };
 
 }  // namespace

@@ -1,0 +1,342 @@
+#include "analysis/spot.h"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+// docs/model.md, "Spots of one lens".
+namespace lfdsim {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr int bundle_rays = 96, pixel_rays = 40, shown_rays = 22, fan_rays = 1001, focus_steps = 121, most_places = 96;
+
+/// A point of the panel under the lens, and what comes of it.
+struct Field {
+    const char *name, *title;
+    Point panel;
+    Bundle light;
+    Fans rims;
+};
+
+std::vector<Field> trace_fields(const Subject& s, const LensTrace& lens) {
+    const double edge = s.display().array.pitch_mm / 2;
+    std::vector<Field> fields{{"axis", "on the axis", {0, 0}, {}, {}},
+                              {"half", "half way to the edge", {edge / 2, 0}, {}, {}},
+                              {"edge", "edge of the field", {edge, 0}, {}, {}},
+                              {"corner", "corner", {edge, edge}, {}, {}}};
+    for (Field& f : fields) {
+        f.light = bundle(lens, f.panel, bundle_rays);
+        f.rims = fans(lens, f.panel, fan_rays);
+    }
+    return fields;
+}
+
+struct Spot {
+    double rms, meridional, sagittal, meridional_diffused, sagittal_diffused;
+};
+
+Spot spot_at(const Subject& s, const Field& f, double z) {
+    if (f.light.rays.empty() || f.rims.meridional.empty()) return {nan, nan, nan, nan, nan};
+    Spot spot{centroid_at(f.light, z).rms, width_at(f.rims.meridional, z).mm, width_at(f.rims.sagittal, z).mm, nan, nan};
+    if (!s.display().diffuser) return spot;
+    const double z_diffuser = *s.geometry().diffuser_z_mm - s.geometry().rear_principal_mm,
+                 height = std::hypot(f.panel[0], f.panel[1]);
+    const Point u = height > 0 ? Point{f.panel[0] / height, f.panel[1] / height} : Point{1, 0}, v{-u[1], u[0]};
+    spot.meridional_diffused = width_at(diffused(f.rims.meridional, z_diffuser, diffuser_angle(s.display(), u)), z).mm;
+    spot.sagittal_diffused = width_at(diffused(f.rims.sagittal, z_diffuser, diffuser_angle(s.display(), v)), z).mm;
+    return spot;
+}
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(); }
+
+/// The table of all spots, as CSV and JSON.
+void tell_spots(const Subject& s, const std::vector<Field>& fields, const std::vector<double>& depths, double from_vertex,
+                Result& result) {
+    const std::vector<std::string> names{"panel_x_mm",
+                                         "panel_y_mm",
+                                         "field_deg",
+                                         "through_share",
+                                         "depth_mm",
+                                         "rms_radius_mm",
+                                         "meridional_width_mm",
+                                         "sagittal_width_mm",
+                                         "meridional_with_diffuser_mm",
+                                         "sagittal_with_diffuser_mm"};
+    DataTable table{"spot", {}};
+    for (const std::string& name : names) table.columns.push_back({name, {}});
+    Json& spots = result.figures["spots"] = Json::array();
+    for (const Field& f : fields) {
+        const double angle = std::atan(std::hypot(f.panel[0], f.panel[1]) / s.geometry().gap_mm) * 180 / std::numbers::pi;
+        const double share = fields.front().light.light > 0 ? f.light.light / fields.front().light.light : nan;
+        for (const double z : depths) {
+            const Spot spot = spot_at(s, f, z);
+            const double row[] = {f.panel[0],
+                                  f.panel[1],
+                                  angle,
+                                  share,
+                                  z + from_vertex,
+                                  spot.rms,
+                                  spot.meridional,
+                                  spot.sagittal,
+                                  spot.meridional_diffused,
+                                  spot.sagittal_diffused};
+            Json json{{"field", f.name}};
+            for (std::size_t c = 0; c < names.size(); ++c) {
+                table.columns[c].values.push_back(row[c]);
+                json[names[c]] = number(row[c]);
+            }
+            spots.push_back(std::move(json));
+        }
+    }
+    result.tables.push_back(std::move(table));
+}
+
+/// Spots side by side, all at one scale: a row for each field, a column for the first, middle and last depth, each about its
+/// centroid, with the outline of a panel pixel's image.
+Plot diagram(const Subject& s, const LensTrace& lens, const std::vector<Field>& fields, const std::vector<double>& depths,
+             double from_vertex) {
+    const double zs[] = {depths[0], depths[depths.size() / 2], depths.back()};
+    struct Dots {
+        std::vector<double> x, y;
+        double reach = 0;
+    };
+    std::vector<std::array<Dots, 3>> dots(fields.size());
+    double wide[3] = {};
+    std::vector<double> high(fields.size());
+    const auto image_at = [&](double z) { return s.display().panel.pixel_pitch_mm * std::abs(z) / s.geometry().gap_mm; };
+    for (std::size_t r = 0; r < fields.size(); ++r) {
+        const Bundle light = bundle(lens, fields[r].panel, shown_rays);
+        for (int c = 0; c < 3; ++c) {
+            Dots& d = dots[r][std::size_t(c)];
+            const Centroid middle = centroid_at(light, zs[c]);
+            d.reach = image_at(zs[c]);
+            for (const LensRay& ray : light.rays) {
+                d.x.push_back(ray.x + ray.mx * zs[c] - middle.x);
+                d.y.push_back(ray.y + ray.my * zs[c] - middle.y);
+                d.reach = std::max({d.reach, std::abs(d.x.back()), std::abs(d.y.back())});
+            }
+            wide[c] = std::max(wide[c], 2.4 * d.reach);
+            high[r] = std::max(high[r], 2.4 * d.reach);
+        }
+    }
+    Plot plot{"spot",
+              fmt::format("Spots of one lens {:.4g}, {:.4g} and {:.4g} mm before the lenses", zs[0] + from_vertex,
+                          zs[1] + from_vertex, zs[2] + from_vertex),
+              "mm; from left to right the three depths",
+              "mm; from top to bottom the fields",
+              {},
+              {},
+              true};
+    Series outline{"image of a panel pixel", {}, {}};
+    double y0 = 0;
+    for (std::size_t r = 0; r < fields.size(); ++r) {
+        Series series{fields[r].title, {}, {}, true};
+        double x0 = 0;
+        y0 -= high[r] / 2;
+        for (int c = 0; c < 3; ++c) {
+            x0 += wide[c] / 2;
+            const Dots& d = dots[r][std::size_t(c)];
+            for (std::size_t k = 0; k < d.x.size(); ++k) {
+                series.x.push_back(x0 + d.x[k]);
+                series.y.push_back(y0 + d.y[k]);
+            }
+            const double half = image_at(zs[c]) / 2;
+            for (const Point& corner : {Point{-1, -1}, Point{1, -1}, Point{1, 1}, Point{-1, 1}, Point{-1, -1}, Point{nan, nan}}) {
+                outline.x.push_back(x0 + half * corner[0]);
+                outline.y.push_back(y0 + half * corner[1]);
+            }
+            x0 += wide[c] / 2;
+        }
+        y0 -= high[r] / 2;
+        plot.series.push_back(std::move(series));
+    }
+    plot.series.push_back(std::move(outline));
+    return plot;
+}
+
+/// Radius and width against depth.
+void tell_focus(const Subject& s, const std::vector<Field>& fields, const std::vector<double>& depths, double from_vertex,
+                Result& result) {
+    std::vector<double> places;
+    for (int k = 0; k < focus_steps; ++k)
+        places.push_back(depths.front() + (depths.back() - depths.front()) * k / (focus_steps - 1));
+    DataTable table{"spot_through_focus", {{"depth_mm", {}}}};
+    for (const double z : places) table.columns[0].values.push_back(z + from_vertex);
+    const std::vector<double> at = table.columns[0].values;
+    Plot rms{"spot_through_focus", "Spot size through focus", "depth before the lenses, mm", "RMS radius, mm", {}};
+    Plot width{"spot_width", "Width of the spot on the axis", "depth before the lenses, mm", "full width, mm", {}};
+    std::vector<double> theory;
+    const double L = s.theory().central_depth_mm, D = s.geometry().clear_aperture_mm;
+    for (const double z : places) theory.push_back(D * std::abs(std::isinf(L) ? 1 : z / L - 1));
+    width.series.push_back({"paraxial", at, theory});
+    for (const Field& f : fields) {
+        std::vector<double> radius, full, diffused_width;
+        for (const double z : places) {
+            const Spot spot = spot_at(s, f, z);
+            radius.push_back(spot.rms);
+            full.push_back(spot.meridional);
+            diffused_width.push_back(spot.meridional_diffused);
+        }
+        rms.series.push_back({f.title, at, radius});
+        table.columns.push_back({fmt::format("{}_rms_radius_mm", f.name), radius});
+        if (&f != &fields.front()) continue;
+        width.series.push_back({"traced", at, full});
+        if (s.display().diffuser) width.series.push_back({"with the diffuser", at, diffused_width});
+        table.columns.push_back({"axis_width_mm", full});
+        table.columns.push_back({"axis_width_with_diffuser_mm", diffused_width});
+    }
+    if (std::isfinite(L)) {
+        for (Plot* plot : {&rms, &width}) plot->marks.push_back({"central depth plane", L + from_vertex});
+        width.marks.push_back({"image of a panel pixel", s.theory().pixel_image_mm, false});
+    }
+    result.tables.push_back(std::move(table));
+    result.plots.push_back(std::move(rms));
+    result.plots.push_back(std::move(width));
+}
+
+void tell_distortion(const Subject& s, const Distortion& d, Result& result) {
+    double most = 0, sum = 0;
+    int open = 0;
+    for (const double x : d.pixel_images) {
+        if (std::isnan(x)) continue;
+        most = std::max(most, x);
+        sum += x * x;
+        ++open;
+    }
+    const double rms = open > 0 ? std::sqrt(sum / open) : nan, mm = s.theory().pixel_image_mm;
+    if (open == 0) most = nan;
+    const double row[] = {most, rms, most * mm, rms * mm, double(open) / double(d.pixel_images.size())};
+    const char* names[] = {"max_pixel_images", "rms_pixel_images", "max_mm", "rms_mm", "lit_share"};
+    DataTable table{"spot_distortion", {}};
+    for (int c = 0; c < 5; ++c) {
+        table.columns.push_back({names[c], {row[c]}});
+        result.figures["distortion"][names[c]] = number(row[c]);
+    }
+    result.tables.push_back(std::move(table));
+    if (open > 0) {
+        const double half = s.display().array.pitch_mm / 2;
+        result.maps.push_back({"spot_distortion", "Distortion of the elemental image", "x on the panel from the lens's axis, mm",
+                               "y on the panel, mm", "distance from the nodal line, images of a panel pixel", -half, half, -half,
+                               half, d.across, d.across, d.pixel_images, 0, std::max(most, 1e-3)});
+    }
+    result.findings.push_back({"Distortion of the elemental image: largest",
+                               "pixel images",
+                               {most},
+                               {0},
+                               "how far a panel pixel's light lands from where the elemental images place it; theory knows none"});
+    result.findings.push_back({"Distortion of the elemental image: RMS", "pixel images", {rms}, {0}, ""});
+}
+
+}  // namespace
+
+std::vector<double> spot_depths_mm(const Theory& t) {
+    const double L = t.central_depth_mm, near = t.depth_range_mm[0];
+    if (std::isinf(L)) return {near, 1.5 * near, 2 * near, 3 * near, 4 * near};
+    const double half = std::min(0.5 * t.depth_of_field_mm, 0.9 * std::abs(L));
+    return {L - half, L - half / 2, L, L + half / 2, L + half};
+}
+
+Centroid centroid_at(const Bundle& light, double z) {
+    const double n = double(light.rays.size());
+    double x = 0, y = 0, sum = 0;
+    for (const LensRay& r : light.rays) {
+        x += r.x + r.mx * z;
+        y += r.y + r.my * z;
+    }
+    x /= n;
+    y /= n;
+    for (const LensRay& r : light.rays) {
+        const double dx = r.x + r.mx * z - x, dy = r.y + r.my * z - y;
+        sum += dx * dx + dy * dy;
+    }
+    return {x, y, std::sqrt(sum / n)};
+}
+
+Distortion distortion(const Display& display, const Geometry& g, const Theory& t, int threads, const Job& job) {
+    const LensTrace lens(display, g);
+    const int n = int(std::clamp(std::round(t.views), 1., double(most_places))), quarter = (n + 1) / 2;
+    const double step = t.views > most_places ? display.array.pitch_mm / n : display.panel.pixel_pitch_mm;
+    const double L = t.central_depth_mm, gap = g.gap_mm;
+    const auto miss = [&](Point panel) {
+        const Bundle light = bundle(lens, panel, pixel_rays);
+        if (light.rays.empty()) return nan;
+        // Both lines as slopes from the axis's point at H', so that L may be infinite: at L a pixel's image is a |L| / g wide.
+        double x = 0, y = 0;
+        for (const LensRay& r : light.rays) {
+            x += r.mx + r.x / L;
+            y += r.my + r.y / L;
+        }
+        const double rays = double(light.rays.size());
+        return std::hypot(x / rays + panel[0] / gap, y / rays + panel[1] / gap) * gap / display.panel.pixel_pitch_mm;
+    };
+    Distortion result{n, std::vector<double>(std::size_t(n) * std::size_t(n), nan)};
+    const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
+                                      std::size_t(std::max(threads, tbb::info::default_concurrency())));
+    tbb::task_arena arena(threads > 0 ? threads : tbb::info::default_concurrency());
+    arena.execute([&] {
+        tbb::parallel_for(0, quarter, [&](int j) {
+            for (int i = 0; i < quarter && !job.cancelled(); ++i) {
+                const double value = miss({(i + 0.5 - n / 2.) * step, (n / 2. - j - 0.5) * step});
+                for (const int row : {j, n - 1 - j})
+                    for (const int column : {i, n - 1 - i})
+                        result.pixel_images[std::size_t(row) * std::size_t(n) + std::size_t(column)] = value;
+            }
+        });
+    });
+    if (job.cancelled()) throw Stopped{};
+    return result;
+}
+
+std::int64_t spot_steps(const Subject&) { return 4; }
+
+Result measure_spot(Subject& s, Job& job) {
+    Result result;
+    const LensTrace lens(s.display(), s.geometry());
+    const double from_vertex = s.geometry().rear_principal_mm - s.geometry().vertex_plane_mm;
+    const std::vector<double> depths = spot_depths_mm(s.theory());
+    const std::vector<Field> fields = trace_fields(s, lens);
+    if (job.cancelled()) throw Stopped{};
+    job.advance(1);
+    result.figures["central_depth_mm"] = number(s.theory().central_depth_mm + from_vertex);
+    result.figures["pixel_image_mm"] = number(s.theory().pixel_image_mm);
+    tell_spots(s, fields, depths, from_vertex, result);
+    result.plots.push_back(diagram(s, lens, fields, depths, from_vertex));
+    tell_focus(s, fields, depths, from_vertex, result);
+    if (job.cancelled()) throw Stopped{};
+    job.advance(1);
+
+    const double L = s.theory().central_depth_mm, D = s.geometry().clear_aperture_mm;
+    for (const std::size_t k : {std::size_t(0), depths.size() / 2, depths.size() - 1}) {
+        const double z = depths[k];
+        result.findings.push_back({fmt::format("Full width of the spot on the axis, {:.4g} mm before the lenses", z + from_vertex),
+                                   "mm",
+                                   {spot_at(s, fields.front(), z).meridional},
+                                   {D * std::abs(std::isinf(L) ? 1 : z / L - 1)},
+                                   "theory is paraxial: what differs is aberration"});
+    }
+    const double middle = depths[depths.size() / 2];
+    for (const Field& f : fields)
+        result.findings.push_back(
+            {fmt::format("RMS radius of the spot, {}, {:.4g} mm before the lenses", f.title, middle + from_vertex),
+             "mm",
+             {spot_at(s, f, middle).rms},
+             {},
+             "of the light of a Lambertian panel point about its centroid"});
+    tell_distortion(s, distortion(s.display(), s.geometry(), s.theory(), s.threads(), job), result);
+    job.advance(2);
+    if (fields.front().light.rays.empty())
+        result.remarks.push_back("No light of the panel point on a lens's axis gets through it.");
+    if (s.display().array.surround != Surround::opaque)
+        result.remarks.push_back(
+            "Spots are those of one lens by itself: light through walls and through other lenses is left out.");
+    return result;
+}
+
+}  // namespace lfdsim
