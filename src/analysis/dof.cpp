@@ -1,13 +1,15 @@
 #include "analysis/dof.h"
 
 #include "analysis/rules.h"
+#include "analysis/spot_depth.h"
 #include "analysis/views.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
-// SSIM between the simulated view and a photograph of the scene, against the scene's depth. docs/model.md, "Depth of field".
+// SSIM between the simulated view and a photograph of the scene, against the scene's depth; beside it the depths of field by spot
+// size and diffraction. docs/model.md, "Depth of field".
 namespace lfdsim {
 namespace {
 
@@ -104,6 +106,7 @@ Result measure_dof(Subject& s, Job& job) {
          bounds(steady),
          {},
          steady.empty ? "SSIM is steeper at the central depth plane already: the rule finds nothing" : "the published rule"});
+    const std::array<double, 2> traced = add_spot_depths(s, result);
     result.tables.push_back({"dof", {{"depth_mm", depths}, {"ssim", screen.value}, {"content_ssim", content.value}}});
     Plot plot{"dof",
               "Likeness of the simulated view to the scene",
@@ -117,6 +120,8 @@ Result measure_dof(Subject& s, Job& job) {
     mark("central depth plane", middle);
     mark("paraxial", paraxial[0]);
     mark("paraxial", paraxial[1]);
+    mark("spot", traced[0]);
+    mark("spot", traced[1]);
     result.plots.push_back(std::move(plot));
     result.remarks.push_back(
         "A depth of field by likeness and one by spot size are different things: SSIM falls off slowly and peaks between the "
