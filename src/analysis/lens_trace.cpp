@@ -27,13 +27,15 @@ Geometry mirrored(Geometry g) {
     return g;
 }
 
-/// How far a ray is from getting through that misses by `excess`, with so many surfaces still to come.
-double missed(int to_come, double excess) { return to_come + 1 + (excess < infinity ? excess / (1 + excess) : 1); }
+/// How far a ray is from getting through that misses by `excess` at one of the tests, with so many more to come.
+double missed(int to_come, double excess) { return to_come + 1 + (excess >= 0 ? 1 - 1 / (1 + excess) : 1); }
 
 }  // namespace
 
 LensTrace::LensTrace(const Display& display, const Geometry& geometry)
-    : scene_(make_scene<double>(display, mirrored(geometry))), rear_principal_mm_(geometry.rear_principal_mm) {
+    : scene_(make_scene<double>(display, mirrored(geometry))),
+      rear_principal_mm_(geometry.rear_principal_mm),
+      gap_mm_(geometry.gap_mm) {
     scene_.fresnel = Fresnel::none;
     for (int k = 0; k < scene_.surface_count; ++k) {
         auto& surface = scene_.surface[k];
@@ -51,18 +53,19 @@ double LensTrace::outside(double x, double y, double radius) const {
     return reach - 1;
 }
 
-/// The same of the nearest hole in the sheet of stops.
-double LensTrace::outside_stop(double x, double y) const {
+/// Whether a ray passes the sheet of stops, by any hole.
+bool LensTrace::passes_stop(double x, double y) const {
     const auto from_axis = [&](double at) { return at - scene_.pitch * std::floor(at / scene_.pitch + 0.5); };
-    return std::hypot(from_axis(x), from_axis(y)) / std::sqrt(scene_.stop_radius2) - 1;
+    const double fx = from_axis(x), fy = from_axis(y);
+    return fx * fx + fy * fy <= scene_.stop_radius2;
 }
 
 // optics/ideal.h, the other way: the slope on the viewer's side is the panel's less q / f.
 double LensTrace::blocked_by_ideal(Point panel, Point slope, LensRay& out) const {
     const double z = -scene_.ideal_z, x = panel[0] + slope[0] * z, y = panel[1] + slope[1] * z;
     const double radius = scene_.aperture == Aperture::circle ? scene_.aperture_radius : infinity;
-    const double excess = std::max(outside(x, y, radius), scene_.has_stop ? outside_stop(x, y) : 0);
-    if (!(excess <= 0)) return missed(0, excess);
+    const double aperture = outside(x, y, radius), stop = scene_.has_stop ? outside(x, y, std::sqrt(scene_.stop_radius2)) : 0;
+    if (!(aperture <= 0 && stop <= 0)) return missed(0, std::max(aperture, stop));
     out = {x, y, slope[0] - x * scene_.ideal_power, slope[1] - y * scene_.ideal_power};
     return 0;
 }
@@ -71,14 +74,16 @@ double LensTrace::blocked_by_ideal(Point panel, Point slope, LensRay& out) const
 double LensTrace::blocked(Point panel, Point cosines, LensRay& out) const {
     const int count = scene_.surface_count;
     const double cos2 = 1 - cosines[0] * cosines[0] - cosines[1] * cosines[1];
-    if (!(cos2 > 0)) return missed(count, infinity);
+    if (!(cos2 > 0)) return missed(3 * count + 2, 0);
     const double cosine = std::sqrt(cos2);
     if (count == 0) return blocked_by_ideal(panel, {cosines[0] / cosine, cosines[1] / cosine}, out);
 
     optics::Passage<double> way{{{panel[0], panel[1], 0}, {cosines[0], cosines[1], -cosine}}, {0, 0}, 1, true};
     const bool black = scene_.surround == Surround::opaque;
-    bool stop_ahead = scene_.has_stop;
-    double vertex = 0, excess = 0;  // way.ray.at.z counts from the vertex
+    bool stop_ahead = scene_.has_stop, stopped = false;
+    double astray = 0;  // by how much it missed this lens's own hole in the sheet of stops, to which a search must find
+    const auto miss = [&](int to_come, double excess) { return missed(to_come, std::max(excess, astray)); };
+    double vertex = 0;  // way.ray.at.z counts from the vertex
     const auto& at = way.ray.at;
     const auto& to = way.ray.to;
     const auto stand = [&](double z) {
@@ -90,35 +95,39 @@ double LensTrace::blocked(Point panel, Point cosines, LensRay& out) const {
         if (!stop_ahead || from < scene_.stop_z || down_to > scene_.stop_z) return;
         stop_ahead = false;
         const double t = (scene_.stop_z - ray_z) / ray.to.z;
-        excess = std::max(excess, outside_stop(ray.at.x + ray.to.x * t, ray.at.y + ray.to.y * t));
+        const double x = ray.at.x + ray.to.x * t, y = ray.at.y + ray.to.y * t;
+        astray = std::max(std::hypot(x, y) / std::sqrt(scene_.stop_radius2) - 1, 0.);
+        stopped = !passes_stop(x, y);
     };
     if (black && scene_.dimple) {  // the way in is the hole in the black part's face
         stand(scene_.zone_top);
-        if (excess = outside(at.x, at.y, semi_aperture_mm_[0]); excess > 0) return missed(count, excess);
-        excess = 0;
+        if (const double excess = outside(at.x, at.y, semi_aperture_mm_[0]); excess > 0) return miss(3 * count + 1, excess);
     }
     for (int k = 0; k < count; ++k) {
         const auto& surface = scene_.surface[k];
         const double from = k == 0 ? 0 : vertex + at.z;
         stand(surface.z);
         const optics::Hit<double> hit = optics::meet(surface.shape, surface, way.ray);
-        if (!hit.ok) return missed(count - k, infinity);
+        const int to_come = 3 * (count - k);  // to meet it, to be within its aperture, to get on
+        if (!hit.ok) return miss(to_come, std::max(outside(at.x, at.y, semi_aperture_mm_[k]), 0.));
         const double here = vertex + hit.at.z;
-        if (k > 0 && !(here <= from)) return missed(count - k, infinity);  // turned up, or meets it behind itself
+        if (k > 0 && !(here <= from)) return miss(to_come, here - from);  // it meets this surface before the last
         pass_stop(from, here, way.ray, vertex);
-        excess = std::max(excess, outside(hit.at.x, hit.at.y, semi_aperture_mm_[k]));
-        if (!(excess <= 0)) return missed(count - k, excess);
-        excess = 0;
+        const double excess = outside(hit.at.x, hit.at.y, semi_aperture_mm_[k]);
+        if (stopped || !(excess <= 0)) return miss(to_come - 1, excess);
+        const double eta = surface.media.eta, sine2 = eta * eta * (1 - hit.cos2);
+        if (!(sine2 < 1)) return miss(to_come - 2, sine2 - 1);  // total internal reflection
         optics::refract_down(scene_, surface.shape, surface, hit, way);
-        if (!way.alive || !(to.z < 0)) return missed(count - k - 1, infinity);
+        if (!(to.z < 0)) return miss(to_come - 2, 1 + to.z);  // turned up
     }
     const double last = vertex + at.z;
     pass_stop(last, -infinity, way.ray, last);
+    if (stopped) return miss(0, 0);
     if (black && scene_.hollow_back) {  // the way out
         const double down = (scene_.wall_bottom - last) / to.z;
-        if (down > 0) excess = std::max(excess, outside(at.x + to.x * down, at.y + to.y * down, semi_aperture_mm_[count - 1]));
+        const double excess = outside(at.x + to.x * down, at.y + to.y * down, semi_aperture_mm_[count - 1]);
+        if (down > 0 && !(excess <= 0)) return miss(0, excess);
     }
-    if (!(excess <= 0)) return missed(0, excess);
     stand(-rear_principal_mm_);
     out = {at.x, at.y, -to.x / to.z, -to.y / to.z};
     return 0;
@@ -131,9 +140,18 @@ std::optional<LensRay> LensTrace::ray(Point panel, Point cosines) const {
 }
 
 std::optional<Directions> LensTrace::directions(Point panel) const {
-    constexpr int across = 24, most_levels = 40;
-    Directions box{-1, 1, -1, 1};
-    for (int level = 0; level < most_levels; ++level) {
+    if (const auto found = search(panel, {-1, 1, -1, 1})) return found;
+    // Among many surfaces, stray light may have led astray: begin closer about the nodal ray.
+    const double length = std::hypot(panel[0], panel[1], gap_mm_), x = -panel[0] / length, y = -panel[1] / length;
+    for (const double reach : {1 / 16., 1 / 256., 1 / 4096.})
+        if (const auto found = search(panel, {x - reach, x + reach, y - reach, y + reach})) return found;
+    return {};
+}
+
+std::optional<Directions> LensTrace::search(Point panel, Directions box) const {
+    constexpr int across = 24;
+    constexpr double narrowest = 1e-10;
+    while (box.x1 - box.x0 > narrowest && box.y1 - box.y0 > narrowest) {
         const double dx = (box.x1 - box.x0) / across, dy = (box.y1 - box.y0) / across;
         Directions open{infinity, -infinity, infinity, -infinity};
         double least = infinity;
@@ -153,7 +171,7 @@ std::optional<Directions> LensTrace::directions(Point panel) const {
             continue;
         }
         const Directions last = box;
-        box = {open.x0 - dx, open.x1 + dx, open.y0 - dy, open.y1 + dy};
+        box = {open.x0 - 2 * dx, open.x1 + 2 * dx, open.y0 - 2 * dy, open.y1 + 2 * dy};
         if (box.x1 - box.x0 > 0.6 * (last.x1 - last.x0) && box.y1 - box.y0 > 0.6 * (last.y1 - last.y0)) return box;
     }
     return {};

@@ -33,21 +33,22 @@ class LensTrace {
     /// The ray that leaves the panel's point in the direction of these cosines; none where it does not get through.
     std::optional<LensRay> ray(Point panel, Point cosines) const;
 
-    /// The smallest rectangle, to about a tenth, of all directions that get through. None if none does.
+    /// A rectangle not much larger than all directions that get through. None if none does, or less than 1e-10 of them.
     std::optional<Directions> directions(Point panel) const;
 
   private:
     /// 0 where the ray gets through, and then `out` is it. Else a number above 0 that falls the further a ray gets and the less it
     /// misses the aperture at which it ends, so that a search can follow it.
     double blocked(Point panel, Point cosines, LensRay& out) const;
+    std::optional<Directions> search(Point panel, Directions among) const;
     double blocked_by_ideal(Point panel, Point slope, LensRay& out) const;
     double outside(double x, double y, double radius) const;
-    double outside_stop(double x, double y) const;
+    bool passes_stop(double x, double y) const;
 
     // The display mirrored in z, for the tracer's rays come down: the panel stays in z = 0, the lens stands below it.
     optics::Scene<double> scene_;
     double semi_aperture_mm_[optics::kMaxSurfaces];
-    double rear_principal_mm_;
+    double rear_principal_mm_, gap_mm_;
 };
 
 /// All the light of a panel point that gets through, as rays of equal light of a Lambertian panel.

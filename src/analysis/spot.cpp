@@ -1,5 +1,7 @@
 #include "analysis/spot.h"
 
+#include "analysis/spot_depth.h"
+
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
@@ -98,64 +100,40 @@ void tell_spots(const Subject& s, const std::vector<Field>& fields, const std::v
     result.tables.push_back(std::move(table));
 }
 
-/// Spots side by side, all at one scale: a row for each field, a column for the first, middle and last depth, each about its
-/// centroid, with the outline of a panel pixel's image.
-Plot diagram(const Subject& s, const LensTrace& lens, const std::vector<Field>& fields, const std::vector<double>& depths,
-             double from_vertex) {
-    const double zs[] = {depths[0], depths[depths.size() / 2], depths.back()};
-    struct Dots {
-        std::vector<double> x, y;
-        double reach = 0;
-    };
-    std::vector<std::array<Dots, 3>> dots(fields.size());
-    double wide[3] = {};
-    std::vector<double> high(fields.size());
-    const auto image_at = [&](double z) { return s.display().panel.pixel_pitch_mm * std::abs(z) / s.geometry().gap_mm; };
-    for (std::size_t r = 0; r < fields.size(); ++r) {
-        const Bundle light = bundle(lens, fields[r].panel, shown_rays);
-        for (int c = 0; c < 3; ++c) {
-            Dots& d = dots[r][std::size_t(c)];
-            const Centroid middle = centroid_at(light, zs[c]);
-            d.reach = image_at(zs[c]);
-            for (const LensRay& ray : light.rays) {
-                d.x.push_back(ray.x + ray.mx * zs[c] - middle.x);
-                d.y.push_back(ray.y + ray.my * zs[c] - middle.y);
-                d.reach = std::max({d.reach, std::abs(d.x.back()), std::abs(d.y.back())});
-            }
-            wide[c] = std::max(wide[c], 2.4 * d.reach);
-            high[r] = std::max(high[r], 2.4 * d.reach);
-        }
-    }
-    Plot plot{"spot",
-              fmt::format("Spots of one lens {:.4g}, {:.4g} and {:.4g} mm before the lenses", zs[0] + from_vertex,
-                          zs[1] + from_vertex, zs[2] + from_vertex),
-              "mm; from left to right the three depths",
-              "mm; from top to bottom the fields",
+/// The spots of a field at the first, middle and last depth, side by side at one scale, each about its centroid, and the outline of
+/// a panel pixel's image: what theory allows a spot to be.
+Plot diagram(const Subject& s, const LensTrace& lens, const Field& field, const std::vector<double>& depths, double from_vertex) {
+    const Bundle light = bundle(lens, field.panel, shown_rays);
+    Plot plot{fmt::format("spot_{}", field.name),
+              fmt::format("Spots of one lens, {}", field.title),
+              "mm; the depths side by side",
+              "mm",
               {},
               {},
               true};
     Series outline{"image of a panel pixel", {}, {}};
-    double y0 = 0;
-    for (std::size_t r = 0; r < fields.size(); ++r) {
-        Series series{fields[r].title, {}, {}, true};
-        double x0 = 0;
-        y0 -= high[r] / 2;
-        for (int c = 0; c < 3; ++c) {
-            x0 += wide[c] / 2;
-            const Dots& d = dots[r][std::size_t(c)];
-            for (std::size_t k = 0; k < d.x.size(); ++k) {
-                series.x.push_back(x0 + d.x[k]);
-                series.y.push_back(y0 + d.y[k]);
-            }
-            const double half = image_at(zs[c]) / 2;
-            for (const Point& corner : {Point{-1, -1}, Point{1, -1}, Point{1, 1}, Point{-1, 1}, Point{-1, -1}, Point{nan, nan}}) {
-                outline.x.push_back(x0 + half * corner[0]);
-                outline.y.push_back(y0 + half * corner[1]);
-            }
-            x0 += wide[c] / 2;
+    const Allowed image = pixel_image(s.display(), s.geometry(), s.theory());
+    double x0 = 0;
+    for (const double z : {depths.front(), depths[depths.size() / 2], depths.back()}) {
+        const Centroid middle = centroid_at(light, z);
+        const double half = 0.5 * (image.mm + image.per_mm * z);
+        double left = half, right = half;
+        for (const LensRay& ray : light.rays) {
+            left = std::max(left, middle.x - ray.x - ray.mx * z);
+            right = std::max(right, ray.x + ray.mx * z - middle.x);
         }
-        y0 -= high[r] / 2;
-        plot.series.push_back(std::move(series));
+        x0 += 1.1 * left;
+        Series spot{fmt::format("{:.4g} mm before the lenses", z + from_vertex), {}, {}, true};
+        for (const LensRay& ray : light.rays) {
+            spot.x.push_back(x0 + ray.x + ray.mx * z - middle.x);
+            spot.y.push_back(ray.y + ray.my * z - middle.y);
+        }
+        for (const Point& corner : {Point{-1, -1}, Point{1, -1}, Point{1, 1}, Point{-1, 1}, Point{-1, -1}, Point{nan, nan}}) {
+            outline.x.push_back(x0 + half * corner[0]);
+            outline.y.push_back(half * corner[1]);
+        }
+        plot.series.push_back(std::move(spot));
+        x0 += 1.1 * right;
     }
     plot.series.push_back(std::move(outline));
     return plot;
@@ -307,7 +285,7 @@ Result measure_spot(Subject& s, Job& job) {
     result.figures["central_depth_mm"] = number(s.theory().central_depth_mm + from_vertex);
     result.figures["pixel_image_mm"] = number(s.theory().pixel_image_mm);
     tell_spots(s, fields, depths, from_vertex, result);
-    result.plots.push_back(diagram(s, lens, fields, depths, from_vertex));
+    for (const Field& f : fields) result.plots.push_back(diagram(s, lens, f, depths, from_vertex));
     tell_focus(s, fields, depths, from_vertex, result);
     if (job.cancelled()) throw Stopped{};
     job.advance(1);

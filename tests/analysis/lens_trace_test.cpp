@@ -173,6 +173,28 @@ TEST(LensTrace, FindsTheLightOfSmallStops) {
     }
 }
 
+// Far, strongly bent or with holes of neighbours beside: a search that follows the wrong trail ends dark.
+TEST(LensTrace, FindsTheLightOfFarAndStrangeLenses) {
+    Display facing = shipped("desktop-stopped");
+    facing.lens.facing = Facing::panel;
+    facing.lens.sphere_radius_mm = 644;
+    facing.lens.stop_radius_mm = 0.007;
+    facing.array.gap_mm = 195;
+    Display thick = facing;  // a ball that most rays miss
+    thick.lens.stop_radius_mm.reset();
+    thick.lens.sphere_radius_mm = 6;
+    thick.lens.aperture_radius_mm = 2;
+    thick.lens.index = 2.7;
+    thick.array.gap_mm = 300;
+    Display two = with_lens({{0.12, -2.5, {}, 1.38, 2.3, 1.28}, {-0.0043, -2.7, {}, 4.7, 0, 1}}, 490);
+    two.lens.stop_radius_mm = 0.0024;
+    for (const Display& d : {facing, thick, two}) {
+        const LensTrace lens(d, resolve(d));
+        EXPECT_FALSE(bundle(lens, {0, 0}, 20).rays.empty());
+        EXPECT_GT(fans(lens, {0, 0}, 20).meridional.size(), 10u);
+    }
+}
+
 TEST(LensTrace, DiffuserTurnsEachRay) {
     const std::vector<Line> fan{{-1, 0.1}, {0, 0}, {2, -0.2}};
     const double z = 30, angle = 0.02;
