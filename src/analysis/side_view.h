@@ -1,0 +1,17 @@
+// The display drawn to scale from the side, with traced rays. Floor 3.
+#pragma once
+#include "analysis/subject.h"
+
+#include <string>
+
+namespace lfdsim {
+
+/// From the panel to the eye, in the plane x = 0: panel, lenses, diffuser, central depth plane with its marginal planes; rays from
+/// the eye back through the diffuser to the panel, and one pixel's light on its way to its image.
+std::string side_view_svg(const Subject&);
+
+/// A few lenses about the middle, with their true surfaces, the gap, what is between them, and the same rays. In the array's own
+/// frame where that is turned.
+std::string lens_view_svg(const Subject&);
+
+}  // namespace lfdsim
