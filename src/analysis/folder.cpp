@@ -1,9 +1,13 @@
 #include "analysis/folder.h"
 
+#include "analysis/svg.h"
+#include "image/apng.h"
 #include "image/file.h"
 #include "image/image_file.h"
+#include "image/png_memory.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -33,6 +37,18 @@ Json to_json(const std::vector<double>& values) {
     return json;
 }
 
+/// A report carries an animation as it is: this many pixels, over all frames, make some megabytes.
+void write_small(const fs::path& path, const Animation& animation) {
+    constexpr double most_pixels = 8e6, most_columns = 960;
+    if (animation.frames.empty()) throw std::invalid_argument("an animation without frames");
+    const Image& first = animation.frames.front();
+    const double pixels = double(animation.frames.size()) * first.width * first.height;
+    const double share = std::min({1., most_columns / first.width, std::sqrt(most_pixels / pixels)});
+    std::vector<Image> frames;
+    for (const Image& frame : animation.frames) frames.push_back(reduced(frame, std::max(1, int(share * first.width))));
+    write_animation(path, frames, animation.seconds_per_frame);
+}
+
 std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 }  // namespace
@@ -60,8 +76,10 @@ bool ResultFolder::has(const Measure& measure) const {
     try {
         const Json json = read(measure);
         if (!json.is_object() || json.value("settings", Json()) != settings_) return false;
-        for (const Json& file : json.at("report").at("files"))
-            if (!fs::is_regular_file(path_ / file.get<std::string>())) return false;
+        for (const Json& file : json.at("report").at("files")) {
+            const fs::path name = file.get<std::string>();
+            if (name != name.filename() || !fs::is_regular_file(path_ / name)) return false;
+        }
         return true;
     } catch (const std::exception&) {
         return false;  // cut off or changed by hand: it is measured again
@@ -69,16 +87,31 @@ bool ResultFolder::has(const Measure& measure) const {
 }
 
 Json ResultFolder::write(const Measure& measure, const Result& result, double seconds) const {
-    Json files = Json::array(), pictures = Json::array();
+    Json files = Json::array(), plots = Json::array(), maps = plots, pictures = plots, animations = plots;
+    const auto keep = [&](Json& list, const std::string& name, const char* key, const std::string& text) {
+        files.push_back(name);
+        list.push_back({{"file", name}, {key, text}});
+    };
     for (const DataTable& table : result.tables) {
         write_text(table.name + ".csv", csv(table));
         files.push_back(table.name + ".csv");
     }
+    for (const Plot& plot : result.plots) {
+        write_text(plot.name + ".svg", svg(plot));
+        keep(plots, plot.name + ".svg", "title", plot.title);
+    }
+    for (const ColourMap& map : result.maps) {
+        write_text(map.name + ".svg", svg(map));
+        keep(maps, map.name + ".svg", "title", map.title);
+    }
     for (const NamedPicture& picture : result.pictures) {
         const std::string name = picture.name + ".png";
         write_image(path_ / name, picture.image, {8, Encoding::srgb, {{"Software", "lfdsim"}, {"Description", picture.caption}}});
-        files.push_back(name);
-        pictures.push_back({{"file", name}, {"caption", picture.caption}});
+        keep(pictures, name, "caption", picture.caption);
+    }
+    for (const Animation& animation : result.animations) {
+        write_small(path_ / (animation.name + ".png"), animation);
+        keep(animations, animation.name + ".png", "caption", animation.caption);
     }
     Json findings = Json::array();
     for (const Finding& f : result.findings)
@@ -88,9 +121,10 @@ Json ResultFolder::write(const Measure& measure, const Result& result, double se
                             {"theory", to_json(f.theory)},
                             {"remark", f.remark}});
     Json json = result.figures;
-    json["report"] = {{"measure", measure.name},   {"title", measure.title}, {"says", measure.says},
-                      {"source", measure.source},  {"seconds", seconds},     {"findings", findings},
-                      {"remarks", result.remarks}, {"pictures", pictures},   {"files", files}};
+    json["report"] = {{"measure", measure.name},   {"title", measure.title},   {"says", measure.says},
+                      {"source", measure.source},  {"seconds", seconds},       {"findings", findings},
+                      {"remarks", result.remarks}, {"plots", plots},           {"maps", maps},
+                      {"pictures", pictures},      {"animations", animations}, {"files", files}};
     json["settings"] = settings_;
     write_text(std::string(measure.name) + ".json", dump(json));
     return json;

@@ -7,8 +7,9 @@
 
 namespace lfdsim {
 
-/// Of each measure: NAME.json (its figures, and under "report" what the report shows), CSV tables, SVG plots, PNG pictures. Files
-/// are written beside and renamed; NAME.json comes last, so that where it is, the measure is complete.
+/// Of each measure: NAME.json (its figures, and under "report" what the report shows), CSV tables, SVG plots and maps, PNG pictures
+/// and animations (made smaller so that a report can hold them). Files are written beside and renamed; NAME.json comes last, so
+/// that where it is, the measure is complete.
 class ResultFolder {
   public:
     /// Makes the folder if it is missing. `settings`: all that the results depend on. Throws InputError if that is not possible.

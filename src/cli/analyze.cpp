@@ -1,10 +1,12 @@
 #include "analysis/folder.h"
 #include "analysis/measure.h"
+#include "analysis/report.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/display_options.h"
 #include "cli/interrupt.h"
 #include "cli/memory.h"
+#include "cli/output.h"
 #include "cli/panel_source.h"
 #include "cli/work_options.h"
 #include "files/display_file.h"
@@ -108,6 +110,59 @@ std::string table_of(const Json& measured) {
     return text;
 }
 
+/// What tells evenly spaced values from others.
+Json ends(const std::vector<double>& values) {
+    if (values.empty()) return Json();
+    return {{"from", values.front()}, {"to", values.back()}, {"count", values.size()}};
+}
+
+constexpr const char* report_name = "report.html";
+
+/// What is finished is kept and reported, whatever becomes of the rest.
+struct Run {
+    Subject& subject;
+    const ResultFolder& folder;
+    ReportAbout about;
+    std::vector<Problem> problems = {};
+
+    void measure(bool resume, const std::string& progress_style) {
+        std::vector<const Measure*> left;
+        std::int64_t steps = 0;
+        for (const Measure* m : about.wanted) {
+            if (resume && folder.has(*m)) continue;
+            left.push_back(m);
+            steps += m->steps(subject);
+        }
+        Progress progress(progress_style);
+        if (!left.empty()) progress.stage("analyzing", steps);
+        try {
+            for (const Measure* m : left) one(*m, progress);
+        } catch (const Stopped&) {
+            about.interrupted = true;
+        } catch (...) {
+            report();
+            throw;
+        }
+        progress.end();
+        report();
+    }
+
+  private:
+    void one(const Measure& m, Progress& progress) {
+        try {
+            const auto start = std::chrono::steady_clock::now();
+            const Result result = m.run(subject, progress);
+            folder.write(m, result, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        } catch (const InputError& e) {  // it does not suit this display or these options: others may
+            about.failed.emplace_back(&m, e.what());
+            problems.insert(problems.end(), e.problems.begin(), e.problems.end());
+        }
+    }
+    void report() {
+        if (has_results(folder)) folder.write_text(report_name, report_html(subject, folder, about));
+    }
+};
+
 void run(const Arguments& args) {
     Faults faults;
     Display display;
@@ -134,53 +189,34 @@ void run(const Arguments& args) {
     options.threads = args.work.threads();
 
     std::optional<Scene> scene;
-    Json of_model;
-    if (std::any_of(wanted.begin(), wanted.end(), [](const Measure* m) { return m->needs_scene; })) {
+    if (std::any_of(wanted.begin(), wanted.end(), [](const Measure* m) { return m->needs_scene; }))
         scene = load_scene(display, resolve(display));
-        of_model = stamp(display.content.model);
-    }
     Subject subject(display, std::move(scene), options);
+    const std::string description = write_display(display);
     const ResultFolder folder(args.output, Json{{"lfdsim", LFDSIM_VERSION},
-                                                {"display", write_display(display)},
-                                                {"model", of_model},
-                                                {"angles_deg", args.angles},
-                                                {"depths_mm", args.depths},
+                                                {"display", description},
+                                                {"model", stamp(display.content.model)},
+                                                {"angles_deg", ends(options.angles_deg)},
+                                                {"depths_mm", ends(options.depths_mm)},
                                                 {"viewing_distance_mm", subject.viewing_distance_mm()},
                                                 {"eye_distance_mm", options.eye_distance_mm},
                                                 {"wavelength_nm", options.wavelength_nm}});
-    std::vector<const Measure*> left;
-    std::int64_t steps = 0;
-    for (const Measure* m : wanted) {
-        if (args.resume && folder.has(*m)) continue;
-        left.push_back(m);
-        steps += m->steps(subject);
-    }
-    Progress progress(args.work.progress());
-    if (!left.empty()) progress.stage("analyzing", steps);
-    bool complete = true;
-    try {
-        for (const Measure* m : left) {
-            const auto start = std::chrono::steady_clock::now();
-            const Result result = m->run(subject, progress);
-            folder.write(*m, result, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-        }
-    } catch (const Stopped&) {
-        complete = false;
-    }
-    progress.end();
+    Run run{subject, folder, {command_line(), description, wanted}};
+    run.measure(args.resume, args.work.progress());
 
     Json found = Json::object();
     for (const Measure* m : wanted)
         if (folder.has(*m)) found[std::string(m->name)] = folder.read(*m);
-    if (!complete) {
+    if (run.about.interrupted) {
         spdlog::warn("interrupted; {} holds {} of {} measures; the same command with --resume goes on", args.output, found.size(),
                      wanted.size());
         throw Interrupted{};
     }
+    if (!run.problems.empty()) throw InputError(run.problems);
     if (args.work.json()) return print_json(wanted.size() == 1 ? found.front() : found);
     std::string text;
     for (const Json& measured : found) text += table_of(measured);
-    print(fmt::format("{}\nIn {}: {} measures\n", text, args.output, found.size()));
+    print(fmt::format("{}\n{}: the report; the figures lie beside it\n", text, (folder.path() / report_name).string()));
 }
 
 }  // namespace

@@ -14,9 +14,8 @@
 #include <system_error>
 
 namespace lfdsim::cli {
-namespace {
 
-// The kernel keeps the words as they were given. As the shell would need it, so that it can be copied and run again.
+// The kernel keeps the words as they were given.
 std::string command_line() {
     std::ifstream file("/proc/self/cmdline", std::ios::binary);
     const std::string all{std::istreambuf_iterator<char>(file), {}};
@@ -33,8 +32,6 @@ std::string command_line() {
     }
     return line;
 }
-
-}  // namespace
 
 void print(std::string_view text) {
     while (!text.empty()) {

@@ -20,6 +20,9 @@ void print(std::string_view text);
 /// One JSON document; numbers that are not finite become null.
 void print_json(const Json&);
 
+/// The command line as a shell would need it, so that it can be copied and run again.
+std::string command_line();
+
 /// The key of a picture's metadata that says that it is not complete.
 inline constexpr const char* incomplete_mark = "incomplete";
 

@@ -1,0 +1,134 @@
+"""The whole of `analyze`: the report, --json, Ctrl-C, --resume, what a measure refuses."""
+import html.parser
+import json
+import signal
+import time
+import xml.etree.ElementTree as ElementTree
+
+from program import Checks, Program
+
+program, checks = Program(), Checks()
+QUICK = "tiny.toml --model pyramid.obj --angles-deg -30,30,10 --depths-mm 10,40,10 --progress none"
+
+
+def analyze(arguments, **options):
+    return program.run(f"analyze {arguments}", **options)
+
+
+def times(folder):
+    return {p.name: p.stat().st_mtime_ns for p in (program.folder / folder).iterdir()}
+
+
+class Page(html.parser.HTMLParser):
+    """Whether the tags of a page are closed in order."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.wrong = [], []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attributes):
+        if tag not in ["meta", "img"]:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        pass
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.wrong.append(tag)
+
+
+# A whole run: each measure's files, JSON alone on standard output, a report of closed tags and valid drawings.
+code, out, err = analyze(f"fov,dof {QUICK} -o whole --json")
+checks.that(code == 0, f"analyze: exit code {code}: {err}")
+found = json.loads(out)
+written = json.loads((program.folder / "whole/fov.json").read_text())
+checks.that(list(found) == ["fov", "dof"] and found["fov"] == written, f"--json: {out[:200]}")
+for measure in found.values():
+    for name in measure["report"]["files"]:
+        checks.that((program.folder / "whole" / name).is_file(), f"{name} is missing")
+for drawing in (program.folder / "whole").glob("*.svg"):
+    checks.that(ElementTree.parse(drawing).getroot().tag.endswith("svg"), f"{drawing.name} is no SVG")
+report = (program.folder / "whole/report.html").read_text()
+page = Page(report)
+checks.that(not page.open and not page.wrong, f"report: tags not closed in order: {page.open} {page.wrong}")
+checks.that("This report is incomplete" not in report, "a complete report says that it is not")
+for words in ["<h1>tiny</h1>", "Theory beside measurement", "Field of view", "Depth of field", "analyze fov,dof tiny", "pitch_mm"]:
+    checks.that(words in report, f"report: no {words!r}")
+
+# --resume leaves what is finished, whatever the order of settings, and measures again what was made with others.
+before = times("whole")
+other_order = "dof,fov tiny.toml --progress none --depths-mm 1e1,40,10 --angles-deg=-30,30,10.0 --model pyramid.obj"
+code, out, err = analyze(f"{other_order} -o whole --resume --json")
+after = times("whole")
+checks.that(code == 0 and list(json.loads(out)) == ["dof", "fov"], f"--resume: exit code {code}: {err}")
+checks.that(all(after[name] == before[name] for name in before if name != "report.html"), "--resume measured again")
+code, out, err = analyze(f"fov {QUICK} -o whole --resume --set array.gap_mm=5.1")
+changed = times("whole")
+anew = {name for name in ["fov.json", "dof.json"] if changed[name] != after[name]}
+checks.that(code == 0 and anew == {"fov.json"}, f"changed settings: exit code {code}, {anew} {err}")
+checks.that('id="dof"' not in (program.folder / "whole/report.html").read_text(), "the report shows a measure of other settings")
+
+# Progress over the whole run.
+code, out, err = analyze(f"fov,dof {QUICK} -o progress".replace("none", "json"))
+lines = [json.loads(line) for line in err.splitlines()]
+last = lines[-1]
+checks.that({line["stage"] for line in lines} == {"analyzing"} and last["done"] == last["units"], f"progress: {err[-300:]}")
+
+# Ctrl-C: what is finished stays, the report says what is missing, and --resume goes on.
+LONG = "fov,dof tiny.toml --model pyramid.obj --angles-deg -30,30,30 --depths-mm 10,1000,0.1 --size 640x360 --progress json -o cut"
+process = program.start(f"analyze {LONG} --json")
+for line in process.stderr:
+    if (program.folder / "cut/fov.json").exists():
+        break
+time.sleep(0.3)
+process.send_signal(signal.SIGINT)
+sent = time.monotonic()
+out, err = process.communicate(timeout=60)
+took = time.monotonic() - sent
+checks.that(process.returncode == 130, f"interrupted: exit code {process.returncode}: {err}")
+checks.that(out == "" and "--resume goes on" in err and "1 of 2" in err, f"interrupted: printed {out[:100]!r}, said {err[-300:]!r}")
+checks.that(took < 10, f"interrupted: it ended after {took:.1f} s")  # about one, when nothing else runs
+checks.that(not (program.folder / "cut/dof.json").exists(), "interrupted: half a measure was kept")
+checks.that(not list((program.folder / "cut").glob("*partial*")), "interrupted: a partial file was left")
+report = (program.folder / "cut/report.html").read_text()
+for words in ["This report is incomplete.", "Missing: Depth of field (dof)", 'id="fov"']:
+    checks.that(words in report, f"interrupted: report has no {words!r}")
+before = times("cut")
+process = program.start(f"analyze {LONG} --resume")
+next(iter(process.stderr))
+process.send_signal(signal.SIGTERM)
+process.communicate(timeout=60)
+checks.that(process.returncode == 130, f"interrupted again: exit code {process.returncode}")
+checks.that(times("cut")["fov.json"] == before["fov.json"], "--resume after Ctrl-C measures fov again")
+
+# A measure that cannot be made leaves the others whole: the run ends as one with bad input.
+code, out, err = analyze(f"fov,dof {QUICK.replace('-30,30,10', '5,30,5')} -o partly --json")
+checks.that(code == 2 and out == "" and "--angles-deg" in err, f"one measure refused: exit code {code}, {err}")
+report = (program.folder / "partly/report.html").read_text()
+for words in ["Field of view (fov) could not be measured: --angles-deg", 'id="dof"']:
+    checks.that(words in report, f"one measure refused: report has no {words!r}")
+
+# Bad input writes nothing.
+(program.folder / "file").write_text("")
+(program.folder / "points.obj").write_text("v 0 0 0\nv 1 1 1\n")
+for name, arguments, *words in [
+    ("unknown measure", f"fog {QUICK} -o bad", "MEASURE", "fov"),
+    ("no measure between commas", f"fov,,dof {QUICK} -o bad", "MEASURE"),
+    ("angles beyond 80 degrees", f"fov {QUICK.replace('-30,30,10', '-81,81,1')} -o bad", "--angles-deg", "80"),
+    ("angles that fall", f"fov {QUICK.replace('-30,30,10', '30,-30,1')} -o bad", "--angles-deg"),
+    ("angles on one side", f"fov {QUICK.replace('-30,30,10', '5,30,5')} -o bad", "--angles-deg"),
+    ("depth inside the lenses", f"dof {QUICK.replace('10,40,10', '-1,40,0.5')} -o bad", "--depths-mm", "inside the lenses"),
+    ("two depths", f"dof {QUICK.replace('10,40,10', '10,40,30')} -o bad", "--depths-mm"),
+    ("a step of nothing", f"dof {QUICK.replace('10,40,10', '10,40,0')} -o bad", "--depths-mm"),
+    ("a model without surfaces", f"fov {QUICK.replace('pyramid', 'points')} -o bad", "points.obj"),
+    ("a file for a folder", f"fov {QUICK} -o file", "file"),
+    ("an empty output", ["fov", "tiny.toml", "-o", ""], "--output"),
+    ("an eye distance of nothing", f"fov {QUICK} -o bad --eye-distance-mm 0", "--eye-distance-mm"),
+    ("a viewing distance of words", f"fov {QUICK} -o bad --viewing-distance-mm far", "--viewing-distance-mm"),
+]:
+    arguments = arguments.split() if isinstance(arguments, str) else arguments
+    checks.refused(program, name, ["analyze", *arguments], *words)
+checks.finish()
