@@ -71,7 +71,11 @@ std::string settings(const ResultFolder& folder, const ReportAbout& about) {
                        "</pre>\n<div class=\"wide\"><table>\n";
     for (const auto& [key, value] : folder.settings().items()) {
         if (key == "display" || value.is_null()) continue;
-        const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+        std::string text = value.is_string() ? value.get<std::string>() : value.is_object() ? "" : value.dump();
+        if (value.is_object())
+            for (const auto& [name, part] : value.items())
+                text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name,
+                                    part.is_string() ? part.get<std::string>() : part.dump());
         html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escaped(key), escaped(text));
     }
     return html + "</table></div>\n<p>The display's description, with all that options changed:</p>\n<pre>" +

@@ -11,9 +11,9 @@
 namespace lfdsim {
 
 inline constexpr const char* backward_style = "stroke=\"#d55e00\" stroke-width=\"1.3\"";
-inline constexpr const char* pixel_style = "stroke=\"#0072b2\" stroke-width=\"1.3\"";
-inline constexpr const char* plane_style = "stroke=\"#0072b2\" stroke-dasharray=\"8 5\"";
-inline constexpr const char* margin_style = "stroke=\"#0072b2\" stroke-opacity=\"0.7\" stroke-dasharray=\"2 4\"";
+inline constexpr const char* pixel_style = "stroke=\"#1f7fc0\" stroke-width=\"1.3\"";
+inline constexpr const char* plane_style = "stroke=\"#1f7fc0\" stroke-dasharray=\"8 5\"";
+inline constexpr const char* margin_style = "stroke=\"#1f7fc0\" stroke-opacity=\"0.7\" stroke-dasharray=\"2 4\"";
 inline constexpr const char* diffuser_style = "stroke=\"#a8943a\" stroke-width=\"4\"";
 inline constexpr const char* glass_style = "stroke=\"#3080a0\" fill=\"#3080a0\" fill-opacity=\"0.2\"";
 inline constexpr const char* black_style = "stroke=\"currentColor\" fill=\"currentColor\"";

@@ -193,7 +193,7 @@ std::string lens_view_svg(const Subject& s) {
         row += 21;
     }
     drawing.text({width - notes + 18, row + 6}, "from the eye back to the panel", "font-size=\"12\" fill=\"#d55e00\"");
-    drawing.text({width - notes + 18, row + 27}, "the light of one pixel", "font-size=\"12\" fill=\"#0072b2\"");
+    drawing.text({width - notes + 18, row + 27}, "the light of one pixel", "font-size=\"12\" fill=\"#1f7fc0\"");
     if (!scale.true_to_scale())
         drawing.text({width - notes + 18, row + 48}, fmt::format("heights drawn {:.3g} times", per_y / per_z), "font-size=\"11\"");
     return drawing.svg();

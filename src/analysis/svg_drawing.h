@@ -32,7 +32,7 @@ std::vector<LabelPlace> place_labels(std::span<const double> lines, std::span<co
 /// Pixels, y down.
 using Point = std::array<double, 2>;
 
-/// `style`: further attributes, `stroke="#0072b2" stroke-width="2"`. Without one, lines are in the colour of text.
+/// `style`: further attributes, `stroke="#1f7fc0" stroke-width="2"`. Without one, lines are in the colour of text.
 class Drawing {
   public:
     /// `title`: what is drawn, for those who do not see it.

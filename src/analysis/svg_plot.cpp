@@ -13,7 +13,7 @@ constexpr double width = 720, row_height = 20, mark_row = 15;
 
 // Colours that colour-blind people tell apart, of middling lightness, so that they show on white and on black; with other dashes
 // for each that follow, and for the same colour again.
-constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#b0508a", "#b8860b", "#4a90d9"};
+constexpr const char* colours[] = {"#1f7fc0", "#d55e00", "#009e73", "#b0508a", "#b8860b", "#4a90d9"};
 constexpr const char* dashes[] = {"", " stroke-dasharray=\"8 4\"", " stroke-dasharray=\"2 3\"", " stroke-dasharray=\"9 3 2 3\""};
 constexpr const char* mark_style = "stroke=\"currentColor\" stroke-opacity=\"0.6\" stroke-dasharray=\"5 4\"";
 

@@ -159,7 +159,7 @@ struct Run {
         }
     }
     void report() {
-        if (has_results(folder)) folder.write_text(report_name, report_html(subject, folder, about));
+        if (about.interrupted || has_results(folder)) folder.write_text(report_name, report_html(subject, folder, about));
     }
 };
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <png.h>
+#include <tbb/parallel_for.h>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -11,16 +12,11 @@
 namespace lfdsim {
 namespace {
 
-/// Means along one axis: `count` numbers from `from_count` of them, `stride` floats apart.
-void mean_along(const float* from, std::size_t from_count, float* to, std::size_t count, std::size_t stride) {
-    const double scale = double(from_count) / double(count);
-    for (std::size_t k = 0; k < count; ++k) {
-        const double begin = double(k) * scale, end = std::min(double(k + 1) * scale, double(from_count));
-        double sum = 0;
-        for (std::size_t i = std::size_t(begin); double(i) < end; ++i)
-            sum += double(from[i * stride]) * (std::min(double(i + 1), end) - std::max(double(i), begin));
-        to[k * stride] = float(sum / (end - begin));
-    }
+/// The numbers 0 .. from - 1 that the k-th of `to` even parts of them covers: add(number, its share of the part).
+template <class Add>
+void each_covered(int k, int from, int to, Add add) {
+    const double scale = double(from) / to, begin = k * scale, end = std::min((k + 1) * scale, double(from));
+    for (int i = int(begin); i < end; ++i) add(i, (std::min(i + 1., end) - std::max(double(i), begin)) / (end - begin));
 }
 
 }  // namespace
@@ -53,12 +49,23 @@ Image reduced(const Image& image, int columns) {
     if (columns < 1 || columns >= image.width) return image;
     const int rows = std::max(1, int(std::lround(double(image.height) * columns / image.width)));
     Image narrow(columns, image.height), small(columns, rows);
-    for (int r = 0; r < image.height; ++r)
-        for (int c = 0; c < 3; ++c)
-            mean_along(image.at(0, r) + c, std::size_t(image.width), narrow.at(0, r) + c, std::size_t(columns), 3);
-    const std::size_t row = std::size_t(columns) * 3;
-    for (std::size_t k = 0; k < row; ++k)
-        mean_along(narrow.rgb.data() + k, std::size_t(image.height), small.rgb.data() + k, std::size_t(rows), row);
+    tbb::parallel_for(0, image.height, [&](int y) {
+        for (int x = 0; x < columns; ++x) {
+            double sum[3] = {};
+            each_covered(x, image.width, columns, [&](int i, double share) {
+                for (int c = 0; c < 3; ++c) sum[c] += share * image.at(i, y)[c];
+            });
+            for (int c = 0; c < 3; ++c) narrow.at(x, y)[c] = float(sum[c]);
+        }
+    });
+    tbb::parallel_for(0, rows, [&](int y) {
+        std::vector<double> sum(std::size_t(columns) * 3);
+        each_covered(y, image.height, rows, [&](int i, double share) {
+            const float* row = narrow.at(0, i);
+            for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += share * row[k];
+        });
+        std::copy(sum.begin(), sum.end(), small.at(0, y));
+    });
     return small;
 }
 

@@ -206,7 +206,7 @@ TEST(SideView, DrawsAnyDisplay) {
             EXPECT_THAT(svg, Not(HasSubstr("nan")));
             EXPECT_THAT(svg, Not(HasSubstr("inf ")));
             EXPECT_GT(count(svg, "stroke=\"#d55e00\""), 2);
-            EXPECT_GT(count(svg, "stroke=\"#0072b2\""), 2);
+            EXPECT_GT(count(svg, "stroke=\"#1f7fc0\""), 2);
         }
     }
 }

@@ -68,7 +68,7 @@ TEST(PlotSvg, LineIsWhereTheNumbersAre) {
     ASSERT_TRUE(std::regex_search(text, frame,
                                   std::regex("<rect x=\"([0-9.]+)\" y=\"([0-9.]+)\" width=\"([0-9.]+)\" height=\"([0-9.]+)\"")));
     ASSERT_TRUE(
-        std::regex_search(text, curve, std::regex("<path d=\"M([0-9.]+) ([0-9.]+) ([0-9.]+) ([0-9.]+)\" stroke=\"#0072b2\"")));
+        std::regex_search(text, curve, std::regex("<path d=\"M([0-9.]+) ([0-9.]+) ([0-9.]+) ([0-9.]+)\" stroke=\"#1f7fc0\"")));
     const auto number = [](const auto& match) { return std::stod(match.str()); };
     const double left = number(frame[1]), top = number(frame[2]), width = number(frame[3]), height = number(frame[4]);
     EXPECT_NEAR(number(curve[1]), left, 0.02);

@@ -104,6 +104,14 @@ process.communicate(timeout=60)
 checks.that(process.returncode == 130, f"interrupted again: exit code {process.returncode}")
 checks.that(times("cut")["fov.json"] == before["fov.json"], "--resume after Ctrl-C measures fov again")
 
+# Before anything is finished, too, there is a report, and it says so.
+process = program.start(f"analyze {LONG.replace('-o cut', '-o early')}")
+next(iter(process.stderr))
+process.send_signal(signal.SIGINT)
+process.communicate(timeout=60)
+report = (program.folder / "early/report.html").read_text()
+checks.that("Missing: Field of view (fov), Depth of field (dof)" in report, "interrupted at once: report")
+
 # A measure that cannot be made leaves the others whole: the run ends as one with bad input.
 code, out, err = analyze(f"fov,dof {QUICK.replace('-30,30,10', '5,30,5')} -o partly --json")
 checks.that(code == 2 and out == "" and "--angles-deg" in err, f"one measure refused: exit code {code}, {err}")
