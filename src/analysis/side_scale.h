@@ -65,7 +65,7 @@ inline void draw_path(Drawing& drawing, const SideScale& scale, const SidePath& 
 /// From a point of the diffuser at height y: the eye's ray turned by `turn` radians towards +y.
 inline SideRay scattered(const Display& d, double y, double z, double turn) {
     const Vec3d& eye = d.camera.position_mm;
-    const double angle = std::atan2(eye[1] - y, eye[2] - z) + turn;
+    const double most = 1.55, angle = std::clamp(std::atan2(eye[1] - y, eye[2] - z) + turn, -most, most);  // still downwards
     return {y, z, -std::sin(angle), -std::cos(angle)};
 }
 

@@ -128,14 +128,15 @@ std::vector<std::string> notes_of(const Subject& s) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();
     const Theory& t = s.theory();
-    std::vector<std::string> lines{fmt::format("p = {}: lens pitch", mm(d.array.pitch_mm)),
-                                   fmt::format("g = {}: gap", mm(g.gap_mm)),
-                                   fmt::format("f = {}: focal length", mm(g.focal_length_mm)),
-                                   fmt::format("D = {}: aperture", mm(g.clear_aperture_mm)),
-                                   fmt::format("a = {}: pixel", mm(d.panel.pixel_pitch_mm)),
-                                   std::isfinite(t.central_depth_mm) ? fmt::format("L = {}: central depth", mm(t.central_depth_mm))
-                                                                     : std::string("L: at infinity"),
-                                   fmt::format("{:.4g}\u00b0: field of view, dashed", t.fov_deg)};
+    std::vector<std::string> lines{
+        fmt::format("p = {}: lens pitch", mm(d.array.pitch_mm)),
+        fmt::format("g = {}: gap", mm(g.gap_mm)),
+        std::isfinite(g.focal_length_mm) ? fmt::format("f = {}: focal length", mm(g.focal_length_mm)) : std::string("f: infinite"),
+        fmt::format("D = {}: aperture", mm(g.clear_aperture_mm)),
+        fmt::format("a = {}: pixel", mm(d.panel.pixel_pitch_mm)),
+        std::isfinite(t.central_depth_mm) ? fmt::format("L = {}: central depth", mm(t.central_depth_mm))
+                                          : std::string("L: at infinity"),
+        fmt::format("{:.4g}\u00b0: field of view, dashed", t.fov_deg)};
     if (d.diffuser) lines.push_back(fmt::format("\u03c9 = {:.4g}\u00b0: diffuser, vertical", d.diffuser->angle_deg[1]));
     if (d.array.rotation_deg != 0) lines.push_back("in the frame of the turned array");
     return lines;
@@ -180,13 +181,20 @@ std::string lens_view_svg(const Subject& s) {
         for (const double y : {lower.y_mm, next})
             drawing.line({x - 6, at(y, 0)[1]}, {x + 12, at(y, 0)[1]}, "stroke-opacity=\"0.5\"");
         drawing.dimension({x, at(lower.y_mm, 0)[1]}, {x, at(next, 0)[1]}, "");
-        drawing.text({x - 8, 0.5 * (at(lower.y_mm, 0)[1] + at(next, 0)[1]) + 4}, "p", "font-size=\"12\" text-anchor=\"end\"");
+        const double middle = 0.5 * (at(lower.y_mm, 0)[1] + at(next, 0)[1]);
+        drawing.text({x - 8, middle}, "p = " + mm(d.array.pitch_mm),
+                     fmt::format("font-size=\"12\" text-anchor=\"middle\" transform=\"rotate(-90 {} {})\"", px(x - 8), px(middle)));
     }
     for (const double z : {0., g.front_principal_mm})
         drawing.line({at(0, z)[0], top + high}, {at(0, z)[0], below + 6}, "stroke-opacity=\"0.5\"");
     drawing.dimension({at(0, 0)[0], below}, {at(0, g.front_principal_mm)[0], below}, "");
-    drawing.text({0.5 * (at(0, 0)[0] + at(0, g.front_principal_mm)[0]), below + 17}, "g",
+    drawing.text({0.5 * (at(0, 0)[0] + at(0, g.front_principal_mm)[0]), below + 17}, "g = " + mm(g.gap_mm),
                  "font-size=\"12\" text-anchor=\"middle\"");
+    const double upper = lens_at(d, w.last).y_mm, half = 0.5 * g.clear_aperture_mm;
+    const double beside = g.top_z_mm + 0.06 * (w.to - g.top_z_mm);
+    for (const double y : {upper - half, upper + half})
+        drawing.line(at(y, g.stop_z_mm), {at(y, beside)[0] + 6, at(y, beside)[1]}, "stroke-opacity=\"0.5\"");
+    drawing.dimension(at(upper - half, beside), at(upper + half, beside), "D = " + mm(g.clear_aperture_mm));
     double row = top + 16;
     for (const std::string& line : notes_of(s)) {
         drawing.text({width - notes + 18, row}, line, "font-size=\"12\"");

@@ -55,7 +55,7 @@ std::vector<std::string> wrapped(std::string_view text, double size, double widt
     return lines;
 }
 
-// From the right: in the rows below its own a line meets only labels that begin to the right of it.
+// From the right, each as low as it ends before the labels and the lines that are there already.
 std::vector<LabelPlace> place_labels(std::span<const double> lines, std::span<const std::string> labels, double size,
                                      double width) {
     std::vector<LabelPlace> places(lines.size());
@@ -65,7 +65,7 @@ std::vector<LabelPlace> place_labels(std::span<const double> lines, std::span<co
         std::size_t row = 0;
         while (row < free.size() && x + wide > free[row] - 8) ++row;
         if (row == free.size()) free.push_back(width);
-        free[row] = std::min(x, lines[k]);
+        for (std::size_t r = 0; r <= row; ++r) free[r] = std::min({free[r], x, lines[k]});  // its line rises through them
         places[k] = {x, int(row)};
     }
     return places;

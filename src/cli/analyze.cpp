@@ -28,7 +28,9 @@ struct Arguments {
           display(command, {content_options, camera_options, sample_options}),
           model(command),
           work(command) {
-        command.add_option("-o,--output", output, "Folder for the results; made if it is missing")->type_name("DIR")->required();
+        command.add_option("-o,--output", output, "Folder for the results and report.html; made if missing")
+            ->type_name("DIR")
+            ->required();
         command.add_flag("--resume", resume, "Leave out what an earlier run with the same settings has finished there");
         command.add_option("--angles-deg", angles, "Views of the field of view; default -30,30,1 or wider, as theory expects")
             ->type_name("FROM,TO,STEP");

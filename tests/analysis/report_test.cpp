@@ -187,6 +187,9 @@ TEST(SideView, DrawsAnyDisplay) {
             d.lens = {}, d.lens.type = LensType::ideal, d.lens.focal_length_mm = 7, d.lens.aperture_radius_mm = 2;
         }),
         with([](Display& d) { d.array.gap_mm = 4; }),  // virtual
+        with([](Display& d) {
+            d.diffuser = Diffuser{30, {179, 179}};
+        }),
         with([](Display& d) { d.array.surround = Surround::plate; }),
         with([](Display& d) {
             d.array.surround = Surround::clear, d.array.aperture = Aperture::square, d.lens.aperture_radius_mm.reset();

@@ -108,6 +108,23 @@ TEST(PlotSvg, HasOneScaleForBothAxesWhereAsked) {
     EXPECT_NEAR(right / up, 4, 0.01);
 }
 
+TEST(Labels, NeitherTouchEachOtherNorALine) {
+    const std::vector<double> lines{70, 76, 104, 133, 133, 163, 690};
+    const std::vector<std::string> texts{"panel",          "lenses", "marginal plane", "diffuser", "central depth plane",
+                                         "marginal plane", "the eye"};
+    const std::vector<LabelPlace> places = place_labels(lines, texts, 12, 720);
+    for (std::size_t a = 0; a < lines.size(); ++a) {
+        const double from = places[a].x, to = from + text_width(texts[a], 12);
+        EXPECT_LE(to, 720);
+        for (std::size_t b = 0; b < lines.size(); ++b) {
+            if (a == b) continue;
+            const bool beside = to < places[b].x || from > places[b].x + text_width(texts[b], 12);
+            EXPECT_TRUE(beside || places[a].row != places[b].row) << texts[a] << ", " << texts[b];
+            if (lines[b] < 690) EXPECT_TRUE(lines[b] <= from || lines[b] > to || places[b].row < places[a].row) << texts[a];
+        }
+    }
+}
+
 ColourMap map() {
     return {"map", "A map", "x, mm", "y, mm", "light", -10, 10, -5, 5, 4, 2, {0, 0.2, 0.4, 0.6, 0.8, 1, nan, 2}, 0, 1};
 }
