@@ -2,12 +2,13 @@
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
+#include "cli/compare_photo.h"
 #include "cli/output.h"
 #include "image/image_file.h"
 
 #include <fmt/format.h>
 
-// lfdsim compare: figures of image/compare.h for two files.
+// lfdsim compare: figures of image/compare.h for two files; for a photograph of a display see compare_photo.cpp.
 namespace lfdsim::cli {
 namespace {
 
@@ -16,7 +17,8 @@ struct Arguments {
     bool json = false;
 };
 
-void run(const Arguments& args) {
+void run(const Arguments& args, const PhotoOptions& photo) {
+    if (photo.given()) return photo.run(args.a, args.b, args.encoding, args.crop, args.json);
     // Errors are measured in linear light: code values have to be decoded as they were written.
     const Encoding encoding = word("--encoding", args.encoding, {"srgb", "linear"}) == "srgb" ? Encoding::srgb : Encoding::linear;
     Image a, b;
@@ -56,15 +58,23 @@ void run(const Arguments& args) {
 }  // namespace
 
 void add_compare(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand(
+        "compare",
+        "How alike two pictures are: SSIM, PSNR, RMSE, greatest difference; or a view and a photograph of a real display");
     const auto args = std::make_shared<Arguments>();
-    CLI::App& command = *program.add_subcommand("compare", "How alike two pictures are: SSIM, PSNR, RMSE, greatest difference");
     command.add_option("A", args->a, "Picture: .png .exr .npy .jpg")->type_name("")->required();
-    command.add_option("B", args->b, "Picture of the same size")->type_name("")->required();
-    command.add_option("--encoding", args->encoding, "How PNG and JPEG code values decode; default srgb")->type_name("srgb|linear");
+    command.add_option("B", args->b, "Picture of the same size; or a photograph: see --corners")->type_name("")->required();
+    command
+        .add_option("--encoding", args->encoding,
+                    "How PNG and JPEG code values decode; default srgb; with --corners B's, and A's are sRGB")
+        ->type_name("srgb|linear");
     command.add_option("--crop", args->crop, "Only this part: columns X0 to X1-1, rows Y0 to Y1-1")->type_name("X0,Y0,X1,Y1");
+    const auto photo = std::make_shared<PhotoOptions>(command);
     command.add_flag("--json", args->json, "Print results as JSON");
-    command.footer("Example:\n  lfdsim compare view.png photo.png --crop 800,200,1200,600");
-    command.callback([args] { run(*args); });
+    command.footer(
+        "Examples:\n  lfdsim compare view.png photo.png --crop 800,200,1200,600\n"
+        "  lfdsim compare view.png prototype.jpg --corners 412,377 3630,402 3598,2221 440,2190 --fit-blur -o overlay.png");
+    command.callback([args, photo] { run(*args, *photo); });
 }
 
 }  // namespace lfdsim::cli

@@ -49,8 +49,8 @@ void check_input(const std::string& argument, const std::string& path) {
     if (path.empty()) throw InputError(argument, "the name is empty; give the file to read");
 }
 
-void check_output(const std::string& path) {
-    if (path.empty()) throw InputError("--output", "the name is empty; give the file to write");
+void check_output(const std::string& path, const std::string& option) {
+    if (path.empty()) throw InputError(option, "the name is empty; give the file to write");
     guard_output(path);
     check_writable(path);
 }

@@ -30,8 +30,8 @@ inline constexpr const char* incomplete_mark = "incomplete";
 void check_input(const std::string& argument, const std::string& path);
 
 /// To be called before long work. From here on a signal removes what is partly written. Throws InputError unless a picture can be
-/// written at `path`, which --output gave.
-void check_output(const std::string& path);
+/// written at `path`, which the option gave.
+void check_output(const std::string& path, const std::string& option = "--output");
 
 /// -o and --bits.
 class OutputOptions {

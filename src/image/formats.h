@@ -33,9 +33,10 @@ void read_exr(const InputFile&, const Allocate&);
 void read_exr_layer(const InputFile&, const std::string& layer, const Allocate&);
 void read_npy(const InputFile&, const Allocate&);
 
-// What the header says in words; the picture is not read. Throw like the readers.
+// What the header says; the picture is not read. Throw like the readers.
 Metadata read_png_metadata(const InputFile&);
 Metadata read_exr_metadata(const InputFile&);
+int read_jpeg_orientation(const InputFile&);
 
 // All throw std::runtime_error when writing fails, and tell the job of each row that is done.
 void write_png(OutputFile&, const Image&, const WriteOptions&, Job&);

@@ -61,6 +61,14 @@ Texels read_panel_image(const std::filesystem::path& path, Encoding encoding, st
 /// Throws like read_image().
 Metadata read_metadata(const std::filesystem::path& path);
 
+/// Whether a file of this name holds code values, which end at white; .exr and .npy hold light, which has no end. Throws InputError
+/// for an unknown extension.
+bool holds_codes(const std::filesystem::path& path);
+
+/// How a camera was held, as a JPEG's Exif says it (CIPA DC-008, tag Orientation): 1 upright ... 8; 1 where nothing is said.
+/// read_image() gives the picture as it is stored; viewers turn it. Only the file's head is read. Throws like read_image().
+int read_orientation(const std::filesystem::path& path);
+
 /// A layer of an EXR file, its values finite; nothing where the file has no such layer or is of another format. Throws like
 /// read_image().
 std::optional<Image> read_layer(const std::filesystem::path& path, const std::string& name);

@@ -2,6 +2,8 @@
 #include "image/formats.h"
 
 #include <fmt/format.h>
+#include <cstring>
+#include <span>
 #include <vector>
 
 #include <jpeglib.h>  // wants cstdio before it
@@ -40,7 +42,7 @@ struct Reader {
     jpeg_decompress_struct jpeg{};
     Hooks hooks{};
 
-    explicit Reader(const InputFile& file) {
+    explicit Reader(const InputFile& file, bool with_exif = false) {
         jpeg.err = jpeg_std_error(&hooks.error);
         hooks.error.error_exit = on_error;
         hooks.error.emit_message = on_message;
@@ -50,13 +52,44 @@ struct Reader {
         jpeg_create_decompress(&jpeg);
         jpeg.progress = &hooks.progress;
         jpeg_stdio_src(&jpeg, file.stream());
+        if (with_exif) jpeg_save_markers(&jpeg, JPEG_APP0 + 1, 0xffff);
     }
     ~Reader() { jpeg_destroy_decompress(&jpeg); }
     Reader(const Reader&) = delete;
     Reader& operator=(const Reader&) = delete;
 };
 
+/// Tag 0x0112 of an APP1 marker "Exif" (CIPA DC-008: a TIFF file, of which the first directory counts); 0: says nothing.
+int exif_orientation(std::span<const unsigned char> marker) {
+    constexpr char name[] = "Exif\0";  // and a zero byte more
+    if (marker.size() < sizeof name + 8 || std::memcmp(marker.data(), name, sizeof name) != 0) return 0;
+    const std::span<const unsigned char> tiff = marker.subspan(sizeof name);
+    const bool little = tiff[0] == 'I';
+    const auto number = [&](std::size_t at, std::size_t bytes) {
+        std::size_t value = 0;
+        for (std::size_t k = 0; k < bytes; ++k) value = value << 8 | tiff[little ? at + bytes - 1 - k : at + k];
+        return value;
+    };
+    const std::size_t directory = number(4, 4);
+    if (directory > tiff.size() - 2) return 0;
+    for (std::size_t k = 0; k < number(directory, 2); ++k) {
+        const std::size_t entry = directory + 2 + 12 * k;
+        if (entry + 12 > tiff.size()) return 0;
+        if (number(entry, 2) == 0x0112) return int(number(entry + 8, 2));
+    }
+    return 0;
+}
+
 }  // namespace
+
+int read_jpeg_orientation(const InputFile& file) {
+    Reader reader(file, true);
+    jpeg_read_header(&reader.jpeg, TRUE);
+    for (const jpeg_marker_struct* marker = reader.jpeg.marker_list; marker; marker = marker->next)
+        if (const int orientation = exif_orientation({marker->data, marker->data_length}); orientation >= 1 && orientation <= 8)
+            return orientation;
+    return 1;
+}
 
 void read_jpeg(const InputFile& file, Encoding encoding, const Allocate& allocate) {
     Reader reader(file);

@@ -104,5 +104,34 @@ TEST(Jpeg, RefusesATruncatedFile) {
     EXPECT_NE(test::input_error([&] { read_image(folder / "half.jpg", Encoding::srgb); }).find("is damaged"), std::string::npos);
 }
 
+// A file with this APP1 marker says so.
+int orientation_of(const test::TemporaryFolder& folder, const std::string& marker) {
+    save_jpeg(folder / "a.jpg", 16, 16, 3, 0);
+    const std::size_t length = marker.size() + 2;
+    const std::string head{char(0xff), char(0xe1), char(length >> 8), char(length & 0xff)};
+    const std::string whole = test::load(folder / "a.jpg");
+    test::save(folder / "a.jpg", whole.substr(0, 2) + head + marker + whole.substr(2));
+    return read_orientation(folder / "a.jpg");
+}
+
+TEST(Jpeg, TellsHowTheCameraWasHeld) {
+    using namespace std::string_literals;
+    const test::TemporaryFolder folder;
+    const std::string before = "\x0e\x01\x02\0\x01\0\0\0\0\0\0\0"s;  // another tag
+    const std::string little = "Exif\0\0II*\0\x08\0\0\0\x02\0"s + before + "\x12\x01\x03\0\x01\0\0\0\x08\0\0\0\0\0\0\0"s;
+    const std::string big = "Exif\0\0MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0\0\0\0\0"s;
+    EXPECT_EQ(orientation_of(folder, little), 8);
+    EXPECT_EQ(orientation_of(folder, big), 6);
+    EXPECT_EQ(orientation_of(folder, "http://ns.adobe.com/xap/1.0/"), 1);
+    for (std::size_t length = 0; length < big.size() - 6; ++length)  // cut off before the number
+        EXPECT_EQ(orientation_of(folder, big.substr(0, length)), 1) << length;
+    std::string far = big, many = little, odd = big;
+    far[10] = '\x7f';   // the directory lies beyond the marker
+    many[14] = '\xff';  // it has more entries than there is room for, and
+    many[28] = 0;       // none of them is the one
+    odd[25] = 9;        // no such orientation
+    for (const std::string& marker : {far, many, odd}) EXPECT_EQ(orientation_of(folder, marker), 1);
+}
+
 }  // namespace
 }  // namespace lfdsim

@@ -1,0 +1,224 @@
+#include "cli/compare_photo.h"
+
+#include "cli/arguments.h"
+#include "cli/interrupt.h"
+#include "cli/memory.h"
+#include "cli/output.h"
+#include "cli/overlay_picture.h"
+#include "engine/screen.h"
+#include "files/display_file.h"
+#include "image/encoding.h"
+#include "image/overlay.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <algorithm>
+#include <limits>
+
+namespace lfdsim::cli {
+namespace {
+
+Corners read_corners(const char* option, const std::vector<std::string>& texts) {
+    if (texts.size() != 4)
+        throw InputError(option, fmt::format("has {} corner{}; give four, X,Y each: top left, top right, bottom right, bottom left",
+                                             texts.size(), texts.size() == 1 ? "" : "s"));
+    Corners corners;
+    Faults faults;
+    for (std::size_t k = 0; k < 4; ++k)
+        faults.of([&] {
+            const std::vector<double> xy = numbers(option, texts[k], 2);
+            corners[k] = {xy[0], xy[1]};
+        });
+    faults.report();
+    check_corners(option, corners);
+    return corners;
+}
+
+// A click may miss the picture's edge, and a view may be a close-up; what is far out is a mistake.
+void check_near(const char* option, const Corners& corners, const std::string& file, int width, int height, double pictures) {
+    for (const auto& [x, y] : corners)
+        if (std::abs(x / width - 0.5) > 0.5 + pictures || std::abs(y / height - 0.5) > 0.5 + pictures)
+            throw InputError(option, fmt::format("the corner {:g},{:g} lies far outside of {}, which is {} x {} pixels", x, y, file,
+                                                 width, height));
+}
+
+/// Viewers show a picture turned as its Exif says; the same point in the picture as it is stored, which is width x height pixels.
+Point as_stored(const Point& shown, int orientation, int width, int height) {
+    const auto [x, y] = shown;
+    switch (orientation) {
+        case 2:
+            return {width - x, y};
+        case 3:
+            return {width - x, height - y};
+        case 4:
+            return {x, height - y};
+        case 5:
+            return {y, x};
+        case 6:
+            return {y, height - x};
+        case 7:
+            return {width - y, height - x};
+        case 8:
+            return {width - y, x};
+        default:
+            return shown;
+    }
+}
+
+/// The other way. `width` and `height` are of the picture as it is stored.
+Point as_shown(const Point& stored, int orientation, int width, int height) {
+    const int back = orientation == 6 ? 8 : orientation == 8 ? 6 : orientation;
+    return orientation >= 5 ? as_stored(stored, back, height, width) : as_stored(stored, back, width, height);
+}
+
+/// From the display that the picture carries.
+Corners corners_from_display(const std::string& path, const Metadata& about, const Image& view) {
+    const auto text = about.find("display");
+    if (text == about.end())
+        throw InputError(path, "does not say which display it shows; give the corners of the screen in it: --view-corners");
+    const Display display = parse_display(text->second, path + ": display");
+    if (display.camera.resolution[0] != view.width || display.camera.resolution[1] != view.height)
+        throw InputError(path, fmt::format("is {} x {} pixels, a part of the camera's {} x {}; render the whole frame, or give the "
+                                           "corners of the screen in it: --view-corners",
+                                           view.width, view.height, display.camera.resolution[0], display.camera.resolution[1]));
+    const std::optional<Corners> corners = screen_corners(display, resolve(display));
+    if (!corners) throw InputError(path, "its camera does not have the whole screen before it; give --view-corners");
+    check_corners(path, *corners);
+    return *corners;
+}
+
+Json pairs(const Corners& corners) {
+    Json all = Json::array();
+    for (const Point& p : corners) all.push_back(Json::array({p[0], p[1]}));
+    return all;
+}
+
+}  // namespace
+
+PhotoOptions::PhotoOptions(CLI::App& command) {
+    constexpr const char* four = "X,Y X,Y X,Y X,Y";
+    corners_option_ =
+        command.add_option("--corners", corners_,
+                           "B is a photograph of the display: the outer corners of its lens array there, in pixels from the upper "
+                           "left corner of the picture as viewers show it; top left, top right, bottom right, bottom left of the "
+                           "screen as its viewer sees it");
+    view_corners_option_ = command.add_option(
+        "--view-corners", view_corners_, "The same corners in A; default: from the display that a picture made by lfdsim carries");
+    for (CLI::Option* option : {corners_option_, view_corners_option_}) option->type_name(four)->expected(1, 4);
+    fit_corners_option_ = command.add_flag("--fit-corners", fit_corners_,
+                                           "Move each corner by up to 5 pixels of the photograph to where both agree best");
+    fit_blur_option_ = command.add_flag("--fit-blur", fit_blur_, "Blur A by the Gaussian that makes it most like the photograph");
+    overlay_option_ =
+        command.add_option("-o,--overlay", overlay_, "Picture to write: both side by side, as a checkerboard and half of each");
+    difference_option_ =
+        command.add_option("--difference", difference_, "Picture to write: where the photograph is brighter or darker");
+    for (CLI::Option* option : {overlay_option_, difference_option_}) option->type_name("FILE");
+}
+
+bool PhotoOptions::given() const {
+    if (corners_option_->count() > 0) return true;
+    for (const CLI::Option* option :
+         {view_corners_option_, fit_corners_option_, fit_blur_option_, overlay_option_, difference_option_})
+        if (option->count() > 0)
+            throw InputError("--" + option->get_lnames().front(),
+                             "is for a photograph of a display; give the corners of the screen in it: --corners");
+    return false;
+}
+
+void PhotoOptions::run(const std::string& view_path, const std::string& photo_path, const std::string& encoding_name,
+                       const std::string& crop, bool json) const {
+    Faults faults;
+    Encoding encoding = Encoding::srgb;
+    Corners corners, view_corners;
+    Image view, photo;
+    faults.of([&] {
+        encoding = word("--encoding", encoding_name, {"srgb", "linear"}) == "srgb" ? Encoding::srgb : Encoding::linear;
+    });
+    faults.of([&] { corners = read_corners("--corners", corners_); });
+    if (!view_corners_.empty()) faults.of([&] { view_corners = read_corners("--view-corners", view_corners_); });
+    if (difference_option_->count() > 0) faults.of([&] { check_output(difference_, "--difference"); });
+    if (overlay_option_->count() > 0) faults.of([&] { check_output(overlay_, "--overlay"); });
+    faults.of([&] { check_input("A", view_path); });
+    faults.of([&] { check_input("B", photo_path); });
+    faults.report();
+    faults.of([&] {
+        view = read_image(view_path, Encoding::srgb);
+        const Metadata about = read_metadata(view_path);
+        if (about.count(incomplete_mark))
+            spdlog::warn("{}: is marked incomplete: the run that made it was interrupted, and what it had not done is black",
+                         view_path);
+        if (view_corners_.empty()) view_corners = corners_from_display(view_path, about, view);
+        check_near("--view-corners", view_corners, view_path, view.width, view.height, 100);
+    });
+    int orientation = 1;
+    faults.of([&] {
+        orientation = read_orientation(photo_path);
+        photo = read_image(photo_path, encoding);
+        const bool turned = orientation >= 5;
+        check_near("--corners", corners, photo_path, turned ? photo.height : photo.width, turned ? photo.width : photo.height, 0.5);
+    });
+    std::optional<Rect> part;
+    faults.of([&] {
+        if (!crop.empty() && view.width > 0) part = rectangle("--crop", crop, view.width, view.height);
+    });
+    faults.report();
+    const double view_pixels = double(view.width) * view.height, bytes_a_pixel = 160;
+    require_memory(view_path, fmt::format("laying a photograph over {} x {} pixels", view.width, view.height),
+                   view_pixels * bytes_a_pixel + picture_bytes(photo.width, photo.height));
+
+    Corners stored;
+    for (std::size_t k = 0; k < 4; ++k) stored[k] = as_stored(corners[k], orientation, photo.width, photo.height);
+    // Code values end at white, and the last ones before it are not to be trusted. Formats of floats have no such end.
+    const bool codes = holds_codes(photo_path);
+    const auto light = [&](double code) { return encoding == Encoding::srgb ? srgb_to_linear(code / 255) : code / 255; };
+    constexpr double none = std::numeric_limits<double>::infinity();
+    const double saturation = codes ? light(250) : none, white = codes ? 1 : none, black = codes ? light(5) : 0;
+    const auto laid_over = [&] { return align(photo, stored, view.width, view.height, view_corners, saturation, part); };
+    Aligned aligned = laid_over();
+    if (fit_corners_) {
+        stored = fit_corners(view, view_corners, aligned, fit_gains(view, aligned, black), stored, 5);
+        for (std::size_t k = 0; k < 4; ++k) corners[k] = as_shown(stored[k], orientation, photo.width, photo.height);
+        check_corners("--fit-corners", corners);
+        aligned = laid_over();
+    }
+    photo = {};
+    const Match m = match(view, aligned, fit_blur_, white, black);
+
+    const Metadata about{{"Software", "lfdsim " LFDSIM_VERSION}};
+    if (!overlay_.empty()) {
+        guard_output(overlay_);
+        write_image(overlay_, overlay_picture(m, aligned.screen), {8, Encoding::srgb, about});
+    }
+    if (!difference_.empty()) {
+        guard_output(difference_);
+        write_image(difference_, difference_picture(m, aligned.screen), {8, Encoding::srgb, about});
+    }
+    const std::int64_t pixels = aligned.screen.pixels();
+    if (json) {
+        Json all{{"ssim", m.ssim},
+                 {"rmse", m.rmse},
+                 {"psnr_db", m.psnr_db},
+                 {"gains", m.gains},
+                 {"blur_px", fit_blur_ ? Json(m.blur_px) : Json()},
+                 {"pixels", pixels},
+                 {"unsaturated_share", m.used},
+                 {"corners", pairs(corners)},
+                 {"view_corners", pairs(view_corners)}};
+        return print_json(all);
+    }
+    std::string text = fmt::format(
+        "SSIM         {:.6f}\n"
+        "PSNR         {:.3f} dB (linear light)\n"
+        "RMSE         {:.6g} (linear light of the view)\n"
+        "gains        {:.4g} {:.4g} {:.4g} (photograph / view: red, green, blue)\n",
+        m.ssim, m.psnr_db, m.rmse, m.gains[0], m.gains[1], m.gains[2]);
+    if (fit_blur_) text += fmt::format("blur         {:.3f} pixels of the view (standard deviation)\n", m.blur_px);
+    if (fit_corners_)
+        text +=
+            fmt::format("corners      {:.2f},{:.2f} {:.2f},{:.2f} {:.2f},{:.2f} {:.2f},{:.2f} (fitted)\n", corners[0][0],
+                        corners[0][1], corners[1][0], corners[1][1], corners[2][0], corners[2][1], corners[3][0], corners[3][1]);
+    text += fmt::format("pixels       {} on the screen, {:.2f} % of them not saturated\n", pixels, 100 * m.used);
+    print(text);
+}
+
+}  // namespace lfdsim::cli

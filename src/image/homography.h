@@ -1,0 +1,37 @@
+// The perspective map between two pictures of a plane, from four corners. Floor 0.
+#pragma once
+#include <array>
+#include <string>
+
+namespace lfdsim {
+
+/// Pixels from a picture's upper left corner: (0.5, 0.5) is the centre of its first pixel.
+using Point = std::array<double, 2>;
+
+/// Of a screen as its viewer sees it: top left, top right, bottom right, bottom left.
+using Corners = std::array<Point, 4>;
+
+/// Throws InputError at `where` unless the corners are those of a convex quadrilateral in that order, at least 16 pixels apart,
+/// with angles of 1 to 179 degrees.
+void check_corners(const std::string& where, const Corners&);
+
+/// (x, y) to ((a x + b y + c)/w, (d x + e y + f)/w), w = g x + h y + i.
+class Homography {
+  public:
+    /// The one that takes each corner of `from` to its fellow in `to`; both as check_corners() wants them. It is composed of the
+    /// two closed forms from the unit square: P. Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989,
+    /// section 2.2.3.
+    Homography(const Corners& from, const Corners& to);
+
+    /// w is positive inside `from`; where it is not, the point has no image and the result means nothing.
+    Point operator()(double x, double y) const;
+    double w(double x, double y) const { return m_[6] * x + m_[7] * y + m_[8]; }
+
+    /// Derivatives of the image by x and by y.
+    std::array<Point, 2> derivatives(double x, double y) const;
+
+  private:
+    std::array<double, 9> m_;  // a ... i
+};
+
+}  // namespace lfdsim
