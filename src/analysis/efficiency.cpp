@@ -1,0 +1,79 @@
+#include "analysis/efficiency.h"
+
+#include "analysis/eye_rays.h"
+#include "optics/camera.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace lfdsim {
+namespace {
+
+constexpr int rays_a_part = 1 << 12;
+constexpr double degree = std::numbers::pi / 180;
+
+/// Of the light that one part's rays find.
+struct Sums {
+    double reaches = 0, leaves = 0, leaves_in_fov = 0;
+};
+
+/// Real lenses keep radiance and so, with the bundle's extent in place and direction, its flux. The ideal lens keeps a bundle's
+/// extent in slopes, which is that in directions over the cosine's fourth power: this is how much less or more flux it lets out for
+/// the radiance that it shows.
+double flux_per_radiance(const Vec3d& at, const Vec3d& to, const Sight& sight) {
+    const double x = (sight.x - at[0]) / at[2], y = (sight.y - at[1]) / at[2];
+    const double ratio = 1 / ((1 + x * x + y * y) * to[2] * to[2]);  // of the squared cosines, before the lens over after it
+    return ratio * ratio;
+}
+
+}  // namespace
+
+LightBudget light_budget(const Display& display, const Geometry& geometry, Parts& parts) {
+    Display bare = display;
+    bare.diffuser.reset();
+    const EyeRays lenses(bare, resolve(bare));
+    const double width = geometry.array_width_mm, height = geometry.array_height_mm;
+    // Caps rise above their rims: what slants out of them at the border crosses the vertex plane beside the array. Where all is
+    // black there but for that light, it is counted.
+    const bool black = display.array.surround == Surround::opaque;
+    const double margin = black ? 8 * (geometry.vertex_plane_mm - geometry.base_z_mm) : 0;
+    const double m = display.panel.emission_exponent, fov_slope = display.array.pitch_mm / (2 * geometry.gap_mm);
+    const double c = std::cos(display.array.rotation_deg * degree), s = std::sin(display.array.rotation_deg * degree);
+    const bool ideal = display.lens.type == LensType::ideal;
+    const int rays = rays_a_part * lenses.more_for({0, 0, geometry.vertex_plane_mm + 1e6});
+    std::array<Sums, light_budget_parts> sums{};
+    parts.run(light_budget_parts, [&](int part) {
+        Sums& sum = sums[std::size_t(part)];
+        for (const Choice& choice : even_choices(rays, std::uint32_t(part))) {
+            Vec3d to;  // as dense as its cosine: evenly over the disk below the hemisphere
+            optics::disk(choice[2], choice[3], to[0], to[1]);
+            to[2] = -std::sqrt(std::max(1 - to[0] * to[0] - to[1] * to[1], 0.));
+            if (!(to[2] < -1e-9)) continue;
+            const Vec3d inside = lenses.point(0.5 * width * choice[0], 0.5 * height * choice[1]);
+            const double down = geometry.base_z_mm / -to[2];
+            if (2 * std::abs(inside[0] + down * to[0]) <= geometry.panel_width_mm &&
+                2 * std::abs(inside[1] + down * to[1]) <= geometry.panel_height_mm)
+                sum.reaches += std::pow(-to[2], m);
+            const Vec3d at = lenses.point((0.5 * width + margin) * choice[0], (0.5 * height + margin) * choice[1]);
+            const Sight sight = lenses.look_along(at, to, 0, 0);
+            const double light = sight.light * (ideal ? flux_per_radiance(at, to, sight) : 1);
+            sum.leaves += light;
+            const double along = c * to[0] + s * to[1], across = c * to[1] - s * to[0];
+            if (std::max(std::abs(along), std::abs(across)) <= -to[2] * fov_slope) sum.leaves_in_fov += light;
+        }
+    });
+    Sums all;
+    for (const Sums& sum : sums) {
+        all.reaches += sum.reaches;
+        all.leaves += sum.leaves;
+        all.leaves_in_fov += sum.leaves_in_fov;
+    }
+    const double flux = std::numbers::pi / (double(rays) * light_budget_parts), per_ray = flux * width * height,
+                 per_wide_ray = flux * (width + 2 * margin) * (height + 2 * margin);
+    return {geometry.panel_width_mm * geometry.panel_height_mm * 2 * std::numbers::pi / (m + 2), all.reaches * per_ray,
+            all.leaves * per_wide_ray, all.leaves_in_fov * per_wide_ray};
+}
+
+}  // namespace lfdsim

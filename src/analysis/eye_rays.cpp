@@ -1,0 +1,155 @@
+#include "analysis/eye_rays.h"
+
+#include "engine/scene.h"
+#include "optics/sampler.h"
+#include "optics/trace.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+namespace {
+
+constexpr double degree = 3.14159265358979323846 / 180;
+
+optics::PanelPoint<double> trace(const optics::Scene<double>& scene, const optics::Extent<double>& extent,
+                                 const optics::Ray<double>& ray) {
+    using optics::Way;
+    const optics::PanelBase<double> base{};  // the point then counts from where the base lens's axis meets the panel
+    switch (optics::way_through(scene)) {
+        case Way::plano_convex:
+            return optics::trace_array<Way::plano_convex>(scene, extent, base, ray, true);
+        case Way::opaque:
+            return optics::trace_array<Way::opaque>(scene, extent, base, ray, true);
+        case Way::ideal:
+            return optics::trace_array<Way::ideal>(scene, extent, base, ray, true);
+        default:
+            return optics::trace_array<Way::glass>(scene, extent, base, ray, true);
+    }
+}
+
+Vec3d unit_vector(const Vec3d& from, const Vec3d& towards) {
+    const Vec3d d{towards[0] - from[0], towards[1] - from[1], towards[2] - from[2]};
+    const double length = std::hypot(d[0], d[1], d[2]);
+    return {d[0] / length, d[1] / length, d[2] / length};
+}
+
+}  // namespace
+
+std::vector<Choice> even_choices(int count, std::uint32_t set) {
+    optics::Sampler<double> sampler(Sampling::sobol, optics::kDimensions, 0, set);
+    std::vector<Choice> choices;
+    choices.reserve(std::size_t(count));
+    for (int n = 0; n < count; ++n) {
+        choices.push_back({sampler(0), sampler(1), sampler(2), sampler(3), sampler(4), sampler(5)});
+        sampler.next(sobol_directions());
+    }
+    return choices;
+}
+
+EyeRays::EyeRays(const Display& d, const Geometry& g)
+    : scene_(make_scene<double>(d, g)),
+      vertex_plane_(g.vertex_plane_mm),
+      start_z_(make_view(d, g).start_z),
+      cos_(std::cos(d.array.rotation_deg * degree)),
+      sin_(std::sin(d.array.rotation_deg * degree)),
+      stop_first_(scene_.has_stop && g.stop_z_mm >= g.top_z_mm - 1e-9),
+      offset_(d.array.offset_mm) {
+    for (std::size_t k = 0; k < 2; ++k) {  // lenses are told from one in the middle
+        count_[k] = double(d.array.count[k]);
+        cells_before_[k] = double(d.array.count[k] / 2);
+        base_axis_[k] = (cells_before_[k] + 0.5 - count_[k] / 2) * scene_.pitch;
+    }
+}
+
+Vec3d EyeRays::point(double x, double y) const {
+    return {cos_ * x - sin_ * y + offset_[0], sin_ * x + cos_ * y + offset_[1], vertex_plane_};
+}
+
+std::array<double, 2> EyeRays::to_array(double x, double y) const { return {cos_ * x + sin_ * y, cos_ * y - sin_ * x}; }
+
+Sight EyeRays::look(const Vec3d& eye, const Choice& choice) const {
+    std::array<double, 2> axis, moved{};
+    for (std::size_t k = 0; k < 2; ++k) {
+        const double lens = std::min(std::floor((0.5 + 0.5 * choice[4 + k]) * count_[k]), count_[k] - 1);
+        axis[k] = (lens + 0.5 - count_[k] / 2) * scene_.pitch;
+    }
+    if (scene_.has_diffuser) {  // how far the diffuser carries the line through the lens's axis
+        const Vec3d centre = point(axis[0], axis[1]), to = unit_vector(eye, centre);
+        const optics::Vec3<double> turned =
+            optics::scatter(scene_, optics::Vec3<double>{to[0], to[1], to[2]}, choice[2], choice[3]);
+        const double down = vertex_plane_ - start_z_;
+        if (turned.z < -1e-3)
+            moved = to_array(down * (turned.x / turned.z - to[0] / to[2]), down * (turned.y / turned.z - to[1] / to[2]));
+    }
+    std::array<double, 2> place;
+    for (std::size_t k = 0; k < 2; ++k) {
+        place[k] = 0.5 * choice[k] - moved[k] / scene_.pitch;
+        place[k] = axis[k] + scene_.pitch * (place[k] - std::floor(place[k] + 0.5));
+    }
+    return look_through(eye, point(place[0], place[1]), choice[2], choice[3]);
+}
+
+Sight EyeRays::look_through(const Vec3d& eye, const Vec3d& at, double a, double b) const {
+    return look_along(at, unit_vector(eye, at), a, b);
+}
+
+int EyeRays::more_for(const Vec3d& eye) const {
+    int through = 0, more = 1;
+    constexpr int tried = 4096;
+    for (const Choice& choice : even_choices(tried)) through += look(eye, choice).through;
+    while (more < 8 && 2 * more * through < tried) more *= 2;
+    return more;
+}
+
+Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) const {
+    // Where the line crosses the first plane, in the array's frame
+    const double up = (start_z_ - at[2]) / to[2];
+    const auto [x0, y0] = to_array(at[0] + up * to[0] - offset_[0], at[1] + up * to[1] - offset_[1]);
+    optics::Ray<double> ray{{x0 - base_axis_[0], y0 - base_axis_[1], 0}, {to[0], to[1], to[2]}};
+    if (scene_.has_diffuser) ray.to = optics::scatter(scene_, ray.to, a, b);
+    if (!(ray.to.z < 0)) return {};
+    const optics::Extent<double> extent{-cells_before_[0], count_[0] - 1 - cells_before_[0], -cells_before_[1],
+                                        count_[1] - 1 - cells_before_[1]};
+    // The point where the line would come down to a height, from the base lens in the array's frame
+    const auto come_down_to = [&](double z) {
+        const double fall = (z - start_z_) / ray.to.z;
+        const auto [dx, dy] = to_array(fall * ray.to.x, fall * ray.to.y);
+        return std::array{ray.at.x + dx, ray.at.y + dy};
+    };
+    if (stop_first_) {  // most lines end there
+        const auto [x, y] = come_down_to(scene_.stop_z);
+        if (!optics::passes_stop(scene_, extent, x, y)) return {};
+    }
+    const optics::PanelPoint<double> end = trace(scene_, extent, ray);
+    if (!end.alive || !(end.weight > 0)) return {};
+
+    const Vec3d base = point(base_axis_[0], base_axis_[1]);
+    const double x = base[0] + end.column / scene_.pixels_per_mm, y = base[1] - end.row / scene_.pixels_per_mm;
+    const bool beside =
+        std::abs(x) * scene_.pixels_per_mm > 0.5 * scene_.columns || std::abs(y) * scene_.pixels_per_mm > 0.5 * scene_.rows;
+    optics::Cell<double> cell = end.cell;
+    if (optics::way_through(scene_) == optics::Way::glass) {  // light finds its own way: that of the cell where it leaves the array
+        const auto [leaves_x, leaves_y] = come_down_to(vertex_plane_);
+        cell = {optics::nearest_cell(scene_, leaves_x), optics::nearest_cell(scene_, leaves_y)};
+    }
+    return {beside ? 0 : end.weight, true, x, y,
+            point(base_axis_[0] + cell.i * scene_.pitch, base_axis_[1] + cell.j * scene_.pitch)};
+}
+
+double nearest_eye_mm(const Geometry& g) {
+    return std::max({g.top_z_mm, g.vertex_plane_mm, g.rear_principal_mm, g.diffuser_z_mm.value_or(0)});
+}
+
+double checked_viewing_distance_mm(const Subject& s) {
+    const double distance = s.viewing_distance_mm(), nearest = nearest_eye_mm(s.geometry());
+    if (!(distance > nearest))
+        throw InputError("--viewing-distance-mm",
+                         fmt::format("{:.6g} mm from the panel is inside the display, whose lenses and diffuser "
+                                     "reach to {:.6g} mm; give a greater distance",
+                                     distance, nearest));
+    return distance;
+}
+
+}  // namespace lfdsim

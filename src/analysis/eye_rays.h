@@ -1,0 +1,67 @@
+// Lines of sight from an eye through points of the screen to the panel, one by one and in double precision. Floor 3.
+#pragma once
+#include "analysis/subject.h"
+#include "optics/scene.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace lfdsim {
+
+/// Numbers in [-1, 1] that choose a line of sight: its place in the cell of a lens (0, 1), the diffuser's two angles (2, 3), and
+/// which lens (4, 5); of all lenses together they fill the array's rectangle, along its own axes.
+using Choice = std::array<double, 6>;
+
+/// `count` choices spread evenly: the first points of a Sobol sequence, digitally shifted by random bits that depend on `set`
+/// alone. Errors of sums over different sets are independent.
+std::vector<Choice> even_choices(int count, std::uint32_t set = 0);
+
+/// Where a line of sight ends.
+struct Sight {
+    double light = 0;      // radiance, 1 for a white panel's along its normal; 0: it is blocked, or ends beside the panel
+    bool through = false;  // it gets through the lenses; else the rest means nothing
+    double x = 0, y = 0;   // in the panel's plane, mm from its centre
+    Vec3d lens{};          // where the axis of the cell that it came through meets the vertex plane
+    bool operator==(const Sight&) const = default;
+};
+
+/// The display as eyes see it, or, without its diffuser, as light leaves the lenses.
+class EyeRays {
+  public:
+    /// A valid display.
+    EyeRays(const Display&, const Geometry&);
+
+    /// Of an eye at `eye`, before the display. The line aims at a point of the array's rectangle in the vertex plane and is turned
+    /// where it crosses the diffuser, as camera rays are. For each choice of lens and angles its place in the cell is moved round
+    /// by as much as the diffuser turns it, which leaves all means as they are and spreads it evenly where it meets the lens.
+    Sight look(const Vec3d& eye, const Choice&) const;
+
+    /// Of the line from an eye through a point, turned by the diffuser's angles for the numbers a and b.
+    Sight look_through(const Vec3d& eye, const Vec3d& point, double a, double b) const;
+
+    /// Of the line that comes down to `at` along the unit vector `to`.
+    Sight look_along(const Vec3d& at, const Vec3d& to, double a, double b) const;
+
+    /// The point (x, y), mm in the array's own axes from its centre, in the vertex plane.
+    Vec3d point(double x, double y) const;
+
+    /// How many times as many lines of sight it takes for means to be good where most of them are blocked: 1, 2, 4 or 8.
+    int more_for(const Vec3d& eye) const;
+
+  private:
+    std::array<double, 2> to_array(double x, double y) const;  // turns a vector into the array's axes
+
+    optics::Scene<double> scene_;
+    double vertex_plane_, start_z_, cos_, sin_;
+    bool stop_first_;  // light comes to the stop before all surfaces
+    std::array<double, 2> offset_, base_axis_, cells_before_, count_;
+};
+
+/// Eyes are farther from the panel than this, mm: before the diffuser, the lenses and their principal plane.
+double nearest_eye_mm(const Geometry&);
+
+/// Distance of eyes from the panel. Throws InputError where that lies inside the display.
+double checked_viewing_distance_mm(const Subject&);
+
+}  // namespace lfdsim

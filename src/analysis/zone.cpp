@@ -1,0 +1,304 @@
+#include "analysis/zone.h"
+
+#include "analysis/parallel.h"
+#include "analysis/slope_spread.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+
+// Lines of sight from viewers about the zone, and whose elemental images they end on. docs/model.md, "Viewing zone".
+namespace lfdsim {
+namespace {
+
+constexpr double degree = 3.14159265358979323846 / 180, infinity = std::numeric_limits<double>::infinity();
+constexpr int map_side = 61, curve_points = 181, distance_points = 61;  // odd: the middle is one of them
+constexpr int map_rays = 1024, curve_rays = 4096;
+constexpr double thresholds[] = {0.01, 0.5};
+constexpr const char* missing = "Rays that miss their own lens's elemental image";
+
+/// The quantity that a search goes along: a lateral place in mm or a distance's inverse; and the share of wrong rays there.
+using Along = std::function<double(double)>;
+
+/// How far, from the middle of `places` towards their end (step 1) or start (-1), the share stays at most `most`: bisected between
+/// the last place where it does and the first where it does not. NaN: it does so to the end. The middle itself, if it fails there.
+double limit(const std::vector<double>& places, const std::vector<double>& wrong, int step, double most, const Along& wrong_at) {
+    const auto good = [&](double share) { return share <= most; };  // NaN: nothing is seen, which is not good
+    int k = int(places.size()) / 2;
+    if (!good(wrong[std::size_t(k)])) return places[std::size_t(k)];
+    for (;; k += step) {
+        if (k + step < 0 || k + step >= int(places.size())) return std::numeric_limits<double>::quiet_NaN();
+        if (!good(wrong[std::size_t(k + step)])) break;
+    }
+    double in = places[std::size_t(k)], out = places[std::size_t(k + step)];
+    for (int n = 0; n < 20; ++n) {
+        const double middle = 0.5 * (in + out);
+        (good(wrong_at(middle)) ? in : out) = middle;
+    }
+    return 0.5 * (in + out);
+}
+
+std::vector<double> even_places(double low, double high, int count) {
+    std::vector<double> places;
+    for (int k = 0; k < count; ++k) places.push_back(low + (high - low) * k / (count - 1));
+    return places;
+}
+
+/// The paraxial zone of m lenses: slopes of viewers at distance eye_mm from H', made for made_for_mm; and the inverse distances.
+struct ParaxialZone {
+    double half_fov, fault_per_mm;  // p/2g; (m - 1) p/2 per difference of inverse distances
+    double made_for_mm;
+    double half_slope(double eye_mm) const {
+        return std::max(half_fov - fault_per_mm * std::abs(1 / eye_mm - 1 / made_for_mm), 0.);
+    }
+    double distance_mm(int side) const {  // -1: the nearest, 1: the farthest
+        const double inverse = 1 / made_for_mm - side * half_fov / fault_per_mm;
+        return inverse > 0 ? 1 / inverse : infinity;
+    }
+};
+
+ParaxialZone paraxial(const Subject& s, std::int64_t lenses) {
+    const double p = s.display().array.pitch_mm, g = s.geometry().gap_mm;
+    return {p / (2 * g), double(lenses - 1) * p / 2, s.display().content.viewing_distance_mm - s.geometry().rear_principal_mm};
+}
+
+/// Of the search along the axis: the distance that the images are made for (the eye's, if that is none) in the middle, and as far
+/// on either side as twice the way to the zone's ends.
+std::vector<double> inverse_distances(const Subject& s, double eye, const ParaxialZone& theory) {
+    const double nearest = 1 / (1.001 * nearest_eye_mm(s.geometry()) - s.geometry().rear_principal_mm);
+    const double made_for = 1 / theory.made_for_mm, middle = made_for > 1e-7 && made_for < nearest ? made_for : 1 / eye;
+    const double reach = 2 * theory.half_fov / theory.fault_per_mm;
+    const double low = std::min(std::max(middle - reach, 1e-7), middle), high = std::max(std::min(middle + reach, nearest), middle);
+    std::vector<double> places = even_places(low, middle, distance_points / 2 + 1);
+    const std::vector<double> upper = even_places(middle, high, distance_points / 2 + 1);
+    places.insert(places.end(), upper.begin() + 1, upper.end());
+    return places;
+}
+
+struct Zone {
+    std::vector<double> places, wrong, mixed, dark;
+    std::array<std::array<double, 2>, 2> limits;  // by threshold, side; NaN: none within the places
+};
+
+class Search {
+  public:
+    Search(Subject& s, Job& job)
+        : display_(s.display()),
+          rays_(s.display(), s.geometry()),
+          pickup_(s.display(), s.geometry()),
+          more_(rays_.more_for({0, 0, s.viewing_distance_mm()})),
+          choices_(even_choices(curve_rays * more_)),
+          parts(job, s.threads(), map_side + 2 * (curve_points + 4) + distance_points + 4, zone_steps(s)) {}
+
+    SightShares at(const Vec3d& eye, int rays) const {
+        return sight_shares(rays_, pickup_, display_, eye, std::span(choices_).first(std::size_t(rays * more_)));
+    }
+
+    /// Along the eyes that `eye_at` tells.
+    Zone along(std::vector<double> places, const std::function<Vec3d(double)>& eye_at) {
+        Zone zone{std::move(places), {}, {}, {}, {}};
+        zone.wrong.resize(zone.places.size());
+        zone.mixed.resize(zone.places.size());
+        zone.dark.resize(zone.places.size());
+        parts.run(int(zone.places.size()), [&](int k) {
+            const SightShares shares = at(eye_at(zone.places[std::size_t(k)]), curve_rays);
+            zone.wrong[std::size_t(k)] = shares.wrong;
+            zone.mixed[std::size_t(k)] = shares.mixed;
+            zone.dark[std::size_t(k)] = shares.dark;
+        });
+        parts.run(4, [&](int k) {
+            zone.limits[std::size_t(k / 2)][std::size_t(k % 2)] =
+                limit(zone.places, zone.wrong, k % 2 == 0 ? -1 : 1, thresholds[k / 2],
+                      [&](double place) { return at(eye_at(place), curve_rays).wrong; });
+        });
+        return zone;
+    }
+
+  private:
+    const Display& display_;
+    EyeRays rays_;
+    Pickup pickup_;
+    int more_;
+    std::vector<Choice> choices_;
+
+  public:
+    Parts parts;
+};
+
+Json pair(double low, double high) {
+    const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(); };
+    return {number(low), number(high)};
+}
+
+void add_map(Result& result, Search& search, double half, double distance) {
+    ColourMap wrong{"zone", missing, "viewer's place x, mm", "y, mm", "share", -half, half, -half, half, map_side, map_side, {},
+                    0,      1};
+    wrong.values.resize(std::size_t(map_side) * map_side);
+    ColourMap dark = wrong;
+    dark.name = "zone_dark";
+    dark.title = "Rays that end dark";
+    ColourMap mixed = wrong;
+    mixed.name = "zone_mixed";
+    mixed.title = "Rays that show another neighbour's image than most";
+    DataTable table{"zone_map", {{"x_mm", {}}, {"y_mm", {}}, {"wrong_share", {}}, {"mixed_share", {}}, {"dark_share", {}}}};
+    const auto place = [&](int k) { return half * ((2 * k + 1.) / map_side - 1); };
+    search.parts.run(map_side, [&](int row) {
+        for (int column = 0; column < map_side; ++column) {
+            const std::size_t k = std::size_t(row) * map_side + std::size_t(column);
+            const SightShares shares = search.at({place(column), -place(row), distance}, map_rays);
+            wrong.values[k] = shares.wrong;
+            mixed.values[k] = shares.mixed;
+            dark.values[k] = shares.dark;
+        }
+    });
+    for (int k = 0; k < map_side * map_side; ++k) {
+        table.columns[0].values.push_back(place(k % map_side));
+        table.columns[1].values.push_back(-place(k / map_side));
+    }
+    table.columns[2].values = wrong.values;
+    table.columns[3].values = mixed.values;
+    table.columns[4].values = dark.values;
+    result.tables.push_back(std::move(table));
+    result.maps.push_back(std::move(wrong));
+    result.maps.push_back(std::move(mixed));
+    result.maps.push_back(std::move(dark));
+}
+
+/// Horizontally and vertically, as far as `half` mm.
+void add_sideways(Result& result, Search& search, const Subject& s, double half, double distance) {
+    const double eye = distance - s.geometry().rear_principal_mm;
+    const std::array<std::int64_t, 2>& lenses = s.display().array.count;
+    Plot plot{"zone", missing, "viewer's place, degrees", "share of rays", {}};
+    DataTable table{"zone", {}};
+    const auto degrees = [&](double mm) { return std::atan(mm / eye) / degree; };
+    for (const int axis : {0, 1}) {
+        const std::string name = axis == 0 ? "horizontal" : "vertical";
+        const Zone zone = search.along(even_places(-half, half, curve_points), [&](double place) {
+            return axis == 0 ? Vec3d{place, 0, distance} : Vec3d{0, place, distance};
+        });
+        std::vector<double> angles;
+        for (const double mm : zone.places) angles.push_back(degrees(mm));
+        const ParaxialZone zone_of = paraxial(s, lenses[std::size_t(axis)]);
+        const double theory = degrees(eye * zone_of.half_slope(eye)), half_fov = degrees(eye * zone_of.half_fov);
+        Json& json = result.figures[name];
+        json["theory_deg"] = {0 - theory, theory};
+        for (const std::size_t t : {0u, 1u}) {
+            const auto [low, high] = zone.limits[t];
+            const std::string percent = fmt::format("{:g}", 100 * thresholds[t]);
+            json[fmt::format("wrong_{}_percent_mm", percent)] = pair(low, high);
+            json[fmt::format("wrong_{}_percent_deg", percent)] = pair(degrees(low), degrees(high));
+            result.findings.push_back({fmt::format("Viewing zone, {}: at most {} % of the rays wrong", name, percent),
+                                       "deg",
+                                       {degrees(low), degrees(high)},
+                                       t == 0 ? std::vector<double>{0 - theory, theory} : std::vector<double>{-half_fov, half_fov},
+                                       low == high                           ? "more are wrong in the middle already"
+                                       : std::isnan(low) || std::isnan(high) ? "no bound: as far as was looked"
+                                                                             : fmt::format("{:.4g} to {:.4g} mm", low, high)});
+        }
+        if (axis == 0) {
+            table.columns = {{"place_mm", zone.places}, {"place_deg", angles}};
+            plot.marks = {{"theory, horizontal", 0 - theory}, {"theory, horizontal", theory}, {"1 %", 0.01, false}};
+        }
+        table.columns.push_back({name + "_wrong_share", zone.wrong});
+        table.columns.push_back({name + "_mixed_share", zone.mixed});
+        table.columns.push_back({name + "_dark_share", zone.dark});
+        plot.series.push_back({name, angles, zone.wrong});
+        plot.series.push_back({name + ", mixed", angles, zone.mixed});
+        plot.series.push_back({name + ", dark", angles, zone.dark});
+    }
+    result.tables.push_back(std::move(table));
+    result.plots.push_back(std::move(plot));
+}
+
+void add_axis(Result& result, Search& search, const Subject& s, double distance) {
+    const double rear = s.geometry().rear_principal_mm;
+    const std::array<std::int64_t, 2>& lenses = s.display().array.count;
+    const ParaxialZone theory = paraxial(s, std::max(lenses[0], lenses[1]));
+    const auto from_panel = [&](double inverse) { return rear + 1 / inverse; };
+    Zone zone = search.along(inverse_distances(s, distance - rear, theory), [&](double inverse) {
+        return Vec3d{0, 0, from_panel(inverse)};
+    });
+    for (double& place : zone.places) place = from_panel(place);
+    const double nearest = from_panel(zone.limits[0][1]), farthest = from_panel(zone.limits[0][0]),
+                 theory_nearest = rear + theory.distance_mm(-1), theory_farthest = rear + theory.distance_mm(1);
+    result.figures["distance"] = {{"wrong_1_percent_mm", pair(nearest, farthest)},
+                                  {"wrong_50_percent_mm", pair(from_panel(zone.limits[1][1]), from_panel(zone.limits[1][0]))},
+                                  {"theory_mm", pair(theory_nearest, theory_farthest)}};
+    result.findings.push_back(
+        {"Viewing zone along the axis: at most 1 % of the rays wrong",
+         "mm",
+         {nearest, farthest},
+         {theory_nearest, theory_farthest},
+         "nearest and farthest; without bound where the search, as far as the display's front, meets no end"});
+    Series near{"on axis", {}, {}};
+    for (std::size_t k = zone.places.size(); k-- > 0 && zone.places[k] <= 4 * distance;) {
+        near.x.push_back(zone.places[k]);
+        near.y.push_back(zone.wrong[k]);
+    }
+    result.plots.push_back(
+        {"zone_distance", missing, "distance from the panel, mm", "share of rays", {std::move(near)}, {{"1 %", 0.01, false}}});
+    result.tables.push_back(
+        {"zone_distance", {{"distance_mm", zone.places}, {"wrong_share", zone.wrong}, {"dark_share", zone.dark}}});
+}
+
+}  // namespace
+
+SightShares sight_shares(const EyeRays& rays, const Pickup& pickup, const Display& d, const Vec3d& eye,
+                         std::span<const Choice> choices) {
+    const double pixel = d.panel.pixel_pitch_mm, pitch = d.array.pitch_mm;
+    std::int64_t through = 0, dark = 0, wrong = 0;
+    std::map<std::pair<long, long>, std::int64_t> towards;  // lines by the way from their lens to their pixel's, quarter pitches
+    for (const Choice& choice : choices) {
+        const Sight s = rays.look(eye, choice);
+        if (!s.through) {
+            ++dark;
+            continue;
+        }
+        ++through;
+        const double column = std::floor(s.x / pixel + 0.5 * double(d.panel.pixels[0])),
+                     row = std::floor(0.5 * double(d.panel.pixels[1]) - s.y / pixel);
+        const NodalLine owner = pickup.line(pickup.x_mm(column), pickup.y_mm(row));
+        if (s.light > 0 && owner.owned) {
+            const double x = owner.x - s.lens[0], y = owner.y - s.lens[1];
+            wrong += std::hypot(x, y) > 0.5 * pitch;
+            ++towards[{std::lround(4 * x / pitch), std::lround(4 * y / pitch)}];
+        } else {
+            ++wrong;
+            ++dark;
+        }
+    }
+    if (through == 0) return {std::nan(""), std::nan(""), 1};
+    std::int64_t most = 0;
+    for (const auto& [way, lines] : towards) most = std::max(most, lines);
+    const double all = double(through);
+    return {double(wrong) / all, 1 - double(most) / all, double(dark) / double(choices.size())};
+}
+
+std::int64_t zone_steps(const Subject& s) { return pictures_worth(s, 12'000'000); }
+
+Result measure_zone(Subject& s, Job& job) {
+    const double distance = checked_viewing_distance_mm(s), eye = distance - s.geometry().rear_principal_mm;
+    const double half = eye * std::min(3 * paraxial(s, 1).half_fov, std::tan(80 * degree));
+    Search search(s, job);
+    Result result;
+    result.figures["viewing_distance_mm"] = distance;
+    add_sideways(result, search, s, half, distance);
+    add_map(result, search, half, distance);
+    add_axis(result, search, s, distance);
+    const double spread = SlopeSpread(s, eye).width() * s.geometry().gap_mm, image = s.theory().elemental_pitch_mm;
+    result.remarks.push_back(fmt::format(
+        "A ray is wrong if it comes through a lens and ends elsewhere than on that lens's elemental image: on another's, so that "
+        "views repeat, or on none. Where all are wrong but few are mixed (show another neighbour's image than most do) a repeated "
+        "zone "
+        "begins. Theory follows the ray through each lens's centre to a place within p/2 of the image's centre. "
+        "An eye gathers light from {:.3g} mm of the panel through one lens (its aperture and the diffuser, paraxially), so the "
+        "limit at 1 % lies nearer to the middle, that at 50 % does not; images {:.4g} mm wide, {:.3f} p, put both farther out. "
+        "Whole pixels and the lenses' aberrations do the rest.",
+        spread, image, image / s.display().array.pitch_mm));
+    return result;
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,171 @@
+// A white panel's light against brute force, closed forms and the camera.
+#include <gtest/gtest.h>
+
+#include "../engine/pictures.h"
+#include "analysis/efficiency.h"
+#include "analysis/uniformity.h"
+#include "brute_force.h"
+
+#include <atomic>
+
+namespace lfdsim {
+namespace {
+
+constexpr std::int64_t many = 1 << 20;  // parts: more than any test uses
+
+ScreenLuminance on_screen(const Display& d, const Vec3d& eye) {
+    Job job;
+    Parts parts(job, 0, many, 0);
+    return screen_luminance(EyeRays(d, resolve(d)), d, eye, parts);
+}
+PitchLuminance in_pitch(const Display& d, const Vec3d& eye) {
+    Job job;
+    Parts parts(job, 0, many, 0);
+    return pitch_luminance(EyeRays(d, resolve(d)), d, eye, parts);
+}
+LightBudget budget(const Display& d) {
+    Job job;
+    Parts parts(job, 0, many, 0);
+    return light_budget(d, resolve(d), parts);
+}
+
+Display wide_panel(Display d) {
+    d.panel.pixels = {400, 300};
+    d.array.count = {16, 12};
+    return d;
+}
+
+TEST(Uniformity, IdealSquareLensesAreAsBrightAsThePanel) {
+    const Display d = wide_panel(ideal_example());
+    const ScreenLuminance screen = on_screen(d, {0, 0, 700});
+    EXPECT_EQ(screen.least(), 1);
+    EXPECT_EQ(screen.greatest(), 1);
+    EXPECT_EQ(screen.mean(), 1);
+    EXPECT_EQ(michelson(in_pitch(d, {0, 0, 700}).values), 0);
+}
+
+TEST(Uniformity, LuminanceAgreesWithBruteForce) {
+    Display d = wide_panel(example());
+    for (const double m : {0., 1.5}) {
+        d.panel.emission_exponent = m;
+        for (const Vec3d eye : {Vec3d{0, 0, 700}, Vec3d{300, -120, 500}, Vec3d{0, 400, 420}}) {
+            const double expected = brute::PlanoConvexArray(d, 5).luminance(eye, 500000), found = on_screen(d, eye).mean();
+            EXPECT_GT(expected, 0.1);
+            std::printf("m = %g, eye at %4g %4g: %.4f of the panel's, by brute force %.4f\n", m, eye[0], eye[1], found, expected);
+            EXPECT_NEAR(found / expected, 1, 0.005) << m << " " << eye[0] << " " << eye[1];
+        }
+    }
+}
+
+TEST(Uniformity, EfficiencyAgreesWithBruteForce) {
+    Display d = wide_panel(example());
+    for (const double m : {0., 2.}) {
+        d.panel.emission_exponent = m;
+        const brute::PlanoConvexArray::Shares expected = brute::PlanoConvexArray(d, 6).forward(3000000);
+        const LightBudget found = budget(d);
+        EXPECT_GT(expected.leaves, 0.05);
+        std::printf("m = %g: %.4f of the panel's light leaves, by brute force %.4f\n", m, found.leaves / found.emitted,
+                    expected.leaves);
+        EXPECT_NEAR(found.leaves / found.emitted / expected.leaves, 1, 0.005) << m;
+        EXPECT_NEAR(found.reaches_array / found.emitted / expected.reaches, 1, 0.005) << m;
+    }
+}
+
+// All that reaches square ideal lenses passes them, of whatever power; where they have none, what leaves within the field of view
+// is the form factor of the square of those slopes.
+TEST(Uniformity, IdealLensesLetAllLightPass) {
+    Display d = wide_panel(ideal_example());
+    for (const double f : {1e6, 6.}) {
+        d.lens.focal_length_mm = f;
+        const LightBudget light = budget(d);
+        EXPECT_NEAR(light.leaves / light.reaches_array, 1, 0.003) << f;
+    }
+    d.lens.focal_length_mm = 1e6;
+    d.panel.pixels = {4000, 4000};
+    const double t = d.array.pitch_mm / (2 * resolve(d).gap_mm), s = t / std::sqrt(1 + t * t);
+    const LightBudget light = budget(d);
+    EXPECT_NEAR(light.leaves_in_fov / light.leaves, 4 / std::numbers::pi * s * std::atan(s), 0.001);
+}
+
+// Round lenses show a chord's share of each line along the pitch; a box diffuser averages it.
+TEST(Uniformity, DarkBandsOfRoundLenses) {
+    Display d = wide_panel(ideal_example());
+    d.array.aperture = Aperture::circle;
+    d.lens.aperture_radius_mm = 1.5;
+    const double p = d.array.pitch_mm, r = 1.5;
+    const auto chord = [&](double x) {
+        x -= p * std::round(x / p);
+        return std::abs(x) < r ? 2 * std::sqrt(r * r - x * x) / p : 0.;
+    };
+    for (const double span : {0., 1.0, 3.0}) {  // of the diffused light at the lenses, mm
+        constexpr double above = 50;
+        d.diffuser.reset();
+        const double angle = 2 * std::atan(span / 2 / above) / degree;
+        if (span > 0) d.diffuser = Diffuser{above, {angle, angle}, Profile::box};
+        std::vector<double> expected;
+        for (int k = 0; k < PitchLuminance::side; ++k) {
+            double sum = 0;
+            constexpr int steps = 4000;
+            for (int n = 0; n < steps; ++n) {
+                const double place = p * ((k + (n % 40 + 0.5) / 40) / PitchLuminance::side - 0.5);
+                sum += chord(place + above * std::tan(angle * degree * ((n / 40 + 0.5) / (steps / 40) - 0.5)));
+            }
+            expected.push_back(sum / steps);
+        }
+        // From far away, so that all lines of sight are upright
+        const std::vector<double> found = in_pitch(d, {0, 0, 1e5}).profile(0);
+        for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 0.004) << span << " " << k;
+        EXPECT_NEAR(michelson(found), michelson(expected), 0.01) << span;
+    }
+}
+
+// The camera's frame is the array's rectangle, so that the picture's mean is the screen's.
+TEST(Uniformity, MeanIsThatOfTheCamerasPicture) {
+    for (auto [name, d] : every_kind()) {
+        d.array.rotation_deg = 0;
+        d.array.offset_mm = {};
+        d.camera.pupil_diameter_mm.reset();
+        d.camera.pixel_filter = PixelFilter::box;
+        d.camera.position_mm = {0, 0, 400};
+        d.camera.target_mm = {0, 0, resolve(d).vertex_plane_mm};
+        d.camera.frame_width_mm = resolve(d).array_width_mm;
+        d.camera.resolution = {100, 70};
+        d.render.samples = 128;
+        double sum = 0;
+        const Image seen = picture(d, uniform_panel(d, 1));
+        for (const float light : seen.rgb) sum += light;
+        const double expected = sum / double(seen.rgb.size()), found = on_screen(d, {0, 0, 400}).mean();
+        EXPECT_GT(expected, 0.1) << name;
+        EXPECT_NEAR(found / expected, 1, 0.005) << name;
+    }
+}
+
+// Every part counts once, and what a cancelled job has begun is given up.
+TEST(Uniformity, ReportsItsStepsAndStops) {
+    struct Counter : Job {
+        std::atomic<std::int64_t> steps{0};
+        bool stop = false;
+        void advance(std::int64_t n) override { steps += n; }
+        bool cancelled() const override { return stop; }
+    } job;
+    Subject subject(example(), {}, {});
+    const Result result = measure_uniformity(subject, job);
+    EXPECT_EQ(job.steps, uniformity_steps(subject));
+    EXPECT_GT(job.steps, 0);
+    job.stop = true;
+    EXPECT_THROW(measure_uniformity(subject, job), Stopped);
+}
+
+TEST(Uniformity, SameFiguresOnAnyNumberOfThreads) {
+    Display d = example();
+    d.diffuser = Diffuser{40, {3, 5}, Profile::gaussian};
+    AnalysisOptions one, two;
+    one.threads = 1;
+    two.threads = 2;
+    Job job;
+    Subject a(d, {}, one), b(d, {}, two);
+    EXPECT_EQ(measure_uniformity(a, job).figures.dump(), measure_uniformity(b, job).figures.dump());
+}
+
+}  // namespace
+}  // namespace lfdsim
