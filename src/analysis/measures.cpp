@@ -4,6 +4,7 @@
 #include "analysis/dof.h"
 #include "analysis/fov.h"
 #include "analysis/measure.h"
+#include "analysis/mtf.h"
 #include "analysis/spot.h"
 #include "analysis/uniformity.h"
 #include "analysis/zone.h"
@@ -22,15 +23,17 @@ constexpr Measure all[] = {
      "SSIM thresholds of the 2019 paper; Wang et al. 2004 for SSIM; theory 2 atan(p / 2g)", true, fov_steps, measure_fov},
     {"dof", "Depth of field", "At which depths before the lenses a scene is shown sharply.",
      "SSIM thresholds of the 2019 paper; spot sizes by ray tracing; paraxial theory", true, dof_steps, measure_dof},
-    {"spot", "Spots and distortion", "How one lens images points of the panel over field and depth, and how truly it places them.",
-     "ray tracing by Snell's law; Welford 1986; paraxial theory D |z - L| / |L|", false, spot_steps, measure_spot},
     {"zone", "Viewing zone", "From where all of the screen shows its own views, and not those of neighbouring lenses.",
      "Rays traced from viewers' places; paraxial theory", false, zone_steps, measure_zone},
     {"crosstalk", "Crosstalk", "How much light of other views, and of what the other eye should see, an eye sees.",
      "Woods 2012: (leak - black) / (signal - black)", false, crosstalk_steps, measure_crosstalk},
+    {"mtf", "Resolution", "How fine a detail the display shows at which depth, seen from which angle.",
+     "Slanted edges after ISO 12233; theory: image of a panel pixel, paraxial spot and diffuser", false, mtf_steps, measure_mtf},
     {"uniformity", "Uniformity and light",
      "How even a white screen is, over its area and over viewing angle, and how much light it passes.",
      "100 Lmin / Lmax; Michelson contrast; radiance theorem", false, uniformity_steps, measure_uniformity},
+    {"spot", "Spots and distortion", "How one lens images points of the panel over field and depth, and how truly it places them.",
+     "ray tracing by Snell's law; Welford 1986; paraxial theory D |z - L| / |L|", false, spot_steps, measure_spot},
 };
 
 }  // namespace

@@ -1,0 +1,54 @@
+// One plane of slanted edges that a display shows, measured from several angles. Floor 3.
+#pragma once
+#include "analysis/edge_view.h"
+#include "analysis/slanted_edge.h"
+#include "analysis/subject.h"
+
+#include <array>
+#include <vector>
+
+namespace lfdsim {
+
+struct MtfCurves {
+    double depth_mm, angle_deg;
+    bool horizontal;                         // the direction that is resolved: the edges are near the vertical
+    double mm_per_deg;                       // in the edges' plane, as the eye sees it
+    std::vector<double> frequencies_per_mm;  // in the edges' plane, from 0
+    std::vector<double> theory;              // of as many
+    std::array<std::vector<double>, 3> mtf;  // red, green, blue; empty: no edge was seen
+    int lenses = 0;                          // that the edges crossed
+
+    /// The frequency at which a colour's modulation falls below a level; NaN: it never does.
+    double below(std::size_t channel, double level) const;
+    double theory_below(double level) const { return falls_below(frequencies_per_mm, theory, level); }
+};
+
+class EdgePlane {
+  public:
+    /// Edges at a depth before the vertex plane. `white`: the panel that shows white all over.
+    EdgePlane(const Subject&, double depth_mm, bool horizontal, const Pyramid& white, const Job&);
+
+    /// From angles rising from 0, to the right. Throws Stopped.
+    std::vector<MtfCurves> measure(const std::vector<double>& angles_deg);
+
+  private:
+    Eye eye(double angle_deg) const;
+    double pitch_mm() const;
+    bool set_bars(double blur_mm, double angle_deg);
+    void set_pictures(const std::vector<double>& angles_deg);
+    void show(int picture);
+    double pixel_mm(double most_per_mm) const;
+    bool look(EdgeSpread&, Eye, double pixel, MtfCurves&) const;
+    bool strays(double angle_deg);
+    MtfCurves blank(double angle_deg, double blur_mm) const;
+
+    const Subject& s_;
+    const Pyramid& white_;
+    const Job& job_;
+    double depth_mm_;
+    Bars bars_;
+    std::unique_ptr<ShownPanel> panel_;  // that shows the bars
+    int pictures_ = 1;                   // the bars are moved by this share of their width from one to the next
+};
+
+}  // namespace lfdsim

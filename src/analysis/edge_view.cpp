@@ -1,0 +1,141 @@
+#include "analysis/edge_view.h"
+
+#include "content/pickup.h"
+#include "engine/render.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+// Places in the bars' plane are (a, b), a rising across upright bars to the right and b down along them: (x, -y). For bars that
+// are not upright the two change their parts: (-y, x). A picture, transposed for the latter, has its columns along a, rows along b.
+namespace lfdsim {
+namespace {
+
+constexpr double radian = std::numbers::pi / 180;
+const double sine = std::sin(slant_deg * radian), cosine = std::cos(slant_deg * radian), tangent = sine / cosine;
+
+struct Box {
+    double a, b, half_a, half_b;  // centre and half sizes
+};
+
+/// The upright rectangle within the array, where there is a panel behind it too, less a lens at each border.
+Box screen_middle(const Display& d, const Geometry& g) {
+    const double c = std::abs(std::cos(d.array.rotation_deg * radian)), s = std::abs(std::sin(d.array.rotation_deg * radian));
+    const double w = 0.5 * g.array_width_mm, h = 0.5 * g.array_height_mm;
+    const double share = std::min(w / (w * c + h * s), h / (w * s + h * c));
+    const auto along = [&](double offset, double array_half, double panel_half, double& centre, double& half) {
+        const double low = std::max(offset - array_half, -panel_half), high = std::min(offset + array_half, panel_half);
+        centre = 0.5 * (low + high);
+        half = 0.5 * (high - low);
+        if (half > 2 * d.array.pitch_mm) half -= d.array.pitch_mm;
+    };
+    Box box{};
+    along(d.array.offset_mm[0], share * w, 0.5 * g.panel_width_mm, box.a, box.half_a);
+    along(d.array.offset_mm[1], share * h, 0.5 * g.panel_height_mm, box.b, box.half_b);
+    return box;
+}
+
+/// What the eye sees of the bars' plane through the middle of the screen; not so long that slanted edges would leave it sideways.
+Box seen_box(const Display& d, const Geometry& g, const Bars& bars, const Eye& eye) {
+    const Box m = screen_middle(d, g);
+    const double k = scale_to_bars(g, bars, eye), x = eye.x_mm() + (m.a - eye.x_mm()) * k, y = m.b * k;
+    Box box = bars.upright ? Box{x, -y, m.half_a * k, m.half_b * k} : Box{-y, x, m.half_b * k, m.half_a * k};
+    box.half_b = std::min(box.half_b, 0.5 * box.half_a / tangent);
+    return box;
+}
+
+Image transposed(const Image& from) {
+    Image to(from.height, from.width);
+    for (int row = 0; row < from.height; ++row)
+        for (int column = 0; column < from.width; ++column) std::copy_n(from.at(column, row), 3, to.at(row, column));
+    return to;
+}
+
+}  // namespace
+
+double scale_to_bars(const Geometry& g, const Bars& bars, const Eye& eye) {
+    return (eye.z_mm() - bars.z_mm) / (eye.z_mm() - g.vertex_plane_mm);
+}
+
+double across_mm(const Bars& bars, double x, double y) { return bars.upright ? x * cosine - y * sine : x * sine - y * cosine; }
+
+std::unique_ptr<ShownPanel> bars_panel(const Display& display, const Geometry& geometry, const std::optional<Bars>& bars,
+                                       int threads) {
+    const Pickup pickup(display, geometry);
+    Texels texels(display.panel.pixels[0], display.panel.pixels[1]);
+    const double height = bars ? bars->z_mm - pickup.z_rear : 0;
+    tbb::parallel_for(std::int64_t(0), texels.rows(), [&](std::int64_t row) {
+        float* texel = texels.row(row);
+        for (std::int64_t k = 0; k < texels.columns(); ++k, texel += 4) {
+            const NodalLine l = pickup.line(pickup.x_mm(double(k)), pickup.y_mm(double(row)));
+            if (!l.owned) continue;
+            if (bars) {
+                const double u = across_mm(*bars, l.x + height * l.mx, l.y + height * l.my) - bars->offset_mm;
+                if (std::fmod(std::floor(u / bars->width_mm), 2) != 0) continue;
+            }
+            std::fill_n(texel, 3, 1.f);
+        }
+    });
+    return std::make_unique<ShownPanel>(std::move(texels), threads);
+}
+
+double Eye::x_mm() const { return distance_mm * std::sin(angle_deg * radian) + aside_mm; }
+double Eye::z_mm() const { return distance_mm * std::cos(angle_deg * radian); }
+
+std::array<double, 2> seen_half_mm(const Display& d, const Geometry& g, const Bars& bars, const Eye& eye) {
+    const Box box = seen_box(d, g, bars, eye);
+    return {box.half_a, box.half_b};
+}
+
+EdgeView edge_view(const Display& display, const Geometry& geometry, const Bars& bars, const Eye& eye, double pixel_mm) {
+    EdgeView view{display, {}, {}};
+    Box box = seen_box(display, geometry, bars, eye);
+    box.half_b = 0.5 * bars.length_mm;
+    const double margin = box.half_b * tangent + 0.5 * bars.width_mm / cosine;  // from an edge's middle to its farthest pixel
+    const int per_edge = std::max(1, int(2 * box.half_b / (cosine * scale_to_bars(geometry, bars, eye) * display.array.pitch_mm)));
+    // Edge k has its middle at this a.
+    const auto middle = [&](double k) { return (bars.offset_mm + k * bars.width_mm - box.b * sine) / cosine; };
+    const double nearest = std::round((box.a * cosine + box.b * sine - bars.offset_mm) / bars.width_mm);
+    double first = nearest, last = nearest;
+    const auto fits = [&](double k) { return std::abs(middle(k) - box.a) + margin <= box.half_a; };
+    if (!fits(nearest)) return view;
+    while (fits(first - 1)) --first;
+    while (fits(last + 1)) ++last;
+    view.lenses = per_edge * int(last - first + 1);
+
+    // Pixels count from the camera's axis, which meets the bars' plane at (axis_a, axis_b).
+    const double axis_a = bars.upright ? eye.x_mm() : -eye.aside_mm, axis_b = bars.upright ? -eye.aside_mm : eye.x_mm();
+    const int i0 = int(std::floor((middle(first) - margin - axis_a) / pixel_mm)),
+              i1 = int(std::ceil((middle(last) + margin - axis_a) / pixel_mm)),
+              j0 = int(std::ceil((box.b - box.half_b - axis_b) / pixel_mm)),
+              j1 = std::max(j0 + 1, int(std::floor((box.b + box.half_b - axis_b) / pixel_mm)));
+    const int half_a = std::max(std::abs(i0), std::abs(i1)), half_b = std::max(std::abs(j0), std::abs(j1));
+    const Rect across{i0 + half_a, j0 + half_b, i1 + half_a, j1 + half_b};
+    view.crop = bars.upright ? across : Rect{across.y0, across.x0, across.y1, across.x1};
+    Camera& camera = view.seen.camera;
+    camera = {};
+    camera.position_mm = {eye.x_mm(), eye.aside_mm, eye.z_mm()};
+    camera.target_mm = {eye.x_mm(), eye.aside_mm, 0};
+    camera.resolution = {2 * (bars.upright ? half_a : half_b), 2 * (bars.upright ? half_b : half_a)};
+    camera.frame_width_mm = double(camera.resolution[0]) * pixel_mm * eye.z_mm() / (eye.z_mm() - bars.z_mm);
+
+    view.edges.slope = -tangent;
+    view.edges.reach = 0.5 * bars.width_mm / pixel_mm;
+    for (double k = first; k <= last; ++k) {
+        const double a = middle(k) - (axis_b + j0 * pixel_mm - box.b) * tangent;  // in the crop's first row
+        view.edges.lines.push_back({(a - axis_a) / pixel_mm - i0, std::fmod(k, 2) == 0});
+    }
+    return view;
+}
+
+Image picture_of(const EdgeView& view, bool upright, const Pyramid& panel, int threads, const Job& job) {
+    Quiet quiet(job);
+    Rendering r = render(view.seen, resolve(view.seen), panel, {threads, "", view.crop}, quiet);
+    if (!r.complete) throw Stopped{};
+    return upright ? std::move(r.image) : transposed(r.image);
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,54 @@
+// Slanted edges that a display shows at a depth, and pictures of them from around it. Floor 3.
+#pragma once
+#include "analysis/slanted_edge.h"
+#include "analysis/subject.h"
+
+namespace lfdsim {
+
+inline constexpr double slant_deg = 7;  // of the edges from the vertical or the horizontal
+
+/// Bars, white and black in turn, that stand side by side in a plane before or behind the display: each border is a slanted edge.
+struct Bars {
+    bool upright;      // edges near the vertical, which show what is resolved horizontally; else near the horizontal
+    double z_mm;       // of their plane, from the panel
+    double width_mm;   // of a bar, across it
+    double length_mm;  // of the part that is looked at
+    double offset_mm;  // across, of one edge with white on the side that `across_mm` rises to
+};
+
+/// How far across the bars' direction a point of their plane lies, from the display's axis.
+double across_mm(const Bars&, double x, double y);
+
+/// The panel that shows the bars by the nodal pick-up. A pixel is white or black as the point is that its centre's nodal line
+/// meets, as elemental images of scenes are made: no pixel is grey at an edge. Without bars: white all over.
+std::unique_ptr<ShownPanel> bars_panel(const Display&, const Geometry&, const std::optional<Bars>&, int threads);
+
+/// How edges are looked at: a pinhole at `distance_mm` from the panel's centre, `angle_deg` to the right (within +-80).
+struct Eye {
+    double angle_deg, distance_mm;
+    double aside_mm = 0;  // moved to the right and up by so much, so that the pixels of several pictures look at different places
+    double x_mm() const;
+    double z_mm() const;
+};
+
+/// How wide a unit of the lenses' plane is as the eye sees it in the bars'.
+double scale_to_bars(const Geometry&, const Bars&, const Eye&);
+
+/// The part of the screen's middle through which an eye sees as many edges, from its centre outwards, as cross this many lenses.
+/// Its frame is parallel to the panel, so that the bars' plane appears in one scale, `pixel_mm` a pixel.
+struct EdgeView {
+    Display seen;
+    Rect crop;
+    Edges edges;     // in the crop, or in the crop transposed where they are not upright; empty: none fits
+    int lenses = 0;  // that the edges cross, all together
+};
+EdgeView edge_view(const Display&, const Geometry&, const Bars&, const Eye&, double pixel_mm);
+
+/// The half sizes, in the bars' plane, of what an eye sees of it through the screen: across the bars and along them, there no
+/// longer than edges may be without leaving it sideways. Not above 0: nothing is seen.
+std::array<double, 2> seen_half_mm(const Display&, const Geometry&, const Bars&, const Eye&);
+
+/// The picture of a panel in that view, transposed where the edges are not upright. Throws Stopped.
+Image picture_of(const EdgeView&, bool upright, const Pyramid& panel, int threads, const Job&);
+
+}  // namespace lfdsim

@@ -1,0 +1,64 @@
+#include "analysis/mtf_theory.h"
+
+#include "analysis/edge_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lfdsim {
+namespace {
+
+constexpr double pi = std::numbers::pi, radian = pi / 180;
+const double fwhm_per_sigma = 2 * std::sqrt(2 * std::log(2.));
+
+double sinc(double x) { return x == 0 ? 1 : std::sin(pi * x) / (pi * x); }
+double disk(double x) { return x == 0 ? 1 : 2 * std::cyl_bessel_j(1, pi * x) / (pi * x); }
+
+/// The unit vector across the edges.
+std::array<double, 2> normal(bool horizontal) {
+    const Bars unit{horizontal, 0, 1, 1, 0};
+    return {across_mm(unit, 1, 0), across_mm(unit, 0, 1)};
+}
+
+}  // namespace
+
+double pixel_image_mm(const Display& d, const Geometry& g, double z_mm) {
+    return d.panel.pixel_pitch_mm * std::abs(z_mm - g.rear_principal_mm) / g.gap_mm;
+}
+
+Blur blur(const Display& d, const Geometry& g, const Theory& t, double z_mm, double angle_deg) {
+    Blur b{pixel_image_mm(d, g, z_mm),
+           g.clear_aperture_mm * std::abs(1 - (z_mm - g.rear_principal_mm) / t.central_depth_mm),
+           d.array.aperture == Aperture::circle || d.lens.stop_radius_mm,
+           d.array.rotation_deg * radian,
+           {0, 0},
+           false};
+    if (!d.diffuser) return b;
+    const double away = std::abs(z_mm - *g.diffuser_z_mm), angle = angle_deg * radian;
+    const auto half = [&](std::size_t axis) { return 0.5 * d.diffuser->angle_deg[axis] * radian; };
+    // The turn about x comes last and sees the ray from the side: its slope upwards grows by it whatever the angle of view.
+    // Past the horizontal nothing is seen: an angle near it is as good.
+    const auto slope = [](double a) { return std::tan(std::clamp(a, -1.5, 1.5)); };
+    b.diffuser_mm = {away * (slope(angle + half(0)) - slope(angle - half(0))), away * 2 * slope(half(1))};
+    b.gaussian = d.diffuser->profile == Profile::gaussian;
+    return b;
+}
+
+double Blur::mtf(double f, bool horizontal) const {
+    const auto [x, y] = normal(horizontal);
+    const double c = std::cos(array_rad), s = std::sin(array_rad);
+    double m = sinc(f * pixel_mm * x) * sinc(f * pixel_mm * y);
+    m *= round ? disk(f * spot_mm) : sinc(f * spot_mm * (c * x + s * y)) * sinc(f * spot_mm * (c * y - s * x));
+    const double wx = f * diffuser_mm[0] * x, wy = f * diffuser_mm[1] * y;
+    const double sigma = pi / fwhm_per_sigma;
+    m *= gaussian ? std::exp(-2 * sigma * sigma * (wx * wx + wy * wy)) : sinc(wx) * sinc(wy);
+    return std::abs(m);
+}
+
+double Blur::width_mm(bool horizontal) const {
+    // A gaussian's tails reach two half widths farther.
+    return pixel_mm + spot_mm + (gaussian ? 2 : 1) * diffuser_mm[horizontal ? 0 : 1];
+}
+
+}  // namespace lfdsim

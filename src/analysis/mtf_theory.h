@@ -1,0 +1,31 @@
+// How an edge at a depth is blurred, by paraxial theory. Floor 3.
+#pragma once
+#include "model/geometry.h"
+
+#include <array>
+
+namespace lfdsim {
+
+/// Width of the image of a panel pixel by the nodal points, in the plane z_mm from the panel: a |z - z_H'| / g.
+double pixel_image_mm(const Display&, const Geometry&, double z_mm);
+
+/// What each line of sight's crossing of a plane and that of the panel pixel's nodal line, which it sees, differ by: the sum of
+/// independent parts.
+struct Blur {
+    double pixel_mm;  // a square, evenly
+    double spot_mm;   // the lens's spot, evenly: across a disk, or a square with the array's axes
+    bool round;
+    double array_rad;                   // by which that square is turned
+    std::array<double, 2> diffuser_mm;  // along x and y: full widths, at half maximum if gaussian
+    bool gaussian;
+
+    /// Modulation at a frequency per mm, 0 or more: across edges near the vertical (horizontal) or near the horizontal.
+    double mtf(double per_mm, bool horizontal) const;
+    /// About the full width of an edge's blur.
+    double width_mm(bool horizontal) const;
+};
+
+/// At an angle of view to the right.
+Blur blur(const Display&, const Geometry&, const Theory&, double z_mm, double angle_deg);
+
+}  // namespace lfdsim

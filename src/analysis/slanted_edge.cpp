@@ -1,0 +1,113 @@
+#include "analysis/slanted_edge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lfdsim {
+namespace {
+
+constexpr double bins_per_pixel = 4;
+constexpr double flat_share = 0.75;  // of the reach: farther out the window falls to 0
+constexpr double pi = std::numbers::pi;
+
+double cosine(const Edges& e) { return 1 / std::sqrt(1 + e.slope * e.slope); }
+
+/// The pixels of a row whose centres are within the reach of an edge that crosses the row's middle at `x`.
+struct Span {
+    int from, to;
+};
+Span reached(const Edges& e, double x, int width) {
+    const double half = e.reach / cosine(e);
+    const auto pixel = [&](double at) { return int(std::ceil(std::clamp(at - 0.5, 0., double(width)))); };
+    return {pixel(x - half), pixel(x + half)};
+}
+
+double sinc(double x) { return x == 0 ? 1 : std::sin(pi * x) / (pi * x); }
+
+/// Fills bins that no light fell into from their neighbours. False: there is none at all.
+bool bridge(std::vector<double>& values) {
+    const auto known = [](double v) { return !std::isnan(v); };
+    const auto first = std::find_if(values.begin(), values.end(), known);
+    if (first == values.end()) return false;
+    std::fill(values.begin(), first, *first);
+    for (std::size_t last = 0, k = 0; k < values.size(); ++k) {
+        if (!known(values[k])) continue;
+        for (std::size_t n = last + 1; n < k; ++n)
+            values[n] = values[last] + (values[k] - values[last]) * double(n - last) / double(k - last);
+        last = k;
+    }
+    const auto end = std::find_if(values.rbegin(), values.rend(), known);
+    std::fill(values.rbegin(), end, *end);
+    return true;
+}
+
+}  // namespace
+
+EdgeSpread::EdgeSpread(double reach)
+    : reach_(reach), light_(2 * std::size_t(std::ceil(reach * bins_per_pixel))), white_(light_.size()) {}
+
+void EdgeSpread::add(const Edges& edges, const Image& picture, const Image& white) {
+    const double scale = cosine(edges) * bins_per_pixel, middle = 0.5 * double(light_.size());
+    for (int row = 0; row < picture.height; ++row)
+        for (const Edges::Line& line : edges.lines) {
+            const double x = line.at + edges.slope * (row + 0.5);
+            const Span span = reached(edges, x, picture.width);
+            for (int column = span.from; column < span.to; ++column) {
+                const double distance = column + 0.5 - x;
+                const std::size_t bin =
+                    std::size_t(std::clamp(std::floor(distance * scale + middle), 0., double(light_.size() - 1)));
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const double light = picture.at(column, row)[c], full = white.at(column, row)[c];
+                    light_[bin][c] += line.rising ? light : full - light;
+                    white_[bin][c] += full;
+                }
+            }
+        }
+}
+
+std::array<std::vector<double>, 3> EdgeSpread::mtf(std::span<const double> frequencies) const {
+    const std::size_t bins = light_.size();
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    std::array<std::vector<double>, 3> result;
+    for (std::size_t c = 0; c < 3; ++c) {
+        std::vector<double> spread(bins), line;
+        for (std::size_t k = 0; k < bins; ++k) spread[k] = white_[k][c] > 0 ? light_[k][c] / white_[k][c] : nan;
+        if (!bridge(spread)) {
+            result[c].assign(frequencies.size(), nan);
+            continue;
+        }
+        // Where as much light is missing on its right as there is on its left: the middle of the window.
+        double middle = 0.5 * double(bins);
+        for (const double light : spread) middle -= light;
+        middle = std::clamp(middle / bins_per_pixel, -0.5 * reach_, 0.5 * reach_);
+        std::vector<double> places;  // pixels from the edge
+        for (std::size_t k = 0; k + 1 < bins; ++k) {
+            const double d = (double(k + 1) - 0.5 * double(bins)) / bins_per_pixel;
+            const double out =
+                std::clamp((std::abs(d - middle) / (reach_ - std::abs(middle)) - flat_share) / (1 - flat_share), 0., 1.);
+            places.push_back(d);
+            line.push_back((spread[k + 1] - spread[k]) * 0.5 * (1 + std::cos(pi * out)));
+        }
+        for (const double f : frequencies) {
+            double real = 0, imaginary = 0;
+            for (std::size_t k = 0; k < line.size(); ++k) {
+                real += line[k] * std::cos(2 * pi * f * places[k]);
+                imaginary += line[k] * std::sin(2 * pi * f * places[k]);
+            }
+            const double bin = sinc(f / bins_per_pixel);  // once for the bin's width, once for the difference of two
+            result[c].push_back(std::hypot(real, imaginary) / (bin * bin));
+        }
+    }
+    return result;
+}
+
+double falls_below(std::span<const double> frequencies, std::span<const double> curve, double level) {
+    for (std::size_t k = 1; k < curve.size(); ++k)
+        if (curve[k] < level && curve[k - 1] >= level)
+            return frequencies[k - 1] + (frequencies[k] - frequencies[k - 1]) * (curve[k - 1] - level) / (curve[k - 1] - curve[k]);
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace lfdsim

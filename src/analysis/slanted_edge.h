@@ -1,0 +1,48 @@
+// From pictures of slanted edges to the modulation transfer function, after ISO 12233. Floor 3.
+//
+// Levels are known here: black is 0, and a second picture shows what white would be at each pixel. So gaps between lenses, uneven
+// light and the like drop out, and nothing is normalised: light that strays farther than the edge's reach counts as lost contrast.
+// The edges' direction is known, too. A line fitted to the picture would follow the facets in which a lens array shows an edge.
+#pragma once
+#include "image/image.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace lfdsim {
+
+/// Parallel edges, nearly upright, that cross a picture from its first row to its last. In pixels from its upper left corner.
+struct Edges {
+    struct Line {
+        double at;    // where it meets row 0
+        bool rising;  // bright on its right
+    };
+    std::vector<Line> lines;
+    double slope = 0;  // columns a row
+    double reach = 0;  // how far on each side, across the edge, the picture is about this edge; at least 1
+};
+
+/// The edge spread function: light as a share of white's against the distance to the right of the edge, in bins of a quarter pixel;
+/// the mean of all edges of all pictures that are added. Of a falling edge what it lacks of white counts, so that all blur the same
+/// way round.
+class EdgeSpread {
+  public:
+    /// The edges' reach, which all that are added have.
+    explicit EdgeSpread(double reach);
+    /// Pictures of one size. Only rows and columns of the picture count.
+    void add(const Edges&, const Image& picture, const Image& white);
+
+    /// For red, green and blue, at frequencies in cycles a pixel, 0 to 1: the modulus of the Fourier transform of the spread
+    /// function's derivative. What the bins and the differences between them take away is put back. NaN where there is no light.
+    std::array<std::vector<double>, 3> mtf(std::span<const double> frequencies) const;
+
+  private:
+    double reach_;
+    std::vector<std::array<double, 3>> light_, white_;
+};
+
+/// Where a curve over rising frequencies first falls below a level; NaN if it never does.
+double falls_below(std::span<const double> frequencies, std::span<const double> curve, double level);
+
+}  // namespace lfdsim

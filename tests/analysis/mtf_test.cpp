@@ -1,0 +1,177 @@
+#include "analysis/mtf.h"
+
+#include <gtest/gtest.h>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <random>
+
+namespace lfdsim {
+namespace {
+
+constexpr double radian = std::numbers::pi / 180;
+
+/// 40 x 30 ideal lenses with 20 x 20 views, seen from 1500 mm; the central depth plane 120 mm before them.
+Display ideal_display() {
+    Display d;
+    d.panel.pixels = {800, 600};
+    d.panel.pixel_pitch_mm = 0.25;
+    d.lens.type = LensType::ideal;
+    d.lens.focal_length_mm = 1 / (1 / 8. + 1 / 120.);
+    d.array.count = {40, 30};
+    d.array.pitch_mm = 5;
+    d.array.gap_mm = 8;
+    d.array.aperture = Aperture::square;
+    d.camera.position_mm = {0, 0, 1500};
+    d.content.viewing_distance_mm = 1500;
+    return d;
+}
+
+/// The blur of what an ideal display shows at a depth before the lenses, in double and by itself: for lines of sight through the
+/// middle of the screen, where the nodal ray of the panel pixel seen crosses that depth less where the line of sight does.
+struct Difference {
+    std::vector<double> x, y;
+};
+Difference differences(const Display& d, double depth, double angle_deg) {
+    std::mt19937_64 engine(1);
+    const auto uniform = [&](double low, double high) { return low + (high - low) * double(engine() >> 11) * 0x1p-53; };
+    const double gap = *d.array.gap_mm, p = d.array.pitch_mm, a = d.panel.pixel_pitch_mm, f = d.lens.focal_length_mm;
+    const double eye_x = 1500 * std::sin(angle_deg * radian), eye_z = 1500 * std::cos(angle_deg * radian) - gap;  // from the lenses
+    Difference all;
+    while (all.x.size() < 100000) {
+        const double at[2] = {uniform(-75, 75), uniform(-55, 55)};  // where the line of sight would meet the lenses
+        double slope[2] = {(eye_x - at[0]) / eye_z, (0 - at[1]) / eye_z}, place[2], result[2];
+        for (int k = 0; k < 2; ++k) place[k] = at[k] + depth * slope[k];
+        double start[2] = {at[0], at[1]}, turned[2] = {slope[0], slope[1]};
+        if (d.diffuser) {  // rotations about y, then about x, of the direction down
+            const double distance = d.diffuser->distance_mm;
+            const double u = uniform(-0.5, 0.5) * d.diffuser->angle_deg[0] * radian,
+                         v = uniform(-0.5, 0.5) * d.diffuser->angle_deg[1] * radian;
+            const double i[3] = {-slope[0], -slope[1], -1};
+            const double ix = std::cos(u) * i[0] + std::sin(u) * i[2], iz = std::cos(u) * i[2] - std::sin(u) * i[0];
+            const double jy = std::cos(v) * i[1] - std::sin(v) * iz, jz = std::sin(v) * i[1] + std::cos(v) * iz;
+            turned[0] = ix / jz, turned[1] = jy / jz;
+            for (int k = 0; k < 2; ++k) start[k] = at[k] + distance * (slope[k] - turned[k]);
+        }
+        double q[2], axis[2];
+        for (int k = 0; k < 2; ++k) {
+            axis[k] = (std::floor(start[k] / p) + 0.5) * p;  // an even number of lenses
+            q[k] = start[k] - axis[k];
+        }
+        if (d.array.aperture == Aperture::circle && std::hypot(q[0], q[1]) > *d.lens.aperture_radius_mm) continue;
+        for (int k = 0; k < 2; ++k) {
+            const double seen = start[k] - gap * (turned[k] + q[k] / f);
+            const double pixel = (std::floor(seen / a) + 0.5) * a;
+            const double owner = (std::floor(pixel / (1 + gap / (1500 - gap)) / p) + 0.5) * p;
+            result[k] = owner + depth * (owner - pixel) / gap - place[k];
+        }
+        all.x.push_back(result[0]);
+        all.y.push_back(result[1]);
+    }
+    return all;
+}
+
+class Counting : public Job {
+  public:
+    std::int64_t done = 0;
+    void advance(std::int64_t n) override { done += n; }
+};
+
+const std::vector<double>& column(const DataTable& t, const std::string& name) {
+    for (const Column& c : t.columns)
+        if (c.name == name) return c.values;
+    throw std::out_of_range(name);
+}
+const DataTable& table(const Result& r, const std::string& name) {
+    for (const DataTable& t : r.tables)
+        if (t.name == name) return t;
+    throw std::out_of_range(name);
+}
+
+/// Every curve agrees within 0.02, up to the pixel limit g / 2 a z, with the Fourier transform of the differences' histogram.
+void agrees(const Display& d, const std::vector<double>& depths) {
+    AnalysisOptions options;
+    options.depths_mm = depths;
+    Subject subject(d, {}, options);
+    Counting job;
+    const Result result = measure_mtf(subject, job);
+    EXPECT_EQ(job.done, mtf_steps(subject));
+    for (const Json& m : result.figures["measurements"]) EXPECT_GE(m["lenses_crossed"].get<int>(), 200);
+    const double slant = result.figures["slant_deg"].get<double>() * radian;
+    for (const bool horizontal : {true, false}) {
+        const DataTable& t = table(result, horizontal ? "mtf_horizontal" : "mtf_vertical");
+        const std::vector<double>&z = column(t, "depth_mm"), &angle = column(t, "angle_deg"), &f = column(t, "frequency_per_mm"),
+              &green = column(t, "green");
+        Difference by_sight;
+        for (std::size_t k = 0; k < z.size(); ++k) {
+            if (f[k] == 0) by_sight = differences(d, z[k], angle[k]);
+            if (f[k] > 0.5 * *d.array.gap_mm / (d.panel.pixel_pitch_mm * z[k]) || k % 20 != 0) continue;
+            std::complex<double> sum = 0;
+            for (std::size_t n = 0; n < by_sight.x.size(); ++n) {
+                const double x = by_sight.x[n], y = by_sight.y[n];
+                const double across =
+                    horizontal ? x * std::cos(slant) - y * std::sin(slant) : x * std::sin(slant) - y * std::cos(slant);
+                sum += std::polar(1., 2 * std::numbers::pi * f[k] * across);
+            }
+            EXPECT_NEAR(green[k], std::abs(sum) / double(by_sight.x.size()), 0.02)
+                << z[k] << " mm, " << angle[k] << " degrees, " << f[k] << " per mm" << (horizontal ? "" : ", vertical");
+        }
+    }
+}
+
+TEST(Mtf, OfSquareLensesIsThatOfTheNodalRaysDifferences) { agrees(ideal_display(), {70, 120, 180}); }
+
+TEST(Mtf, OfRoundLensesToo) {
+    Display d = ideal_display();
+    d.array.aperture = Aperture::circle;
+    d.lens.aperture_radius_mm = 2.4;
+    agrees(d, {120, 170});
+}
+
+TEST(Mtf, BehindADiffuserToo) {
+    Display d = ideal_display();
+    d.diffuser = Diffuser{120, {2.4, 1.6}, Profile::box};
+    agrees(d, {80, 170});
+}
+
+TEST(Mtf, WithoutALensToSeeThroughIsNull) {
+    Display d = ideal_display();
+    d.array.offset_mm = {5000, 0};
+    AnalysisOptions options;
+    options.depths_mm = {120};
+    Subject subject(d, {}, options);
+    Counting job;
+    const Result result = measure_mtf(subject, job);
+    EXPECT_TRUE(result.figures["measurements"][0]["mtf50_per_mm"]["red"].is_null());
+}
+
+TEST(Mtf, RefusesEdgesBehindTheEye) {
+    AnalysisOptions options;
+    options.depths_mm = {1490};
+    Subject subject(ideal_display(), {}, options);
+    Counting job;
+    EXPECT_THROW(measure_mtf(subject, job), InputError);
+    AnalysisOptions inside;
+    inside.viewing_distance_mm = 7;
+    Subject near(ideal_display(), {}, inside);
+    EXPECT_THROW(measure_mtf(near, job), InputError);
+}
+
+TEST(Mtf, StopsWhenAsked) {
+    class Cancelled : public Job {
+        bool cancelled() const override { return true; }
+    } job;
+    Subject subject(ideal_display(), {}, {});
+    EXPECT_THROW(measure_mtf(subject, job), Stopped);
+}
+
+TEST(Mtf, DepthsHoldTheCentralDepthPlane) {
+    Subject subject(ideal_display(), {}, {});
+    const std::vector<double> depths = mtf_depths_mm(subject);
+    ASSERT_EQ(depths.size(), 9u);
+    EXPECT_NEAR(depths[4], 120, 1e-9);
+    EXPECT_TRUE(std::is_sorted(depths.begin(), depths.end()));
+}
+
+}  // namespace
+}  // namespace lfdsim
