@@ -17,7 +17,7 @@ namespace lfdsim {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr int bundle_rays = 96, pixel_rays = 40, shown_rays = 22, fan_rays = 1001, focus_steps = 121, most_places = 96;
+constexpr int bundle_rays = 256, pixel_rays = 64, shown_rays = 22, fan_rays = 1001, focus_steps = 121, most_places = 96;
 
 /// A point of the panel under the lens, and what comes of it.
 struct Field {

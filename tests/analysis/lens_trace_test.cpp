@@ -13,6 +13,8 @@
 namespace lfdsim {
 namespace {
 
+using namespace lens_examples;
+
 constexpr double from_75[] = {-75, 0, 75};
 
 /// The display's own tracer, in double precision and with this lens alone.

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace lfdsim {
+namespace lfdsim::lens_examples {
 
 inline Display shipped(const std::string& name) { return read_display(LFDSIM_SOURCE_DIR "/displays/" + name + ".toml"); }
 
@@ -63,4 +63,4 @@ inline std::vector<std::pair<std::string, Display>> all_lenses() {
     return all;
 }
 
-}  // namespace lfdsim
+}  // namespace lfdsim::lens_examples

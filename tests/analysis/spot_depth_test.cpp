@@ -11,6 +11,8 @@
 namespace lfdsim {
 namespace {
 
+using namespace lens_examples;
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Result measured(const Display& d, double wavelength_nm = 550) {
