@@ -156,6 +156,7 @@ struct Bundle {
     S width, height;                                   // of a box that spreads as far, panel pixels
     S weight;                                          // mean over the part, what is lost on the way counted as 0
     S x, y, probe_column, probe_row;                   // the probe that stands for it: mm, and its place on the panel
+    S lean_column[2], lean_row[2];                     // sharp: added to what moves it per picture pixel to the right and down
     Footprint<S> footprint;                            // sharp: the box, which each pixel reads at its own place
     bool still;                                        // soft: the footprint does not move
     int nodes;                                         // soft: along an axis of the block; 1: its light is the same everywhere
@@ -205,9 +206,34 @@ LFDSIM_FN Bundle<S> sum_up(const Probes<S>& probes, int per_axis) {
     b.y = probes.y[one];
     b.probe_column = probes.column[one];
     b.probe_row = probes.row[one];
+    for (int k = 0; k < 2; ++k) b.lean_column[k] = b.lean_row[k] = S(0);
     b.state = others == S(0) ? State::sharp : State::broken;
     return b;
 }
+
+/// How the place on the panel changes with the place in the plane of the holes: least squares over the probes, panel pixels per mm.
+template <class S>
+struct Slopes {
+    S column[2], row[2];  // along x and y
+
+    LFDSIM_FN Slopes(const Probes<S>& probes, const Bundle<S>& b) {
+        S lit[kMostProbes], t[kMostProbes];
+        for (int p = 0; p < kMostProbes; ++p) lit[p] = probes.in[p] * probes.weight[p] > S(0) ? S(1) : S(0);
+        const S count = sum_of(lit);
+        for (int a = 0; a < 2; ++a) {
+            const S* const at = a == 0 ? probes.x : probes.y;
+            for (int p = 0; p < kMostProbes; ++p) t[p] = lit[p] * at[p];
+            const S mean = sum_of(t) / count;
+            auto sum = [&](auto value) {
+                for (int p = 0; p < kMostProbes; ++p) t[p] = lit[p] > S(0) ? (at[p] - mean) * value(p) : S(0);
+                return sum_of(t);
+            };
+            const S spread = sum([&](int p) { return at[p] - mean; }), per = spread > S(0) ? S(1) / spread : S(0);
+            column[a] = per * sum([&](int p) { return probes.column[p] - b.column; });
+            row[a] = per * sum([&](int p) { return probes.row[p] - b.row; });
+        }
+    }
+};
 
 /// Is the footprint so wide that a single box tells too little of it?
 template <class S>

@@ -125,5 +125,42 @@ TEST(FilteredEdges, AnErrorThatIsNeverReachedMayBeCancelled) {
     }
 }
 
+// Where a pixel sees a quarter of a lens and a block is half as wide as that, each pixel sees another part of the outermost strata.
+TEST(FilteredEdges, EndsOfTheDiffusersSquareMoveWithThePixels) {
+    Display d;
+    d.panel.pixels = {88, 48};
+    d.panel.pixel_pitch_mm = 0.5;
+    d.lens.sphere_radius_mm = 2.6;
+    d.lens.aperture_radius_mm = 1.9;
+    d.lens.cylinder_height_mm = 1;
+    d.lens.index = 1.4918;
+    d.array.count = {11, 6};
+    d.array.pitch_mm = 4;
+    d.array.gap_mm = 5;
+    d.diffuser = Diffuser{40, {1.5, 1}, Profile::box};
+    d.camera.position_mm = {0, 0, 400};
+    d.camera.frame_width_mm = 46;
+    d.camera.resolution = {480, 270};
+    Image light(88, 48);  // squares of 4 x 4 pixels, each of some light
+    Random random(2);
+    for (int y = 0; y < 48; ++y)
+        for (int x = 0; x < 88; ++x)
+            for (int c = 0; c < 3; ++c)
+                light.at(x, y)[c] = x % 4 || y % 4 ? light.at(x / 4 * 4, y / 4 * 4)[c] : float(random(0.02, 0.8));
+    const Texels panel = make_texels(light);
+    RenderOptions crop;
+    crop.crop = Rect{144, 80, 272, 160};
+    const auto with = [&](Estimator e, std::int64_t samples) {
+        d.render.estimator = e;
+        d.render.samples = samples;
+        return picture(d, panel, crop);
+    };
+    const Image truth = with(Estimator::point, 4096);
+    d.render.sampling = Sampling::random;
+    const double noise = compare(with(Estimator::point, 100), truth).rmse;
+    EXPECT_LT(compare(with(Estimator::filtered, 4), truth).rmse, 1.0 * noise);   // if they did not: 1.3
+    EXPECT_LT(compare(with(Estimator::filtered, 16), truth).rmse, 0.4 * noise);  // 0.54
+}
+
 }  // namespace
 }  // namespace lfdsim

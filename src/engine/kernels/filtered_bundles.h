@@ -19,6 +19,8 @@ struct Bundles {
 /// A range of a stratum along one axis, mm from the axis of its lens.
 struct Range {
     S from, to;
+    S middle() const { return S(0.5) * (from + to); }
+    S length() const { return to - from; }
 };
 
 /// The part of a stratum that its hole covers lies in these ranges; false: it covers none.
@@ -111,7 +113,11 @@ class BundleMaker {
     Bundle probe(int i, Range x, int j, Range y, bool inside) {
         trace(i, x, j, y, inside);
         Bundle b = optics::sum_up(probes, per_axis);
-        if (b.state != Bundle::State::sharp || !optics::is_soft(b)) return b;
+        if (b.state != Bundle::State::sharp) return b;
+        if (!optics::is_soft(b)) {
+            lean(b, i, x, j, y);
+            return b;
+        }
         follow(b);
         finish();
         if (b.state == Bundle::State::broken) return b;
@@ -139,6 +145,42 @@ class BundleMaker {
             for (int c = 0; c < 3; ++c) b.colour[n][c] = b.colour[n][c] / in;
         }
         return b;
+    }
+
+    /// Pixels see parts of the outermost strata: their footprints are smaller than that of all of it, and move with these parts.
+    void lean(Bundle& b, int i, Range x, int j, Range y) const {
+        if (!sees_end(0, i) && !sees_end(1, j)) return;
+        const optics::Slopes<S> slopes(probes, b);
+        const Range ranges[2] = {x, y};
+        const int strata[2] = {i, j};
+        S width = b.width * b.width, height = b.height * b.height;
+        for (int a = 0; a < 2; ++a) {
+            if (!sees_end(a, strata[a])) continue;
+            const Range all = ranges[a], here = seen_of(a, strata[a], all, 0, 0), right = seen_of(a, strata[a], all, 1, 0),
+                        down = seen_of(a, strata[a], all, 0, 1);
+            if (!(here.length() > S(0.25) * all.length())) continue;  // what most pixels see of it is too unlike that
+            const S from_all = here.middle() - all.middle(), per = S(1) / S(block.reach),
+                    moves[2] = {(right.middle() - here.middle()) * per, (down.middle() - here.middle()) * per};
+            b.column = b.column + slopes.column[a] * from_all;
+            b.row = b.row + slopes.row[a] * from_all;
+            for (int k = 0; k < 2; ++k) {
+                b.lean_column[k] = b.lean_column[k] + slopes.column[a] * moves[k];
+                b.lean_row[k] = b.lean_row[k] + slopes.row[a] * moves[k];
+            }
+            const S less = all.length() * all.length() - here.length() * here.length();
+            width = width - slopes.column[a] * slopes.column[a] * less;
+            height = height - slopes.row[a] * slopes.row[a] * less;
+        }
+        b.width = optics::sqrt(optics::max(width, S(0)));
+        b.height = optics::sqrt(optics::max(height, S(0)));
+    }
+
+    /// What a pixel at (dx, dy) of the block, -1 .. 1, sees of a range of a stratum; nothing: the end of the range next to it.
+    Range seen_of(int a, int stratum, Range r, S dx, S dy) const {
+        const Gradient &first = axis[a].place[0], &last = axis[a].place[axis[a].strata];
+        const S start = first.middle + first.right * dx + first.down * dy, end = last.middle + last.right * dx + last.down * dy,
+                at = axis[a].cell[stratum] * scene.pitch, low = optics::min(start, end) - at, high = optics::max(start, end) - at;
+        return {optics::min(optics::max(r.from, low), r.to), optics::max(optics::min(r.to, high), r.from)};
     }
 
     bool sees_end(int a, int stratum) const { return !axis[a].moving && (stratum == 0 || stratum == axis[a].strata - 1); }
@@ -203,8 +245,12 @@ class BundleMaker {
         for (int k = 0; k < waiting; ++k) {
             Bundle& b = *followed[k];
             optics::follow(b, rays, 3 * k, block.reach);
-            if (b.state == Bundle::State::sharp)
-                b.footprint = optics::Footprint<S>(tile.levels, tile.level_count, block.lens.panel, b.width, b.height);
+            if (b.state != Bundle::State::sharp) continue;
+            b.column_right = b.column_right + b.lean_column[0];
+            b.row_right = b.row_right + b.lean_row[0];
+            b.column_down = b.column_down + b.lean_column[1];
+            b.row_down = b.row_down + b.lean_row[1];
+            b.footprint = optics::Footprint<S>(tile.levels, tile.level_count, block.lens.panel, b.width, b.height);
         }
         waiting = 0;
     }
