@@ -20,17 +20,6 @@ double central_depth_mm(const Subject& s) {
     return s.theory().central_depth_mm + s.geometry().rear_principal_mm - s.geometry().vertex_plane_mm;
 }
 
-void refuse_depths_in_lenses(const Subject& s, const std::vector<double>& depths) {
-    const double bottom = s.geometry().base_z_mm - s.geometry().vertex_plane_mm,
-                 top = s.geometry().top_z_mm - s.geometry().vertex_plane_mm;
-    for (const double z : depths)
-        if (z >= bottom && z <= top)
-            throw InputError("--depths-mm",
-                             fmt::format("{} puts the model's centre inside the lenses, which stand from {:.4g} to {:.4g} "
-                                         "mm; give depths before or behind them",
-                                         z, bottom, top));
-}
-
 Json both(const std::array<double, 2>& a) {
     Json json = Json::array();
     for (const double x : a) json.push_back(std::isfinite(x) ? Json(x) : Json());
@@ -53,7 +42,7 @@ std::int64_t dof_steps(const Subject& s) { return 2 * std::int64_t(dof_depths_mm
 
 Result measure_dof(Subject& s, Job& job) {
     const std::vector<double> depths = dof_depths_mm(s);
-    refuse_depths_in_lenses(s, depths);
+    for (const double z : depths) refuse_depth_in_lenses(s.geometry(), z, "--depths-mm");
     if (depths.size() < 3) throw InputError("--depths-mm", "the depth of field needs three depths or more");
     const double middle = central_depth_mm(s), centre = std::isfinite(middle) ? middle : depths.back();
     const double white = s.white_field(job);

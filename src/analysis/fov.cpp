@@ -107,7 +107,7 @@ void add_axis(Result& result, const std::string& name, const Curves& curves, dou
 
 std::vector<double> fov_angles_deg(const Subject& subject) {
     if (!subject.options().angles_deg.empty()) return subject.options().angles_deg;
-    const double most = std::min(80., std::max(30., std::ceil(0.5 * subject.theory().fov_deg) + 12));
+    const double most = std::min(80., std::max(30., std::ceil(0.5 * subject.theory().fov_deg - 1e-6) + 10));
     std::vector<double> angles;
     for (double a = -most; a <= most; ++a) angles.push_back(a);
     return angles;

@@ -5,7 +5,7 @@
 
 namespace lfdsim {
 
-/// The angles of the views, horizontally and vertically: those of the options, else every degree as far as 30 on each side, or 12
+/// The angles of the views, horizontally and vertically: those of the options, else every degree as far as 30 on each side, or 10
 /// beyond the edge that theory expects, 80 at most.
 std::vector<double> fov_angles_deg(const Subject&);
 

@@ -4,6 +4,7 @@
 #include "engine/scene.h"
 #include "model/error.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -89,6 +90,15 @@ Region content_region(const Display& d, const Geometry& g, const Scene& scene) {
     const Rect box{pixel(std::floor(x0), width), pixel(std::floor(y0), height), pixel(std::ceil(x1), width),
                    pixel(std::ceil(y1), height)};
     return Region::of(box).intersected(screen_region(d, g));
+}
+
+void refuse_depth_in_lenses(const Geometry& g, double depth_mm, const std::string& where) {
+    const double bottom = g.base_z_mm - g.vertex_plane_mm, top = g.top_z_mm - g.vertex_plane_mm;
+    if (depth_mm < bottom || depth_mm > top) return;
+    throw InputError(where,
+                     fmt::format("{} puts the model's centre inside the lenses, which stand from {:.4g} to {:.4g} mm; give a "
+                                 "depth before or behind them",
+                                 depth_mm, bottom, top));
 }
 
 void expose(Image& image, double white) {

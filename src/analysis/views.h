@@ -15,6 +15,9 @@ Region screen_region(const Display&, const Geometry&);
 /// The rectangle about the pixels that may show the scene's box, where they see the screen too.
 Region content_region(const Display&, const Geometry&, const Scene&);
 
+/// Throws InputError for `where` if the scene's centre at this depth before the vertex plane would be inside the lenses.
+void refuse_depth_in_lenses(const Geometry&, double depth_mm, const std::string& where);
+
 /// Light of the picture divided by `white`, so that a white screen has 1.
 void expose(Image&, double white);
 

@@ -1,6 +1,7 @@
 #include "analysis/folder.h"
 #include "analysis/measure.h"
 #include "analysis/report.h"
+#include "analysis/views.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/display_options.h"
@@ -191,8 +192,11 @@ void run(const Arguments& args) {
     options.threads = args.work.threads();
 
     std::optional<Scene> scene;
-    if (std::any_of(wanted.begin(), wanted.end(), [](const Measure* m) { return m->needs_scene; }))
-        scene = load_scene(display, resolve(display));
+    if (std::any_of(wanted.begin(), wanted.end(), [](const Measure* m) { return m->needs_scene; })) {
+        const Geometry geometry = resolve(display);
+        if (display.content.depth_mm) refuse_depth_in_lenses(geometry, *display.content.depth_mm, "content.depth_mm");
+        scene = load_scene(display, geometry);
+    }
     Subject subject(display, std::move(scene), options);
     const std::string description = write_display(display);
     const ResultFolder folder(args.output, Json{{"lfdsim", LFDSIM_VERSION},

@@ -129,6 +129,7 @@ for name, arguments, *words in [
     ("angles that fall", f"fov {QUICK.replace('-30,30,10', '30,-30,1')} -o bad", "--angles-deg"),
     ("angles on one side", f"fov {QUICK.replace('-30,30,10', '5,30,5')} -o bad", "--angles-deg"),
     ("depth inside the lenses", f"dof {QUICK.replace('10,40,10', '-1,40,0.5')} -o bad", "--depths-mm", "inside the lenses"),
+    ("described depth inside the lenses", f"fov {QUICK} --depth-mm -0.5 -o bad", "content.depth_mm", "inside the lenses"),
     ("two depths", f"dof {QUICK.replace('10,40,10', '10,40,30')} -o bad", "--depths-mm"),
     ("a step of nothing", f"dof {QUICK.replace('10,40,10', '10,40,0')} -o bad", "--depths-mm"),
     ("a model without surfaces", f"fov {QUICK.replace('pyramid', 'points')} -o bad", "points.obj"),

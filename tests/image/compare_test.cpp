@@ -107,8 +107,10 @@ TEST(Compare, AgreesWithScikitImage) {
                 }
         return std::pair(a, b);
     };
-    const std::pair<Image, Image> pairs[] = {
-        pair(0.001f, 1), pair(0.1f, 2), pair(1, 3), {test::random_image(97, 61, 4), test::random_image(97, 61, 5)}};
+    std::vector<std::pair<Image, Image>> pairs{{test::random_image(97, 61, 4), test::random_image(97, 61, 5)}};
+    for (const float noise : {1e-4f, 1e-3f, 0.01f, 0.03f, 0.1f, 0.2f, 0.4f, 0.7f, 1.f, 2.f})
+        pairs.push_back(pair(noise, unsigned(pairs.size())));
+    pairs.emplace_back(pairs[1].first, pairs[5].second);
     const std::string script = LFDSIM_SOURCE_DIR "/tests/image/ssim_reference.py";
     std::string command = "/usr/bin/python3 '" + script + "'";
     for (std::size_t i = 0; i < std::size(pairs); ++i)
