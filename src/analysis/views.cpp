@@ -2,6 +2,7 @@
 
 #include "engine/render.h"
 #include "engine/scene.h"
+#include "engine/screen.h"
 #include "model/error.h"
 
 #include <fmt/format.h>
@@ -63,15 +64,9 @@ Display seen_from(const Display& display, double horizontal_deg, double vertical
 }
 
 Region screen_region(const Display& d, const Geometry& g) {
-    const double c = std::cos(d.array.rotation_deg * degree), s = std::sin(d.array.rotation_deg * degree);
-    const Projection project(d.camera, g);
-    std::array<std::array<double, 2>, 4> corners;
-    for (std::size_t k = 0; k < 4; ++k) {
-        const double x = (k == 1 || k == 2 ? 0.5 : -0.5) * g.array_width_mm, y = (k < 2 ? 0.5 : -0.5) * g.array_height_mm;
-        const Vec3d point{c * x - s * y + d.array.offset_mm[0], s * x + c * y + d.array.offset_mm[1], g.vertex_plane_mm};
-        if (d.camera.position_mm[2] <= g.vertex_plane_mm || !project(point, corners[k])) return {};
-    }
-    return Region::polygon(corners, int(d.camera.resolution[0]), int(d.camera.resolution[1]));
+    if (d.camera.position_mm[2] <= g.vertex_plane_mm) return {};  // it looks from behind
+    const std::optional<Corners> corners = screen_corners(d, g);
+    return corners ? Region::polygon(*corners, int(d.camera.resolution[0]), int(d.camera.resolution[1])) : Region{};
 }
 
 Region content_region(const Display& d, const Geometry& g, const Scene& scene) {

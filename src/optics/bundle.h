@@ -43,14 +43,14 @@ LFDSIM_FN bool all_go_down(const Scene<S>& scene, const PixelBlock<S>& block) {
     return true;
 }
 
-/// Strata take the diffuser's two turns as if each moved the ray along its own axis alone. Is that so, to two thousandths of
-/// the light?
+/// Strata take the diffuser's two turns as if each moved the ray along its own axis alone. Is that so, to a share
+/// `most` of the light that comes from a place?
 ///
 /// A ray in the direction t, |t| = 1, of slopes s and s' meets the solid angle |z'| da db, where z'^2 = 1 - t_x^2 - i_y^2 after the
 /// first turn of the direction i, and that is |t_z|^3 dx dy / H^2 of the plane H below. The strata take da db = dx dy / (H^2 (1 +
 /// s^2)(1 + s'^2)).
 template <class S>
-LFDSIM_FN bool axes_part(const Scene<S>& scene, const PixelBlock<S>& block) {
+LFDSIM_FN bool axes_part(const Scene<S>& scene, const PixelBlock<S>& block, S most) {
     S tangent[2];
     for (int a = 0; a < 2; ++a) {
         S sine, cosine;
@@ -65,14 +65,15 @@ LFDSIM_FN bool axes_part(const Scene<S>& scene, const PixelBlock<S>& block) {
         }
         const S xx = s[0] * s[0], yy = s[1] * s[1], n2 = S(1) + xx + yy, i_y = block.to[0].y, z2 = S(1) - xx / n2 - i_y * i_y;
         const S ratio = (S(1) + xx) * (S(1) + yy) / (n2 * sqrt(n2) * sqrt(max(z2, S(1e-6))));
-        if (!(abs(ratio - S(1)) < S(2e-3))) return false;
+        if (!(abs(ratio - S(1)) < most)) return false;
     }
     return true;
 }
 
 /// The block of side x side pixels of which (column, row) is the first. Blocks lie in a grid of the whole frame.
 template <class S>
-LFDSIM_FN PixelBlock<S> pixel_block(const Scene<S>& scene, const View& view, int side, std::int32_t column, std::int32_t row) {
+LFDSIM_FN PixelBlock<S> pixel_block(const Scene<S>& scene, const View& view, int side, S most_misjudged, std::int32_t column,
+                                    std::int32_t row) {
     PixelBlock<S> block;
     block.reach = side / 2;
     const double middle_x = column + block.reach, middle_y = row + block.reach;
@@ -94,7 +95,7 @@ LFDSIM_FN PixelBlock<S> pixel_block(const Scene<S>& scene, const View& view, int
                 turn = s[1].slope + s[2].slope + s[3].slope - S(3) * s[0].slope;
         block.alive = abs(bend) + abs(turn * scene.holes_below) < S(1e-3) * scene.pitch;
     }
-    block.alive = block.alive && all_go_down(scene, block) && axes_part(scene, block);
+    block.alive = block.alive && all_go_down(scene, block) && axes_part(scene, block, most_misjudged);
     return block;
 }
 

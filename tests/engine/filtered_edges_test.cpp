@@ -162,5 +162,27 @@ TEST(FilteredEdges, EndsOfTheDiffusersSquareMoveWithThePixels) {
     EXPECT_LT(compare(with(Estimator::filtered, 16), truth).rmse, 0.4 * noise);  // 0.54
 }
 
+// From above, and oblique both ways, the diffuser's two turns are not independent; rays of the pixels' own, which are for the
+// extremes, would make 4 samples as noisy as 4 points.
+TEST(FilteredEdges, ObliqueViewsAreQuiet) {
+    for (const auto& [right, up] : {std::pair{0.0, 10.0}, {0.0, -25.0}, {18.0, 18.0}}) {
+        Display d = ideal_example();
+        d.diffuser = Diffuser{40, {4, 4}, Profile::box};
+        d.camera.resolution = {96, 54};
+        const double h = right * degree, v = up * degree;
+        d.camera.position_mm = {500 * std::sin(h) * std::cos(v), 500 * std::sin(v), 500 * std::cos(h) * std::cos(v)};
+        const Texels panel = noise_panel(d);
+        const auto with = [&](Estimator e, std::int64_t samples, Sampling sampling) {
+            d.render.estimator = e;
+            d.render.samples = samples;
+            d.render.sampling = sampling;
+            return picture(d, panel);
+        };
+        const Image truth = with(Estimator::point, 16384, Sampling::sobol);
+        const double noise = compare(with(Estimator::point, 100, Sampling::random), truth).rmse;
+        EXPECT_LT(compare(with(Estimator::filtered, 4, Sampling::sobol), truth).rmse, noise) << right << ", " << up;
+    }
+}
+
 }  // namespace
 }  // namespace lfdsim

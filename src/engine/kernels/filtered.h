@@ -56,7 +56,7 @@ class BlockRenderer {
           scene(*t.scene),
           x0(left),
           y0(top),
-          block(optics::pixel_block<S>(scene, *t.view, t.block_side, left, top)),
+          block(optics::pixel_block<S>(scene, *t.view, t.block_side, t.strata > kFewStrata ? S(0.002) : S(0.05), left, top)),
           axis{cut_axis(scene, block.sweep[0], block.alive, 0, even), cut_axis(scene, block.sweep[1], block.alive, 1, even)},
           per_reach(S(1) / S(block.reach)),
           per_axis(t.strata > kFewStrata || t.block_side <= kPlaceStep ? 0 : t.block_side / kPlaceStep + 1) {
