@@ -76,7 +76,8 @@ struct Light {
     }
     /// Light of each lane: R, G, B and an idle number.
     LFDSIM_FN void add(const Scalar<F> (*lanes)[4]) {
-        for (int r = 0; r < 4; ++r) sum[r] = sum[r] + load<F>(lanes[0] + r * N);
+        const Scalar<F>* const first = lanes[0];
+        for (int r = 0; r < 4; ++r) sum[r] = sum[r] + load<F>(first + r * N);
     }
     /// R, G, B and an idle number of each lane.
     LFDSIM_FN void store(Scalar<F>* to) const {
