@@ -7,10 +7,6 @@
 
 namespace lfdsim {
 
-struct Subject::Shown {
-    std::unique_ptr<ShownPanel> panel;
-};
-
 Subject::Subject(Display display, std::optional<Scene> scene, AnalysisOptions options)
     : display_(std::move(display)),
       geometry_(resolve(display_)),
@@ -39,8 +35,8 @@ std::unique_ptr<ShownPanel> elemental_panel(const Display& display, const Geomet
 }
 
 const Pyramid& Subject::panel(const Job& job) {
-    if (!shown_) shown_ = std::make_shared<const Shown>(Shown{elemental_panel(display_, geometry_, scene(), threads(), job)});
-    return shown_->panel->pyramid();
+    if (!shown_) shown_ = elemental_panel(display_, geometry_, scene(), threads(), job);
+    return shown_->pyramid();
 }
 
 double Subject::white_field(const Job& job) {

@@ -36,6 +36,17 @@ class Quiet : public Job {
     const Job& whole_;
 };
 
+/// A panel image with its pyramid.
+class ShownPanel {
+  public:
+    ShownPanel(Texels, int threads);
+    const Pyramid& pyramid() const { return pyramid_; }
+
+  private:
+    Texels texels_;
+    Pyramid pyramid_;
+};
+
 class Subject {
   public:
     /// A valid display; the scene may be absent, for measures that need none.
@@ -65,20 +76,8 @@ class Subject {
     Theory theory_;
     std::optional<Scene> scene_;
     AnalysisOptions options_;
-    struct Shown;
-    std::shared_ptr<const Shown> shown_;
+    std::shared_ptr<const ShownPanel> shown_;
     std::optional<double> white_field_;
-};
-
-/// A panel image with its pyramid.
-class ShownPanel {
-  public:
-    ShownPanel(Texels, int threads);
-    const Pyramid& pyramid() const { return pyramid_; }
-
-  private:
-    Texels texels_;
-    Pyramid pyramid_;
 };
 
 /// The elemental images of a scene as the display's panel shows them. Throws Stopped.
