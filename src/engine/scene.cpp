@@ -233,8 +233,9 @@ int block_side(const optics::Scene<float>& scene, const optics::View& view, int 
         const double span = 2 * double(scene.holes_below) * std::tan(std::min(double(angle), 1.5));
         span > 4 * pixel ? seen = std::min(seen, span) : moving = true;
     }
-    const double wide = moving ? 0.1 : strata <= kFewStrata ? 0.7 : 0.2;
-    return 16 * pixel < wide * seen ? 16 : 8 * pixel < 0.4 * seen ? 8 : 4;
+    // Many strata: a fine picture is asked for, in which what bends over a block would show.
+    const double wide = strata > 2 * kFewStrata ? 0.05 : moving ? 0.1 : strata <= kFewStrata ? 0.7 : 0.2;
+    return 16 * pixel < wide * seen ? 16 : 8 * pixel < std::min(2 * wide, 0.4) * seen ? 8 : 4;
 }
 
 const optics::Directions& sobol_directions() {

@@ -120,9 +120,9 @@ LFDSIM_FN void light_of_boxes(const PanelLevel* levels, int count, const PanelBa
     const Uint<F> i = to_int(whole_c), j = to_int(whole_r);
     std::uint32_t at[lanes], place[4][lanes];
     S share[4][lanes];
-    auto cell = [&](int k, Uint<F> i, Uint<F> j, F part) {
-        const Mask<F> lit = (i < columns) && (j < rows);
-        store(select(lit, j * columns + i, Uint<F>(0u)), place[k]);
+    auto cell = [&](int k, Uint<F> across, Uint<F> down, F part) {
+        const Mask<F> lit = (across < columns) && (down < rows);
+        store(select(lit, down * columns + across, Uint<F>(0u)), place[k]);
         store(select(lit, weight * part, F(0)), share[k]);
     };
     const Uint<F> one = Uint<F>(1u);

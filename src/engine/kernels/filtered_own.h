@@ -66,11 +66,11 @@ __attribute__((noinline)) void add_own_rays(const Tile& tile, const optics::Pixe
     if (part != Own::beside) {
         // Two more rays, a quarter of the stratum towards its middle, tell where the middle looks and how wide.
         auto step = [&](const Span<F>& span, F at) {
-            const F mid = half * (span.low + span.high), part = quarter * (span.high - span.low);
-            return optics::select(at < mid, part, -part);
+            const F mid = half * (span.low + span.high), size = quarter * (span.high - span.low);
+            return optics::select(at < mid, size, -size);
         };
-        auto steps = [&](const Span<F>& span, F at, F step) {  // to the middle
-            return (half * (span.low + span.high) - at) / optics::select(step == F(0), F(1), step);
+        auto steps = [&](const Span<F>& span, F at, F one_step) {  // to the middle
+            return (half * (span.low + span.high) - at) / optics::select(one_step == F(0), F(1), one_step);
         };
         const F step_a = step(x, a), step_b = step(y, b), to_a = steps(x, a, step_a), to_b = steps(y, b, step_b);
         const auto across = trace_own<through>(scene, pixels, a + step_a, b);
