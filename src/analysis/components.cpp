@@ -2,7 +2,7 @@
 
 #include "analysis/views.h"
 #include "engine/render.h"
-#include "image/sheet.h"
+#include "image/scaled.h"
 #include "model/keys.h"
 
 #include <fmt/format.h>
@@ -45,11 +45,6 @@ Image cut(const Image& from, const Rect& r) {
     Image part(r.x1 - r.x0, r.y1 - r.y0);
     for (int y = r.y0; y < r.y1; ++y) std::copy_n(from.at(r.x0, y), std::size_t(part.width) * 3, part.at(0, y - r.y0));
     return part;
-}
-
-Image fitted(const Image& image, int width) {
-    if (image.width <= width) return image;
-    return scaled(image, width, std::max(1, int(std::lround(double(width) * image.height / image.width))));
 }
 
 /// Pixels an integral number of times as wide.
@@ -96,7 +91,7 @@ Result measure_components(Subject& s, Job& job) {
         Quiet quiet(job);
         const Picture elemental = elemental_images(d, s.geometry(), s.scene(), s.threads(), quiet);
         if (!elemental.complete) throw Stopped{};
-        add("elemental", "The elemental images on the panel", fitted(elemental.image, 1920));
+        add("elemental", "The elemental images on the panel", reduced(elemental.image, 1920));
         const Rect middle_lenses = middle(elemental.image.width, elemental.image.height, 6 * lens_pixels, 4 * lens_pixels);
         close = cut(elemental.image, middle_lenses);
         add("elemental-close", "The elemental images of the middle 6 x 4 lenses", enlarged(close, std::max(1, 960 / close.width)));

@@ -4,7 +4,7 @@
 #include "image/apng.h"
 #include "image/file.h"
 #include "image/image_file.h"
-#include "image/png_memory.h"
+#include "image/scaled.h"
 
 #include <fmt/format.h>
 #include <algorithm>

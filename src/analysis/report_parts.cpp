@@ -3,8 +3,10 @@
 #include "analysis/base64.h"
 #include "analysis/side_view.h"
 #include "analysis/svg_drawing.h"
+#include "image/encoding.h"
 #include "image/image_file.h"
 #include "image/png_memory.h"
+#include "image/scaled.h"
 
 #include <fmt/format.h>
 #include <cmath>
@@ -69,7 +71,7 @@ std::string pictures(const ResultFolder& folder, const Json& list, bool as_they_
             if (columns_of(png) == 0) throw InputError(path.string(), "is no PNG");
             if (!as_they_are && columns_of(png) > most_columns) {
                 const Image small = reduced(read_image(path, Encoding::srgb), most_columns);
-                png = png_bytes(small.width, small.height, 3, srgb_codes(small));
+                png = png_bytes(small.width, small.height, 3, encode8(small, Encoding::srgb));
             }
             const std::string caption = text_of(entry, "caption");
             return figure(fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", caption, base64(png)), caption);

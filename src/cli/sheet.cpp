@@ -4,6 +4,7 @@
 #include "cli/memory.h"
 #include "cli/output.h"
 #include "image/image_file.h"
+#include "image/scaled.h"
 
 #include <fmt/format.h>
 #include <algorithm>

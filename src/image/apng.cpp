@@ -1,5 +1,6 @@
 #include "image/apng.h"
 
+#include "image/encoding.h"
 #include "image/file.h"
 #include "image/png_memory.h"
 
@@ -42,7 +43,7 @@ struct Still {
 };
 
 Still still(const Image& frame) {
-    const std::string png = png_bytes(frame.width, frame.height, 3, srgb_codes(frame));
+    const std::string png = png_bytes(frame.width, frame.height, 3, encode8(frame, Encoding::srgb));
     Still parts;
     for (std::size_t at = signature_bytes; at + 12 <= png.size();) {
         const std::size_t length = number_at(png, at);

@@ -17,23 +17,6 @@ void paste(const Image& from, Image& to, int x, int y) {
 
 }  // namespace
 
-Image scaled(const Image& from, int width, int height) {
-    Image to(width, height);
-    const double sx = double(from.width) / width, sy = double(from.height) / height;
-    // the share of [low, high] that lies in pixel i
-    const auto share = [](double low, double high, int i) { return std::min(high, i + 1.0) - std::max(low, double(i)); };
-    for (int row = 0; row < height; ++row)
-        for (int column = 0; column < width; ++column) {
-            const double x0 = column * sx, x1 = x0 + sx, y0 = row * sy, y1 = y0 + sy;
-            double sum[3] = {};
-            for (int y = int(y0); y < std::min(int(std::ceil(y1)), from.height); ++y)
-                for (int x = int(x0); x < std::min(int(std::ceil(x1)), from.width); ++x)
-                    for (int c = 0; c < 3; ++c) sum[c] += share(x0, x1, x) * share(y0, y1, y) * from.at(x, y)[c];
-            for (int c = 0; c < 3; ++c) to.at(column, row)[c] = float(sum[c] / (sx * sy));
-        }
-    return to;
-}
-
 Image contact_sheet(std::span<const Image> pictures, std::span<const std::string> labels, int columns) {
     const int count = int(pictures.size());
     columns = std::clamp(columns, 1, std::max(count, 1));

@@ -7,9 +7,6 @@
 
 namespace lfdsim {
 
-/// The mean light over each new pixel's area, so that fine lens dots keep their brightness. Sizes 1 or more.
-Image scaled(const Image&, int width, int height);
-
 /// `columns` pictures in a row on dark grey, each under its label (cut to its width). Labels: as many as pictures, or none.
 Image contact_sheet(std::span<const Image> pictures, std::span<const std::string> labels, int columns);
 

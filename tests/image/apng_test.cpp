@@ -6,7 +6,9 @@
 #include <sstream>
 
 #include "helpers.h"
+#include "image/encoding.h"
 #include "image/png_memory.h"
+#include "image/scaled.h"
 
 namespace lfdsim {
 namespace {
@@ -30,7 +32,7 @@ TEST(Animation, OtherProgramsReadEachFrame) {
         EXPECT_EQ(test::load(folder / "out"), std::to_string(count) + " 37 23 125 0\n");
         std::string codes;
         for (const Image& frame : frames)
-            for (const std::uint8_t code : srgb_codes(frame)) codes += char(code);
+            for (const std::uint8_t code : encode8(frame, Encoding::srgb)) codes += char(code);
         EXPECT_TRUE(test::load(folder / "raw") == codes) << count << " frames";
     }
 }
@@ -39,7 +41,7 @@ TEST(Animation, IsAPictureOfItsFirstFrame) {
     const test::TemporaryFolder folder;
     const std::vector<Image> frames = frames_of(3);
     write_animation(folder / "turn.png", frames, 0.1);
-    EXPECT_EQ(srgb_codes(read_image(folder / "turn.png", Encoding::srgb)), srgb_codes(frames[0]));
+    EXPECT_EQ(encode8(read_image(folder / "turn.png", Encoding::srgb), Encoding::srgb), encode8(frames[0], Encoding::srgb));
 }
 
 TEST(Animation, RefusesWhatIsNone) {
@@ -57,10 +59,10 @@ TEST(Animation, RefusesWhatIsNone) {
 TEST(PngInMemory, IsWhatTheFileHolds) {
     const test::TemporaryFolder folder;
     const Image image = frames_of(1)[0];
-    test::save(folder / "a.png", png_bytes(37, 23, 3, srgb_codes(image)));
+    test::save(folder / "a.png", png_bytes(37, 23, 3, encode8(image, Encoding::srgb)));
     write_image(folder / "b.png", image);
     EXPECT_EQ(read_image(folder / "a.png", Encoding::srgb).rgb, read_image(folder / "b.png", Encoding::srgb).rgb);
-    EXPECT_THROW(png_bytes(37, 23, 4, srgb_codes(image)), std::invalid_argument);
+    EXPECT_THROW(png_bytes(37, 23, 4, encode8(image, Encoding::srgb)), std::invalid_argument);
     EXPECT_THROW(png_bytes(0, 0, 3, {}), std::invalid_argument);
 }
 
