@@ -23,27 +23,27 @@ namespace lfdsim::cli {
 namespace {
 
 struct Arguments {
-    explicit Arguments(CLI::App& command)
+    explicit Arguments(Command command)
         : measures_option(
-              command.add_option("MEASURE", measures, "One or more with commas between, or all")->type_name("")->required()),
+              command.add_option("MEASURE", measures, "One or more with commas between, or all").type_name("").required()),
           display(command, {content_options, camera_options, sample_options}),
           model(command),
           work(command) {
         command.add_option("-o,--output", output, "Folder for the results and report.html; made if missing")
-            ->type_name("DIR")
-            ->required();
+            .type_name("DIR")
+            .required();
         command.add_flag("--resume", resume, "Leave out what an earlier run with the same settings has finished there");
         command.add_option("--angles-deg", angles, "Views of the field of view; default -30,30,1 or wider, as theory expects")
-            ->type_name("FROM,TO,STEP");
+            .type_name("FROM,TO,STEP");
         command.add_option("--depths-mm", depths, "Depths of the model for the depth of field; default 31, a centimetre apart")
-            ->type_name("FROM,TO,STEP");
+            .type_name("FROM,TO,STEP");
         command.add_option("--viewing-distance-mm", viewing_distance, "Of eyes from the panel; default the camera's")
-            ->type_name("D");
-        command.add_option("--eye-distance-mm", eye_distance, "Between two eyes; default 65")->type_name("E");
-        command.add_option("--wavelength-nm", wavelength, "Of diffraction; default 550")->type_name("W");
+            .type_name("D");
+        command.add_option("--eye-distance-mm", eye_distance, "Between two eyes; default 65").type_name("E");
+        command.add_option("--wavelength-nm", wavelength, "Of diffraction; default 550").type_name("W");
     }
     std::string measures;
-    CLI::Option* measures_option;
+    Option measures_option;
     DisplayOptions display;
     ModelOption model;
     WorkOptions work;
@@ -227,8 +227,8 @@ void run(const Arguments& args) {
 
 }  // namespace
 
-void add_analyze(CLI::App& program) {
-    CLI::App& command = *program.add_subcommand("analyze", "Measures a display: field of view, depth of field and more");
+void add_analyze(Command program) {
+    Command command = program.add_subcommand("analyze", "Measures a display: field of view, depth of field and more");
     const auto args = std::make_shared<Arguments>(command);
     std::string list = "Measures:\n";
     for (const Measure& m : measures()) list += fmt::format("  {:<12} {}\n", m.name, m.says);

@@ -34,28 +34,28 @@ std::vector<std::string> group_names() {
 }
 
 struct Arguments {
-    explicit Arguments(CLI::App& command) : work(command) {
+    explicit Arguments(Command command) : work(command) {
         command
             .add_option("GROUP", chosen, fmt::format("What to measure; default: all. There are {}", fmt::join(group_names(), ", ")))
-            ->type_name("");
-        command.add_option("--runs", runs, "Runs of each case, of which the median is told; default 5")->type_name("N");
+            .type_name("");
+        command.add_option("--runs", runs, "Runs of each case, of which the median is told; default 5").type_name("N");
         command.add_flag("--quick", quick, "One run of each case, and less work in it");
         command
             .add_option("--kernel", kernel, "Instruction set; default: environment variable LFDSIM_KERNEL, else the best there is")
-            ->type_name("scalar|baseline|avx2|avx512");
+            .type_name("scalar|baseline|avx2|avx512");
         model_option =
-            command.add_option("--model", model, "Mesh file for content and estimators")->type_name("FILE")->capture_default_str();
+            command.add_option("--model", model, "Mesh file for content and estimators").type_name("FILE").capture_default_str();
         command.add_option("--display", displays, "Estimators: descriptions to render; default: the display of the other groups")
-            ->type_name("FILE");
-        command.add_option("--crop", crop, "Estimators: this part of the frame; default: its middle")->type_name("X0,Y0,X1,Y1");
+            .type_name("FILE");
+        command.add_option("--crop", crop, "Estimators: this part of the frame; default: its middle").type_name("X0,Y0,X1,Y1");
         command
             .add_option("--angle-deg", angle, "Estimators: walk the camera so far to the right about what it looks at; default 0")
-            ->type_name("A");
+            .type_name("A");
     }
     std::vector<std::string> chosen, displays;
     std::string runs, kernel, crop, angle, model = "/usr/share/assimp/models/BLEND/Suzanne_248.blend";
     bool quick = false;
-    const CLI::Option* model_option;
+    Option model_option;
     WorkOptions work;
 };
 
@@ -65,7 +65,7 @@ BenchSettings read(const Arguments& args) {
     s.runs = args.quick ? 1 : s.runs;
     s.json = args.work.json();
     s.model = args.model;
-    s.model_given = args.model_option->count() > 0;
+    s.model_given = args.model_option.count() > 0;
     s.displays = args.displays;
     s.crop = args.crop;
     Faults faults;
@@ -127,8 +127,8 @@ void run(const Arguments& args) {
 
 }  // namespace
 
-void add_bench(CLI::App& program) {
-    CLI::App& command = *program.add_subcommand("bench", "How fast this machine renders, what each duty costs, error against time");
+void add_bench(Command program) {
+    Command command = program.add_subcommand("bench", "How fast this machine renders, what each duty costs, error against time");
     const auto args = std::make_shared<Arguments>(command);
     command.footer(
         "Examples:\n  lfdsim bench --quick\n  lfdsim bench rendering kernels --threads 1\n"

@@ -25,9 +25,9 @@ constexpr double paper_seconds = 1, paper_msamples = 829.44, paper_frames_per_s 
 constexpr const char* paper_gpu = "GeForce GTX 980";
 
 // This program, run as a command of its own.
-class Command {
+class Child {
   public:
-    explicit Command(std::vector<std::string> arguments) {
+    explicit Child(std::vector<std::string> arguments) {
         std::vector<char*> argv{const_cast<char*>("lfdsim")};
         for (std::string& a : arguments) argv.push_back(a.data());
         argv.push_back(nullptr);
@@ -49,15 +49,15 @@ class Command {
             throw std::system_error(errno, std::generic_category(), "cannot start a second lfdsim");
         }
     }
-    ~Command() {
+    ~Child() {
         close(output_);
         if (child_ > 0) {
             kill(child_, SIGKILL);
             wait();
         }
     }
-    Command(const Command&) = delete;
-    Command& operator=(const Command&) = delete;
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
 
     /// What it printed. Throws std::runtime_error if it fails; gives up when the job is cancelled.
     std::string finish(const Job& job) {
@@ -117,7 +117,7 @@ void bench_paper(Bench& bench) {
     std::vector<double> traced;  // seconds of it in each run
     const auto timed = [](const std::vector<std::string>& arguments, Job& job) {
         const auto start = std::chrono::steady_clock::now();
-        const std::string text = Command(arguments).finish(job);
+        const std::string text = Child(arguments).finish(job);
         return std::pair(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), text);
     };
     const std::vector<Measured> all = bench.measure("paper", {{"start of the program",

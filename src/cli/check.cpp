@@ -12,7 +12,7 @@ namespace lfdsim::cli {
 namespace {
 
 struct Arguments {
-    explicit Arguments(CLI::App& command) : display(command, {camera_options, sample_options, content_options}) {
+    explicit Arguments(Command command) : display(command, {camera_options, sample_options, content_options}) {
         command.add_flag("--json", json, "Print results as JSON");
     }
     DisplayOptions display;
@@ -80,9 +80,9 @@ void run(const Arguments& args) {
 
 }  // namespace
 
-void add_check(CLI::App& program) {
-    CLI::App& command =
-        *program.add_subcommand("check", "Validates a description; prints all it says, what follows, and the paraxial theory");
+void add_check(Command program) {
+    Command command =
+        program.add_subcommand("check", "Validates a description; prints all it says, what follows, and the paraxial theory");
     const auto args = std::make_shared<Arguments>(command);
     command.footer("Example:\n  lfdsim check display.toml --set array.gap_mm=17");
     command.callback([args] { run(*args); });

@@ -57,18 +57,18 @@ void run(const Arguments& args, const PhotoOptions& photo) {
 
 }  // namespace
 
-void add_compare(CLI::App& program) {
-    CLI::App& command = *program.add_subcommand(
+void add_compare(Command program) {
+    Command command = program.add_subcommand(
         "compare",
         "How alike two pictures are: SSIM, PSNR, RMSE, greatest difference; or a view and a photograph of a real display");
     const auto args = std::make_shared<Arguments>();
-    command.add_option("A", args->a, "Picture: .png .exr .npy .jpg")->type_name("")->required();
-    command.add_option("B", args->b, "Picture of the same size; or a photograph: see --corners")->type_name("")->required();
+    command.add_option("A", args->a, "Picture: .png .exr .npy .jpg").type_name("").required();
+    command.add_option("B", args->b, "Picture of the same size; or a photograph: see --corners").type_name("").required();
     command
         .add_option("--encoding", args->encoding,
                     "How PNG and JPEG code values decode; default srgb; with --corners B's, and A's are sRGB")
-        ->type_name("srgb|linear");
-    command.add_option("--crop", args->crop, "Only this part: columns X0 to X1-1, rows Y0 to Y1-1")->type_name("X0,Y0,X1,Y1");
+        .type_name("srgb|linear");
+    command.add_option("--crop", args->crop, "Only this part: columns X0 to X1-1, rows Y0 to Y1-1").type_name("X0,Y0,X1,Y1");
     const auto photo = std::make_shared<PhotoOptions>(command);
     command.add_flag("--json", args->json, "Print results as JSON");
     command.footer(

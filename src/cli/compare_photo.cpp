@@ -95,7 +95,7 @@ Json pairs(const Corners& corners) {
 
 }  // namespace
 
-PhotoOptions::PhotoOptions(CLI::App& command) {
+PhotoOptions::PhotoOptions(Command command) {
     constexpr const char* four = "X,Y X,Y X,Y X,Y";
     corners_option_ =
         command.add_option("--corners", corners_,
@@ -104,7 +104,7 @@ PhotoOptions::PhotoOptions(CLI::App& command) {
                            "screen as its viewer sees it");
     view_corners_option_ = command.add_option(
         "--view-corners", view_corners_, "The same corners in A; default: from the display that a picture made by lfdsim carries");
-    for (CLI::Option* option : {corners_option_, view_corners_option_}) option->type_name(four)->expected(1, 4);
+    for (Option option : {corners_option_, view_corners_option_}) option.type_name(four).expected(1, 4);
     fit_corners_option_ = command.add_flag("--fit-corners", fit_corners_,
                                            "Move each corner by up to 5 pixels of the photograph to where both agree best");
     fit_blur_option_ = command.add_flag("--fit-blur", fit_blur_, "Blur A by the Gaussian that makes it most like the photograph");
@@ -112,15 +112,14 @@ PhotoOptions::PhotoOptions(CLI::App& command) {
         command.add_option("-o,--overlay", overlay_, "Picture to write: both side by side, as a checkerboard and half of each");
     difference_option_ =
         command.add_option("--difference", difference_, "Picture to write: where the photograph is brighter or darker");
-    for (CLI::Option* option : {overlay_option_, difference_option_}) option->type_name("FILE");
+    for (Option option : {overlay_option_, difference_option_}) option.type_name("FILE");
 }
 
 bool PhotoOptions::given() const {
-    if (corners_option_->count() > 0) return true;
-    for (const CLI::Option* option :
-         {view_corners_option_, fit_corners_option_, fit_blur_option_, overlay_option_, difference_option_})
-        if (option->count() > 0)
-            throw InputError("--" + option->get_lnames().front(),
+    if (corners_option_.count() > 0) return true;
+    for (const Option& option : {view_corners_option_, fit_corners_option_, fit_blur_option_, overlay_option_, difference_option_})
+        if (option.count() > 0)
+            throw InputError("--" + option.get_lnames().front(),
                              "is for a photograph of a display; give the corners of the screen in it: --corners");
     return false;
 }
@@ -136,8 +135,8 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
     });
     faults.of([&] { corners = read_corners("--corners", corners_); });
     if (!view_corners_.empty()) faults.of([&] { view_corners = read_corners("--view-corners", view_corners_); });
-    if (difference_option_->count() > 0) faults.of([&] { check_output(difference_, "--difference"); });
-    if (overlay_option_->count() > 0) faults.of([&] { check_output(overlay_, "--overlay"); });
+    if (difference_option_.count() > 0) faults.of([&] { check_output(difference_, "--difference"); });
+    if (overlay_option_.count() > 0) faults.of([&] { check_output(overlay_, "--overlay"); });
     faults.of([&] { check_input("A", view_path); });
     faults.of([&] { check_input("B", photo_path); });
     faults.report();

@@ -1,6 +1,6 @@
 // lfdsim compare with --corners: a photograph of a real display laid over a simulated view. Floor 4.
 #pragma once
-#include <CLI/CLI.hpp>
+#include "cli/command.h"
 
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@ namespace lfdsim::cli {
 /// The options that `compare` has for photographs alone.
 class PhotoOptions {
   public:
-    explicit PhotoOptions(CLI::App& command);
+    explicit PhotoOptions(Command command);
 
     /// Whether --corners is given. Throws InputError if another option is given without it.
     bool given() const;
@@ -23,8 +23,7 @@ class PhotoOptions {
     std::vector<std::string> corners_, view_corners_;
     std::string overlay_, difference_;
     bool fit_blur_ = false, fit_corners_ = false;
-    CLI::Option *corners_option_, *view_corners_option_, *fit_corners_option_, *fit_blur_option_, *overlay_option_,
-        *difference_option_;
+    Option corners_option_, view_corners_option_, fit_corners_option_, fit_blur_option_, overlay_option_, difference_option_;
 };
 
 }  // namespace lfdsim::cli

@@ -63,21 +63,21 @@ const std::span<const KeyOption> camera_options = camera;
 const std::span<const KeyOption> sample_options = sample;
 const std::span<const KeyOption> content_options = content;
 
-DisplayOptions::DisplayOptions(CLI::App& command) {
-    command.add_option("DISPLAY.toml", path_, "Description of the display")->type_name("")->required();
+DisplayOptions::DisplayOptions(Command command) {
+    command.add_option("DISPLAY.toml", path_, "Description of the display").type_name("").required();
     command
         .add_option("--set", settings_,
                     "Overrides a key of the description, value in TOML syntax: array.pitch_mm=8; none takes a key or table out: "
                     "diffuser=none")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
+        .type_name("KEY=VALUE")
+        .allow_extra_args(false);
 }
 
-DisplayOptions::DisplayOptions(CLI::App& command, std::initializer_list<std::span<const KeyOption>> groups)
+DisplayOptions::DisplayOptions(Command command, std::initializer_list<std::span<const KeyOption>> groups)
     : DisplayOptions(command) {
     for (const auto group : groups)
         for (const KeyOption& option : group)
-            options_.emplace_back(&option, command.add_option(option.option, option.help)->type_name(option.value));
+            options_.emplace_back(&option, command.add_option(option.option, option.help).type_name(option.value));
 }
 
 // Options become overrides of the description, so that one validation judges file, --set and options together.
@@ -87,9 +87,9 @@ Display DisplayOptions::read() const {
     std::vector<std::string> overrides = settings_;
     std::map<std::string, std::string> written;  // the place that messages give for an override: what the user wrote
     for (const auto& [option, given] : options_) {
-        if (given->count() == 0) continue;
+        if (given.count() == 0) continue;
         if (option->replaces) overrides.push_back(fmt::format("{}=none", option->replaces));
-        faults.of([&, o = option, text = given->results().front()] {
+        faults.of([&, o = option, text = given.results().front()] {
             overrides.push_back(fmt::format("{}={}", o->key, toml_value(*o, text)));
             written["--set " + overrides.back()] = fmt::format("{} {}", o->option, text);
         });

@@ -1,8 +1,7 @@
 // The description file and the options that override its keys. Floor 4.
 #pragma once
+#include "cli/command.h"
 #include "model/display.h"
-
-#include <CLI/CLI.hpp>
 
 #include <span>
 #include <string>
@@ -30,8 +29,8 @@ extern const std::span<const KeyOption> content_options;  // where the model sta
 class DisplayOptions {
   public:
     /// Adds DISPLAY.toml and --set.
-    explicit DisplayOptions(CLI::App& command);
-    DisplayOptions(CLI::App& command, std::initializer_list<std::span<const KeyOption>> groups);
+    explicit DisplayOptions(Command command);
+    DisplayOptions(Command command, std::initializer_list<std::span<const KeyOption>> groups);
 
     /// The description with all overrides, validated. Throws InputError with all problems; those of an option carry its name.
     Display read() const;
@@ -40,7 +39,7 @@ class DisplayOptions {
   private:
     std::string path_;
     std::vector<std::string> settings_;
-    std::vector<std::pair<const KeyOption*, CLI::Option*>> options_;
+    std::vector<std::pair<const KeyOption*, Option>> options_;
 };
 
 }  // namespace lfdsim::cli

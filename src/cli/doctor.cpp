@@ -98,9 +98,9 @@ void run(bool json) {
 
 }  // namespace
 
-void add_doctor(CLI::App& program) {
+void add_doctor(Command program) {
     const auto json = std::make_shared<bool>(false);
-    CLI::App& command = *program.add_subcommand("doctor", "What was found on this machine, and what was not");
+    Command command = program.add_subcommand("doctor", "What was found on this machine, and what was not");
     command.add_flag("--json", *json, "Print results as JSON");
     command.footer("Example:\n  lfdsim doctor");
     command.callback([json] { run(*json); });

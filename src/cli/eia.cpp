@@ -12,7 +12,7 @@ namespace lfdsim::cli {
 namespace {
 
 struct Arguments {
-    explicit Arguments(CLI::App& command)
+    explicit Arguments(Command command)
         : display(command, {content_options}),
           model(command),
           pattern(command),
@@ -60,8 +60,8 @@ void run(const Arguments& args) {
 
 }  // namespace
 
-void add_eia(CLI::App& program) {
-    CLI::App& command = *program.add_subcommand("eia", "What the panel shows: the elemental images of a model, or a test pattern");
+void add_eia(Command program) {
+    Command command = program.add_subcommand("eia", "What the panel shows: the elemental images of a model, or a test pattern");
     const auto args = std::make_shared<Arguments>(command);
     command.footer(
         "Examples:\n  lfdsim eia display.toml --model monkey.blend --height-mm 120 -o eia.png\n"

@@ -22,14 +22,13 @@ std::string printable(std::string text) {
 }
 
 void run(int argc, char** argv) {
-    CLI::App program("Simulates lens-array light field displays: what a viewer sees of panel, lenses and diffuser.", "lfdsim");
-    program.set_version_flag("--version", "lfdsim " LFDSIM_VERSION);
-    program.require_subcommand(1);
-    program.get_formatter()->column_width(34);
-    program.footer(
+    cli::CommandLine line(
+        "Simulates lens-array light field displays: what a viewer sees of panel, lenses and diffuser.", "lfdsim",
+        "lfdsim " LFDSIM_VERSION,
         "First steps:\n  lfdsim check displays/desktop-asphere.toml\n  lfdsim render displays/desktop-asphere.toml --model "
         "monkey.blend "
         "-o view.png\nHelp for a command: lfdsim COMMAND --help");
+    const cli::Command program = line.program();
     cli::add_check(program);
     cli::add_eia(program);
     cli::add_photo(program);
@@ -39,15 +38,8 @@ void run(int argc, char** argv) {
     cli::add_sheet(program);
     cli::add_bench(program);
     cli::add_doctor(program);
-    try {
-        program.parse(cli::arguments(argc, argv));
-    } catch (const CLI::CallForHelp&) {
-        cli::print(program.help());
-    } catch (const CLI::CallForVersion& version) {
-        cli::print(std::string(version.what()) + "\n");
-    } catch (const CLI::ParseError& error) {
-        throw cli::usage_error(program, error);
-    }
+    const std::string asked = line.parse(cli::arguments(argc, argv));
+    if (!asked.empty()) cli::print(asked);
 }
 
 }  // namespace

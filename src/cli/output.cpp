@@ -55,9 +55,9 @@ void check_output(const std::string& path, const std::string& option) {
     check_writable(path);
 }
 
-OutputOptions::OutputOptions(CLI::App& command, const std::string& kinds) {
-    command.add_option("-o,--output", path_, "Picture to write: " + kinds)->type_name("FILE")->required();
-    command.add_option("--bits", bits_, "Bits per channel of a .png; default 8")->type_name("8|16");
+OutputOptions::OutputOptions(Command command, const std::string& kinds) {
+    command.add_option("-o,--output", path_, "Picture to write: " + kinds).type_name("FILE").required();
+    command.add_option("--bits", bits_, "Bits per channel of a .png; default 8").type_name("8|16");
 }
 
 int OutputOptions::bits() const { return bits_ == "16" ? 16 : 8; }

@@ -1,10 +1,10 @@
 // Results: text on standard output, pictures with what made them. Floor 4.
 #pragma once
+#include "cli/command.h"
 #include "cli/progress.h"
 #include "image/image_file.h"
 #include "model/display.h"
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <string>
@@ -36,7 +36,7 @@ void check_output(const std::string& path, const std::string& option = "--output
 /// -o and --bits.
 class OutputOptions {
   public:
-    OutputOptions(CLI::App& command, const std::string& kinds);
+    OutputOptions(Command command, const std::string& kinds);
     /// To be called before long work. Throws InputError unless the picture can be written there in that depth.
     void check() const;
     /// Saves the picture with `about`, the command line, version and display; work before it has shown its progress. One that is

@@ -9,8 +9,8 @@
 
 namespace lfdsim::cli {
 
-PanelImageOption::PanelImageOption(CLI::App& command)
-    : option_(command.add_option("--panel-image", path_, "What the panel shows: .png .exr .npy of its size")->type_name("FILE")) {}
+PanelImageOption::PanelImageOption(Command command)
+    : option_(command.add_option("--panel-image", path_, "What the panel shows: .png .exr .npy of its size").type_name("FILE")) {}
 
 void PanelImageOption::check() const {
     if (given()) check_input("--panel-image", path_);
@@ -23,12 +23,12 @@ PanelImageOption::Read PanelImageOption::read(const Panel& panel, Job& job) cons
     return {read_panel_image(path_, panel.encoding, panel.pixels[0], panel.pixels[1], &job), incomplete};
 }
 
-ModelOption::ModelOption(CLI::App& command)
+ModelOption::ModelOption(Command command)
     : option_(command
                   .add_option(
                       "--model", path_,
                       "Mesh file to show (any format Assimp reads), or built-in:spheres; default: the description's content.model")
-                  ->type_name("FILE")) {}
+                  .type_name("FILE")) {}
 
 void ModelOption::apply(Display& display) const {
     if (given()) display.content.model = path_;
@@ -43,14 +43,14 @@ Scene load_scene(const Display& display, const Geometry& geometry) {
     return Scene(model, display, geometry);
 }
 
-PatternOption::PatternOption(CLI::App& command)
+PatternOption::PatternOption(Command command)
     : option_(command.add_option("--pattern", name_, fmt::format("Test pattern to show: {}", fmt::join(pattern_names(), ", ")))
-                  ->type_name("NAME")) {
-    command.add_option("--cell-pixels", cell_, "Checkerboard: side of a square")->type_name("N");
+                  .type_name("NAME")) {
+    command.add_option("--cell-pixels", cell_, "Checkerboard: side of a square").type_name("N");
     command.add_option("--view", view_, "View: which one is white, -0.5 .. 0.5 of the elemental image from its centre")
-        ->type_name("X,Y");
-    command.add_option("--edge-deg", edge_, "Edge: slant")->type_name("A");
-    command.add_option("--edge-depth-mm", depth_, "Edge: where it stands before the lenses' vertex plane")->type_name("Z");
+        .type_name("X,Y");
+    command.add_option("--edge-deg", edge_, "Edge: slant").type_name("A");
+    command.add_option("--edge-depth-mm", depth_, "Edge: where it stands before the lenses' vertex plane").type_name("Z");
 }
 
 PatternOptions PatternOption::read() const {

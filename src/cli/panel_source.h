@@ -1,11 +1,10 @@
 // What the panel shows: an image file, elemental images of a model, or a test pattern. Floor 4.
 #pragma once
+#include "cli/command.h"
 #include "content/content.h"
 #include "image/texels.h"
 #include "model/display.h"
 #include "model/job.h"
-
-#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <string>
@@ -15,8 +14,8 @@ namespace lfdsim::cli {
 /// --panel-image.
 class PanelImageOption {
   public:
-    explicit PanelImageOption(CLI::App& command);
-    bool given() const { return option_->count() > 0; }
+    explicit PanelImageOption(Command command);
+    bool given() const { return option_.count() > 0; }
     /// Throws InputError if it is given without a name.
     void check() const;
     /// Says on standard error if the image is marked as that of an interrupted run. Throws InputError.
@@ -28,20 +27,20 @@ class PanelImageOption {
 
   private:
     std::string path_;
-    CLI::Option* option_;
+    Option option_;
 };
 
 /// --model, which stands in for content.model.
 class ModelOption {
   public:
-    explicit ModelOption(CLI::App& command);
-    bool given() const { return option_->count() > 0; }
+    explicit ModelOption(Command command);
+    bool given() const { return option_.count() > 0; }
     /// Puts the option's file, if there is one, into the display.
     void apply(Display&) const;
 
   private:
     std::string path_;
-    CLI::Option* option_;
+    Option option_;
 };
 
 /// The display's model in its place; says on standard error what was dropped or repaired. Throws InputError.
@@ -50,15 +49,15 @@ Scene load_scene(const Display&, const Geometry&);
 /// --pattern and the options that belong to it.
 class PatternOption {
   public:
-    explicit PatternOption(CLI::App& command);
-    bool given() const { return option_->count() > 0; }
+    explicit PatternOption(Command command);
+    bool given() const { return option_.count() > 0; }
     /// Reads the values strictly. Throws InputError for those that are wrong or belong to no chosen pattern.
     PatternOptions read() const;
     const std::string& name() const { return name_; }
 
   private:
     std::string name_, cell_, view_, edge_, depth_;
-    CLI::Option* option_;
+    Option option_;
 };
 
 }  // namespace lfdsim::cli

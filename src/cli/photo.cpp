@@ -11,7 +11,7 @@ namespace lfdsim::cli {
 namespace {
 
 struct Arguments {
-    explicit Arguments(CLI::App& command)
+    explicit Arguments(Command command)
         : display(command, {content_options, camera_options}),
           model(command),
           crop(command),
@@ -49,8 +49,8 @@ void run(const Arguments& args) {
 
 }  // namespace
 
-void add_photo(CLI::App& program) {
-    CLI::App& command = *program.add_subcommand("photo", "The reference photograph: the model itself, seen by the same camera");
+void add_photo(Command program) {
+    Command command = program.add_subcommand("photo", "The reference photograph: the model itself, seen by the same camera");
     const auto args = std::make_shared<Arguments>(command);
     command.footer("Example:\n  lfdsim photo display.toml --model monkey.blend --camera-mm 518,0,1932 -o photo.png");
     command.callback([args] { run(*args); });

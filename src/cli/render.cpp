@@ -18,7 +18,7 @@ namespace lfdsim::cli {
 namespace {
 
 struct Arguments {
-    explicit Arguments(CLI::App& command)
+    explicit Arguments(Command command)
         : display(command, {camera_options, sample_options, content_options}),
           panel_image(command),
           model(command),
@@ -28,13 +28,13 @@ struct Arguments {
           work(command) {
         command
             .add_option("--kernel", kernel, "Instruction set; default: environment variable LFDSIM_KERNEL, else the best there is")
-            ->type_name("scalar|baseline|avx2|avx512");
+            .type_name("scalar|baseline|avx2|avx512");
         command
             .add_option(
                 "--target-error", target_error,
                 "Take as many samples as bring the estimated error of each 4 x 4 pixels below E, in linear light; an .exr then has "
                 "a layer \"error\"")
-            ->type_name("E");
+            .type_name("E");
     }
     DisplayOptions display;
     PanelImageOption panel_image;
@@ -126,8 +126,8 @@ void run(const Arguments& args) {
 
 }  // namespace
 
-void add_render(CLI::App& program) {
-    CLI::App& command = *program.add_subcommand("render", "What a camera sees of the display");
+void add_render(Command program) {
+    Command command = program.add_subcommand("render", "What a camera sees of the display");
     const auto args = std::make_shared<Arguments>(command);
     command.footer(
         "Examples:\n  lfdsim render display.toml --panel-image eia.png --camera-mm -300,0,1800 -o view.png\n"

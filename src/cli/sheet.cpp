@@ -58,18 +58,18 @@ void run(const Arguments& args) {
 
 }  // namespace
 
-void add_sheet(CLI::App& program) {
+void add_sheet(Command program) {
     const auto args = std::make_shared<Arguments>();
-    CLI::App& command = *program.add_subcommand("sheet", "A contact sheet: pictures side by side, with labels");
-    command.add_option("IMAGE", args->images, "Pictures, row by row")->type_name("")->required();
+    Command command = program.add_subcommand("sheet", "A contact sheet: pictures side by side, with labels");
+    command.add_option("IMAGE", args->images, "Pictures, row by row").type_name("").required();
     command.add_option("-o,--output", args->output, "Picture to write: .png (sRGB), or linear .exr .npy")
-        ->type_name("FILE")
-        ->required();
-    command.add_option("--columns", args->columns, "Pictures in a row; default 2")->type_name("N");
-    command.add_option("--width-px", args->width_px, "Width of each picture on the sheet; default 640")->type_name("W");
+        .type_name("FILE")
+        .required();
+    command.add_option("--columns", args->columns, "Pictures in a row; default 2").type_name("N");
+    command.add_option("--width-px", args->width_px, "Width of each picture on the sheet; default 640").type_name("W");
     command.add_option("--label", args->labels, "Text over a picture; one for each, in order")
-        ->type_name("TEXT")
-        ->allow_extra_args(false);
+        .type_name("TEXT")
+        .allow_extra_args(false);
     command.add_flag("--json", args->json, "Print results as JSON");
     command.footer("Example:\n  lfdsim sheet view.png photo.png --label \"view, 15\u00b0\" --label reference -o sheet.png");
     command.callback([args] { run(*args); });

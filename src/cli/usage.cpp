@@ -27,10 +27,10 @@ std::string suggestion(const std::string& given, const std::vector<std::string>&
 }
 
 // Dashes are left out of the comparison, as all options have them.
-std::string option_suggestion(const std::string& given, const CLI::App& command) {
+std::string option_suggestion(const std::string& given, const std::vector<std::string>& options) {
     std::vector<std::string> names;
-    for (const CLI::Option* option : command.get_options())
-        for (const std::string& name : option->get_lnames()) names.push_back(name);
+    for (const std::string& name : options)
+        if (name.starts_with("--")) names.push_back(name.substr(2));
     const std::size_t letters = given.find_first_not_of('-');
     if (letters == given.npos) return "";
     const std::string near = suggestion(given.substr(letters), names);
@@ -38,19 +38,11 @@ std::string option_suggestion(const std::string& given, const CLI::App& command)
     return near.empty() ? "" : near.substr(0, name) + "--" + near.substr(name);
 }
 
-std::vector<std::string> command_names(const CLI::App& program) {
-    std::vector<std::string> names;
-    for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
-        names.push_back(command->get_name());
-    return names;
-}
-
 // CLI11's own words, where they can be understood.
-std::string reworded(const CLI::ParseError& error) {
-    const std::string text = error.what();
-    if (!dynamic_cast<const CLI::ArgumentMismatch*>(&error)) return text;
-    const bool many = text.find("At Most") != text.npos;
-    return text.substr(0, text.find(": ")) + (many ? " is given more than once" : " needs a value");
+std::string reworded(const Misuse& misuse) {
+    if (!misuse.number_of_values) return misuse.says;
+    const bool many = misuse.says.find("At Most") != misuse.says.npos;
+    return misuse.says.substr(0, misuse.says.find(": ")) + (many ? " is given more than once" : " needs a value");
 }
 
 }  // namespace
@@ -75,35 +67,32 @@ std::vector<std::string> arguments(int argc, char** argv) {
 
 // CLI11 stops at the first rule that is broken, often "something is required" where a name was mistyped. What it could not place
 // says more, so that comes first.
-InputError usage_error(const CLI::App& program, const CLI::ParseError& error) {
-    const std::vector<CLI::App*> chosen = program.get_subcommands();
-    const CLI::App& command = chosen.empty() ? program : *chosen.front();
+InputError usage_error(const Misuse& misuse) {
+    const bool chosen = !misuse.command.empty();
     std::vector<Problem> unknown, superfluous;
-    for (const std::string& word : program.remaining(true)) {
+    for (const std::string& word : misuse.unplaced) {
         const std::string name = word.substr(0, word.find('='));
         if (word == "--") continue;  // takes no place itself; CLI11 keeps it with what it could not place
-        if (is_option(word) && command.get_option_no_throw(name))
+        if (is_option(word) && std::find(misuse.options.begin(), misuse.options.end(), name) != misuse.options.end())
             unknown.push_back({name, "is in the wrong place; options come after the command and before any --"});
         else if (is_option(word))
-            unknown.push_back({name, "unknown option" + option_suggestion(name, command)});
+            unknown.push_back({name, "unknown option" + option_suggestion(name, misuse.options)});
         else
             superfluous.push_back({word, "one argument too many"});
     }
     std::vector<Problem> problems = unknown;
-    if (problems.empty() && chosen.empty()) {
-        const std::vector<std::string> names = command_names(program);
+    if (problems.empty() && !chosen) {
         if (superfluous.empty())
-            problems.push_back({"", fmt::format("a command is missing; there are {}", fmt::join(names, ", "))});
+            problems.push_back({"", fmt::format("a command is missing; there are {}", fmt::join(misuse.commands, ", "))});
         else
-            problems.push_back(
-                {superfluous.front().where, fmt::format("unknown command{}; there are {}",
-                                                        suggestion(superfluous.front().where, names), fmt::join(names, ", "))});
+            problems.push_back({superfluous.front().where, fmt::format("unknown command{}; there are {}",
+                                                                       suggestion(superfluous.front().where, misuse.commands),
+                                                                       fmt::join(misuse.commands, ", "))});
     }
     // Values of unknown options are left over too, so superfluous words are told only where no unknown option explains them.
     if (problems.empty()) problems = superfluous;
-    if (problems.empty()) problems.push_back({"", reworded(error)});
-    problems.back().what +=
-        fmt::format(" (help: lfdsim{}{} --help)", chosen.empty() ? "" : " ", chosen.empty() ? "" : command.get_name());
+    if (problems.empty()) problems.push_back({"", reworded(misuse)});
+    problems.back().what += fmt::format(" (help: lfdsim{}{} --help)", chosen ? " " : "", misuse.command);
     return InputError(std::move(problems));
 }
 

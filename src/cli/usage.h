@@ -2,8 +2,6 @@
 #pragma once
 #include "model/error.h"
 
-#include <CLI/CLI.hpp>
-
 #include <string>
 #include <vector>
 
@@ -13,7 +11,16 @@ namespace lfdsim::cli {
 /// becomes "render --help".
 std::vector<std::string> arguments(int argc, char** argv);
 
+/// A command line that could not be read.
+struct Misuse {
+    std::string says;                                      // CLI11's words for the first rule that is broken
+    bool number_of_values;                                 // whether that is how many values an option has
+    std::vector<std::string> unplaced;                     // the words that no option or place was found for
+    std::string command = {};                              // the one that was chosen
+    std::vector<std::string> commands = {}, options = {};  // all there are, and that the command has, with their dashes
+};
+
 /// Unknown commands and options with the nearest known one, values that are missing, and where to find help.
-InputError usage_error(const CLI::App& program, const CLI::ParseError&);
+InputError usage_error(const Misuse&);
 
 }  // namespace lfdsim::cli

@@ -7,10 +7,10 @@
 
 namespace lfdsim::cli {
 
-WorkOptions::WorkOptions(CLI::App& command) {
-    command.add_option("--threads", threads_, "Threads to use; default: one per processor")->type_name("N");
+WorkOptions::WorkOptions(Command command) {
+    command.add_option("--threads", threads_, "Threads to use; default: one per processor").type_name("N");
     command.add_option("--progress", progress_, "Progress on standard error; auto: a bar on a terminal, else lines")
-        ->type_name("auto|bar|lines|json|none");
+        .type_name("auto|bar|lines|json|none");
     command.add_flag("--json", json_, "Print results as JSON");
 }
 
@@ -23,9 +23,9 @@ void WorkOptions::check() const {
     faults.report();
 }
 
-CropOption::CropOption(CLI::App& command) {
+CropOption::CropOption(Command command) {
     command.add_option("--crop", text_, "Only this part of the frame: columns X0 to X1-1, rows Y0 to Y1-1")
-        ->type_name("X0,Y0,X1,Y1");
+        .type_name("X0,Y0,X1,Y1");
 }
 
 std::optional<Rect> CropOption::read(const Camera& camera, double panel_bytes) const {

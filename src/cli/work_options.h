@@ -1,11 +1,10 @@
 // The options of every command that makes a picture, and what it tells when it is done. Floor 4.
 #pragma once
+#include "cli/command.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "image/compare.h"
 #include "model/display.h"
-
-#include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -16,7 +15,7 @@ namespace lfdsim::cli {
 /// --threads, --progress, --json.
 class WorkOptions {
   public:
-    explicit WorkOptions(CLI::App& command);
+    explicit WorkOptions(Command command);
     /// Throws InputError with all that is wrong. To be called before the others.
     void check() const;
     int threads() const;  // 0: all
@@ -31,7 +30,7 @@ class WorkOptions {
 /// --crop.
 class CropOption {
   public:
-    explicit CropOption(CLI::App& command);
+    explicit CropOption(Command command);
     /// The part of the camera's frame that is wanted. Throws InputError if it is not in the frame, or if its picture, beside
     /// the panel image's bytes, is more than memory holds.
     std::optional<Rect> read(const Camera&, double panel_bytes) const;

@@ -1,0 +1,79 @@
+#include "cli/command.h"
+
+#include "cli/usage.h"
+
+#include <CLI/CLI.hpp>
+
+namespace lfdsim::cli {
+namespace {
+
+Misuse misuse(const CLI::App& program, const CLI::ParseError& error) {
+    const std::vector<CLI::App*> chosen = program.get_subcommands();
+    const CLI::App& command = chosen.empty() ? program : *chosen.front();
+    Misuse all{error.what(), dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr, program.remaining(true)};
+    if (!chosen.empty()) all.command = command.get_name();
+    for (const CLI::App* each : program.get_subcommands([](const CLI::App*) { return true; }))
+        all.commands.push_back(each->get_name());
+    for (const CLI::Option* option : command.get_options()) {
+        for (const std::string& name : option->get_lnames()) all.options.push_back("--" + name);
+        for (const std::string& name : option->get_snames()) all.options.push_back("-" + name);
+    }
+    return all;
+}
+
+}  // namespace
+
+Option Option::type_name(const std::string& text) { return Option(option_->type_name(text)); }
+Option Option::required() { return Option(option_->required()); }
+Option Option::expected(int least, int most) { return Option(option_->expected(least, most)); }
+Option Option::allow_extra_args(bool allowed) { return Option(option_->allow_extra_args(allowed)); }
+Option Option::capture_default_str() { return Option(option_->capture_default_str()); }
+std::size_t Option::count() const { return option_->count(); }
+const std::vector<std::string>& Option::results() const { return option_->results(); }
+const std::vector<std::string>& Option::get_lnames() const { return option_->get_lnames(); }
+
+Command Command::add_subcommand(const std::string& name, const std::string& description) {
+    return Command(app_->add_subcommand(name, description));
+}
+Option Command::add_option(const std::string& names, const std::string& description) {
+    return Option(app_->add_option(names, description));
+}
+Option Command::add_option(const std::string& names, std::string& variable, const std::string& description) {
+    return Option(app_->add_option(names, variable, description));
+}
+Option Command::add_option(const std::string& names, std::vector<std::string>& variable, const std::string& description) {
+    return Option(app_->add_option(names, variable, description));
+}
+Option Command::add_flag(const std::string& names, bool& variable, const std::string& description) {
+    return Option(app_->add_flag(names, variable, description));
+}
+void Command::footer(const std::string& text) { app_->footer(text); }
+void Command::callback(std::function<void()> function) { app_->callback(std::move(function)); }
+
+CommandLine::CommandLine(const std::string& description, const std::string& name, const std::string& version,
+                         const std::string& footer)
+    : app_(std::make_unique<CLI::App>(description, name)) {
+    app_->set_version_flag("--version", version);
+    app_->require_subcommand(1);
+    app_->get_formatter()->column_width(34);
+    app_->footer(footer);
+}
+
+CommandLine::~CommandLine() = default;
+
+Command CommandLine::program() const { return Command(app_.get()); }
+
+std::string CommandLine::parse(std::vector<std::string> arguments) {
+    try {
+        app_->parse(std::move(arguments));
+    } catch (const CLI::CallForHelp&) {
+        return app_->help();
+    } catch (const CLI::CallForVersion& version) {
+        return std::string(version.what()) + "\n";
+    } catch (const CLI::ParseError& error) {
+        throw usage_error(misuse(*app_, error));
+    }
+    return {};
+}
+
+}  // namespace lfdsim::cli
