@@ -103,7 +103,7 @@ struct Labels {
 
 }  // namespace
 
-std::string side_view_svg(const Subject& s) {
+std::string side_view_svg(const Subject& s, SideFrame* frame) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();
     const Planes planes(s);
@@ -124,6 +124,10 @@ std::string side_view_svg(const Subject& s) {
     for (const LabelPlace& place : places) label_rows = std::max(label_rows, place.row + 1);
     const double top = 18 + 16 * label_rows, bottom = top + high;
     scale.middle += top;
+    if (frame) {
+        const double wide = drawn - 2 * (scale.left - side), half_y = 0.5 * high / scale.per_y;
+        *frame = {scale.y0 - half_y, scale.y0 + half_y, scale.z0, scale.z0 + wide / scale.per_z, scale.left, top, wide, high};
+    }
 
     std::vector<std::tuple<double, double, std::string>> lengths;
     if (std::isfinite(planes.central))

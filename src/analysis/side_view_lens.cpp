@@ -144,12 +144,13 @@ std::vector<std::string> notes_of(const Subject& s) {
 
 }  // namespace
 
-std::string lens_view_svg(const Subject& s) {
+std::string lens_view_svg(const Subject& s, SideFrame* frame) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();
     const Window w = window_of(d, g);
     const double per_z = drawn / (w.to - w.from), per_y = std::max(per_z, 160 / (w.high - w.low)), high = per_y * (w.high - w.low);
     const SideScale scale{0, 0.5 * high, w.from, 0.5 * (w.low + w.high), per_z, per_y};
+    if (frame) *frame = {w.low, w.high, w.from, w.to, left, top, drawn, high};
     Drawing drawing(width, std::max(top + high + 60, 60 + 21. * 12), "Lenses of the display from the side, with their rays");
     drawing.add(fmt::format("<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"0 0 {2} {3}\" overflow=\"hidden\">\n",
                             px(left), px(top), px(drawn), px(high)));

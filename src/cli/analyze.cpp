@@ -1,12 +1,12 @@
 #include "analysis/folder.h"
 #include "analysis/measure.h"
+#include "analysis/memory.h"
 #include "analysis/report.h"
 #include "analysis/views.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/display_options.h"
 #include "cli/interrupt.h"
-#include "cli/memory.h"
 #include "cli/output.h"
 #include "cli/panel_source.h"
 #include "cli/work_options.h"
@@ -16,7 +16,6 @@
 #include <spdlog/spdlog.h>
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 
 // lfdsim analyze: measures a display. What is finished stays, whatever happens to the rest.
 namespace lfdsim::cli {
@@ -84,14 +83,6 @@ std::vector<const Measure*> chosen(const std::string& names) {
         start = end + 1;
     }
     return result;
-}
-
-/// What tells that a model file has changed since.
-Json stamp(const std::string& model) {
-    std::error_code error;
-    const auto changed = std::filesystem::last_write_time(model, error);
-    if (error) return {{"file", model}};  // built in
-    return {{"file", model}, {"bytes", std::filesystem::file_size(model, error)}, {"changed", changed.time_since_epoch().count()}};
 }
 
 std::string value_text(const Json& values, const std::string& unit) {

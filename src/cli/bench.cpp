@@ -1,10 +1,10 @@
 #include "cli/bench.h"
 
+#include "analysis/memory.h"
 #include "cli/arguments.h"
 #include "cli/bench_cases.h"
 #include "cli/commands.h"
 #include "cli/machine.h"
-#include "cli/memory.h"
 #include "cli/work_options.h"
 #include "engine/devices.h"
 

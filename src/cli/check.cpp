@@ -1,6 +1,6 @@
-#include "cli/advice.h"
+#include "analysis/advice.h"
+#include "analysis/description.h"
 #include "cli/commands.h"
-#include "cli/description.h"
 #include "cli/display_options.h"
 #include "cli/output.h"
 
@@ -31,7 +31,7 @@ std::string text_of(const Json& value) {
 std::string table_of(const Setting& s) {
     const bool absent = s.value.is_null() || s.value == "" || s.value == Json::array();
     std::string text = absent ? "-" : text_of(s.value);
-    if (!absent && !unit(s.key).empty()) text += " " + unit(s.key);
+    if (!absent && !unit_of(s.key).empty()) text += " " + unit_of(s.key);
     std::string note = s.is_default ? "default" : "";
     if (absent && !s.absent.empty()) note += ": " + s.absent;
     return fmt::format("  {:<22} {:<32}{}", s.key, text, note);
@@ -39,7 +39,7 @@ std::string table_of(const Setting& s) {
 
 // Seven digits: more than any length is made to, fewer than double arithmetic carries.
 std::string table_of(const Figure& f) {
-    std::string value = fmt::format("{:.7g} {}", f.value, unit(f.name));
+    std::string value = fmt::format("{:.7g} {}", f.value, unit_of(f.name));
     if (std::isinf(f.value)) value = f.value > 0 ? "infinite" : "-infinite";
     if (std::isnan(f.value)) value = "none";
     return fmt::format("  {:<28} {:<22} {}", f.name, value, f.meaning);

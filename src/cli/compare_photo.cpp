@@ -1,8 +1,8 @@
 #include "cli/compare_photo.h"
 
+#include "analysis/memory.h"
 #include "cli/arguments.h"
 #include "cli/interrupt.h"
-#include "cli/memory.h"
 #include "cli/output.h"
 #include "cli/overlay_picture.h"
 #include "engine/screen.h"

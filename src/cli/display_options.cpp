@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <limits>
-#include <map>
 
 namespace lfdsim::cli {
 namespace {
@@ -80,27 +79,44 @@ DisplayOptions::DisplayOptions(Command command, std::initializer_list<std::span<
             options_.emplace_back(&option, command.add_option(option.option, option.help).type_name(option.value));
 }
 
+bool DisplayOptions::given(std::string_view option) const {
+    return std::any_of(options_.begin(), options_.end(),
+                       [&](const auto& each) { return each.first->option == option && each.second.count() > 0; });
+}
+
 // Options become overrides of the description, so that one validation judges file, --set and options together.
-Display DisplayOptions::read() const {
-    if (path_.empty()) throw InputError("DISPLAY.toml", "the name is empty; give the description of a display");
-    Faults faults;
+std::pair<std::vector<std::string>, std::map<std::string, std::string>> DisplayOptions::all_overrides(Faults& faults) const {
     std::vector<std::string> overrides = settings_;
-    std::map<std::string, std::string> written;  // the place that messages give for an override: what the user wrote
-    for (const auto& [option, given] : options_) {
-        if (given.count() == 0) continue;
+    std::map<std::string, std::string> written;
+    for (const auto& [option, on_line] : options_) {
+        if (on_line.count() == 0) continue;
         if (option->replaces) overrides.push_back(fmt::format("{}=none", option->replaces));
-        faults.of([&, o = option, text = given.results().front()] {
+        faults.of([&, o = option, text = on_line.results().front()] {
             overrides.push_back(fmt::format("{}={}", o->key, toml_value(*o, text)));
             written["--set " + overrides.back()] = fmt::format("{} {}", o->option, text);
         });
     }
+    return {std::move(overrides), std::move(written)};
+}
+
+std::vector<std::string> DisplayOptions::overrides() const {
+    Faults faults;
+    std::vector<std::string> all = all_overrides(faults).first;
+    faults.report();
+    return all;
+}
+
+Display DisplayOptions::read() const {
+    if (path_.empty()) throw InputError("DISPLAY.toml", "the name is empty; give the description of a display");
+    Faults faults;
+    const auto [overrides, written] = all_overrides(faults);
     Display display;
-    faults.of([&] {
+    faults.of([&, &set = overrides, &places = written] {
         try {
-            display = read_display(path_, overrides);
+            display = read_display(path_, set);
         } catch (InputError& e) {
             for (Problem& p : e.problems)
-                if (const auto option = written.find(p.where); option != written.end()) p.where = option->second;
+                if (const auto option = places.find(p.where); option != places.end()) p.where = option->second;
             throw InputError(std::move(e.problems));
         }
     });

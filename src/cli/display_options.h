@@ -1,10 +1,13 @@
 // The description file and the options that override its keys. Floor 4.
 #pragma once
+#include "cli/arguments.h"
 #include "cli/command.h"
 #include "model/display.h"
 
+#include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -34,9 +37,16 @@ class DisplayOptions {
 
     /// The description with all overrides, validated. Throws InputError with all problems; those of an option carry its name.
     Display read() const;
+    /// --set and the options as "key=value", in the order in which they apply. Throws InputError.
+    std::vector<std::string> overrides() const;
     const std::string& path() const { return path_; }
+    /// Whether an option of the groups was given.
+    bool given(std::string_view option) const;
 
   private:
+    // With, for each override, the place that messages give for it: what the user wrote.
+    std::pair<std::vector<std::string>, std::map<std::string, std::string>> all_overrides(Faults&) const;
+
     std::string path_;
     std::vector<std::string> settings_;
     std::vector<std::pair<const KeyOption*, Option>> options_;

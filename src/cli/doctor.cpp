@@ -1,6 +1,6 @@
+#include "analysis/memory.h"
 #include "cli/commands.h"
 #include "cli/machine.h"
-#include "cli/memory.h"
 #include "cli/output.h"
 #include "content/reader_path.h"
 #include "engine/devices.h"

@@ -1,7 +1,7 @@
+#include "analysis/memory.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/display_options.h"
-#include "cli/memory.h"
 #include "cli/panel_source.h"
 #include "cli/work_options.h"
 

@@ -3,6 +3,7 @@
 #include "cli/arguments.h"
 #include "cli/interrupt.h"
 #include "files/display_file.h"
+#include "files/shell.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -23,12 +24,7 @@ std::string command_line() {
     for (std::size_t start = 0; start < all.size();) {
         const std::string argument = all.c_str() + start;
         start += argument.size() + 1;
-        std::string quoted;
-        for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-        const bool plain = !argument.empty() && argument.find_first_not_of(
-                                                    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                                    "0123456789_-+=.,:/@%") == argument.npos;
-        line += (line.empty() ? "" : " ") + (plain ? argument : "'" + quoted + "'");
+        line += (line.empty() ? "" : " ") + shell_word(argument);
     }
     return line;
 }
@@ -65,24 +61,34 @@ int OutputOptions::bits() const { return bits_ == "16" ? 16 : 8; }
 void OutputOptions::check() const {
     Faults faults;
     faults.of([&] { check_output(path_); });
-    if (!bits_.empty()) {
-        faults.of([&] { word("--bits", bits_, {"8", "16"}); });
-        if (const std::string kind = std::filesystem::path(path_).extension(); kind == ".exr" || kind == ".npy")
-            faults.of([&] { throw InputError("--bits", fmt::format("is for .png alone; {} holds 32-bit floats", kind)); });
-    }
+    faults.of([&] { check_bits(path_); });
+    faults.report();
+}
+
+void OutputOptions::check_bits(const std::filesystem::path& name) const {
+    if (bits_.empty()) return;
+    Faults faults;
+    faults.of([&] { word("--bits", bits_, {"8", "16"}); });
+    if (const std::string kind = name.extension(); kind == ".exr" || kind == ".npy")
+        faults.of([&] { throw InputError("--bits", fmt::format("is for .png alone; {} holds 32-bit floats", kind)); });
     faults.report();
 }
 
 void OutputOptions::write(const Image& image, Encoding encoding, const Display& display, Metadata about, bool complete,
                           Progress& progress, std::vector<ImageLayer> layers) const {
     progress.end();
-    about["Software"] = "lfdsim " LFDSIM_VERSION;
-    about["command"] = command_line();
-    about["display"] = write_display(display);
     if (!complete) about[incomplete_mark] = "true";
-    write_image(path_, image, {bits(), encoding, about, std::move(layers)}, &progress);
+    save(path_, image, encoding, display, std::move(about), std::move(layers), &progress);
     progress.end();
     if (!complete) end_interrupted(path_);
+}
+
+void OutputOptions::save(const std::filesystem::path& path, const Image& image, Encoding encoding, const Display& display,
+                         Metadata about, std::vector<ImageLayer> layers, Job* job) const {
+    about["Software"] = software;
+    about["command"] = command_line();
+    about["display"] = write_display(display);
+    write_image(path, image, {bits(), encoding, std::move(about), std::move(layers)}, job);
 }
 
 void end_interrupted(const std::string& saved) {

@@ -23,6 +23,9 @@ void print_json(const Json&);
 /// The command line as a shell would need it, so that it can be copied and run again.
 std::string command_line();
 
+/// Name and version, as pictures carry them.
+inline constexpr const char* software = "lfdsim " LFDSIM_VERSION;
+
 /// The key of a picture's metadata that says that it is not complete.
 inline constexpr const char* incomplete_mark = "incomplete";
 
@@ -39,10 +42,15 @@ class OutputOptions {
     OutputOptions(Command command, const std::string& kinds);
     /// To be called before long work. Throws InputError unless the picture can be written there in that depth.
     void check() const;
+    /// Throws InputError unless pictures of such a file name (".png" alone will do) can have that depth.
+    void check_bits(const std::filesystem::path& name) const;
     /// Saves the picture with `about`, the command line, version and display; work before it has shown its progress. One that is
     /// not complete is marked so, and the program then ends as interrupted. Layers are for the formats that keep them.
     void write(const Image&, Encoding, const Display&, Metadata about, bool complete, Progress&,
                std::vector<ImageLayer> = {}) const;
+    /// Saves a picture as write() does, at another path; a large one is a stage of the job.
+    void save(const std::filesystem::path&, const Image&, Encoding, const Display&, Metadata about, std::vector<ImageLayer> = {},
+              Job* = nullptr) const;
     const std::string& path() const { return path_; }
     int bits() const;
 

@@ -43,6 +43,13 @@ Scene load_scene(const Display& display, const Geometry& geometry) {
     return Scene(model, display, geometry);
 }
 
+Json stamp(const std::string& file) {
+    std::error_code error;
+    const auto changed = std::filesystem::last_write_time(file, error);
+    if (error) return {{"file", file}};
+    return {{"file", file}, {"bytes", std::filesystem::file_size(file, error)}, {"changed", changed.time_since_epoch().count()}};
+}
+
 PatternOption::PatternOption(Command command)
     : option_(command.add_option("--pattern", name_, fmt::format("Test pattern to show: {}", fmt::join(pattern_names(), ", ")))
                   .type_name("NAME")) {

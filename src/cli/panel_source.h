@@ -1,6 +1,7 @@
 // What the panel shows: an image file, elemental images of a model, or a test pattern. Floor 4.
 #pragma once
 #include "cli/command.h"
+#include "cli/output.h"
 #include "content/content.h"
 #include "image/texels.h"
 #include "model/display.h"
@@ -18,6 +19,7 @@ class PanelImageOption {
     bool given() const { return option_.count() > 0; }
     /// Throws InputError if it is given without a name.
     void check() const;
+    const std::string& path() const { return path_; }
     /// Says on standard error if the image is marked as that of an interrupted run. Throws InputError.
     struct Read {
         Texels texels;
@@ -37,6 +39,7 @@ class ModelOption {
     bool given() const { return option_.count() > 0; }
     /// Puts the option's file, if there is one, into the display.
     void apply(Display&) const;
+    const std::string& path() const { return path_; }
 
   private:
     std::string path_;
@@ -45,6 +48,9 @@ class ModelOption {
 
 /// The display's model in its place; says on standard error what was dropped or repaired. Throws InputError.
 Scene load_scene(const Display&, const Geometry&);
+
+/// What tells that a file has changed since; of a name that is no file's, the name alone.
+Json stamp(const std::string& file);
 
 /// --pattern and the options that belong to it.
 class PatternOption {

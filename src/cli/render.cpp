@@ -1,17 +1,18 @@
 #include "engine/render.h"
 
+#include "analysis/memory.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/display_options.h"
-#include "cli/memory.h"
 #include "cli/panel_source.h"
+#include "cli/render_path.h"
+#include "cli/rendered.h"
 #include "cli/work_options.h"
 #include "engine/devices.h"
 #include "model/keys.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <cmath>
 
 // lfdsim render: panel image in, camera picture out. All that can be wrong with the command line is told before work begins.
 namespace lfdsim::cli {
@@ -24,7 +25,8 @@ struct Arguments {
           model(command),
           pattern(command),
           crop(command),
-          output(command, ".png (sRGB), or linear .exr .npy (float32, H x W x 3)"),
+          output(command, ".png (sRGB), or linear .exr .npy (float32, H x W x 3); with --path a folder, made if missing"),
+          path(command),
           work(command) {
         command
             .add_option("--kernel", kernel, "Instruction set; default: environment variable LFDSIM_KERNEL, else the best there is")
@@ -42,6 +44,7 @@ struct Arguments {
     PatternOption pattern;
     CropOption crop;
     OutputOptions output;
+    PathOptions path;
     WorkOptions work;
     std::string kernel, target_error;
 };
@@ -67,6 +70,23 @@ Shown shown(const Arguments& args, const Display& display, const Geometry& geome
             {{"elemental_images", {{"rays", picture.rays}, {"seconds", picture.seconds}}}}};
 }
 
+void render_frames(const Arguments& args, const Display& display, const CameraPath& path, const RenderOptions& options,
+                   const Shown& panel, Progress& progress) {
+    const std::string shown = args.panel_image.given() ? args.panel_image.path()
+                              : args.pattern.given()   ? ""
+                                                       : display.content.model;
+    PathMade made = render_path({args.path, args.output, path, display, options, stamp(shown).dump()}, panel.texels, progress);
+    const auto [columns, rows] = display.camera.resolution;
+    made.more.update({{"frames", made.frames}, {"rendered", made.rendered}});
+    made.more.update(panel.made);
+    print_made(Made{args.output.path(), options.crop ? options.crop->x1 - options.crop->x0 : int(columns),
+                    options.crop ? options.crop->y1 - options.crop->y0 : int(rows), "samples", made.samples, made.seconds},
+               args.work.json(),
+               fmt::format("{}{}; {} frames, {} of them made before", made.how.empty() ? "" : ", ", made.how, made.frames,
+                           made.frames - made.rendered),
+               made.more);
+}
+
 void run(const Arguments& args) {
     Faults faults;
     Display display;
@@ -87,41 +107,34 @@ void run(const Arguments& args) {
         if (*target <= 0) throw InputError("--target-error", fmt::format("is {}, allowed is more than 0", args.target_error));
     });
     faults.of([&] { args.work.check(); });
-    faults.of([&] { args.output.check(); });
+    std::optional<CameraPath> path;
+    faults.of([&] { args.path.check(args.output); });
+    if (args.path.given())
+        faults.of([&] { path = args.path.read(); });
+    else
+        faults.of([&] { args.output.check(); });
+    if (path && args.display.given("--camera-mm"))
+        faults.of([] { throw InputError("--camera-mm, --path", "the camera stands in one place or on a path; give one of them"); });
     if (args.panel_image.given() + args.model.given() + args.pattern.given() > 1)
         faults.of([] { throw InputError("--panel-image, --model, --pattern", "the panel shows one thing; give one of them"); });
     faults.report();
     args.model.apply(display);
+    if (path) args.path.check(*path, display);
 
     const Geometry geometry = resolve(display);
     Progress progress(args.work.progress());
     const Shown panel = shown(args, display, geometry, pattern_options, progress);
-    Rendering r = render(display, geometry, panel.texels, {args.work.threads(), args.kernel, crop, target}, progress);
-    const Metadata about{
-        {"kernel", r.kernel}, {"threads", fmt::format("{}", r.threads)}, {"seconds", fmt::format("{:.3f}", r.seconds)}};
-    Json more{{"kernel", r.kernel}, {"threads", r.threads}, {"estimator", std::string(lfdsim::word(r.estimator))}};
-    if (r.prepare_seconds > 0) more["prepare_seconds"] = r.prepare_seconds;
-    std::vector<ImageLayer> layers;
-    if (target) {
-        double squares = 0;
-        std::size_t above = 0;
-        for (std::size_t i = 0; i < r.error.rgb.size(); i += 3) {
-            double pixel = 0;
-            for (std::size_t c = 0; c < 3; ++c) pixel += double(r.error.rgb[i + c]) * r.error.rgb[i + c];
-            squares += pixel;
-            above += std::sqrt(pixel / 3) > 1.0001 * *target;
-        }
-        if (above > 0) spdlog::warn("{} pixels did not come below the target error with the most samples there are", above);
-        more["pixels_above_target"] = above;
-        more["error_rms"] = std::sqrt(squares / double(r.error.rgb.size()));
-        more["samples_per_pixel"] = double(r.samples) / (double(r.image.width) * r.image.height);
-        if (keeps_layers(args.output.path())) layers.push_back({"error", std::move(r.error)});
-    }
-    args.output.write(r.image, Encoding::srgb, display, about, r.complete, progress, std::move(layers));
+    const RenderOptions options{args.work.threads(), args.kernel, crop, target};
+    if (path) return render_frames(args, display, *path, options, panel, progress);
+    Rendering r = render(display, geometry, panel.texels, options, progress);
+    Rendered facts = rendered(r, target, keeps_layers(args.output.path()));
+    if (facts.pixels_above_target > 0)
+        spdlog::warn("{} pixels did not come below the target error with the most samples there are", facts.pixels_above_target);
+    args.output.write(r.image, Encoding::srgb, display, std::move(facts.about), r.complete, progress, std::move(facts.layers));
 
-    more.update(panel.made);
+    facts.more.update(panel.made);
     print_made(Made{args.output.path(), r.image.width, r.image.height, "samples", r.samples, r.seconds}, args.work.json(),
-               fmt::format(", {}, {}, {} threads", lfdsim::word(r.estimator), r.kernel, r.threads), more);
+               fmt::format(", {}, {}, {} threads", lfdsim::word(r.estimator), r.kernel, r.threads), facts.more);
 }
 
 }  // namespace
@@ -132,6 +145,7 @@ void add_render(Command program) {
     command.footer(
         "Examples:\n  lfdsim render display.toml --panel-image eia.png --camera-mm -300,0,1800 -o view.png\n"
         "  lfdsim render display.toml --panel-image eia.png --target-error 0.005 -o view.exr\n"
+        "  lfdsim render display.toml --panel-image eia.png --path walk.json -o walk\n"
         "  lfdsim render display.toml --model monkey.blend --set array.pitch_mm=8 lens.aperture_radius_mm=4 -o view.exr");
     command.callback([args] { run(*args); });
 }

@@ -1,7 +1,7 @@
 #include "image/sheet.h"
+#include "analysis/memory.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
-#include "cli/memory.h"
 #include "cli/output.h"
 #include "image/image_file.h"
 #include "image/scaled.h"

@@ -1,7 +1,7 @@
 #include "cli/work_options.h"
 
+#include "analysis/memory.h"
 #include "cli/arguments.h"
-#include "cli/memory.h"
 
 #include <fmt/format.h>
 

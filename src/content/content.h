@@ -50,6 +50,9 @@ class Scene {
     /// have the bits of a scene made there. Throws InputError for a depth that a display could not have.
     Scene at_depth(double depth_mm) const;
 
+    /// The same before another display, resolved, that has it as high, tilted and turned.
+    Scene before(const Geometry&) const;
+
     struct Impl;
     const Impl& impl() const { return *impl_; }
     /// The middle of the model's box, from the middle of the panel.

@@ -126,6 +126,13 @@ Scene::Scene(std::shared_ptr<const Model> model, const Display& display, const G
 
 Vec3d Scene::half_size_mm() const { return impl_->half_mm; }
 
+Scene Scene::before(const Geometry& geometry) const {
+    Scene moved = *this;
+    moved.vertex_plane_mm_ = geometry.vertex_plane_mm;
+    moved.depth_mm_ = geometry.content_depth_mm;
+    return moved;
+}
+
 Scene Scene::at_depth(double depth_mm) const {
     if (!any_length.contains(depth_mm))
         throw InputError("content.depth_mm", fmt::format("is {}, allowed is {}", depth_mm, any_length.text()));

@@ -10,12 +10,10 @@
 namespace lfdsim {
 namespace {
 
-constexpr std::size_t largest_bytes = std::size_t(1) << 20;
 constexpr int deepest = 16;  // the format needs 3
 
-[[noreturn]] void refuse_size(std::string_view name, std::uintmax_t bytes) {
-    throw InputError(std::string(name),
-                     fmt::format("has {} bytes, allowed are {}; is this a display description?", bytes, largest_bytes));
+[[noreturn]] void refuse_size(std::string_view name, std::uintmax_t bytes, std::string_view kind) {
+    throw InputError(std::string(name), fmt::format("has {} bytes, allowed are {}; is this {}?", bytes, largest_text_bytes, kind));
 }
 
 // Where a string that starts at `i` ends: behind its closing quotes, or at the end of the line or text that it fails to close in.
@@ -37,18 +35,18 @@ std::size_t skip_string(std::string_view text, std::size_t i) {
 
 }  // namespace
 
-std::string read_text(const std::filesystem::path& path) {
+std::string read_text(const std::filesystem::path& path, std::string_view kind) {
     const std::string name = path.string();
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) throw InputError(name, "there is no such file");
-    if (std::filesystem::is_directory(status)) throw InputError(name, "is a folder; give the description file in it");
+    if (std::filesystem::is_directory(status)) throw InputError(name, "is a folder; give the file in it");
     if (!std::filesystem::is_regular_file(status)) throw InputError(name, "is not a regular file");
     const std::uintmax_t bytes = std::filesystem::file_size(path, error);
-    if (!error && bytes > largest_bytes) refuse_size(name, bytes);
+    if (!error && bytes > largest_text_bytes) refuse_size(name, bytes, kind);
     std::ifstream file(path, std::ios::binary);
     if (!file) throw InputError(name, "cannot be opened for reading; check its permissions");
-    std::string text(largest_bytes + 1, '\0');  // a file that grows meanwhile is no reason to read on
+    std::string text(largest_text_bytes + 1, '\0');  // a file that grows meanwhile is no reason to read on
     file.read(text.data(), std::streamsize(text.size()));
     text.resize(std::size_t(file.gcount()));
     if (file.bad()) throw InputError(name, "cannot be read to its end");
@@ -56,7 +54,7 @@ std::string read_text(const std::filesystem::path& path) {
 }
 
 void check_text(std::string_view text, std::string_view name) {
-    if (text.size() > largest_bytes) refuse_size(name, text.size());
+    if (text.size() > largest_text_bytes) refuse_size(name, text.size(), "a display description");
     if (text.find('\0') != text.npos) throw InputError(std::string(name), "is a binary file, not a display description in TOML");
     if (text.find_first_not_of(" \t\r\n") == text.npos)
         throw InputError(std::string(name), "is empty; a display description starts with schema = 1");

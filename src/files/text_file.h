@@ -1,4 +1,4 @@
-// The text of a description before it is parsed. Floor 2.
+// The text of a file before it is parsed. Floor 2.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -6,11 +6,14 @@
 
 namespace lfdsim {
 
-/// The whole text of a regular file of at most 1 MiB. Throws InputError with the file's name otherwise.
-std::string read_text(const std::filesystem::path&);
+inline constexpr std::size_t largest_text_bytes = std::size_t(1) << 20;
 
-/// Refuses what a parser should not see: no text at all, NUL bytes, more than 1 MiB, tables and arrays nested deeper than 16.
-/// Throws InputError with `name`, line and column.
+/// The whole text of a regular file of at most 1 MiB. Throws InputError with the file's name otherwise; `kind` says what it should
+/// be.
+std::string read_text(const std::filesystem::path&, std::string_view kind = "a display description");
+
+/// Refuses what the parser of descriptions should not see: no text at all, NUL bytes, more than 1 MiB, tables and arrays nested
+/// deeper than 16. Throws InputError with `name`, line and column.
 void check_text(std::string_view text, std::string_view name);
 
 }  // namespace lfdsim

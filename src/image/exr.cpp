@@ -126,13 +126,13 @@ void add_channels(const Names& names, const Image& image, Imf::Header& header, I
 
 class OutputStream : public Imf::OStream {
   public:
-    explicit OutputStream(OutputFile& file) : Imf::OStream("EXR"), file_(file) {}
+    explicit OutputStream(Output& file) : Imf::OStream("EXR"), file_(file) {}
     void write(const char bytes[], int count) override { file_.write(bytes, std::size_t(count)); }
     std::uint64_t tellp() override { return std::uint64_t(file_.position()); }
     void seekp(std::uint64_t position) override { file_.seek(std::int64_t(position)); }
 
   private:
-    OutputFile& file_;
+    Output& file_;
 };
 
 }  // namespace
@@ -157,7 +157,7 @@ Metadata read_exr_metadata(const InputFile& file) {
     }
 }
 
-void write_exr(OutputFile& file, const Image& image, const WriteOptions& options, Job& job) {
+void write_exr(Output& file, const Image& image, const WriteOptions& options, Job& job) {
     start_library();
     Imf::Header header(image.width, image.height);
     header.compression() = Imf::ZIP_COMPRESSION;

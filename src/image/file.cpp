@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -41,6 +42,13 @@ void InputFile::check_size(std::int64_t columns, std::int64_t rows, double pixel
     if (pixels >= 0x1p31) refuse(fmt::format("is too large: {} x {} pixels; fewer than 2^31 are allowed", columns, rows));
     if (pixels > pixels_per_byte * double(size_))
         refuse(fmt::format("is damaged: it claims {} x {} pixels, more than its {} bytes can hold", columns, rows, size_));
+}
+
+void OutputMemory::write(const void* data, std::size_t bytes) {
+    const char* const from = static_cast<const char*>(data);
+    if (position_ + bytes > bytes_.size()) bytes_.resize(position_ + bytes);
+    std::copy_n(from, bytes, bytes_.data() + position_);
+    position_ += bytes;
 }
 
 OutputFile::OutputFile(const fs::path& path) : path_(path), partial_(fmt::format("{}.partial-{}", path.string(), getpid())) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace lfdsim::detail {
 
@@ -37,19 +38,43 @@ class InputFile {
     std::int64_t size_ = 0;
 };
 
+/// Where the formats write to.
+class Output {
+  public:
+    virtual ~Output() = default;
+    virtual std::string name() const = 0;
+    virtual void write(const void* data, std::size_t bytes) = 0;
+    virtual void seek(std::int64_t position) = 0;
+    virtual std::int64_t position() const = 0;
+};
+
+/// A file that stays in memory. Throws std::bad_alloc.
+class OutputMemory : public Output {
+  public:
+    std::string name() const override { return "picture"; }
+    void write(const void* data, std::size_t bytes) override;
+    void seek(std::int64_t position) override { position_ = std::size_t(position); }
+    std::int64_t position() const override { return std::int64_t(position_); }
+    std::string take() { return std::move(bytes_); }
+
+  private:
+    std::string bytes_;
+    std::size_t position_ = 0;
+};
+
 /// Writes to PATH.partial-PID; commit() renames it to PATH, and without one the destructor removes it.
 /// Throws InputError when the file cannot be made there, std::runtime_error when writing fails (disk full).
-class OutputFile {
+class OutputFile : public Output {
   public:
     explicit OutputFile(const std::filesystem::path& path);
-    ~OutputFile();
+    ~OutputFile() override;
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
-    std::string name() const { return path_.string(); }
-    void write(const void* data, std::size_t bytes);
-    void seek(std::int64_t position);
-    std::int64_t position() const;
+    std::string name() const override { return path_.string(); }
+    void write(const void* data, std::size_t bytes) override;
+    void seek(std::int64_t position) override;
+    std::int64_t position() const override;
     void commit();
 
   private:

@@ -39,9 +39,9 @@ Metadata read_exr_metadata(const InputFile&);
 int read_jpeg_orientation(const InputFile&);
 
 // All throw std::runtime_error when writing fails, and tell the job of each row that is done.
-void write_png(OutputFile&, const Image&, const WriteOptions&, Job&);
-void write_exr(OutputFile&, const Image&, const WriteOptions&, Job&);
-void write_npy(OutputFile&, const Image&, Job&);
+void write_png(Output&, const Image&, const WriteOptions&, Job&);
+void write_exr(Output&, const Image&, const WriteOptions&, Job&);
+void write_npy(Output&, const Image&, Job&);
 
 /// n codes of one row, three a pixel, to light.
 template <class Code>

@@ -112,6 +112,21 @@ void check_layers(const fs::path& path, const Image& image, const std::vector<Im
             throw std::invalid_argument(fmt::format("write_image: layer \"{}\" has a wrong name or size", layer.name));
 }
 
+// Of a picture that is to be written: throws as write_image() does.
+void check_picture(const fs::path& path, const Image& image, const WriteOptions& options) {
+    if (options.bits != 8 && options.bits != 16)
+        throw InputError(path.string(), fmt::format("{} bits; 8 or 16 are possible", options.bits));
+    if (image.width < 1 || image.height < 1 || image.rgb.size() != std::size_t(image.width) * std::size_t(image.height) * 3)
+        throw std::invalid_argument("write_image: the image is empty or its size is wrong");
+    check_layers(path, image, options.layers);
+}
+
+void write(Output& to, Format format, const Image& image, const WriteOptions& options, Job& job) {
+    if (format == Format::png) write_png(to, image, options, job);
+    if (format == Format::exr) write_exr(to, image, options, job);
+    if (format == Format::npy) write_npy(to, image, job);
+}
+
 }  // namespace
 
 void check_writable(const fs::path& path) {
@@ -125,17 +140,20 @@ bool keeps_layers(const fs::path& path) { return format_to_write(path) == Format
 
 void write_image(const fs::path& path, const Image& image, const WriteOptions& options, Job* caller) {
     const Format format = format_to_write(path);
-    if (options.bits != 8 && options.bits != 16)
-        throw InputError(path.string(), fmt::format("{} bits; 8 or 16 are possible", options.bits));
-    if (image.width < 1 || image.height < 1 || image.rgb.size() != std::size_t(image.width) * std::size_t(image.height) * 3)
-        throw std::invalid_argument("write_image: the image is empty or its size is wrong");
-    check_layers(path, image, options.layers);
+    check_picture(path, image, options);
     OutputFile file(path);
-    Job& job = stage(caller, "writing", image.width, image.height);
-    if (format == Format::png) write_png(file, image, options, job);
-    if (format == Format::exr) write_exr(file, image, options, job);
-    if (format == Format::npy) write_npy(file, image, job);
+    write(file, format, image, options, stage(caller, "writing", image.width, image.height));
     file.commit();
+}
+
+std::string image_bytes(const std::string& ending, const Image& image, const WriteOptions& options, Job* caller) {
+    const fs::path name = "picture" + ending;
+    const Format format = format_to_write(name);
+    check_picture(name, image, options);
+    OutputMemory memory;
+    Job nobody;
+    write(memory, format, image, options, caller ? *caller : nobody);
+    return memory.take();
 }
 
 Image read_image(const fs::path& path, Encoding encoding) {

@@ -47,6 +47,10 @@ bool keeps_layers(const std::filesystem::path& path);
 /// Large pictures, which take seconds, are a stage of the job, counted in rows; it does not cancel them.
 void write_image(const std::filesystem::path& path, const Image&, const WriteOptions& = {}, Job* = nullptr);
 
+/// The bytes of the file that write_image() would make of a name with this ending (".png", ".exr", ".npy"). The job, if there is
+/// one, is told of all rows that are done, without a stage; what its advance() throws ends the work. Throws like write_image().
+std::string image_bytes(const std::string& ending, const Image&, const WriteOptions& = {}, Job* = nullptr);
+
 /// Linear light. `encoding` says how PNG and JPEG code values decode; EXR and NPY are linear. No alpha channel.
 /// Throws InputError that names the file and what is wrong with it: missing, truncated, not an image, too large.
 /// Layers are not looked at.

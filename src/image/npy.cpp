@@ -68,7 +68,7 @@ void read_npy(const InputFile& file, const Allocate& allocate) {
         read_rows<double>(file, rows, pixels);
 }
 
-void write_npy(OutputFile& file, const Image& image, Job& job) {
+void write_npy(Output& file, const Image& image, Job& job) {
     std::string header =
         fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, 3), }}", image.height, image.width);
     // The data begin at a multiple of 64 bytes, after 10 bytes of preamble and the newline that ends the header.

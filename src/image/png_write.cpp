@@ -22,9 +22,7 @@ constexpr int strip_rows = 64;  // a strip is compressed on its own; larger than
 
 void on_warning(png_structp, png_const_charp) {}
 
-void on_write(png_structp png, png_bytep data, std::size_t bytes) {
-    static_cast<OutputFile*>(png_get_io_ptr(png))->write(data, bytes);
-}
+void on_write(png_structp png, png_bytep data, std::size_t bytes) { static_cast<Output*>(png_get_io_ptr(png))->write(data, bytes); }
 
 void on_flush(png_structp) {}
 
@@ -32,7 +30,7 @@ struct Writer {
     png_structp png;
     png_infop info;
 
-    explicit Writer(OutputFile& file)
+    explicit Writer(Output& file)
         : png(png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, on_error, on_warning)),
           info(png ? png_create_info_struct(png) : nullptr) {
         if (!info) throw std::bad_alloc();
@@ -121,7 +119,7 @@ Strip compress(const Bytes& filtered, int begin, bool last) {
 
 }  // namespace
 
-void write_png(OutputFile& file, const Image& image, const WriteOptions& options, Job& job) {
+void write_png(Output& file, const Image& image, const WriteOptions& options, Job& job) {
     constexpr int most = PNG_USER_WIDTH_MAX;  // libpng's own limit; most readers keep it
     if (image.width > most || image.height > most)
         throw InputError(file.name(), fmt::format("{} x {} pixels; a PNG has at most {} columns and rows, use .exr or .npy",

@@ -1,0 +1,164 @@
+#include "cli/render_path.h"
+
+#include "cli/arguments.h"
+#include "cli/interrupt.h"
+#include "cli/rendered.h"
+#include "files/display_file.h"
+#include "model/geometry.h"
+#include "model/keys.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <algorithm>
+
+namespace lfdsim::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Hands over the pixels of one frame; the stage is that of all.
+class Frame : public Job {
+  public:
+    explicit Frame(Job& whole) : whole_(whole) {}
+    void advance(std::int64_t units) override { whole_.advance(units); }
+    bool cancelled() const override { return whole_.cancelled(); }
+
+  private:
+    Job& whole_;
+};
+
+Display at_frame(const CameraPath& path, std::int64_t frame, Display display) {
+    display.camera = path.camera(frame, display.camera);
+    return display;
+}
+
+// Without the option that alone may differ between a run and the one that goes on with it.
+std::string resumed(std::string command) {
+    constexpr std::string_view option = " --resume";
+    for (std::size_t i = 0; (i = command.find(option, i)) != command.npos;)
+        if (const std::size_t end = i + option.size(); end == command.size() || command[end] == ' ')
+            command.erase(i, option.size());
+        else
+            i = end;
+    return command;
+}
+
+// Whether the same command has made that frame of the same things.
+bool finished(const fs::path& file, const Display& display, const std::string& shown) {
+    if (!fs::is_regular_file(file)) return false;
+    try {
+        Metadata about = read_metadata(file);
+        return about["Software"] == software && resumed(about["command"]) == resumed(command_line()) &&
+               about["display"] == write_display(display) && about["shown"] == shown;
+    } catch (const InputError&) {
+        return false;  // no picture
+    }
+}
+
+}  // namespace
+
+PathOptions::PathOptions(Command command)
+    : option_(command.add_option("--path", path_, "Camera path (docs/path.md): a picture for each of its frames, in the folder -o")
+                  .type_name("FILE")),
+      kind_option_(command.add_option("--frames-as", kind_, "Kind of a path's pictures; default png").type_name("png|exr|npy")),
+      resume_option_(
+          command.add_flag("--resume", resume_, "Leave out frames that the same command has made there of the same files")) {}
+
+void PathOptions::check(const OutputOptions& output) const {
+    Faults faults;
+    for (const Option& option : {kind_option_, resume_option_})
+        if (!given() && option.count() > 0)
+            faults.of([&] { throw InputError("--" + option.get_lnames().front(), "is for frames of a --path alone"); });
+    if (given()) {
+        faults.of([&] { word("--frames-as", kind_, {"png", "exr", "npy"}); });
+        faults.of([&] { output.check_bits("frame." + kind_); });
+        faults.of([&] {
+            std::error_code error;
+            if (output.path().empty()) throw InputError("--output", "the name is empty; give a folder for the frames");
+            if (fs::exists(output.path(), error) && !fs::is_directory(output.path(), error))
+                throw InputError(output.path(), "is not a folder; give one for the frames of --path");
+        });
+        if (resume_ && kind_ == "npy")
+            faults.of([] { throw InputError("--resume", "a .npy does not say what it was made of; take png or exr"); });
+    }
+    faults.report();
+}
+
+CameraPath PathOptions::read() const {
+    if (path_.empty()) throw InputError("--path", "the name is empty; give a camera path");
+    return read_path(path_);
+}
+
+void PathOptions::check(const CameraPath& path, const Display& display) const {
+    const auto judge = [&](const Camera& camera, const std::string& place) {
+        Display there = display;
+        there.camera = camera;
+        std::vector<Problem> problems = validate(there);
+        for (Problem& p : problems) p.where = fmt::format("{}: {}: {}", path_, place, p.where);
+        if (!problems.empty()) throw InputError(std::move(problems));
+    };
+    for (std::size_t i = 0; i < path.poses.size(); ++i) {
+        Camera camera = display.camera;
+        camera.position_mm = path.poses[i].position_mm;
+        camera.target_mm = path.poses[i].target_mm.value_or(camera.target_mm);
+        judge(camera, fmt::format("poses[{}]", i));
+    }
+    for (std::int64_t k = 0; k < path.frames(); ++k)  // between two good poses a camera may look along its own "up"
+        judge(path.camera(k, display.camera), fmt::format("frame {} at {:.6g} s", k, path.time_s(k)));
+}
+
+fs::path PathOptions::file(const OutputOptions& output, std::int64_t frame, std::int64_t frames) const {
+    const std::size_t digits = std::max<std::size_t>(4, fmt::formatted_size("{}", frames - 1));
+    return fs::path(output.path()) / fmt::format("{:0{}}.{}", frame, digits, kind_);
+}
+
+PathMade render_path(const PathWork& w, const Texels& panel, Progress& progress) {
+    PathMade made;
+    made.frames = w.path.frames();
+    std::error_code error;
+    fs::create_directories(w.output.path(), error);
+    if (!fs::is_directory(w.output.path())) throw InputError(w.output.path(), "is not a folder and cannot be made one");
+    check_output(w.options.file(w.output, 0, made.frames));
+
+    std::vector<std::int64_t> left;
+    for (std::int64_t k = 0; k < made.frames; ++k)
+        if (!w.options.resume() || !finished(w.options.file(w.output, k, made.frames), at_frame(w.path, k, w.display), w.shown))
+            left.push_back(k);
+    if (left.empty()) return made;
+    const Pyramid pyramid(panel, w.rendering.threads);
+    const auto [columns, rows] = w.display.camera.resolution;
+    const std::optional<Rect>& crop = w.rendering.crop;
+    progress.stage("rendering",
+                   std::int64_t(left.size()) * (crop ? std::int64_t(crop->x1 - crop->x0) * (crop->y1 - crop->y0) : columns * rows));
+    std::size_t above_target = 0;
+    for (const std::int64_t k : left) {
+        const fs::path file = w.options.file(w.output, k, made.frames);
+        const Display display = at_frame(w.path, k, w.display);
+        Frame frame(progress);
+        Rendering r = render(display, resolve(display), pyramid, w.rendering, frame);
+        if (!r.complete) break;
+        Rendered facts = rendered(r, w.rendering.target_error, keeps_layers(file));
+        facts.about["shown"] = w.shown;
+        guard_output(file);
+        w.output.save(file, r.image, Encoding::srgb, display, std::move(facts.about), std::move(facts.layers));
+        ++made.rendered;
+        made.samples += r.samples;
+        made.seconds += r.seconds;
+        above_target += facts.pixels_above_target;
+        made.how = fmt::format("{}, {}, {} threads", lfdsim::word(r.estimator), r.kernel, r.threads);
+        made.more = {{"kernel", r.kernel}, {"threads", r.threads}, {"estimator", std::string(lfdsim::word(r.estimator))}};
+    }
+    progress.end();
+    if (above_target > 0)
+        spdlog::warn("{} pixels did not come below the target error with the most samples there are", above_target);
+    if (w.rendering.target_error) made.more["pixels_above_target"] = above_target;
+    if (made.rendered < std::int64_t(left.size())) {
+        spdlog::warn("interrupted; {} holds {} of {} frames{}", w.output.path(),
+                     made.frames - std::int64_t(left.size()) + made.rendered, made.frames,
+                     keeps_metadata(w.options.file(w.output, 0, 1)) ? "; the same command with --resume goes on" : "");
+        throw Interrupted{};
+    }
+    return made;
+}
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,56 @@
+// lfdsim render --path: one picture for each frame of a camera path. Floor 4.
+#pragma once
+#include "cli/command.h"
+#include "cli/output.h"
+#include "engine/render.h"
+#include "files/path_file.h"
+#include "model/display.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace lfdsim::cli {
+
+/// --path, --frames-as, --resume. With --path, --output names a folder.
+class PathOptions {
+  public:
+    explicit PathOptions(Command command);
+    bool given() const { return option_.count() > 0; }
+    /// Throws InputError if there is no path to which the other options could belong, or if the pictures cannot be made so.
+    void check(const OutputOptions&) const;
+    /// Throws InputError if the file cannot be read.
+    CameraPath read() const;
+    /// Throws InputError with the file and the pose, or the frame, unless the camera can stand wherever the path leads.
+    void check(const CameraPath&, const Display&) const;
+    /// Of one of so many frames: 0000.png.
+    std::filesystem::path file(const OutputOptions&, std::int64_t frame, std::int64_t frames) const;
+    bool resume() const { return resume_; }
+
+  private:
+    std::string path_, kind_ = "png";
+    bool resume_ = false;
+    Option option_, kind_option_, resume_option_;
+};
+
+/// What all frames share.
+struct PathWork {
+    const PathOptions& options;
+    const OutputOptions& output;
+    const CameraPath& path;
+    const Display& display;
+    const RenderOptions& rendering;
+    std::string shown;  // what tells that what the panel shows has changed
+};
+
+struct PathMade {
+    std::int64_t frames = 0, rendered = 0, samples = 0;  // rendered: by this run
+    double seconds = 0;
+    std::string how;             // "filtered, avx2, 2 threads"; empty if nothing was left to render
+    Json more = Json::object();  // for --json
+};
+
+/// Writes the frames, in order; those that are finished stay, whatever becomes of the rest. Throws InputError, Interrupted.
+PathMade render_path(const PathWork&, const Texels& panel, Progress&);
+
+}  // namespace lfdsim::cli

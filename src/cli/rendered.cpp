@@ -1,0 +1,30 @@
+#include "cli/rendered.h"
+
+#include "model/keys.h"
+
+#include <fmt/format.h>
+#include <cmath>
+
+namespace lfdsim::cli {
+
+Rendered rendered(Rendering& r, std::optional<double> target_error, bool layers) {
+    Rendered all{{{"kernel", r.kernel}, {"threads", fmt::format("{}", r.threads)}, {"seconds", fmt::format("{:.3f}", r.seconds)}},
+                 {},
+                 {{"kernel", r.kernel}, {"threads", r.threads}, {"estimator", std::string(lfdsim::word(r.estimator))}}};
+    if (r.prepare_seconds > 0) all.more["prepare_seconds"] = r.prepare_seconds;
+    if (!target_error) return all;
+    double squares = 0;
+    for (std::size_t i = 0; i < r.error.rgb.size(); i += 3) {
+        double pixel = 0;
+        for (std::size_t c = 0; c < 3; ++c) pixel += double(r.error.rgb[i + c]) * r.error.rgb[i + c];
+        squares += pixel;
+        all.pixels_above_target += std::sqrt(pixel / 3) > 1.0001 * *target_error;
+    }
+    all.more["pixels_above_target"] = all.pixels_above_target;
+    all.more["error_rms"] = std::sqrt(squares / double(r.error.rgb.size()));
+    all.more["samples_per_pixel"] = double(r.samples) / (double(r.image.width) * r.image.height);
+    if (layers) all.layers.push_back({"error", std::move(r.error)});
+    return all;
+}
+
+}  // namespace lfdsim::cli
