@@ -14,6 +14,7 @@ void add_compare(Command program);
 void add_analyze(Command program);
 void add_sheet(Command program);
 void add_bench(Command program);
+void add_view(Command program);
 void add_doctor(Command program);
 
 }  // namespace lfdsim::cli

@@ -3,7 +3,7 @@
 set -euo pipefail
 . tests/style/sources.sh
 
-sources CMakeLists.txt demo test '*.cmake' '*.sh' '*.h' '*.cpp' '*.cu' '*.py' | xargs -0 awk '
+sources CMakeLists.txt demo test '*.cmake' '*.sh' '*.h' '*.cpp' '*.cu' '*.py' '*.js' '*.css' '*.html' | xargs -0 awk '
     FNR == 401 { print FILENAME ": more than 400 lines"; bad = 1 }
     END {
         if (NR == 0) print "no source file found: nothing was checked"

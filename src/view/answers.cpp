@@ -1,0 +1,208 @@
+#include "view/answers.h"
+
+#include "analysis/advice.h"
+#include "analysis/description.h"
+#include "analysis/side_view.h"
+#include "analysis/svg.h"
+#include "content/content.h"
+#include "files/display_file.h"
+#include "view/command.h"
+#include "view/controls.h"
+#include "view/plots.h"
+#include "view/probe.h"
+#include "view/save.h"
+
+#include <cmath>
+#include <mutex>
+#include <new>
+#include <stdexcept>
+
+namespace lfdsim::view {
+namespace {
+
+Json json_of(double x) {
+    if (std::isnan(x)) return nullptr;
+    if (std::isinf(x)) return x > 0 ? "infinite" : "-infinite";
+    return x;
+}
+
+Json json_of(const std::vector<Figure>& figures) {
+    Json all = Json::array();
+    for (const Figure& f : figures)
+        all.push_back(
+            {{"name", f.name}, {"label", f.meaning}, {"unit", unit_of(f.name)}, {"value", json_of(f.value)}, {"doc", f.formula}});
+    return all;
+}
+
+Json json_of(const std::vector<Problem>& problems) {
+    Json all = Json::array();
+    for (const Problem& p : problems) all.push_back({{"key", p.where}, {"what", p.what}});
+    return all;
+}
+
+/// The display as described, without what the page has set; the display itself where that is not valid with this eye.
+Display described(const Library& library, Wanted wanted, const Display& display) {
+    wanted.set.clear();
+    try {
+        return library.display(wanted);
+    } catch (const InputError&) {
+        return display;
+    }
+}
+
+// Names of files may be of any bytes, JSON is UTF-8.
+Json in_utf8(Json json) {
+    try {
+        json.dump();
+        return json;
+    } catch (const Json::type_error&) {
+        return Json::parse(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+    }
+}
+
+template <class T>
+Json json_of(const std::optional<T>& value) {
+    return value ? Json(*value) : Json();
+}
+
+Json json_of(const Probe& probe) {
+    return {{"lens", json_of(probe.lens)},
+            {"panel_pixel", json_of(probe.panel_pixel)},
+            {"panel_mm", json_of(probe.panel_mm)},
+            {"says", probe.says},
+            {"fan", probe.fan}};
+}
+
+Json side(const Display& display, const std::string& name) {
+    const Subject subject(display, std::nullopt, {});
+    SideFrame f{};
+    const std::string svg = name == "lens" ? lens_view_svg(subject, &f) : side_view_svg(subject, &f);
+    return {{"svg", svg},
+            {"frame",
+             {{"y_low", f.y_low},
+              {"y_high", f.y_high},
+              {"z_low", f.z_low},
+              {"z_high", f.z_high},
+              {"box", {f.left, f.top, f.width, f.height}}}}};
+}
+
+/// The file of the model that is shown, or would be if something else were not; empty: none.
+std::string model_file(const Library& library, const Wanted& wanted, const Display& display) {
+    if (wanted.shown.kind == Shown::Kind::model)
+        return wanted.shown.name == built_in_spheres ? wanted.shown.name : library.file(wanted.shown.name).string();
+    return library.start().model.empty() ? display.content.model : library.start().model;
+}
+
+/// Keeps the one that was asked for last: reading one takes a second.
+std::shared_ptr<const Model> model(const std::string& file) {
+    if (file.empty() || file == built_in_spheres) return built_in_model();
+    static std::mutex mutex;
+    static std::string kept_file;
+    static std::filesystem::file_time_type kept_time;
+    static std::shared_ptr<const Model> kept;
+    const std::lock_guard lock(mutex);
+    std::error_code missing;  // load_model() will say so
+    const auto time = std::filesystem::last_write_time(file, missing);
+    if (!kept || file != kept_file || time != kept_time) {
+        kept = load_model(file);
+        kept_file = file;
+        kept_time = time;
+    }
+    return kept;
+}
+
+class Cancellable : public Job {
+  public:
+    explicit Cancellable(const std::function<bool()>& cancelled) : cancelled_(cancelled) {}
+    bool cancelled() const override { return cancelled_ && cancelled_(); }
+
+  private:
+    const std::function<bool()>& cancelled_;
+};
+
+/// The description as it stands, for a file in the folder: its model is named from there where it lies below.
+std::string toml(const Library& library, const Wanted& wanted, const std::filesystem::path& folder) {
+    namespace fs = std::filesystem;
+    Display display = library.display(wanted);
+    const std::string file = model_file(library, wanted, display);
+    display.content.model = file;
+    if (!file.empty() && file != built_in_spheres) {
+        const fs::path relative = fs::absolute(file).lexically_normal().lexically_relative(fs::absolute(folder).lexically_normal());
+        const bool below = !relative.empty() && *relative.begin() != "..";
+        display.content.model = below ? relative.string() : fs::absolute(file).lexically_normal().string();
+    }
+    return write_display(display);
+}
+
+Json answer_to(const Library& library, const Wanted& wanted, const Ask& ask, const std::function<bool()>& cancelled) {
+    switch (ask.what) {
+        case Ask::What::probe:
+            return json_of(probe(library.display(wanted), ask.at));
+        case Ask::What::side:
+            return side(library.display(wanted), ask.name);
+        case Ask::What::plot: {
+            const Display display = library.display(wanted);
+            const Plot plot = ask.name == "spot"
+                                  ? spot_plot(display)
+                                  : fov_plot(display, model(model_file(library, wanted, display)), Cancellable(cancelled));
+            return {{"svg", svg(plot)}};
+        }
+        case Ask::What::files: {
+            const Library::Files files = library.files();
+            return {{"displays", files.displays}, {"models", files.models}, {"pictures", files.pictures}};
+        }
+        case Ask::What::toml:
+            return {{"text", toml(library, wanted, library.description(wanted).file.parent_path())}};
+        case Ask::What::save: {
+            const std::filesystem::path path = library.new_file(ask.name);
+            save_text(path, toml(library, wanted, path.parent_path()), ask.overwrite);
+            return {{"name", ask.name}};
+        }
+        case Ask::What::exr:
+            break;
+    }
+    throw InputError("exr", "is no question with an answer: the picture comes as a frame of the lane \"file\"");
+}
+
+}  // namespace
+
+Json resolved(const Library& library, const Wanted& wanted) {
+    try {
+        const Display display = library.display(wanted);
+        const Geometry geometry = resolve(display);
+        const Theory paraxial = theory(display, geometry);
+        return in_utf8({{"type", "resolved"},
+                        {"id", wanted.id},
+                        {"name", display.name.empty() ? library.description(wanted).file.stem().string() : display.name},
+                        {"controls", controls(display, described(library, wanted, display))},
+                        {"theory", json_of(figures(paraxial))},
+                        {"geometry", json_of(figures(geometry))},
+                        {"warnings", advice(display, geometry, paraxial)},
+                        {"command", command(library, wanted)}});
+    } catch (const InputError& error) {
+        return in_utf8({{"type", "problems"}, {"id", wanted.id}, {"problems", json_of(error.problems)}});
+    }
+}
+
+Json answer(const Library& library, const Wanted& wanted, const Ask& ask, const std::function<bool()>& cancelled) {
+    constexpr const char* whats[] = {"probe", "side", "plot", "files", "toml", "save", "exr"};
+    const std::string what = whats[std::size_t(ask.what)];
+    Json answer{{"type", "answer"}, {"id", ask.id}, {"what", what}, {"problems", Json::array()}};
+    const auto problem = [&](const std::string& where, const std::string& wrong) {
+        answer["problems"] = json_of({{where, wrong}});
+    };
+    try {
+        answer.update(answer_to(library, wanted, ask, cancelled));
+    } catch (const InputError& error) {
+        answer["problems"] = json_of(error.problems);
+    } catch (const Stopped&) {
+        problem(what, "was stopped");
+    } catch (const std::bad_alloc&) {
+        problem(what, "needs more memory than there is");
+    } catch (const std::runtime_error& error) {  // disk full, no program to read models
+        problem(what, error.what());
+    }
+    return in_utf8(std::move(answer));
+}
+
+}  // namespace lfdsim::view

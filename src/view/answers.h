@@ -1,0 +1,21 @@
+// What a page shows beside the pictures: figures, controls, drawings, plots, files. Floor 4.
+#pragma once
+#include "view/library.h"
+#include "view/messages.h"
+
+#include <nlohmann/json.hpp>
+
+#include <functional>
+
+namespace lfdsim::view {
+
+using Json = nlohmann::ordered_json;
+
+/// The message "resolved" or, for a display that is not valid, "problems": docs/view-protocol.md.
+Json resolved(const Library&, const Wanted&);
+
+/// The message "answer". Takes milliseconds but for plots, which may take seconds and stop when `cancelled` says so.
+/// What is wrong with the question is told in the answer's "problems"; never throws InputError.
+Json answer(const Library&, const Wanted&, const Ask&, const std::function<bool()>& cancelled);
+
+}  // namespace lfdsim::view

@@ -1,0 +1,245 @@
+#include "view/controls.h"
+
+#include "analysis/description.h"
+#include "engine/scene.h"
+#include "model/geometry.h"
+#include "model/keys.h"
+#include "view/slider.h"
+
+#include <fmt/format.h>
+#include <cmath>
+#include <numbers>
+
+namespace lfdsim::view {
+namespace {
+
+// Other parts of a message decide these.
+constexpr std::string_view left_out[] = {"content.model", "camera.position_mm", "camera.resolution"};
+
+std::string label(std::string_view key) {
+    for (const std::string_view unit : {"_per_mm", "_mm", "_deg"})
+        if (key.ends_with(unit)) key.remove_suffix(unit.size());
+    if (key == "fov") return "field of view";
+    std::string words(key);
+    std::replace(words.begin(), words.end(), '_', ' ');
+    return words;
+}
+
+Json json_of(double x) {
+    if (std::isfinite(x)) return x;
+    return x > 0 ? "infinite" : "-infinite";
+}
+Json json_of(std::int64_t n) { return n; }
+template <class List>
+Json json_of(const List& list) {
+    Json json = Json::array();
+    for (const auto& x : list) json.push_back(json_of(x));
+    return json;
+}
+
+/// A diffuser that could be put before a display that has none.
+Diffuser new_diffuser(const Geometry& g, const Theory& t) {
+    const double weakest = rounded(std::clamp(t.gap_closing_diffuser_deg, 0.1, 20.), 2);
+    return {rounded(g.top_z_mm - g.vertex_plane_mm + 10 * std::max(g.gap_mm, 1.), 2), {weakest, weakest}, Profile::box};
+}
+
+/// Of keys that are absent: what holds without them, or else a start.
+double suggested(std::string_view path, const Display& d, const Geometry& g) {
+    const double degree = std::numbers::pi / 180;
+    const std::pair<std::string_view, double> all[] = {
+        {"lens.aperture_radius_mm", g.glass_radius_mm},
+        {"lens.stop_radius_mm", 0.5 * g.clear_aperture_mm},
+        {"array.gap_mm", g.gap_mm},
+        {"array.base_z_mm", std::max(g.base_z_mm, 0.)},
+        {"camera.frame_width_mm", g.frame_width_mm},
+        {"camera.fov_deg", 2 * std::atan(0.5 * g.frame_width_mm / g.focus_distance_mm) / degree},
+        {"camera.pupil_diameter_mm", 4},  // of an eye indoors
+        {"camera.focus_distance_mm", g.focus_distance_mm},
+        {"content.depth_mm", g.content_depth_mm},
+        {"content.height_mm", g.content_height_mm},
+        {"render.samples", double(samples_of(d))},
+    };
+    for (const auto& [key, value] : all)
+        if (key == path) return rounded(value, 6);
+    return 1;
+}
+
+template <class T>
+const T* part(const Display& d) {
+    const T* found = nullptr;
+    visit_tables(d, [&]<class U, class Values>(const Table<U>&, const Values& values) {
+        if constexpr (std::is_same_v<T, Values>)
+            found = &values;
+        else if constexpr (std::is_same_v<T, U>)
+            found = values ? &*values : nullptr;
+    });
+    return found;
+}
+
+class Lister {
+  public:
+    Lister(const Display& display, const Display& described)
+        : trial_(display),
+          described_(described),
+          geometry_(resolve(described)),
+          no_diffuser_(!display.diffuser),
+          suggested_diffuser_(new_diffuser(geometry_, theory(described, geometry_))) {}
+
+    Json list() {
+        visit_tables(trial_, [&]<class T, class Values>(const Table<T>& table, Values& values) {
+            const std::string name(table.name);
+            if constexpr (std::is_same_v<T, Values>) {
+                add_table(table, name, values, part<T>(described_));
+            } else {
+                if (no_diffuser_) values = suggested_diffuser_;
+                add_table(table, name, *values, described_.diffuser ? &*described_.diffuser : &suggested_diffuser_);
+                if (no_diffuser_) values.reset();
+            }
+            if constexpr (std::is_same_v<T, Lens>)
+                for (std::size_t i = 0; i < values.surfaces.size(); ++i)
+                    add_table(surface_table, fmt::format("{}.{}", surface_table.name, i), values.surfaces[i],
+                              i < described_.lens.surfaces.size() ? &described_.lens.surfaces[i] : nullptr);
+        });
+        return std::move(list_);
+    }
+
+  private:
+    template <class T>
+    void add_table(const Table<T>& table, const std::string& name, T& values, const T* described) {
+        for (const Key<T>& key : table.keys) {
+            const std::string path = fmt::format("{}.{}", name, key.name);
+            if (!knows(key.lens_types, trial_.lens.type) ||
+                std::find(std::begin(left_out), std::end(left_out), path) != std::end(left_out))
+                continue;
+            const std::string label_text = label(key.name), unit = unit_of(std::string(key.name));
+            Json control{{"key", path}, {"table", name}, {"label", label_text}, {"unit", unit}};
+            std::visit(
+                [&](auto member) { add(control, path, key.range, values.*member, described ? &(described->*member) : nullptr); },
+                key.member);
+            if (no_diffuser_ && name == diffuser_table.name) {
+                control["suggested"] = control["value"];
+                control["value"] = nullptr;
+            }
+            if (!key.absent.empty()) control["absent"] = key.absent;  // such a key may be taken away
+            control["doc"] = key.doc;
+            list_.push_back(std::move(control));
+        }
+    }
+
+    // Most of the time goes here, so not for keys that nothing but their range bounds.
+    bool valid(std::string_view path) const {
+        const bool free = path.starts_with("render.") || (path.starts_with("content.") && path != "content.viewing_distance_mm") ||
+                          path == "panel.encoding" || path == "panel.emission_exponent" || path == "diffuser.profile";
+        return free || validate(trial_).empty();
+    }
+
+    /// The slider of a number whose value put() changes.
+    template <class Put>
+    Slider slider(const std::string& path, const Range& range, double value, double described, bool whole, Put put) {
+        if (std::isinf(value)) value = geometry_.focus_distance_mm;  // the viewing distance: start at the camera's
+        if (std::isinf(described)) described = geometry_.focus_distance_mm;
+        return valid_part(sensible_ends(path, range, described, described_, geometry_), value, whole, [&](double x) {
+            put(x);
+            return valid(path);
+        });
+    }
+    static void set_slider(Json& control, const Slider& s, bool whole) {
+        const auto number = [&](double x) { return whole ? Json(to<std::int64_t>(x)) : Json(x); };
+        control["low"] = number(s.low);
+        control["high"] = number(s.high);
+        control["step"] = number(s.step);
+    }
+
+    template <class Number>
+    static Number to(double x) {
+        if constexpr (std::is_integral_v<Number>)
+            return std::llround(std::clamp(x, -9e18, 9e18));  // seeds go to 2^63
+        else
+            return x;
+    }
+
+    template <class Number>
+    requires std::is_arithmetic_v<Number>
+    void add(Json& control, const std::string& path, const Range& range, Number& field, const Number* described) {
+        constexpr bool whole = std::is_integral_v<Number>;
+        const Number value = field;
+        control["value"] = json_of(value);
+        const Slider s = slider(path, range, double(value), double(described ? *described : value), whole,
+                                [&](double x) { field = to<Number>(x); });
+        field = value;
+        set_slider(control, s, whole);
+        control["form"] = whole ? "integer" : "number";
+    }
+
+    template <class Number>
+    void add(Json& control, const std::string& path, const Range& range, std::optional<Number>& field,
+             const std::optional<Number>* described) {
+        const bool absent = !field;
+        const Number start = to<Number>(suggested(path, described_, geometry_));
+        if (absent) field = start;
+        const Number anchor = described && *described ? **described : start;
+        add(control, path, range, *field, &anchor);
+        if (!absent) return;
+        control["suggested"] = control["value"];
+        control["value"] = nullptr;
+        field.reset();
+    }
+
+    // Both numbers have one slider's ends: where each may go by itself.
+    template <class Number>
+    void add(Json& control, const std::string& path, const Range& range, std::array<Number, 2>& field,
+             const std::array<Number, 2>* described) {
+        constexpr bool whole = std::is_integral_v<Number>;
+        const std::array<Number, 2> value = field;
+        control["value"] = json_of(value);
+        Slider s[2];
+        for (std::size_t k = 0; k < 2; ++k) {
+            s[k] = slider(path, range, double(value[k]), double(described ? (*described)[k] : value[k]), whole,
+                          [&](double x) { field[k] = to<Number>(x); });
+            field = value;
+        }
+        const double less = double(std::min(value[0], value[1])), more = double(std::max(value[0], value[1]));
+        set_slider(control,
+                   {std::min(std::max(s[0].low, s[1].low), less), std::max(std::min(s[0].high, s[1].high), more),
+                    std::min(s[0].step, s[1].step)},
+                   whole);
+        control["form"] = "pair";
+    }
+
+    template <class List>
+    requires std::is_same_v<List, Vec3d> || std::is_same_v<List, std::vector<double>>
+    void add(Json& control, const std::string&, const Range&, List& field, const List*) {
+        control["value"] = json_of(field);
+        control["form"] = "list";
+    }
+
+    // Words that leave the display valid.
+    template <class E>
+    requires std::is_enum_v<E>
+    void add(Json& control, const std::string& path, const Range&, E& field, const E*) {
+        const E value = field;
+        control["value"] = word(value);
+        control["form"] = "word";
+        control["words"] = Json::array();
+        for (std::size_t i = 0; i < words<E>().size(); ++i) {
+            field = E(i);
+            if (field == value || valid(path)) control["words"].push_back(words<E>()[i]);
+        }
+        field = value;
+    }
+
+    void add(Json&, const std::string&, const Range&, std::string&, const std::string*) {}  // content.model, which is left out
+
+    Display trial_;
+    const Display& described_;
+    const Geometry geometry_;
+    const bool no_diffuser_;
+    const Diffuser suggested_diffuser_;
+    Json list_ = Json::array();
+};
+
+}  // namespace
+
+Json controls(const Display& display, const Display& described) { return Lister(display, described).list(); }
+
+}  // namespace lfdsim::view

@@ -1,0 +1,66 @@
+// One state's pictures, drawn and encoded. Floor 4. Of one visitor, on one thread.
+#pragma once
+#include "view/frame.h"
+#include "view/likeness.h"
+#include "view/pace.h"
+#include "view/seen.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lfdsim::view {
+
+class Drawing {
+  public:
+    Drawing(const Library& library, Panels& panels, int threads) : library_(library), panels_(panels), threads_(threads) {}
+
+    struct Frame {
+        std::string lane, bytes;
+    };
+    /// Frames that belong together: all of one state and quality.
+    using Frames = std::vector<Frame>;
+
+    /// Begins with another state. Throws InputError. What is beside two eyes' pictures is of the left one.
+    void begin(const Wanted&);
+    /// What `beside` asks for cannot be: why. Empty: it can.
+    std::string beside_problem() const;
+
+    /// As large and as true as can be in 22 ms or so; the panel's light is a stand-in, made in about 12 ms, unless the true one is
+    /// there. All three throw InputError and Stopped.
+    Frames coarse(Job&);
+    /// Whether final() would keep the page waiting and fine() shows more than coarse() did.
+    bool wants_fine() const;
+    /// Full size, one sample, the true panel.
+    Frames fine(Job&);
+    /// What lfdsim render gives.
+    Frames final(Job&);
+    /// The picture at rest as an OpenEXR file; two eyes' pictures are the file's picture and its layer "right".
+    Frame exr(std::int64_t id, Job&);
+
+  private:
+    struct Lit {
+        Seen seen;
+        std::shared_ptr<const ShownPanel> light;
+    };
+    Lit true_light(const Seen&, Job&);
+    Lit quick_light(const Seen&, Job&);
+    Frames pictures(const std::vector<Lit>&, Quality, double scale, Job&);
+    void beside(const Lit&, const Display&, const Geometry&, FrameHeader, Image& view, Frames&, FrameHeader& of_view, Job&);
+    double coarse_cost(const Seen&, double scale) const;
+    double final_cost() const;
+
+    const Library& library_;
+    Panels& panels_;
+    const int threads_;
+    Wanted wanted_;
+    std::vector<Seen> eyes_;
+    bool coarse_is_full_ = false;  // the last coarse picture of this state has its full size and the true panel
+    Pace coarse_pace_{1}, final_pace_{1}, panel_pace_{1};
+    int coarse_scale_ = 0, coarse_panel_ = 0;  // the last choices
+    PanelKey stand_in_key_;
+    std::shared_ptr<const ShownPanel> stand_in_;  // the last one: while the eye alone moves it serves again
+    WhiteField quick_white_, white_;
+};
+
+}  // namespace lfdsim::view

@@ -1,0 +1,190 @@
+#include "view/library.h"
+
+#include "files/display_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim::view {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t most_files = 1000, most_entries = 100000, longest_name = 1000;
+constexpr int deepest = 6;  // folders below the served one
+
+std::string quoted(const std::string& name) { return fmt::format("\"{}\"", name); }
+
+// JSON cannot carry other names.
+bool is_utf8(const std::string& text) {
+    try {
+        nlohmann::json(text).dump();
+        return true;
+    } catch (const nlohmann::json::type_error&) {
+        return false;
+    }
+}
+
+/// The name as a path, of plain parts alone. Throws InputError.
+fs::path relative(const std::string& name) {
+    const fs::path path(name);
+    if (name.empty() || name.size() > longest_name || name.find('\0') != name.npos || !is_utf8(name))
+        throw InputError("name", "is no file's name");
+    if (path.is_absolute()) throw InputError(quoted(name), "is not in the folder that is served; names start there");
+    for (const fs::path& part : path)
+        if (part.empty() || part.native().starts_with('.'))
+            throw InputError(quoted(name), "has a part that is empty or starts with a dot; names are those of files in the folder");
+    return path;
+}
+
+// Both without links.
+bool inside(const fs::path& path, const fs::path& folder) {
+    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+/// Throws InputError unless `path` leads to something in the folder.
+fs::path resolve_inside(const fs::path& path, const fs::path& folder, const std::string& name) {
+    std::error_code error;
+    const fs::path real = fs::canonical(path, error);
+    if (error) throw InputError(quoted(name), "does not exist");
+    if (const fs::path top = fs::canonical(folder, error); error || !inside(real, top))
+        throw InputError(quoted(name), "is a link to a place outside the folder that is served");
+    return real;
+}
+
+bool ends_in(const fs::path& path, std::initializer_list<std::string_view> endings) {
+    std::string ending = path.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+/// Throws InputError for keys that other parts of a message decide.
+void check_key(std::string_view override_text) {
+    const std::string_view key = override_text.substr(0, override_text.find('='));
+    const auto is_or_has = [&](std::string_view whole) {
+        return whole == key || (key.starts_with(whole) && key.substr(whole.size()).starts_with('.')) ||
+               (whole.starts_with(key) && whole.substr(key.size()).starts_with('.'));
+    };
+    const auto refuse = [&](const char* what) { throw InputError(std::string(key), what); };
+    if (is_or_has("content.model")) refuse("is not for set: the message's \"shown\" says what is shown");
+    if (is_or_has("camera.position_mm")) refuse("is not for set: the message's \"eye_mm\" says where the eye is");
+    if (is_or_has("camera.resolution")) refuse("is not for set: the message's \"size\" says how many pixels there are");
+}
+
+// From one eye towards the other, of unit length, horizontal as the picture is.
+Vec3d right_of(const Camera& camera) {
+    Vec3d view{}, right{};
+    for (std::size_t a = 0; a < 3; ++a) view[a] = camera.target_mm[a] - camera.position_mm[a];
+    for (std::size_t a = 0; a < 3; ++a) {
+        const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
+        right[a] = view[b] * camera.up[c] - view[c] * camera.up[b];
+    }
+    const double length = std::hypot(right[0], right[1], right[2]);
+    for (double& x : right) x /= length;
+    return right;
+}
+
+std::string position(const Vec3d& eye) { return fmt::format("camera.position_mm=[{}]", fmt::join(eye, ", ")); }
+
+// What is told of "--set array.gap_mm=99" as "array.gap_mm: is ..." or "diffuser.distance_mm: is missing" is told of that key. Of a
+// list's element ("array.offset_mm[0]") it is told of the list.
+Problem by_key(Problem problem) {
+    constexpr std::string_view option = "--set ";
+    if (!problem.where.starts_with(option)) return problem;
+    problem.where = problem.where.substr(option.size(), problem.where.find('=') - option.size());
+    const std::size_t end = problem.what.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_.[]");
+    if (end == problem.what.npos || problem.what.compare(end, 2, ": ") != 0) return problem;
+    problem.where = problem.what.substr(0, end);
+    problem.what.erase(0, end + 2);
+    if (const std::size_t bracket = problem.where.find('['); bracket != problem.where.npos) {
+        problem.what = "element " + problem.where.substr(bracket) + " " + problem.what;
+        problem.where.resize(bracket);
+    }
+    return problem;
+}
+
+}  // namespace
+
+Library::Library(Start start, fs::path folder) : start_(std::move(start)), folder_(std::move(folder)) {
+    std::error_code error;
+    if (!fs::is_directory(folder_, error)) throw InputError(folder_.string(), "is no folder; give the one to serve files from");
+}
+
+fs::path Library::file(const std::string& name) const {
+    const fs::path path = folder_ / relative(name);
+    if (std::error_code error; !fs::is_regular_file(resolve_inside(path, folder_, name), error))
+        throw InputError(quoted(name), "is not a plain file");
+    return path.lexically_normal();
+}
+
+fs::path Library::new_file(const std::string& name) const {
+    const fs::path path = folder_ / relative(name);
+    if (path.extension() != ".toml") throw InputError(quoted(name), "does not end in .toml");
+    std::error_code error;
+    if (!fs::is_directory(resolve_inside(path.parent_path(), folder_, name), error))
+        throw InputError(quoted(name), "is not in a folder");
+    const fs::file_type type = fs::symlink_status(path, error).type();
+    if (type != fs::file_type::not_found && type != fs::file_type::regular)
+        throw InputError(quoted(name), "exists and is not a plain file");
+    return path.lexically_normal();
+}
+
+Library::Files Library::files() const {
+    Files found;
+    std::size_t entries = 0, named = 0;
+    std::error_code error;
+    const fs::path real_folder = fs::canonical(folder_, error);
+    fs::recursive_directory_iterator entry(folder_, fs::directory_options::skip_permission_denied, error);
+    for (; !error && entry != fs::recursive_directory_iterator() && named < most_files; entry.increment(error)) {
+        if (++entries > most_entries) break;
+        const fs::path& path = entry->path();
+        const bool hidden = path.filename().native().starts_with('.');
+        if (hidden || entry.depth() >= deepest) entry.disable_recursion_pending();
+        std::error_code broken;  // a link that leads nowhere is no reason to stop
+        if (hidden || !fs::is_regular_file(path, broken) || !inside(fs::canonical(path, broken), real_folder)) continue;
+        std::vector<std::string>* kind =
+            ends_in(path, {".toml"})                                   ? &found.displays
+            : ends_in(path, {".png", ".jpg", ".jpeg", ".exr", ".npy"}) ? &found.pictures
+            : ends_in(path, {".3ds",  ".3mf", ".amf", ".ase", ".blend", ".cob", ".dae", ".dxf", ".fbx", ".glb",
+                             ".gltf", ".hmp", ".ifc", ".lwo", ".obj",   ".off", ".ply", ".smd", ".stl", ".x"})
+                ? &found.models
+                : nullptr;
+        const std::string name = path.lexically_relative(folder_).generic_string();
+        if (!kind || name.size() > longest_name || !is_utf8(name)) continue;
+        kind->push_back(name);
+        ++named;
+    }
+    for (std::vector<std::string>* all : {&found.displays, &found.models, &found.pictures}) std::sort(all->begin(), all->end());
+    return found;
+}
+
+Library::Description Library::description(const Wanted& wanted, int eye) const {
+    Description description{wanted.display.empty() ? start_.display : file(wanted.display), start_.set};
+    for (const std::string& one : wanted.set) {
+        check_key(one);
+        description.set.push_back(one);
+    }
+    Vec3d at = wanted.eye_mm;
+    if (eye != 0) {
+        const Vec3d right = right_of(display(wanted).camera);
+        for (std::size_t a = 0; a < 3; ++a) at[a] += 0.5 * eye * wanted.eye_distance_mm * right[a];
+    }
+    description.set.push_back(position(at));
+    description.set.push_back(fmt::format("camera.resolution=[{}, {}]", wanted.size[0], wanted.size[1]));
+    return description;
+}
+
+Display Library::display(const Wanted& wanted, int eye) const {
+    const Description wanted_one = description(wanted, eye);
+    try {
+        return read_display(wanted_one.file, wanted_one.set);
+    } catch (InputError& error) {
+        std::transform(error.problems.begin(), error.problems.end(), error.problems.begin(), by_key);
+        throw InputError(std::move(error.problems));
+    }
+}
+
+}  // namespace lfdsim::view

@@ -1,0 +1,55 @@
+// Displays, models and pictures of the served folder, by name. Floor 4. Shared by all visitors; all calls from any thread.
+#pragma once
+#include "model/display.h"
+#include "view/messages.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lfdsim::view {
+
+/// What the program was started with; paths as the command line has them, and not bound to the folder.
+struct Start {
+    std::filesystem::path display;
+    std::vector<std::string> set;  // --set of the command line, before those of a page
+    std::string model;             // --model; empty: the description's
+    std::filesystem::path panel_image;
+    std::string pattern;
+};
+
+class Library {
+  public:
+    /// Throws InputError if the folder is none.
+    Library(Start, std::filesystem::path folder);
+
+    const Start& start() const { return start_; }
+
+    /// The file that a page names, inside the folder. Throws InputError for what is outside (.., absolute, links that lead out), is
+    /// not a plain file, or does not exist.
+    std::filesystem::path file(const std::string& name) const;
+    /// The same for a file to be made. Throws InputError for other endings than .toml.
+    std::filesystem::path new_file(const std::string& name) const;
+
+    /// Names of files that a page may name, '/' between folders, sorted: at most 1000, six folders deep, hidden ones left out.
+    struct Files {
+        std::vector<std::string> displays, models, pictures;
+    };
+    Files files() const;
+
+    /// Its file, and the overrides that make of it what is wanted: the start's, the page's, the eye and the size. With `eye` -1, 0,
+    /// 1 for the left one, the middle, the right one. lfdsim render with the same --set gives the same picture.
+    struct Description {
+        std::filesystem::path file;
+        std::vector<std::string> set;
+    };
+    Description description(const Wanted&, int eye = 0) const;
+    /// The description read and validated. Throws InputError whose places are keys where they can be ("array.gap_mm").
+    Display display(const Wanted&, int eye = 0) const;
+
+  private:
+    Start start_;
+    std::filesystem::path folder_;
+};
+
+}  // namespace lfdsim::view

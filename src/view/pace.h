@@ -1,0 +1,43 @@
+// How long a picture takes, and which size of it takes a short time. Floor 4.
+#pragma once
+#include "model/display.h"
+#include "model/geometry.h"
+
+#include <algorithm>
+
+namespace lfdsim::view {
+
+/// Seconds that rendering the camera's picture takes on one core of a laptop, roughly: what matters is how sizes compare. The
+/// filtered estimator shares its rays over blocks of pixels, which must be smaller where pixels see more of a lens: a small picture
+/// may take longer than a large one.
+double render_cost(const Display&, const Geometry&);
+
+/// What the costs of a kind are in true seconds: learned from each picture, half of what is known comes from the last one.
+class Pace {
+  public:
+    explicit Pace(double seconds_per_cost) : seconds_per_cost_(seconds_per_cost) {}
+    void learn(double cost, double seconds) {
+        seconds_per_cost_ = known_ ? 0.5 * (seconds_per_cost_ + seconds / cost) : seconds / cost;
+        known_ = true;
+    }
+    double seconds(double cost) const { return cost * seconds_per_cost_; }
+
+  private:
+    double seconds_per_cost_;
+    bool known_ = false;
+};
+
+/// The first of `count` choices, the best one first, that takes no more than so long; where none does, the first that takes at most
+/// half as long again as the quickest. One better than the last has to be clearly quick enough, so that pictures do not flicker
+/// between two sizes. seconds(k): of choice k.
+template <class Seconds>
+int best_in_time(int count, int last, double most_seconds, const Seconds& seconds) {
+    double quickest = seconds(0);
+    for (int k = 1; k < count; ++k) quickest = std::min(quickest, seconds(k));
+    const auto fits = [&](int k) { return seconds(k) <= std::max((k < last ? 0.8 : 1) * most_seconds, 1.5 * quickest); };
+    int k = 0;
+    while (!fits(k)) ++k;
+    return k;
+}
+
+}  // namespace lfdsim::view

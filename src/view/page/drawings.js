@@ -1,0 +1,118 @@
+// Drawings and plots of the program, and over the side view the rays of the place under the pointer.
+import { byId, say } from "./dom.js";
+
+const questions = {
+  display: { what: "side", name: "display" }, lens: { what: "side", name: "lens" },
+  fov: { what: "plot", name: "fov" }, spot: { what: "plot", name: "spot" },
+};
+const probe_pause_ms = 50;
+const svg_space = "http://www.w3.org/2000/svg";
+
+/// A drawing without what could run or fetch anything, ready for the page; null if it is none.
+export function clean_svg(text) {
+  const parsed = new DOMParser().parseFromString(String(text).replace(/\sstyle="[^"]*"/g, ""), "image/svg+xml");
+  const root = parsed.documentElement;
+  if (root.namespaceURI !== svg_space || root.localName !== "svg" || parsed.querySelector("parsererror")) return null;
+  const kept = new Set(["svg", "g", "path", "line", "polyline", "polygon", "rect", "circle", "ellipse", "text", "tspan", "title", "desc", "defs", "clipPath"]);
+  for (const element of [...root.querySelectorAll("*")]) if (!kept.has(element.localName) || element.namespaceURI !== svg_space) element.remove();
+  for (const element of [root, ...root.querySelectorAll("*")])
+    for (const { name, value } of [...element.attributes])
+      if (/^on|href|^style$/i.test(name) || /url\((?!\s*["']?#)/i.test(value)) element.removeAttribute(name);
+  root.removeAttribute("width");
+  root.removeAttribute("height");
+  return document.adoptNode(root);
+}
+
+export class Drawings {
+  /// ask(what, more): the connection's; optical(): text of all that a drawing depends on.
+  constructor(ask, optical) {
+    Object.assign(this, { ask, optical, open: null, drawn: "", frame: null, fan: [], probing: false, probed: -Infinity });
+    this.place = byId("drawing");
+    this.buttons = [...document.querySelectorAll("[data-drawing]")];
+    for (const button of this.buttons) button.onclick = () => this.choose(this.open === button.dataset.drawing ? null : button.dataset.drawing);
+  }
+  choose(name) {
+    this.open = name;
+    this.drawn = "";
+    this.frame = null;
+    for (const button of this.buttons) button.setAttribute("aria-pressed", String(button.dataset.drawing === name));
+    this.place.hidden = !name;
+    this.place.replaceChildren();
+    say(byId("drawing-says"), "");
+    this.refresh();
+  }
+  /// What is there is of a state that was.
+  age() {
+    this.place.classList.toggle("old", this.drawn !== "" && this.drawn !== this.optical());
+  }
+  /// At rest; `sharp` once the sharp picture is there: plots take their time.
+  async refresh(sharp = true) {
+    this.age();
+    const name = this.open, of = this.optical(), question = questions[name];
+    if (!name || this.drawn === of || this.asking === name + of || (question.what === "plot" && !sharp)) return;
+    this.asking = name + of;
+    if (question.what === "plot") say(byId("drawing-says"), "measuring ...");
+    try {
+      const answer = await this.ask(question.what, { name: question.name });
+      if (this.open === name && this.asking === name + of) this.show(answer, of);
+    } catch (error) {
+      if (this.open === name) say(byId("drawing-says"), error.message);
+    }
+    if (this.asking === name + of) this.asking = null;
+  }
+  show(answer, of) {
+    const problems = (answer.problems || []).map((p) => p.what).join("; "), svg = answer.svg ? clean_svg(answer.svg) : null;
+    say(byId("drawing-says"), problems || (svg ? "" : "there is no drawing"));
+    if (!svg) return;
+    this.place.replaceChildren(svg);
+    this.frame = answer.frame || null;
+    this.drawn = of;
+    this.age();
+    this.draw_fan();
+  }
+  /// Asks what the place shows; of many places only the newest, at most 20 a second.
+  async probe(at) {
+    this.wanted = at;
+    if (this.probing || !at) return;
+    this.probing = true;
+    while (this.wanted) {
+      const pause = this.probed + probe_pause_ms - performance.now();
+      if (pause > 0) await new Promise((done) => setTimeout(done, pause));
+      const place = this.wanted;
+      this.wanted = null;
+      this.probed = performance.now();
+      if (!place) break;
+      try {
+        const answer = await this.ask("probe", { at: place });
+        if (this.silent) continue;
+        this.fan = Array.isArray(answer.fan) ? answer.fan : [];
+        say(byId("probe-says"), answer.says || "");
+        this.draw_fan();
+      } catch {
+        break;  // the connection is gone, and says so itself
+      }
+    }
+    this.probing = false;
+  }
+  /// With two eyes a place is not one line of sight.
+  hush(silent) {
+    this.silent = silent;
+    if (!silent) return;
+    this.fan = [];
+    say(byId("probe-says"), "");
+    this.draw_fan();
+  }
+  draw_fan() {
+    const svg = this.place.querySelector("svg"), f = this.frame;
+    svg?.querySelectorAll(".fan").forEach((line) => line.remove());
+    if (!svg || !f) return;
+    const [left, top, width, height] = f.box;
+    for (const line of this.fan) {
+      const drawn = document.createElementNS(svg_space, "polyline");
+      drawn.setAttribute("class", "fan");
+      drawn.setAttribute("points", line.map(([y, z]) =>
+        [left + (width * (z - f.z_low)) / (f.z_high - f.z_low), top + (height * (f.y_high - y)) / (f.y_high - f.y_low)].map((x) => x.toFixed(2)).join()).join(" "));
+      svg.append(drawn);
+    }
+  }
+}

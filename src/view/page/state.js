@@ -1,0 +1,107 @@
+// All that the page wants to see, its history, and where it is kept over a reload: in the address's fragment.
+import { clamp, finite } from "./dom.js";
+
+export const choices = {
+  layout: ["one", "pair", "crossed"],
+  compare: ["none", "beside", "wipe", "difference"],
+  size: ["fit", "1280x720", "1920x1080", "3840x2160"],
+  surface: ["sphere", "plane"],
+};
+const kinds = ["start", "model", "panel_image", "pattern"];
+
+export const fresh = () => ({
+  started: "",  // the description that the program was started with: of another one, the state is worth nothing
+  display: "", set: {}, shown: { kind: "start", name: "", hold: false }, eye: [0, 0, 2000], eye_distance_mm: 65,
+  layout: "one", compare: "none", size: "fit", surface: "sphere", wipe: 0.5,
+});
+
+const text = (x, most) => typeof x === "string" && x.length <= most;
+
+/// A state from an address, which anybody may have written; null if it is none.
+function checked(x) {
+  const s = fresh();
+  if (!x || typeof x !== "object") return null;
+  if (!text(x.started, 1000) || !text(x.display, 1000) || !x.shown || !kinds.includes(x.shown.kind) || !text(x.shown.name, 1000)) return null;
+  if (!Array.isArray(x.eye) || x.eye.length !== 3 || !finite(...x.eye, x.eye_distance_mm, x.wipe)) return null;
+  const set = x.set && typeof x.set === "object" ? Object.entries(x.set) : [];
+  if (set.length > 100 || !set.every(([key, value]) => text(key, 200) && text(value, 1000))) return null;
+  for (const [name, allowed] of Object.entries(choices)) {
+    if (!allowed.includes(x[name])) return null;
+    s[name] = x[name];
+  }
+  return {
+    ...s, started: x.started, display: x.display, set: Object.fromEntries(set), eye: x.eye, wipe: clamp(x.wipe, 0, 1),
+    eye_distance_mm: clamp(x.eye_distance_mm, 0, 1000), shown: { kind: x.shown.kind, name: x.shown.name, hold: x.shown.hold === true },
+  };
+}
+
+function kept() {
+  try {
+    return checked(JSON.parse(decodeURIComponent(location.hash.slice(1))));
+  } catch {
+    return null;
+  }
+}
+
+/// `changed(moving, time)` is called after each change; time is that of the event behind it.
+export class Store {
+  constructor(changed) {
+    this.changed = changed;
+    this.now = kept() || fresh();
+    this.past = [];
+    this.future = [];
+    this.known = this.now;  // as of the last step
+  }
+  change(parts, moving = false, time = performance.now()) {
+    this.now = { ...this.now, ...parts };
+    this.changed(moving, time);
+  }
+  set(key, value, moving = false, time = performance.now()) {
+    const set = { ...this.now.set };
+    if (value === null) delete set[key];
+    else set[key] = value;
+    this.change({ set }, moving, time);
+  }
+  /// A step to undo ends here, if anything differs.
+  step() {
+    if (JSON.stringify(this.now) === JSON.stringify(this.known)) return;
+    this.past = [...this.past.slice(-199), this.known];
+    this.future = [];
+    this.known = this.now;
+  }
+  keep() {
+    // Relative, so that the token in the address stays.
+    history.replaceState(null, "", "#" + encodeURIComponent(JSON.stringify(this.now)));
+  }
+  /// The program says what it was started with.
+  started(hello) {
+    if (this.now.started === hello.display) return;
+    this.now = this.known = { ...fresh(), started: hello.display, eye: hello.eye_mm };
+    this.past = [];
+    this.future = [];
+  }
+  undo() {
+    this.step();
+    if (this.past.length) this.go(this.past, this.future);
+  }
+  redo() {
+    this.step();
+    if (this.future.length) this.go(this.future, this.past);
+  }
+  go(from, to) {
+    to.push(this.now);
+    this.now = this.known = from.pop();
+    this.changed(false, performance.now());
+  }
+}
+
+/// The message "show", without its id and whether more is about to come.
+export function wish(state, size) {
+  const off = Object.keys(state.set).filter((key) => state.set[key] === "none");
+  const set = Object.entries(state.set).filter(([key]) => !off.some((table) => key.startsWith(table + ".")));  // its table is away
+  return {
+    type: "show", display: state.display, set: set.map(([key, value]) => `${key}=${value}`), shown: state.shown, eye_mm: state.eye, size,
+    layout: state.layout, eye_distance_mm: state.eye_distance_mm,
+    beside: { none: "none", beside: "photograph", wipe: "photograph", difference: "difference" }[state.compare],
+  };
+}

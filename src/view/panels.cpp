@@ -1,0 +1,170 @@
+#include "view/panels.h"
+
+#include "analysis/memory.h"
+#include "image/image_file.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace lfdsim::view {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t most_panels = 3, most_scenes = 3, most_models = 2;
+constexpr double most_bytes = 2.0 * (1 << 30);
+
+/// The first entry for which `is` holds, moved to the front; nullptr if there is none.
+template <class Entry, class Is>
+Entry* used(std::list<Entry>& all, const Is& is) {
+    const auto found = std::find_if(all.begin(), all.end(), is);
+    if (found == all.end()) return nullptr;
+    all.splice(all.begin(), all, found);
+    return &all.front();
+}
+
+Source of_file(Shown::Kind kind, const std::string& path) {
+    // A file that cannot be looked at is told of where it is read.
+    std::error_code error;
+    const auto changed = fs::last_write_time(path, error).time_since_epoch().count();
+    const auto bytes = fs::file_size(path, error);
+    return {kind, path, error ? 0 : std::int64_t(changed), error ? 0 : std::int64_t(bytes)};
+}
+
+bool drawn_for_lenses(const Source& source) {
+    return source.kind == Shown::Kind::model ||
+           (source.kind == Shown::Kind::pattern && (source.name == "view" || source.name == "edge"));
+}
+
+std::array<double, 3> pose_of(const Display& d, const Geometry& g) {
+    return {d.content.tilt_deg, d.content.yaw_deg, g.content_height_mm};
+}
+
+}  // namespace
+
+Source model_source(const std::string& name) {
+    if (name.empty() || name == built_in_spheres) return {Shown::Kind::model, name};
+    return of_file(Shown::Kind::model, name);
+}
+
+Source source_of(const Library& library, const Shown& shown, const Display& display) {
+    const Start& start = library.start();
+    switch (shown.kind) {
+        case Shown::Kind::model:
+            return model_source(shown.name == built_in_spheres ? shown.name : library.file(shown.name).string());
+        case Shown::Kind::panel_image:
+            return of_file(shown.kind, library.file(shown.name).string());
+        case Shown::Kind::pattern:
+            return {shown.kind, shown.name};
+        case Shown::Kind::start:
+            break;
+    }
+    if (!start.pattern.empty()) return {Shown::Kind::pattern, start.pattern};
+    if (!start.panel_image.empty()) return of_file(Shown::Kind::panel_image, start.panel_image.string());
+    return model_source(start.model.empty() ? display.content.model : start.model);
+}
+
+// The nodal pick-up (content/pickup.h) and the model's pose (content/scene.cpp) read these, resolved, and nothing else.
+PanelKey panel_key(const Source& source, const Display& d, const Geometry& g) {
+    PanelKey key{source, d.panel.pixels, d.panel.encoding, {}};
+    if (!drawn_for_lenses(source)) return key;
+    key.lengths = {d.panel.pixel_pitch_mm, double(d.array.count[0]), double(d.array.count[1]),     d.array.pitch_mm,
+                   d.array.offset_mm[0],   d.array.offset_mm[1],     d.array.rotation_deg,         g.gap_mm,
+                   g.rear_principal_mm,    g.vertex_plane_mm,        d.content.viewing_distance_mm};
+    if (source.kind != Shown::Kind::model) return key;
+    for (const double x : pose_of(d, g)) key.lengths.push_back(x);
+    key.lengths.push_back(g.content_depth_mm);
+    return key;
+}
+
+std::shared_ptr<const ShownPanel> Panels::find(const PanelKey& key) {
+    const std::lock_guard lock(mutex_);
+    const Made* const panel = used(panels_, [&](const Made& p) { return p.key == key; });
+    return panel ? panel->light : nullptr;
+}
+
+std::shared_ptr<const ShownPanel> Panels::get(const PanelKey& key, const Display& display, const Geometry& geometry, int threads,
+                                              Job& job) {
+    if (auto light = find(key)) return light;
+    const std::shared_ptr<const ShownPanel> light = make(key.source, display, geometry, threads, job);
+    const std::lock_guard lock(mutex_);
+    // Another visitor may have made it meanwhile.
+    if (const Made* const panel = used(panels_, [&](const Made& p) { return p.key == key; })) return panel->light;
+    panels_.push_front({key, light, texel_bytes(display)});
+    double bytes = 0;
+    std::size_t count = 0;
+    panels_.remove_if([&](const Made& p) {
+        bytes += p.bytes;
+        return ++count > most_panels || (count > 1 && bytes > most_bytes);
+    });
+    return light;
+}
+
+std::shared_ptr<const ShownPanel> Panels::make(const Source& source, const Display& display, const Geometry& geometry, int threads,
+                                               Job& job) {
+    const Panel& panel = display.panel;
+    if (source.kind == Shown::Kind::panel_image)
+        return std::make_shared<ShownPanel>(read_panel_image(source.name, panel.encoding, panel.pixels[0], panel.pixels[1], &job),
+                                            threads);
+    require_panel_memory(display);
+    if (source.kind == Shown::Kind::pattern)
+        return std::make_shared<ShownPanel>(shown_texels(pattern(source.name, display, geometry), panel.encoding), threads);
+    const Scene posed = scene(source, display, geometry, job);
+    const Picture images = elemental_images(display, geometry, posed, threads, job);
+    if (!images.complete) throw Stopped{};
+    return std::make_shared<ShownPanel>(shown_texels(images.image, panel.encoding), threads);
+}
+
+Scene Panels::scene(const Source& source, const Display& display, const Geometry& geometry, Job& job) {
+    if (source.kind != Shown::Kind::model || source.name.empty())
+        throw InputError("shown", "is no model: name a mesh file, or built-in:spheres");
+    const std::array<double, 3> pose = pose_of(display, geometry);
+    {
+        const std::lock_guard lock(mutex_);
+        const auto is = [&](const Posed& p) { return p.source == source && p.pose == pose; };
+        if (const Posed* const posed = used(scenes_, is)) return posed->scene.before(geometry);
+    }
+    const Scene made(source.name == built_in_spheres ? built_in_model() : model(source, job), display, geometry);
+    const std::lock_guard lock(mutex_);
+    scenes_.push_front({source, pose, made});
+    if (scenes_.size() > most_scenes) scenes_.pop_back();
+    return made;
+}
+
+std::shared_ptr<const Model> Panels::model(const Source& source, Job& job) {
+    const ModelFuture future = reading(source);
+    job.stage("model", 1);
+    while (future.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
+        job.advance(0);
+        if (job.cancelled()) throw Stopped{};
+    }
+    try {
+        return future.get();
+    } catch (...) {  // the next one to ask tries again
+        const std::lock_guard lock(mutex_);
+        models_.remove_if([&](const Loaded& l) { return l.source == source; });
+        throw;
+    }
+}
+
+// A process of its own reads the model, in a thread that goes on when nobody waits any more: whoever comes next wants the same one.
+Panels::ModelFuture Panels::reading(const Source& source) {
+    const std::lock_guard lock(mutex_);
+    if (const Loaded* const loaded = used(models_, [&](const Loaded& l) { return l.source == source; })) return loaded->model;
+    const auto load = [name = source.name] { return load_model(name); };
+    models_.push_front({source, std::async(std::launch::async, load).share()});
+    std::size_t count = 0;
+    models_.remove_if([&](const Loaded& l) {  // the end of one that is being read would be waited for
+        return ++count > most_models && l.model.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    });
+    return models_.front().model;
+}
+
+Panels::Kept Panels::kept() const {
+    const std::lock_guard lock(mutex_);
+    double bytes = 0;
+    for (const Made& p : panels_) bytes += p.bytes;
+    return {panels_.size(), scenes_.size(), models_.size(), bytes};
+}
+
+}  // namespace lfdsim::view

@@ -1,0 +1,100 @@
+#include "view/plots.h"
+
+#include "analysis/eye_rays.h"
+#include "analysis/fov.h"
+#include "analysis/lens_trace.h"
+#include "analysis/spot_depth.h"
+#include "analysis/views.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+
+namespace lfdsim::view {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr std::int64_t picture_width = 320, most_panel_pixels = std::int64_t(7680) * 4320;
+constexpr int angles_each_side = 12, spot_depths = 161, spot_rays = 301;
+
+/// The same display, seen from its distance on axis in small pictures that just hold the panel.
+Display small(Display d) {
+    const Camera& c = d.camera;
+    const double distance = std::hypot(c.position_mm[0], c.position_mm[1], c.position_mm[2]);
+    d.camera = {};
+    d.camera.position_mm = {0, 0, distance};
+    d.camera.resolution = {picture_width, picture_width * 9 / 16};
+    return d;
+}
+
+}  // namespace
+
+Plot fov_plot(const Display& display, std::shared_ptr<const Model> model, const Job& job) {
+    if (const auto [columns, rows] = display.panel.pixels; columns * rows > most_panel_pixels)
+        throw InputError("panel.pixels",
+                         fmt::format("{} x {} are too many for a plot that takes seconds, which is for 7680 x 4320 or "
+                                     "fewer; take lfdsim analyze fov",
+                                     columns, rows));
+    // One at a time, whoever asks: each takes all processors and up to two gigabytes.
+    static std::timed_mutex mutex;
+    std::unique_lock lock(mutex, std::defer_lock);
+    while (!lock.try_lock_for(std::chrono::milliseconds(20)))
+        if (job.cancelled()) throw Stopped{};
+    const Display d = small(display);
+    const Geometry g = resolve(d);
+    Subject subject(d, Scene(std::move(model), d, g), {});
+    const double edge = 0.5 * subject.theory().fov_deg, depth = fov_depth_mm(subject);
+    const double highest =
+        std::acos(std::min(1.2 * nearest_eye_mm(g) / d.camera.position_mm[2], 1.)) / degree;  // before the display
+    const double most = std::min({80., highest, 1.35 * edge + 2});
+    const Scene scene = subject.scene().at_depth(depth);
+    const double white = subject.white_field(job);
+    const auto shown = elemental_panel(d, g, scene, 0, job);
+
+    Series likeness_series{"SSIM of view and scene", {}, {}};
+    for (int k = -angles_each_side; k <= angles_each_side; ++k) {
+        const double angle = most * k / angles_each_side;
+        likeness_series.x.push_back(angle);
+        likeness_series.y.push_back(likeness(view_of(seen_from(d, angle, 0), g, scene, shown->pyramid(), white, 0, job)).screen);
+    }
+    Plot plot{"fov", "Likeness of the simulated view to the scene", "horizontal angle of the view, degrees", "SSIM", {}};
+    plot.series.push_back(std::move(likeness_series));
+    for (const double side : {-edge, edge})
+        if (std::abs(side) <= most) plot.marks.push_back({"2 atan(p / 2g)", side});
+    plot.marks.push_back({"eye", std::atan2(display.camera.position_mm[0], display.camera.position_mm[2]) / degree});
+    return plot;
+}
+
+Plot spot_plot(const Display& d) {
+    const Geometry g = resolve(d);
+    const Theory t = theory(d, g);
+    const double L = t.central_depth_mm, from_vertex = g.rear_principal_mm - g.vertex_plane_mm;
+    const std::vector<Line> fan = fans(LensTrace(d, g), {0, 0}, spot_rays).meridional;
+    // As far as the depth of field and half as far again; where the plane is at infinity, as far as the viewer is.
+    const bool finite = std::abs(L) < 1e6;
+    const double reach = finite ? std::clamp(0.75 * t.depth_of_field_mm, 0.2 * std::abs(L), 0.95 * std::abs(L)) : 0;
+    const double low = finite ? L - reach : 0, high = finite ? L + reach : 2 * d.camera.position_mm[2];
+    const Allowed allowed = pixel_image(d, g, t);
+
+    Series traced{"traced spot", {}, {}}, diffuse{"with the diffuser", {}, {}}, pixel{"a panel pixel's image", {}, {}};
+    const std::vector<Line> after =
+        d.diffuser ? diffused(fan, *g.diffuser_z_mm - g.rear_principal_mm, diffuser_angle(d, {1, 0})) : std::vector<Line>{};
+    for (int k = 0; k < spot_depths; ++k) {
+        const double z = low + (high - low) * k / (spot_depths - 1);
+        for (Series* s : {&traced, &diffuse, &pixel}) s->x.push_back(z + from_vertex);
+        traced.y.push_back(fan.empty() ? NAN : width_at(fan, z).mm);
+        diffuse.y.push_back(after.empty() ? NAN : width_at(after, z).mm);
+        pixel.y.push_back(allowed.mm + allowed.per_mm * z);
+    }
+    Plot plot{"spot", "Spot of a panel point on the lens's axis", "depth before the lenses, mm", "width, mm", {}};
+    plot.series = {std::move(traced)};
+    if (d.diffuser) plot.series.push_back(std::move(diffuse));
+    plot.series.push_back(std::move(pixel));
+    if (finite) plot.marks.push_back({"central depth plane, paraxial", L + from_vertex});
+    return plot;
+}
+
+}  // namespace lfdsim::view

@@ -1,0 +1,19 @@
+// The two plots that a page may ask for: small measurements, in seconds. Floor 4.
+#pragma once
+#include "analysis/result.h"
+#include "analysis/subject.h"
+
+#include <memory>
+
+namespace lfdsim::view {
+
+/// Likeness (SSIM) of the simulated view to the scene against the horizontal angle, by small pictures, with theory's field of view
+/// and the angle where the eye is. A few seconds at most. Throws InputError for panels of more than 7680 x 4320 pixels, which would
+/// take longer; Stopped where the job is cancelled.
+Plot fov_plot(const Display&, std::shared_ptr<const Model>, const Job&);
+
+/// Width of a panel point's spot, traced through the lens on its axis, against depth from the vertex plane, beside a pixel's image;
+/// the central depth plane is marked. Milliseconds.
+Plot spot_plot(const Display&);
+
+}  // namespace lfdsim::view

@@ -1,0 +1,101 @@
+#include "view/visit.h"
+
+#include "content/content.h"
+#include "files/display_file.h"
+#include "view/answers.h"
+
+#include <utility>
+
+namespace lfdsim::view {
+namespace {
+
+// Whether controls and figures stay as they were: what else there is - eye, size, layout - changes nothing but the command.
+bool same_controls(const Wanted& a, const Wanted& b) { return a.display == b.display && a.set == b.set && a.shown == b.shown; }
+
+bool same_command(Wanted a, const Wanted& b) {
+    a.id = b.id;
+    a.moving = b.moving;
+    return a == b;
+}
+
+Json hello(const Library& library, const std::string& version) {
+    const Start& start = library.start();
+    const Display display = read_display(start.display, start.set);
+    const char* const kind = !start.pattern.empty() ? "pattern" : !start.panel_image.empty() ? "panel_image" : "model";
+    const std::filesystem::path model = start.model.empty() ? display.content.model : start.model;
+    const std::string shown = !start.pattern.empty()       ? start.pattern
+                              : !start.panel_image.empty() ? start.panel_image.filename().string()
+                                                           : model.filename().string();
+    return {{"type", "hello"},
+            {"version", version},
+            {"display", start.display.filename().string()},
+            {"eye_mm", display.camera.position_mm},
+            {"shown", {{"kind", "start"}, {"name", shown}, {"of", kind}}},
+            {"patterns", pattern_names()},
+            {"most_pixels", most_pixels}};
+}
+
+}  // namespace
+
+Answerer::Answerer(const Library& library, Outbox& outbox) : library_(library), outbox_(outbox), thread_([this] { work(); }) {}
+
+Answerer::~Answerer() {
+    {
+        const std::lock_guard lock(mutex_);
+        end_ = true;
+    }
+    changed_.notify_one();
+    thread_.join();
+}
+
+void Answerer::ask(const Wanted& wanted, const Ask& question) {
+    {
+        const std::lock_guard lock(mutex_);
+        next_.emplace(wanted, question);
+    }
+    changed_.notify_one();
+}
+
+void Answerer::work() {
+    for (std::unique_lock lock(mutex_);;) {
+        changed_.wait(lock, [&] { return end_ || next_; });
+        if (end_) return;
+        const auto [wanted, question] = *std::exchange(next_, std::nullopt);
+        lock.unlock();
+        const Json told = answer(library_, wanted, question, [this] {
+            const std::lock_guard here(mutex_);
+            return end_ || next_.has_value();
+        });
+        lock.lock();
+        outbox_.text(told.dump());
+    }
+}
+
+Visit::Visit(const Library& library, Panels& panels, Outbox& outbox, int threads, const std::string& version)
+    : library_(library), outbox_(outbox), painter_(library, panels, outbox, threads), plots_(library, outbox) {
+    outbox.text(hello(library, version).dump());
+}
+
+void Visit::message(std::string_view text) {
+    const Message message = parse_message(text);
+    if (const Wanted* wanted = std::get_if<Wanted>(&message)) return want(*wanted);
+    const Ask& question = std::get<Ask>(message);
+    if (!wanted_ && question.what != Ask::What::files) throw InputError("ask", "there is no \"show\" yet that it could be about");
+    if (question.what == Ask::What::exr)
+        painter_.want_exr(question.id);
+    else if (question.what == Ask::What::plot)
+        plots_.ask(*wanted_, question);
+    else
+        outbox_.text(answer(library_, wanted_.value_or(Wanted{}), question, [] { return false; }).dump());
+}
+
+void Visit::want(const Wanted& wanted) {
+    wanted_ = wanted;
+    painter_.want(wanted);
+    // Milliseconds that a picture could use: while the eye moves the command can wait for its rest.
+    if (told_ && (wanted.moving ? same_controls(*told_, wanted) : same_command(*told_, wanted))) return;
+    told_ = wanted;
+    outbox_.text(resolved(library_, wanted).dump());
+}
+
+}  // namespace lfdsim::view

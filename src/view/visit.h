@@ -1,0 +1,50 @@
+// One browser's visit: hands what it says to the painter and to the answers. Floor 4.
+#pragma once
+#include "view/library.h"
+#include "view/painter.h"
+#include "view/server.h"
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace lfdsim::view {
+
+/// A thread that answers one question at a time, of which only the newest is worth its while: plots take seconds.
+class Answerer {
+  public:
+    Answerer(const Library&, Outbox&);
+    ~Answerer();  // stops at once
+    void ask(const Wanted&, const Ask&);
+
+  private:
+    void work();
+
+    const Library& library_;
+    Outbox& outbox_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::optional<std::pair<Wanted, Ask>> next_;
+    bool end_ = false;
+    std::thread thread_;
+};
+
+class Visit : public Visitor {
+  public:
+    /// Says hello. `version` is the program's. All have to outlive it.
+    Visit(const Library&, Panels&, Outbox&, int threads, const std::string& version);
+    void message(std::string_view text) override;
+
+  private:
+    void want(const Wanted&);
+
+    const Library& library_;
+    Outbox& outbox_;
+    std::optional<Wanted> wanted_, told_;  // told_: what "resolved" was last about
+    Painter painter_;
+    Answerer plots_;
+};
+
+}  // namespace lfdsim::view

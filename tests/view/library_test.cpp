@@ -1,0 +1,182 @@
+#include "view/library.h"
+
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <fstream>
+
+#include "files/display_file.h"
+
+namespace lfdsim::view {
+namespace {
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string displays = LFDSIM_SOURCE_DIR "/displays";
+
+// A served folder with all kinds of things in it, and a secret beside it.
+class LibraryTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        std::string name = (fs::temp_directory_path() / "lfdsim-library-XXXXXX").string();
+        ASSERT_NE(mkdtemp(name.data()), nullptr);
+        root = name;
+        folder = root / "served";
+        fs::create_directories(folder / "models/deep/a/b/c/d");
+        for (const char* at : {"secret.toml", "served/mine.toml", "served/models/monkey.blend", "served/models/Cup.OBJ",
+                               "served/.hidden.toml", "served/notes.txt", "served/panel.png", "served/models/deep/a/b/c/near.ply",
+                               "served/models/deep/a/b/c/d/e/far.ply", "served/bad\xff.toml"}) {
+            fs::create_directories((root / at).parent_path());
+            std::ofstream(root / at) << "schema = 1\n";
+        }
+        fs::create_symlink("../secret.toml", folder / "out.toml");
+        fs::create_directory_symlink("..", folder / "up");
+        fs::create_symlink("mine.toml", folder / "in.toml");
+        fs::create_symlink("nothing.toml", folder / "broken.toml");
+        ASSERT_EQ(mkfifo((folder / "pipe.toml").c_str(), 0600), 0);
+        fs::create_directory(folder / "folder.toml");
+    }
+    void TearDown() override { fs::remove_all(root); }
+
+    static Start start(std::vector<std::string> set = {}) {
+        return {displays + "/desktop-asphere.toml", std::move(set), "", "", ""};
+    }
+    Library library() const { return Library(start(), folder); }
+
+    fs::path root, folder;
+};
+
+template <class Call>
+Problem problem_of(Call call) {
+    try {
+        call();
+    } catch (const InputError& error) {
+        return error.problems.front();
+    }
+    return {"none", "none"};
+}
+
+TEST_F(LibraryTest, FindsFilesOfTheFolderAlone) {
+    const Library all = library();
+    EXPECT_TRUE(fs::equivalent(all.file("mine.toml"), folder / "mine.toml"));
+    EXPECT_TRUE(fs::equivalent(all.file("models/monkey.blend"), folder / "models/monkey.blend"));
+    EXPECT_TRUE(fs::equivalent(all.file("in.toml"), folder / "mine.toml"));
+    const std::string secret = (root / "secret.toml").string(), nul("mine.toml\0x", 11);
+    for (const std::string& name : {std::string(),
+                                    std::string("."),
+                                    std::string(".."),
+                                    std::string("/"),
+                                    secret,
+                                    std::string("../secret.toml"),
+                                    std::string("models/../mine.toml"),
+                                    std::string("models/../../secret.toml"),
+                                    std::string("./mine.toml"),
+                                    std::string("mine.toml/"),
+                                    std::string("%2e%2e/secret.toml"),
+                                    std::string("..%2fsecret.toml"),
+                                    nul,
+                                    std::string("out.toml"),
+                                    std::string("up/secret.toml"),
+                                    std::string("broken.toml"),
+                                    std::string("pipe.toml"),
+                                    std::string("folder.toml"),
+                                    std::string("models"),
+                                    std::string(".hidden.toml"),
+                                    std::string("bad\xff.toml"),
+                                    std::string(100000, 'a'),
+                                    std::string("nothing.toml")})
+        EXPECT_THROW(all.file(name), InputError) << name.substr(0, 100);
+}
+
+TEST_F(LibraryTest, NewFilesAreDescriptionsInTheFolder) {
+    const Library all = library();
+    EXPECT_EQ(all.new_file("new.toml"), folder / "new.toml");
+    EXPECT_EQ(all.new_file("models/new.toml"), folder / "models/new.toml");
+    EXPECT_EQ(all.new_file("mine.toml"), folder / "mine.toml");  // to replace it or not is the caller's affair
+    for (const char* name : {"", "new.txt", "new", ".toml", "../new.toml", "/tmp/new.toml", "none/new.toml", "up/new.toml",
+                             "out.toml", "in.toml", "broken.toml", "pipe.toml", "folder.toml", "mine.toml/new.toml"})
+        EXPECT_THROW(all.new_file(name), InputError) << name;
+}
+
+TEST_F(LibraryTest, ListsWhatMayBeNamed) {
+    const Library::Files files = library().files();
+    EXPECT_THAT(files.displays, ElementsAre("in.toml", "mine.toml"));
+    EXPECT_THAT(files.models, ElementsAre("models/Cup.OBJ", "models/deep/a/b/c/near.ply", "models/monkey.blend"));
+    EXPECT_THAT(files.pictures, ElementsAre("panel.png"));
+    for (int i = 0; i < 1100; ++i) std::ofstream(folder / ("many" + std::to_string(i) + ".obj"));
+    const Library::Files many = library().files();
+    EXPECT_EQ(many.displays.size() + many.models.size() + many.pictures.size(), 1000u);
+}
+
+TEST_F(LibraryTest, NeedsAFolder) {
+    EXPECT_THROW(Library(start(), root / "none"), InputError);
+    EXPECT_THROW(Library(start(), folder / "mine.toml"), InputError);
+}
+
+TEST_F(LibraryTest, OverridesComeInOrderAndReadBack) {
+    const Library all(start({"array.gap_mm=17", "camera.position_mm=[1, 2, 1000]"}), folder);
+    Wanted wanted;
+    wanted.set = {"array.gap_mm=16.9"};
+    wanted.eye_mm = {0.1, -1e-7, 1999.9999999999998};
+    wanted.size = {640, 360};
+    const Library::Description description = all.description(wanted);
+    const Display display = all.display(wanted);
+    EXPECT_EQ(display, read_display(description.file, description.set));
+    EXPECT_EQ(display.array.gap_mm, 16.9);
+    EXPECT_EQ(display.camera.position_mm, wanted.eye_mm);
+    EXPECT_THAT(display.camera.resolution, ElementsAre(640, 360));
+}
+
+TEST_F(LibraryTest, EyesStandBesideOneAnother) {
+    const Library all = library();
+    Wanted wanted;
+    wanted.eye_mm = {300, 100, 1500};
+    wanted.eye_distance_mm = 60;
+    wanted.set = {"camera.target_mm=[10, 0, 0]", "camera.up=[0.1, 1, 0]"};
+    const Camera left = all.display(wanted, -1).camera, middle = all.display(wanted).camera, right = all.display(wanted, 1).camera;
+    Vec3d across{}, view{};
+    double length = 0, along = 0, up = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+        EXPECT_NEAR(0.5 * (left.position_mm[a] + right.position_mm[a]), wanted.eye_mm[a], 1e-9);
+        across[a] = right.position_mm[a] - left.position_mm[a];
+        view[a] = middle.target_mm[a] - middle.position_mm[a];
+        length += across[a] * across[a];
+        along += across[a] * view[a];
+        up += across[a] * middle.up[a];
+    }
+    EXPECT_NEAR(std::sqrt(length), 60, 1e-9);
+    EXPECT_NEAR(along, 0, 1e-6);
+    EXPECT_NEAR(up, 0, 1e-9);
+    EXPECT_GT(across[0], 0);
+}
+
+TEST_F(LibraryTest, WhatIsWrongIsToldByKey) {
+    const Library all = library();
+    const auto problem_with = [&](std::string set) {
+        Wanted wanted;
+        wanted.set = {std::move(set)};
+        return problem_of([&] { all.display(wanted); });
+    };
+    EXPECT_EQ(problem_with("array.gap_mm=-1").where, "array.gap_mm");
+    EXPECT_THAT(problem_with("array.gap_mm=-1").what, StartsWith("is -1"));
+    EXPECT_EQ(problem_with("array.gap=17").where, "array.gap");
+    EXPECT_EQ(problem_with("array.offset_mm=[0, 1e9]").where, "array.offset_mm");
+    EXPECT_THAT(problem_with("array.offset_mm=[0, 1e9]").what, StartsWith("element [1] is 1000000000"));
+    EXPECT_EQ(problem_with("diffuser={distance_mm=300}").where, "diffuser.angle_deg");
+    EXPECT_EQ(problem_with("array.gap_mm=[").where, "array.gap_mm");
+    EXPECT_EQ(problem_with("array.gap_mm").where, "array.gap_mm");
+    EXPECT_THAT(problem_with("array.pitch_mm=2").where, HasSubstr("desktop-asphere.toml:"));
+    EXPECT_EQ(problem_with("array.gap_mm=17\n[content]\nmodel=\"/etc/passwd\"").where, "array.gap_mm");
+    for (const char* set : {"content.model=a.blend", "content={model=\"/etc/passwd\"}", "content=none", "content.model.x=1",
+                            "camera.position_mm=[0,0,1]", "camera.position_mm.2=1", "camera=none", "camera.resolution=[9,9]",
+                            "camera.resolution.0=9"})
+        EXPECT_THAT(problem_with(set).what, StartsWith("is not for set")) << set;
+    Wanted inside_display;
+    inside_display.eye_mm = {0, 0, 1};
+    EXPECT_EQ(problem_of([&] { all.display(inside_display); }).where, "camera.position_mm");
+}
+
+}  // namespace
+}  // namespace lfdsim::view

@@ -1,0 +1,135 @@
+#include "view/panels.h"
+
+#include <gmock/gmock.h>
+#include <algorithm>
+#include <set>
+
+#include "model/keys.h"
+#include "optics/scene.h"
+#include "visit.h"
+
+namespace lfdsim::view {
+namespace {
+using namespace test;
+
+class PanelsTest : public testing::Test {
+  protected:
+    PanelsTest() { lfdsim::test::save(folder / "small.toml", small_display); }
+    std::shared_ptr<const ShownPanel> get(const Display& d, const Source& source = {Shown::Kind::model, "built-in:spheres"}) {
+        Job job;
+        return panels.get(panel_key(source, d, resolve(d)), d, resolve(d), 2, job);
+    }
+    Display display(const std::vector<std::string>& set = {}) const { return read_display(folder / "small.toml", set); }
+
+    TemporaryFolder folder;
+    Panels panels;
+};
+
+TEST_F(PanelsTest, KeepsTheThreeUsedLast) {
+    const auto first = get(display()), second = get(display({"array.gap_mm=6.6"}));
+    EXPECT_EQ(get(display({"camera.position_mm=[9, 9, 700]", "render.samples=9", "diffuser.distance_mm=61"})), first);
+    get(display({"array.gap_mm=6.7"}));
+    EXPECT_EQ(get(display()), first);
+    get(display({"array.gap_mm=6.8"}));
+    EXPECT_EQ(panels.kept().panels, 3u);
+    EXPECT_EQ(get(display()), first);
+    EXPECT_NE(get(display({"array.gap_mm=6.6"})), second);
+    EXPECT_EQ(panels.kept().scenes, 1u);  // the model is as high, tilted and turned in all
+}
+
+TEST_F(PanelsTest, AFileThatChangesIsReadAgain) {
+    Image image(480, 270);
+    write_image(folder / "panel.png", image);
+    const Library library({folder / "small.toml", {}, "", "", ""}, folder.path());
+    const Shown shown{Shown::Kind::panel_image, "panel.png"};
+    const auto black = get(display(), source_of(library, shown, display()));
+    EXPECT_EQ(get(display({"array.gap_mm=7"}), source_of(library, shown, display())), black);
+    std::fill(image.rgb.begin(), image.rgb.end(), 1.f);
+    std::filesystem::remove(folder / "panel.png");
+    write_image(folder / "panel.png", image);
+    const auto white = get(display(), source_of(library, shown, display()));
+    EXPECT_EQ(white->pyramid().levels()[0].texels[0], 1);
+}
+
+TEST_F(PanelsTest, ScenesThatAreMovedAreThoseMadeThere) {
+    Job job;
+    const Source spheres{Shown::Kind::model, "built-in:spheres"};
+    for (const std::vector<std::string>& set : {std::vector<std::string>{}, {"array.gap_mm=7.2"}, {"content.depth_mm=-30.0"}}) {
+        const Display d = display(set);
+        const Scene made(built_in_model(), d, resolve(d)), kept = panels.scene(spheres, d, resolve(d), job);
+        EXPECT_EQ(elemental_images(d, resolve(d), kept, 2, job).image.rgb, elemental_images(d, resolve(d), made, 2, job).image.rgb);
+    }
+    EXPECT_EQ(panels.kept().scenes, 1u);
+}
+
+// Each number and word of a description is changed in turn. Elemental images that differ must have another key, lest a wrong panel
+// be shown; that equal ones share a key saves time, and must hold where a visitor turns a knob most: eye, diffuser, samples.
+TEST_F(PanelsTest, KeyTellsElementalImagesApart) {
+    Job job;
+    const Source spheres{Shown::Kind::model, "built-in:spheres"};
+    const Display before = display({"panel.pixels=[192, 108]", "panel.pixel_pitch_mm=0.5"});  // few, to be quick
+    const PanelKey key = panel_key(spheres, before, resolve(before));
+    const auto images = [&](const Display& d) {
+        const Picture p = elemental_images(d, resolve(d), panels.scene(spheres, d, resolve(d), job), 2, job);
+        return std::make_pair(encode8(p.image, d.panel.encoding), d.panel);
+    };
+    const auto as_before = images(before);
+    int changed = 0, told_apart = 0;
+    const auto judge = [&](const std::string& name, const Display& d) {
+        if (d == before || !validate(d).empty()) return;
+        ++changed;
+        const PanelKey other = panel_key(spheres, d, resolve(d));
+        const auto now = images(d);
+        const bool equal = now.first == as_before.first && now.second.pixels == as_before.second.pixels &&
+                           now.second.encoding == as_before.second.encoding;
+        if (!equal) ++told_apart;
+        EXPECT_TRUE(equal || !(other == key)) << name << " changes the elemental images";
+        if (name.starts_with("camera.") || name.starts_with("diffuser.") || name.starts_with("render."))
+            EXPECT_TRUE(other == key) << name << " makes them again in vain";
+    };
+    Display d = before;
+    visit_tables(d, [&]<class Values>(const auto& table, Values& values) {
+        for (const auto& one : table.keys) {
+            const std::string name = std::string(table.name) + '.' + std::string(one.name);
+            std::visit(
+                [&](auto member) {
+                    const auto change = [&](auto& v) {
+                        const auto old = v;
+                        using Value = std::remove_cvref_t<decltype(v)>;
+                        if constexpr (std::is_floating_point_v<Value>)
+                            for (const double to : {v * 1.01 + 0.01, v * 0.99 - 0.01}) v = to, judge(name, d);
+                        else if constexpr (std::is_same_v<Value, std::int64_t>)
+                            for (const std::int64_t to : {v + 1, v - 1}) v = to, judge(name, d);
+                        else if constexpr (std::is_enum_v<Value>)
+                            for (std::size_t k = 0; k < words<Value>().size(); ++k) v = Value(k), judge(name, d);
+                        v = old;
+                    };
+                    const auto each = [&](auto& field) {
+                        using Field = std::remove_cvref_t<decltype(field)>;
+                        const Field old = field;
+                        if constexpr (std::is_same_v<Field, std::optional<double>>) {
+                            for (const double to : {0.5, 3., 40., 450.}) field = field.value_or(to), change(*field), field = old;
+                        } else if constexpr (std::is_same_v<Field, std::optional<std::int64_t>>) {
+                            field = field.value_or(16), judge(name, d), change(*field);
+                        } else if constexpr (requires { field.size(); } && !std::is_same_v<Field, std::string>) {
+                            for (auto& part : field) change(part);
+                        } else {
+                            change(field);
+                        }
+                        field = old;
+                    };
+                    if constexpr (requires { values.has_value(); }) {
+                        each((*values).*member);
+                    } else {
+                        each(values.*member);
+                    }
+                },
+                one.member);
+        }
+    });
+    EXPECT_GT(changed, 40);
+    EXPECT_GT(told_apart, 15);
+}
+
+}  // namespace
+}  // namespace lfdsim::view
