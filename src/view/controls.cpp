@@ -108,7 +108,8 @@ class Lister {
     void add_table(const Table<T>& table, const std::string& name, T& values, const T* described) {
         for (const Key<T>& key : table.keys) {
             const std::string path = fmt::format("{}.{}", name, key.name);
-            if (!knows(key.lens_types, trial_.lens.type) ||
+            const bool idle = name == last_surface() && (key.name == "distance_mm" || key.name == "index");  // nothing follows
+            if (idle || !knows(key.lens_types, trial_.lens.type) ||
                 std::find(std::begin(left_out), std::end(left_out), path) != std::end(left_out))
                 continue;
             const std::string label_text = label(key.name), unit = unit_of(std::string(key.name));
@@ -125,6 +126,8 @@ class Lister {
             list_.push_back(std::move(control));
         }
     }
+
+    std::string last_surface() const { return fmt::format("{}.{}", surface_table.name, trial_.lens.surfaces.size() - 1); }
 
     // Most of the time goes here, so not for keys that nothing but their range bounds.
     bool valid(std::string_view path) const {

@@ -189,6 +189,7 @@ TEST(Server, SocketNeedsTokenHostAndOrigin) {
     EXPECT_EQ(upgrade(f, right, here, "http://localhost:" + std::to_string(f.server->port())), http::status::forbidden);
     EXPECT_EQ(upgrade(f, right, "evil.example:" + std::to_string(f.server->port()), "http://evil.example"),
               http::status::forbidden);
+    for (int k = 0; k < 500 && f.guests.made < 2; ++k) std::this_thread::sleep_for(10ms);  // each on a thread of its own
     EXPECT_EQ(f.guests.made, 2);
 }
 
