@@ -87,7 +87,7 @@ Rendering render(const Display& display, const Geometry& geometry, const std::ve
                      crop.y1,
                      std::uint32_t(samples),
                      strata,
-                     block_side(scene, view, refined ? 2 * kFewStrata : strata),
+                     block_side(scene, view, refined ? 2 * kFewStrata : strata, options.rough),
                      display.render.sampling,
                      dimensions};
     const auto start = std::chrono::steady_clock::now();

@@ -20,6 +20,8 @@ struct RenderOptions {
     std::string kernel;        // scalar | baseline | avx2 | avx512; empty: LFDSIM_KERNEL, else the best this machine has
     std::optional<Rect> crop;  // of the camera's frame; the image has the crop's size and the full frame's pixels, bit for bit
     std::optional<double> target_error = {};  // > 0, linear light: take samples until the error is below it, see refine.h
+    bool rough = false;  // filtered estimator: half the time where lenses span few pixels, errors as of 100 random points; for
+                         // what moves
 };
 
 struct Rendering {

@@ -223,7 +223,7 @@ int sample_dimensions(const Display& display) {
     return display.diffuser ? 2 : 0;
 }
 
-int block_side(const optics::Scene<float>& scene, const optics::View& view, int strata) {
+int block_side(const optics::Scene<float>& scene, const optics::View& view, int strata, bool rough) {
     // The picture's grid on the diffuser, along the line of sight, against a lens and what a diffused ray spans in the plane of the
     // holes
     const double pixel = view.pixel_mm * std::abs((view.position[2] - view.start_z) / (view.forward[2] * view.distance));
@@ -234,8 +234,8 @@ int block_side(const optics::Scene<float>& scene, const optics::View& view, int 
         span > 4 * pixel ? seen = std::min(seen, span) : moving = true;
     }
     // Many strata: a fine picture is asked for, in which what bends over a block would show.
-    const double wide = strata > 2 * kFewStrata ? 0.05 : moving ? 0.1 : strata <= kFewStrata ? 0.7 : 0.2;
-    return 16 * pixel < wide * seen ? 16 : 8 * pixel < std::min(2 * wide, 0.4) * seen ? 8 : 4;
+    const double wide = strata > 2 * kFewStrata ? 0.05 : moving ? 0.1 : strata > kFewStrata ? 0.2 : rough ? 0.95 : 0.7;
+    return 16 * pixel < wide * seen ? 16 : 8 * pixel < std::min(2 * wide, rough ? 0.8 : 0.4) * seen ? 8 : 4;
 }
 
 const optics::Directions& sobol_directions() {

@@ -26,8 +26,9 @@ std::int64_t samples_of(const Display&);
 int sample_dimensions(const Display&);
 
 /// Pixels along the side of the blocks in which the filtered estimator shares its rays, if it cuts each axis into so many strata:
-/// 16, 8 or 4, less than what a pixel sees of a lens, and much less where many strata ask for a fine picture.
-int block_side(const optics::Scene<float>&, const optics::View&, int strata);
+/// 16, 8 or 4, less than what a pixel sees of a lens, and much less where many strata ask for a fine picture; nearly as much for a
+/// rough one.
+int block_side(const optics::Scene<float>&, const optics::View&, int strata, bool rough = false);
 
 const optics::Directions& sobol_directions();
 

@@ -38,7 +38,7 @@ std::string Drawing::beside_problem() const {
 double Drawing::coarse_cost(const Seen& eye, double scale) const {
     const Display d = coarse_view(eye.display, eye.geometry, scale);
     return double(eyes_.size()) *
-           (render_cost(d, resolve(d)) + jpeg_cost * double(d.camera.resolution[0]) * double(d.camera.resolution[1]));
+           (render_cost(d, resolve(d), true) + jpeg_cost * double(d.camera.resolution[0]) * double(d.camera.resolution[1]));
 }
 
 double Drawing::final_cost() const {
@@ -105,7 +105,8 @@ Drawing::Frames Drawing::pictures(const std::vector<Lit>& all, Quality quality, 
         const bool rest = quality == Quality::final;
         const Display display = rest ? lit.seen.display : coarse_view(lit.seen.display, lit.seen.geometry, scale);
         const Geometry geometry = rest ? lit.seen.geometry : resolve(display);
-        Rendering r = render(display, geometry, lit.light->pyramid(), {threads_, "", {}}, job);
+        Rendering r =
+            render(display, geometry, lit.light->pyramid(), {.threads = threads_, .rough = quality == Quality::coarse}, job);
         if (!r.complete) throw Stopped{};
         FrameHeader header{wanted_.id,     lit.seen.lane,       quality,         r.image.width,
                            r.image.height, samples_of(display), 1000 * r.seconds};

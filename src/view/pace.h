@@ -10,7 +10,7 @@ namespace lfdsim::view {
 /// Seconds that rendering the camera's picture takes on one core of a laptop, roughly: what matters is how sizes compare. The
 /// filtered estimator shares its rays over blocks of pixels, which must be smaller where pixels see more of a lens: a small picture
 /// may take longer than a large one.
-double render_cost(const Display&, const Geometry&);
+double render_cost(const Display&, const Geometry&, bool rough = false);
 
 /// What the costs of a kind are in true seconds: learned from each picture, half of what is known comes from the last one.
 class Pace {
