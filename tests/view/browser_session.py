@@ -2,7 +2,6 @@
 import base64
 import contextlib
 import io
-import os
 import pathlib
 import secrets
 import select
@@ -62,10 +61,9 @@ class Page:
 
     def __init__(self, folder, shots):
         options = webdriver.ChromeOptions()
-        for argument in ["--headless=new", "--disable-gpu", "--hide-scrollbars", "--force-device-scale-factor=1", "--disable-dev-shm-usage"]:
+        for argument in ["--headless=new", "--disable-gpu", "--hide-scrollbars", "--force-device-scale-factor=1", "--disable-dev-shm-usage",
+                         "--no-sandbox"]:  # for root, and where users may make no namespaces; the page is our own
             options.add_argument(argument)
-        if os.getuid() == 0:
-            options.add_argument("--no-sandbox")
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         self.driver = webdriver.Chrome(options=options, service=Service("/usr/bin/chromedriver"))
         self.driver.set_script_timeout(60)

@@ -8,7 +8,6 @@ Prints figures as JSON. Fails if anything is wrong.
 import argparse
 import json
 import math
-import os
 import pathlib
 import random
 import shlex
