@@ -105,8 +105,10 @@ Drawing::Frames Drawing::pictures(const std::vector<Lit>& all, Quality quality, 
         const bool rest = quality == Quality::final;
         const Display display = rest ? lit.seen.display : coarse_view(lit.seen.display, lit.seen.geometry, scale);
         const Geometry geometry = rest ? lit.seen.geometry : resolve(display);
-        Rendering r =
-            render(display, geometry, lit.light->pyramid(), {.threads = threads_, .rough = quality == Quality::coarse}, job);
+        RenderOptions options;
+        options.threads = threads_;
+        options.rough = quality == Quality::coarse;
+        Rendering r = render(display, geometry, lit.light->pyramid(), options, job);
         if (!r.complete) throw Stopped{};
         FrameHeader header{wanted_.id,     lit.seen.lane,       quality,         r.image.width,
                            r.image.height, samples_of(display), 1000 * r.seconds};

@@ -84,8 +84,8 @@ TEST_F(PanelsTest, KeyTellsElementalImagesApart) {
                            now.second.encoding == as_before.second.encoding;
         if (!equal) ++told_apart;
         EXPECT_TRUE(equal || !(other == key)) << name << " changes the elemental images";
-        if (name.starts_with("camera.") || name.starts_with("diffuser.") || name.starts_with("render."))
-            EXPECT_TRUE(other == key) << name << " makes them again in vain";
+        const bool of_the_view = name.starts_with("camera.") || name.starts_with("diffuser.") || name.starts_with("render.");
+        EXPECT_TRUE(!of_the_view || other == key) << name << " makes them again in vain";
     };
     Display d = before;
     visit_tables(d, [&]<class Values>(const auto& table, Values& values) {
