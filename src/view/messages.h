@@ -38,6 +38,13 @@ struct Wanted {
     bool operator==(const Wanted&) const = default;
 };
 
+/// But for its number and for whether more is about to come.
+inline bool same_state(Wanted a, const Wanted& b) {
+    a.id = b.id;
+    a.moving = b.moving;
+    return a == b;
+}
+
 /// A question about the state that was wanted last; its answer carries its number.
 struct Ask {
     enum class What { probe, side, plot, files, toml, save, exr };

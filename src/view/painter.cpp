@@ -24,13 +24,6 @@ constexpr auto settling = 80ms;   // after a change the next one is likely: noth
 constexpr auto standing = 300ms;  // a hand that holds the mouse still sees the sharp picture, too
 constexpr auto poll_outbox = 2ms;
 
-/// But for its number and for whether more is about to come.
-bool same_state(Wanted a, const Wanted& b) {
-    a.id = b.id;
-    a.moving = b.moving;
-    return a == b;
-}
-
 std::vector<std::string> lanes(const Wanted& w) {
     std::vector<std::string> all{"one"};
     if (w.layout != Layout::one) all = {"left", "right"};

@@ -12,12 +12,6 @@ namespace {
 // Whether controls and figures stay as they were: what else there is - eye, size, layout - changes nothing but the command.
 bool same_controls(const Wanted& a, const Wanted& b) { return a.display == b.display && a.set == b.set && a.shown == b.shown; }
 
-bool same_command(Wanted a, const Wanted& b) {
-    a.id = b.id;
-    a.moving = b.moving;
-    return a == b;
-}
-
 Json hello(const Library& library, const std::string& version) {
     const Start& start = library.start();
     const Display display = read_display(start.display, start.set);
@@ -93,7 +87,7 @@ void Visit::want(const Wanted& wanted) {
     wanted_ = wanted;
     painter_.want(wanted);
     // Milliseconds that a picture could use: while the eye moves the command can wait for its rest.
-    if (told_ && (wanted.moving ? same_controls(*told_, wanted) : same_command(*told_, wanted))) return;
+    if (told_ && (wanted.moving ? same_controls(*told_, wanted) : same_state(*told_, wanted))) return;
     told_ = wanted;
     outbox_.text(resolved(library_, wanted).dump());
 }

@@ -1,10 +1,10 @@
 // A served folder of its own for each test, with a small display in it.
 #pragma once
 #include <gtest/gtest.h>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
+
+#include "../image/helpers.h"
 
 namespace lfdsim::view {
 
@@ -34,15 +34,13 @@ viewing_distance_mm = 600
 
 class FolderTest : public testing::Test {
   protected:
-    void SetUp() override {
-        std::string name = (std::filesystem::temp_directory_path() / "lfdsim-view-XXXXXX").string();
-        ASSERT_NE(mkdtemp(name.data()), nullptr);
-        folder = name;
-        std::ofstream(folder / "small.toml") << small_display;
-    }
-    void TearDown() override { std::filesystem::remove_all(folder); }
+    void SetUp() override { lfdsim::test::save(folder / "small.toml", small_display); }
 
-    std::filesystem::path folder;
+  private:
+    const lfdsim::test::TemporaryFolder temporary_;
+
+  protected:
+    const std::filesystem::path folder = temporary_.path();
 };
 
 }  // namespace lfdsim::view
