@@ -14,7 +14,8 @@ install(TARGETS lfdsim_umbrella ${floors} EXPORT lfdsimTargets
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lfdsim)
 install(EXPORT lfdsimTargets NAMESPACE lfdsim:: DESTINATION ${package})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/lfdsimConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${CMAKE_CURRENT_LIST_DIR}/lfdsimConfig.cmake ${CMAKE_CURRENT_LIST_DIR}/dependencies.cmake
+configure_file(${CMAKE_CURRENT_LIST_DIR}/lfdsimConfig.cmake.in ${PROJECT_BINARY_DIR}/lfdsimConfig.cmake @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/lfdsimConfig.cmake ${CMAKE_CURRENT_LIST_DIR}/dependencies.cmake
   ${PROJECT_BINARY_DIR}/lfdsimConfigVersion.cmake DESTINATION ${package})
 
 install(TARGETS lfdsim RUNTIME)

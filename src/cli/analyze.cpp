@@ -27,6 +27,7 @@ struct Arguments {
               command.add_option("MEASURE", measures, "One or more with commas between, or all").type_name("").required()),
           display(command, {content_options, camera_options, sample_options}),
           model(command),
+          device(command),
           work(command) {
         command.add_option("-o,--output", output, "Folder for the results and report.html; made if missing")
             .type_name("DIR")
@@ -45,6 +46,7 @@ struct Arguments {
     Option measures_option;
     DisplayOptions display;
     ModelOption model;
+    DeviceOption device;
     WorkOptions work;
     std::string output, angles, depths, viewing_distance, eye_distance, wavelength;
     bool resume = false;
@@ -168,6 +170,7 @@ void run(const Arguments& args) {
         require_panel_memory(display);
     });
     faults.of([&] { args.work.check(); });
+    faults.of([&] { args.device.apply(); });
     faults.of([&] { options.angles_deg = steps("--angles-deg", args.angles, -80, 80); });
     faults.of([&] { options.depths_mm = steps("--depths-mm", args.depths, -1e6, 1e6); });
     faults.of([&] {

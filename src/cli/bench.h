@@ -65,6 +65,7 @@ class Bench {
     void seconds(const std::string& group, const char* unit, const std::vector<Measured>&);
     /// A result in the group's own form.
     void row(const std::string& group, Json values, const std::string& text);
+    /// A case or group that this machine cannot run.
     void not_measured(const std::string& group, const std::string& name, const std::string& why);
     const Json& groups() const { return groups_; }
 
@@ -80,6 +81,7 @@ void bench_rendering(Bench&);
 void bench_lenses(Bench&);
 void bench_kernels(Bench&);
 void bench_threads(Bench&);
+void bench_gpu(Bench&);
 void bench_content(Bench&);
 void bench_pictures(Bench&);
 void bench_paper(Bench&);

@@ -4,6 +4,7 @@
 #include "cli/output.h"
 #include "content/reader_path.h"
 #include "engine/devices.h"
+#include "engine/gpu.h"
 #include "engine/render.h"
 
 #include <fmt/format.h>
@@ -37,6 +38,21 @@ Json forced_kernel() {
     }
 }
 
+// The GPUs, or what is missing.
+Json gpus() {
+    const cuda::Found& found = found_gpus();
+    Json all;
+    all["toolkit"] = found.toolkit.empty() ? "none when lfdsim was built" : "CUDA " + found.toolkit;
+    all["driver"] = found.driver.empty() ? "none" : "up to CUDA " + found.driver;
+    all["used"] = found.missing.empty() ? "yes, unless --device cpu" : "no: " + found.missing;
+    for (std::size_t k = 0; k < found.gpus.size(); ++k) {
+        const cuda::Gpu& g = found.gpus[k];
+        all[fmt::format("cuda:{}", k)] = fmt::format("{}, compute capability {}.{}, {:.1f} GB{}", g.name, g.major, g.minor,
+                                                     g.memory_gb, g.why_not.empty() ? "" : "; cannot be used: " + g.why_not);
+    }
+    return all;
+}
+
 Json findings() {
     Json sets = Json::array(), available = Json::array(), unavailable = Json::array();
     // __builtin_cpu_supports takes literals only
@@ -64,7 +80,7 @@ Json findings() {
     all["kernel_forced_by_LFDSIM_KERNEL"] = forced_kernel();
     all["threads"] = tbb::info::default_concurrency();
     all["memory_gb"] = std::round(memory_bytes() / 1e8) / 10;
-    all["gpu"] = "none used: this build has no CUDA";
+    all["gpu"] = gpus();
     all["model_reader"] = model_reader();
     all["current_folder_writable"] = access(".", W_OK) == 0;
     all["libraries"] = {{"oneTBB", TBB_VERSION_STRING},    {"Embree", LFDSIM_EMBREE},   {"Assimp", LFDSIM_ASSIMP},

@@ -27,6 +27,7 @@ struct Arguments {
           crop(command),
           output(command, ".png (sRGB), or linear .exr .npy (float32, H x W x 3); with --path a folder, made if missing"),
           path(command),
+          device(command),
           work(command) {
         command
             .add_option("--kernel", kernel, "Instruction set; default: environment variable LFDSIM_KERNEL, else the best there is")
@@ -45,6 +46,7 @@ struct Arguments {
     CropOption crop;
     OutputOptions output;
     PathOptions path;
+    DeviceOption device;
     WorkOptions work;
     std::string kernel, target_error;
 };
@@ -99,7 +101,10 @@ void run(const Arguments& args) {
     });
     faults.of([&] { args.panel_image.check(); });
     faults.of([&] { pattern_options = args.pattern.read(); });
-    faults.of([&] { choose_kernel(args.kernel); });
+    faults.of([&] {
+        choose_kernel(args.kernel);
+        args.device.apply();
+    });
     std::optional<double> target;
     faults.of([&] {
         if (args.target_error.empty()) return;
@@ -134,7 +139,7 @@ void run(const Arguments& args) {
 
     facts.more.update(panel.made);
     print_made(Made{args.output.path(), r.image.width, r.image.height, "samples", r.samples, r.seconds}, args.work.json(),
-               fmt::format(", {}, {}, {} threads", lfdsim::word(r.estimator), r.kernel, r.threads), facts.more);
+               ", " + how_made(r), facts.more);
 }
 
 }  // namespace

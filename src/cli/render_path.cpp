@@ -145,8 +145,8 @@ PathMade render_path(const PathWork& w, const Texels& panel, Progress& progress)
         made.samples += r.samples;
         made.seconds += r.seconds;
         above_target += facts.pixels_above_target;
-        made.how = fmt::format("{}, {}, {} threads", lfdsim::word(r.estimator), r.kernel, r.threads);
-        made.more = {{"kernel", r.kernel}, {"threads", r.threads}, {"estimator", std::string(lfdsim::word(r.estimator))}};
+        made.how = how_made(r);
+        made.more = how_made_json(r);
     }
     progress.end();
     if (above_target > 0)

@@ -7,10 +7,26 @@
 
 namespace lfdsim::cli {
 
+std::string how_made(const Rendering& r) {
+    const std::string estimator(lfdsim::word(r.estimator));
+    if (r.device != "cpu") return fmt::format("{}, {} ({:.1f} ms)", estimator, r.device, r.gpu_seconds * 1e3);
+    return fmt::format("{}, {}, {} threads", estimator, r.kernel, r.threads);
+}
+
+Json how_made_json(const Rendering& r) {
+    Json all{
+        {"device", r.device}, {"kernel", r.kernel}, {"threads", r.threads}, {"estimator", std::string(lfdsim::word(r.estimator))}};
+    if (r.device != "cpu") all["gpu_seconds"] = r.gpu_seconds;
+    return all;
+}
+
 Rendered rendered(Rendering& r, std::optional<double> target_error, bool layers) {
-    Rendered all{{{"kernel", r.kernel}, {"threads", fmt::format("{}", r.threads)}, {"seconds", fmt::format("{:.3f}", r.seconds)}},
+    Rendered all{{{"device", r.device},
+                  {"kernel", r.kernel},
+                  {"threads", fmt::format("{}", r.threads)},
+                  {"seconds", fmt::format("{:.3f}", r.seconds)}},
                  {},
-                 {{"kernel", r.kernel}, {"threads", r.threads}, {"estimator", std::string(lfdsim::word(r.estimator))}}};
+                 how_made_json(r)};
     if (r.prepare_seconds > 0) all.more["prepare_seconds"] = r.prepare_seconds;
     if (!target_error) return all;
     double squares = 0;

@@ -4,6 +4,7 @@
 #include "engine/render.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace lfdsim::cli {
@@ -14,6 +15,10 @@ struct Rendered {
     Json more;                       // for --json
     std::size_t pixels_above_target = 0;
 };
+
+/// Estimator, and kernel and threads or the GPU.
+std::string how_made(const Rendering&);
+Json how_made_json(const Rendering&);
 
 /// Moves the error's picture out of the rendering if it becomes a layer.
 Rendered rendered(Rendering&, std::optional<double> target_error, bool layers);

@@ -4,6 +4,7 @@
 #include "cli/interrupt.h"
 #include "cli/output.h"
 #include "cli/panel_source.h"
+#include "cli/work_options.h"
 #include "view/page.h"
 #include "view/panels.h"
 #include "view/server.h"
@@ -21,7 +22,7 @@ namespace {
 
 struct Arguments {
     explicit Arguments(Command command)
-        : display(command, {sample_options, content_options}), panel_image(command), model(command) {
+        : display(command, {sample_options, content_options}), panel_image(command), model(command), device(command) {
         pattern_option =
             command.add_option("--pattern", pattern, fmt::format("Test pattern to show: {}", fmt::join(pattern_names(), ", ")))
                 .type_name("NAME");
@@ -39,6 +40,7 @@ struct Arguments {
     DisplayOptions display;
     PanelImageOption panel_image;
     ModelOption model;
+    DeviceOption device;
     std::string pattern;
     Option pattern_option;
     std::string port, host = "127.0.0.1", token, folder, visitors, threads;
@@ -82,6 +84,7 @@ void run(const Arguments& args) {
     faults.of([&] {
         if (!args.threads.empty()) threads = int(whole_number("--threads", args.threads, 1, 1024));
     });
+    faults.of([&] { args.device.apply(); });
     if (args.panel_image.given() + args.model.given() + int(args.pattern_option.count()) > 1)
         faults.of([] { throw InputError("--panel-image, --model, --pattern", "the panel shows one thing; give one of them"); });
     faults.report();

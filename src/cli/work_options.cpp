@@ -2,6 +2,7 @@
 
 #include "analysis/memory.h"
 #include "cli/arguments.h"
+#include "engine/devices.h"
 
 #include <fmt/format.h>
 
@@ -35,6 +36,15 @@ std::optional<Rect> CropOption::read(const Camera& camera, double panel_bytes) c
     require_picture_memory(crop ? crop->x1 - crop->x0 : width, crop ? crop->y1 - crop->y0 : height, panel_bytes);
     return crop;
 }
+
+DeviceOption::DeviceOption(Command command) {
+    command
+        .add_option("--device", device_,
+                    "What renders: auto takes a GPU where one works; default: environment variable LFDSIM_DEVICE, else auto")
+        .type_name("auto|cpu|cuda|cuda:N");
+}
+
+void DeviceOption::apply() const { set_default_device(device_); }
 
 void print_made(const Made& made, bool json, const std::string& more_text, const Json& more) {
     // Time of tracing alone: files and start are the same for all kernels.

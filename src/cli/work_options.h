@@ -39,6 +39,17 @@ class CropOption {
     std::string text_;
 };
 
+/// --device.
+class DeviceOption {
+  public:
+    explicit DeviceOption(Command command);
+    /// Makes it the device of all renderings that name none. Throws InputError that says what is missing.
+    void apply() const;
+
+  private:
+    std::string device_;
+};
+
 /// What a command has made.
 struct Made {
     std::string path;

@@ -1,5 +1,8 @@
 #include "engine/devices.h"
 
+#include "engine/gpu.h"
+
+#include <charconv>
 #include <cstdlib>
 
 namespace lfdsim {
@@ -43,6 +46,53 @@ const KernelEntry& choose_kernel(const std::string& wanted) {
     for (const KernelEntry& k : kTable) known = known || name == k.name;
     throw InputError(from_environment ? "environment variable LFDSIM_KERNEL" : "--kernel",
                      (known ? "this machine cannot run kernel '" : "unknown kernel '") + name + "'; it can run: " + present);
+}
+
+namespace {
+
+std::string default_device;
+
+// The number of "cuda:N", "cuda" alone being 0.
+std::optional<int> gpu_number(const std::string& word) {
+    if (word == "cuda") return 0;
+    if (word.rfind("cuda:", 0) != 0) return {};
+    int n = -1;
+    const char *from = word.data() + 5, *to = word.data() + word.size();
+    const auto [end, error] = std::from_chars(from, to, n);
+    return error == std::errc() && end == to && n >= 0 ? std::optional(n) : std::nullopt;
+}
+
+}  // namespace
+
+ChosenDevice choose_device(const std::string& wanted, const std::string& kernel) {
+    std::string word = wanted.empty() ? default_device : wanted, where = "--device";
+    if (const char* const named = std::getenv("LFDSIM_DEVICE"); word.empty() && named && *named) {
+        word = named;
+        where = "environment variable LFDSIM_DEVICE";
+    }
+    const bool cpu_kernel = !kernel.empty() || std::getenv("LFDSIM_KERNEL");
+    if (word == "cpu" || (word.empty() && cpu_kernel) || (word == "auto" && cpu_kernel)) return {};
+    if (word.empty() || word == "auto") {
+        const cuda::Found& found = found_gpus();
+        for (std::size_t k = 0; k < found.gpus.size(); ++k)
+            if (found.gpus[k].why_not.empty()) return {int(k), false};
+        return {};
+    }
+    const std::optional<int> n = gpu_number(word);
+    if (!n) throw InputError(where, "unknown device '" + word + "'; allowed: auto, cpu, cuda, cuda:N");
+    if (!kernel.empty()) throw InputError(where + ", --kernel", "'" + kernel + "' is a kernel of the CPU; give one of both");
+    const cuda::Found& found = found_gpus();
+    if (!found.missing.empty()) throw InputError(where, word + ": " + found.missing);
+    if (std::size_t(*n) >= found.gpus.size())
+        throw InputError(where, word + ": there are " + std::to_string(found.gpus.size()) + " GPUs, counted from 0");
+    const cuda::Gpu& gpu = found.gpus[std::size_t(*n)];
+    if (!gpu.why_not.empty()) throw InputError(where, word + ": " + gpu.name + ": " + gpu.why_not);
+    return {*n, true};
+}
+
+void set_default_device(const std::string& word) {
+    choose_device(word, "");
+    default_device = word;
 }
 
 }  // namespace lfdsim

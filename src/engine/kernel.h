@@ -17,14 +17,21 @@ struct Tile {
     std::int32_t crop_x, crop_y, crop_width;
     std::int32_t x0, y0, x1, y1;
     std::uint32_t samples;
-    int strata;      // filtered estimator: rows and columns of strata, 1 .. kMostStrata - 2; 0: point samples
+    int strata;      // filtered estimator: rows and columns of strata, 1 .. kMostStrata - kMoreStrata; 0: point samples
     int block_side;  // filtered estimator: pixels, a multiple of 4
     Sampling sampling;
     int dimensions;  // of the sampler that are in use
 };
 
-constexpr int kMostStrata = 64;
-constexpr int kFewStrata = 8;  // up to so many the filtered estimator looks for speed first, above for exactness
+/// How far the work on a picture got.
+struct Done {
+    std::int64_t samples;
+    bool complete;  // false: the job was cancelled on the way
+};
+
+constexpr int kMostStrata = 64;  // rows or columns of them, those at borders of lenses included
+constexpr int kMoreStrata = 2;   // at most, at borders of lenses
+constexpr int kFewStrata = 8;    // up to so many the filtered estimator looks for speed first, above for exactness
 
 using Kernel = void (*)(const Tile&);
 

@@ -1,5 +1,6 @@
 #include "engine/pyramid.h"
 
+#include "engine/gpu.h"
 #include "optics/scene.h"
 
 #include <tbb/blocked_range.h>
@@ -29,7 +30,7 @@ Pyramid::~Pyramid() = default;
 Pyramid::Pyramid(Pyramid&&) noexcept = default;
 Pyramid& Pyramid::operator=(Pyramid&&) noexcept = default;
 
-Pyramid::Pyramid(const Texels& panel, int threads) {
+Pyramid::Pyramid(const Texels& panel, int threads) : on_gpus_(std::make_shared<GpuPanels>()) {
     const auto level = [](const Texels& t) {
         return optics::PanelLevel{t.data(), std::uint32_t(t.columns()), std::uint32_t(t.rows())};
     };

@@ -2,9 +2,12 @@
 #pragma once
 #include "image/texels.h"
 
+#include <memory>
 #include <vector>
 
 namespace lfdsim {
+
+class GpuPanels;  // gpu.h
 
 namespace optics {
 struct PanelLevel;  // optics/scene.h
@@ -22,9 +25,13 @@ class Pyramid {
 
     const std::vector<optics::PanelLevel>& levels() const { return levels_; }
 
+    /// The copies of it that GPUs hold, made when first asked for.
+    GpuPanels& on_gpus() const { return *on_gpus_; }
+
   private:
     std::vector<Texels> coarse_;
     std::vector<optics::PanelLevel> levels_;
+    std::shared_ptr<GpuPanels> on_gpus_;
 };
 
 }  // namespace lfdsim

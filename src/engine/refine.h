@@ -3,18 +3,38 @@
 #include "engine/kernel.h"
 #include "model/job.h"
 
+#include <array>
 #include <optional>
+#include <vector>
 
 namespace lfdsim {
 
-/// Renders a tile in blocks of 16 x 16 pixels of the frame, each with more and more samples until its estimated error, linear
-/// light, is below `target` in all groups of 4 x 4 pixels (root mean square over a group and its colours), or the samples are at
-/// their limit. `error`, laid out as the picture, takes each group's error of each colour. Returns the number of samples taken,
-/// or nothing where the job was cancelled on the way: a small target may take long.
+constexpr int kRefinedSide = 16;
+using RefinedPicture = std::array<float, kRefinedSide * kRefinedSide * 3>;
+struct RefinedBlock {
+    std::int32_t x, y;  // first pixel, multiples of kRefinedSide
+};
+
+/// Renders blocks of 16 x 16 pixels, whole even where a crop cuts through them, so that no pixel depends on the crop; what lies
+/// outside of the frame is left as it is. strata 0: so many points. Once the job is cancelled it need not go on.
+class BlockPainter {
+  public:
+    virtual ~BlockPainter() = default;
+    virtual void paint(const std::vector<RefinedBlock>&, int strata, std::uint32_t points, std::uint64_t seed,
+                       std::vector<RefinedPicture>& pictures) = 0;
+};
+
+/// Renders the blocks that a tile has a part in, each with more and more samples until its estimated error, linear light, is below
+/// `target` in all groups of 4 x 4 pixels (root mean square over a group and its colours), or the samples are at their limit.
+/// `error`, laid out as the picture, takes each group's error of each colour. Returns the number of samples taken, or nothing where
+/// the job was cancelled on the way: a small target may take long. The order of the work among blocks changes no bit.
 ///
 /// Points: independent repetitions with seeds of their own, twice as many each time; the error is the standard error of their mean.
 /// Filtered: at least twice as many rows and columns of strata each time; the error is the difference from the time before, which
 /// is that of the coarser picture.
-std::optional<std::int64_t> refine_tile(Kernel, const Tile&, double target, float* error, const Job&);
+std::optional<std::int64_t> refine_tile(BlockPainter&, const Tile& tile, double target, float* error, const Job&);
+
+/// By a kernel, block after block.
+std::optional<std::int64_t> refine_tile(Kernel, const Tile& tile, double target, float* error, const Job&);
 
 }  // namespace lfdsim

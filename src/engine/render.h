@@ -20,20 +20,23 @@ struct RenderOptions {
     std::string kernel;        // scalar | baseline | avx2 | avx512; empty: LFDSIM_KERNEL, else the best this machine has
     std::optional<Rect> crop;  // of the camera's frame; the image has the crop's size and the full frame's pixels, bit for bit
     std::optional<double> target_error = {};  // > 0, linear light: take samples until the error is below it, see refine.h
-    bool rough = false;  // filtered estimator: half the time where lenses span few pixels, errors as of 100 random points; for
-                         // what moves
+    std::string device = {};  // cpu | cuda | cuda:N | auto: a GPU where there is one; empty: as set_default_device says
+    bool rough = false;       // filtered estimator: half the time where lenses span few pixels, errors as of 100 random points; for
+                              // what moves
 };
 
 struct Rendering {
-    Image image;           // linear light, crop's or camera's size
-    Image error;           // estimated standard error of each pixel, where a target was given
-    bool complete = true;  // false: cancelled; unfinished pixels are black
-    std::string kernel;    // the one that ran
-    int threads = 0;
+    Image image;                             // linear light, crop's or camera's size
+    Image error;                             // estimated standard error of each pixel, where a target was given
+    bool complete = true;                    // false: cancelled; unfinished pixels are black
+    std::string device = "cpu";              // or the GPU, as in "cuda:0, NVIDIA H100"
+    std::string kernel;                      // the one that ran; on a GPU its name
+    int threads = 0;                         // 0 on a GPU
     Estimator estimator = Estimator::point;  // the one that was used
     std::int64_t samples = 0;                // all pixels together
     double prepare_seconds = 0;              // of making the panel's pyramid, where it was made on the way
-    double seconds = 0;                      // of rendering
+    double seconds = 0;                      // of rendering; with a GPU transfers to and from it are in it
+    double gpu_seconds = 0;                  // of the GPU alone, by its clock
 };
 
 /// Kernels compiled in, best first, with whether this machine can run them.

@@ -14,8 +14,8 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 
 /// A block's rays before the diffuser: through its middle; half a block to the right of it; below; to the left and above.
 constexpr int kBlockRays = 4;
-constexpr int kBlockRight[kBlockRays] = {0, 1, 0, -1};
-constexpr int kBlockDown[kBlockRays] = {0, 0, 1, -1};
+LFDSIM_FN int block_right(int ray) { return ray == 1 ? 1 : ray == 3 ? -1 : 0; }
+LFDSIM_FN int block_down(int ray) { return ray == 2 ? 1 : ray == 3 ? -1 : 0; }
 
 /// A soft bundle's light is told at the corners of squares of so many pixels: at most 3 x 3 places.
 constexpr int kNodes = 3, kMostNodeStep = 8;
@@ -81,12 +81,12 @@ LFDSIM_FN PixelBlock<S> pixel_block(const Scene<S>& scene, const View& view, int
     block.alive = true;
     for (int k = 0; k < kBlockRays; ++k) {
         double d[3], x, y;
-        follow_to_first_plane(view, middle_x + block.reach * kBlockRight[k], middle_y + block.reach * kBlockDown[k], d, x, y);
+        follow_to_first_plane(view, middle_x + block.reach * block_right(k), middle_y + block.reach * block_down(k), d, x, y);
         const double inverse = 1 / __builtin_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         const double z = d[2] * inverse;
         block.to[k] = {S(d[0] * inverse), S(d[1] * inverse), S(z)};
-        block.sweep[0][k] = {S(x - block.lens.x), S(-d[0] / d[2]), scene.holes_below, S(kSense[0])};
-        block.sweep[1][k] = {S(y - block.lens.y), S(-d[1] / d[2]), scene.holes_below, S(kSense[1])};
+        block.sweep[0][k] = {S(x - block.lens.x), S(-d[0] / d[2]), scene.holes_below, S(sense(0))};
+        block.sweep[1][k] = {S(y - block.lens.y), S(-d[1] / d[2]), scene.holes_below, S(sense(1))};
         block.alive = block.alive && z < -1e-6;
     }
     for (int a = 0; a < 2 && block.alive; ++a) {
@@ -132,8 +132,8 @@ LFDSIM_FN S sum_of(const S (&a)[kMostProbes]) {
 }
 
 template <Way through, class F>
-LFDSIM_FN void trace_probes(const Scene<Scalar<F>>& scene, const PixelBlock<Scalar<F>>& block, Probes<Scalar<F>>& probes,
-                            int count) {
+LFDSIM_LARGE void trace_probes(const Scene<Scalar<F>>& scene, const PixelBlock<Scalar<F>>& block, Probes<Scalar<F>>& probes,
+                               int count) {
     for (int p = 0; p < count; p += LaneTraits<F>::width) {
         const F x = load<F>(probes.at_x + p), y = load<F>(probes.at_y + p);
         const F across = load<F>(probes.x + p) - x, up = load<F>(probes.y + p) - y, down = F(scene.holes_below);

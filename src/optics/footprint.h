@@ -8,7 +8,18 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-typedef float Texel __attribute__((vector_size(16)));  // R, G, B and an idle number
+// R, G, B and an idle number
+#ifdef __CUDACC__
+struct alignas(16) Texel {
+    float v[4];
+    LFDSIM_FN friend Texel operator*(Texel a, float b) { return {{a.v[0] * b, a.v[1] * b, a.v[2] * b, a.v[3] * b}}; }
+    LFDSIM_FN void operator+=(Texel b) {
+        for (int c = 0; c < 4; ++c) v[c] += b.v[c];
+    }
+};
+#else
+typedef float Texel __attribute__((vector_size(16)));
+#endif
 
 /// A level of the pyramid as the rays from one base lens read it.
 template <class S>

@@ -50,6 +50,15 @@ LFDSIM_FN float max(float a, float b) { return a > b ? a : b; }
 LFDSIM_FN int max(int a, int b) { return a > b ? a : b; }
 LFDSIM_FN double max(double a, double b) { return a > b ? a : b; }
 
+/// The number of zeros below the lowest one of a > 0.
+LFDSIM_FN int trailing_zeros(std::uint32_t a) {
+#ifdef __CUDA_ARCH__
+    return __ffs(int(a)) - 1;
+#else
+    return __builtin_ctz(a);
+#endif
+}
+
 /// A whole-numbered `a` as 32-bit two's complement; out of range, NaN too, gives 0x80000000.
 template <class F>
 LFDSIM_FN std::uint32_t to_int(F a) {

@@ -22,20 +22,26 @@ class Fetching {
   public:
     LFDSIM_FN explicit Fetching(const Fetch<F>& fetch) : weight_(fetch.weight) {
         __builtin_memcpy(index_, &fetch.pairs, sizeof index_);
+#ifndef __CUDACC__
         // By way of memory, for compilers like to extract addresses from vectors, which is slower.
         if constexpr (N > 1) asm("" : "+m"(index_));
+#endif
     }
     /// The texels of lanes quarter N/4 .. (quarter + 1) N/4 - 1 side by side, times their weights. One lane: colour `quarter`.
     template <int quarter>
     LFDSIM_FN F light(const float* texels) const {
         if constexpr (N == 1) {
-            return F(texels[std::size_t(index_[0]) * 2 + quarter]) * weight_;
+            // All four are one load.
+            const void* const texel = __builtin_assume_aligned(texels + std::size_t(index_[0]) * 2, 16);
+            return F(static_cast<const float*>(texel)[quarter]) * weight_;
         } else {
             constexpr int first = quarter * (N / 4);
             F texel, repeated;
             for (int k = 0; k < N / 4; ++k) {
                 std::size_t i = index_[first + k];
+#ifndef __CUDACC__
                 asm("" : "+r"(i));
+#endif
                 __builtin_memcpy((char*)&texel + 16 * k, texels + i * 2, 16);
             }
             for (int k = 0; k < N; ++k) repeated.v[k] = weight_.v[first + k / 4];

@@ -40,7 +40,8 @@ struct Sampler {
     std::uint32_t point[kDimensions] = {};  // of the Sobol sequence, common to all pixels
 
     LFDSIM_FN Sampler(Sampling kind, int used, std::uint64_t seed, Uint<F> pixel) : sampling(kind), dimensions(used) {
-        for (int d = 0; d < used; ++d) key[d] = pixel_key<F>(seed, d, pixel);
+        for (int d = 0; d < kDimensions; ++d)  // of a constant length, so that the keys may stay in registers
+            if (d < used) key[d] = pixel_key<F>(seed, d, pixel);
     }
     /// The number of dimension d, in [-1, 1].
     LFDSIM_FN F operator()(int d) const {
@@ -51,7 +52,7 @@ struct Sampler {
     /// On to the next sample: in Gray-code order one direction number changes.
     LFDSIM_FN void next(const Directions& directions) {
         ++sample;
-        const int bit = __builtin_ctz(sample);
+        const int bit = trailing_zeros(sample);
         point[0] ^= directions.v[0][bit];
         point[1] ^= directions.v[1][bit];
         if (dimensions <= 2) return;

@@ -29,7 +29,8 @@ struct Sweep {
         return F(sense) * ((to - slope) / (F(1) + slope * to));
     }
 };
-constexpr int kSense[2] = {-1, 1};  // turning about y by a positive angle sends a ray towards -x; about x, towards +y
+/// Turning about y by a positive angle sends a ray towards -x; about x, towards +y.
+LFDSIM_FN int sense(int axis) { return axis == 0 ? -1 : 1; }
 
 /// Half the area of the unit circle between x = 0 and t: (t sqrt(1 - t^2) + asin t) / 2, odd; |t| is cut to 1. The arc sine is
 /// Abramowitz and Stegun's 4.4.46: error 2e-8.

@@ -44,11 +44,12 @@ LFDSIM_FN PanelPoint<F> trace_array(const Scene<Scalar<F>>& scene, const Extent<
     if constexpr (through == Way::glass) return trace_glass(scene, extent, base, way);
 }
 
-/// One sample of each pixel of a packet; sampler(d) gives its number of dimension d, in [-1, 1].
-template <Way through, class F, class Samples>
+/// One sample of each pixel of a packet; sampler(d) gives its number of dimension d, in [-1, 1]. `pinhole` promises a camera
+/// without pupil and pixel filter.
+template <Way through, bool pinhole = false, class F, class Samples>
 LFDSIM_FN PanelHit<F> trace(const Scene<Scalar<F>>& scene, const View& view, const PixelRays<F>& pixels, const Samples& sampler) {
     Ray<F> ray{{pixels.x, pixels.y, F(0)}, pixels.to};
-    if (scene.box_filter || scene.thin_lens) {
+    if (!pinhole && (scene.box_filter || scene.thin_lens)) {
         F jitter_x = F(0), jitter_y = F(0), lens_x = F(0), lens_y = F(0);
         if (scene.box_filter) {
             jitter_x = sampler(2);

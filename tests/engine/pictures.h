@@ -80,4 +80,43 @@ inline std::vector<std::pair<std::string, Display>> every_kind() {
     return all;
 }
 
+/// Every way through an array with a diffuser: as wide as the lenses, narrower than a pixel, wider than three lenses, gaussian.
+inline std::vector<std::pair<std::string, Display>> diffused() {
+    std::vector<std::pair<std::string, Display>> all;
+    auto add = [&](const std::string& name, Display d, Diffuser diffuser) {
+        d.diffuser = diffuser;
+        d.render.estimator = Estimator::filtered;
+        d.render.samples = 4;
+        d.render.fresnel = Fresnel::exact;
+        all.emplace_back(name, d);
+    };
+    const Diffuser closing{40, {5.7, 5.7}, Profile::box};
+    add("plano-convex", example(), closing);
+    add("plano-convex, oblique", example(), closing);
+    all.back().second.camera.position_mm = {150, -80, 350};
+    add("plano-convex, narrow", example(), {3, {0.5, 0.5}, Profile::box});
+    add("plano-convex, wide and unequal", example(), {40, {17, 3}, Profile::box});
+    add("plano-convex, gaussian", example(), {40, {4, 3}, Profile::gaussian});
+    add("ideal, square", ideal_example(), closing);
+    add("facing the panel", example(), closing);
+    all.back().second.lens.facing = Facing::panel;
+    add("stopped", example(), closing);
+    all.back().second.lens.stop_radius_mm = 0.6;
+    add("clear", example(), closing);
+    all.back().second.array.surround = Surround::clear;
+    add("plate", example(), closing);
+    all.back().second.array.surround = Surround::plate;
+    return all;
+}
+
+/// Squares of light, larger than a panel pixel and smaller than an elemental image, on top of noise.
+inline Texels patterned_panel(const Display& d) {
+    Texels panel = noise_panel(d);
+    for (std::int64_t r = 0; r < panel.rows(); ++r)
+        for (std::int64_t c = 0; c < panel.columns(); ++c)
+            for (int k = 0; k < 3; ++k)
+                panel.row(r)[4 * c + k] = 0.2f * panel.row(r)[4 * c + k] + ((r / 5 + c / 7) % 2 ? 0.7f : 0.1f);
+    return panel;
+}
+
 }  // namespace lfdsim

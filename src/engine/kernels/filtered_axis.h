@@ -16,9 +16,21 @@ using S = float;
 struct Gradient {
     S middle, right, down;
 
-    static Gradient of(S at_middle, S at_right, S at_bottom) { return {at_middle, at_right - at_middle, at_bottom - at_middle}; }
+    LFDSIM_BOTH static Gradient of(S at_middle, S at_right, S at_bottom) {
+        return {at_middle, at_right - at_middle, at_bottom - at_middle};
+    }
     LFDSIM_FN F at(F dx, F dy) const { return F(middle) + F(right) * dx + F(down) * dy; }  // -1 .. 1: across the block
-    S reach() const { return optics::abs(right) + optics::abs(down); }
+    LFDSIM_BOTH S reach() const { return optics::abs(right) + optics::abs(down); }
+};
+
+struct Cut {
+    Gradient number, place;  // place in mm in the plane of the holes
+};
+
+struct Stratum {
+    S cell;          // its lens, from the base lens
+    S from, to;      // ends within that cell, mm from its lens's axis, from the middle of the block
+    bool straddles;  // it sees other lenses too
 };
 
 /// One axis of the square of angles as a block has it. Cuts stand at fixed places of the lenses, so that their numbers move from
@@ -26,11 +38,9 @@ struct Gradient {
 /// though, all cuts have fixed numbers, and the strata move with the pixels.
 struct Axis {
     int strata;
-    Gradient number[kMostStrata + 1], place[kMostStrata + 1];  // of each cut; place in mm in the plane of the holes
     bool moving;
-    S cell[kMostStrata];                   // of each stratum: its lens, from the base lens
-    S from[kMostStrata], to[kMostStrata];  // ends within that cell, mm from its lens's axis, from the middle of the block
-    bool straddles[kMostStrata];           // it sees other lenses too
+    Cut* cut;  // strata + 1 of them
+    Stratum* stratum;
 };
 
 /// Numbers and tangents of the even cuts, common to all blocks.
@@ -38,20 +48,23 @@ struct EvenCuts {
     int strata;
     S number[kMostStrata + 1], tangent[2][kMostStrata + 1];
 
+    EvenCuts() = default;
     EvenCuts(const optics::Scene<S>& scene, int count) : strata(count) {
-        for (int k = 0; k <= strata; ++k) {
-            number[k] = S(2 * k - strata) / S(strata);
-            for (int a = 0; a < 2; ++a) {
-                S sine, cosine;
-                optics::sincos(optics::diffuser_angle(scene, a, number[k]), scene.small_angles, sine, cosine);
-                tangent[a][k] = sine / cosine;
-            }
+        for (int k = 0; k <= strata; ++k) set(scene, k);
+    }
+    LFDSIM_BOTH void set(const optics::Scene<S>& scene, int k) {
+        number[k] = S(2 * k - strata) / S(strata);
+        for (int a = 0; a < 2; ++a) {
+            S sine, cosine;
+            optics::sincos(optics::diffuser_angle(scene, a, number[k]), scene.small_angles, sine, cosine);
+            tangent[a][k] = sine / cosine;
         }
     }
 };
 
-Axis cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>* sweep, bool alive, int axis, const EvenCuts& even) {
-    Axis a;
+/// Room for even.strata + kMoreStrata strata is taken for granted.
+LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>* sweep, bool alive, int axis, const EvenCuts& even,
+                          Axis& a) {
     const S pitch = scene.pitch, half = scene.half_pitch, step = S(1) / S(even.strata);
     auto place_of = [&](int even_cut) {
         const S tangent = even.tangent[axis][even_cut];
@@ -60,8 +73,7 @@ Axis cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>* sweep, bool
     auto cut_at = [&](int j, S place) {
         S number[3];
         for (int k = 0; k < 3; ++k) number[k] = optics::diffuser_uniform(scene, axis, sweep[k].tangent(place));
-        a.number[j] = Gradient::of(number[0], number[1], number[2]);
-        a.place[j] = {place, 0, 0};
+        a.cut[j] = {Gradient::of(number[0], number[1], number[2]), {place, 0, 0}};
     };
     const Gradient start = place_of(0), end = place_of(even.strata);
     const S reach = start.reach(), along = end.middle > start.middle ? S(1) : S(-1);
@@ -75,61 +87,57 @@ Axis cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>* sweep, bool
     // One or two borders more than there are cuts are worth a cut each: a block near a lens's border may see the next one too.
     const bool at_borders =
         !a.moving && borders >= S(even.strata) && borders <= S(even.strata + 1) && even.strata + 2 < kMostStrata;
-    a.strata = at_borders ? int(borders) + 1 : even.strata;
-    a.number[0] = {-1, 0, 0};
-    a.place[0] = start;
+    a.strata = at_borders ? int(borders) + 1 : even.strata;  // at most kMoreStrata more
+    a.cut[0] = {{-1, 0, 0}, start};
     for (int j = 1; j < a.strata; ++j) {
         if (at_borders) {
             cut_at(j, (along > 0 ? first + S(j - 1) : last - S(j - 1)) * pitch);
             continue;
         }
-        a.number[j] = {even.number[j], 0, 0};
-        a.place[j] = place_of(j);
+        a.cut[j] = {{even.number[j], 0, 0}, place_of(j)};
         if (a.moving) continue;
-        const S even_place = a.place[j].middle;
+        const S even_place = a.cut[j].place.middle;
         cut_at(j, (optics::floor(even_place * scene.per_pitch) + S(0.5)) * pitch);  // the nearest border
         // The outermost cuts also take borders that only some pixels of the block see.
-        const S spread = a.number[j].reach();
-        const bool snaps = a.number[j].middle >= (j == 1 ? -1 - spread : even.number[j] - step) &&
-                           a.number[j].middle < (j == a.strata - 1 ? 1 + spread : even.number[j] + step);
+        const Gradient& number = a.cut[j].number;
+        const S spread = number.reach();
+        const bool snaps = number.middle >= (j == 1 ? -1 - spread : even.number[j] - step) &&
+                           number.middle < (j == a.strata - 1 ? 1 + spread : even.number[j] + step);
         if (!snaps) cut_at(j, even_place);
     }
-    a.number[a.strata] = {1, 0, 0};
-    a.place[a.strata] = end;
+    a.cut[a.strata] = {{1, 0, 0}, end};
     for (int j = 0; j < a.strata; ++j) {
-        S from = a.place[j].middle * along, to = a.place[j + 1].middle * along;
+        S from = a.cut[j].place.middle * along, to = a.cut[j + 1].place.middle * along;
         // The outermost strata reach as far as any pixel of the block sees.
         if (j == 0 && !a.moving) from = optics::min(from, to) - reach;
         if (j == a.strata - 1 && !a.moving) to = optics::max(from, to) + reach;
-        a.cell[j] = optics::nearest_cell(scene, S(0.5) * (from + to) * along);
-        const S axis_at = a.cell[j] * pitch;
+        const S cell = optics::nearest_cell(scene, S(0.5) * (from + to) * along), axis_at = cell * pitch;
         const S low_end = optics::min(from * along, to * along) - axis_at,
                 high_end = optics::max(from * along, to * along) - axis_at;
-        a.straddles[j] = low_end < S(-1.02) * half || high_end > S(1.02) * half;
-        a.from[j] = optics::max(low_end, -half);
-        a.to[j] = optics::min(high_end, half);
+        a.stratum[j] = {cell, optics::max(low_end, -half), optics::min(high_end, half),
+                        low_end < S(-1.02) * half || high_end > S(1.02) * half};
     }
-    return a;
 }
 
 /// The strata of an axis as a packet's pixels have them, at dx and dy in the block, from -1 to 1.
-void spans_of(const optics::Scene<S>& scene, const Axis& axis, F dx, F dy, Span<F>* spans) {
+LFDSIM_BOTH void spans_of(const optics::Scene<S>& scene, const Axis& axis, F dx, F dy, Span<F>* spans) {
     const int strata = axis.strata;
-    const F start = axis.place[0].at(dx, dy), end = axis.place[strata].at(dx, dy);
+    const F start = axis.cut[0].place.at(dx, dy), end = axis.cut[strata].place.at(dx, dy);
     const F least = optics::min(start, end), most = optics::max(start, end);
     F number = F(-1), place = start;
     for (int j = 0; j < strata; ++j) {
         const bool last = j + 1 == strata;
-        const F next_number = last ? F(1) : optics::min(optics::max(axis.number[j + 1].at(dx, dy), number), F(1));
-        const F next_place = last ? end : optics::min(optics::max(axis.place[j + 1].at(dx, dy), least), most);
+        const Cut& cut = axis.cut[j + 1];
+        const F next_number = last ? F(1) : optics::min(optics::max(cut.number.at(dx, dy), number), F(1));
+        const F next_place = last ? end : optics::min(optics::max(cut.place.at(dx, dy), least), most);
         Span<F>& span = spans[j];
         span.low = number;
         span.high = next_number;
         span.share = F(0.5f) * (next_number - number);
         if (scene.hole_radius > 0) {
             // A moving stratum may have left the lens that it has in the middle of the block.
-            const F at =
-                F(scene.pitch) * (axis.moving ? optics::nearest_cell(scene, F(0.5f) * (place + next_place)) : F(axis.cell[j]));
+            const F at = F(scene.pitch) *
+                         (axis.moving ? optics::nearest_cell(scene, F(0.5f) * (place + next_place)) : F(axis.stratum[j].cell));
             const F half = F(scene.half_pitch), per = F(1 / scene.hole_radius);
             span.from = optics::max(optics::min(place, next_place) - at, -half) * per;
             span.to = optics::min(optics::max(place, next_place) - at, half) * per;

@@ -19,12 +19,12 @@ struct Bundles {
 /// A range of a stratum along one axis, mm from the axis of its lens.
 struct Range {
     S from, to;
-    S middle() const { return S(0.5) * (from + to); }
-    S length() const { return to - from; }
+    LFDSIM_BOTH S middle() const { return S(0.5) * (from + to); }
+    LFDSIM_BOTH S length() const { return to - from; }
 };
 
 /// The part of a stratum that its hole covers lies in these ranges; false: it covers none.
-bool clip_to_hole(S radius, Range& x, Range& y) {
+LFDSIM_BOTH bool clip_to_hole(S radius, Range& x, Range& y) {
     auto nearest = [](Range r) { return optics::min(optics::max(S(0), r.from), r.to); };
     const S near_x = nearest(x), near_y = nearest(y);
     if (near_x * near_x + near_y * near_y >= radius * radius) return false;
@@ -37,7 +37,7 @@ bool clip_to_hole(S radius, Range& x, Range& y) {
 template <optics::Way through>
 class BundleMaker {
   public:
-    BundleMaker(const Tile& t, const optics::PixelBlock<S>& of, const Axis* both)
+    LFDSIM_BOTH BundleMaker(const Tile& t, const optics::PixelBlock<S>& of, const Axis* both)
         : tile(t),
           scene(*t.scene),
           block(of),
@@ -56,25 +56,34 @@ class BundleMaker {
         }
     }
 
-    void make(Bundles* bundles) {
+    /// All of the block's.
+    LFDSIM_BOTH void make_all(Bundles* bundles) {
         Bundles* next = bundles;
         for (int j = 0; j < axis[1].strata; ++j)
-            for (int i = 0; i < axis[0].strata; ++i) make(*next++, i, j);
+            for (int i = 0; i < axis[0].strata; ++i) start(*next++, i, j);
         finish();
-        while (bundles != next) {
-            // Where a hole is broken, rays of the pixels' own tell what lies beside it, too.
-            if (bundles->through.state == Bundle::State::broken) bundles->beside.state = Bundle::State::dark;
-            ++bundles;
-        }
+        while (bundles != next) settle(*bundles++);
+    }
+    /// Those of stratum (i, j).
+    LFDSIM_BOTH void make(Bundles& b, int i, int j) {
+        start(b, i, j);
+        finish();
+        settle(b);
     }
 
   private:
-    void make(Bundles& b, int i, int j) {
+    /// Where a hole is broken, rays of the pixels' own tell what lies beside it, too.
+    LFDSIM_BOTH static void settle(Bundles& b) {
+        if (b.through.state == Bundle::State::broken) b.beside.state = Bundle::State::dark;
+    }
+
+    LFDSIM_BOTH void start(Bundles& b, int i, int j) {
         const S r = scene.hole_radius;
-        const Range x{axis[0].from[i], axis[0].to[i]}, y{axis[1].from[j], axis[1].to[j]};
+        const Stratum &across = axis[0].stratum[i], &up = axis[1].stratum[j];
+        const Range x{across.from, across.to}, y{up.from, up.to};
         Range hole_x = x, hole_y = y;
         b.through.state = b.beside.state = Bundle::State::dark;
-        b.straddles = axis[0].straddles[i] || axis[1].straddles[j];
+        b.straddles = across.straddles || up.straddles;
         if (b.straddles || (r > 0 && hole_edge_near(x, y))) {
             b.through.state = Bundle::State::broken;
             return;
@@ -89,17 +98,17 @@ class BundleMaker {
     }
 
     /// Do some pixels see a moving stratum inside the hole and others outside?
-    bool hole_edge_near(Range x, Range y) const {
+    LFDSIM_BOTH bool hole_edge_near(Range x, Range y) const {
         if (!axis[0].moving && !axis[1].moving) return false;
         const S mid_x = S(0.5) * (x.from + x.to), mid_y = S(0.5) * (y.from + y.to),
-                move_x = axis[0].place[0].reach() + x.to - mid_x, move_y = axis[1].place[0].reach() + y.to - mid_y;
+                move_x = axis[0].cut[0].place.reach() + x.to - mid_x, move_y = axis[1].cut[0].place.reach() + y.to - mid_y;
         const S far = optics::sqrt(mid_x * mid_x + mid_y * mid_y), move = optics::sqrt(move_x * move_x + move_y * move_y);
         return optics::abs(far - scene.hole_radius) < move;
     }
 
     /// Traces the probes of a part of a stratum.
-    void trace(int i, Range x, int j, Range y, bool inside) {
-        const S lens_x = axis[0].cell[i] * scene.pitch, lens_y = axis[1].cell[j] * scene.pitch;
+    LFDSIM_BOTH void trace(int i, Range x, int j, Range y, bool inside) {
+        const S lens_x = axis[0].stratum[i].cell * scene.pitch, lens_y = axis[1].stratum[j].cell * scene.pitch;
         const S limit = scene.hole_radius > 0 ? scene.hole_radius * scene.hole_radius : S(1e30);
         for (int p = 0; p < optics::kMostProbes; ++p) {
             const S px = x.from + grid_x[p] * (x.to - x.from), py = y.from + grid_y[p] * (y.to - y.from);
@@ -110,7 +119,7 @@ class BundleMaker {
         optics::trace_probes<through, F>(scene, block, probes, per_axis * per_axis);
     }
 
-    Bundle probe(int i, Range x, int j, Range y, bool inside) {
+    LFDSIM_BOTH Bundle probe(int i, Range x, int j, Range y, bool inside) {
         trace(i, x, j, y, inside);
         Bundle b = optics::sum_up(probes, per_axis);
         if (b.state != Bundle::State::sharp) return b;
@@ -148,7 +157,7 @@ class BundleMaker {
     }
 
     /// Pixels see parts of the outermost strata: their footprints are smaller than that of all of it, and move with these parts.
-    void lean(Bundle& b, int i, Range x, int j, Range y) const {
+    LFDSIM_BOTH void lean(Bundle& b, int i, Range x, int j, Range y) const {
         if (!sees_end(0, i) && !sees_end(1, j)) return;
         const optics::Slopes<S> slopes(probes, b);
         const Range ranges[2] = {x, y};
@@ -176,17 +185,20 @@ class BundleMaker {
     }
 
     /// What a pixel at (dx, dy) of the block, -1 .. 1, sees of a range of a stratum; nothing: the end of the range next to it.
-    Range seen_of(int a, int stratum, Range r, S dx, S dy) const {
-        const Gradient &first = axis[a].place[0], &last = axis[a].place[axis[a].strata];
+    LFDSIM_BOTH Range seen_of(int a, int stratum, Range r, S dx, S dy) const {
+        const Gradient &first = axis[a].cut[0].place, &last = axis[a].cut[axis[a].strata].place;
         const S start = first.middle + first.right * dx + first.down * dy, end = last.middle + last.right * dx + last.down * dy,
-                at = axis[a].cell[stratum] * scene.pitch, low = optics::min(start, end) - at, high = optics::max(start, end) - at;
+                at = axis[a].stratum[stratum].cell * scene.pitch, low = optics::min(start, end) - at,
+                high = optics::max(start, end) - at;
         return {optics::min(optics::max(r.from, low), r.to), optics::max(optics::min(r.to, high), r.from)};
     }
 
-    bool sees_end(int a, int stratum) const { return !axis[a].moving && (stratum == 0 || stratum == axis[a].strata - 1); }
+    LFDSIM_BOTH bool sees_end(int a, int stratum) const {
+        return !axis[a].moving && (stratum == 0 || stratum == axis[a].strata - 1);
+    }
 
     /// Adds the probes' light at the nodes, each probe as far as a pixel there sees its part of the range.
-    void add_nodes(Bundle& b, int i, Range x, int j, Range y) {
+    LFDSIM_BOTH void add_nodes(Bundle& b, int i, Range x, int j, Range y) {
         optics::ProbeBoxes<S> boxes;
         boxes.make<F>(probes, per_axis);
         S light[optics::kMostProbes][4];
@@ -211,10 +223,11 @@ class BundleMaker {
     }
 
     /// Leaves of each probe's part of a range what a pixel at (dx, dy) of the block sees of it.
-    void narrow(int a, int stratum, Range r, const S* grid, S dx, S dy, S* seen) const {
-        const Gradient &first = axis[a].place[0], &last = axis[a].place[axis[a].strata];
+    LFDSIM_BOTH void narrow(int a, int stratum, Range r, const S* grid, S dx, S dy, S* seen) const {
+        const Gradient &first = axis[a].cut[0].place, &last = axis[a].cut[axis[a].strata].place;
         const S start = first.middle + first.right * dx + first.down * dy, end = last.middle + last.right * dx + last.down * dy,
-                at = axis[a].cell[stratum] * scene.pitch, low = optics::min(start, end) - at, high = optics::max(start, end) - at;
+                at = axis[a].stratum[stratum].cell * scene.pitch, low = optics::min(start, end) - at,
+                high = optics::max(start, end) - at;
         const S range = r.to - r.from, half = S(0.5) * range / S(per_axis);
         if (!(half > 0)) return;
         const S per = S(0.5) / half, least = S(1e-3);  // where nothing is seen, all of it tells the light for the pixels beside
@@ -225,12 +238,12 @@ class BundleMaker {
     }
 
     /// Queues the rays that tell how a bundle moves.
-    void follow(Bundle& b) {
+    LFDSIM_BOTH void follow(Bundle& b) {
         for (int from = 1; from < optics::kBlockRays; ++from) {
             const int p = 3 * waiting + from - 1;
             auto shift = [&](const Axis& a) {
-                const Gradient& g = a.place[0];
-                return a.moving ? g.right * S(optics::kBlockRight[from]) + g.down * S(optics::kBlockDown[from]) : S(0);
+                const Gradient& g = a.cut[0].place;
+                return a.moving ? g.right * S(optics::block_right(from)) + g.down * S(optics::block_down(from)) : S(0);
             };
             rays.at_x[p] = block.sweep[0][from].at;
             rays.at_y[p] = block.sweep[1][from].at;
@@ -240,7 +253,7 @@ class BundleMaker {
         followed[waiting++] = &b;
         if (waiting == most_waiting) finish();
     }
-    void finish() {
+    LFDSIM_BOTH void finish() {
         if (waiting > 0) optics::trace_probes<through, F>(scene, block, rays, 3 * waiting);
         for (int k = 0; k < waiting; ++k) {
             Bundle& b = *followed[k];

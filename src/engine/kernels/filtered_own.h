@@ -10,8 +10,7 @@ namespace {
 
 /// Where a pixel's ray ends that the diffuser turns by the numbers (a, b).
 template <optics::Way through>
-__attribute__((noinline)) optics::PanelPoint<F> trace_own(const optics::Scene<S>& scene, const optics::PixelRays<F>& pixels, F a,
-                                                          F b) {
+LFDSIM_APART optics::PanelPoint<F> trace_own(const optics::Scene<S>& scene, const optics::PixelRays<F>& pixels, F a, F b) {
     return optics::trace_array<through>(scene, pixels.extent, pixels.base,
                                         optics::Ray<F>{{pixels.x, pixels.y, F(0)}, optics::scatter(scene, pixels.to, a, b)},
                                         pixels.alive);
@@ -24,9 +23,8 @@ enum class Own { all, covered, beside };
 /// Rays of the pixels' own for a stratum whose bundle is broken. One at random tells whether light gets through, unless its share
 /// is known; where two others stay with it, they tell the footprint to take the light from, else the ray's own end.
 template <optics::Way through>
-__attribute__((noinline)) void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pixels, const Span<F>& x,
-                                            const Span<F>& y, Own part, F weight, const optics::Sampler<F>& first,
-                                            optics::Light<F>& light) {
+LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pixels, const Span<F>& x, const Span<F>& y, Own part,
+                               F weight, const optics::Sampler<F>& first, optics::Light<F>& light) {
     const optics::Scene<S>& scene = *tile.scene;
     // Not handed over by value: clang's address sanitizer leaves the stack of such a call aligned to 32 bytes, whatever F's width.
     optics::Sampler<F> sampler = first;

@@ -3,9 +3,9 @@
 #include "engine/kernel.h"
 #if LFDSIM_LANES > 1
 #include "optics/simd.h"
+#else
+#include "optics/lane.h"
 #endif
-#include "optics/light.h"
-#include "optics/trace.h"
 
 namespace lfdsim {
 
@@ -21,46 +21,10 @@ using F = float;
 }  // namespace lfdsim
 
 #include "engine/kernels/filtered.h"
+#include "engine/kernels/points.h"
 
 namespace lfdsim {
 namespace {
-
-constexpr std::uint32_t kBlock = 256;  // samples summed in one go (even), so that rounding does not grow with their number
-
-template <optics::Way through>
-__attribute__((noinline)) optics::PanelHit<F> trace_one(const Tile& tile, const optics::PixelRays<F>& pixels,
-                                                        const optics::Sampler<F>& sampler) {
-    return optics::trace<through>(*tile.scene, *tile.view, pixels, sampler);
-}
-
-/// Lanes are neighbouring pixels and each adds its samples in their order, two at a time, so that no bit depends on the packet a
-/// pixel is in. The light of two samples is fetched while the next two are traced: neither then waits for the other.
-template <optics::Way through>
-LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& pixels, optics::Uint<F> pixel) {
-    optics::Sampler<F> even(tile.sampling, tile.dimensions, tile.view->seed, pixel), odd = even;
-    odd.next(*tile.directions);
-    const auto twice = optics::twice(pixels);
-    optics::Light<F> total;
-    for (std::uint32_t sample = 0; sample + 1 < tile.samples;) {
-        optics::Light<F> block;
-        optics::Fetch<F> first, second;  // of the last two samples
-        const std::uint32_t end = tile.samples - sample < kBlock ? tile.samples : sample + kBlock;
-        for (; sample + 1 < end; sample += 2) {
-            const auto hit = optics::trace<through>(*tile.scene, *tile.view, twice, optics::SamplerPair<F>{even, odd});
-            block.add(tile.texels, first, second);
-            first = optics::Fetch<F>({hit.pixel.a, hit.weight.a, hit.lit.a});
-            second = optics::Fetch<F>({hit.pixel.b, hit.weight.b, hit.lit.b});
-            even.next(*tile.directions);
-            even.next(*tile.directions);
-            odd.next(*tile.directions);
-            odd.next(*tile.directions);
-        }
-        block.add(tile.texels, first, second);
-        total.add(block);
-    }
-    if (tile.samples % 2 == 1) total.add(tile.texels, optics::Fetch<F>(trace_one<through>(tile, pixels, even)));
-    return total;
-}
 
 template <optics::Way through>
 void render_points(const Tile& tile) {

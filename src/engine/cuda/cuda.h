@@ -1,0 +1,30 @@
+// The GPUs of this machine, by CUDA: which there are, what is missing, and a queue to work on one. Floor 2.
+#pragma once
+#include "engine/wide/queue.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lfdsim::cuda {
+
+struct Gpu {
+    std::string name;  // as its maker names it
+    int major, minor;  // compute capability
+    double memory_gb;
+    std::string why_not;  // empty: it can be used
+};
+
+/// What was found, in words where something is missing: "no CUDA toolkit when lfdsim was built", "no NVIDIA driver", ...
+struct Found {
+    std::vector<Gpu> gpus;
+    std::string missing;  // empty: there is a GPU that can be used
+    std::string toolkit;  // that the kernels were compiled by; empty: none
+    std::string driver;   // newest CUDA that the driver knows; empty: no driver
+};
+Found find();
+
+/// Throws DeviceError. 0 <= gpu < find().gpus.size().
+std::unique_ptr<wide::Queue> open(int gpu);
+
+}  // namespace lfdsim::cuda

@@ -1,0 +1,200 @@
+// A GPU's queue, over the CUDA runtime, and the kernels: one for each step, way through an array and number of strata.
+#include "engine/cuda/cuda.h"
+#include "engine/wide/items.h"
+
+#include <cuda_runtime.h>
+
+#include <algorithm>
+
+namespace lfdsim::cuda {
+
+namespace {
+
+using wide::Frame;
+using wide::Step;
+
+void check(cudaError_t result, const char* doing) {
+    if (result == cudaSuccess) return;
+    cudaGetLastError();  // taken note of
+    throw wide::DeviceError(std::string("the GPU failed while ") + doing + ": " + cudaGetErrorString(result));
+}
+
+constexpr int kThreads = 128;  // a thread block's
+
+template <Step step, optics::Way through, bool simple>
+__global__ void __launch_bounds__(kThreads) step_kernel(const __grid_constant__ Frame frame, std::int64_t items) {
+    const std::int64_t i = std::int64_t(blockIdx.x) * kThreads + threadIdx.x;
+    if (i < items) wide::item<step, through, simple>(frame, i);
+}
+
+std::string text(int version) { return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10); }
+
+class CudaQueue : public wide::Queue {
+  public:
+    explicit CudaQueue(int gpu) : gpu_(gpu) {
+        use();
+        cudaDeviceProp properties;
+        check(cudaGetDeviceProperties(&properties, gpu), "reading its properties");
+        name_ = "cuda:" + std::to_string(gpu) + ", " + properties.name;
+#ifdef LFDSIM_CUDA_FMAD
+        name_ += ", contracted";
+#endif
+        resident_threads_ = std::size_t(properties.multiProcessorCount) * std::size_t(properties.maxThreadsPerMultiProcessor);
+        check(cudaStreamCreateWithFlags(&steps_, cudaStreamNonBlocking), "making a stream");
+        check(cudaEventCreate(&begun_), "making an event");
+        check(cudaEventCreate(&ended_), "making an event");
+    }
+    ~CudaQueue() override {
+        cudaSetDevice(gpu_);
+        cudaEventDestroy(begun_);
+        cudaEventDestroy(ended_);
+        cudaStreamDestroy(steps_);
+    }
+
+    std::string name() const override { return name_; }
+
+    std::size_t free_bytes() override {
+        use();
+        std::size_t free = 0, all = 0;
+        check(cudaMemGetInfo(&free, &all), "asking for its free memory");
+        // Threads keep what registers do not hold in memory that is taken when a kernel first runs.
+        static const std::size_t stack = largest_stack();
+        const std::size_t stacks = resident_threads_ * stack;
+        return free > stacks ? free - stacks : 0;
+    }
+    void* allocate(std::size_t bytes) override {
+        use();
+        void* memory = nullptr;
+        check(cudaMalloc(&memory, std::max<std::size_t>(bytes, 1)),
+              ("taking " + std::to_string(bytes >> 20) + " MB of memory").c_str());
+        return memory;
+    }
+    void release(void* memory) noexcept override {
+        cudaSetDevice(gpu_);
+        cudaFree(memory);
+    }
+
+    void clear(void* memory, std::size_t bytes) override {
+        use();
+        check(cudaMemsetAsync(memory, 0, bytes, steps_), "clearing memory");
+    }
+    void upload(void* to, const void* from, std::size_t bytes) override {
+        use();
+        check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, steps_), "sending data to it");
+        check(cudaStreamSynchronize(steps_), "sending data to it");
+    }
+    void download(void* to, const void* from, std::size_t bytes) override {
+        use();
+        check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, steps_), "fetching the picture");
+        check(cudaStreamSynchronize(steps_), "rendering");
+    }
+
+    void run(Step step, const Frame& frame, std::int64_t items) override {
+        if (items <= 0) return;
+        use();
+        if (!timing_) check(cudaEventRecord(begun_, steps_), "starting work");
+        timing_ = true;
+        wide::choose_item(step, frame, [&]<Step s, optics::Way way, bool simple>() {
+            step_kernel<s, way, simple><<<unsigned((items + kThreads - 1) / kThreads), kThreads, 0, steps_>>>(frame, items);
+        });
+        check(cudaGetLastError(), "starting work");
+    }
+    double seconds() override {
+        use();
+        if (timing_) {
+            check(cudaEventRecord(ended_, steps_), "ending work");
+            check(cudaEventSynchronize(ended_), "rendering");
+            float milliseconds = 0;
+            check(cudaEventElapsedTime(&milliseconds, begun_, ended_), "reading its clock");
+            seconds_ += milliseconds * 1e-3;
+            timing_ = false;
+        }
+        return seconds_;
+    }
+
+    std::size_t block_bytes(int most) const override { return wide::BlockLayout(most).end; }
+    std::size_t even_bytes() const override { return sizeof(EvenCuts); }
+    int places_per_axis(const Tile& tile) const override { return lfdsim::places_per_axis(tile); }
+
+  private:
+    void use() { check(cudaSetDevice(gpu_), "choosing it"); }
+
+    // Bytes of local memory a thread of the greediest kernel.
+    static std::size_t largest_stack() {
+        std::size_t most = 0;
+        auto look = [&]<Step s, optics::Way way, bool simple>() {
+            cudaFuncAttributes attributes;
+            check(cudaFuncGetAttributes(&attributes, step_kernel<s, way, simple>), "reading a kernel's needs");
+            most = std::max(most, attributes.localSizeBytes);
+        };
+        auto look_at_way = [&]<optics::Way way>() {
+            look.template operator()<Step::points, way, true>();
+            look.template operator()<Step::points, way, false>();
+            look.template operator()<Step::bundles, way, true>();
+            look.template operator()<Step::pixels, way, true>();
+            look.template operator()<Step::pixels, way, false>();
+        };
+        look_at_way.template operator()<optics::Way::plano_convex>();
+        look_at_way.template operator()<optics::Way::opaque>();
+        look_at_way.template operator()<optics::Way::ideal>();
+        look_at_way.template operator()<optics::Way::glass>();
+        return most;
+    }
+
+    const int gpu_;
+    std::string name_;
+    std::size_t resident_threads_ = 0;
+    cudaStream_t steps_{};
+    cudaEvent_t begun_{}, ended_{};
+    bool timing_ = false;
+    double seconds_ = 0;
+};
+
+}  // namespace
+
+Found find() {
+    Found found;
+    found.toolkit = text(CUDART_VERSION);
+    int version = 0;
+    if (cudaDriverGetVersion(&version) == cudaSuccess && version > 0) found.driver = text(version);
+    int count = 0;
+    const cudaError_t result = cudaGetDeviceCount(&count);
+    cudaGetLastError();
+    if (found.driver.empty()) {
+        found.missing = "no NVIDIA driver was found; a GPU needs one that knows CUDA " + found.toolkit;
+    } else if (result == cudaErrorInsufficientDriver) {
+        found.missing =
+            "the NVIDIA driver is too old: it knows CUDA " + found.driver + ", " + found.toolkit + " is needed; update it";
+    } else if (result == cudaErrorNoDevice || (result == cudaSuccess && count == 0)) {
+        found.missing = "there is a driver, but no GPU that it shows; CUDA_VISIBLE_DEVICES may hide them";
+    } else if (result != cudaSuccess) {
+        found.missing = std::string("the NVIDIA driver answers: ") + cudaGetErrorString(result);
+    }
+    if (!found.missing.empty()) return found;
+    bool any = false;
+    for (int k = 0; k < count; ++k) {
+        cudaDeviceProp p;
+        if (cudaGetDeviceProperties(&p, k) != cudaSuccess) {
+            cudaGetLastError();
+            found.gpus.push_back({"?", 0, 0, 0, "it does not tell its properties"});
+            continue;
+        }
+        Gpu gpu{p.name, p.major, p.minor, double(p.totalGlobalMem) * 1e-9, ""};
+        // Is there code in this binary that it runs?
+        cudaFuncAttributes attributes;
+        const bool works = cudaSetDevice(k) == cudaSuccess &&
+                           cudaFuncGetAttributes(&attributes, step_kernel<Step::even, optics::Way::ideal, true>) == cudaSuccess;
+        cudaGetLastError();
+        if (!works)
+            gpu.why_not = "compute capability " + std::to_string(p.major) + "." + std::to_string(p.minor) +
+                          "; this lfdsim holds code for 7.5 and newer";
+        any = any || works;
+        found.gpus.push_back(gpu);
+    }
+    if (!any) found.missing = "no GPU here can be used: " + found.gpus.front().name + ": " + found.gpus.front().why_not;
+    return found;
+}
+
+std::unique_ptr<wide::Queue> open(int gpu) { return std::make_unique<CudaQueue>(gpu); }
+
+}  // namespace lfdsim::cuda

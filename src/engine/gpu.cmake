@@ -1,0 +1,41 @@
+# The GPU's kernels, where a CUDA toolkit is found that can compile them. One binary then serves machines with a GPU and without: the
+# runtime is linked statically, and it looks for the driver when it is first called.
+target_sources(lfdsim_engine PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/engine/wide/render.cpp)
+
+option(LFDSIM_CUDA "GPU kernels, where there is a CUDA toolkit" ON)
+option(LFDSIM_CUDA_FMAD "GPU: contract products and sums; faster, and not the CPU's bits" OFF)
+set(LFDSIM_CUDA_STATE "none: switched off (LFDSIM_CUDA)")
+if(LFDSIM_CUDA)
+  if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
+    set(CMAKE_CUDA_ARCHITECTURES 75-real 86-real 90)  # newer ones are compiled from the last one's PTX by the driver
+  endif()
+  include(CheckLanguage)
+  check_language(CUDA)
+  set(LFDSIM_CUDA_STATE "none: no CUDA toolkit (nvcc)")
+  if(CMAKE_CUDA_COMPILER)
+    enable_language(CUDA)
+    if(NOT CMAKE_CUDA20_STANDARD_COMPILE_OPTION)  # CMake 3.25 does not know that nvcc has it
+      set(CMAKE_CUDA20_STANDARD_COMPILE_OPTION -std=c++20)
+    endif()
+    set(LFDSIM_CUDA_STATE "CUDA ${CMAKE_CUDA_COMPILER_VERSION}")
+    if(CMAKE_CUDA_COMPILER_VERSION VERSION_LESS 12.1)  # C++20, and kernels with arguments of more than 4 KB
+      set(LFDSIM_CUDA_STATE "none: CUDA ${CMAKE_CUDA_COMPILER_VERSION} is too old, 12.1 is needed")
+    endif()
+  endif()
+endif()
+set(LFDSIM_CUDA_STATE "${LFDSIM_CUDA_STATE}" CACHE INTERNAL "which toolkit the GPU's kernels are compiled by")
+message(STATUS "GPU kernels: ${LFDSIM_CUDA_STATE}")
+
+if(LFDSIM_CUDA_STATE MATCHES "^CUDA")
+  add_library(lfdsim_cuda OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/engine/cuda/queue.cu)
+  target_include_directories(lfdsim_cuda PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  target_compile_definitions(lfdsim_cuda PRIVATE LFDSIM_ISA=cuda $<$<BOOL:${LFDSIM_CUDA_FMAD}>:LFDSIM_CUDA_FMAD>)
+  set_target_properties(lfdsim_cuda PROPERTIES CUDA_RUNTIME_LIBRARY Static CUDA_STANDARD 20 CUDA_STANDARD_REQUIRED ON)
+  target_compile_options(lfdsim_cuda PRIVATE
+    --fmad=$<IF:$<BOOL:${LFDSIM_CUDA_FMAD}>,true,false> -Xcompiler=-ffp-contract=off --threads=0)
+  target_sources(lfdsim_engine PRIVATE $<TARGET_OBJECTS:lfdsim_cuda>)
+  find_package(CUDAToolkit REQUIRED)
+  target_link_libraries(lfdsim_engine PRIVATE CUDA::cudart_static)
+else()
+  target_sources(lfdsim_engine PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/engine/cuda/absent.cpp)
+endif()

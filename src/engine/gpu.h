@@ -1,0 +1,39 @@
+// Rendering on the GPUs that this process uses. Floor 2.
+#pragma once
+#include "engine/cuda/cuda.h"
+#include "engine/devices.h"
+#include "engine/kernel.h"
+#include "engine/pyramid.h"
+#include "engine/wide/render.h"
+#include "engine/work.h"
+#include "model/job.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lfdsim {
+
+/// What cuda::find() said when first asked: looking takes a while.
+const cuda::Found& found_gpus();
+
+struct GpuRun {
+    std::string name;
+    double seconds;  // by the GPU's clock
+    Done done;
+};
+
+/// Renders on the chosen GPU; the panel stays there as long as `pyramid`, where one is given. Nothing: it failed or does not fit,
+/// and the CPU shall do it. Throws InputError where it does not fit, DeviceError where it failed, if the user insists on the GPU.
+/// One picture at a time.
+std::optional<GpuRun> render_on_gpu(const ChosenDevice&, const Pyramid* pyramid, const std::vector<optics::PanelLevel>&, Work&,
+                                    Job&);
+
+/// A panel's copies on GPUs, by number.
+class GpuPanels {
+  public:
+    std::map<int, wide::Panel> panels;
+};
+
+}  // namespace lfdsim

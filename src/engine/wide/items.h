@@ -1,0 +1,213 @@
+// The items of each step, for one lane a thread. The work itself is that of the CPU's kernels: engine/kernels, optics. Floor 2.
+// Compiled as CUDA (engine/cuda) and, to test it anywhere, for the host.
+#pragma once
+#ifndef LFDSIM_LANES
+#define LFDSIM_LANES 1
+#endif
+#include "engine/wide/frame.h"
+#include "optics/lane.h"
+
+namespace lfdsim {
+namespace {
+using F = float;
+}
+}  // namespace lfdsim
+
+#include "engine/kernels/filtered_block.h"
+#include "engine/kernels/points.h"
+
+namespace lfdsim::wide {
+
+namespace {
+
+LFDSIM_FN Tile tile_of(const Frame& frame) {
+    Tile tile = frame.tile;
+    tile.scene = &frame.scene;
+    tile.view = &frame.view;
+    tile.directions = &frame.directions;
+    return tile;
+}
+
+struct Pixel {
+    std::int32_t x, y;
+};
+
+LFDSIM_FN Pixel corner_of(const Frame& frame, std::int64_t block) {
+    const std::int64_t number = frame.first_block + block;
+    if (frame.listed) return {frame.listed[number].x, frame.listed[number].y};
+    return {std::int32_t(frame.first_column + number % frame.columns) * frame.tile.block_side,
+            std::int32_t(frame.first_row + number / frame.columns) * frame.tile.block_side};
+}
+
+/// Pixel k of a block: those of 32 threads that run together lie in 8 x 4 pixels (4 x 4 in the smallest blocks).
+LFDSIM_FN Pixel pixel_of(int side, int k) {
+    const int wide = optics::min(side, 8), part = k / (wide * 4), in = k % (wide * 4), across = side / wide;
+    return {part % across * wide + in % wide, part / across * 4 + in / wide};
+}
+
+/// Where the light of pixel (x, y), in the block, goes; nullptr: it is not wanted.
+LFDSIM_FN float* output(const Frame& frame, std::int64_t block, std::int32_t x, std::int32_t y) {
+    const Tile& tile = frame.tile;
+    const bool wanted = x >= tile.x0 && x < tile.x1 && y >= tile.y0 && y < tile.y1;
+    if (!wanted) return nullptr;
+    if (!frame.listed) return tile.out + (std::int64_t(y - tile.crop_y) * tile.crop_width + (x - tile.crop_x)) * 3;
+    const std::int64_t square = frame.listed[frame.first_block + block].square;
+    return tile.out + ((square * kSquare + y % kSquare) * kSquare + x % kSquare) * 3;
+}
+
+/// The memory of a block that is cut into at most `most` strata an axis.
+struct BlockLayout {
+    std::size_t light, sharp, cut, stratum, bundles, end;
+
+    LFDSIM_FN explicit BlockLayout(int most) {
+        const std::size_t n = std::size_t(most), sharps = most <= kFewStrata + kMoreStrata ? 2 * n * n : 0;
+        light = (sizeof(BlockState) + 15) / 16 * 16;
+        sharp = light + sizeof(S[kMostLanes][4]);
+        cut = sharp + sharps * sizeof(Sharp);
+        stratum = cut + 2 * (n + 1) * sizeof(Cut);
+        bundles = (stratum + 2 * n * sizeof(Stratum) + 15) / 16 * 16;
+        end = (bundles + n * n * sizeof(Bundles) + 127) / 128 * 128;
+    }
+};
+
+LFDSIM_FN int most_strata(const Tile& tile) { return tile.strata + kMoreStrata; }
+
+LFDSIM_FN BlockState& state_of(const Frame& frame, std::int64_t block) {
+    return *reinterpret_cast<BlockState*>(frame.memory + std::size_t(block) * frame.bytes_per_block);
+}
+
+template <optics::Way through, bool pinhole>
+LFDSIM_FN void point_item(const Frame& frame, std::int64_t i) {
+    const Tile tile = tile_of(frame);
+    const int pixels = tile.block_side * tile.block_side;
+    const Pixel corner = corner_of(frame, i / pixels), in = pixel_of(tile.block_side, int(i % pixels));
+    const std::int32_t x = corner.x + in.x, y = corner.y + in.y;
+    float* const out = output(frame, i / pixels, x, y);
+    if (!out) return;
+    const std::uint32_t number = std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x);
+    const optics::Light<F> light = gather<through, pinhole>(tile, optics::pixel_rays<F>(*tile.view, x, y), number);
+    for (int c = 0; c < 3; ++c) out[c] = light(0, c) / float(tile.samples);
+}
+
+LFDSIM_FN void even_item(const Frame& frame, std::int64_t i) {
+    EvenCuts& even = *static_cast<EvenCuts*>(frame.even);
+    even.strata = frame.tile.strata;
+    even.set(frame.scene, int(i));
+}
+
+template <optics::Way through>
+LFDSIM_FN void block_item(const Frame& frame, std::int64_t i) {
+    const Tile tile = tile_of(frame);
+    BlockState& state = state_of(frame, i);
+    std::byte* const at = reinterpret_cast<std::byte*>(&state);
+    const int most = most_strata(tile);
+    const BlockLayout layout(most);
+    state.light = reinterpret_cast<S(*)[4]>(at + layout.light);
+    state.sharp = reinterpret_cast<Sharp*>(at + layout.sharp);
+    for (int a = 0; a < 2; ++a) {
+        state.axis[a].cut = reinterpret_cast<Cut*>(at + layout.cut) + a * (most + 1);
+        state.axis[a].stratum = reinterpret_cast<Stratum*>(at + layout.stratum) + a * most;
+    }
+    state.bundles = reinterpret_cast<Bundles*>(at + layout.bundles);
+    const Pixel corner = corner_of(frame, i);
+    BlockWork<through>(tile, state).begin(*static_cast<const EvenCuts*>(frame.even), corner.x, corner.y);
+}
+
+template <optics::Way through>
+LFDSIM_FN void bundle_item(const Frame& frame, std::int64_t i) {
+    const Tile tile = tile_of(frame);
+    const int each = most_strata(tile) * most_strata(tile);
+    BlockWork<through> work(tile, state_of(frame, i / each));
+    if (int(i % each) < work.strata()) work.make_bundle(int(i % each));
+}
+
+template <optics::Way through>
+LFDSIM_FN void survey_item(const Frame& frame, std::int64_t i) {
+    const Tile tile = tile_of(frame);
+    BlockWork<through>(tile, state_of(frame, i)).survey();
+}
+
+template <optics::Way through>
+LFDSIM_FN void place_item(const Frame& frame, std::int64_t i) {
+    const Tile tile = tile_of(frame);
+    const int each = places_per_axis(tile) * places_per_axis(tile);
+    BlockWork<through>(tile, state_of(frame, i / each)).template look_at_places<kFewStrata + kMoreStrata>(int(i % each));
+}
+
+template <optics::Way through, int most>
+LFDSIM_FN void pixel_item(const Frame& frame, std::int64_t i) {
+    const Tile tile = tile_of(frame);
+    const int side = tile.block_side;
+    BlockState& state = state_of(frame, i / (side * side));
+    const Pixel in = pixel_of(side, int(i % (side * side)));
+    float* const out = output(frame, i / (side * side), state.x0 + in.x, state.y0 + in.y);
+    if (!out) return;
+    S light[4] = {};
+    if (state.any_soft) {
+        const S per = S(1) / S(kPlaceStep), s = (S(in.x % kPlaceStep) + S(0.5)) * per, t = (S(in.y % kPlaceStep) + S(0.5)) * per;
+        const S(*const upper)[4] = state.light + in.y / kPlaceStep * state.per_axis + in.x / kPlaceStep;
+        const S(*const lower)[4] = upper + state.per_axis;
+        for (int c = 0; c < 3; ++c)
+            light[c] = between_places(between_places(upper[0][c], lower[0][c], t), between_places(upper[1][c], lower[1][c], t), s);
+    }
+    if (state.sharps > 0 || state.any_alone) {
+        S found[4];
+        BlockWork<through>(tile, state)
+            .template look_from<most>(state.x0 + in.x, state.y0 + in.y)
+            .store(found, state.per_axis == 0);
+        for (int c = 0; c < 3; ++c) light[c] = light[c] + found[c];
+    }
+    for (int c = 0; c < 3; ++c) out[c] = light[c];
+}
+
+/// Item i of a step. `simple`: points of a pinhole camera; pixels with few strata.
+template <Step step, optics::Way through, bool simple>
+LFDSIM_FN void item(const Frame& frame, std::int64_t i) {
+    if constexpr (step == Step::points) point_item<through, simple>(frame, i);
+    if constexpr (step == Step::even) even_item(frame, i);
+    if constexpr (step == Step::blocks) block_item<through>(frame, i);
+    if constexpr (step == Step::bundles) bundle_item<through>(frame, i);
+    if constexpr (step == Step::survey) survey_item<through>(frame, i);
+    if constexpr (step == Step::places) place_item<through>(frame, i);
+    if constexpr (step == Step::pixels) pixel_item<through, simple ? kFewStrata + kMoreStrata : kMostStrata>(frame, i);
+}
+
+/// do_it.template run<step, way, simple>() for the step and the frame at hand: what differs is compiled apart.
+template <class Do>
+void choose_item(Step step, const Frame& frame, Do do_it) {
+    const optics::Way way = optics::way_through(frame.scene);
+    auto by_way = [&]<Step s, bool simple>() {
+        switch (way) {
+            case optics::Way::plano_convex:
+                return do_it.template operator()<s, optics::Way::plano_convex, simple>();
+            case optics::Way::opaque:
+                return do_it.template operator()<s, optics::Way::opaque, simple>();
+            case optics::Way::ideal:
+                return do_it.template operator()<s, optics::Way::ideal, simple>();
+            case optics::Way::glass:
+                return do_it.template operator()<s, optics::Way::glass, simple>();
+        }
+    };
+    switch (step) {
+        case Step::points:
+            return frame.scene.box_filter || frame.scene.thin_lens ? by_way.template operator()<Step::points, false>()
+                                                                   : by_way.template operator()<Step::points, true>();
+        case Step::even:  // the same for every way
+            return do_it.template operator()<Step::even, optics::Way::ideal, true>();
+        case Step::blocks:
+            return do_it.template operator()<Step::blocks, optics::Way::ideal, true>();
+        case Step::bundles:
+            return by_way.template operator()<Step::bundles, true>();
+        case Step::survey:
+            return do_it.template operator()<Step::survey, optics::Way::ideal, true>();
+        case Step::places:
+            return do_it.template operator()<Step::places, optics::Way::ideal, true>();
+        case Step::pixels:
+            return frame.tile.strata <= kFewStrata ? by_way.template operator()<Step::pixels, true>()
+                                                   : by_way.template operator()<Step::pixels, false>();
+    }
+}
+
+}  // namespace
+
+}  // namespace lfdsim::wide

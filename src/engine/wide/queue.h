@@ -1,0 +1,62 @@
+// What a wide machine does for the renderer: memory, transfers, steps. Floor 2.
+#pragma once
+#include "engine/wide/frame.h"
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace lfdsim::wide {
+
+/// Work is done in the order in which it is handed over; steps do not keep the caller waiting. Functions throw DeviceError where
+/// the machine fails. To be used by one thread at a time.
+class Queue {
+  public:
+    virtual ~Queue() = default;
+
+    /// The machine's name, as in "cuda:0, NVIDIA H100".
+    virtual std::string name() const = 0;
+
+    /// Bytes that can be had, less what the steps may need for their stacks.
+    virtual std::size_t free_bytes() = 0;
+    /// Throws DeviceError where there are not so many.
+    virtual void* allocate(std::size_t bytes) = 0;
+    virtual void release(void*) noexcept = 0;
+
+    /// Sets all bytes to zero.
+    virtual void clear(void*, std::size_t bytes) = 0;
+    /// Waits until `from` may be changed.
+    virtual void upload(void* to, const void* from, std::size_t bytes) = 0;
+    /// What was there when all that is handed over so far is done. Waits for that and no later work.
+    virtual void download(void* to, const void* from, std::size_t bytes) = 0;
+
+    virtual void run(Step, const Frame&, std::int64_t items) = 0;
+    /// Seconds that the steps have taken on the machine so far, by its own clock. Waits for all of them.
+    virtual double seconds() = 0;
+
+    /// What the items take for granted: memory of a block that is cut into at most so many strata an axis, and of the even cuts;
+    /// places along an axis of a block.
+    virtual std::size_t block_bytes(int most_strata) const = 0;
+    virtual std::size_t even_bytes() const = 0;
+    virtual int places_per_axis(const Tile&) const = 0;
+};
+
+/// The machine failed, or lacks memory.
+class DeviceError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Memory of a queue's machine.
+template <class T>
+class Buffer {
+  public:
+    Buffer() = default;
+    Buffer(Queue& queue, std::size_t count) : memory_(queue.allocate(count * sizeof(T)), [&queue](void* p) { queue.release(p); }) {}
+    T* get() const { return static_cast<T*>(memory_.get()); }
+
+  private:
+    std::shared_ptr<void> memory_;
+};
+
+}  // namespace lfdsim::wide

@@ -1,0 +1,211 @@
+#include "engine/wide/render.h"
+
+#include "engine/refine.h"
+
+#include <algorithm>
+
+namespace lfdsim::wide {
+
+namespace {
+
+constexpr std::size_t kBlockMemory = std::size_t(256) << 20;  // for the blocks at hand: enough of them to fill any machine
+constexpr std::int64_t kMostPoints = std::int64_t(1) << 31;   // of one step: a fraction of a second, after which Ctrl-C is heard
+constexpr int kPointSide = 16;
+
+/// Works off blocks, a part of them at a time.
+class Renderer {
+  public:
+    Renderer(Queue& queue, const Panel& panel, const Tile& tile) : queue_(queue) {
+        frame_.scene = *tile.scene;
+        frame_.view = *tile.view;
+        frame_.directions = *tile.directions;
+        frame_.tile = tile;
+        frame_.tile.texels = panel.texels();
+        frame_.tile.levels = panel.levels();
+    }
+    Frame& frame() { return frame_; }
+
+    /// All blocks of the tile's rectangle, after(n) after each n pixels or so of them; false: that said so before the last.
+    template <class After>
+    bool run_all(After after) {
+        prepare();
+        const int side = frame_.tile.block_side;
+        const Tile& t = frame_.tile;
+        frame_.listed = nullptr;
+        frame_.first_column = t.x0 / side;
+        frame_.first_row = t.y0 / side;
+        frame_.columns = (t.x1 - 1) / side + 1 - frame_.first_column;
+        return run(std::int64_t(frame_.columns) * ((t.y1 - 1) / side + 1 - frame_.first_row), after);
+    }
+
+    /// The blocks of whole squares of the frame.
+    void run_listed(const std::vector<RefinedBlock>& squares) {
+        prepare();
+        static_assert(kSquare == kRefinedSide);
+        const int side = frame_.tile.block_side;
+        std::vector<ListedBlock> all;
+        for (std::size_t k = 0; k < squares.size(); ++k)
+            for (int y = 0; y < kSquare; y += side)
+                for (int x = 0; x < kSquare; x += side) all.push_back({squares[k].x + x, squares[k].y + y, std::int32_t(k)});
+        if (all.size() > listed_room_) {
+            listed_ = Buffer<ListedBlock>(queue_, all.size());
+            listed_room_ = all.size();
+        }
+        queue_.upload(listed_.get(), all.data(), all.size() * sizeof(ListedBlock));
+        frame_.listed = listed_.get();
+        run(std::int64_t(all.size()), [](std::int64_t) { return true; });
+    }
+
+  private:
+    void prepare() {
+        Tile& t = frame_.tile;
+        if (t.strata == 0) {
+            t.block_side = kPointSide;
+            return;
+        }
+        const int most = t.strata + kMoreStrata;
+        frame_.bytes_per_block = queue_.block_bytes(most);
+        if (!memory_.get()) {
+            even_ = Buffer<std::byte>(queue_, queue_.even_bytes());
+            memory_bytes_ = std::max(queue_.block_bytes(kMostStrata), kBlockMemory);
+            memory_ = Buffer<std::byte>(queue_, memory_bytes_);
+        }
+        frame_.even = even_.get();
+        frame_.memory = memory_.get();
+        queue_.run(Step::even, frame_, t.strata + 1);
+    }
+
+    template <class After>
+    bool run(std::int64_t blocks, After after) {
+        const Tile& t = frame_.tile;
+        const std::int64_t pixels = std::int64_t(t.block_side) * t.block_side;
+        const std::int64_t at_once = t.strata == 0 ? std::max<std::int64_t>(kMostPoints / (pixels * std::max(t.samples, 1u)), 1)
+                                                   : std::int64_t(memory_bytes_ / frame_.bytes_per_block);
+        for (std::int64_t first = 0; first < blocks; first += at_once) {
+            const std::int64_t count = std::min(at_once, blocks - first);
+            frame_.first_block = first;
+            t.strata == 0 ? queue_.run(Step::points, frame_, count * pixels) : run_filtered(count, pixels);
+            if (!after(count * pixels) && first + count < blocks) return false;
+        }
+        return true;
+    }
+
+    void run_filtered(std::int64_t blocks, std::int64_t pixels) {
+        const Tile& t = frame_.tile;
+        const std::int64_t most = t.strata + kMoreStrata;
+        queue_.run(Step::blocks, frame_, blocks);
+        queue_.run(Step::bundles, frame_, blocks * most * most);
+        queue_.run(Step::survey, frame_, blocks);
+        if (const std::int64_t places = queue_.places_per_axis(t)) queue_.run(Step::places, frame_, blocks * places * places);
+        queue_.run(Step::pixels, frame_, blocks * pixels);
+    }
+
+    Queue& queue_;
+    Frame frame_{};
+    Buffer<std::byte> even_, memory_;
+    std::size_t memory_bytes_ = 0, listed_room_ = 0;
+    Buffer<ListedBlock> listed_;
+};
+
+/// Squares for refine_tile, as many as it likes.
+class Painter : public BlockPainter {
+  public:
+    Painter(Queue& queue, Renderer& renderer) : queue_(queue), renderer_(renderer) {
+        Tile& t = renderer_.frame().tile;  // whole squares, whatever the crop
+        t.x0 = t.y0 = 0;
+        t.x1 = t.view->width;
+        t.y1 = t.view->height;
+        side_ = t.block_side;
+    }
+    void paint(const std::vector<RefinedBlock>& squares, int strata, std::uint32_t points, std::uint64_t seed,
+               std::vector<RefinedPicture>& pictures) override {
+        Frame& frame = renderer_.frame();
+        if (pictures.size() > room_) out_ = Buffer<RefinedPicture>(queue_, room_ = pictures.size());
+        queue_.upload(out_.get(), pictures.data(), pictures.size() * sizeof(RefinedPicture));
+        frame.tile.out = reinterpret_cast<float*>(out_.get());
+        frame.tile.strata = strata;
+        frame.tile.samples = points;
+        frame.tile.block_side = side_;
+        frame.view.seed = seed;
+        renderer_.run_listed(squares);
+        queue_.download(pictures.data(), out_.get(), pictures.size() * sizeof(RefinedPicture));
+    }
+
+  private:
+    Queue& queue_;
+    Renderer& renderer_;
+    int side_;
+    Buffer<RefinedPicture> out_;
+    std::size_t room_ = 0;
+};
+
+/// A row of squares at a time, some thousands: each takes 30 KB of the caller's memory.
+Done render_refined(Queue& queue, Renderer& renderer, const Tile& tile, double target, float* error, Job& job) {
+    constexpr std::int64_t at_once = 4096;
+    const std::int64_t columns = (tile.x1 - tile.x0) / kRefinedSide + 2;
+    const int rows = int(std::max<std::int64_t>(at_once / columns, 1)) * kRefinedSide;
+    Painter painter(queue, renderer);
+    std::int64_t samples = 0;
+    Tile part = tile;
+    for (int y = tile.y0 / kRefinedSide * kRefinedSide; y < tile.y1; y += rows) {
+        part.y0 = std::max(y, tile.y0);
+        part.y1 = std::min(y + rows, tile.y1);
+        const auto taken = refine_tile(painter, part, target, error, job);
+        if (!taken) return {samples, false};
+        samples += *taken;
+        job.advance(std::int64_t(part.x1 - part.x0) * (part.y1 - part.y0));
+    }
+    return {samples, true};
+}
+
+}  // namespace
+
+Panel::Panel(Queue& queue, const std::vector<optics::PanelLevel>& levels) {
+    std::vector<optics::PanelLevel> there = levels;
+    for (optics::PanelLevel& level : there) {
+        const std::size_t count = std::size_t(level.columns) * level.rows * 4;
+        each_.emplace_back(queue, count);
+        queue.upload(each_.back().get(), level.texels, count * sizeof(float));
+        level.texels = each_.back().get();
+    }
+    texels_ = there[0].texels;
+    levels_ = Buffer<optics::PanelLevel>(queue, there.size());
+    queue.upload(levels_.get(), there.data(), there.size() * sizeof there[0]);
+}
+
+std::size_t Panel::bytes(const std::vector<optics::PanelLevel>& levels) {
+    std::size_t all = 0;
+    for (const optics::PanelLevel& level : levels) all += std::size_t(level.columns) * level.rows * 4 * sizeof(float);
+    return all;
+}
+
+std::size_t picture_bytes(const Queue& queue, const Tile& tile) {
+    const std::size_t picture = std::size_t(tile.x1 - tile.x0) * std::size_t(tile.y1 - tile.y0) * 3 * sizeof(float);
+    return picture + (tile.strata > 0 ? std::max(queue.block_bytes(kMostStrata), kBlockMemory) : 0);
+}
+
+Done render(Queue& queue, const Panel& panel, const Tile& tile, std::optional<double> target_error, float* error, Job& job) {
+    Renderer renderer(queue, panel, tile);
+    if (target_error) return render_refined(queue, renderer, tile, *target_error, error, job);
+    const std::size_t count = std::size_t(tile.x1 - tile.x0) * std::size_t(tile.y1 - tile.y0) * 3;
+    const Buffer<float> out(queue, count);
+    queue.clear(out.get(), count * sizeof(float));  // what is not finished is black
+    Frame& frame = renderer.frame();
+    frame.tile.out = out.get();
+    frame.tile.crop_x = tile.x0;
+    frame.tile.crop_y = tile.y0;
+    frame.tile.crop_width = tile.x1 - tile.x0;
+    const std::int64_t pixels = std::int64_t(tile.x1 - tile.x0) * (tile.y1 - tile.y0);
+    std::int64_t told = 0;
+    const bool complete = renderer.run_all([&](std::int64_t done) {
+        done = std::min(done, pixels - told);  // blocks reach beyond the tile
+        told += done;
+        if (told < pixels) queue.seconds();  // keeps the caller from running far ahead of the machine
+        job.advance(done);
+        return !job.cancelled();
+    });
+    queue.download(tile.out, out.get(), count * sizeof(float));
+    return {told * (tile.strata > 0 ? std::int64_t(tile.strata) * tile.strata : std::int64_t(tile.samples)), complete};
+}
+
+}  // namespace lfdsim::wide

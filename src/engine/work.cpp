@@ -1,0 +1,72 @@
+#include "engine/work.h"
+
+#include "engine/scene.h"
+
+#include <fmt/format.h>
+#include <cmath>
+
+namespace lfdsim {
+
+namespace {
+
+Rect checked_crop(const std::optional<Rect>& crop, const Camera& camera) {
+    const int width = int(camera.resolution[0]), height = int(camera.resolution[1]);
+    const Rect r = crop.value_or(Rect{0, 0, width, height});
+    if (r.x0 < 0 || r.y0 < 0 || r.x1 > width || r.y1 > height || r.x0 >= r.x1 || r.y0 >= r.y1) {
+        throw InputError(
+            "--crop", fmt::format("{},{},{},{} is no part of the frame of {} x {} pixels; give X0,Y0,X1,Y1 with 0 <= X0 < X1 <= {} "
+                                  "and 0 <= Y0 < Y1 <= {}",
+                                  r.x0, r.y0, r.x1, r.y1, width, height, width, height));
+    }
+    return r;
+}
+
+}  // namespace
+
+Work::Work(const Display& display, const Geometry& geometry, const std::vector<optics::PanelLevel>& levels,
+           const RenderOptions& options) {
+    if (levels[0].columns != display.panel.pixels[0] || levels[0].rows != display.panel.pixels[1]) {
+        throw InputError("panel image", fmt::format("{} x {} pixels; the panel has {} x {}", levels[0].columns, levels[0].rows,
+                                                    display.panel.pixels[0], display.panel.pixels[1]));
+    }
+    if (options.target_error && !(*options.target_error > 0 && std::isfinite(*options.target_error)))
+        throw InputError("--target-error", fmt::format("{}; allowed: more than 0", *options.target_error));
+    const Rect crop = checked_crop(options.crop, display.camera);
+    scene = make_scene<float>(display, geometry);
+    view = make_view(display, geometry);
+    const int dimensions = sample_dimensions(display);
+    const std::int64_t samples = samples_of(display);
+
+    result.estimator = estimator_of(display);
+    const bool filtered = result.estimator == Estimator::filtered;
+    const int strata = filtered ? int(std::lround(std::sqrt(double(samples)))) : 0;
+    constexpr std::int64_t most = (kMostStrata - kMoreStrata) * (kMostStrata - kMoreStrata);
+    if (filtered && samples > most)
+        throw InputError("render.samples",
+                         fmt::format("{}; at most {} filtered samples, or use the estimator \"point\"", samples, most));
+    result.image = Image(crop.x1 - crop.x0, crop.y1 - crop.y0);
+    if (options.target_error) result.error = Image(result.image.width, result.image.height);
+    if (dimensions > 0) target_error = options.target_error;
+
+    tile = {&scene,
+            &view,
+            &sobol_directions(),
+            levels[0].texels,
+            levels.data(),
+            int(levels.size()),
+            result.image.rgb.data(),
+            crop.x0,
+            crop.y0,
+            result.image.width,
+            crop.x0,
+            crop.y0,
+            crop.x1,
+            crop.y1,
+            std::uint32_t(samples),
+            strata,
+            block_side(scene, view, target_error ? 2 * kFewStrata : strata, options.rough),
+            display.render.sampling,
+            dimensions};
+}
+
+}  // namespace lfdsim

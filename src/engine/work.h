@@ -1,0 +1,24 @@
+// A picture's work, ready for any device. Floor 2.
+#pragma once
+#include "engine/kernel.h"
+#include "engine/render.h"
+
+#include <optional>
+#include <vector>
+
+namespace lfdsim {
+
+/// Throws InputError for a bad crop, target error, number of samples or panel size.
+struct Work {
+    Work(const Display&, const Geometry&, const std::vector<optics::PanelLevel>& panel, const RenderOptions&);
+    Work(const Work&) = delete;
+    Work& operator=(const Work&) = delete;
+
+    Rendering result;  // estimator, and black pictures of the size that is wanted
+    optics::Scene<float> scene;
+    optics::View view;
+    Tile tile;                           // the whole crop, to result.image
+    std::optional<double> target_error;  // where there is something to sample
+};
+
+}  // namespace lfdsim

@@ -1,0 +1,65 @@
+"""The GPU's code without a GPU: compiles for every architecture, computes in single precision where that is meant, and what a sample
+costs. Usage: ptx.py NVCC SOURCE_DIR [--report]; exit code 77: skipped, no nvcc."""
+
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+ARCHITECTURES = [75, 86, 90]
+WAYS = ["plano_convex", "opaque", "ideal", "glass"]
+
+
+def functions(ptx):
+    """Name -> body of each function in PTX text."""
+    parts = re.split(r"\n(?=(?:\.visible |\.weak |\.extern )?\.(?:entry|func) )", ptx)
+    named = {}
+    for part in parts:
+        match = re.match(r"(?:\.\w+ )?\.(?:entry|func)\s+(?:\([^)]*\)\s*)?([\w$]+)", part)
+        if match and "{" in part:
+            named[match[1]] = part
+    return named
+
+
+def main():
+    nvcc, source = sys.argv[1], pathlib.Path(sys.argv[2])
+    if not nvcc or nvcc.endswith("NOTFOUND"):
+        print("skipped: no CUDA toolkit (nvcc)")
+        return 77
+    faults = []
+    with tempfile.TemporaryDirectory() as folder:
+        out = pathlib.Path(folder)
+        base = [nvcc, "-std=c++20", "--fmad=false", "-O3", f"-I{source / 'src'}", "-DLFDSIM_ISA=cuda", "-Werror", "all-warnings"]
+        probe = str(source / "tests/cuda/probe.cu")
+        for arch in ARCHITECTURES:
+            made = subprocess.run([*base, f"-arch=sm_{arch}", "-Xptxas", "-v", "-cubin", probe, "-o", str(out / "probe.cubin")],
+                                  capture_output=True, text=True)
+            if made.returncode != 0:
+                faults.append(f"sm_{arch} does not compile:\n{made.stderr}")
+                continue
+            used = re.findall(r"Compiling entry function 'probe_(\w+)'.*?(\d+) bytes spill stores.*?Used (\d+) registers", made.stderr, re.S)
+            if sorted(way for way, _, _ in used) != sorted(WAYS):
+                faults.append(f"sm_{arch}: kernels missing: {used}")
+            for way, spilled, registers in used:
+                print(f"sm_{arch} {way}: {registers} registers, {spilled} bytes spilled")
+        subprocess.run([*base, "-arch=compute_75", "-ptx", probe, "-o", str(out / "probe.ptx")], check=True)
+        found = functions((out / "probe.ptx").read_text())
+        for way in WAYS:
+            if f"probe_{way}" not in found:
+                faults.append(f"no kernel probe_{way} in the PTX")
+        for name, body in found.items():
+            doubles = [line.strip() for line in body.splitlines() if ".f64" in line and not line.strip().startswith(".")]
+            fused = [line.strip() for line in body.splitlines() if re.search(r"\bfma\.", line)]
+            # A camera with a pupil or a pixel filter takes the view's doubles to single precision, away from the other samples.
+            if doubles and "displaced" not in name:
+                faults.append(f"{name}: double precision, as in {doubles[0]}")
+            if fused:
+                faults.append(f"{name}: contracted, as in {fused[0]}: not the CPU's bits")
+    for fault in faults:
+        print("FAILED:", fault)
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

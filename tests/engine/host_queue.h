@@ -1,0 +1,54 @@
+// The wide machine's items, one after another on the host: what a GPU would compute, but for its compiler and its rounding.
+#pragma once
+#include "engine/wide/items.h"
+#include "engine/wide/queue.h"
+
+#include <cstring>
+#include <map>
+#include <new>
+
+namespace lfdsim {
+
+class HostQueue : public wide::Queue {
+  public:
+    explicit HostQueue(std::size_t memory = std::size_t(4) << 30) : memory_(memory) {}
+    ~HostQueue() override { EXPECT_TRUE(taken_.empty()) << "memory not released"; }
+
+    std::string name() const override { return "host"; }
+    std::size_t free_bytes() override { return memory_ - used_; }
+    void* allocate(std::size_t bytes) override {
+        if (bytes > free_bytes()) throw wide::DeviceError("out of memory");
+        used_ += bytes;
+        void* const p = ::operator new(bytes, std::align_val_t(256));
+        std::memset(p, 0xcd, bytes);  // a machine's memory comes as it was left
+        taken_[p] = bytes;
+        return p;
+    }
+    void release(void* p) noexcept override {
+        used_ -= taken_[p];
+        taken_.erase(p);
+        ::operator delete(p, std::align_val_t(256));
+    }
+    void clear(void* p, std::size_t bytes) override { std::memset(p, 0, bytes); }
+    void upload(void* to, const void* from, std::size_t bytes) override { std::memcpy(to, from, bytes); }
+    void download(void* to, const void* from, std::size_t bytes) override { std::memcpy(to, from, bytes); }
+    /// From the last item to the first: no order among them is promised.
+    void run(wide::Step step, const wide::Frame& frame, std::int64_t items) override {
+        ++runs[step];
+        wide::choose_item(step, frame, [&]<wide::Step s, optics::Way way, bool simple>() {
+            for (std::int64_t i = items - 1; i >= 0; --i) wide::item<s, way, simple>(frame, i);
+        });
+    }
+    double seconds() override { return 0; }
+    std::size_t block_bytes(int most) const override { return wide::BlockLayout(most).end; }
+    std::size_t even_bytes() const override { return sizeof(EvenCuts); }
+    int places_per_axis(const Tile& tile) const override { return lfdsim::places_per_axis(tile); }
+
+    std::map<wide::Step, int> runs;
+
+  private:
+    std::size_t memory_, used_ = 0;
+    std::map<void*, std::size_t> taken_;
+};
+
+}  // namespace lfdsim

@@ -1,0 +1,208 @@
+// Pictures by a wide machine, here the host: the same bits as by the CPU's kernels, whatever is handed to it in one go.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "engine/gpu.h"
+#include "engine/wide/render.h"
+#include "engine/work.h"
+#include "host_queue.h"
+#include "pictures.h"
+
+namespace lfdsim {
+namespace {
+
+void expect_same(const Image& a, const Image& b, const std::string& what) {
+    ASSERT_EQ(a.rgb.size(), b.rgb.size());
+    int differ = 0;
+    for (std::size_t i = 0; i < a.rgb.size(); ++i) differ += std::memcmp(&a.rgb[i], &b.rgb[i], sizeof(float)) != 0;
+    EXPECT_EQ(differ, 0) << what << ": numbers that differ, of " << a.rgb.size();
+}
+
+Rendering by_host(const Display& d, const Texels& panel, const RenderOptions& options, HostQueue& queue) {
+    Job job;
+    const Pyramid pyramid(panel);
+    Work work(d, resolve(d), pyramid.levels(), options);
+    const wide::Panel there(queue, pyramid.levels());
+    const Done done = wide::render(queue, there, work.tile, work.target_error, work.result.error.rgb.data(), job);
+    EXPECT_TRUE(done.complete);
+    work.result.samples = done.samples;
+    return std::move(work.result);
+}
+
+Rendering by_cpu(const Display& d, const Texels& panel, RenderOptions options) {
+    options.device = "cpu";
+    Job job;
+    return render(d, resolve(d), panel, options, job);
+}
+
+TEST(Wide, PointsHaveTheSameBits) {
+    for (auto& [name, d] : every_kind()) {
+        const Texels panel = noise_panel(d);
+        for (const std::int64_t samples : {1, 2, 7, 300}) {
+            d.render.samples = samples;
+            const RenderOptions options{0, "", samples == 300 ? Rect{13, 7, 30, 20} : Rect{3, 0, 110, 61}};
+            HostQueue queue;
+            const Rendering wide = by_host(d, panel, options, queue), cpu = by_cpu(d, panel, options);
+            expect_same(wide.image, cpu.image, name);
+            EXPECT_EQ(wide.samples, cpu.samples);
+        }
+    }
+}
+
+TEST(Wide, FilteredHasTheSameBits) {
+    for (auto& [name, d] : diffused()) {
+        const Texels panel = patterned_panel(d);
+        for (const int samples : {1, 4, 25, 64, 100, 400}) {
+            d.render.samples = samples;
+            HostQueue queue;
+            const RenderOptions options{0, "", samples > 64 ? Rect{50, 41, 90, 60} : Rect{5, 3, 160, 112}};
+            expect_same(by_host(d, panel, options, queue).image, by_cpu(d, panel, options).image,
+                        name + ", " + std::to_string(samples));
+            EXPECT_EQ(queue.runs[wide::Step::points], 0);
+            EXPECT_GT(queue.runs[wide::Step::pixels], 0);
+        }
+    }
+}
+
+TEST(Wide, FinePicturesHaveTheSameBits) {  // blocks of 8 and 16 pixels, several parts of the picture
+    for (auto& [name, d] : diffused()) {
+        const Texels panel = patterned_panel(d);
+        for (const int width : {480, 1600}) {
+            d.camera.resolution = {width, width * 7 / 10};
+            HostQueue queue;
+            const Rect crop{width / 2 - 70, width / 4, width / 2 + 50, width / 4 + 50};
+            expect_same(by_host(d, panel, {0, "", crop}, queue).image, by_cpu(d, panel, {0, "", crop}).image,
+                        name + ", " + std::to_string(width));
+        }
+    }
+}
+
+TEST(Wide, TargetErrorsHaveTheSameBits) {
+    for (const Estimator estimator : {Estimator::filtered, Estimator::point}) {
+        Display d = example();
+        d.diffuser = Diffuser{40, {5.7, 5.7}, Profile::box};
+        d.render.estimator = estimator;
+        const Texels panel = patterned_panel(d);
+        RenderOptions options{0, "", Rect{9, 20, 75, 60}};
+        options.target_error = estimator == Estimator::point ? 0.03 : 0.006;
+        HostQueue queue;
+        const Rendering wide = by_host(d, panel, options, queue), cpu = by_cpu(d, panel, options);
+        expect_same(wide.image, cpu.image, "picture");
+        expect_same(wide.error, cpu.error, "error");
+        EXPECT_EQ(wide.samples, cpu.samples);
+        EXPECT_GT(wide.samples, 66 * 40 * 17);  // more than the first step
+    }
+}
+
+TEST(Wide, StopsWhenAskedAndLeavesTheRestBlack) {
+    class Stops : public Job {
+      public:
+        void advance(std::int64_t units) override { done += units; }
+        bool cancelled() const override { return done > 0; }
+        std::int64_t done = 0;
+    } job;
+    Display d = example();
+    d.diffuser = Diffuser{40, {5.7, 5.7}, Profile::box};
+    d.render.estimator = Estimator::filtered;
+    d.render.samples = 3600;  // of which few blocks fit at a time
+    const Texels panel = uniform_panel(d, 1);
+    const Pyramid pyramid(panel);
+    HostQueue queue;
+    Work work(d, resolve(d), pyramid.levels(), {});
+    const wide::Panel there(queue, pyramid.levels());
+    EXPECT_FALSE(wide::render(queue, there, work.tile, {}, nullptr, job).complete);
+    EXPECT_GT(job.done, 0);
+    EXPECT_LT(job.done, 160 * 112);
+    EXPECT_GT(work.result.image.rgb.front() + work.result.image.at(80, 1)[0], 0);
+    EXPECT_EQ(work.result.image.rgb.back(), 0);
+}
+
+TEST(Wide, SaysWhatMemoryItWants) {
+    Display d = example();
+    const Texels panel = uniform_panel(d, 1);
+    const Pyramid pyramid(panel);
+    HostQueue small(1000);
+    EXPECT_THROW(wide::Panel(small, pyramid.levels()), wide::DeviceError);
+    EXPECT_GE(wide::Panel::bytes(pyramid.levels()), std::size_t(panel.columns() * panel.rows()) * 16);
+}
+
+TEST(Devices, AreChosenByWordOrExplained) {
+    EXPECT_FALSE(choose_device("cpu", "").gpu);
+    EXPECT_FALSE(choose_device("auto", "scalar").gpu);  // a kernel of the CPU
+    for (const char* const wrong : {"gpu", "cuda:", "cuda:x", "cuda:-1", "cuda:1x", "CUDA", "cuda:99999999999"}) {
+        try {
+            choose_device(wrong, "");
+            ADD_FAILURE() << wrong;
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find("allowed: auto, cpu, cuda"), std::string::npos) << error.what();
+        }
+    }
+    const cuda::Found& found = found_gpus();
+    if (found.missing.empty()) {
+        EXPECT_TRUE(choose_device("auto", "").gpu);
+        EXPECT_THROW(choose_device("cuda:1000", ""), InputError);
+    } else {
+        EXPECT_FALSE(choose_device("auto", "").gpu);
+        try {
+            choose_device("cuda", "");
+            ADD_FAILURE() << "no GPU, and no error";
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find(found.missing), std::string::npos) << error.what();
+        }
+    }
+}
+
+/// On a GPU what Wide does on the host.
+class OnGpu : public testing::Test {
+  protected:
+    void SetUp() override {
+        if (!found_gpus().missing.empty()) GTEST_SKIP() << found_gpus().missing;
+    }
+    void expect_cpu_bits(const std::string& name, const Display& d, const Texels& panel, RenderOptions options) {
+        options.device = "cuda";
+        Job job;
+        const Rendering gpu = render(d, resolve(d), panel, options, job), cpu = by_cpu(d, panel, options);
+        EXPECT_EQ(gpu.device.rfind("cuda:0", 0), 0u) << gpu.device;
+        EXPECT_GT(gpu.gpu_seconds, 0);
+        EXPECT_EQ(gpu.samples, cpu.samples);
+        expect_same(gpu.image, cpu.image, name);
+        if (options.target_error) expect_same(gpu.error, cpu.error, name + ", error");
+    }
+};
+
+TEST_F(OnGpu, PointsHaveTheCpusBits) {
+    for (auto& [name, d] : every_kind()) {
+        for (const std::int64_t samples : {1, 2, 7, 300}) {
+            d.render.samples = samples;
+            expect_cpu_bits(name, d, noise_panel(d), {0, "", Rect{3, 0, 110, 61}});
+        }
+    }
+}
+
+TEST_F(OnGpu, FilteredHasTheCpusBits) {
+    for (auto& [name, d] : diffused()) {
+        const Texels panel = patterned_panel(d);
+        for (const int samples : {1, 4, 64, 400}) {
+            d.render.samples = samples;
+            expect_cpu_bits(name, d, panel, {});
+        }
+        d.render.samples = 4;
+        d.camera.resolution = {1600, 1120};
+        expect_cpu_bits(name + ", fine", d, panel, {});
+    }
+}
+
+TEST_F(OnGpu, TargetErrorsHaveTheCpusBits) {
+    Display d = example();
+    d.diffuser = Diffuser{40, {5.7, 5.7}, Profile::box};
+    RenderOptions options;
+    for (const Estimator estimator : {Estimator::filtered, Estimator::point}) {
+        d.render.estimator = estimator;
+        options.target_error = estimator == Estimator::point ? 0.03 : 0.006;
+        expect_cpu_bits("target error", d, patterned_panel(d), options);
+    }
+}
+
+}  // namespace
+}  // namespace lfdsim
