@@ -4,6 +4,7 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/display_options.h"
+#include "cli/lens_mesh_options.h"
 #include "cli/panel_source.h"
 #include "cli/render_path.h"
 #include "cli/rendered.h"
@@ -27,6 +28,7 @@ struct Arguments {
           crop(command),
           output(command, ".png (sRGB), or linear .exr .npy (float32, H x W x 3); with --path a folder, made if missing"),
           path(command),
+          lens_mesh(command),
           device(command),
           work(command) {
         command
@@ -46,6 +48,7 @@ struct Arguments {
     CropOption crop;
     OutputOptions output;
     PathOptions path;
+    LensMeshOptions lens_mesh;
     DeviceOption device;
     WorkOptions work;
     std::string kernel, target_error;
@@ -89,6 +92,11 @@ void render_frames(const Arguments& args, const Display& display, const CameraPa
                made.more);
 }
 
+InputError not_with_lens_mesh(const std::string& option) {
+    return {fmt::format("--lens-mesh, {}", option),
+            "lenses of triangles are traced sample by sample, in one way, for one picture; give one of them"};
+}
+
 void run(const Arguments& args) {
     Faults faults;
     Display display;
@@ -98,6 +106,8 @@ void run(const Arguments& args) {
         display = args.display.read();
         crop = args.crop.read(display.camera, texel_bytes(display));
         if (!args.panel_image.given()) require_panel_memory(display);
+        if (args.lens_mesh.given() && args.display.given("--estimator") && display.render.estimator == Estimator::filtered)
+            throw not_with_lens_mesh("--estimator filtered");
     });
     faults.of([&] { args.panel_image.check(); });
     faults.of([&] { pattern_options = args.pattern.read(); });
@@ -120,6 +130,14 @@ void run(const Arguments& args) {
         faults.of([&] { args.output.check(); });
     if (path && args.display.given("--camera-mm"))
         faults.of([] { throw InputError("--camera-mm, --path", "the camera stands in one place or on a path; give one of them"); });
+    faults.of([&] { args.lens_mesh.check(); });
+    if (args.lens_mesh.given()) {
+        for (const auto& [given, option] : {std::pair{!args.target_error.empty(), "--target-error"},
+                                            {args.path.given(), "--path"},
+                                            {args.device.names_gpu(), "--device cuda"},
+                                            {!args.kernel.empty(), "--kernel"}})
+            if (given) faults.of([name = option] { throw not_with_lens_mesh(name); });
+    }
     if (args.panel_image.given() + args.model.given() + args.pattern.given() > 1)
         faults.of([] { throw InputError("--panel-image, --model, --pattern", "the panel shows one thing; give one of them"); });
     faults.report();
@@ -128,18 +146,24 @@ void run(const Arguments& args) {
 
     const Geometry geometry = resolve(display);
     Progress progress(args.work.progress());
+    const std::optional<MeshedLens> lens = args.lens_mesh.lens(display, geometry);
     const Shown panel = shown(args, display, geometry, pattern_options, progress);
     const RenderOptions options{args.work.threads(), args.kernel, crop, target};
     if (path) return render_frames(args, display, *path, options, panel, progress);
-    Rendering r = render(display, geometry, panel.texels, options, progress);
+    Rendering r = lens ? render_meshed(display, geometry, panel.texels, *lens, options, progress)
+                       : render(display, geometry, panel.texels, options, progress);
     Rendered facts = rendered(r, target, keeps_layers(args.output.path()));
+    if (lens) {
+        facts.about["lens_mesh"] = args.lens_mesh.text(*lens);
+        facts.more["lens_mesh"] = args.lens_mesh.json(*lens);
+    }
     if (facts.pixels_above_target > 0)
         spdlog::warn("{} pixels did not come below the target error with the most samples there are", facts.pixels_above_target);
     args.output.write(r.image, Encoding::srgb, display, std::move(facts.about), r.complete, progress, std::move(facts.layers));
 
     facts.more.update(panel.made);
     print_made(Made{args.output.path(), r.image.width, r.image.height, "samples", r.samples, r.seconds}, args.work.json(),
-               ", " + how_made(r), facts.more);
+               ", " + how_made(r) + (lens ? "; " + args.lens_mesh.text(*lens) : ""), facts.more);
 }
 
 }  // namespace
@@ -151,6 +175,7 @@ void add_render(Command program) {
         "Examples:\n  lfdsim render display.toml --panel-image eia.png --camera-mm -300,0,1800 -o view.png\n"
         "  lfdsim render display.toml --panel-image eia.png --target-error 0.005 -o view.exr\n"
         "  lfdsim render display.toml --panel-image eia.png --path walk.json -o walk\n"
+        "  lfdsim render display.toml --panel-image eia.png --lens-mesh 3386 --lens-normals smooth -o meshed.png\n"
         "  lfdsim render display.toml --model monkey.blend --set array.pitch_mm=8 lens.aperture_radius_mm=4 -o view.exr");
     command.callback([args] { run(*args); });
 }

@@ -4,6 +4,7 @@
 #include "engine/gpu.h"
 #include "engine/refine.h"
 #include "engine/scene.h"
+#include "engine/tracer.h"
 #include "engine/work.h"
 
 #include <tbb/blocked_range2d.h>
@@ -25,7 +26,7 @@ constexpr int kTileWidth = 64, kTileHeight = 16;  // near pixels look at near pa
 constexpr int kMostThreads = 1024;
 
 /// Tile by tile, on all threads.
-Done render_on_cpu(const KernelEntry& kernel, int threads, Work& work, Job& job) {
+Done render_on_cpu(Kernel kernel, int threads, Work& work, Job& job) {
     const Tile& whole = work.tile;
     std::atomic<std::int64_t> taken{0};
     std::atomic<bool> complete{true};
@@ -51,14 +52,14 @@ Done render_on_cpu(const KernelEntry& kernel, int threads, Work& work, Job& job)
                 tile.y1 = std::min(r.rows().end() * kTileHeight, whole.y1);
                 const std::int64_t part = std::int64_t(tile.x1 - tile.x0) * (tile.y1 - tile.y0);
                 if (work.target_error) {
-                    const auto samples_taken = refine_tile(kernel.run, tile, *work.target_error, work.result.error.rgb.data(), job);
+                    const auto samples_taken = refine_tile(kernel, tile, *work.target_error, work.result.error.rgb.data(), job);
                     if (!samples_taken) {
                         complete = false;
                         return;
                     }
                     taken += *samples_taken;
                 } else {
-                    kernel.run(tile);
+                    kernel(tile);
                     taken += part * (tile.strata > 0 ? tile.strata * tile.strata : std::int64_t(tile.samples));
                 }
                 job.advance(part);
@@ -68,23 +69,26 @@ Done render_on_cpu(const KernelEntry& kernel, int threads, Work& work, Job& job)
     return {taken, complete};
 }
 
-Rendering render(const Display& display, const Geometry& geometry, const std::vector<optics::PanelLevel>& levels,
-                 const Pyramid* pyramid, const RenderOptions& options, Job& job) {
-    const KernelEntry& kernel = choose_kernel(options.kernel);
-    const ChosenDevice device = choose_device(options.device, options.kernel);
-    Work work(display, geometry, levels, options);
+void check_threads(const RenderOptions& options) {
+    if (options.threads < 0 || options.threads > kMostThreads)
+        throw InputError("--threads", fmt::format("{}; allowed: 1 to {}, or 0 for all", options.threads, kMostThreads));
+}
+
+/// By the GPU if one is chosen, else by the kernel.
+Rendering render(Work& work, const char* kernel_name, Kernel kernel, const ChosenDevice& device, const Pyramid* pyramid,
+                 const std::vector<optics::PanelLevel>& levels, const RenderOptions& options, Job& job) {
     Rendering& result = work.result;
     job.stage("rendering", std::int64_t(result.image.width) * result.image.height);
     const auto start = std::chrono::steady_clock::now();
     std::optional<GpuRun> run;
-    Done done;
     if (device.gpu) run = render_on_gpu(device, pyramid, levels, work, job);
+    Done done;
     if (run) {
         result.device = result.kernel = run->name;
         result.gpu_seconds = run->seconds;
         done = run->done;
     } else {
-        result.kernel = kernel.name;
+        result.kernel = kernel_name;
         result.threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
         done = render_on_cpu(kernel, result.threads, work, job);
     }
@@ -94,12 +98,23 @@ Rendering render(const Display& display, const Geometry& geometry, const std::ve
     return std::move(result);
 }
 
-void check_threads(const RenderOptions& options) {
-    if (options.threads < 0 || options.threads > kMostThreads)
-        throw InputError("--threads", fmt::format("{}; allowed: 1 to {}, or 0 for all", options.threads, kMostThreads));
+Rendering render(const Display& display, const Geometry& geometry, const std::vector<optics::PanelLevel>& levels,
+                 const Pyramid* pyramid, const RenderOptions& options, Job& job) {
+    const KernelEntry& kernel = choose_kernel(options.kernel);
+    const ChosenDevice device = choose_device(options.device, options.kernel);
+    Work work(display, geometry, levels, options);
+    return render(work, kernel.name, kernel.run, device, pyramid, levels, options, job);
 }
 
 }  // namespace
+
+Rendering render_with(const Tracer& tracer, const Display& display, const Geometry& geometry,
+                      const std::vector<optics::PanelLevel>& levels, const RenderOptions& options, Job& job) {
+    check_threads(options);
+    Work work(display, geometry, levels, options);
+    work.tile.scene = &tracer.scene;
+    return render(work, tracer.name, tracer.run, {}, nullptr, levels, options, job);
+}
 
 Rendering render(const Display& display, const Geometry& geometry, const Pyramid& panel, const RenderOptions& options, Job& job) {
     check_threads(options);

@@ -1,5 +1,6 @@
 // Opaque surround: light passes each surface of one lens once, in order, and everything between the lenses is black. Floor 1.
 #pragma once
+#include "optics/elementary.h"
 #include "optics/lens_array.h"
 #include "optics/panel.h"
 #include "optics/scene.h"
@@ -17,8 +18,8 @@ struct Passage {
 };
 
 /// Which surfaces a display's lens has, as far as the kernel is compiled for it: the 2019 paper's lens without a stop pays for no
-/// other.
-enum class Shapes { plano_convex, any };
+/// other. Triangles in place of the surfaces are met by meet_mesh(scene, k, ray), which whoever has them gives (src/meshed).
+enum class Shapes { plano_convex, any, meshed };
 
 /// Surface k, counted from the viewer's side.
 template <Shapes shapes, class S>
@@ -35,6 +36,15 @@ LFDSIM_FN Hit<F> meet(Shape shape, const SurfaceData<Scalar<F>>& surface, Ray<F>
         return {p, {F(0), F(0), F(1)}, cosine, cosine * cosine, p.x * p.x + p.y * p.y <= r * r};
     }
     return shape == Shape::sphere ? meet_sphere(surface, in_vertex_plane) : meet_asphere(surface, in_vertex_plane);
+}
+
+/// Surface k.
+template <Shapes shapes, class F>
+LFDSIM_FN Hit<F> meet(const Scene<Scalar<F>>& scene, int k, Ray<F> in_vertex_plane) {
+    if constexpr (shapes == Shapes::meshed)
+        return meet_mesh(scene, k, in_vertex_plane);
+    else
+        return meet(shape_of<shapes>(scene, k), scene.surface[k], in_vertex_plane);
 }
 
 /// The walls of a square cell; a circle's are its surfaces' semi apertures.
@@ -72,7 +82,7 @@ template <Shapes shapes, class F>
 LFDSIM_FN Hit<F> meet_first(const Scene<Scalar<F>>& scene, Ray<F> ray, Cell<F> cell) {
     ray.at.x = ray.at.x - cell.i * F(scene.pitch);
     ray.at.y = ray.at.y - cell.j * F(scene.pitch);
-    Hit<F> hit = meet(shape_of<shapes>(scene, 0), scene.surface[0], ray);
+    Hit<F> hit = meet<shapes>(scene, 0, ray);
     hit.ok = inside_cell(scene, hit.at, hit.ok);
     return hit;
 }
@@ -175,7 +185,7 @@ LFDSIM_FN PanelPoint<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent
         const F t = (F(surface.z - above.z) - way.ray.at.z) / way.ray.to.z;  // to its vertex plane
         Ray<F> ray = way.ray;
         ray.at = {ray.at.x + ray.to.x * t, ray.at.y + ray.to.y * t, F(0)};
-        hit = meet(shape_of<shapes>(scene, k), surface, ray);
+        hit = meet<shapes>(scene, k, ray);
         hit.ok = inside_cell(scene, hit.at, hit.ok);
         if (has_stop) {
             stop_between(way.ray.at.z + F(above.z), hit.at.z + F(surface.z), way.ray.at, way.ray.to, way.ray.at.z + F(above.z));

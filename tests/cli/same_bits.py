@@ -29,6 +29,13 @@ for kernel in kernels:
 for x0, y0, x1, y1 in [(0, 0, 96, 54), (0, 0, 1, 1), (95, 53, 96, 54), (13, 7, 62, 40), (64, 16, 65, 17)]:
     same(picture("got", f"{shown} --crop {x0},{y0},{x1},{y1}"), wanted[y0:y1, x0:x1], f"crop {x0},{y0},{x1},{y1}")
 same(picture("got", f"{shown} --seed 0"), wanted, "seed 0, the default")
+# Lenses of triangles: points, near those of the true surfaces, and the same on all threads.
+fine = picture("fine", f"{shown} --lens-mesh 100000 --lens-normals smooth --threads 1")
+same(picture("got", f"{shown} --lens-mesh 100000 --lens-normals smooth --threads 2"), fine, "triangles, 2 threads")
+points = picture("points", f"{shown} --estimator point")
+checks.that(np.sqrt(np.mean((fine - points) ** 2)) < 0.02, "100000 triangles are not near the true lens")
+said = json.loads(program.must(f"render tiny.toml -o said.png {shown} --lens-mesh 860 --json"))
+checks.that(said["estimator"] == "point" and abs(said["lens_mesh"]["triangles"] - 860) < 86, f"lens mesh: {said}")
 # The filtered estimator may do without random numbers.
 by_points = [picture("got", f"{shown} --estimator point --seed {seed}") for seed in (0, 1)]
 checks.that((by_points[0] != by_points[1]).any(), "another seed gives the same picture")

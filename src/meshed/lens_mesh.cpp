@@ -1,0 +1,234 @@
+#include "meshed/lens_mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace lfdsim {
+namespace {
+
+constexpr double touching = 1e-6;  // of the semi aperture: rims nearer than this are one
+
+bool is_plane(const PlacedSurface& s) {
+    return s.curvature_per_mm == 0 && std::all_of(s.even_asphere.begin(), s.even_asphere.end(), [](double a) { return a == 0; });
+}
+
+double sag(const PlacedSurface& s, double distance) { return sag_mm(s.curvature_per_mm, s.conic, s.even_asphere, distance); }
+
+// Upwards, at this distance from the axis: its parts along the distance and along z. Finite at the rim of a half ball, too.
+std::array<double, 2> normal(const PlacedSurface& s, double distance) {
+    const double c = s.curvature_per_mm, d2 = distance * distance, root = std::sqrt(std::max(0.0, 1 - (1 + s.conic) * c * c * d2));
+    double polynomial = 0;
+    for (std::size_t i = s.even_asphere.size(); i-- > 0;) polynomial = polynomial * d2 + double(2 * (i + 2)) * s.even_asphere[i];
+    const double across = -(c * distance + polynomial * d2 * distance * root), length = std::hypot(across, root);
+    return {across / length, root / length};
+}
+
+// The border of a surface as seen along the axis.
+class Outline {
+  public:
+    Outline(const PlacedSurface& s, const LensArray& array)
+        : radius_(s.semi_aperture_mm), half_(array.aperture == Aperture::square ? array.pitch_mm / 2 : 0) {}
+    // After this share of the way round, counter-clockwise. A square's begins in a corner, so that quarters end in corners.
+    std::array<double, 2> point(double share) const {
+        if (half_ == 0) {
+            const double angle = 2 * std::numbers::pi * share;
+            return {radius_ * std::cos(angle), radius_ * std::sin(angle)};
+        }
+        const int side = std::min(int(4 * share), 3);
+        const double along = half_ * (2 * (4 * share - side) - 1), scale = std::min(1.0, radius_ / std::hypot(half_, along));
+        const double x = scale * half_, y = scale * along;
+        return side == 0 ? std::array{x, y} : side == 1 ? std::array{-y, x} : side == 2 ? std::array{-x, -y} : std::array{y, -x};
+    }
+    double reach() const { return half_ == 0 ? radius_ : std::min(radius_, half_ * std::numbers::sqrt2); }
+
+  private:
+    double radius_, half_;
+};
+
+// Ring k of a curved surface has sectors x k vertices, the last one is the rim.
+struct Grid {
+    int sectors, rings;
+    int rim() const { return sectors * rings; }
+};
+
+// Distances from the axis that divide the surface's meridian evenly, the last one `reach`.
+std::vector<double> ring_distances(const PlacedSurface& s, double reach, int rings) {
+    constexpr int steps = 4096;
+    const auto distance = [&](int i) { return reach * std::sin(0.5 * std::numbers::pi * i / steps); };  // dense at a steep rim
+    std::vector<double> length(steps + 1, 0.0);
+    for (int i = 1; i <= steps; ++i)
+        length[i] = length[i - 1] + std::hypot(distance(i) - distance(i - 1), sag(s, distance(i)) - sag(s, distance(i - 1)));
+    std::vector<double> all;
+    for (int k = 1, i = 1; k < rings; ++k) {
+        const double wanted = length[steps] * k / rings;
+        while (length[i] < wanted) ++i;
+        const double part = (wanted - length[i - 1]) / (length[i] - length[i - 1]);
+        all.push_back(distance(i - 1) + part * (distance(i) - distance(i - 1)));
+    }
+    all.push_back(reach);
+    return all;
+}
+
+class Builder {
+  public:
+    Builder(const Display& display, const Geometry& geometry) : array_(display.array), geometry_(geometry) {}
+
+    LensMesh build(Grid grid) {
+        const auto& surfaces = geometry_.surfaces;
+        for (std::size_t k = 0; k < surfaces.size(); ++k) add_surface(int(k), grid);
+        for (std::size_t k = 0; k + 1 < surfaces.size(); ++k)
+            if (surfaces[k].index_above != 1) add_wall(rims_[k], rims_[k + 1], grid.rim(), touching * surfaces[k].semi_aperture_mm);
+        return std::move(mesh_);
+    }
+
+    // Triangles of such a mesh; exact but for walls of square lenses whose rims touch in parts.
+    double count(Grid grid) const {
+        double sum = 0;
+        const auto& surfaces = geometry_.surfaces;
+        for (std::size_t k = 0; k < surfaces.size(); ++k) {
+            sum += double(grid.rim()) * (is_plane(surfaces[k]) ? 1 : grid.rings);
+            if (k + 1 < surfaces.size() && surfaces[k].index_above != 1 && !rims_touch(surfaces[k], surfaces[k + 1]))
+                sum += 2.0 * grid.rim();
+        }
+        return sum;
+    }
+
+  private:
+    bool rims_touch(const PlacedSurface& a, const PlacedSurface& b) const {
+        // A square's outline has most of its points nearer than its corners: its middle stands for them.
+        const double x = std::hypot(Outline(a, array_).point(0.125)[0], Outline(a, array_).point(0.125)[1]);
+        const double near = touching * a.semi_aperture_mm;
+        return std::abs(a.semi_aperture_mm - b.semi_aperture_mm) < near && std::abs(a.z_mm + sag(a, x) - b.z_mm - sag(b, x)) < near;
+    }
+
+    std::uint32_t add_vertex(double x, double y, double z, const Vec3d& n) {
+        for (const double p : {x, y, z}) mesh_.vertices_mm.push_back(float(p));
+        for (const double p : n) mesh_.normals.push_back(float(p));
+        return std::uint32_t(mesh_.vertices_mm.size() / 3 - 1);
+    }
+    bool same_place(std::uint32_t a, std::uint32_t b) const {
+        return std::equal(&mesh_.vertices_mm[3 * a], &mesh_.vertices_mm[3 * a] + 3, &mesh_.vertices_mm[3 * b]);
+    }
+    void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::int32_t surface) {
+        if (same_place(a, b) || same_place(b, c) || same_place(c, a)) return;
+        mesh_.triangles.insert(mesh_.triangles.end(), {a, b, c});
+        mesh_.surface_of.push_back(surface);
+    }
+
+    void add_surface(int number, Grid grid) {
+        const PlacedSurface& s = geometry_.surfaces[std::size_t(number)];
+        const Outline outline(s, array_);
+        const bool plane = is_plane(s), down = s.index_below == 1;
+        const double vertex_z = s.z_mm - geometry_.base_z_mm, sense = down ? -1 : 1;
+        const auto face = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+            down ? add_triangle(a, c, b, number) : add_triangle(a, b, c, number);
+        };
+        const std::vector<double> distances = plane ? std::vector{outline.reach()} : ring_distances(s, outline.reach(), grid.rings);
+        std::uint32_t inner = add_vertex(0, 0, vertex_z, {0, 0, sense});  // first vertex of the ring within
+        for (std::size_t k = 1; k <= distances.size(); ++k) {
+            const auto around = std::uint32_t(plane ? grid.rim() : grid.sectors * int(k));
+            const auto outer = std::uint32_t(mesh_.vertices_mm.size() / 3);
+            for (std::uint32_t j = 0; j < around; ++j) {
+                const auto [border_x, border_y] = outline.point(double(j) / around);
+                const double scale = distances[k - 1] / outline.reach(), x = scale * border_x, y = scale * border_y;
+                const double distance = std::hypot(x, y);
+                const auto [across, up] = normal(s, distance);
+                add_vertex(x, y, vertex_z + sag(s, distance),
+                           {sense * across * x / distance, sense * across * y / distance, sense * up});
+            }
+            if (k == 1) {
+                for (std::uint32_t j = 0; j < around; ++j) face(inner, outer + j, outer + (j + 1) % around);
+            } else {
+                const auto step = std::uint32_t(k), within = around - std::uint32_t(grid.sectors);
+                for (int sector = 0; sector < grid.sectors; ++sector) {
+                    const auto a = [&](std::uint32_t j) { return outer + (std::uint32_t(sector) * step + j) % around; };
+                    const auto b = [&](std::uint32_t j) { return inner + (std::uint32_t(sector) * (step - 1) + j) % within; };
+                    for (std::uint32_t j = 0; j < step; ++j) {
+                        face(b(j), a(j), a(j + 1));
+                        if (j + 1 < step) face(b(j), a(j + 1), b(j + 1));
+                    }
+                }
+            }
+            inner = outer;
+        }
+        rims_.push_back(inner);
+    }
+
+    // Between the rims of two surfaces, each of them `around` vertices in a row. Where they are `near` each other there is no wall.
+    void add_wall(std::uint32_t lower, std::uint32_t upper, int around, double near) {
+        for (std::uint32_t k = 0; k < std::uint32_t(around); ++k) {
+            const float* from = &mesh_.vertices_mm[3 * (lower + k)];
+            float* to = &mesh_.vertices_mm[3 * (upper + k)];
+            if (std::hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]) < near) std::copy(from, from + 3, to);
+        }
+        for (std::uint32_t k = 0; k < std::uint32_t(around); ++k) {
+            const std::uint32_t next = (k + 1) % std::uint32_t(around);
+            const std::uint32_t corner[4] = {lower + k, lower + next, upper + next, upper + k};
+            Vec3d at[4];
+            for (int i = 0; i < 4; ++i)
+                for (std::size_t c = 0; c < 3; ++c) at[i][c] = mesh_.vertices_mm[3 * corner[i] + c];
+            std::uint32_t copy[4];
+            for (int i = 0; i < 4; ++i) copy[i] = add_vertex(at[i][0], at[i][1], at[i][2], wall_normal(at, i));
+            add_triangle(copy[0], copy[1], copy[2], LensMesh::wall);
+            add_triangle(copy[0], copy[2], copy[3], LensMesh::wall);
+        }
+    }
+
+    // Of a quadrilateral of a wall, lower edge first, at its corner i: a round wall is a cone, a square one has flat sides.
+    Vec3d wall_normal(const Vec3d (&at)[4], int i) const {
+        Vec3d n;
+        if (array_.aperture == Aperture::circle) {
+            const Vec3d &low = at[i == 0 || i == 3 ? 0 : 1], &high = at[i == 0 || i == 3 ? 3 : 2];
+            const double out = std::hypot(at[i][0], at[i][1]), rise = high[2] - low[2];
+            n = {rise * at[i][0] / out, rise * at[i][1] / out, std::hypot(low[0], low[1]) - std::hypot(high[0], high[1])};
+        } else {
+            Vec3d a, b;  // the diagonals: none of them vanishes where the wall ends in a point
+            for (std::size_t c = 0; c < 3; ++c) a[c] = at[2][c] - at[0][c], b[c] = at[3][c] - at[1][c];
+            n = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+        }
+        const double length = std::hypot(n[0], n[1], n[2]);
+        for (double& p : n) p = length > 0 ? p / length : 0;
+        return n;
+    }
+
+    const LensArray& array_;
+    const Geometry& geometry_;
+    LensMesh mesh_;
+    std::vector<std::uint32_t> rims_;  // first vertex of each surface's rim
+};
+
+// The grid whose triangles are nearest to the wanted number; of grids as near, that of the best shape: six sectors, or two to a
+// square's side.
+Grid choose_grid(const Builder& builder, bool square, double wanted) {
+    Grid best{};
+    double least = INFINITY;
+    for (const int sectors : square ? std::vector{4, 8, 12, 16} : std::vector{3, 4, 5, 6, 7, 8}) {
+        int rings = 1;  // the most that do not have too many
+        for (int step = 1024; step > 0; step /= 2)
+            if (builder.count({sectors, rings + step}) <= wanted) rings += step;
+        for (const int more : {0, 1}) {
+            const Grid grid{sectors, rings + more};
+            const double cost = std::abs(std::log(builder.count(grid) / wanted)) + 0.01 * std::abs(sectors - (square ? 8 : 6));
+            if (cost < least) least = cost, best = grid;
+        }
+    }
+    return best;
+}
+
+}  // namespace
+
+LensMesh mesh_lens(const Display& display, const Geometry& geometry, std::int64_t triangles) {
+    if (geometry.surfaces.empty())
+        throw InputError("lens.type", "an ideal lens has no surface of which triangles could be made; give a real one");
+    if (triangles < least_lens_triangles || triangles > most_lens_triangles)
+        throw InputError("--lens-mesh",
+                         fmt::format("{} triangles; allowed: {} to {}", triangles, least_lens_triangles, most_lens_triangles));
+    Builder builder(display, geometry);
+    return builder.build(choose_grid(builder, display.array.aperture == Aperture::square, double(triangles)));
+}
+
+}  // namespace lfdsim

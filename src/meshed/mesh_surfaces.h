@@ -1,0 +1,61 @@
+// Where rays meet the triangles of a lens. Floor 2, internal to meshed.
+#pragma once
+#include "meshed/lens_mesh.h"
+#include "meshed/render_meshed.h"
+#include "optics/sequential.h"
+
+#include <embree3/rtcore.h>
+
+#include <memory>
+#include <vector>
+
+namespace lfdsim {
+
+/// The surfaces of one lens as trees of triangles, the viewer's side first, as the tracer counts them.
+class MeshSurfaces {
+  public:
+    MeshSurfaces(const LensMesh&, const Geometry&, LensNormals);
+
+    /// The first triangle of surface k that the line comes down through. The ray stands in the plane of the surface's vertex; the
+    /// triangle may lie before it. Embree, in single precision, tells the triangle; place and normal follow in double.
+    optics::Hit<float> meet(int k, const optics::Ray<float>&) const;
+
+  private:
+    struct ReleaseDevice {
+        void operator()(RTCDeviceTy* d) const { rtcReleaseDevice(d); }
+    };
+    struct ReleaseScene {
+        void operator()(RTCSceneTy* s) const { rtcReleaseScene(s); }
+    };
+    struct Triangle {
+        const float *corner[3], *normal[3];
+    };
+    struct Surface {
+        std::vector<std::uint32_t> triangles;  // into the lens's vertices; counter-clockwise from the viewer
+        std::unique_ptr<RTCSceneTy, ReleaseScene> tree;
+        double vertex_z;          // in the mesh's frame
+        double middle_z, radius;  // of a ball round it, in that frame
+        bool turned;              // its normals point down in the mesh
+        Triangle triangle(const MeshSurfaces&, std::uint32_t number) const;
+    };
+    Surface surface(std::size_t number, const Geometry&) const;
+
+    LensMesh mesh_;
+    LensNormals normals_;
+    std::unique_ptr<RTCDeviceTy, ReleaseDevice> device_;
+    std::vector<Surface> surfaces_;
+};
+
+/// What the tracer is given: its own scene with meshes in place of the surfaces.
+struct MeshedScene : optics::Scene<float> {
+    const MeshSurfaces* surfaces;
+};
+
+namespace optics {
+/// As trace_opaque<Shapes::meshed> asks for it; the scene is that of a MeshedScene.
+inline Hit<float> meet_mesh(const Scene<float>& scene, int k, const Ray<float>& ray) {
+    return static_cast<const MeshedScene&>(scene).surfaces->meet(k, ray);
+}
+}  // namespace optics
+
+}  // namespace lfdsim

@@ -1,0 +1,58 @@
+#include "meshed/render_meshed.h"
+
+#include "engine/scene.h"
+#include "engine/tracer.h"
+#include "meshed/mesh_surfaces.h"
+#include "model/keys.h"
+#include "optics/camera.h"
+#include "optics/trace.h"
+
+#include <fmt/format.h>
+
+namespace lfdsim {
+namespace {
+
+// The rays of a tile one by one: what Embree takes a ray for is far more than what packets would save.
+void render_tile(const Tile& tile) {
+    const optics::Scene<float>& scene = *tile.scene;
+    for (std::int32_t y = tile.y0; y < tile.y1; ++y) {
+        for (std::int32_t x = tile.x0; x < tile.x1; ++x) {
+            const auto pixel = optics::pixel_rays<float>(*tile.view, x, y);
+            optics::Sampler<float> sampler(tile.sampling, tile.dimensions, tile.view->seed,
+                                           std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x));
+            double sum[3] = {};
+            for (std::uint32_t sample = 0; sample < tile.samples; ++sample, sampler.next(*tile.directions)) {
+                const optics::Ray<float> ray = optics::sample_ray(scene, *tile.view, pixel, sampler);
+                const auto way = optics::at_first_vertex(scene, ray, pixel.alive);
+                if (!way.alive) continue;
+                const auto hit = optics::panel_pixel(
+                    scene, pixel.base, optics::trace_opaque<optics::Shapes::meshed>(scene, pixel.extent, pixel.base, way));
+                for (int c = 0; c < 3 && hit.lit; ++c) sum[c] += double(hit.weight * tile.texels[std::size_t(hit.pixel) * 4 + c]);
+            }
+            float* const out = tile.out + (std::int64_t(y - tile.crop_y) * tile.crop_width + (x - tile.crop_x)) * 3;
+            for (int c = 0; c < 3; ++c) out[c] = float(sum[c] / tile.samples);
+        }
+    }
+}
+
+}  // namespace
+
+MeshedLens::MeshedLens(const Display& display, const Geometry& geometry, std::int64_t triangles, LensNormals normals) {
+    if (display.array.surround != Surround::opaque)
+        throw InputError("array.surround", fmt::format("is \"{}\"; lenses of triangles are traced in \"opaque\" alone",
+                                                       word(display.array.surround)));
+    const LensMesh mesh = mesh_lens(display, geometry, triangles);
+    triangles_ = std::int64_t(mesh.count());
+    surfaces_ = std::make_shared<const MeshSurfaces>(mesh, geometry, normals);
+}
+
+Rendering render_meshed(const Display& display, const Geometry& geometry, const Texels& panel, const MeshedLens& lens,
+                        const RenderOptions& options, Job& job) {
+    Display points = display;
+    points.render.estimator = Estimator::point;
+    const optics::PanelLevel level{panel.data(), std::uint32_t(panel.columns()), std::uint32_t(panel.rows())};
+    const MeshedScene scene{make_scene<float>(points, geometry), &lens.surfaces()};
+    return render_with({"meshed", render_tile, scene}, points, geometry, {level}, options, job);
+}
+
+}  // namespace lfdsim
