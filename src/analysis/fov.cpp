@@ -2,6 +2,7 @@
 
 #include "analysis/rules.h"
 #include "analysis/views.h"
+#include "engine/ahead.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -32,13 +33,16 @@ Curves measure(const Subject& subject, const Shown& shown, bool horizontal, cons
         return view_of(seen_at(angle), subject.geometry(), shown.scene, shown.panel, shown.white, subject.threads(), job);
     };
     Curves curves{{angles, {}}, {angles, {}}, {angles, {}}};
-    for (const double angle : angles) {
-        const Likeness l = likeness(view_at(angle));
+    const auto compare = [&](std::size_t, const View& view) {
+        const Likeness l = likeness(view);
         curves.screen.value.push_back(l.screen);
         curves.content.value.push_back(l.content);
         curves.share.value.push_back(l.share);
         job.advance(1);
-    }
+        return true;
+    };
+    make_ahead(
+        angles.size(), renders_on_gpu({}), [&](std::size_t k) { return view_at(angles[k]); }, compare);
     // The noise where it counts: about the edges that theory expects, and between; root mean square.
     const double edge = std::min(0.5 * subject.theory().fov_deg, angles.back());
     const double places[] = {-edge, -0.5 * edge, 0.5 * edge, edge};

@@ -3,6 +3,7 @@
 #include "cli/arguments.h"
 #include "cli/interrupt.h"
 #include "cli/rendered.h"
+#include "engine/ahead.h"
 #include "files/display_file.h"
 #include "model/geometry.h"
 #include "model/keys.h"
@@ -131,23 +132,28 @@ PathMade render_path(const PathWork& w, const Texels& panel, Progress& progress)
     progress.stage("rendering",
                    std::int64_t(left.size()) * (crop ? std::int64_t(crop->x1 - crop->x0) * (crop->y1 - crop->y0) : columns * rows));
     std::size_t above_target = 0;
-    for (const std::int64_t k : left) {
-        const fs::path file = w.options.file(w.output, k, made.frames);
-        const Display display = at_frame(w.path, k, w.display);
-        Frame frame(progress);
-        Rendering r = render(display, resolve(display), pyramid, w.rendering, frame);
-        if (!r.complete) break;
+    Frame frame(progress);
+    const auto make = [&](std::size_t i) {
+        const Display display = at_frame(w.path, left[i], w.display);
+        return render(display, resolve(display), pyramid, w.rendering, frame);
+    };
+    const auto keep = [&](std::size_t i, Rendering r) {
+        if (!r.complete) return false;
+        const fs::path file = w.options.file(w.output, left[i], made.frames);
         Rendered facts = rendered(r, w.rendering.target_error, keeps_layers(file));
         facts.about["shown"] = w.shown;
         guard_output(file);
-        w.output.save(file, r.image, Encoding::srgb, display, std::move(facts.about), std::move(facts.layers));
+        w.output.save(file, r.image, Encoding::srgb, at_frame(w.path, left[i], w.display), std::move(facts.about),
+                      std::move(facts.layers));
         ++made.rendered;
         made.samples += r.samples;
         made.seconds += r.seconds;
         above_target += facts.pixels_above_target;
         made.how = how_made(r);
         made.more = how_made_json(r);
-    }
+        return true;
+    };
+    make_ahead(left.size(), renders_on_gpu(w.rendering), make, keep);
     progress.end();
     if (above_target > 0)
         spdlog::warn("{} pixels did not come below the target error with the most samples there are", above_target);

@@ -9,6 +9,7 @@
 #include "model/job.h"
 
 #include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,13 +27,14 @@ struct GpuRun {
 
 /// Renders on the chosen GPU; the panel stays there as long as `pyramid`, where one is given. Nothing: it failed or does not fit,
 /// and the CPU shall do it. Throws InputError where it does not fit, DeviceError where it failed, if the user insists on the GPU.
-/// One picture at a time.
+/// May be called by several threads.
 std::optional<GpuRun> render_on_gpu(const ChosenDevice&, const Pyramid* pyramid, const std::vector<optics::PanelLevel>&, Work&,
                                     Job&);
 
 /// A panel's copies on GPUs, by number.
 class GpuPanels {
   public:
+    std::mutex mutex;
     std::map<int, wide::Panel> panels;
 };
 

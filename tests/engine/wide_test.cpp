@@ -1,8 +1,12 @@
 // Pictures by a wide machine, here the host: the same bits as by the CPU's kernels, whatever is handed to it in one go.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstring>
+#include <thread>
 
+#include "engine/ahead.h"
 #include "engine/gpu.h"
 #include "engine/wide/render.h"
 #include "engine/work.h"
@@ -153,6 +157,44 @@ TEST(Devices, AreChosenByWordOrExplained) {
     }
 }
 
+TEST(Ahead, KeepsTheOrderAndStopsWhereItIsTold) {
+    for (const bool at_once : {false, true}) {
+        std::vector<std::size_t> taken;
+        std::atomic<int> made{0};
+        const auto make = [&](std::size_t k) {
+            ++made;
+            return 10 * k;
+        };
+        make_ahead(5, at_once, make, [&](std::size_t k, std::size_t value) {
+            EXPECT_EQ(value, 10 * k);
+            taken.push_back(k);
+            return k < 3;
+        });
+        EXPECT_EQ(taken, (std::vector<std::size_t>{0, 1, 2, 3}));
+        EXPECT_EQ(made, at_once ? 5 : 4);
+        make_ahead(0, at_once, make, [](std::size_t, std::size_t) { return true; });
+    }
+}
+
+TEST(Ahead, HandsOnWhatIsThrownWhenNothingIsUnderWay) {
+    for (const bool at_once : {false, true}) {
+        std::atomic<int> under_way{0};
+        const auto make = [&](std::size_t k) {
+            ++under_way;
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            --under_way;
+            if (k == 3) throw std::runtime_error("3");
+            return k;
+        };
+        EXPECT_THROW(make_ahead(9, at_once, make, [](std::size_t, std::size_t) { return true; }), std::runtime_error);
+        EXPECT_EQ(under_way, 0);
+        EXPECT_THROW(
+            make_ahead(9, at_once, make, [](std::size_t k, std::size_t) { return k == 1 ? throw std::logic_error("1") : true; }),
+            std::logic_error);
+        EXPECT_EQ(under_way, 0);
+    }
+}
+
 /// On a GPU what Wide does on the host.
 class OnGpu : public testing::Test {
   protected:
@@ -191,6 +233,26 @@ TEST_F(OnGpu, FilteredHasTheCpusBits) {
         d.camera.resolution = {1600, 1120};
         expect_cpu_bits(name + ", fine", d, panel, {});
     }
+}
+
+TEST_F(OnGpu, PicturesMadeAtOnceHaveTheCpusBits) {
+    const std::vector<std::pair<std::string, Display>> all = diffused();
+    const Texels panel = patterned_panel(all[0].second);
+    const Pyramid pyramid(panel);
+    RenderOptions options;
+    options.device = "cuda";
+    const auto seen = [&](std::size_t k) {
+        Display d = all[0].second;
+        d.camera.position_mm[0] += 5 * double(k);
+        return d;
+    };
+    Job job;
+    make_ahead(
+        20, true, [&](std::size_t k) { return render(seen(k), resolve(seen(k)), pyramid, options, job); },
+        [&](std::size_t k, const Rendering& r) {
+            expect_same(r.image, by_cpu(seen(k), panel, {}).image, "view " + std::to_string(k));
+            return true;
+        });
 }
 
 TEST_F(OnGpu, TargetErrorsHaveTheCpusBits) {
