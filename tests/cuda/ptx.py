@@ -1,5 +1,5 @@
 """The GPU's code without a GPU: compiles for every architecture, computes in single precision where that is meant, and what a sample
-costs. Usage: ptx.py NVCC SOURCE_DIR [--report]; exit code 77: skipped, no nvcc."""
+costs. Usage: ptx.py NVCC SOURCE_DIR; exit code 77: skipped, no nvcc."""
 
 import pathlib
 import re
@@ -20,6 +20,15 @@ def functions(ptx):
         if match and "{" in part:
             named[match[1]] = part
     return named
+
+
+def loop_of(body):
+    """Instructions of the longest loop: that over samples."""
+    lines = [line.strip() for line in body.splitlines()]
+    labels = {line[:-1]: i for i, line in enumerate(lines) if re.fullmatch(r"\$L\w+:", line)}
+    jumps = [(labels.get(match[1], i), i) for i, line in enumerate(lines) if (match := re.search(r"\bbra\S*\s+(\$L\w+);", line))]
+    first, last = max(jumps, key=lambda jump: jump[1] - jump[0])
+    return [line for line in lines[first:last + 1] if line and not line.startswith((".", "//", "{", "}", "$", ")"))]
 
 
 def main():
@@ -48,6 +57,10 @@ def main():
         for way in WAYS:
             if f"probe_{way}" not in found:
                 faults.append(f"no kernel probe_{way} in the PTX")
+                continue
+            loop = loop_of(found[f"probe_{way}"])
+            divisions, roots = (sum(text in line for line in loop) for text in ("div.rn", "sqrt.rn"))
+            print(f"PTX of a sample, {way}: {len(loop)} instructions in all branches, {divisions} divisions, {roots} roots")
         for name, body in found.items():
             doubles = [line.strip() for line in body.splitlines() if ".f64" in line and not line.strip().startswith(".")]
             fused = [line.strip() for line in body.splitlines() if re.search(r"\bfma\.", line)]
