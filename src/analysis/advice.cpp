@@ -1,5 +1,7 @@
 #include "analysis/advice.h"
 
+#include "content/content.h"
+
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
@@ -57,8 +59,9 @@ std::vector<std::string> advice(const Display& d, const Geometry& g, const Theor
     if (from_lens < t.depth_range_mm[0] || from_lens > t.depth_range_mm[1])
         add("the content's centre, {:.4g} mm from the lenses, is outside the depth of field of {:.4g} to {:.4g} mm", from_lens,
             t.depth_range_mm[0], t.depth_range_mm[1]);
-    if (std::error_code error; !d.content.model.empty() && !std::filesystem::exists(d.content.model, error))
-        add("content.model, {}, does not exist", d.content.model);
+    const std::string& model = d.content.model;
+    if (std::error_code error; !model.empty() && model != built_in_spheres && !std::filesystem::exists(model, error))
+        add("content.model, {}, does not exist", model);
     return all;
 }
 

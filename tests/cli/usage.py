@@ -51,6 +51,13 @@ table = program.must("check tiny.toml --set diffuser.angle_deg=[1,1]")
 for words in ["pixel_pitch_mm         0.5 mm", "surround               opaque", "default", "field of view", "gap_mm", "weaker than"]:
     checks.that(words in table, f"check does not print {words!r}:\n{table}")
 
+for model, there in [("none.obj", False), ("built-in:spheres", True)]:
+    told = "does not exist" in program.must(f"check tiny.toml --set content.model={model}")
+    checks.that(told != there, f"check, model {model}")
+
+gpu = program.must("doctor")
+checks.that("toolkit" in gpu and "driver" in gpu and "used" in gpu, f"doctor says nothing of GPUs:\n{gpu}")
+
 text = program.must("doctor", env={"LFDSIM_KERNEL": "abacus"})
 checks.that("forced by LFDSIM_KERNEL" in text and "unknown kernel 'abacus'" in text, f"doctor, unknown kernel:\n{text}")
 
