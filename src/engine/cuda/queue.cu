@@ -40,6 +40,10 @@ class CudaQueue : public wide::Queue {
         name_ += ", contracted";
 #endif
         resident_threads_ = std::size_t(properties.multiProcessorCount) * std::size_t(properties.maxThreadsPerMultiProcessor);
+        // Memory that is given back stays with the process, so that a picture of the next view waits for none.
+        check(cudaDeviceGetDefaultMemPool(&pool_, gpu), "asking for its memory pool");
+        std::uint64_t keep = ~std::uint64_t(0);
+        check(cudaMemPoolSetAttribute(pool_, cudaMemPoolAttrReleaseThreshold, &keep), "asking for its memory pool");
         check(cudaStreamCreateWithFlags(&steps_, cudaStreamNonBlocking), "making a stream");
         check(cudaEventCreate(&begun_), "making an event");
         check(cudaEventCreate(&ended_), "making an event");
@@ -57,6 +61,10 @@ class CudaQueue : public wide::Queue {
         use();
         std::size_t free = 0, all = 0;
         check(cudaMemGetInfo(&free, &all), "asking for its free memory");
+        std::uint64_t kept = 0, used = 0;
+        check(cudaMemPoolGetAttribute(pool_, cudaMemPoolAttrReservedMemCurrent, &kept), "asking for its free memory");
+        check(cudaMemPoolGetAttribute(pool_, cudaMemPoolAttrUsedMemCurrent, &used), "asking for its free memory");
+        free += kept - used;
         // Threads keep what registers do not hold in memory that is taken when a kernel first runs.
         static const std::size_t stack = largest_stack();
         const std::size_t stacks = resident_threads_ * stack;
@@ -65,13 +73,13 @@ class CudaQueue : public wide::Queue {
     void* allocate(std::size_t bytes) override {
         use();
         void* memory = nullptr;
-        check(cudaMalloc(&memory, std::max<std::size_t>(bytes, 1)),
+        check(cudaMallocAsync(&memory, std::max<std::size_t>(bytes, 1), steps_),
               ("taking " + std::to_string(bytes >> 20) + " MB of memory").c_str());
         return memory;
     }
     void release(void* memory) noexcept override {
         cudaSetDevice(gpu_);
-        cudaFree(memory);
+        cudaFreeAsync(memory, steps_);
     }
 
     void clear(void* memory, std::size_t bytes) override {
@@ -144,6 +152,7 @@ class CudaQueue : public wide::Queue {
     const int gpu_;
     std::string name_;
     std::size_t resident_threads_ = 0;
+    cudaMemPool_t pool_{};
     cudaStream_t steps_{};
     cudaEvent_t begun_{}, ended_{};
     bool timing_ = false;
