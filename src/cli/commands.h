@@ -15,6 +15,7 @@ void add_analyze(Command program);
 void add_sheet(Command program);
 void add_bench(Command program);
 void add_view(Command program);
+void add_export(Command program);
 void add_doctor(Command program);
 
 }  // namespace lfdsim::cli

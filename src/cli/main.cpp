@@ -37,6 +37,7 @@ void run(int argc, char** argv) {
     cli::add_analyze(program);
     cli::add_sheet(program);
     cli::add_view(program);
+    cli::add_export(program);
     cli::add_bench(program);
     cli::add_doctor(program);
     const std::string asked = line.parse(cli::arguments(argc, argv));

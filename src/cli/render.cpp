@@ -8,6 +8,7 @@
 #include "cli/panel_source.h"
 #include "cli/render_path.h"
 #include "cli/rendered.h"
+#include "cli/shown_panel.h"
 #include "cli/work_options.h"
 #include "engine/devices.h"
 #include "model/keys.h"
@@ -54,29 +55,8 @@ struct Arguments {
     std::string kernel, target_error;
 };
 
-// The panel's light, and how many rays it took to make it.
-struct Shown {
-    Texels texels;
-    Json made = Json::object();
-};
-
-Shown shown(const Arguments& args, const Display& display, const Geometry& geometry, const PatternOptions& pattern_options,
-            Progress& progress) {
-    if (args.panel_image.given()) {
-        PanelImageOption::Read panel = args.panel_image.read(display.panel, progress);
-        return {std::move(panel.texels), {{"panel_image", {{"incomplete", panel.incomplete}}}}};
-    }
-    if (args.pattern.given())
-        return {shown_texels(pattern(args.pattern.name(), display, geometry, pattern_options), display.panel.encoding)};
-    const Picture picture = elemental_images(display, geometry, load_scene(display, geometry), args.work.threads(), progress);
-    progress.end();
-    if (!picture.complete) end_interrupted("");
-    return {shown_texels(picture.image, display.panel.encoding),
-            {{"elemental_images", {{"rays", picture.rays}, {"seconds", picture.seconds}}}}};
-}
-
 void render_frames(const Arguments& args, const Display& display, const CameraPath& path, const RenderOptions& options,
-                   const Shown& panel, Progress& progress) {
+                   const PanelLight& panel, Progress& progress) {
     const std::string shown = args.panel_image.given() ? args.panel_image.path()
                               : args.pattern.given()   ? ""
                                                        : display.content.model;
@@ -147,7 +127,8 @@ void run(const Arguments& args) {
     const Geometry geometry = resolve(display);
     Progress progress(args.work.progress());
     const std::optional<MeshedLens> lens = args.lens_mesh.lens(display, geometry);
-    const Shown panel = shown(args, display, geometry, pattern_options, progress);
+    const PanelLight panel =
+        shown_panel(args.panel_image, args.pattern, display, geometry, pattern_options, args.work.threads(), progress);
     const RenderOptions options{args.work.threads(), args.kernel, crop, target};
     if (path) return render_frames(args, display, *path, options, panel, progress);
     Rendering r = lens ? render_meshed(display, geometry, panel.texels, *lens, options, progress)

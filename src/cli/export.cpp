@@ -1,0 +1,175 @@
+#include "analysis/memory.h"
+#include "cli/arguments.h"
+#include "cli/commands.h"
+#include "cli/display_options.h"
+#include "cli/interrupt.h"
+#include "cli/shown_panel.h"
+#include "cli/work_options.h"
+#include "files/display_file.h"
+#include "files/shell.h"
+#include "image/file.h"
+#include "peers/peers.h"
+
+#include <fmt/format.h>
+#include <filesystem>
+
+// lfdsim export: the display as a scene for another renderer, with the command that renders it and the one that makes lfdsim's
+// picture of the same.
+namespace lfdsim::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+    explicit Arguments(Command command)
+        : peer_option(
+              command.add_option("PEER", peer, "For which program: pov (POV-Ray 3.7), cycles (Blender), mitsuba (Mitsuba 3)")
+                  .type_name("pov|cycles|mitsuba")
+                  .required()),
+          display(command, {camera_options, content_options}),
+          panel_image(command),
+          model(command),
+          pattern(command),
+          work(command) {
+        command.add_option("-o,--output", folder, "Folder for the scene; made if missing").type_name("DIR").required();
+        command
+            .add_option("--triangles", triangles,
+                        fmt::format("Triangles of a lens, 100 or more; default: true surfaces for pov, {} for the others",
+                                    default_triangles))
+            .type_name("N");
+        command
+            .add_option("--normals", normals, "Of the triangles: as they lie, or the true surface's at their corners; default flat")
+            .type_name("flat|smooth");
+    }
+    std::string peer, folder, triangles, normals;
+    Option peer_option;
+    DisplayOptions display;
+    PanelImageOption panel_image;
+    ModelOption model;
+    PatternOption pattern;
+    WorkOptions work;
+};
+
+Peer peer_of(const std::string& name) {
+    word("PEER", name, {"pov", "cycles", "mitsuba"});
+    return name == "pov" ? Peer::pov : name == "cycles" ? Peer::cycles : Peer::mitsuba;
+}
+
+PeerOptions options_of(const Arguments& args) {
+    PeerOptions options;
+    if (!args.triangles.empty())
+        options.triangles = whole_number("--triangles", args.triangles, 1, std::numeric_limits<std::int32_t>::max());
+    if (args.normals.empty()) return options;
+    if (args.peer == "pov" && !options.triangles) throw InputError("--normals", "are those of triangles; give --triangles N too");
+    options.normals = word("--normals", args.normals, {"flat", "smooth"}) == "flat" ? MeshNormals::flat : MeshNormals::smooth;
+    return options;
+}
+
+void check_folder(const std::string& folder) {
+    std::error_code error;
+    if (folder.empty()) throw InputError("--output", "the name is empty; give a folder for the scene");
+    if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+        throw InputError(folder, "is not a folder; give one for the scene");
+}
+
+void write_file(const fs::path& path, std::string_view bytes) {
+    guard_output(path);
+    detail::OutputFile file(path);
+    file.write(bytes.data(), bytes.size());
+    file.commit();
+}
+
+Image picture_of(const Texels& texels) {
+    Image image(int(texels.columns()), int(texels.rows()));
+    const float* from = texels.data();
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3, from += 4) std::copy(from, from + 3, &image.rgb[i]);
+    return image;
+}
+
+std::string readme(const PeerScene& scene, const std::string& lfdsims) {
+    std::string text = fmt::format(
+        "{} and the files beside it show a light field display to another renderer.\n"
+        "Made by: {}\n\nIts picture, {}, rendered in this folder:\n\n    {}\n\n"
+        "lfdsim's picture of the same, and how alike they are:\n\n    {}\n    lfdsim compare lfdsim.exr {} --encoding linear\n",
+        scene.files.front().name, command_line(), scene.picture, scene.command, lfdsims, scene.picture);
+    text += scene.deviations.empty() ? "\nNothing deviates.\n" : "\nWhat deviates from lfdsim's model:\n\n";
+    for (const std::string& deviation : scene.deviations) text += "- " + deviation + "\n";
+    return text;
+}
+
+void run(const Arguments& args) {
+    Faults faults;
+    Display display;
+    PatternOptions pattern_options;
+    PeerOptions options;
+    Peer peer{};
+    faults.of([&] { peer = peer_of(args.peer); });
+    faults.of([&] {
+        display = args.display.read();
+        const auto [columns, rows] = display.panel.pixels;
+        require_memory("panel.pixels", fmt::format("a panel image of {} x {} pixels and its copy", columns, rows),
+                       texel_bytes(display) + picture_bytes(columns, rows));
+        if (!args.panel_image.given()) require_panel_memory(display);
+    });
+    faults.of([&] { args.panel_image.check(); });
+    faults.of([&] { pattern_options = args.pattern.read(); });
+    faults.of([&] { options = options_of(args); });
+    faults.of([&] { args.work.check(); });
+    faults.of([&] { check_folder(args.folder); });
+    if (args.panel_image.given() + args.model.given() + args.pattern.given() > 1)
+        faults.of([] { throw InputError("--panel-image, --model, --pattern", "the panel shows one thing; give one of them"); });
+    faults.report();
+    args.model.apply(display);
+
+    const Geometry geometry = resolve(display);
+    if (std::vector<Problem> problems = not_expressed(peer, display, geometry, options); !problems.empty())
+        throw InputError(std::move(problems));
+    Progress progress(args.work.progress());
+    const PanelLight panel =
+        shown_panel(args.panel_image, args.pattern, display, geometry, pattern_options, args.work.threads(), progress);
+    PeerScene scene = peer_scene(peer, display, geometry, options);
+    if (const auto deviation = panel_deviation(scene, panel.texels)) scene.deviations.push_back(*deviation);
+
+    const fs::path folder = args.folder;
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw InputError(args.folder, fmt::format("cannot be made: {}", error.message()));
+    const std::string lfdsims = fmt::format("lfdsim render display.toml --panel-image {} -o lfdsim.exr", scene.panel_file);
+    guard_output(folder / scene.panel_file);
+    write_image(folder / scene.panel_file, picture_of(panel.texels), {16, Encoding::linear, {}, {}}, &progress);
+    progress.end();
+    Json files = Json::array({scene.panel_file, "display.toml", "README.txt"});
+    for (const PeerFile& file : scene.files) {
+        write_file(folder / file.name, file.bytes);
+        files.push_back(file.name);
+    }
+    scene.shown.content.model.clear();
+    write_file(folder / "display.toml", write_display(scene.shown));
+    write_file(folder / "README.txt", readme(scene, lfdsims));
+
+    if (args.work.json())
+        return print_json({{"output", args.folder},
+                           {"files", files},
+                           {"command", scene.command},
+                           {"picture", scene.picture},
+                           {"lfdsim", lfdsims},
+                           {"deviations", scene.deviations}});
+    std::string text = fmt::format("{}: a scene for {}; render it there with\n  {}\nand lfdsim's picture of the same with\n  {}\n",
+                                   args.folder, name_of(peer), scene.command, lfdsims);
+    for (const std::string& deviation : scene.deviations) text += "deviates: " + deviation + "\n";
+    print(text);
+}
+
+}  // namespace
+
+void add_export(Command program) {
+    Command command =
+        program.add_subcommand("export", "The display as a scene for another renderer, for a second opinion on what it shows");
+    const auto args = std::make_shared<Arguments>(command);
+    command.footer(
+        "Examples:\n  lfdsim export pov display.toml --panel-image eia.png --set diffuser=none -o scene\n"
+        "  lfdsim export cycles display.toml --panel-image eia.png --triangles 16380 --normals smooth -o scene");
+    command.callback([args] { run(*args); });
+}
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,81 @@
+#include "peers/peers.h"
+
+#include "meshed/lens_mesh.h"
+
+#include <fmt/format.h>
+#include <cmath>
+
+namespace lfdsim {
+namespace {
+
+constexpr std::int64_t least_triangles = 100;  // so that the outline of a lens has some points on each side of its cell
+
+class Refusals {
+  public:
+    Refusals(Peer peer, const Display& d, const Geometry& g, const PeerOptions& o) : peer_(peer), d_(d), g_(g), options_(o) {}
+
+    std::vector<Problem> all() {
+        if (d_.lens.type == LensType::ideal) {
+            add("lens.type", "a scene of real matter has no ideal lenses; give the display a real lens");
+            return std::move(problems_);
+        }
+        array();
+        if (d_.camera.pupil_diameter_mm.value_or(0) > 0)
+            add("camera.pupil_diameter_mm", "the scene's camera is a pinhole; add --set camera.pupil_diameter_mm=none");
+        if (peer_ == Peer::pov) pov();
+        if (peer_ == Peer::cycles && d_.diffuser && d_.diffuser->profile == Profile::gaussian)
+            add("diffuser.profile", "Cycles' nodes draw box angles alone; add --set 'diffuser.profile=\"box\"'");
+        triangles();
+        return std::move(problems_);
+    }
+
+  private:
+    void add(std::string where, std::string what) { problems_.push_back({std::move(where), std::move(what)}); }
+    bool meshed() const { return peer_ != Peer::pov || options_.triangles; }
+
+    void array() {
+        const bool square = d_.array.aperture == Aperture::square;
+        if (square && d_.array.surround == Surround::plate && meshed())
+            add("array.aperture",
+                "a plate with square lenses is not written as triangles; give circle, another array.surround, or export true "
+                "surfaces "
+                "for pov");
+        if (square && d_.array.surround == Surround::clear && meshed())
+            add("array.aperture",
+                "square bodies of glass touch, and triangles in the same place have no order; give circle, another array.surround, "
+                "or export true surfaces for pov");
+        if (d_.array.surround == Surround::clear && g_.surfaces.front().semi_aperture_mm != g_.surfaces.back().semi_aperture_mm)
+            add("lens.surface.0.semi_aperture_mm",
+                fmt::format("differs from the other surface's, so that the wall of the glass would be a cone; make both {} mm",
+                            g_.surfaces.back().semi_aperture_mm));
+    }
+
+    void pov() {
+        if (d_.diffuser) add("diffuser", "POV-Ray cannot scatter rays as a diffuser does; add --set diffuser=none");
+        if (d_.camera.pixel_filter != PixelFilter::center)
+            add("camera.pixel_filter", "POV-Ray traces pixel centres; add --set 'camera.pixel_filter=\"center\"'");
+        if (d_.panel.emission_exponent != 0)
+            add("panel.emission_exponent", "POV-Ray's emission is Lambertian; add --set panel.emission_exponent=0");
+    }
+
+    void triangles() {
+        if (!options_.triangles) return;
+        const std::int64_t most = peer_ == Peer::pov ? most_pov_triangles : most_lens_triangles;
+        if (*options_.triangles < least_triangles || *options_.triangles > most)
+            add("--triangles", fmt::format("is {}, allowed is {} to {}", *options_.triangles, least_triangles, most));
+    }
+
+    const Peer peer_;
+    const Display& d_;
+    const Geometry& g_;
+    const PeerOptions& options_;
+    std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+std::vector<Problem> not_expressed(Peer peer, const Display& display, const Geometry& geometry, const PeerOptions& options) {
+    return Refusals(peer, display, geometry, options).all();
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,110 @@
+#include "peers/python.h"
+
+#include "engine/scene.h"
+#include "peers/cell.h"
+#include "peers/ply.h"
+#include "peers/text.h"
+
+#include <nlohmann/json.hpp>
+
+// A script is a head of comments, one literal SCENE and a text that is the same for all displays. JSON without true, false and null
+// is Python, too.
+namespace lfdsim::peers {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json camera(const Display& d, const Geometry& g) {
+    const optics::View view = make_view(d, g);
+    const auto list = [](const double* v) { return Json{v[0], v[1], v[2]}; };
+    return {{"position_mm", list(view.position)}, {"forward", list(view.forward)},
+            {"right", list(view.right)},          {"up", list(view.up)},
+            {"distance_mm", view.distance},       {"frame_width_mm", view.pixel_mm * view.width},
+            {"size", {view.width, view.height}},  {"whole_pixels", d.camera.pixel_filter == PixelFilter::box ? 1 : 0}};
+}
+
+Json diffuser(const Display& d, const Geometry& g) {
+    if (!d.diffuser) return Json::object();
+    return {{"z_mm", *g.diffuser_z_mm},
+            {"half_mm", sheet_half(d, g) + 20 * *g.diffuser_z_mm},
+            {"angle_deg", d.diffuser->angle_deg},
+            {"gaussian", d.diffuser->profile == Profile::gaussian ? 1 : 0}};
+}
+
+Json patches(const std::vector<Patch>& all, std::vector<PeerFile>& files) {
+    Json list = Json::array();
+    for (const Patch& patch : all) {
+        const std::string name = patch.name + ".ply";
+        list.push_back({{"file", name}, {"black", patch.black ? 1 : 0}, {"front", patch.index_front}, {"back", patch.index_back}});
+        files.push_back({name, ply(patch)});
+    }
+    return list;
+}
+
+// A line for each entry.
+std::string literal(const Json& data) {
+    std::string text = "SCENE = {\n";
+    for (const auto& [key, value] : data.items()) text += fmt::format("    {}: {},\n", Json(key).dump(), value.dump(-1, ' ', true));
+    return text + "}\n\n";
+}
+
+const char* word(Fresnel f) { return f == Fresnel::exact ? "exact" : f == Fresnel::schlick ? "schlick" : "none"; }
+
+}  // namespace
+
+void write_python(Peer peer, const Display& display, const Geometry& geometry, const PeerOptions& options,
+                  std::vector<std::string> head, PeerScene& scene) {
+    const bool cycles = peer == Peer::cycles, opaque = display.array.surround == Surround::opaque;
+    scene.shown = display;
+    scene.panel_file = "panel.exr";
+    scene.picture = "view.exr";
+    scene.command =
+        (cycles ? "blender -b --factory-startup --python-exit-code 1 -P scene.py -- -o " : "python3 scene.py -o ") + scene.picture;
+    auto& deviations = scene.deviations;
+    deviations.push_back("rays are followed in single precision from the camera on");
+    if (cycles && display.render.fresnel == Fresnel::schlick) {
+        scene.shown.render.fresnel = Fresnel::exact;
+        deviations.push_back("render.fresnel: Cycles knows no Schlick weights of refraction; they are exact here");
+    }
+    if (cycles && display.diffuser)
+        deviations.push_back(
+            "diffuser: its angles are a hash of the place where a ray meets it; so rays are spread over a hundredth of the pixel");
+
+    std::vector<PeerFile> files;
+    const MeshedArray made = mesh_array(display, geometry, *options.triangles);
+    Display points = scene.shown;
+    points.render.estimator = Estimator::point;
+    const LensArray& array = display.array;
+    const Json data{
+        {"camera", camera(display, geometry)},
+        {"panel",
+         {{"file", scene.panel_file},
+          {"width_mm", geometry.panel_width_mm},
+          {"height_mm", geometry.panel_height_mm},
+          {"emission_exponent", display.panel.emission_exponent}}},
+        {"array",
+         {{"count", array.count},
+          {"pitch_mm", array.pitch_mm},
+          {"base_z_mm", geometry.base_z_mm},
+          {"rotation_deg", array.rotation_deg},
+          {"offset_mm", array.offset_mm}}},
+        {"diffuser", diffuser(display, geometry)},
+        {"fresnel", word(scene.shown.render.fresnel)},
+        // Opaque: each surface once. Else: up to 16, and what is totally reflected goes on.
+        {"hits", (opaque ? geometry.surfaces.size() : 16) + (display.diffuser ? 1 : 0)},
+        {"reflects", opaque ? 0 : 1},
+        {"smooth", options.normals == MeshNormals::smooth ? 1 : 0},
+        {"samples", samples_of(points)},
+        {"seed", display.render.seed},
+        {"cell", patches(made.cell, files)},
+        {"sheet", patches(made.sheet, files)},
+    };
+    head.push_back("Render: " + scene.command + " [--samples N] [--size WxH]" +
+                   (cycles ? "" : " [--variant llvm_ad_rgb|cuda_ad_rgb]"));
+    head.push_back(fmt::format("A lens has {} triangles.", made.lens_triangles));
+    for (const std::string& d : deviations) head.push_back("Deviates: " + d);
+    scene.files.push_back({"scene.py", comment("#", head) + literal(data) + (cycles ? cycles_script : mitsuba_script)});
+    std::move(files.begin(), files.end(), std::back_inserter(scene.files));
+}
+
+}  // namespace lfdsim::peers

@@ -1,0 +1,13 @@
+# The scripts for other renderers, each in one C++ literal.
+set(scripts_cpp ${CMAKE_CURRENT_BINARY_DIR}/peers/scripts.cpp)
+set(scripts_text "#include \"peers/python.h\"\n")
+foreach(name cycles mitsuba)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/${name}.py)
+  file(READ ${CMAKE_CURRENT_LIST_DIR}/${name}.py script)
+  if(script MATCHES "\\)script\"")
+    message(FATAL_ERROR "${name}.py would end its C++ literal")
+  endif()
+  string(APPEND scripts_text "const char* const lfdsim::peers::${name}_script = R\"script(${script})script\";\n")
+endforeach()
+file(CONFIGURE OUTPUT ${scripts_cpp} CONTENT "${scripts_text}" @ONLY)
+target_sources(lfdsim_peers PRIVATE ${scripts_cpp})

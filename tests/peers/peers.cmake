@@ -1,0 +1,13 @@
+# Scenes for other renderers. Where a renderer is not installed, its script prints "SKIPPED: why" and ends with 77.
+if(TARGET lfdsim)
+  add_test(NAME peers.scenes COMMAND ${PYTHON} ${CMAKE_CURRENT_LIST_DIR}/scenes.py $<TARGET_FILE:lfdsim>)
+  if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+    add_test(NAME peers.povray COMMAND ${PYTHON} ${CMAKE_CURRENT_LIST_DIR}/povray.py $<TARGET_FILE:lfdsim>)
+    add_test(NAME peers.povray_meshes COMMAND ${PYTHON} ${CMAKE_CURRENT_LIST_DIR}/povray.py $<TARGET_FILE:lfdsim> --triangles 20000)
+    add_test(NAME peers.povray_full COMMAND ${PYTHON} ${CMAKE_CURRENT_LIST_DIR}/povray.py $<TARGET_FILE:lfdsim> --full)
+    add_test(NAME peers.cycles COMMAND ${PYTHON} ${CMAKE_CURRENT_LIST_DIR}/renderers.py $<TARGET_FILE:lfdsim> cycles)
+    add_test(NAME peers.mitsuba COMMAND ${PYTHON} ${CMAKE_CURRENT_LIST_DIR}/renderers.py $<TARGET_FILE:lfdsim> mitsuba)
+    set_tests_properties(peers.povray peers.povray_meshes peers.povray_full peers.cycles peers.mitsuba PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
+    set_tests_properties(peers.povray_full PROPERTIES LABELS full)
+  endif()
+endif()

@@ -1,0 +1,130 @@
+#!/usr/bin/python3
+"""What `lfdsim export pov` writes, rendered by POV-Ray, against lfdsim's own picture: povray.py LFDSIM [--full] [--only TEXT] [--triangles N].
+
+The displays of tests/oracle/cases.py, each seen once a pixel. Away from edges all pixels agree within 1/255 (an edge is where the exact picture changes
+within 0.02 pixels: tests/oracle/README.md). The panel shows addresses, so that a wrong panel pixel is a wrong colour. Skipped without the program povray.
+"""
+import argparse
+import os
+import pathlib
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+from PIL import Image
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "oracle"))
+import cases  # noqa: E402
+import tracer  # noqa: E402
+from display import resolve  # noqa: E402
+from run import panel_images  # noqa: E402
+
+TOLERANCE = 1 / 255 + 1e-5
+QUICK = ("opaque circle, on axis", "opaque circle, 15 degrees", "opaque circle, rotated", "opaque square, 15", "clear circle, 30", "plate circle, 45", "asphere, 15", "cemented", "spaced")
+
+
+def refusal(d, meshed):
+    """A word of the message with which the export refuses a display, None where it must not."""
+    if d["lens"]["type"] == "ideal":
+        return "no ideal lenses"
+    if d["panel"].get("emission_exponent"):
+        return "Lambertian"
+    square, surround = d["array"].get("aperture") == "square", d["array"].get("surround")
+    return {"clear": "no order", "plate": "as triangles"}.get(surround) if square and meshed else None
+
+
+def run(command, folder):
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=600)
+    return done.returncode, done.stdout + done.stderr
+
+
+def pictures(program, description, image, folder, options):
+    """POV-Ray's picture and lfdsim's, (rows, columns, 3); or the message of an export that was refused."""
+    (folder / "given.toml").write_text(cases.to_toml(description))
+    Image.fromarray(image).save(folder / "given.png", compress_level=1)
+    code, said = run([program, "export", "pov", "given.toml", "--panel-image", "given.png", *options, "-o", "scene", "--json"], folder)
+    if code:
+        return said
+    scene = folder / "scene"
+    width, height = description["camera"]["resolution"]
+    command = f"povray +Iscene.pov +Oview.png +W{width} +H{height} -D -A +FN16 File_Gamma=1.0"
+    assert f'"command": "{command}"' in said, said
+    code, said = run(shlex.split(command.replace("+FN16", "+FN8")), scene)  # 8 bits hold all addresses
+    if code:
+        return "povray: " + said[-1500:]
+    code, said = run([program, "render", "display.toml", "--panel-image", "panel.png", "-o", "lfdsim.npy"], scene)
+    assert code == 0, said
+    return np.asarray(Image.open(scene / "view.png").convert("RGB")) / 255, np.load(scene / "lfdsim.npy").astype(float)
+
+
+def check(program, name, description, options):
+    """(good, what was found) of one display; good is None where it is refused as it should be."""
+    refused = refusal(description, bool(options))
+    # Light takes the same ways whatever Fresnel's weights; where POV-Ray has none the picture is made without.
+    description = cases.merge(description, {"panel": {"encoding": "linear"}})
+    image = panel_images(*description["panel"]["pixels"])["address"]
+    with tempfile.TemporaryDirectory() as folder:
+        got = pictures(program, description, image, pathlib.Path(folder), options)
+    if isinstance(got, str):
+        return (None if refused and refused in got else False), got.strip()
+    if refused:
+        return False, f"was not refused with {refused!r}"
+    if options:
+        return check_meshed(name, *got)
+    povs, ours = (picture.reshape(-1, 3) for picture in got)
+    differs = np.flatnonzero((np.abs(povs - ours) > TOLERANCE).any(axis=1))
+    odd = differs
+    if len(odd):
+        display = resolve(description)
+        x, y = tracer.centers(display)
+        odd = odd[~tracer.near_edge(display, image / 255, x[odd], y[odd], spokes=48, rings=5)]
+    places = [(int(k) % description["camera"]["resolution"][0], int(k) // description["camera"]["resolution"][0]) for k in odd[:5]]
+    lit = (ours.max(axis=1) > 0).mean()
+    return not len(odd) and lit > 0.01, f"{100 * lit:.0f} % lit, {len(differs)} of {len(ours)} pixels differ, {len(odd)} off the edges {places if len(odd) else ''}"
+
+
+def address(picture):
+    """The panel pixel (2, rows, columns) that each pixel shows."""
+    code = np.rint(255 * picture).astype(int)
+    return np.stack([code[:, :, 0] * 16 + code[:, :, 2] // 16, code[:, :, 1] * 16 + code[:, :, 2] % 16])
+
+
+def check_meshed(name, povs, ours):
+    """Many triangles with smooth normals: nearly all rays meet the right panel pixel or the next one."""
+    lit, of_ours = povs.max(axis=2) > 0, ours.max(axis=2) > 0
+    near = (np.abs(address(povs) - address(ours)).max(axis=0) <= 1)[lit & of_ours].mean()
+    grazing = "75 degrees" in name
+    found = f"{100 * near:.2f} % within one panel pixel, {100 * (lit != of_ours).mean():.2f} % lit in one picture alone"
+    return near >= (0.9 if grazing else 0.985) and (lit != of_ours).mean() < 0.005, found
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("program")
+    parser.add_argument("--full", action="store_true", help="all displays, not a few")
+    parser.add_argument("--only", default="", help="displays whose name holds this text")
+    parser.add_argument("--triangles", help="meshed lenses with smooth normals: judged less strictly")
+    options = parser.parse_args()
+    if not shutil.which("povray"):
+        print("SKIPPED: the program povray is not installed (Debian: povray)")
+        sys.exit(77)
+    program, wrong, done = os.path.abspath(options.program), 0, 0
+    for name, description in cases.SHARP.items():
+        if options.only not in name or not (options.full or options.only or any(name.startswith(part) for part in QUICK)):
+            continue
+        if description["array"]["count"][0] > 100 and not options.full:
+            continue
+        over = {"render": {"fresnel": "none"}} if options.triangles else {}  # colours tell addresses
+        description = cases.merge(description, {"camera": {"resolution": [192, 108]}, **over})
+        good, found = check(program, name, description, ["--triangles", options.triangles, "--normals", "smooth"] if options.triangles else [])
+        wrong, done = wrong + (good is False), done + 1
+        print({True: "pass   ", None: "refused", False: "FAIL   "}[good], name + ":", found, flush=True)
+    print(f"{done} displays, {wrong} failed")
+    sys.exit(1 if wrong or not done else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,68 @@
+#!/usr/bin/python3
+"""What `lfdsim export` writes for a renderer, rendered by it, against lfdsim's own picture: renderers.py LFDSIM cycles|mitsuba.
+
+Meshed lenses are not the true ones, and both renderers count in single precision: pictures are alike, not equal. Each display is seen obliquely, so that
+a picture that is turned, mirrored or shifted by a pixel fails. Skipped where the renderer is not installed.
+"""
+import json
+import os
+import pathlib
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+
+PROGRAM, PEER = os.path.abspath(sys.argv[1]), sys.argv[2]
+sys.argv[1:] = [PROGRAM]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "cli"))
+from program import TINY  # noqa: E402
+
+SHARP = ["--set", "diffuser=none"]
+# Name, options, least SSIM, greatest RMSE in linear light. 0.01 of RMSE is one pixel in 10 000 that is black for white.
+CASES = [
+    ("opaque", SHARP, 0.99, 0.03),
+    ("clear", [*SHARP, "array.surround=\"clear\""], 0.99, 0.03),
+    ("plate, turned", [*SHARP, "array.surround=\"plate\"", "array.rotation_deg=7.0", "array.offset_mm=[0.6,-0.4]"], 0.99, 0.03),
+    ("opaque, square", [*SHARP, "array.aperture=\"square\"", "lens.sphere_radius_mm=3.2"], 0.99, 0.03),
+    ("diffuser", ["--set", "render.samples=256"], 0.97, 0.04),
+]
+
+
+def found():
+    if PEER == "cycles":
+        return shutil.which("blender"), "the program blender is not installed (Debian: blender)"
+    done = subprocess.run(["python3", "-c", "import mitsuba; mitsuba.set_variant('llvm_ad_rgb')"], capture_output=True)
+    return done.returncode == 0, "python3 has no module mitsuba whose variant llvm_ad_rgb works (PyPI: mitsuba; LLVM's library)"
+
+
+def run(command, folder):
+    done = subprocess.run(command, cwd=folder, env={**os.environ, "PWD": str(folder)}, capture_output=True, text=True, timeout=600)  # Blender goes by PWD
+    assert done.returncode == 0, f"{shlex.join(command)}: {done.stdout[-1500:]}{done.stderr[-1500:]}"
+    return done.stdout
+
+
+def main():
+    there, why = found()
+    if not there:
+        print("SKIPPED:", why)
+        sys.exit(77)
+    wrong = 0
+    for name, options, least, most in CASES:
+        with tempfile.TemporaryDirectory() as place:
+            folder = pathlib.Path(place)
+            (folder / "tiny.toml").write_text(TINY)
+            told = json.loads(run([PROGRAM, "export", PEER, "tiny.toml", "--pattern", "checkerboard", "--cell-pixels", "3", "--camera-mm", "60,35,390",
+                                   "--triangles", "8000", "--normals", "smooth", "--json", "-o", "scene", *options], folder))
+            run(shlex.split(told["command"]), folder / "scene")
+            run(shlex.split(told["lfdsim"].replace("lfdsim", PROGRAM, 1)), folder / "scene")
+            run([PROGRAM, "render", "display.toml", "--panel-image", told["files"][0], "--camera-mm=-60,-35,390", "-o", "mirrored.exr"], folder / "scene")
+            other = json.loads(run([PROGRAM, "compare", "mirrored.exr", told["picture"], "--json"], folder / "scene"))
+            alike = json.loads(run([PROGRAM, "compare", "lfdsim.exr", told["picture"], "--json"], folder / "scene"))
+        good = alike["ssim"] >= least and alike["rmse"] <= most and other["rmse"] > 2 * most
+        wrong += not good
+        print(f"{'pass' if good else 'FAIL'} {name}: SSIM {alike['ssim']:.4f}, RMSE {alike['rmse']:.4f}; seen from the other side RMSE {other['rmse']:.4f}", flush=True)
+    sys.exit(1 if wrong else 0)
+
+
+main()

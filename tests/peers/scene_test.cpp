@@ -1,0 +1,263 @@
+// Scenes for other renderers as text and triangles: sizes, places, names from strangers, what is refused.
+#include "engine/scene.h"
+#include "files/display_file.h"
+#include "peers/cell.h"
+#include "peers/peers.h"
+#include "peers/ply.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+
+namespace lfdsim {
+namespace {
+
+using peers::MeshedArray;
+using peers::Patch;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Display example(const std::vector<std::string>& overrides = {}) {
+    std::vector<std::string> all{"diffuser=none", "render.fresnel=\"none\""};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    return read_display(LFDSIM_SOURCE_DIR "/displays/desktop-spherical.toml", all);
+}
+
+std::string scene_text(Peer peer, const Display& d, const PeerOptions& options = {}) {
+    return peer_scene(peer, d, resolve(d), options).files.front().bytes;
+}
+
+std::vector<std::string> refused_keys(Peer peer, const Display& d, const PeerOptions& options = {}) {
+    std::vector<std::string> keys;
+    for (const Problem& p : not_expressed(peer, d, resolve(d), options)) keys.push_back(p.where);
+    return keys;
+}
+
+constexpr Peer all_peers[] = {Peer::pov, Peer::cycles, Peer::mitsuba};
+
+TEST(Scene, HasNoNumberThatIsNone) {
+    for (const Peer peer : all_peers)
+        for (const char* surround : {"opaque", "clear", "plate"}) {
+            const std::string text = scene_text(peer, example({std::string("array.surround=\"") + surround + '"'}));
+            for (const char* none : {"nan", "inf,", "inf>", "inf ", "null", "true", "false"})
+                EXPECT_EQ(text.find(none), text.npos) << none << " in " << text;
+        }
+}
+
+TEST(Scene, OfAHundredThousandLensesIsAsShort) {
+    for (const Peer peer : all_peers) {
+        const auto begun = std::chrono::steady_clock::now();
+        const Display few = example(), many = example({"array.count=[400,250]", "camera.position_mm=[0.0,0.0,9000.0]"});
+        const PeerScene a = peer_scene(peer, few, resolve(few), {}), b = peer_scene(peer, many, resolve(many), {});
+        ASSERT_EQ(a.files.size(), b.files.size());
+        for (std::size_t i = 0; i < a.files.size(); ++i)
+            EXPECT_NEAR(double(b.files[i].bytes.size()), double(a.files[i].bytes.size()), 200) << a.files[i].name;
+        EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(5));
+    }
+}
+
+TEST(Scene, NamesFromOthersStayInTheirComment) {
+    Display d = example();
+    d.name = "x\n#declare Evil = 1;\r*/ \"\"\" ''' \\ \xc3\xa9 \x1b[31m";
+    for (const Peer peer : all_peers) {
+        std::istringstream lines(scene_text(peer, d));
+        std::string line;
+        std::getline(lines, line);
+        EXPECT_THAT(line, HasSubstr("x?#declare Evil = 1;?*/"));
+        for (const char c : line) EXPECT_TRUE(c >= 0x20 && c < 0x7f);
+        while (std::getline(lines, line)) EXPECT_EQ(line.find("Evil"), line.npos);
+    }
+}
+
+TEST(Scene, SaysWhatDeviatesInItsHead) {
+    const Display exact = example({"render.fresnel=\"exact\"", "array.surround=\"plate\""});
+    const PeerScene plate = peer_scene(Peer::pov, exact, resolve(exact), {});
+    EXPECT_THAT(plate.deviations, ElementsAre(HasSubstr("render.fresnel")));
+    EXPECT_THAT(plate.files.front().bytes, HasSubstr("// Deviates: render.fresnel"));
+    EXPECT_EQ(plate.shown.render.fresnel, Fresnel::none);
+
+    const Display opaque = example({"render.fresnel=\"exact\""});
+    const PeerScene scene = peer_scene(Peer::pov, opaque, resolve(opaque), {});
+    EXPECT_TRUE(scene.deviations.empty());
+    EXPECT_EQ(scene.shown.render.fresnel, Fresnel::exact);
+    EXPECT_THAT(scene.files.front().bytes, HasSubstr("fresnel on"));
+
+    const Display schlick = example({"render.fresnel=\"schlick\""});
+    EXPECT_EQ(peer_scene(Peer::pov, schlick, resolve(schlick), {}).shown.render.fresnel, Fresnel::none);
+    EXPECT_EQ(peer_scene(Peer::cycles, schlick, resolve(schlick), {}).shown.render.fresnel, Fresnel::exact);
+    EXPECT_EQ(peer_scene(Peer::mitsuba, schlick, resolve(schlick), {}).shown.render.fresnel, Fresnel::schlick);
+}
+
+TEST(Scene, SaysWhenPovRaysNumbersEnd) {
+    const Display near = example({"camera.position_mm=[0.0,0.0,20000.0]"}),
+                  far = example({"camera.position_mm=[0.0,0.0,999000.0]"}),
+                  fine = example({"camera.position_mm=[0.0,0.0,999000.0]", "array.pitch_mm=0.1", "lens.aperture_radius_mm=0.04",
+                                  "lens.sphere_radius_mm=0.06", "lens.cylinder_height_mm=0.02"});
+    EXPECT_TRUE(peer_scene(Peer::pov, near, resolve(near), {}).deviations.empty());
+    EXPECT_TRUE(peer_scene(Peer::pov, far, resolve(far), {}).deviations.empty());
+    EXPECT_THAT(peer_scene(Peer::pov, fine, resolve(fine), {}).deviations, ElementsAre(HasSubstr("camera.position_mm")));
+}
+
+TEST(Scene, TracesNoRayFurtherThanTheModel) {
+    EXPECT_THAT(scene_text(Peer::pov, example()), HasSubstr("max_trace_level 3 "));
+    EXPECT_THAT(scene_text(Peer::pov, example({"array.surround=\"clear\""})), HasSubstr("max_trace_level 17 "));
+    EXPECT_THAT(scene_text(Peer::cycles, example()), HasSubstr("\"hits\": 2,"));
+    EXPECT_THAT(scene_text(Peer::mitsuba, example({"array.surround=\"plate\""})), HasSubstr("\"hits\": 16,"));
+}
+
+TEST(Scene, RefusesWhatItCannotShow) {
+    const Display diffuse = read_display(LFDSIM_SOURCE_DIR "/displays/desktop-spherical.toml");
+    EXPECT_THAT(refused_keys(Peer::pov, diffuse), ElementsAre("diffuser"));
+    EXPECT_THAT(refused_keys(Peer::cycles, diffuse), ElementsAre());
+    const Display gaussian = read_display(LFDSIM_SOURCE_DIR "/displays/desktop-spherical.toml", {"diffuser.profile=\"gaussian\""});
+    EXPECT_THAT(refused_keys(Peer::cycles, gaussian), ElementsAre("diffuser.profile"));
+    EXPECT_THAT(refused_keys(Peer::mitsuba, gaussian), ElementsAre());
+    const Display ideal = read_display(LFDSIM_SOURCE_DIR "/displays/desktop-ideal.toml", {"diffuser=none"});
+    for (const Peer peer : all_peers) {
+        EXPECT_THAT(refused_keys(peer, ideal), ElementsAre("lens.type"));
+        EXPECT_THAT(refused_keys(peer, example({"camera.pupil_diameter_mm=4.0"})), ElementsAre("camera.pupil_diameter_mm"));
+        PeerOptions options;
+        options.triangles = 99;
+        EXPECT_THAT(refused_keys(peer, example(), options), ElementsAre("--triangles"));
+        options.triangles = 4'000'001;
+        EXPECT_THAT(refused_keys(peer, example(), options), ElementsAre("--triangles"));
+        EXPECT_THROW(peer_scene(peer, example(), resolve(example()), options), InputError);
+        for (const char* surround : {"clear", "plate"}) {  // triangles of square bodies: see docs/peers.md
+            const Display square = example(
+                {"array.aperture=\"square\"", std::string("array.surround=\"") + surround + '"', "lens.sphere_radius_mm=9.0"});
+            options.triangles = 1000;
+            EXPECT_THAT(refused_keys(peer, square, options), ElementsAre("array.aperture"));
+            EXPECT_EQ(refused_keys(peer, square).empty(), peer == Peer::pov);
+        }
+    }
+    EXPECT_THAT(refused_keys(Peer::pov, example({"panel.emission_exponent=1.0", "camera.pixel_filter=\"box\""})),
+                ElementsAre("camera.pixel_filter", "panel.emission_exponent"));
+}
+
+TEST(Scene, SaysThatLightIsCutOff) {
+    const Display d = example();
+    const PeerScene pov = peer_scene(Peer::pov, d, resolve(d), {}), cycles = peer_scene(Peer::cycles, d, resolve(d), {});
+    Texels panel(2, 2);
+    panel.data()[5] = 1;
+    EXPECT_FALSE(panel_deviation(pov, panel));
+    panel.data()[5] = 1.5;
+    EXPECT_TRUE(panel_deviation(pov, panel));
+    EXPECT_FALSE(panel_deviation(cycles, panel));
+}
+
+// The triangles of a cell.
+
+double area_from_above(const Patch& patch) {
+    double sum = 0;
+    for (std::size_t t = 0; t < patch.count(); ++t) {
+        const float* v[3];
+        for (std::size_t i = 0; i < 3; ++i) v[i] = &patch.vertices_mm[3 * patch.triangles[3 * t + i]];
+        sum += 0.5 * ((double(v[1][0]) - v[0][0]) * (double(v[2][1]) - v[0][1]) -
+                      (double(v[2][0]) - v[0][0]) * (double(v[1][1]) - v[0][1]));
+    }
+    return sum;
+}
+
+const Patch* named(const std::vector<Patch>& list, std::string_view name) {
+    for (const Patch& p : list)
+        if (p.name == name) return &p;
+    return nullptr;
+}
+
+TEST(Cell, OfAPlateIsCoveredOnce) {
+    const Display d = example({"array.surround=\"plate\"", "lens.aperture_radius_mm=5.5"});
+    const MeshedArray made = peers::mesh_array(d, resolve(d), 5000);
+    const Patch *cap = named(made.cell, "surface-2"), *flat = named(made.cell, "flat-2");
+    ASSERT_TRUE(cap && flat);
+    // The cap's outline is a polygon in the circle; the flat part begins there and ends at the cell's border.
+    EXPECT_NEAR(area_from_above(*cap) + area_from_above(*flat), 144, 1e-4);
+    EXPECT_NEAR(area_from_above(*cap), M_PI * 5.5 * 5.5, 0.2);
+    ASSERT_TRUE(named(made.sheet, "surface-1"));  // the flat face, common to all
+    EXPECT_EQ(named(made.sheet, "surface-1")->count(), 1u);
+    EXPECT_EQ(cap->index_front, 1);
+    EXPECT_EQ(cap->index_back, 1.4918);
+}
+
+TEST(Cell, OfAnOpaqueArrayIsBlackBesideTheLens) {
+    const Display d = example({"lens.aperture_radius_mm=5.5"});
+    const Geometry g = resolve(d);
+    const MeshedArray made = peers::mesh_array(d, g, 5000);
+    const Patch *cap = named(made.cell, "surface-2"), *black = named(made.cell, "black");
+    ASSERT_TRUE(cap && black && black->black);
+    // Two rings, at the rims of both surfaces, a little wider than the cell; walls are not seen from above.
+    const double wider = 12.002 * 12.002;
+    EXPECT_NEAR(area_from_above(*black), 2 * (wider - area_from_above(*cap)), 1e-3);
+    ASSERT_TRUE(named(made.sheet, "black-beside"));
+    EXPECT_GT(area_from_above(*named(made.sheet, "black-beside")), 1e6);
+}
+
+TEST(Cell, OfClearGlassIsClosed) {
+    const Display d = example({"array.surround=\"clear\"", "array.pitch_mm=12.5"});
+    const MeshedArray made = peers::mesh_array(d, resolve(d), 3386);
+    ASSERT_EQ(made.cell.size(), 3u);
+    EXPECT_TRUE(made.sheet.empty());
+    double volume = 0;  // by the divergence theorem, glass behind every front
+    for (const Patch& patch : made.cell) {
+        EXPECT_EQ(patch.index_front, 1);
+        EXPECT_EQ(patch.index_back, 1.4918);
+        for (std::size_t t = 0; t < patch.count(); ++t) {
+            const float *a = &patch.vertices_mm[3 * patch.triangles[3 * t]],
+                        *b = &patch.vertices_mm[3 * patch.triangles[3 * t + 1]],
+                        *c = &patch.vertices_mm[3 * patch.triangles[3 * t + 2]];
+            volume += (a[0] * (double(b[1]) * c[2] - double(b[2]) * c[1]) + a[1] * (double(b[2]) * c[0] - double(b[0]) * c[2]) +
+                       a[2] * (double(b[0]) * c[1] - double(b[1]) * c[0])) /
+                      6;
+        }
+    }
+    // a cylinder and the cap of a ball of R = 7.721 that is H high
+    const double h = 7.721 - std::sqrt(7.721 * 7.721 - 36), exact = M_PI * (36 * 0.628 + h * h * (7.721 - h / 3));
+    EXPECT_NEAR(volume / exact, 1, 0.01);
+}
+
+TEST(Cell, EveryMeshHoldsTogether) {
+    for (const char* surround : {"opaque", "clear", "plate"})
+        for (const char* facing : {"viewer", "panel"}) {
+            const Display d = example({std::string("array.surround=\"") + surround + '"',
+                                       std::string("lens.facing=\"") + facing + '"', "lens.stop_radius_mm=2.0"});
+            const MeshedArray made = peers::mesh_array(d, resolve(d), 100);
+            for (const auto* list : {&made.cell, &made.sheet})
+                for (const Patch& patch : *list) {
+                    ASSERT_EQ(patch.vertices_mm.size(), patch.normals.size());
+                    for (const float x : patch.vertices_mm) ASSERT_TRUE(std::isfinite(x));
+                    for (const float x : patch.normals) ASSERT_TRUE(std::isfinite(x));
+                    for (const std::uint32_t v : patch.triangles) ASSERT_LT(3 * v, patch.vertices_mm.size());
+                    for (std::size_t t = 0; !patch.black && t < patch.count(); ++t) {  // normals show where the triangle does
+                        const std::uint32_t* v = &patch.triangles[3 * t];
+                        const auto at = [&](int i, int k) { return double(patch.vertices_mm[3 * v[i] + k]); };
+                        double n[3];
+                        for (int k = 0; k < 3; ++k)
+                            n[k] = (at(1, (k + 1) % 3) - at(0, (k + 1) % 3)) * (at(2, (k + 2) % 3) - at(0, (k + 2) % 3)) -
+                                   (at(1, (k + 2) % 3) - at(0, (k + 2) % 3)) * (at(2, (k + 1) % 3) - at(0, (k + 1) % 3));
+                        for (int i = 0; i < 3; ++i) {
+                            const float* normal = &patch.normals[3 * v[i]];
+                            ASSERT_GT(n[0] * normal[0] + n[1] * normal[1] + n[2] * normal[2], 0) << patch.name;
+                        }
+                    }
+                }
+        }
+}
+
+TEST(Ply, HoldsWhatItsHeadSays) {
+    const Display d = example();
+    for (const Patch& patch : peers::mesh_array(d, resolve(d), 1000).cell) {
+        const std::string bytes = peers::ply(patch);
+        const std::size_t head = bytes.find("end_header\n") + 11;
+        EXPECT_EQ(bytes.size() - head, patch.vertices_mm.size() * 8 + patch.count() * 13);
+        float first[6];
+        std::memcpy(first, &bytes[head], sizeof first);
+        EXPECT_EQ(first[2], patch.vertices_mm[2]);
+        EXPECT_EQ(first[5], patch.normals[2]);
+    }
+}
+
+}  // namespace
+}  // namespace lfdsim
