@@ -152,7 +152,9 @@ def follow(scene, ray, turn):
             sample, value = si.bsdf().sample(context, si, mi.Float(0), turn, active)
             weight = weight * value
             active = active & (dr.max(value) > 0)
-            ray = si.spawn_ray(si.to_world(sample.wo))
+            # Further along the ray, not beside the surface as spawn_ray() puts it: that would shift oblique rays
+            on = si.to_world(sample.wo)
+            ray = mi.Ray3f(si.p + (1 + dr.max(dr.abs(si.p))) * 1e-5 * on, on)
             dr.eval(ray, light, weight, active)
     return np.stack([np.array(channel) for channel in (light.x, light.y, light.z)], axis=1)
 

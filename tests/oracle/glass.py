@@ -97,6 +97,7 @@ class Glass:
         face = sheet < t
         if face.any():
             t, normal = np.where(face, sheet, t), np.where(face[:, None], sheet_normal, normal)
+            i, j = np.where(face, -1, i), np.where(face, -1, j)
         return t, normal, i, j
 
 
@@ -118,6 +119,7 @@ def trace_glass(path, display, lattice):
                 path.to_panel(rays[~hit], display, lattice)
             rays, t, normal, i, j = rays[hit], t[hit], normal[hit], i[hit], j[hit]
             path.met[rays] += 1
+            path.meet(rays, i, j)
             many = path.met[rays] > MOST_SURFACES
             path.status[rays[many]] = TOO_MANY
             path.advance(rays, t, display, lattice)

@@ -50,6 +50,7 @@ def trace_opaque(path, display, lattice):
     axis = lattice.axis(i, j)  # of the lens each ray went into
     hit = np.isfinite(t)
     path.status[rays[~hit]] = BLACK
+    path.meet(rays[hit], i[hit], j[hit])
     rays, t, normal, axis = rays[hit], t[hit], normal[hit], axis[hit]
     for number in reversed(range(len(surfaces))):
         here = surfaces[number]

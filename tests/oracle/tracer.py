@@ -15,7 +15,8 @@ def trace(display, o, d, turn=None):
     """Rays o (n, 3) in mm with directions d (n, 3), and the diffuser's angles turn (n, 2) in radians (default 0), to the panel.
 
     Returns arrays: status (path.py), column and row of the panel pixel (-1: none), weight (Fresnel), cosine (at the panel), met (surfaces
-    met between the lenses' outsides and the panel; glass only).
+    met between the lenses' outsides and the panel; glass only), x and y (on the panel, in pixels from its top left corner), way (a number that
+    is the same for rays that meet the same lenses in the same order; 0 is none).
     """
     d = d / np.linalg.norm(d, axis=1, keepdims=True)
     turn = np.zeros((len(o), 2)) if turn is None else turn
@@ -34,11 +35,11 @@ def _trace(display, o, d, turn):
     p, d = lattice.leave(path.o, path.d)
     panel = display.panel
     (columns, rows), pitch = panel.pixels, panel.pixel_pitch_mm
-    column = np.floor((p[:, 0] + columns * pitch / 2) / pitch).astype(np.int64)
-    row = np.floor((rows * pitch / 2 - p[:, 1]) / pitch).astype(np.int64)
+    x, y = (p[:, 0] + columns * pitch / 2) / pitch, (rows * pitch / 2 - p[:, 1]) / pitch
+    column, row = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
     on = (path.status == OFF_PANEL) & (column >= 0) & (column < columns) & (row >= 0) & (row < rows)
     return SimpleNamespace(status=np.where(on, PANEL, path.status), column=np.where(on, column, -1), row=np.where(on, row, -1),
-                           weight=np.where(on, path.weight, 0.0), cosine=np.where(on, -d[:, 2], 1.0), met=path.met)
+                           weight=np.where(on, path.weight, 0.0), cosine=np.where(on, -d[:, 2], 1.0), met=path.met, x=x, y=y, way=path.way)
 
 
 def _diffuse(z, o, d, turn):
