@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The tables of docs/peers.md: lfdsim against POV-Ray on displays of displays/, pixel by pixel. peers.py LFDSIM [--size WxH] [--meshes]
+"""The tables of docs/peers.md: lfdsim against POV-Ray on displays of displays/, pixel by pixel. povray_pixels.py LFDSIM [--size WxH] [--meshes]
 
 Needs povray. Panel: addresses, linear. Away from edges as tests/peers/povray.py judges them. --meshes: how often POV-Ray's rays through meshed lenses meet
 the panel pixel that lfdsim's meet through the true ones.
