@@ -23,6 +23,9 @@ struct Tile {
     int dimensions;  // of the sampler that are in use
 };
 
+/// Errors are told of squares of the frame so many pixels wide and high (refine.h).
+constexpr int kRefinedSide = 16;
+
 /// How far the work on a picture got.
 struct Done {
     std::int64_t samples;

@@ -9,7 +9,6 @@
 
 namespace lfdsim {
 
-constexpr int kRefinedSide = 16;
 using RefinedPicture = std::array<float, kRefinedSide * kRefinedSide * 3>;
 struct RefinedBlock {
     std::int32_t x, y;  // first pixel, multiples of kRefinedSide

@@ -19,12 +19,11 @@ enum class Step {
 };
 constexpr int kSteps = 7;
 
-/// A block that is picked out: its first pixel, and the square of kSquare x kSquare pixels of the output, one behind the other,
-/// that the square of the frame goes to in which the block lies.
+/// A block that is picked out: its first pixel, and the square of kRefinedSide x kRefinedSide pixels of the output, one behind the
+/// other, that the square of the frame goes to in which the block lies.
 struct ListedBlock {
     std::int32_t x, y, square;
 };
-constexpr int kSquare = 16;
 
 /// What every item of every step is given. Memory is the machine's.
 struct Frame {

@@ -52,7 +52,7 @@ LFDSIM_FN float* output(const Frame& frame, std::int64_t block, std::int32_t x, 
     if (!wanted) return nullptr;
     if (!frame.listed) return tile.out + (std::int64_t(y - tile.crop_y) * tile.crop_width + (x - tile.crop_x)) * 3;
     const std::int64_t square = frame.listed[frame.first_block + block].square;
-    return tile.out + ((square * kSquare + y % kSquare) * kSquare + x % kSquare) * 3;
+    return tile.out + ((square * kRefinedSide + y % kRefinedSide) * kRefinedSide + x % kRefinedSide) * 3;
 }
 
 /// The memory of a block that is cut into at most `most` strata an axis.

@@ -8,9 +8,11 @@ namespace lfdsim::wide {
 
 namespace {
 
-constexpr std::size_t kBlockMemory = std::size_t(256) << 20;  // for the blocks at hand: enough of them to fill any machine
-constexpr std::int64_t kMostPoints = std::int64_t(1) << 31;   // of one step: a fraction of a second, after which Ctrl-C is heard
+constexpr std::int64_t kMostPoints = std::int64_t(1) << 31;  // of one step: a fraction of a second, after which Ctrl-C is heard
 constexpr int kPointSide = 16;
+
+/// For the blocks at hand: enough of them to fill any machine, and at least one of the largest.
+std::size_t block_memory(const Queue& queue) { return std::max(queue.block_bytes(kMostStrata), std::size_t(256) << 20); }
 
 /// Works off blocks, a part of them at a time.
 class Renderer {
@@ -41,12 +43,11 @@ class Renderer {
     /// The blocks of whole squares of the frame.
     void run_listed(const std::vector<RefinedBlock>& squares) {
         prepare();
-        static_assert(kSquare == kRefinedSide);
         const int side = frame_.tile.block_side;
         std::vector<ListedBlock> all;
         for (std::size_t k = 0; k < squares.size(); ++k)
-            for (int y = 0; y < kSquare; y += side)
-                for (int x = 0; x < kSquare; x += side) all.push_back({squares[k].x + x, squares[k].y + y, std::int32_t(k)});
+            for (int y = 0; y < kRefinedSide; y += side)
+                for (int x = 0; x < kRefinedSide; x += side) all.push_back({squares[k].x + x, squares[k].y + y, std::int32_t(k)});
         if (all.size() > listed_room_) {
             listed_ = Buffer<ListedBlock>(queue_, all.size());
             listed_room_ = all.size();
@@ -67,7 +68,7 @@ class Renderer {
         frame_.bytes_per_block = queue_.block_bytes(most);
         if (!memory_.get()) {
             even_ = Buffer<std::byte>(queue_, queue_.even_bytes());
-            memory_bytes_ = std::max(queue_.block_bytes(kMostStrata), kBlockMemory);
+            memory_bytes_ = block_memory(queue_);
             memory_ = Buffer<std::byte>(queue_, memory_bytes_);
         }
         frame_.even = even_.get();
@@ -139,7 +140,7 @@ class Painter : public BlockPainter {
     std::size_t room_ = 0;
 };
 
-/// A row of squares at a time, some thousands: each takes 30 KB of the caller's memory.
+/// Rows of squares, some thousands of squares at a time: each takes 30 KB of the caller's memory.
 Done render_refined(Queue& queue, Renderer& renderer, const Tile& tile, double target, float* error, Job& job) {
     constexpr std::int64_t at_once = 4096;
     const std::int64_t columns = (tile.x1 - tile.x0) / kRefinedSide + 2;
@@ -181,7 +182,7 @@ std::size_t Panel::bytes(const std::vector<optics::PanelLevel>& levels) {
 
 std::size_t picture_bytes(const Queue& queue, const Tile& tile) {
     const std::size_t picture = std::size_t(tile.x1 - tile.x0) * std::size_t(tile.y1 - tile.y0) * 3 * sizeof(float);
-    return picture + (tile.strata > 0 ? std::max(queue.block_bytes(kMostStrata), kBlockMemory) : 0);
+    return picture + (tile.strata > 0 ? block_memory(queue) : 0);
 }
 
 Done render(Queue& queue, const Panel& panel, const Tile& tile, std::optional<double> target_error, float* error, Job& job) {
