@@ -50,14 +50,14 @@ Result measure_dof(Subject& s, Job& job) {
     for (std::size_t k = 0; k < depths.size(); ++k) {
         const Scene scene = s.scene().at_depth(depths[k]);
         const auto panel = elemental_panel(s.display(), s.geometry(), scene, s.threads(), job);
-        const View view = view_of(s.display(), s.geometry(), scene, panel->pyramid(), white, s.threads(), job);
-        const Likeness l = likeness(view);
+        const ExpectedView expected = expected_view(s.display(), s.geometry(), scene, s.threads(), job);
+        const Likeness l = likeness(expected, s.display(), s.geometry(), panel->pyramid(), white, s.threads(), job);
         screen.value.push_back(l.screen);
         content.value.push_back(l.content);
         job.advance(2);
         const bool nearest = k + 1 == depths.size() || std::abs(depths[k] - centre) <= std::abs(depths[k + 1] - centre);
         if (!nearest || screen.error > 0) continue;
-        const Likeness error = likeness_error(view, s.display(), s.geometry(), panel->pyramid(), white, s.threads(), job);
+        const Likeness error = likeness_error(l, expected, s.display(), s.geometry(), panel->pyramid(), white, s.threads(), job);
         screen.error = error.screen;
         content.error = error.content;
         job.advance(4);

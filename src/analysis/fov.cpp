@@ -29,26 +29,31 @@ struct Curves {
 
 Curves measure(const Subject& subject, const Shown& shown, bool horizontal, const std::vector<double>& angles, Job& job) {
     const auto seen_at = [&](double angle) { return seen_from(subject.display(), horizontal ? angle : 0, horizontal ? 0 : angle); };
-    const auto view_at = [&](double angle) {
-        return view_of(seen_at(angle), subject.geometry(), shown.scene, shown.panel, shown.white, subject.threads(), job);
+    const auto expected_at = [&](double angle) {
+        return expected_view(seen_at(angle), subject.geometry(), shown.scene, subject.threads(), job);
+    };
+    const auto likeness_at = [&](double angle, const ExpectedView& expected) {
+        return likeness(expected, seen_at(angle), subject.geometry(), shown.panel, shown.white, subject.threads(), job);
     };
     Curves curves{{angles, {}}, {angles, {}}, {angles, {}}};
-    const auto compare = [&](std::size_t, const View& view) {
-        const Likeness l = likeness(view);
+    const auto compare = [&](std::size_t k, const ExpectedView& expected) {
+        const Likeness l = likeness_at(angles[k], expected);
         curves.screen.value.push_back(l.screen);
         curves.content.value.push_back(l.content);
         curves.share.value.push_back(l.share);
         job.advance(1);
         return true;
     };
+    // The CPU photographs the scene from the next angle while a GPU renders and compares.
     make_ahead(
-        angles.size(), renders_on_gpu({}), [&](std::size_t k) { return view_at(angles[k]); }, compare);
+        angles.size(), renders_on_gpu({}), [&](std::size_t k) { return expected_at(angles[k]); }, compare);
     // The noise where it counts: about the edges that theory expects, and between; root mean square.
     const double edge = std::min(0.5 * subject.theory().fov_deg, angles.back());
     const double places[] = {-edge, -0.5 * edge, 0.5 * edge, edge};
     for (const double angle : places) {
-        const Likeness e =
-            likeness_error(view_at(angle), seen_at(angle), subject.geometry(), shown.panel, shown.white, subject.threads(), job);
+        const ExpectedView expected = expected_at(angle);
+        const Likeness e = likeness_error(likeness_at(angle, expected), expected, seen_at(angle), subject.geometry(), shown.panel,
+                                          shown.white, subject.threads(), job);
         curves.screen.error += e.screen * e.screen / std::size(places);
         curves.content.error += e.content * e.content / std::size(places);
         curves.share.error += e.share * e.share / std::size(places);

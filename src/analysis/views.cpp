@@ -1,6 +1,5 @@
 #include "analysis/views.h"
 
-#include "engine/render.h"
 #include "engine/scene.h"
 #include "engine/screen.h"
 #include "model/error.h"
@@ -96,72 +95,45 @@ void refuse_depth_in_lenses(const Geometry& g, double depth_mm, const std::strin
                                  depth_mm, bottom, top));
 }
 
+float exposure(double white) { return float(1 / white); }
+
 void expose(Image& image, double white) {
-    const float gain = float(1 / white);
+    const float gain = exposure(white);
     for (float& light : image.rgb) light *= gain;
 }
 
-View view_of(const Display& seen, const Geometry& geometry, const Scene& scene, const Pyramid& panel, double white, int threads,
-             const Job& job) {
-    View view;
-    view.screen = screen_region(seen, geometry);
-    const Rect box = view.screen.bounds();
+ExpectedView expected_view(const Display& seen, const Geometry& geometry, const Scene& scene, int threads, const Job& job) {
+    const Region screen = screen_region(seen, geometry);
+    const Rect box = screen.bounds();
     if (box.x0 >= box.x1) throw InputError("camera", "no pixel of the camera sees the lens array; move it or widen its frame");
     Quiet quiet(job);
-    Rendering r = render(seen, geometry, panel, {threads, "", box}, quiet);
-    if (!r.complete) throw Stopped{};
-    view.simulated = std::move(r.image);
-    expose(view.simulated, white);
     Picture photograph = reference_photograph(seen, geometry, scene, threads, box, quiet);
     if (!photograph.complete) throw Stopped{};
-    view.photograph = std::move(photograph.image);
-    view.content = content_region(seen, geometry, scene).shifted(-box.x0, -box.y0);
-    view.screen = view.screen.shifted(-box.x0, -box.y0);
-    return view;
+    return {box,
+            {std::move(photograph.image), screen.shifted(-box.x0, -box.y0),
+             content_region(seen, geometry, scene).shifted(-box.x0, -box.y0)}};
 }
 
-namespace {
-
-double covered_share(const Image& view, const Image& photograph, const Region& screen) {
-    double sum_v = 0, sum_p = 0, sum_vp = 0, sum_pp = 0;
-    for (std::size_t k = 0; k < screen.rows.size(); ++k) {
-        const int y = screen.top + int(k);
-        for (int x = screen.rows[k].from; x < screen.rows[k].to; ++x) {
-            const float *v = view.at(x, y), *p = photograph.at(x, y);
-            const auto luma = [](const float* c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; };
-            const double a = luma(v), b = luma(p);
-            sum_v += a, sum_p += b, sum_vp += a * b, sum_pp += b * b;
-        }
-    }
-    const double n = double(screen.pixels()), variance = sum_pp - sum_p * sum_p / n;
-    return variance > 1e-9 * sum_pp ? (sum_vp - sum_v * sum_p / n) / variance : std::numeric_limits<double>::quiet_NaN();
+Likeness likeness(const ExpectedView& view, const Display& seen, const Geometry& geometry, const Pyramid& panel, double white,
+                  int threads, const Job& job) {
+    Quiet quiet(job);
+    const ComparedView compared =
+        compare_view(seen, geometry, panel, view.expected, exposure(white), {threads, "", view.box}, quiet);
+    if (!compared.complete) throw Stopped{};
+    return compared.likeness;
 }
-
-Likeness likeness(const Image& view, const View& other) {
-    const std::vector<double> values = ssim(view, other.photograph, std::array{other.screen, other.content});
-    return {values[0], values[1], covered_share(view, other.photograph, other.screen)};
-}
-
-}  // namespace
-
-Likeness likeness(const View& view) { return likeness(view.simulated, view); }
 
 // Points: another rendering as good errs as much as the first one, and independently. Filtered: one of four times the strata errs
 // much less.
-Likeness likeness_error(const View& view, const Display& seen, const Geometry& geometry, const Pyramid& panel, double white,
-                        int threads, const Job& job) {
+Likeness likeness_error(const Likeness& first, const ExpectedView& view, const Display& seen, const Geometry& geometry,
+                        const Pyramid& panel, double white, int threads, const Job& job) {
     Display again = seen;
     const bool filtered = estimator_of(seen) == Estimator::filtered;
     if (filtered)
         again.render.samples = std::min<std::int64_t>(4 * samples_of(seen), 3844);
     else
         again.render.seed = seen.render.seed ^ 1;
-    const Rect full = screen_region(seen, geometry).bounds();
-    Quiet quiet(job);
-    Rendering r = render(again, geometry, panel, {threads, "", full}, quiet);
-    if (!r.complete) throw Stopped{};
-    expose(r.image, white);
-    const Likeness first = likeness(view), other = likeness(r.image, view);
+    const Likeness other = likeness(view, again, geometry, panel, white, threads, job);
     const double share = filtered ? 1 : std::sqrt(0.5);
     return {share * std::abs(other.screen - first.screen), share * std::abs(other.content - first.content),
             share * std::abs(other.share - first.share)};

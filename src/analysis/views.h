@@ -1,7 +1,7 @@
 // Views of a display from around it, beside photographs of the scene that it shows. Floor 3.
 #pragma once
 #include "analysis/subject.h"
-#include "image/ssim.h"
+#include "engine/compare_view.h"
 
 namespace lfdsim {
 
@@ -18,29 +18,26 @@ Region content_region(const Display&, const Geometry&, const Scene&);
 /// Throws InputError for `where` if the scene's centre at this depth before the vertex plane would be inside the lenses.
 void refuse_depth_in_lenses(const Geometry&, double depth_mm, const std::string& where);
 
-/// Light of the picture divided by `white`, so that a white screen has 1.
+/// What multiplies light so that a white screen, which has `white`, has 1.
+float exposure(double white);
 void expose(Image&, double white);
 
-/// A view and its photograph: the part of the camera's frame that holds the screen. Regions count from that part's corner.
-struct View {
-    Image simulated, photograph;
-    Region screen, content;
+/// What a view should look like: the photograph of the scene, of the part of the camera's frame that holds the screen.
+struct ExpectedView {
+    Rect box;  // of the frame
+    Expected expected;
 };
 
 /// Throws Stopped; InputError if no pixel sees the screen.
-View view_of(const Display& seen, const Geometry&, const Scene&, const Pyramid& panel, double white, int threads, const Job&);
+ExpectedView expected_view(const Display& seen, const Geometry&, const Scene&, int threads, const Job&);
 
-struct Likeness {
-    double screen, content;  // SSIM; content: NaN where too few pixels see it
-    /// Over the screen, linear light: covariance of view and photograph over the photograph's variance. A view that blends a share
-    /// s of the right picture with one unlike it has s; SSIM falls much faster. NaN where the photograph has one colour.
-    double share;
-};
-Likeness likeness(const View&);
+/// Renders the view and compares it. Throws Stopped.
+Likeness likeness(const ExpectedView&, const Display& seen, const Geometry&, const Pyramid& panel, double white, int threads,
+                  const Job&);
 
-/// How far one rendering's noise carries SSIM off: renders again with other random numbers and more of them. Standard deviation, of
-/// the screen and of the content.
-Likeness likeness_error(const View&, const Display& seen, const Geometry&, const Pyramid& panel, double white, int threads,
-                        const Job&);
+/// How far one rendering's noise carried `first`, its likeness, off: renders again with other random numbers or more of them.
+/// Standard deviation of each. Throws Stopped.
+Likeness likeness_error(const Likeness& first, const ExpectedView&, const Display& seen, const Geometry&, const Pyramid& panel,
+                        double white, int threads, const Job&);
 
 }  // namespace lfdsim

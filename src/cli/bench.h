@@ -82,6 +82,7 @@ void bench_lenses(Bench&);
 void bench_kernels(Bench&);
 void bench_threads(Bench&);
 void bench_gpu(Bench&);
+void bench_sweep(Bench&);
 void bench_content(Bench&);
 void bench_pictures(Bench&);
 void bench_paper(Bench&);

@@ -1,6 +1,7 @@
 # The GPU's kernels, where a CUDA toolkit is found that can compile them. One binary then serves machines with a GPU and without: the
 # runtime is linked statically, and it looks for the driver when it is first called.
-target_sources(lfdsim_engine PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/engine/wide/render.cpp)
+target_sources(lfdsim_engine PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/engine/wide/render.cpp
+  ${CMAKE_CURRENT_SOURCE_DIR}/engine/wide/likeness.cpp)
 
 option(LFDSIM_CUDA "GPU kernels, where there is a CUDA toolkit" ON)
 option(LFDSIM_CUDA_FMAD "GPU: contract products and sums; faster, and not the CPU's bits" OFF)

@@ -58,25 +58,40 @@ class Loan {
 
 constexpr const char* kRemedy = "; take --device cpu, another GPU, a smaller camera.resolution or --crop";
 
-GpuRun run(wide::Queue& queue, const Pyramid* pyramid, int number, const std::vector<optics::PanelLevel>& levels, Work& work,
-           Job& job) {
-    GpuPanels own, &panels = pyramid ? pyramid->on_gpus() : own;
-    const wide::Panel* panel = nullptr;
-    {
-        const std::lock_guard lock(panels.mutex);
-        auto kept = panels.panels.find(number);
-        const std::size_t needed = (kept == panels.panels.end() ? wide::Panel::bytes(levels) : 0) +
-                                   wide::picture_bytes(queue, work.tile),
-                          free = queue.free_bytes();
-        if (needed > free)
-            throw InputError("--device", fmt::format("{}: panel and picture need {} MB, of which {} MB are free{}", queue.name(),
-                                                     needed >> 20, free >> 20, kRemedy));
-        if (kept == panels.panels.end()) kept = panels.panels.emplace(number, wide::Panel(queue, levels)).first;
-        panel = &kept->second;
+/// The copy on GPU `number`, or what make() returns.
+template <class Copies, class Make>
+auto& copy_on(Copies& copies, int number, Make make) {
+    auto kept = copies.copies.find(number);
+    if (kept == copies.copies.end()) kept = copies.copies.emplace(number, make()).first;
+    return kept->second;
+}
+
+/// The panel on GPU `number`, where it fits beside so many bytes more.
+const wide::Panel& panel_on(wide::Queue& queue, int number, GpuPanels& panels, const std::vector<optics::PanelLevel>& levels,
+                            std::size_t more) {
+    const std::lock_guard lock(panels.mutex);
+    const std::size_t needed = (panels.copies.contains(number) ? 0 : wide::Panel::bytes(levels)) + more, free = queue.free_bytes();
+    if (needed > free)
+        throw InputError("--device", fmt::format("{}: panel and picture need {} MB, of which {} MB are free{}", queue.name(),
+                                                 needed >> 20, free >> 20, kRemedy));
+    return copy_on(panels, number, [&] { return wide::Panel(queue, levels); });
+}
+
+/// do_it(queue) in a queue of the GPU; nothing where the CPU shall do it.
+template <class Do>
+auto on_gpu(const ChosenDevice& device, Do do_it) -> std::optional<decltype(do_it(std::declval<wide::Queue&>()))> {
+    GpuInUse& gpu = gpu_in_use(*device.gpu);
+    if (gpu.failed && !device.insists) return {};
+    try {
+        Loan loan(gpu, *device.gpu);
+        return do_it(loan.queue());
+    } catch (const InputError&) {
+        if (device.insists) throw;
+    } catch (const wide::DeviceError&) {
+        gpu.failed = true;
+        if (device.insists) throw;
     }
-    const double before = queue.seconds();
-    const Done done = wide::render(queue, *panel, work.tile, work.target_error, work.result.error.rgb.data(), job);
-    return {queue.name(), queue.seconds() - before, done};
+    return {};
 }
 
 }  // namespace
@@ -88,18 +103,38 @@ const cuda::Found& found_gpus() {
 
 std::optional<GpuRun> render_on_gpu(const ChosenDevice& device, const Pyramid* pyramid,
                                     const std::vector<optics::PanelLevel>& levels, Work& work, Job& job) {
-    GpuInUse& gpu = gpu_in_use(*device.gpu);
-    if (gpu.failed && !device.insists) return {};
-    try {
-        Loan loan(gpu, *device.gpu);
-        return run(loan.queue(), pyramid, *device.gpu, levels, work, job);
-    } catch (const InputError&) {
-        if (device.insists) throw;
-    } catch (const wide::DeviceError&) {
-        gpu.failed = true;
-        if (device.insists) throw;
-    }
-    return {};
+    return on_gpu(device, [&](wide::Queue& queue) {
+        GpuPanels own, &panels = pyramid ? pyramid->on_gpus() : own;
+        const wide::Panel& panel = panel_on(queue, *device.gpu, panels, levels, wide::picture_bytes(queue, work.tile));
+        const double before = queue.seconds();
+        const Done done = wide::render(queue, panel, work.tile, work.target_error, work.result.error.rgb.data(), job);
+        return GpuRun{queue.name(), queue.seconds() - before, done};
+    });
+}
+
+std::optional<GpuComparison> compare_on_gpu(const ChosenDevice& device, const Pyramid& pyramid, const Expected& expected,
+                                            float gain, const Work& work, Job& job) {
+    return on_gpu(device, [&](wide::Queue& queue) {
+        const Image& image = expected.photograph();
+        const double before = queue.seconds();
+        const wide::Photograph* photograph = nullptr;
+        const wide::Panel* panel = nullptr;
+        {
+            GpuPhotographs& photographs = expected.on_gpus();
+            const std::lock_guard lock(photographs.mutex);
+            const std::size_t sent = photographs.copies.contains(*device.gpu) ? 0 : wide::Photograph::bytes(image);
+            panel = &panel_on(queue, *device.gpu, pyramid.on_gpus(), pyramid.levels(),
+                              wide::picture_bytes(queue, work.tile) + wide::likeness_bytes(image.width, image.height) + sent);
+            photograph = &copy_on(photographs, *device.gpu, [&] { return wide::Photograph(queue, image); });
+        }
+        const wide::Buffer<float> view(queue, image.rgb.size());
+        const Done done = wide::render_there(queue, *panel, work.tile, view.get(), job);
+        GpuComparison result{{}, {}};
+        if (done.complete)
+            result.likeness = wide::likeness(queue, view.get(), gain, *photograph, expected.screen, expected.content);
+        result.run = {queue.name(), queue.seconds() - before, done};
+        return result;
+    });
 }
 
 }  // namespace lfdsim

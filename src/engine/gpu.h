@@ -1,9 +1,11 @@
 // Rendering on the GPUs that this process uses. Floor 2.
 #pragma once
+#include "engine/compare_view.h"
 #include "engine/cuda/cuda.h"
 #include "engine/devices.h"
 #include "engine/kernel.h"
 #include "engine/pyramid.h"
+#include "engine/wide/likeness.h"
 #include "engine/wide/render.h"
 #include "engine/work.h"
 #include "model/job.h"
@@ -31,11 +33,21 @@ struct GpuRun {
 std::optional<GpuRun> render_on_gpu(const ChosenDevice&, const Pyramid* pyramid, const std::vector<optics::PanelLevel>&, Work&,
                                     Job&);
 
-/// A panel's copies on GPUs, by number.
-class GpuPanels {
-  public:
-    std::mutex mutex;
-    std::map<int, wide::Panel> panels;
+/// The same, but the picture is compared where it is made and goes no farther. The work's picture is not touched; it has no target
+/// error.
+struct GpuComparison {
+    GpuRun run;
+    Likeness likeness;  // where the run is complete
 };
+std::optional<GpuComparison> compare_on_gpu(const ChosenDevice&, const Pyramid&, const Expected&, float gain, const Work&, Job&);
+
+/// Copies of something on GPUs, by number.
+template <class Copy>
+struct GpuCopies {
+    std::mutex mutex;
+    std::map<int, Copy> copies;
+};
+class GpuPanels : public GpuCopies<wide::Panel> {};
+class GpuPhotographs : public GpuCopies<wide::Photograph> {};
 
 }  // namespace lfdsim

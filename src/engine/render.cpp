@@ -77,6 +77,7 @@ void check_threads(const RenderOptions& options) {
 /// By the GPU if one is chosen, else by the kernel.
 Rendering render(Work& work, const char* kernel_name, Kernel kernel, const ChosenDevice& device, const Pyramid* pyramid,
                  const std::vector<optics::PanelLevel>& levels, const RenderOptions& options, Job& job) {
+    work.make_pictures(options.target_error.has_value());
     Rendering& result = work.result;
     job.stage("rendering", std::int64_t(result.image.width) * result.image.height);
     const auto start = std::chrono::steady_clock::now();

@@ -44,8 +44,6 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
     if (filtered && samples > most)
         throw InputError("render.samples",
                          fmt::format("{}; at most {} filtered samples, or use the estimator \"point\"", samples, most));
-    result.image = Image(crop.x1 - crop.x0, crop.y1 - crop.y0);
-    if (options.target_error) result.error = Image(result.image.width, result.image.height);
     if (dimensions > 0) target_error = options.target_error;
 
     tile = {&scene,
@@ -54,10 +52,10 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
             levels[0].texels,
             levels.data(),
             int(levels.size()),
-            result.image.rgb.data(),
+            nullptr,
             crop.x0,
             crop.y0,
-            result.image.width,
+            crop.x1 - crop.x0,
             crop.x0,
             crop.y0,
             crop.x1,
@@ -67,6 +65,12 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
             block_side(scene, view, target_error ? 2 * kFewStrata : strata, options.rough),
             display.render.sampling,
             dimensions};
+}
+
+void Work::make_pictures(bool with_error) {
+    result.image = Image(tile.x1 - tile.x0, tile.y1 - tile.y0);
+    if (with_error) result.error = Image(result.image.width, result.image.height);
+    tile.out = result.image.rgb.data();
 }
 
 }  // namespace lfdsim

@@ -14,10 +14,13 @@ struct Work {
     Work(const Work&) = delete;
     Work& operator=(const Work&) = delete;
 
-    Rendering result;  // estimator, and black pictures of the size that is wanted
+    /// Black pictures of the crop's size, which the tile then writes to.
+    void make_pictures(bool with_error);
+
+    Rendering result;  // estimator; pictures once they are made
     optics::Scene<float> scene;
     optics::View view;
-    Tile tile;                           // the whole crop, to result.image
+    Tile tile;                           // the whole crop
     std::optional<double> target_error;  // where there is something to sample
 };
 

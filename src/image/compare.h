@@ -1,14 +1,11 @@
 // How alike are two pictures? Floor 0.
 #pragma once
 #include "image/image.h"
+#include "image/region.h"
 
 #include <optional>
 
 namespace lfdsim {
-
-struct Rect {
-    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // columns x0 .. x1-1, rows y0 .. y1-1
-};
 
 struct Comparison {
     double ssim;            // Wang et al. 2004, luma of sRGB-encoded values: see docs/model.md

@@ -1,9 +1,12 @@
-# The scripts for other renderers, each in one C++ literal.
+# The scripts for other renderers, each in one C++ literal, and what they share in the place of the line that names it.
 set(scripts_cpp ${CMAKE_CURRENT_BINARY_DIR}/peers/scripts.cpp)
 set(scripts_text "#include \"peers/python.h\"\n")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/read_ply.py)
+file(READ ${CMAKE_CURRENT_LIST_DIR}/read_ply.py read_ply)
 foreach(name cycles mitsuba)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/${name}.py)
   file(READ ${CMAKE_CURRENT_LIST_DIR}/${name}.py script)
+  string(REPLACE "# read_ply.py\n" "${read_ply}" script "${script}")
   if(script MATCHES "\\)script\"")
     message(FATAL_ERROR "${name}.py would end its C++ literal")
   endif()

@@ -58,7 +58,9 @@ Plot fov_plot(const Display& display, std::shared_ptr<const Model> model, const 
     for (int k = -angles_each_side; k <= angles_each_side; ++k) {
         const double angle = most * k / angles_each_side;
         likeness_series.x.push_back(angle);
-        likeness_series.y.push_back(likeness(view_of(seen_from(d, angle, 0), g, scene, shown->pyramid(), white, 0, job)).screen);
+        const Display seen = seen_from(d, angle, 0);
+        likeness_series.y.push_back(
+            likeness(expected_view(seen, g, scene, 0, job), seen, g, shown->pyramid(), white, 0, job).screen);
     }
     Plot plot{"fov", "Likeness of the simulated view to the scene", "horizontal angle of the view, degrees", "SSIM", {}};
     plot.series.push_back(std::move(likeness_series));

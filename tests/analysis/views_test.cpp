@@ -36,25 +36,6 @@ TEST(Views, ScreenIsWhereTheArrayIsSeen) {
     EXPECT_EQ(screen_region(behind, g).pixels(), 0);
 }
 
-TEST(Views, ShareIsThatOfThePhotographInABlend) {
-    View view;
-    view.photograph = Image(40, 30);
-    Image ghost(40, 30);
-    for (int y = 0; y < 30; ++y)
-        for (int x = 0; x < 40; ++x)
-            for (int c = 0; c < 3; ++c) {
-                view.photograph.at(x, y)[c] = x % 2 ? 0.8f : 0.1f;
-                ghost.at(x, y)[c] = y % 2 ? 0.9f : 0.2f;  // not correlated with it
-            }
-    view.screen = Region::of({0, 0, 40, 30});
-    for (const float share : {0.f, 0.3f, 1.f}) {
-        view.simulated = view.photograph;
-        for (std::size_t k = 0; k < ghost.rgb.size(); ++k)
-            view.simulated.rgb[k] = share * view.photograph.rgb[k] + (1 - share) * ghost.rgb[k];
-        EXPECT_NEAR(likeness(view).share, share, 1e-6);
-    }
-}
-
 class Fields : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Degrees, Fields, testing::Values(24., 40., 60.),
                          [](const auto& fov) { return std::to_string(int(fov.param)); });

@@ -1,6 +1,7 @@
 // The wide machine's items, one after another on the host: what a GPU would compute, but for its compiler and its rounding.
 #pragma once
 #include "engine/wide/items.h"
+#include "engine/wide/likeness_items.h"
 #include "engine/wide/queue.h"
 
 #include <cstring>
@@ -37,6 +38,11 @@ class HostQueue : public wide::Queue {
         ++runs[step];
         wide::choose_item(step, frame, [&]<wide::Step s, optics::Way way, bool simple>() {
             for (std::int64_t i = items - 1; i >= 0; --i) wide::item<s, way, simple>(frame, i);
+        });
+    }
+    void run(wide::LikenessStep step, const wide::LikenessFrame& frame, std::int64_t items) override {
+        wide::choose_likeness_item(step, [&]<wide::LikenessStep s>() {
+            for (std::int64_t i = items - 1; i >= 0; --i) wide::likeness_item<s>(frame, i);
         });
     }
     double seconds() override { return 0; }

@@ -1,13 +1,17 @@
 // Pictures by a wide machine, here the host: the same bits as by the CPU's kernels, whatever is handed to it in one go.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <thread>
 
 #include "engine/ahead.h"
+#include "engine/compare_view.h"
 #include "engine/gpu.h"
+#include "engine/wide/likeness.h"
 #include "engine/wide/render.h"
 #include "engine/work.h"
 #include "host_queue.h"
@@ -27,6 +31,7 @@ Rendering by_host(const Display& d, const Texels& panel, const RenderOptions& op
     Job job;
     const Pyramid pyramid(panel);
     Work work(d, resolve(d), pyramid.levels(), options);
+    work.make_pictures(options.target_error.has_value());
     const wide::Panel there(queue, pyramid.levels());
     const Done done = wide::render(queue, there, work.tile, work.target_error, work.result.error.rgb.data(), job);
     EXPECT_TRUE(done.complete);
@@ -114,6 +119,7 @@ TEST(Wide, StopsWhenAskedAndLeavesTheRestBlack) {
     const Pyramid pyramid(panel);
     HostQueue queue;
     Work work(d, resolve(d), pyramid.levels(), {});
+    work.make_pictures(false);
     const wide::Panel there(queue, pyramid.levels());
     EXPECT_FALSE(wide::render(queue, there, work.tile, {}, nullptr, job).complete);
     EXPECT_GT(job.done, 0);
@@ -129,6 +135,67 @@ TEST(Wide, SaysWhatMemoryItWants) {
     HostQueue small(1000);
     EXPECT_THROW(wide::Panel(small, pyramid.levels()), wide::DeviceError);
     EXPECT_GE(wide::Panel::bytes(pyramid.levels()), std::size_t(panel.columns() * panel.rows()) * 16);
+}
+
+/// A photograph that is somewhat like the view of a crop, and regions of both.
+Expected expected_of(const Image& view) {
+    Image photograph = view;
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x)
+            for (int c = 0; c < 3; ++c) photograph.at(x, y)[c] = 0.7f * view.at(x, y)[c] + 0.2f * float((x / 5 + y / 7 + c) % 2);
+    const double w = view.width, h = view.height;
+    const std::array<std::array<double, 2>, 4> corners = {{{0.1 * w, 0}, {0.9 * w, 0.1 * h}, {w, h}, {0, 0.9 * h}}};
+    return {std::move(photograph), Region::polygon(corners, view.width, view.height),
+            Region::of({view.width / 3, view.height / 3, view.width, view.height / 3 + 30})};
+}
+
+void expect_same(const Likeness& a, const Likeness& b) {
+    EXPECT_EQ(a.screen, b.screen);
+    EXPECT_EQ(a.content, b.content);
+    EXPECT_EQ(a.share, b.share);
+}
+
+TEST(Wide, LikenessHasTheSameBits) {
+    Display d = example();
+    d.camera.resolution = {480, 336};  // rows are taken in two parts
+    const Texels panel = patterned_panel(d);
+    const Pyramid pyramid(panel);
+    for (const Rect crop : {Rect{7, 5, 460, 330}, Rect{0, 0, 480, 336}, Rect{20, 20, 60, 30}}) {
+        const RenderOptions options{0, "", crop, {}, "cpu"};
+        const Image view = by_cpu(d, panel, options).image;
+        const Expected expected = expected_of(view);
+        HostQueue queue;
+        Job job;
+        const wide::Panel there(queue, pyramid.levels());
+        const wide::Photograph photograph(queue, expected.photograph());
+        const Work work(d, resolve(d), pyramid.levels(), options);
+        const wide::Buffer<float> seen(queue, view.rgb.size());
+        EXPECT_TRUE(wide::render_there(queue, there, work.tile, seen.get(), job).complete);
+        const Likeness wide = wide::likeness(queue, seen.get(), 1.3f, photograph, expected.screen, expected.content),
+                       cpu = compare_view(d, resolve(d), pyramid, expected, 1.3f, options, job).likeness;
+        if (view.height > 11) {
+            expect_same(wide, cpu);
+            EXPECT_GT(cpu.screen, 0.1);
+            EXPECT_LT(cpu.screen, 0.99);
+            EXPECT_LT(std::abs(cpu.screen - cpu.content), 0.9);
+        } else {
+            EXPECT_TRUE(std::isnan(wide.screen) && std::isnan(cpu.screen));
+            EXPECT_EQ(wide.share, cpu.share);
+        }
+    }
+}
+
+TEST(CompareView, WantsAPhotographOfTheCropsSize) {
+    const Display d = example();
+    const Texels panel = uniform_panel(d, 1);
+    const Pyramid pyramid(panel);
+    Job job;
+    const Expected expected(Image(30, 20), {}, {});
+    EXPECT_THROW(compare_view(d, resolve(d), pyramid, expected, 1, {}, job), InputError);
+    RenderOptions options{0, "", Rect{0, 0, 30, 20}};
+    EXPECT_TRUE(compare_view(d, resolve(d), pyramid, expected, 1, options, job).complete);
+    options.target_error = 0.1;
+    EXPECT_THROW(compare_view(d, resolve(d), pyramid, expected, 1, options, job), std::invalid_argument);
 }
 
 TEST(Devices, AreChosenByWordOrExplained) {
@@ -253,6 +320,24 @@ TEST_F(OnGpu, PicturesMadeAtOnceHaveTheCpusBits) {
             expect_same(r.image, by_cpu(seen(k), panel, {}).image, "view " + std::to_string(k));
             return true;
         });
+}
+
+TEST_F(OnGpu, LikenessHasTheCpusBits) {
+    Display d = example();
+    d.camera.resolution = {960, 672};
+    const Texels panel = patterned_panel(d);
+    const Pyramid pyramid(panel);
+    const Expected expected = expected_of(by_cpu(d, panel, {}).image);
+    Job job;
+    RenderOptions cpu, gpu;
+    cpu.device = "cpu";
+    gpu.device = "cuda";
+    for (int k = 0; k < 3; ++k) {  // the photograph is there from the second on
+        const ComparedView seen = compare_view(d, resolve(d), pyramid, expected, 0.8f, gpu, job);
+        EXPECT_GT(seen.gpu_seconds, 0);
+        expect_same(seen.likeness, compare_view(d, resolve(d), pyramid, expected, 0.8f, cpu, job).likeness);
+        d.camera.position_mm[0] += 11;
+    }
 }
 
 TEST_F(OnGpu, TargetErrorsHaveTheCpusBits) {

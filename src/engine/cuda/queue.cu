@@ -1,6 +1,7 @@
 // A GPU's queue, over the CUDA runtime, and the kernels: one for each step, way through an array and number of strata.
 #include "engine/cuda/cuda.h"
 #include "engine/wide/items.h"
+#include "engine/wide/likeness_items.h"
 
 #include <cuda_runtime.h>
 
@@ -26,6 +27,14 @@ __global__ void __launch_bounds__(kThreads) step_kernel(const __grid_constant__ 
     const std::int64_t i = std::int64_t(blockIdx.x) * kThreads + threadIdx.x;
     if (i < items) wide::item<step, through, simple>(frame, i);
 }
+
+template <wide::LikenessStep step>
+__global__ void __launch_bounds__(kThreads) likeness_kernel(const __grid_constant__ wide::LikenessFrame frame, std::int64_t items) {
+    const std::int64_t i = std::int64_t(blockIdx.x) * kThreads + threadIdx.x;
+    if (i < items) wide::likeness_item<step>(frame, i);
+}
+
+unsigned thread_blocks(std::int64_t items) { return unsigned((items + kThreads - 1) / kThreads); }
 
 std::string text(int version) { return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10); }
 
@@ -99,12 +108,17 @@ class CudaQueue : public wide::Queue {
 
     void run(Step step, const Frame& frame, std::int64_t items) override {
         if (items <= 0) return;
-        use();
-        if (!timing_) check(cudaEventRecord(begun_, steps_), "starting work");
-        timing_ = true;
+        start_clock();
         wide::choose_item(step, frame, [&]<Step s, optics::Way way, bool simple>() {
-            step_kernel<s, way, simple><<<unsigned((items + kThreads - 1) / kThreads), kThreads, 0, steps_>>>(frame, items);
+            step_kernel<s, way, simple><<<thread_blocks(items), kThreads, 0, steps_>>>(frame, items);
         });
+        check(cudaGetLastError(), "starting work");
+    }
+    void run(wide::LikenessStep step, const wide::LikenessFrame& frame, std::int64_t items) override {
+        if (items <= 0) return;
+        start_clock();
+        wide::choose_likeness_item(
+            step, [&]<wide::LikenessStep s>() { likeness_kernel<s><<<thread_blocks(items), kThreads, 0, steps_>>>(frame, items); });
         check(cudaGetLastError(), "starting work");
     }
     double seconds() override {
@@ -126,6 +140,11 @@ class CudaQueue : public wide::Queue {
 
   private:
     void use() { check(cudaSetDevice(gpu_), "choosing it"); }
+    void start_clock() {
+        use();
+        if (!timing_) check(cudaEventRecord(begun_, steps_), "starting work");
+        timing_ = true;
+    }
 
     // Bytes of local memory a thread of the greediest kernel.
     static std::size_t largest_stack() {

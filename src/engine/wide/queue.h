@@ -1,6 +1,7 @@
 // What a wide machine does for the renderer: memory, transfers, steps. Floor 2.
 #pragma once
 #include "engine/wide/frame.h"
+#include "engine/wide/likeness_frame.h"
 
 #include <memory>
 #include <stdexcept>
@@ -31,6 +32,7 @@ class Queue {
     virtual void download(void* to, const void* from, std::size_t bytes) = 0;
 
     virtual void run(Step, const Frame&, std::int64_t items) = 0;
+    virtual void run(LikenessStep, const LikenessFrame&, std::int64_t items) = 0;
     /// Seconds that the steps have taken on the machine so far, by its own clock. Waits for all of them.
     virtual double seconds() = 0;
 

@@ -185,18 +185,15 @@ std::size_t picture_bytes(const Queue& queue, const Tile& tile) {
     return picture + (tile.strata > 0 ? block_memory(queue) : 0);
 }
 
-Done render(Queue& queue, const Panel& panel, const Tile& tile, std::optional<double> target_error, float* error, Job& job) {
+Done render_there(Queue& queue, const Panel& panel, const Tile& tile, float* out, Job& job) {
     Renderer renderer(queue, panel, tile);
-    if (target_error) return render_refined(queue, renderer, tile, *target_error, error, job);
-    const std::size_t count = std::size_t(tile.x1 - tile.x0) * std::size_t(tile.y1 - tile.y0) * 3;
-    const Buffer<float> out(queue, count);
-    queue.clear(out.get(), count * sizeof(float));  // what is not finished is black
+    const std::int64_t pixels = std::int64_t(tile.x1 - tile.x0) * (tile.y1 - tile.y0);
+    queue.clear(out, std::size_t(pixels) * 3 * sizeof(float));  // what is not finished is black
     Frame& frame = renderer.frame();
-    frame.tile.out = out.get();
+    frame.tile.out = out;
     frame.tile.crop_x = tile.x0;
     frame.tile.crop_y = tile.y0;
     frame.tile.crop_width = tile.x1 - tile.x0;
-    const std::int64_t pixels = std::int64_t(tile.x1 - tile.x0) * (tile.y1 - tile.y0);
     std::int64_t told = 0;
     const bool complete = renderer.run_all([&](std::int64_t done) {
         done = std::min(done, pixels - told);  // blocks reach beyond the tile
@@ -205,8 +202,19 @@ Done render(Queue& queue, const Panel& panel, const Tile& tile, std::optional<do
         job.advance(done);
         return !job.cancelled();
     });
-    queue.download(tile.out, out.get(), count * sizeof(float));
     return {told * (tile.strata > 0 ? std::int64_t(tile.strata) * tile.strata : std::int64_t(tile.samples)), complete};
+}
+
+Done render(Queue& queue, const Panel& panel, const Tile& tile, std::optional<double> target_error, float* error, Job& job) {
+    if (target_error) {
+        Renderer renderer(queue, panel, tile);
+        return render_refined(queue, renderer, tile, *target_error, error, job);
+    }
+    const std::size_t count = std::size_t(tile.x1 - tile.x0) * std::size_t(tile.y1 - tile.y0) * 3;
+    const Buffer<float> out(queue, count);
+    const Done done = render_there(queue, panel, tile, out.get(), job);
+    queue.download(tile.out, out.get(), count * sizeof(float));
+    return done;
 }
 
 }  // namespace lfdsim::wide

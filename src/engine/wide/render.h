@@ -28,6 +28,10 @@ class Panel {
 /// Bytes that a picture takes beside the panel, at least.
 std::size_t picture_bytes(const Queue&, const Tile&);
 
+/// Renders the tile to `out`, light of 3 floats a pixel in the machine's memory, black where it was cancelled before. Throws
+/// DeviceError.
+Done render_there(Queue&, const Panel&, const Tile&, float* out, Job&);
+
 /// Renders the tile, whose memory is the caller's but for the panel. `target_error` with `error`: as refine_tile. Throws
 /// DeviceError.
 Done render(Queue&, const Panel&, const Tile&, std::optional<double> target_error, float* error, Job&);

@@ -1,0 +1,98 @@
+#include "analysis/views.h"
+#include "cli/bench.h"
+#include "cli/bench_cases.h"
+#include "engine/devices.h"
+#include "engine/gpu.h"
+
+#include <fmt/format.h>
+#include <array>
+
+// Group "sweep": the views of a field of view, rendered and compared with photographs that are there before. On a GPU views stay
+// there, and photographs after they were first compared with.
+namespace lfdsim::cli {
+namespace {
+
+constexpr int kViews = 122;  // 61 angles along each axis
+
+Display sweep_display(bool quick) {
+    Display d = bench_display();
+    d.render.estimator = Estimator::filtered;
+    d.render.samples = 4;
+    if (quick) d.camera.resolution = {960, 540};
+    return d;
+}
+
+/// View k of the sweep: a degree apart, from 30 degrees left to 30 right, then from below to above.
+Display view(const Display& d, int k) { return seen_from(d, k < 61 ? k - 30 : 0, k < 61 ? 0 : k - 91); }
+
+}  // namespace
+
+void bench_sweep(Bench& bench) {
+    const bool quick = bench.settings.quick;
+    const Display d = sweep_display(quick);
+    bench.heading(fmt::format("A field of view: {} views of {} x {}, 4 filtered samples, each with SSIM to a photograph at hand",
+                              kViews, d.camera.resolution[0], d.camera.resolution[1]));
+    const Texels texels = noise_panel(d);
+    const Pyramid panel(texels, bench.settings.threads);
+    // As good as any for the time it takes: two views of the sweep, in turn, in the whole frame.
+    const Region whole = Region::of({0, 0, int(d.camera.resolution[0]), int(d.camera.resolution[1])});
+    std::vector<Expected> photographs;
+    for (const int k : {30, 36}) {
+        Image image = render(view(d, k), resolve(view(d, k)), panel, {bench.settings.threads, "", {}}, bench.job()).image;
+        if (bench.cancelled()) return;
+        photographs.emplace_back(std::move(image), whole, whole);
+    }
+    struct Swept {
+        const char *name, *device;
+        int each;  // only every so many views
+        double gpu_seconds = 0;
+        std::vector<double> ssim = {};
+    };
+    std::vector<Swept> sweeps = {{"CPU", "cpu", quick ? 61 : 12}};
+    if (found_gpus().missing.empty()) sweeps.push_back({"GPU", "cuda", 1});
+    std::vector<Case> cases;
+    for (Swept& s : sweeps)
+        cases.push_back({s.name, [&](Job& job) {
+                             const RenderOptions options{bench.settings.threads, "", {}, {}, s.device};
+                             s.gpu_seconds = 0;
+                             s.ssim.assign(kViews, 0);
+                             Run run;
+                             for (int k = 0; k < kViews && !job.cancelled(); k += s.each) {
+                                 const Display seen = view(d, k);
+                                 const ComparedView v =
+                                     compare_view(seen, resolve(seen), panel, photographs[std::size_t(k % 2)], 1, options, job);
+                                 s.ssim[std::size_t(k)] = v.likeness.screen;
+                                 s.gpu_seconds += v.gpu_seconds;
+                                 run.seconds += v.seconds;
+                                 run.count += 1;
+                             }
+                             return run;
+                         }});
+    if (sweeps.size() > 1) {  // the first views wait for panel, photographs and memory
+        Job quiet;
+        cases[1].run(quiet);
+    }
+    const std::vector<Measured> all = bench.measure("sweep", cases);
+    if (bench.cancelled()) return;
+    for (std::size_t n = 0; n < all.size(); ++n) {
+        if (all[n].seconds.empty()) continue;
+        const Swept& s = sweeps[n];
+        int differ = 0;  // from the CPU's SSIM, of the views that it rendered
+        for (std::size_t k = 0; k < s.ssim.size(); k += std::size_t(sweeps[0].each)) differ += s.ssim[k] != sweeps[0].ssim[k];
+        const double whole_sweep = all[n].median() / all[n].count * kViews;
+        bench.row("sweep",
+                  {{"name", s.name},
+                   {"views", all[n].count},
+                   {"seconds", spread(all[n])},
+                   {"sweep_seconds", whole_sweep},
+                   {"gpu_seconds", s.gpu_seconds},
+                   {"ssim_differs", differ}},
+                  fmt::format("{:<24} {:9.3f} s a sweep, from {} views{}", s.name, whole_sweep, all[n].count,
+                              n > 0 ? fmt::format(", {:.3f} s of it on the GPU; SSIM differs from the CPU's in {} views",
+                                                  s.gpu_seconds, differ)
+                                    : ""));
+    }
+    if (sweeps.size() == 1) bench.not_measured("sweep", "GPU", found_gpus().missing);
+}
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,45 @@
+#include "engine/compare_view.h"
+
+#include "engine/gpu.h"
+#include "engine/work.h"
+#include "model/error.h"
+
+#include <fmt/format.h>
+#include <chrono>
+#include <stdexcept>
+
+namespace lfdsim {
+
+Expected::Expected(Image photograph, Region on_screen, Region on_content)
+    : screen(std::move(on_screen)),
+      content(std::move(on_content)),
+      photograph_(std::move(photograph)),
+      on_gpus_(std::make_shared<GpuPhotographs>()) {}
+
+ComparedView compare_view(const Display& display, const Geometry& geometry, const Pyramid& panel, const Expected& expected,
+                          float gain, const RenderOptions& options, Job& job) {
+    if (options.target_error) throw std::invalid_argument("views are compared without a target error");
+    const auto start = std::chrono::steady_clock::now();
+    const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+    const Work work(display, geometry, panel.levels(), options);
+    const Image& photograph = expected.photograph();
+    const int width = work.tile.x1 - work.tile.x0, height = work.tile.y1 - work.tile.y0;
+    if (photograph.width != width || photograph.height != height)
+        throw InputError("", fmt::format("the photograph is {} x {} pixels, the view {} x {}; only equal sizes can be compared",
+                                         photograph.width, photograph.height, width, height));
+    const ChosenDevice device = choose_device(options.device, options.kernel);
+    RenderOptions on_cpu = options;
+    if (device.gpu) {
+        if (const auto done = compare_on_gpu(device, panel, expected, gain, work, job))
+            return {done->likeness, done->run.done.complete, seconds(), done->run.seconds};
+        on_cpu.device = "cpu";
+    }
+    Rendering view = render(display, geometry, panel, on_cpu, job);
+    ComparedView result;
+    result.complete = view.complete;
+    if (view.complete) result.likeness = likeness(std::move(view.image), gain, photograph, expected.screen, expected.content);
+    result.seconds = seconds();
+    return result;
+}
+
+}  // namespace lfdsim

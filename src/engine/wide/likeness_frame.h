@@ -1,0 +1,37 @@
+// Comparing a view with a photograph as a wide machine does it. Plain data. Floor 2.
+#pragma once
+#include "image/likeness.h"
+#include "image/ssim_window.h"
+
+#include <cstdint>
+
+namespace lfdsim::wide {
+
+enum class LikenessStep {
+    photograph,  // a pixel of the photograph: its lumas
+    view,        // a pixel of the view: its luma
+    moments,     // a pixel of the rows at hand: the windows' sums down its column
+    windows,     // kColumnsAtOnce pixels of the rows at hand: sums of SSIM
+    cover,       // kColumnsAtOnce pixels: sums for the covered share
+    rows         // one of the sums, of a row
+};
+
+/// What is summed: SSIM over both regions, then for the covered share.
+constexpr int kLikenessRegions = 2, kLikenessSums = kLikenessRegions + cover_sums;
+
+/// What every item of every step is given. Memory is the machine's.
+struct LikenessFrame {
+    std::int32_t width, height;
+    const SrgbLine* srgb;
+    SsimWeights weights;
+    float gain;
+    const float* picture;                                   // light, 3 floats a pixel, of the photograph or the view
+    float *photograph_code, *photograph_light, *view_code;  // luma of sRGB codes and of light
+    // Columns in each row, [height] of each: where windows' middles may stand, for both regions; then the screen.
+    const Region::Row* columns;
+    std::int32_t first_row, row_count;  // the rows at hand
+    double* moments;                    // [moments][row_count][width]
+    double *parts, *sums;               // [kLikenessSums][height][chunks of columns]; [kLikenessSums][height]
+};
+
+}  // namespace lfdsim::wide
