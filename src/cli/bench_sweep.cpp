@@ -82,7 +82,7 @@ void bench_sweep(Bench& bench) {
         const double whole_sweep = all[n].median() / all[n].count * kViews;
         bench.row("sweep",
                   {{"name", s.name},
-                   {"views", all[n].count},
+                   {"views", int(all[n].count)},
                    {"seconds", spread(all[n])},
                    {"sweep_seconds", whole_sweep},
                    {"gpu_seconds", s.gpu_seconds},

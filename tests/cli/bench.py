@@ -55,6 +55,12 @@ checks.that(paper["the 2019 paper"]["seconds"] == 1, f"paper: {paper}")
 checks.that(0 < paper["of this, tracing"]["seconds"]["median"] < paper["start to picture"]["seconds"]["median"], f"paper: {paper}")
 checks.that(not list(temporary.iterdir()), f"left: {list(temporary.iterdir())}")
 
+# Where there is a GPU it gives the CPU's likenesses, else it is told what is missing.
+gpu = json.loads(program.must("doctor --json"))["gpu"]
+made = {row["name"]: row for row in result("bench gpu sweep --quick")["sweep"]}
+checks.that(0 < made["CPU"]["seconds"]["median"] < made["CPU"]["sweep_seconds"], f"sweep: {made}")
+checks.that("not_measured" in made["GPU"] if gpu["used"].startswith("no") else made["GPU"]["ssim_differs"] == 0, f"sweep on a GPU: {made}")
+
 for name, arguments, *words in [
     ("unknown group", "bench rendring", "rendering, lenses", "GROUP"),
     ("no runs", "bench --runs 0", "--runs"),

@@ -25,8 +25,15 @@ CASES = [
     ("clear", [*SHARP, "array.surround=\"clear\""], 0.99, 0.03),
     ("plate, turned", [*SHARP, "array.surround=\"plate\"", "array.rotation_deg=7.0", "array.offset_mm=[0.6,-0.4]"], 0.99, 0.03),
     ("opaque, square", [*SHARP, "array.aperture=\"square\"", "lens.sphere_radius_mm=3.2"], 0.99, 0.03),
+    ("panel of exponent 3", [*SHARP, "panel.emission_exponent=3.0"], 0.99, 0.0005),
+    ("pixels as squares", [*SHARP, "camera.pixel_filter=\"box\"", "render.samples=256"], 0.99, 0.02),
     ("diffuser", ["--set", "render.samples=256"], 0.97, 0.04),
 ]
+if PEER == "mitsuba":
+    CASES += [
+        ("Schlick's weights", [*SHARP, "render.fresnel=\"schlick\""], 0.99, 0.0005),
+        ("gaussian diffuser", ["--set", "diffuser.profile=\"gaussian\"", "render.samples=1024"], 0.98, 0.02),
+    ]
 
 
 def found():
