@@ -41,7 +41,7 @@ struct Sampler {
 
     LFDSIM_FN Sampler(Sampling kind, int used, std::uint64_t seed, Uint<F> pixel) : sampling(kind), dimensions(used) {
         for (int d = 0; d < kDimensions; ++d)  // of a constant length, so that the keys may stay in registers
-            if (d < used) key[d] = pixel_key<F>(seed, d, pixel);
+            key[d] = d < used ? pixel_key<F>(seed, d, pixel) : Uint<F>(0u);
     }
     /// The number of dimension d, in [-1, 1].
     LFDSIM_FN F operator()(int d) const {

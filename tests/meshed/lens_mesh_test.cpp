@@ -142,7 +142,9 @@ TEST(LensMesh, AreaAndVolumeTendToTheClosedForms) {
         const double lack = area_mm2(mesh, 1) / (2 * pi * R * cap) - 1;
         EXPECT_LT(lack, 0);  // inscribed
         EXPECT_GT(lack, -3.0 / double(n));
-        if (before < 0) EXPECT_NEAR(std::log(before / lack) / std::log(4), 1, 0.15) << n;  // as 1/N
+        if (before < 0) {
+            EXPECT_NEAR(std::log(before / lack) / std::log(4), 1, 0.15) << n;  // as 1/N
+        }
         before = lack;
         EXPECT_NEAR(area_mm2(mesh, 0) / (pi * r * r), 1, 20.0 / double(n));
         EXPECT_NEAR(area_mm2(mesh, LensMesh::wall) / (2 * pi * r * h), 1, 10.0 / double(n));
@@ -156,7 +158,9 @@ TEST(LensMesh, NumberOfTriangles) {
         const Geometry g = resolve(d);
         for (const std::int64_t n : {8, 100, 500, 860, 2000, 3386, 16380, 65000, 300000}) {
             const double count = double(mesh_lens(d, g, n).count());
-            if (n >= 500) EXPECT_NEAR(count / double(n), 1, 0.1) << name << ": " << count << " for " << n;
+            if (n >= 500) {
+                EXPECT_NEAR(count / double(n), 1, 0.1) << name << ": " << count << " for " << n;
+            }
             EXPECT_GT(count, 2) << name;
         }
     }
