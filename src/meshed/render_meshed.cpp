@@ -22,8 +22,9 @@ void render_tile(const Tile& tile) {
                                            std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x));
             double sum[3] = {};
             for (std::uint32_t sample = 0; sample < tile.samples; ++sample, sampler.next(*tile.directions)) {
-                const optics::Ray<float> ray = optics::sample_ray(scene, *tile.view, pixel, sampler);
-                const auto way = optics::at_first_vertex(scene, ray, pixel.alive);
+                optics::Passage<float> way{{}, {0, 0}, 1, pixel.alive};
+                optics::sample_ray(scene, *tile.view, pixel, sampler, way.ray);
+                optics::to_first_vertex(scene, way);
                 if (!way.alive) continue;
                 const auto hit = optics::panel_pixel(
                     scene, pixel.base, optics::trace_opaque<optics::Shapes::meshed>(scene, pixel.extent, pixel.base, way));

@@ -42,7 +42,9 @@ Comparison compare(const Display& d, std::int64_t triangles, LensNormals normals
             const auto pixel = optics::pixel_rays<float>(view, column, row);
             optics::Sampler<float> sampler(d.render.sampling, optics::kDimensions, view.seed,
                                            std::uint32_t(row * view.width + column));
-            const auto way = optics::at_first_vertex(scene, optics::sample_ray(scene, view, pixel, sampler), pixel.alive);
+            optics::Passage<float> way{{}, {0, 0}, 1, pixel.alive};
+            optics::sample_ray(scene, view, pixel, sampler, way.ray);
+            optics::to_first_vertex(scene, way);
             const auto a = optics::trace_opaque<optics::Shapes::any>(scene, pixel.extent, pixel.base, way);
             const auto b = optics::trace_opaque<optics::Shapes::meshed>(scene, pixel.extent, pixel.base, way);
             found.one += a.alive != b.alive;
