@@ -80,17 +80,14 @@ void bench_sweep(Bench& bench) {
         int differ = 0;  // from the CPU's SSIM, of the views that it rendered
         for (std::size_t k = 0; k < s.ssim.size(); k += std::size_t(sweeps[0].each)) differ += s.ssim[k] != sweeps[0].ssim[k];
         const double whole_sweep = all[n].median() / all[n].count * kViews;
-        bench.row("sweep",
-                  {{"name", s.name},
-                   {"views", int(all[n].count)},
-                   {"seconds", spread(all[n])},
-                   {"sweep_seconds", whole_sweep},
-                   {"gpu_seconds", s.gpu_seconds},
-                   {"ssim_differs", differ}},
-                  fmt::format("{:<24} {:9.3f} s a sweep, from {} views{}", s.name, whole_sweep, all[n].count,
-                              n > 0 ? fmt::format(", {:.3f} s of it on the GPU; SSIM differs from the CPU's in {} views",
-                                                  s.gpu_seconds, differ)
-                                    : ""));
+        Json values = {{"name", s.name}, {"views", int(all[n].count)}, {"seconds", spread(all[n])}, {"sweep_seconds", whole_sweep}};
+        std::string text = fmt::format("{:<24} {:9.3f} s a sweep, from {} views", s.name, whole_sweep, all[n].count);
+        if (n > 0) {
+            values["gpu_seconds"] = s.gpu_seconds;
+            values["ssim_differs"] = differ;
+            text += fmt::format(", {:.3f} s of it on the GPU; SSIM differs from the CPU's in {} views", s.gpu_seconds, differ);
+        }
+        bench.row("sweep", std::move(values), text);
     }
     if (sweeps.size() == 1) bench.not_measured("sweep", "GPU", found_gpus().missing);
 }

@@ -5,3 +5,4 @@ lfdsim_floor(view
   HEADERS access.h answers.h library.h messages.h outbox.h painter.h server.h
   LINK PUBLIC lfdsim_analysis lfdsim_files nlohmann_json::nlohmann_json
     PRIVATE Boost::headers Threads::Threads PNG::PNG JPEG::JPEG TBB::tbb fmt::fmt)
+lfdsim_precompile(lfdsim_view <fmt/format.h> <nlohmann/json.hpp>)

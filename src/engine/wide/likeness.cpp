@@ -29,9 +29,12 @@ Buffer<T> uploaded(Queue& queue, const std::vector<T>& values) {
 }  // namespace
 
 Photograph::Photograph(Queue& queue, const Image& photograph)
-    : width(photograph.width), height(photograph.height), code(queue, pixels_of(photograph)), light(queue, pixels_of(photograph)) {
+    : width(photograph.width),
+      height(photograph.height),
+      srgb(uploaded(queue, srgb_lines())),
+      code(queue, pixels_of(photograph)),
+      light(queue, pixels_of(photograph)) {
     const Buffer<float> picture = uploaded(queue, photograph.rgb);
-    const Buffer<SrgbLine> srgb = uploaded(queue, srgb_lines());
     LikenessFrame frame{};
     frame.srgb = srgb.get();
     frame.picture = picture.get();
@@ -63,14 +66,13 @@ Likeness likeness(Queue& queue, const float* view, float gain, const Photograph&
     append_columns(columns, screen, width, height);
 
     const std::size_t w = std::size_t(width), h = std::size_t(height);
-    const Buffer<SrgbLine> srgb = uploaded(queue, srgb_lines());
     const Buffer<Region::Row> columns_there = uploaded(queue, columns);
     const Buffer<float> view_code(queue, w * h);
     const Buffer<double> moments_there(queue, w * kRowsAtOnce * moments), parts(queue, kLikenessSums * h * chunks_of(width)),
         sums(queue, kLikenessSums * h);
     LikenessFrame frame{width,
                         height,
-                        srgb.get(),
+                        photograph.srgb.get(),
                         ssim_weights(),
                         gain,
                         view,

@@ -13,6 +13,7 @@ struct Photograph {
     static std::size_t bytes(const Image&);  // while it is made
 
     int width, height;
+    Buffer<SrgbLine> srgb;      // for its own codes, and those of the views that it meets
     Buffer<float> code, light;  // of sRGB codes, of light; height x width each
 };
 
