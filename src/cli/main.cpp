@@ -4,6 +4,7 @@
 #include "cli/interrupt.h"
 #include "cli/output.h"
 #include "cli/usage.h"
+#include "engine/gpu.h"
 #include "model/error.h"
 
 #include <spdlog/sinks/stdout_sinks.h>
@@ -42,6 +43,7 @@ void run(int argc, char** argv) {
     cli::add_doctor(program);
     const std::string asked = line.parse(cli::arguments(argc, argv));
     if (!asked.empty()) cli::print(asked);
+    for (const std::string& reason : gpus_given_up()) spdlog::warn("{}; the CPU went on", printable(reason));
 }
 
 }  // namespace

@@ -20,14 +20,23 @@ struct GpuInUse {
     std::vector<std::unique_ptr<wide::Queue>> idle;
     int open = 0;
     std::atomic<bool> failed = false;
+    std::string given_up;  // why, when it was first done without
 };
 
 // Never destroyed: panels may outlive what main() leaves behind, and the driver frees all.
+struct GpusInUse {
+    std::mutex mutex;
+    std::map<int, GpuInUse> all;
+};
+GpusInUse& gpus_in_use() {
+    static auto& gpus = *new GpusInUse;
+    return gpus;
+}
+
 GpuInUse& gpu_in_use(int number) {
-    static std::mutex mutex;
-    static auto& all = *new std::map<int, GpuInUse>;
-    const std::lock_guard lock(mutex);
-    return all[number];
+    GpusInUse& gpus = gpus_in_use();
+    const std::lock_guard lock(gpus.mutex);
+    return gpus.all[number];
 }
 
 // A queue of the GPU, given back at the end.
@@ -56,7 +65,9 @@ class Loan {
     std::unique_ptr<wide::Queue> queue_;
 };
 
-constexpr const char* kRemedy = "; take --device cpu, another GPU, a smaller camera.resolution or --crop";
+struct DoesNotFit : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
 
 /// The copy on GPU `number`, or what make() returns.
 template <class Copies, class Make>
@@ -72,8 +83,7 @@ const wide::Panel& panel_on(wide::Queue& queue, int number, GpuPanels& panels, c
     const std::lock_guard lock(panels.mutex);
     const std::size_t needed = (panels.copies.contains(number) ? 0 : wide::Panel::bytes(levels)) + more, free = queue.free_bytes();
     if (needed > free)
-        throw InputError("--device", fmt::format("{}: panel and picture need {} MB, of which {} MB are free{}", queue.name(),
-                                                 needed >> 20, free >> 20, kRemedy));
+        throw DoesNotFit(fmt::format("panel and picture need {} MB, of which {} MB are free", needed >> 20, free >> 20));
     return copy_on(panels, number, [&] { return wide::Panel(queue, levels); });
 }
 
@@ -82,14 +92,24 @@ template <class Do>
 auto on_gpu(const ChosenDevice& device, Do do_it) -> std::optional<decltype(do_it(std::declval<wide::Queue&>()))> {
     GpuInUse& gpu = gpu_in_use(*device.gpu);
     if (gpu.failed && !device.insists) return {};
+    const std::string name = fmt::format("cuda:{}, {}", *device.gpu, found_gpus().gpus[std::size_t(*device.gpu)].name);
+    const auto give_up = [&](const std::exception& error) {
+        const std::lock_guard lock(gpu.mutex);
+        if (gpu.given_up.empty()) gpu.given_up = name + ": " + error.what();
+    };
     try {
         Loan loan(gpu, *device.gpu);
         return do_it(loan.queue());
-    } catch (const InputError&) {
-        if (device.insists) throw;
-    } catch (const wide::DeviceError&) {
+    } catch (const DoesNotFit& error) {
+        if (device.insists)
+            throw InputError(
+                "--device",
+                fmt::format("{}: {}; take --device cpu, another GPU, a smaller camera.resolution or --crop", name, error.what()));
+        give_up(error);
+    } catch (const wide::DeviceError& error) {
         gpu.failed = true;
         if (device.insists) throw;
+        give_up(error);
     }
     return {};
 }
@@ -99,6 +119,17 @@ auto on_gpu(const ChosenDevice& device, Do do_it) -> std::optional<decltype(do_i
 const cuda::Found& found_gpus() {
     static const cuda::Found found = cuda::find();
     return found;
+}
+
+std::vector<std::string> gpus_given_up() {
+    std::vector<std::string> reasons;
+    GpusInUse& gpus = gpus_in_use();
+    const std::lock_guard lock(gpus.mutex);
+    for (auto& [number, gpu] : gpus.all) {
+        const std::lock_guard lock_gpu(gpu.mutex);
+        if (!gpu.given_up.empty()) reasons.push_back(gpu.given_up);
+    }
+    return reasons;
 }
 
 std::optional<GpuRun> render_on_gpu(const ChosenDevice& device, const Pyramid* pyramid,

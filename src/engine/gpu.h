@@ -21,6 +21,9 @@ namespace lfdsim {
 /// What cuda::find() said when first asked: looking takes a while.
 const cuda::Found& found_gpus();
 
+/// Why the CPU did what was a GPU's so far, in this process: the first reason of each GPU, with its name. Empty: it did not.
+std::vector<std::string> gpus_given_up();
+
 struct GpuRun {
     std::string name;
     double seconds;  // by the GPU's clock

@@ -34,7 +34,7 @@ def loop_of(body):
 def main():
     nvcc, source = sys.argv[1], pathlib.Path(sys.argv[2])
     if not nvcc or nvcc.endswith("NOTFOUND"):
-        print("skipped: no CUDA toolkit (nvcc)")
+        print("SKIPPED: no CUDA toolkit (nvcc)")
         return 77
     faults = []
     with tempfile.TemporaryDirectory() as folder:

@@ -83,7 +83,7 @@ class CudaQueue : public wide::Queue {
         use();
         void* memory = nullptr;
         check(cudaMallocAsync(&memory, std::max<std::size_t>(bytes, 1), steps_),
-              ("taking " + std::to_string(bytes >> 20) + " MB of memory").c_str());
+              ("taking " + std::to_string((bytes >> 20) + 1) + " MB of memory").c_str());
         return memory;
     }
     void release(void* memory) noexcept override {
@@ -204,19 +204,20 @@ Found find() {
         cudaDeviceProp p;
         if (cudaGetDeviceProperties(&p, k) != cudaSuccess) {
             cudaGetLastError();
-            found.gpus.push_back({"?", 0, 0, 0, "it does not tell its properties"});
+            found.gpus.push_back({"unknown", 0, 0, 0, "it does not tell its properties"});
             continue;
         }
         Gpu gpu{p.name, p.major, p.minor, double(p.totalGlobalMem) * 1e-9, ""};
         // Is there code in this binary that it runs?
         cudaFuncAttributes attributes;
-        const bool works = cudaSetDevice(k) == cudaSuccess &&
-                           cudaFuncGetAttributes(&attributes, step_kernel<Step::even, optics::Way::ideal, true>) == cudaSuccess;
+        cudaError_t works = cudaSetDevice(k);
+        if (works == cudaSuccess) works = cudaFuncGetAttributes(&attributes, step_kernel<Step::even, optics::Way::ideal, true>);
         cudaGetLastError();
-        if (!works)
-            gpu.why_not = "compute capability " + std::to_string(p.major) + "." + std::to_string(p.minor) +
-                          "; this lfdsim holds code for 7.5 and newer";
-        any = any || works;
+        if (works != cudaSuccess)
+            gpu.why_not = p.major * 10 + p.minor < 75 ? "compute capability " + std::to_string(p.major) + "." +
+                                                            std::to_string(p.minor) + "; this lfdsim holds code for 7.5 and newer"
+                                                      : std::string("it answers: ") + cudaGetErrorString(works);
+        any = any || works == cudaSuccess;
         found.gpus.push_back(gpu);
     }
     if (!any) found.missing = "no GPU here can be used: " + found.gpus.front().name + ": " + found.gpus.front().why_not;

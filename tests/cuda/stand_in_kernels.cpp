@@ -1,0 +1,116 @@
+// The stand-in's kernels: the same items, by the processor's threads.
+#include "engine/wide/items.h"
+#include "engine/wide/likeness_items.h"
+#include "stand_in.h"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#include <algorithm>
+#include <map>
+#include <regex>
+#include <vector>
+
+namespace stand_in {
+namespace {
+
+using namespace lfdsim;
+
+struct Configuration {
+    dim3 grid, block;
+    std::size_t shared;
+    cudaStream_t stream;
+};
+thread_local std::vector<Configuration> configurations;
+
+std::map<const void*, std::string>& kernel_names() {
+    static std::map<const void*, std::string> all;
+    return all;
+}
+
+template <class Item>
+void work_off(const dim3& grid, std::int64_t items, Item item) {
+    tbb::this_task_arena::isolate(
+        [&] { tbb::parallel_for(std::int64_t(0), std::min(items, std::int64_t(grid.x) * 128), [&](std::int64_t i) { item(i); }); });
+}
+
+void launch(const std::string& name, const Configuration& c, void** arguments) {
+    const std::int64_t items = *static_cast<std::int64_t*>(arguments[1]);
+    if (c.block.x != 128 || c.block.y * c.block.z * c.grid.y * c.grid.z != 1 || c.grid.x < 1 || c.grid.x > 0x7fffffff ||
+        c.shared != 0)
+        misused("a grid that CUDA or this stand-in does not know");
+    const auto numbers = [&](const char* pattern) {
+        std::smatch found;
+        std::vector<int> all;
+        if (std::regex_search(name, found, std::regex(pattern)))
+            for (std::size_t k = 1; k < found.size(); ++k) all.push_back(std::stoi(found[k]));
+        return all;
+    };
+    if (const auto n = numbers("step_kernelI.*?StepE(\\d+)E.*?WayE(\\d+)ELb(\\d)E"); !n.empty()) {
+        const wide::Frame frame = *static_cast<wide::Frame*>(arguments[0]);
+        stream_of(c.stream)->add([=, grid = c.grid] {
+            wide::choose_item(wide::Step(n[0]), frame, [&]<wide::Step step, optics::Way way, bool simple>() {
+                if (int(way) != n[1] || simple != (n[2] != 0))
+                    misused("another kernel was launched than the frame asks for: " + name);
+                work_off(grid, items, [&](std::int64_t i) { wide::item<step, way, simple>(frame, i); });
+            });
+        });
+    } else if (const auto l = numbers("likeness_kernelI.*?LikenessStepE(\\d+)E"); !l.empty()) {
+        const wide::LikenessFrame frame = *static_cast<wide::LikenessFrame*>(arguments[0]);
+        stream_of(c.stream)->add([=, grid = c.grid] {
+            wide::choose_likeness_item(wide::LikenessStep(l[0]), [&]<wide::LikenessStep step>() {
+                work_off(grid, items, [&](std::int64_t i) { wide::likeness_item<step>(frame, i); });
+            });
+        });
+    } else {
+        misused("unknown kernel " + name);
+    }
+}
+
+}  // namespace
+
+bool is_kernel(const void* host) { return kernel_names().contains(host); }
+
+}  // namespace stand_in
+
+extern "C" {
+
+using namespace stand_in;
+
+void** __cudaRegisterFatBinary(void*) {
+    static void* handle;
+    return &handle;
+}
+void __cudaRegisterFatBinaryEnd(void**) {}
+void __cudaUnregisterFatBinary(void**) {}
+void __cudaRegisterFunction(void**, const char* host, char*, const char* name, int, uint3*, uint3*, dim3*, dim3*, int*) {
+    kernel_names()[host] = name;
+}
+unsigned __cudaPushCallConfiguration(dim3 grid, dim3 block, std::size_t shared, cudaStream_t stream) {
+    configurations.push_back({grid, block, shared, stream});
+    return 0;
+}
+cudaError_t __cudaPopCallConfiguration(dim3* grid, dim3* block, std::size_t* shared, void* stream) {
+    const Configuration c = configurations.back();
+    configurations.pop_back();
+    *grid = c.grid;
+    *block = c.block;
+    *shared = c.shared;
+    *static_cast<cudaStream_t*>(stream) = c.stream;
+    return cudaSuccess;
+}
+cudaError_t cudaLaunchKernel(const void* kernel, dim3 grid, dim3 block, void** arguments, std::size_t shared, cudaStream_t stream) {
+    if (const cudaError_t e = enter("cudaLaunchKernel")) return e;
+    launch(kernel_names().at(kernel), {grid, block, shared, stream}, arguments);
+    return cudaSuccess;
+}
+// Since CUDA 13 the compiler has kernels launched by these two.
+cudaError_t __cudaGetKernel(cudaKernel_t* kernel, const void* host) {
+    *kernel = reinterpret_cast<cudaKernel_t>(const_cast<void*>(host));
+    return cudaSuccess;
+}
+cudaError_t __cudaLaunchKernel(cudaKernel_t kernel, dim3 grid, dim3 block, void** arguments, std::size_t shared,
+                               cudaStream_t stream) {
+    return cudaLaunchKernel(reinterpret_cast<const void*>(kernel), grid, block, arguments, shared, stream);
+}
+
+}  // extern "C"
