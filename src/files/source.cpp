@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "files/text_file.h"
+#include "files/values.h"
 #include "model/keys.h"
 
 namespace lfdsim {
@@ -40,15 +41,12 @@ Node* child(Node& node, std::string_view part) {
 
 // The value of an override as a tree of its own, under the key "value".
 toml::table parse_value(std::string_view path, std::string_view value) {
-    toml::table holder;
-    // Unquoted words save the user a second pair of quotes against the shell.
-    if (takes_word(path) && !value.starts_with('"') && !value.starts_with('\'')) {
-        holder.insert("value", std::string(value));
-        return holder;
-    }
+    // Unquoted words save the user a second pair of quotes against the shell. The parser sees that they are UTF-8.
+    if (takes_word(path) && !value.starts_with('"') && !value.starts_with('\''))
+        return toml::parse("value = " + toml_text(std::string(value)));
     const std::string text = fmt::format("value = {}", value);
     check_text(text, "");  // nesting, as in a file
-    holder = toml::parse(text);
+    toml::table holder = toml::parse(text);
     if (holder.size() != 1 || value.find('\n') != value.npos) throw InputError("", "is more than one value");
     return holder;
 }

@@ -32,6 +32,8 @@ TEST(Override, ValuesOfEveryKind) {
     EXPECT_EQ(set({"lens.facing=\"panel\""}).lens.facing, Facing::panel);
     EXPECT_EQ(set({"render.fresnel=none"}).render.fresnel, Fresnel::none);
     EXPECT_EQ(set({"name=a = b"}).name, "a = b");
+    EXPECT_EQ(set({"name=\\ \"\t\xc3\xa9"}).name, "\\ \"\t\xc3\xa9");
+    EXPECT_EQ(set({"name="}).name, "");
     EXPECT_EQ(set({"content.model=../my model.glb"}).content.model, "../my model.glb");
     EXPECT_EQ(set({"render.samples=7", "render.samples=8"}).render.samples, 8);
     EXPECT_EQ(set({"content.viewing_distance_mm=inf"}).content.viewing_distance_mm, INFINITY);
@@ -66,6 +68,7 @@ TEST(Override, FaultsNameTheOption) {
     EXPECT_THAT(fault_of({"diffuser.distance_mm=3"}), HasSubstr("--set diffuser.distance_mm=3: diffuser.angle_deg: is missing"));
     EXPECT_THAT(fault_of({"array.pitch_mm"}), HasSubstr("--set array.pitch_mm: is no key=value"));
     EXPECT_THAT(fault_of({"=3"}), HasSubstr("is no key=value"));
+    EXPECT_THAT(fault_of({"name=a\xff"}), HasSubstr("the value is not TOML"));  // as no file may have it
     EXPECT_THAT(fault_of({"array.pitch_mm=abc"}), HasSubstr("--set array.pitch_mm=abc: the value is not TOML"));
     EXPECT_THAT(fault_of({"array.pitch_mm="}), HasSubstr("the value is not TOML"));
     EXPECT_THAT(fault_of({"array.pitch_mm=13\nx=3"}), HasSubstr("is more than one value"));
