@@ -14,8 +14,8 @@ function(lfdsim_floor name)
   endif()
 endfunction()
 
-# Reads libraries' heavy headers once for all files of a target. With Clang alone: GCC 12 then warns of its own library, and in its build every
-# file is seen to include what it uses. Usage: lfdsim_precompile(image_tests <gtest/gtest.h>)
+# Reads libraries' heavy headers once for all files of a target. With Clang alone: GCC 12 then warns of its own library, and in its
+# build every file is seen to include what it uses. Usage: lfdsim_precompile(image_tests <gtest/gtest.h>)
 function(lfdsim_precompile target)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
     target_precompile_headers(${target} PRIVATE ${ARGN})

@@ -77,7 +77,6 @@ bool holds(int gpu, const void* p, std::size_t bytes) {
 }
 
 constexpr std::size_t kAlignment = 64;  // of a piece: what lies behind its last bytes, up to so many, is not guarded
-
 constexpr std::size_t kRubbish = std::size_t(8) << 20;  // bytes at a piece's beginning: more would take most of the time
 
 struct Event {

@@ -2,7 +2,7 @@
 // on it run on any machine. Linked before the runtime, it takes its place.
 //
 // It is as unkind as CUDA may be. What is handed to a stream happens when somebody waits for it, and not before; the items of a
-// kernel are worked off by several threads in any order. Memory holds rubbish at first, ends where a page begins that kills whoever
+// kernel are worked off by several threads in any order. Memory begins with rubbish, ends where a page begins that kills whoever
 // touches it, and is gone once it is freed. A device that failed fails for ever.
 //
 // The environment variable LFDSIM_STAND_IN changes what there is: "driver=12.0 gpus=2 capability=6.1 memory_mb=100

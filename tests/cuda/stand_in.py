@@ -1,5 +1,5 @@
-"""The program with GPUs that are the stand-in's (stand_in.cpp): every state of driver and GPU in words, the CPU's bits, and every call of
-CUDA's runtime failing once: --device auto then goes on by the CPU and says why, a GPU that is named gives an error.
+"""The program with GPUs that are the stand-in's (stand_in.h): every state of driver and GPU in words, the CPU's bits, and calls of CUDA's
+runtime that fail: --device auto then goes on by the CPU and says why, a GPU that is named gives an error.
 
 Usage: stand_in.py LFDSIM_ON_STAND_IN
 """
@@ -21,8 +21,12 @@ MOVING = f"{SHOWN} --path path.json --frames-as npy"
     {"time_s": 0, "position_mm": [-30, 0, 400]}, {"time_s": 0.5, "position_mm": [40, 10, 400]}]}))
 
 
+def there(stand_in):
+    return {**os.environ, "LFDSIM_STAND_IN": stand_in}
+
+
 def on(stand_in, arguments):
-    return program.run(arguments, env={**os.environ, "LFDSIM_STAND_IN": stand_in})
+    return program.run(arguments, env=there(stand_in))
 
 
 def content(name):
@@ -43,7 +47,7 @@ for stand_in, said in {
         "fail=cudaSetDevice:1": "it answers: unspecified launch failure"}.items():
     code, out, err = on(stand_in, "doctor --json")
     checks.that(code == 0 and said in json.loads(out)["gpu"]["used"], f"{stand_in}: doctor says {out} {err}")
-    checks.refused(program, stand_in, f"{SHOWN} --device cuda -o no.npy", said, env={**os.environ, "LFDSIM_STAND_IN": stand_in})
+    checks.refused(program, stand_in, f"{SHOWN} --device cuda -o no.npy", said, env=there(stand_in))
     code, out, err = on(stand_in, f"{SHOWN} --device auto --json -o auto.npy")
     checks.that(code == 0 and json.loads(out)["device"] == "cpu" and not err, f"{stand_in}: auto gives {out} {err}")
 
@@ -53,16 +57,14 @@ for device, name in {"auto": "cuda:0, stand-in 0", "cuda": "cuda:0, stand-in 0",
     result = json.loads(out)
     checks.that(code == 0 and result["device"].startswith(name) and result["gpu_seconds"] > 0 and not err, f"{device}: {out} {err}")
     checks.that(content("gpu.npy") == content("cpu.npy"), f"{device}: other bits than the CPU's")
-checks.refused(program, "third GPU", f"{SHOWN} --device cuda:2 -o no.npy", "there are 2 GPUs",
-               env={**os.environ, "LFDSIM_STAND_IN": "gpus=2"})
+checks.refused(program, "third GPU", f"{SHOWN} --device cuda:2 -o no.npy", "there are 2 GPUs", env=there("gpus=2"))
 
 # What does not fit is told with both sizes.
-small = {**os.environ, "LFDSIM_STAND_IN": "memory_mb=100"}
 sizes = r"cuda:0, stand-in 0: panel and picture need (\d+) MB, of which (\d+) MB are free"
-code, out, err = program.run(f"{SHOWN} --device cuda -o no.npy", env=small)
+code, out, err = on("memory_mb=100", f"{SHOWN} --device cuda -o no.npy")
 found = re.search(sizes + "; take --device cpu, another GPU, a smaller camera.resolution or --crop", err)
 checks.that(code == 2 and found and int(found[2]) <= 100 < int(found[1]), f"too small: {code} {err}")
-code, out, err = program.run(f"{SHOWN} --device auto --json -o auto.npy", env=small)
+code, out, err = on("memory_mb=100", f"{SHOWN} --device auto --json -o auto.npy")
 checks.that(code == 0 and json.loads(out)["device"] == "cpu" and re.search(f"warning: {sizes}; the CPU went on", err), f"too small: {out} {err}")
 
 # A field of view's photographs are compared where views are rendered; the GPU fails in the midst of it, or not.
@@ -78,7 +80,7 @@ for stand_in, warned in {"gpus=1": False, "fail=cudaLaunchKernel:200": True}.ite
     code, out, err = on(stand_in, f"{FOV} --device auto -o fov_gpu")
     checks.that(code == 0 and measured("fov_gpu") == measured("fov_cpu") and ("the CPU went on" in err) == warned, f"{stand_in}: fov {err}")
 
-# Every kind of call fails, the first one, a later one, and so on until there are no more.
+# Calls fail, of each function the first one, a later one, and so on until there are no more.
 program.must(f"{MOVING} -o frames_cpu")
 assert len(content("frames_cpu")) == 3
 for function in ("cudaMallocAsync cudaMemcpyAsync cudaLaunchKernel cudaStreamSynchronize cudaStreamCreateWithFlags cudaEventCreate "

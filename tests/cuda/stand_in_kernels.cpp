@@ -28,13 +28,13 @@ std::map<const void*, std::string>& kernel_names() {
 }
 
 template <class Item>
-void work_off(const dim3& grid, std::int64_t items, Item item) {
-    tbb::this_task_arena::isolate(
-        [&] { tbb::parallel_for(std::int64_t(0), std::min(items, std::int64_t(grid.x) * 128), [&](std::int64_t i) { item(i); }); });
+void work_off(std::int64_t items, Item item) {
+    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::int64_t(0), items, [&](std::int64_t i) { item(i); }); });
 }
 
 void launch(const std::string& name, const Configuration& c, void** arguments) {
-    const std::int64_t items = *static_cast<std::int64_t*>(arguments[1]);
+    // A grid that is too small leaves items undone.
+    const std::int64_t items = std::min(*static_cast<std::int64_t*>(arguments[1]), std::int64_t(c.grid.x) * c.block.x);
     if (c.block.x != 128 || c.block.y * c.block.z * c.grid.y * c.grid.z != 1 || c.grid.x < 1 || c.grid.x > 0x7fffffff ||
         c.shared != 0)
         misused("a grid that CUDA or this stand-in does not know");
@@ -47,18 +47,18 @@ void launch(const std::string& name, const Configuration& c, void** arguments) {
     };
     if (const auto n = numbers("step_kernelI.*?StepE(\\d+)E.*?WayE(\\d+)ELb(\\d)E"); !n.empty()) {
         const wide::Frame frame = *static_cast<wide::Frame*>(arguments[0]);
-        stream_of(c.stream)->add([=, grid = c.grid] {
+        stream_of(c.stream)->add([=] {
             wide::choose_item(wide::Step(n[0]), frame, [&]<wide::Step step, optics::Way way, bool simple>() {
                 if (int(way) != n[1] || simple != (n[2] != 0))
                     misused("another kernel was launched than the frame asks for: " + name);
-                work_off(grid, items, [&](std::int64_t i) { wide::item<step, way, simple>(frame, i); });
+                work_off(items, [&](std::int64_t i) { wide::item<step, way, simple>(frame, i); });
             });
         });
     } else if (const auto l = numbers("likeness_kernelI.*?LikenessStepE(\\d+)E"); !l.empty()) {
         const wide::LikenessFrame frame = *static_cast<wide::LikenessFrame*>(arguments[0]);
-        stream_of(c.stream)->add([=, grid = c.grid] {
+        stream_of(c.stream)->add([=] {
             wide::choose_likeness_item(wide::LikenessStep(l[0]), [&]<wide::LikenessStep step>() {
-                work_off(grid, items, [&](std::int64_t i) { wide::likeness_item<step>(frame, i); });
+                work_off(items, [&](std::int64_t i) { wide::likeness_item<step>(frame, i); });
             });
         });
     } else {

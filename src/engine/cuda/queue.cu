@@ -213,11 +213,13 @@ Found find() {
         cudaError_t works = cudaSetDevice(k);
         if (works == cudaSuccess) works = cudaFuncGetAttributes(&attributes, step_kernel<Step::even, optics::Way::ideal, true>);
         cudaGetLastError();
-        if (works != cudaSuccess)
-            gpu.why_not = p.major * 10 + p.minor < 75 ? "compute capability " + std::to_string(p.major) + "." +
-                                                            std::to_string(p.minor) + "; this lfdsim holds code for 7.5 and newer"
-                                                      : std::string("it answers: ") + cudaGetErrorString(works);
-        any = any || works == cudaSuccess;
+        if (works == cudaSuccess)
+            any = true;
+        else if (p.major * 10 + p.minor < 75)
+            gpu.why_not = "compute capability " + std::to_string(p.major) + "." + std::to_string(p.minor) +
+                          "; this lfdsim holds code for 7.5 and newer";
+        else
+            gpu.why_not = std::string("it answers: ") + cudaGetErrorString(works);
         found.gpus.push_back(gpu);
     }
     if (!any) found.missing = "no GPU here can be used: " + found.gpus.front().name + ": " + found.gpus.front().why_not;
