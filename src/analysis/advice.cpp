@@ -50,15 +50,15 @@ std::vector<std::string> advice(const Display& d, const Geometry& g, const Theor
     // Beyond atan(p/2g) a lens shows the elemental image of its neighbour: the picture repeats.
     const auto [x, y, z] = d.camera.position_mm;
     const double off_axis = std::atan(std::max(std::abs(x), std::abs(y)) / z) * 180 / pi;
-    if (off_axis > t.fov_deg / 2)
+    if (off_axis > t.fov_elemental_deg / 2)
         add("the camera stands {:.1f} degrees off axis, outside the field of view of +-{:.1f} degrees: it sees neighbouring images",
-            off_axis, t.fov_deg / 2);
+            off_axis, t.fov_elemental_deg / 2);
 
     // Depths count from the vertex plane, the theory's from the rear principal plane.
     const double from_lens = g.content_depth_mm + g.vertex_plane_mm - g.rear_principal_mm;
-    if (from_lens < t.depth_range_mm[0] || from_lens > t.depth_range_mm[1])
-        add("the content's centre, {:.4g} mm from the lenses, is outside the depth of field of {:.4g} to {:.4g} mm", from_lens,
-            t.depth_range_mm[0], t.depth_range_mm[1]);
+    if (!is_sharp(t, from_lens))
+        add("the content's centre, {:.4g} mm from the lenses, is outside the depth of field, whose ends are at {:.4g} and {:.4g} mm",
+            from_lens, depth_mm(t.depth_near_per_mm), depth_mm(t.depth_far_per_mm));
     const std::string& model = d.content.model;
     if (std::error_code error; !model.empty() && model != built_in_spheres && !std::filesystem::exists(model, error))
         add("content.model, {}, does not exist", model);

@@ -1,5 +1,6 @@
 #include "analysis/dof.h"
 
+#include "analysis/dof_depths.h"
 #include "analysis/rules.h"
 #include "analysis/spot_depth.h"
 #include "analysis/views.h"
@@ -15,108 +16,157 @@ namespace {
 
 constexpr double least_ssim = 0.85, most_slope_per_mm = 0.02 / 10;  // the 2019 paper's, which counts in centimetres
 
-/// The central depth plane from the vertex plane.
-double central_depth_mm(const Subject& s) {
-    return s.theory().central_depth_mm + s.geometry().rear_principal_mm - s.geometry().vertex_plane_mm;
+/// Places count from the vertex plane, theory's from the rear principal plane.
+double from_vertex_mm(const Subject& s) { return s.geometry().rear_principal_mm - s.geometry().vertex_plane_mm; }
+
+/// Of the depths looked at the one next to the central depth plane, as inverse distances; in which run.
+struct Centre {
+    std::size_t run = 0, place = 0;
+};
+
+Centre centre(const Subject& s, const std::vector<DepthRun>& runs) {
+    const double wanted = 0.5 * (s.theory().depth_near_per_mm + s.theory().depth_far_per_mm);
+    Centre best;
+    double least = INFINITY;
+    for (std::size_t r = 0; r < runs.size(); ++r)
+        for (std::size_t k = 0; k < runs[r].depths_mm.size(); ++k)
+            if (const double away = std::abs(1 / (runs[r].depths_mm[k] - from_vertex_mm(s)) - wanted); away < least)
+                least = away, best = {r, k};
+    return best;
 }
 
-Json both(const std::array<double, 2>& a) {
-    Json json = Json::array();
-    for (const double x : a) json.push_back(std::isfinite(x) ? Json(x) : Json());
-    return json;
-}
+/// SSIM of screen and of content along one run.
+struct Curves {
+    Curve screen, content;
+};
 
-}  // namespace
-
-std::vector<double> dof_depths_mm(const Subject& s) {
-    if (!s.options().depths_mm.empty()) return s.options().depths_mm;
-    const double middle = central_depth_mm(s), sign = middle < 0 ? -1 : 1;
-    const double first = std::isfinite(middle) ? std::max(10., std::abs(middle) - 150) : 10;
-    std::vector<double> depths;
-    for (int k = 0; k < 31; ++k) depths.push_back(sign * (first + 10 * k));
-    std::sort(depths.begin(), depths.end());
-    return depths;
-}
-
-std::int64_t dof_steps(const Subject& s) { return 2 * std::int64_t(dof_depths_mm(s).size()) + 4; }
-
-Result measure_dof(Subject& s, Job& job) {
-    const std::vector<double> depths = dof_depths_mm(s);
-    for (const double z : depths) refuse_depth_in_lenses(s.geometry(), z, "--depths-mm");
-    if (depths.size() < 3) throw InputError("--depths-mm", "the depth of field needs three depths or more");
-    const double middle = central_depth_mm(s), centre = std::isfinite(middle) ? middle : depths.back();
-    const double white = s.white_field(job);
-    Curve screen{depths, {}}, content{depths, {}};
+/// `noisy`: the place where the noise is looked at; none if it is none of the run's.
+Curves measure(Subject& s, const std::vector<double>& depths, std::size_t noisy, double white, Job& job) {
+    Curves curves{{depths, {}}, {depths, {}}};
     for (std::size_t k = 0; k < depths.size(); ++k) {
         const Scene scene = s.scene().at_depth(depths[k]);
         const auto panel = elemental_panel(s.display(), s.geometry(), scene, s.threads(), job);
         const ExpectedView expected = expected_view(s.display(), s.geometry(), scene, s.threads(), job);
         const Likeness l = likeness(expected, s.display(), s.geometry(), panel->pyramid(), white, s.threads(), job);
-        screen.value.push_back(l.screen);
-        content.value.push_back(l.content);
+        curves.screen.value.push_back(l.screen);
+        curves.content.value.push_back(l.content);
         job.advance(2);
-        const bool nearest = k + 1 == depths.size() || std::abs(depths[k] - centre) <= std::abs(depths[k + 1] - centre);
-        if (!nearest || screen.error > 0) continue;
+        if (k != noisy) continue;
         const Likeness error = likeness_error(l, expected, s.display(), s.geometry(), panel->pyramid(), white, s.threads(), job);
-        screen.error = error.screen;
-        content.error = error.content;
+        curves.screen.error = error.screen;
+        curves.content.error = error.content;
         job.advance(4);
     }
+    return curves;
+}
 
-    Result result;
-    const auto say = [&](const char* where, const Curve& curve) {
-        const Interval by_ssim = where_at_least(curve, centre, least_ssim), steady = where_steady(curve, centre, most_slope_per_mm);
-        const auto best = std::max_element(curve.value.begin(), curve.value.end()) - curve.value.begin();
-        return std::tuple(by_ssim, steady,
-                          Json{{"ssim_rule_mm", limits_json(by_ssim)},
-                               {"gradient_rule_mm", limits_json(steady)},
-                               {"ssim_rule_error_mm", errors_json(by_ssim)},
-                               {"gradient_rule_error_mm", errors_json(steady)},
-                               {"most_alike_mm", depths[std::size_t(best)]},
-                               {"ssim_error", curve.error},
-                               {"region", where}});
+/// Where the run ends, why.
+Interval explained(Interval i, const DepthRun& run) {
+    if (i.empty) return i;
+    if (!i.low.missing.empty()) i.low.missing += ": " + run.why_low;
+    if (!i.high.missing.empty()) i.high.missing += ": " + run.why_high;
+    return i;
+}
+
+void add_rules(Result& result, const std::string& region, const Curve& curve, const DepthRun& run, double centre_mm) {
+    const bool screen = region == "screen";
+    const Interval by_ssim = explained(where_at_least(curve, centre_mm, least_ssim), run),
+                   steady = explained(where_steady(curve, centre_mm, most_slope_per_mm), run);
+    const auto best = std::max_element(curve.value.begin(), curve.value.end()) - curve.value.begin();
+    Json json{{"most_alike_mm", curve.at[std::size_t(best)]}, {"ssim_error", curve.error}, {"region", region}};
+    add_limits(result, json, screen ? "" : "content.", "ssim_rule_mm", by_ssim);
+    add_limits(result, json, screen ? "" : "content.", "gradient_rule_mm", steady);
+    if (!screen) {
+        result.figures["content"] = std::move(json);
+        return;
+    }
+    result.figures.update(json);
+    const auto add = [&](const std::string& what, const Interval& i) {
+        result.findings.push_back(finding("Depth of field: " + what, "mm", i, {}, "the published rule"));
     };
-    const auto [by_ssim, steady, json] = say("screen", screen);
-    result.figures = json;
-    result.figures["content"] = std::get<2>(say("content", content));
-    const double from_vertex = s.geometry().rear_principal_mm - s.geometry().vertex_plane_mm;
-    const std::array<double, 2> paraxial{s.theory().depth_range_mm[0] + from_vertex, s.theory().depth_range_mm[1] + from_vertex};
-    result.figures["paraxial_mm"] = both(paraxial);
-    result.figures["central_depth_mm"] = std::isfinite(middle) ? Json(middle) : Json();
-    result.findings.push_back(
-        {fmt::format("Depth of field: SSIM of {} or more", least_ssim),
-         "mm",
-         bounds(by_ssim),
-         {},
-         by_ssim.empty ? "SSIM is less at the central depth plane already: the rule finds nothing" : "the published rule"});
-    result.findings.push_back(
-        {"Depth of field: slope of 0.02 a centimetre or less",
-         "mm",
-         bounds(steady),
-         {},
-         steady.empty ? "SSIM is steeper at the central depth plane already: the rule finds nothing" : "the published rule"});
-    const std::array<double, 2> traced = add_spot_depths(s, result);
-    result.tables.push_back({"dof", {{"depth_mm", depths}, {"ssim", screen.value}, {"content_ssim", content.value}}});
+    add(fmt::format("SSIM of {} or more", least_ssim), by_ssim);
+    add("slope of 0.02 a centimetre or less", steady);
+}
+
+void add_likeness(Subject& s, Result& result, Plot& plot, Job& job) {
+    const std::vector<DepthRun> runs = dof_depths(s);
+    if (runs.empty()) {
+        const std::string why = fmt::format(
+            "none of the depths within twice theory's depth of field can be looked at from {:.4g} mm: they are among the lenses, "
+            "at the "
+            "eye or too far behind; --depths-mm chooses others",
+            eye_distance_mm(s.display()));
+        for (const char* name : {"ssim_rule_mm", "gradient_rule_mm", "most_alike_mm"}) {
+            result.figures[name] = Json();
+            result.note(name, why);
+        }
+        result.remarks.push_back("Likeness was not measured: " + why + ".");
+        return;
+    }
+    const Centre middle = centre(s, runs);
+    const double white = s.white_field(job);
+    DataTable table{"dof", {{"depth_mm", {}}, {"ssim", {}}, {"content_ssim", {}}}};
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+        const std::vector<double>& depths = runs[r].depths_mm;
+        const Curves curves = measure(s, depths, r == middle.run ? middle.place : depths.size(), white, job);
+        if (r == middle.run) {
+            add_rules(result, "screen", curves.screen, runs[r], depths[middle.place]);
+            add_rules(result, "content", curves.content, runs[r], depths[middle.place]);
+        }
+        const std::vector<double>* columns[] = {&depths, &curves.screen.value, &curves.content.value};
+        for (std::size_t c = 0; c < 3; ++c)
+            table.columns[c].values.insert(table.columns[c].values.end(), columns[c]->begin(), columns[c]->end());
+        const std::string where = runs.size() == 1 ? "" : r == 0 ? ", behind the lenses" : ", before the lenses";
+        plot.series.push_back({"screen" + where, depths, curves.screen.value});
+        plot.series.push_back({"content" + where, depths, curves.content.value});
+    }
+    result.figures["searched_mm"] = Json::array();
+    for (const DepthRun& run : runs) result.figures["searched_mm"].push_back({run.depths_mm.front(), run.depths_mm.back()});
+    result.tables.push_back(std::move(table));
+}
+
+}  // namespace
+
+std::int64_t dof_steps(const Subject& s) {
+    std::size_t depths = 0;
+    for (const DepthRun& run : dof_depths(s)) depths += run.depths_mm.size();
+    return 2 * std::int64_t(depths) + 4;
+}
+
+Result measure_dof(Subject& s, Job& job) {
+    const std::vector<double>& asked = s.options().depths_mm;
+    for (const double z : asked) refuse_depth_in_lenses(s.geometry(), z, "--depths-mm");
+    if (!asked.empty() && asked.size() < 3) throw InputError("--depths-mm", "the depth of field needs three depths or more");
+    Result result;
     Plot plot{"dof",
               "Likeness of the simulated view to the scene",
               "depth of the scene before the lenses, mm",
               "SSIM",
-              {{"screen", depths, screen.value}, {"content", depths, content.value}},
+              {},
               {{"0.85", least_ssim, false}}};
+    add_likeness(s, result, plot, job);
+    const double from_vertex = from_vertex_mm(s), middle = s.theory().central_depth_mm + from_vertex;
+    const double near = depth_mm(s.theory().depth_near_per_mm) + from_vertex,
+                 far = depth_mm(s.theory().depth_far_per_mm) + from_vertex;
+    result.figures["paraxial_mm"] = numbers_json({near, far});
+    result.figures["central_depth_mm"] = number_json(middle);
+    const SharpDepths traced = add_spot_depths(s, result);
     const auto mark = [&](const char* label, double z) {
-        if (z >= depths.front() && z <= depths.back()) plot.marks.push_back({label, z});
+        for (const Series& series : plot.series)
+            if (z >= series.x.front() && z <= series.x.back()) return plot.marks.push_back({label, z});
     };
     mark("central depth plane", middle);
-    mark("paraxial", paraxial[0]);
-    mark("paraxial", paraxial[1]);
-    mark("spot", traced[0]);
-    mark("spot", traced[1]);
-    result.plots.push_back(std::move(plot));
+    mark("paraxial", near);
+    mark("paraxial", far);
+    mark("spot", depth_mm(traced.near_per_mm) + from_vertex);
+    mark("spot", depth_mm(traced.far_per_mm) + from_vertex);
+    if (!plot.series.empty()) result.plots.push_back(std::move(plot));
     result.remarks.push_back(
         "A depth of field by likeness and one by spot size are different things: SSIM falls off slowly and peaks between the "
-        "lenses and "
-        "the central depth plane, since nearer scenes are sampled by more pixels' rays. Both are shown, neither is fitted to the "
-        "other.");
+        "lenses "
+        "and the central depth plane, since nearer scenes are sampled by more pixels' rays. Both are shown, neither is fitted to "
+        "the "
+        "other. Depths by spot size are one interval of 1/z: where it goes through infinity, what is sharp lies beyond both ends.");
     return result;
 }
 

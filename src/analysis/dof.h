@@ -5,11 +5,8 @@
 
 namespace lfdsim {
 
-/// Depths of the scene's centre before the vertex plane: those of the options, else 31, a centimetre apart from 150 mm before the
-/// central depth plane, but 10 mm at least; behind a display whose central depth plane lies there, the same mirrored.
-std::vector<double> dof_depths_mm(const Subject&);
-
 std::int64_t dof_steps(const Subject&);
+/// Throws InputError for depths that were asked for inside the lenses, or fewer than three.
 Result measure_dof(Subject&, Job&);
 
 }  // namespace lfdsim

@@ -31,12 +31,6 @@ std::string csv(const DataTable& table) {
     return text;
 }
 
-Json to_json(const std::vector<double>& values) {
-    Json json = Json::array();
-    for (const double x : values) json.push_back(std::isfinite(x) ? Json(x) : Json());
-    return json;
-}
-
 /// A report carries an animation as it is: this many pixels, over all frames, make some megabytes.
 void write_small(const fs::path& path, const Animation& animation) {
     constexpr double most_pixels = 8e6, most_columns = 960;
@@ -117,10 +111,12 @@ Json ResultFolder::write(const Measure& measure, const Result& result, double se
     for (const Finding& f : result.findings)
         findings.push_back({{"what", f.what},
                             {"unit", f.unit},
-                            {"measured", to_json(f.measured)},
-                            {"theory", to_json(f.theory)},
+                            {"measured", numbers_json(f.measured)},
+                            {"error", numbers_json(f.error)},
+                            {"theory", numbers_json(f.theory)},
                             {"remark", f.remark}});
     Json json = result.figures;
+    json["notes"] = result.notes;
     json["report"] = {{"measure", measure.name},   {"title", measure.title},   {"says", measure.says},
                       {"source", measure.source},  {"seconds", seconds},       {"findings", findings},
                       {"remarks", result.remarks}, {"plots", plots},           {"maps", maps},

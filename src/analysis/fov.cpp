@@ -1,19 +1,26 @@
 #include "analysis/fov.h"
 
+#include "analysis/own_lens.h"
 #include "analysis/rules.h"
+#include "analysis/slope_spread.h"
 #include "analysis/views.h"
 #include "engine/ahead.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-// Simulated views beside photographs of the scene, against the angle of the view. docs/model.md, "Field of view".
+// The field of view by geometry; and by simulated views beside photographs of the scene, against the angle of the view.
+// docs/model.md, "Field of view".
 namespace lfdsim {
 namespace {
 
 constexpr double least_ssim = 0.85, most_slope_per_deg = 0.005;  // the 2019 paper's
-constexpr double plateau_deg = 8;
+constexpr double degree = std::numbers::pi / 180;
+constexpr double wanted_error_deg = 0.05;
+
+double theory_edge_deg(const Subject& s) { return arc_edge_deg(s.geometry(), s.theory(), s.viewing_distance_mm()); }
 
 /// What all views share: the scene, its elemental images, the white field.
 struct Shown {
@@ -27,8 +34,9 @@ struct Curves {
     Curve screen, content, share;
 };
 
-Curves measure(const Subject& subject, const Shown& shown, bool horizontal, const std::vector<double>& angles, Job& job) {
-    const auto seen_at = [&](double angle) { return seen_from(subject.display(), horizontal ? angle : 0, horizontal ? 0 : angle); };
+Curves measure(const Subject& subject, const Shown& shown, int axis, const std::vector<double>& angles, Job& job) {
+    const EyePath path = arc(subject.display(), subject.geometry(), subject.viewing_distance_mm(), axis);
+    const auto seen_at = [&](double angle) { return seen_by(subject.display(), path.eye(angle)); };
     const auto expected_at = [&](double angle) {
         return expected_view(seen_at(angle), subject.geometry(), shown.scene, subject.threads(), job);
     };
@@ -48,7 +56,7 @@ Curves measure(const Subject& subject, const Shown& shown, bool horizontal, cons
     make_ahead(
         angles.size(), renders_on_gpu({}), [&](std::size_t k) { return expected_at(angles[k]); }, compare);
     // The noise where it counts: about the edges that theory expects, and between; root mean square.
-    const double edge = std::min(0.5 * subject.theory().fov_deg, angles.back());
+    const double edge = std::min(theory_edge_deg(subject), angles.back());
     const double places[] = {-edge, -0.5 * edge, 0.5 * edge, edge};
     for (const double angle : places) {
         const ExpectedView expected = expected_at(angle);
@@ -70,85 +78,191 @@ std::string bound(const Limit& ssim, const Limit& gradient) {
     return "gradient";
 }
 
-/// A diffuser blends the views within half its angle of the edge.
-double window_deg(const Display& d) {
-    return std::max(0.5 * plateau_deg, d.diffuser ? std::max(d.diffuser->angle_deg[0], d.diffuser->angle_deg[1]) : 0);
-}
-
-struct Rules {
-    Rules(const Curve& c, double window_deg)
-        : ssim(where_at_least(c, 0, least_ssim)),
-          gradient(where_steady(c, 0, most_slope_per_deg)),
-          half_way(where_edge(c, 0, plateau_deg, window_deg)),
-          json{{"gradient_rule_deg", limits_json(gradient)},
-               {"ssim_rule_deg", limits_json(ssim)},
-               {"ssim_half_way_deg", limits_json(half_way)},
-               {"gradient_rule_error_deg", errors_json(gradient)},
-               {"ssim_rule_error_deg", errors_json(ssim)},
-               {"ssim_half_way_error_deg", errors_json(half_way)},
-               {"bound_by", {bound(ssim.low, gradient.low), bound(ssim.high, gradient.high)}},
-               {"ssim_error", c.error}} {}
-    Interval ssim, gradient, half_way;
-    Json json;
+/// The edges that the geometry of rays gives along one axis.
+struct Geometric {
+    OwnRange lenses, diffused;
 };
 
-void add_axis(Result& result, const std::string& name, const Curves& curves, double fov_deg, double window_deg) {
-    const Rules screen(curves.screen, window_deg), content(curves.content, window_deg);
-    const Interval edge = where_edge(curves.share, 0, plateau_deg, window_deg);
-    Json& json = result.figures[name] = {{"gradient_edge_deg", limits_json(edge)}, {"gradient_edge_error_deg", errors_json(edge)}};
-    json.update(screen.json);
-    json["content"] = content.json;
+Interval interval(const OwnRange& r) { return {{r.at[0], r.error[0], r.missing[0]}, {r.at[1], r.error[1], r.missing[1]}}; }
 
-    const auto add = [&](const std::string& what, const Interval& measured, std::vector<double> theory, const char* remark) {
-        result.findings.push_back(
-            {fmt::format("Field of view, {}: {}", name, what), "deg", bounds(measured), std::move(theory), remark});
+/// How far on either side of its edge the field of view fades, degrees: by the lens aperture and the diffuser, and where images are
+/// made for another distance by the lenses across.
+double fades_over_deg(const Subject& s) {
+    const double rear = s.geometry().rear_principal_mm, eye = s.viewing_distance_mm() - rear;
+    const double across = s.geometry().array_width_mm * std::abs(1 / eye - 1 / (s.display().content.viewing_distance_mm - rear));
+    return std::atan(0.5 * (SlopeSpread(s, eye).width() + across)) / degree;
+}
+
+void add_rules(Result& result, Json& json, const std::string& path, const Curve& c, const Falls& expected) {
+    const Interval ssim = where_at_least(c, 0, least_ssim), gradient = where_steady(c, 0, most_slope_per_deg);
+    add_limits(result, json, path, "ssim_rule_deg", ssim);
+    add_limits(result, json, path, "gradient_rule_deg", gradient);
+    add_limits(result, json, path, "ssim_half_way_deg", where_it_falls(c, expected));
+    json["bound_by"] = {bound(ssim.low, gradient.low), bound(ssim.high, gradient.high)};
+    json["ssim_error"] = c.error;
+}
+
+void add_finding(Result& result, const std::string& what, const Interval& measured, std::vector<double> theory,
+                 const std::string& remark) {
+    result.findings.push_back(finding(what, "deg", measured, std::move(theory), remark));
+}
+
+void add_geometry(Result& result, Json& json, const std::string& name, const Geometric& g, double edge_deg) {
+    const std::vector<double> theory{-edge_deg, edge_deg};
+    add_limits(result, json, name + ".", "own_lens_deg", interval(g.lenses));
+    add_limits(result, json, name + ".", "own_lens_with_diffuser_deg", interval(g.diffused));
+    add_finding(result, fmt::format("Field of view, {}", name), interval(g.lenses), theory,
+                "of the light from lenses whose whole image lies on the panel, half comes from their own images");
+    add_finding(result, fmt::format("Field of view, {}: with the diffuser", name), interval(g.diffused), theory,
+                "the same light, turned by the diffuser");
+}
+
+void add_likeness(Result& result, Json& json, const std::string& name, const Curves& curves, const Geometric& g, double edge_deg,
+                  double reach_deg) {
+    const double low = g.diffused.at[0], high = g.diffused.at[1];
+    const Falls expected{std::isnan(low) ? -edge_deg : low, std::isnan(high) ? edge_deg : high, reach_deg};
+    add_limits(result, json, name + ".", "gradient_edge_deg", where_it_falls(curves.share, expected));
+    add_rules(result, json, name + ".", curves.screen, expected);
+    Json content = Json::object();
+    add_rules(result, content, name + ".content.", curves.content, expected);
+    json["content"] = std::move(content);
+
+    const auto add = [&](const std::string& what, const Interval& measured, std::vector<double> theory, const std::string& remark) {
+        add_finding(result, fmt::format("Likeness, {}: {}", name, what), measured, std::move(theory), remark);
     };
-    add("edge", edge, {-0.5 * fov_deg, 0.5 * fov_deg}, "where the scene's share in the view has fallen half-way");
-    add("SSIM half-way down", screen.half_way, {}, "early by up to half the diffuser's angle: SSIM falls with the first ghost");
-    add(fmt::format("SSIM of {} or more", least_ssim), screen.ssim, {},
-        screen.ssim.empty ? "SSIM is less on axis already: the rule finds nothing" : "the published rule");
-    add(fmt::format("slope of {} a degree or less", most_slope_per_deg), screen.gradient, {},
-        screen.gradient.empty ? "SSIM is steeper on axis already: the rule finds nothing"
-                              : "the published rule, which ends before the edge where steps are of a degree");
+    add("edge", where_it_falls(curves.share, expected), {expected.low, expected.high},
+        "where the scene's share in the view falls half-way; beside it the edge by geometry");
+    add("SSIM half-way down", where_it_falls(curves.screen, expected), {},
+        "early by up to half the diffuser's angle: SSIM falls with the first ghost");
+    add(fmt::format("SSIM of {} or more", least_ssim), where_at_least(curves.screen, 0, least_ssim), {}, "the published rule");
+    add(fmt::format("slope of {} a degree or less", most_slope_per_deg), where_steady(curves.screen, 0, most_slope_per_deg), {},
+        "the published rule, which ends before the edge where steps are of a degree");
+}
+
+/// Where an eye may be in the plane at its distance: the width and the height.
+void add_eyebox(Result& result, const Subject& s, const std::array<OwnRange, 2>& ranges) {
+    const double theory =
+        (s.viewing_distance_mm() - s.geometry().rear_principal_mm) * s.theory().elemental_pitch_mm / s.theory().gap_mm;
+    std::vector<double> size, error;
+    std::string missing;
+    for (const std::size_t axis : {0u, 1u}) {
+        const OwnRange& r = ranges[axis];
+        const std::string why = r.missing[0].empty() ? r.missing[1] : r.missing[0];
+        size.push_back(r.at[1] - r.at[0]);
+        error.push_back(std::hypot(r.error[0], r.error[1]));
+        result.findings.push_back(
+            {axis == 0 ? "Eyebox, width" : "Eyebox, height",
+             "mm",
+             {size.back()},
+             {theory},
+             why.empty() ? fmt::format("where an eye {:.4g} mm from the panel sees lenses' own images", s.viewing_distance_mm())
+                         : why,
+             {error.back()}});
+        if (!why.empty()) missing = why;
+    }
+    result.figures["eyebox_mm"] = numbers_json(size);
+    result.figures["eyebox_mm_error"] = numbers_json(error);
+    result.figures["theory_eyebox_mm"] = theory;
+    if (!missing.empty()) result.note("eyebox_mm", missing);
+}
+
+std::int64_t geometry_steps(const Subject& s) { return pictures_worth(s, 3'000'000); }
+
+/// Both axes, without and with the diffuser; the eyebox.
+std::array<Geometric, 2> measure_geometry(Result& result, const Subject& s, Job& job) {
+    const Display& d = s.display();
+    const OwnLens lenses(d, false), diffused(d, true);
+    const double distance = s.viewing_distance_mm();
+    const std::uint32_t seed = std::uint32_t(d.render.seed);
+    Parts parts(job, s.threads(), (d.diffuser ? 6 : 4) * own_range_parts, geometry_steps(s));
+    std::array<Geometric, 2> edges;
+    std::array<OwnRange, 2> box;
+    for (const int axis : {0, 1}) {
+        Geometric& g = edges[std::size_t(axis)];
+        const EyePath path = arc(d, s.geometry(), distance, axis);
+        g.lenses = where_own(lenses, path, wanted_error_deg, seed, parts);
+        g.diffused = d.diffuser ? where_own(diffused, path, wanted_error_deg, seed, parts) : g.lenses;
+        box[std::size_t(axis)] = where_own(lenses, across(d, s.geometry(), distance, axis),
+                                           wanted_error_deg * degree * (distance - s.geometry().rear_principal_mm), seed, parts);
+    }
+    add_eyebox(result, s, box);
+    result.figures["lenses_with_whole_images"] = lenses.whole_images();
+    return edges;
+}
+
+/// As fov_depth_mm, but no eye on its way stands in the scene or nearer to it than it is deep.
+double fov_scene_depth_mm(const Subject& s, const std::vector<double>& angles) {
+    const Vec3d half = s.scene().half_size_mm();
+    const double nearest = s.viewing_distance_mm() * std::cos(std::max(-angles.front(), angles.back()) * degree);
+    const double most = nearest - s.geometry().vertex_plane_mm - 2 * std::hypot(half[0], half[1], half[2]);
+    const double depth = std::min(fov_depth_mm(s), most), below = s.geometry().base_z_mm - s.geometry().vertex_plane_mm;
+    return depth >= below && depth < 0 && most < 0 ? 1.01 * below : depth;  // never inside the lenses
 }
 
 }  // namespace
 
-std::vector<double> fov_angles_deg(const Subject& subject) {
-    if (!subject.options().angles_deg.empty()) return subject.options().angles_deg;
-    const double most = std::min(80., std::max(30., std::ceil(0.5 * subject.theory().fov_deg - 1e-6) + 10));
+std::vector<double> fov_angles_deg(const Subject& s) {
+    if (!s.options().angles_deg.empty()) return s.options().angles_deg;
+    const double half = theory_edge_deg(s);
+    const double most = std::min({80., arc(s.display(), s.geometry(), s.viewing_distance_mm(), 0).most,
+                                  half <= 20.5 ? std::min(1.5 * half, 30.) : std::ceil(half) + 10});
+    const int side = std::max(30, int(most));
     std::vector<double> angles;
-    for (double a = -most; a <= most; ++a) angles.push_back(a);
+    for (int k = -side; k <= side; ++k) angles.push_back(most * k / side);
     return angles;
 }
 
 double fov_depth_mm(const Subject& s) {
-    const double described = s.geometry().content_depth_mm, edge = std::min(0.5 * s.theory().fov_deg + 2, 80.);
-    const double half_screen = 0.5 * std::min(s.geometry().array_width_mm, s.geometry().array_height_mm);
-    const double most = half_screen / std::tan(edge * 3.14159265358979323846 / 180);
-    return std::clamp(described, -most, most);
+    const Geometry& g = s.geometry();
+    const double distance = s.viewing_distance_mm(), described = g.content_depth_mm;
+    const double edge = std::min(theory_edge_deg(s) + 2, 80.) * degree;
+    const double half_screen = 0.5 * std::min(g.array_width_mm, g.array_height_mm);
+    // What stands behind the lenses is seen through the screen at X d/(d + E), X how far the eye has gone aside.
+    const double aside = distance * std::sin(edge), ahead = distance * std::cos(edge) - g.vertex_plane_mm;
+    const double behind = aside > half_screen ? half_screen * ahead / (aside - half_screen) : 1e6;
+    const double most = half_screen / std::tan(edge);
+    return std::clamp(described, -std::max(most, behind), most);
 }
 
-std::int64_t fov_steps(const Subject& subject) { return 2 * std::int64_t(fov_angles_deg(subject).size()) + 16; }
+std::int64_t fov_steps(const Subject& subject) {
+    return 2 * std::int64_t(fov_angles_deg(subject).size()) + 16 + geometry_steps(subject);
+}
 
 Result measure_fov(Subject& subject, Job& job) {
+    const Display& display = subject.display();
+    const double distance = checked_viewing_distance_mm(subject);
     const std::vector<double> angles = fov_angles_deg(subject);
     if (angles.size() < 3 || angles.front() >= 0 || angles.back() <= 0)
         throw InputError("--angles-deg", "the field of view needs three views or more, on both sides of 0");
-    const double depth = fov_depth_mm(subject), described = subject.geometry().content_depth_mm;
+    if (const double most = arc(display, subject.geometry(), distance, 0).most; std::max(-angles.front(), angles.back()) > most)
+        throw InputError("--angles-deg",
+                         fmt::format("from {:.4g} degrees on an eye {:.4g} mm from the panel's centre is inside the "
+                                     "display; give less",
+                                     most, distance));
+    Result result;
+    const double edge = theory_edge_deg(subject);
+    result.figures["viewing_distance_mm"] = distance;
+    result.figures["theory_fov_deg"] = subject.theory().fov_deg;
+    result.figures["theory_fov_elemental_deg"] = subject.theory().fov_elemental_deg;
+    result.figures["theory_edge_deg"] = edge;
+    const std::array<Geometric, 2> geometric = measure_geometry(result, subject, job);
+
+    const double depth = fov_scene_depth_mm(subject, angles), described = subject.geometry().content_depth_mm;
     std::unique_ptr<ShownPanel> own;
     if (depth != described)
-        own = elemental_panel(subject.display(), subject.geometry(), subject.scene().at_depth(depth), subject.threads(), job);
+        own = elemental_panel(display, subject.geometry(), subject.scene().at_depth(depth), subject.threads(), job);
     const Shown shown{subject.scene().at_depth(depth), own ? own->pyramid() : subject.panel(job), subject.white_field(job)};
-
-    Result result;
-    const double fov = subject.theory().fov_deg;
     Plot plot{"fov", "Likeness of the simulated view to the scene", "angle of the view, degrees", "SSIM", {}};
     Plot shares{"fov-share", "The scene's share in the view", "angle of the view, degrees", "covariance / variance", {}};
     DataTable table{"fov", {{"angle_deg", angles}}};
-    for (const std::string name : {"horizontal", "vertical"}) {
-        const Curves curves = measure(subject, shown, name == "horizontal", angles, job);
-        add_axis(result, name, curves, fov, window_deg(subject.display()));
+    for (const int axis : {0, 1}) {
+        const std::string name = axis == 0 ? "horizontal" : "vertical";
+        const Geometric& edges = geometric[std::size_t(axis)];
+        const Curves curves = measure(subject, shown, axis, angles, job);
+        Json json = Json::object();
+        add_geometry(result, json, name, edges, edge);
+        add_likeness(result, json, name, curves, edges, edge, fades_over_deg(subject));
+        result.figures[name] = std::move(json);
         table.columns.push_back({name + "_ssim", curves.screen.value});
         table.columns.push_back({name + "_content_ssim", curves.content.value});
         table.columns.push_back({name + "_share", curves.share.value});
@@ -157,23 +271,23 @@ Result measure_fov(Subject& subject, Job& job) {
         shares.series.push_back({name, angles, curves.share.value});
     }
     for (Plot* p : {&plot, &shares})
-        for (const double side : {-0.5, 0.5})
-            if (std::abs(side * fov) <= angles.back()) p->marks.push_back({"2 atan(p / 2g)", side * fov});
+        for (const double at : geometric[0].lenses.at)
+            if (std::abs(at) <= angles.back()) p->marks.push_back({"edge by geometry", at});
     plot.marks.push_back({"0.85", least_ssim, false});
-    result.figures["theory_fov_deg"] = fov;
     result.figures["content_depth_mm"] = depth;
     result.figures["step_deg"] = angles[1] - angles[0];
     result.tables.push_back(std::move(table));
     result.plots = {std::move(plot), std::move(shares)};
     if (depth != described)
-        result.remarks.push_back(
-            fmt::format("The scene stands at {:.4g} mm here: at {:.4g} mm, as described, it would not be seen before "
-                        "the screen any more from where theory expects the edge.",
-                        depth, described));
+        result.remarks.push_back(fmt::format(
+            "The scene stands at {:.4g} mm here: at {:.4g} mm, as described, it would not be seen before the screen from "
+            "all of these places, or an eye would stand in it.",
+            depth, described));
     result.remarks.push_back(
-        "SSIM compares whole pictures: aberration, the diffuser's blur and the panel's pixels lower it everywhere, the repeated "
-        "views "
-        "beyond the edge suddenly. So the edge tells the geometry, the published thresholds tell how good the picture is.");
+        "The field of view is that of the geometry: it depends on no content, picture or step. SSIM compares whole pictures: "
+        "aberration, the diffuser's blur and the panel's pixels lower it everywhere, the repeated views beyond the edge suddenly. "
+        "So "
+        "its edge should lie where geometry says, and the published thresholds tell how good the picture is.");
     return result;
 }
 

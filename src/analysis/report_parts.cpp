@@ -87,9 +87,6 @@ std::string theory_rows(const Subject& s) {
     const auto number = [](double x, const char* unit) {
         return std::isfinite(x) ? fmt::format("{}{:.4g}{}", x < 0 ? "−" : "", std::abs(x), unit) : std::string("infinite");
     };
-    const auto range = [&](const std::array<double, 2>& r) {
-        return fmt::format("{} to {}", number(r[0], ""), number(r[1], " mm"));
-    };
     const std::pair<const char*, std::string> rows[] = {
         {"Panel", fmt::format("{} × {} pixels of {:.4g} mm, {:.4g} × {:.4g} mm", d.panel.pixels[0], d.panel.pixels[1],
                               d.panel.pixel_pitch_mm, g.panel_width_mm, g.panel_height_mm)},
@@ -100,9 +97,11 @@ std::string theory_rows(const Subject& s) {
                                               d.diffuser->angle_deg[1], d.diffuser->distance_mm)
                                 : std::string("none")},
         {"Field of view, 2 atan(p / 2g)", number(t.fov_deg, "°")},
+        {"Field of view of whole elemental images", number(t.fov_elemental_deg, "°")},
         {"Views across, and between them", fmt::format("{}, {}", number(t.views, ""), number(t.view_step_deg, "°"))},
         {"Central depth plane L, from the lenses", number(t.central_depth_mm, " mm")},
-        {"Depth of field, from the lenses", range(t.depth_range_mm)},
+        {"Depth of field, from the lenses: ends",
+         fmt::format("{}, {}", number(depth_mm(t.depth_near_per_mm), " mm"), number(depth_mm(t.depth_far_per_mm), " mm"))},
         {"Image of a pixel at L", number(t.pixel_image_mm, " mm")},
         {"Whole screen seen from within", number(t.viewing_zone_deg, "°")},
         {"Sampling by lenses, by pixels",
@@ -126,21 +125,33 @@ std::string value_html(const Json& values, const std::string& unit) {
     for (const Json& x : values) {
         number = number || x.is_number();
         text += text.empty() ? "" : " to ";
-        text += x.is_number() ? fmt::format("{:.4g}", x.get<double>()) : "no bound";
+        text += x.is_number() ? fmt::format("{:.4g}", x.get<double>()) : x.is_string() ? x.get<std::string>() : "not found";
     }
-    if (!number) return "no bound";
+    if (!number) return values.front().is_string() ? text : "not found";
     for (std::size_t at = text.find('-'); at != text.npos; at = text.find('-', at + 1))
         if (at == 0 || text[at - 1] == ' ') text.replace(at, 1, "−");
     return text + (unit == "deg" ? "°" : unit.empty() ? "" : " " + escaped(unit));
 }
+
+namespace {
+
+/// The largest of a finding's errors.
+std::string error_html(const Json& errors) {
+    double most = 0;
+    for (const Json& x : errors)
+        if (x.is_number()) most = std::max(most, x.get<double>());
+    return most > 0 ? fmt::format(" ± {:.2g}", most) : "";
+}
+
+}  // namespace
 
 std::string finding_rows(const Json& report) {
     std::string html;
     for (const Json& f : report.at("findings")) {
         const std::string unit = f.at("unit");
         html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td class=\"remark\">{}</td></tr>\n",
-                            text_of(f, "what"), value_html(f.at("measured"), unit), value_html(f.at("theory"), unit),
-                            text_of(f, "remark"));
+                            text_of(f, "what"), value_html(f.at("measured"), unit) + error_html(f.at("error")),
+                            value_html(f.at("theory"), unit), text_of(f, "remark"));
     }
     return html;
 }

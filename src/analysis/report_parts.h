@@ -7,7 +7,7 @@
 
 namespace lfdsim {
 
-/// "-20.1 to 19.9°", "12.3 mm", "–" for none; null: "no bound".
+/// "-20.1 to 19.9°", "12.3 mm", "–" for none; null: "not found".
 std::string value_html(const Json& values, const std::string& unit);
 
 /// Rows of the table of theory beside measurement.

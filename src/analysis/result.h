@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,24 @@ namespace lfdsim {
 
 using Json = nlohmann::ordered_json;
 
+/// A figure for scripts: null where it is undefined (NaN), "infinite" or "-infinite" where it has no finite value.
+inline Json number_json(double x) {
+    if (std::isinf(x)) return x > 0 ? "infinite" : "-infinite";
+    return std::isnan(x) ? Json() : Json(x);
+}
+inline Json numbers_json(const std::vector<double>& all) {
+    Json json = Json::array();
+    for (const double x : all) json.push_back(number_json(x));
+    return json;
+}
+
 /// A line of the report's table: a figure as measured, and what theory says. Each is one number or an interval of two; empty: there
-/// is none. A number that is not finite means that there is no bound.
+/// is none. NaN: it is undefined or was not found, and the remark says why.
 struct Finding {
     std::string what, unit;
     std::vector<double> measured, theory;
-    std::string remark = {};  // where they differ: why; or what the figure means
+    std::string remark = {};         // where they differ: why; or what the figure means
+    std::vector<double> error = {};  // of each measured one; empty: none is stated
 };
 
 /// Columns of equal length for a CSV file. Names end in their unit: "angle_deg". NaN: an empty field.
@@ -73,7 +86,10 @@ struct Animation {
 };
 
 struct Result {
-    Json figures = Json::object();  // what scripts read: names end in their unit; not finite: null
+    // What scripts read: names end in their unit, the error of NAME is NAME_error; numbers as number_json() writes them.
+    Json figures = Json::object();
+    Json notes = Json::object();  // why a figure is null: {"PATH.OF.NAME": "..."}
+    void note(const std::string& path, const std::string& why) { notes[path] = why; }
     std::vector<Finding> findings;
     std::vector<std::string> remarks;  // sentences: what bounds a figure, where it differs from theory and why
     std::vector<DataTable> tables;

@@ -1,16 +1,13 @@
 #include "analysis/rules.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 
 namespace lfdsim {
 namespace {
-
-/// From the centre outwards along one side (+1 or -1): the first place where the curve falls below `level`.
-struct Crossing {
-    Limit limit;
-    bool at_once = false;  // it is below at the centre
-};
 
 double value_at(const Curve& c, double place) {
     const auto after = std::upper_bound(c.at.begin(), c.at.end(), place);
@@ -21,33 +18,87 @@ double value_at(const Curve& c, double place) {
     return c.value[k - 1] + t * (c.value[k] - c.value[k - 1]);
 }
 
-Crossing first_below(const Curve& c, double centre, int side, double level) {
+/// Between two places, the first at or above the level, the other below it.
+Limit crossing(const Curve& c, double at, double value, double next, double next_value, double level) {
+    const double slope = (next_value - value) / (next - at);
+    return {at + (level - value) / slope, std::hypot(c.error / slope, 0.5 * (next - at))};
+}
+
+/// From the centre on to one side, where the curve holds the level.
+Limit first_below(const Curve& c, double centre, int side, double level) {
     double at = std::clamp(centre, c.at.front(), c.at.back()), value = value_at(c, at);
-    if (value < level) return {{at, 0}, true};
     const int count = int(c.at.size());
     int k = int(std::upper_bound(c.at.begin(), c.at.end(), at) - c.at.begin());  // the first after
     if (side < 0) k = int(std::lower_bound(c.at.begin(), c.at.end(), at) - c.at.begin()) - 1;
     for (; k >= 0 && k < count; k += side) {
         const double next = c.at[std::size_t(k)], next_value = c.value[std::size_t(k)];
-        if (next_value < level) {
-            const double slope = (next_value - value) / (next - at);
-            return {{at + (level - value) / slope, c.error / std::abs(slope)}};
-        }
+        if (next_value < level) return crossing(c, at, value, next, next_value, level);
         at = next;
         value = next_value;
     }
-    return {};
+    Limit none;
+    none.missing = fmt::format("the rule still holds at {:.4g}, where the search ended", at);
+    return none;
 }
 
 Interval about(const Curve& c, double centre, double level) {
-    const Crossing low = first_below(c, centre, -1, level), high = first_below(c, centre, 1, level);
-    return {low.limit, high.limit, low.at_once};
+    if (value_at(c, std::clamp(centre, c.at.front(), c.at.back())) < level) {
+        Limit none;
+        none.missing = "the rule does not hold in the middle already";
+        return {none, none, true};
+    }
+    return {first_below(c, centre, -1, level), first_below(c, centre, 1, level)};
 }
 
 double median(std::vector<double> v) {
     std::sort(v.begin(), v.end());
     const std::size_t n = v.size();
     return n % 2 ? v[n / 2] : 0.5 * (v[n / 2 - 1] + v[n / 2]);
+}
+
+/// The fall about `expected` as the curve is walked outwards to one side.
+Limit fall(const Curve& c, double expected, double reach, double step, int side) {
+    Limit none;
+    if (!std::isfinite(expected)) {
+        none.missing = "there is no edge to look for";
+        return none;
+    }
+    std::vector<double> inside, outside;
+    for (std::size_t k = 0; k < c.at.size(); ++k) {
+        const double beyond = side * (c.at[k] - expected);
+        if (beyond < -reach && beyond >= -3 * reach) inside.push_back(c.value[k]);
+        if (beyond > reach && beyond <= 3 * reach) outside.push_back(c.value[k]);
+    }
+    if (inside.size() < 2 || outside.size() < 2) {
+        none.missing = fmt::format("too few views on both sides of the edge expected at {:.4g}", expected);
+        return none;
+    }
+    const double top = median(inside), bottom = median(outside), level = 0.5 * (top + bottom);
+    if (top - bottom < std::max(0.02, 5 * c.error)) {
+        none.missing = fmt::format("no clear fall about the edge expected at {:.4g}: from {:.3f} to {:.3f}", expected, top, bottom);
+        return none;
+    }
+    std::optional<Limit> found;
+    int crossings = 0;
+    for (std::size_t n = 0; n + 1 < c.at.size(); ++n) {
+        const std::size_t k = side > 0 ? n : c.at.size() - 2 - n, from = side > 0 ? k : k + 1, to = side > 0 ? k + 1 : k;
+        if (side * (c.at[to] - expected) <= -3 * reach || side * (c.at[from] - expected) >= 3 * reach) continue;
+        if ((c.value[from] >= level) == (c.value[to] >= level)) continue;
+        ++crossings;
+        if (c.value[from] >= level) found = crossing(c, c.at[from], c.value[from], c.at[to], c.value[to], level);
+    }
+    if (crossings != 1 || !found || std::abs(found->at - expected) > reach) {
+        none.missing = fmt::format("it crosses the middle of the fall expected at {:.4g} {}", expected,
+                                   crossings != 1 ? fmt::format("{} times", crossings) : "elsewhere");
+        return none;
+    }
+    // What the curve is made of decides where in its fall the middle lies: from nine tenths of the way up to one tenth, at most.
+    const auto passed = [&](double share) {
+        return first_below(c, found->at - side * reach, side, bottom + share * (top - bottom)).at;
+    };
+    for (const double tenth : {passed(0.9), passed(0.1)})
+        if (std::isfinite(tenth)) found->error = std::hypot(found->error, std::max(std::abs(tenth - found->at) - 0.5 * step, 0.));
+    return *found;
 }
 
 }  // namespace
@@ -65,46 +116,40 @@ Interval where_steady(const Curve& c, double centre, double most) {
     return about(steadiness, centre, -most);
 }
 
-Interval where_edge(const Curve& c, double centre, double plateau, double window) {
-    std::vector<double> inner;
-    for (std::size_t k = 0; k < c.at.size(); ++k)
-        if (std::abs(c.at[k] - centre) <= plateau) inner.push_back(c.value[k]);
-    if (inner.empty()) inner.push_back(value_at(c, centre));
-    const double level = median(inner);
-    Interval edges;
-    for (const int side : {-1, 1}) {
-        // Outwards from the centre
-        std::vector<std::size_t> places;
-        for (std::size_t k = 0; k < c.at.size(); ++k)
-            if (side * (c.at[k] - centre) >= 0) places.push_back(k);
-        if (side < 0) std::reverse(places.begin(), places.end());
-        const auto at = [&](std::size_t n) { return c.at[places[n]]; };
-        const auto value = [&](std::size_t n) { return c.value[places[n]]; };
-        std::size_t step = 0;
-        double steepest = 0;
-        for (std::size_t n = 0; n + 1 < places.size(); ++n) {
-            const double fall = (value(n) - value(n + 1)) / std::abs(at(n + 1) - at(n));
-            if (fall > steepest) steepest = fall, step = n;
-        }
-        if (steepest == 0) continue;
-        double top = level, bottom = value(step + 1), from = centre;
-        for (std::size_t n = 0; n <= step; ++n)
-            if (std::abs(at(n) - at(step)) <= window && value(n) > top) top = value(n), from = at(n);
-        for (std::size_t n = step + 1; n < places.size(); ++n)
-            if (std::abs(at(n) - at(step + 1)) <= window) bottom = std::min(bottom, value(n));
-        if (top - bottom < std::max(0.02, 5 * c.error)) continue;
-        const Crossing crossing = first_below(c, from, side, 0.5 * (top + bottom));
-        if (!crossing.at_once) (side < 0 ? edges.low : edges.high) = crossing.limit;
-    }
+Interval where_it_falls(const Curve& c, const Falls& expected) {
+    const double step = (c.at.back() - c.at.front()) / double(c.at.size() - 1), reach = std::max(expected.reach, 2 * step);
+    Interval edges{fall(c, expected.low, reach, step, -1), fall(c, expected.high, reach, step, 1)};
+    const double aside = 0.5 * std::abs(edges.low.at + edges.high.at - expected.low - expected.high);
+    if (std::isfinite(aside))
+        for (Limit* limit : {&edges.low, &edges.high}) limit->error = std::hypot(limit->error, aside);
     return edges;
 }
 
 namespace {
-Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(); }
+
+/// Of both limits, once where it is the same.
+std::string why_missing(const Interval& i) {
+    std::string why = i.low.missing;
+    if (!i.high.missing.empty() && i.high.missing != why) why += (why.empty() ? "" : "; ") + i.high.missing;
+    return why;
+}
+
 }  // namespace
 
-Json limits_json(const Interval& i) { return {number_or_null(i.low.at), number_or_null(i.high.at)}; }
-Json errors_json(const Interval& i) { return {number_or_null(i.low.error), number_or_null(i.high.error)}; }
+Json limits_json(const Interval& i) { return numbers_json(bounds(i)); }
+Json errors_json(const Interval& i) { return numbers_json({i.low.error, i.high.error}); }
 std::vector<double> bounds(const Interval& i) { return {i.low.at, i.high.at}; }
+
+Finding finding(const std::string& what, const std::string& unit, const Interval& i, std::vector<double> theory,
+                const std::string& remark) {
+    const std::string why = why_missing(i);
+    return {what, unit, bounds(i), std::move(theory), why.empty() ? remark : why, {i.low.error, i.high.error}};
+}
+
+void add_limits(Result& result, Json& figures, const std::string& path, const std::string& name, const Interval& i) {
+    figures[name] = limits_json(i);
+    figures[name + "_error"] = errors_json(i);
+    if (const std::string why = why_missing(i); !why.empty()) result.note(path + name, why);
+}
 
 }  // namespace lfdsim

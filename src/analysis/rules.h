@@ -4,22 +4,22 @@
 #pragma once
 #include "analysis/result.h"
 
-#include <array>
 #include <limits>
 #include <string>
 #include <vector>
 
 namespace lfdsim {
 
-/// Where an interval ends. NaN: not within the curve.
+/// Where an interval ends. NaN: nowhere, and `missing` says why.
 struct Limit {
     double at = std::numeric_limits<double>::quiet_NaN();
-    double error = std::numeric_limits<double>::quiet_NaN();  // standard deviation, from that of the curve
+    double error = std::numeric_limits<double>::quiet_NaN();  // from the curve's noise and half the step between its places
+    std::string missing = {};
 };
 
 struct Interval {
     Limit low, high;
-    bool empty = false;  // the rule does not hold at the centre itself: both limits stand there
+    bool empty = false;  // the rule does not hold at the centre itself: there are no limits
 };
 
 struct Curve {
@@ -34,16 +34,30 @@ Interval where_at_least(const Curve&, double centre, double least);
 /// Where it rises or falls by `most` or less per unit. Slopes count in the middle between two places.
 Interval where_steady(const Curve&, double centre, double most);
 
-/// On each side, half-way down the curve's fall at its steepest step: between its minimum within `window` beyond that step and its
-/// median within `plateau` of the centre, or, where that is higher, its maximum within `window` before the step (SSIM rises while a
-/// scene on black leaves the screen). Unbounded where the fall is less than 0.02 or five standard deviations.
-Interval where_edge(const Curve&, double centre, double plateau, double window);
+/// Where something else than the curve says that it should fall, low to the left and high to the right of the centre, and over
+/// which width on either side of that place the fall extends.
+struct Falls {
+    double low, high, reach;
+};
 
-/// [low, high] with null where unbounded.
+/// On each side the one sustained fall that contains the expected place: the curve crosses the middle between its medians inside
+/// and outside of the fall once, and stays on either side of it. The medians are of the places between one and three reaches (of
+/// two steps at least) from the expected one. None where the medians differ by less than 0.02 or five standard deviations, where
+/// the curve crosses more than once, or where it ends before. The error contains the noise, half a step, half of what the two
+/// limits lie to one side of the expected ones, and the width of the fall, since the content decides where in it the middle lies.
+Interval where_it_falls(const Curve&, const Falls&);
+
+/// [low, high] with null where there is none.
 Json limits_json(const Interval&);
-/// The same of the limits' standard deviations.
+/// The same of the limits' errors.
 Json errors_json(const Interval&);
 /// For Finding::measured.
 std::vector<double> bounds(const Interval&);
+/// With why a limit is missing, if one is, in place of the remark.
+Finding finding(const std::string& what, const std::string& unit, const Interval&, std::vector<double> theory,
+                const std::string& remark);
+
+/// Writes figures[name] and figures[name + "_error"], and notes under path + name why a limit is missing.
+void add_limits(Result&, Json& figures, const std::string& path, const std::string& name, const Interval&);
 
 }  // namespace lfdsim

@@ -29,7 +29,7 @@ struct Planes {
         const auto near = [&](double z) { return std::abs(z) <= reach ? z : NAN; };
         central = near(from + t.central_depth_mm);
         if (std::isfinite(central))
-            for (std::size_t k : {0u, 1u}) marginal[k] = near(from + t.depth_range_mm[k]);
+            marginal = {near(from + depth_mm(t.depth_near_per_mm)), near(from + depth_mm(t.depth_far_per_mm))};
     }
 };
 

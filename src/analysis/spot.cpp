@@ -112,11 +112,11 @@ Plot diagram(const Subject& s, const LensTrace& lens, const Field& field, const 
               {},
               true};
     Series outline{"image of a panel pixel", {}, {}};
-    const Allowed image = pixel_image(s.display(), s.geometry(), s.theory());
+    const double pixel_slope = s.display().panel.pixel_pitch_mm / s.geometry().gap_mm;
     double x0 = 0;
     for (const double z : {depths.front(), depths[depths.size() / 2], depths.back()}) {
         const Centroid middle = centroid_at(light, z);
-        const double half = 0.5 * (image.mm + image.per_mm * z);
+        const double half = 0.5 * pixel_slope * std::abs(z);
         double left = half, right = half;
         for (const LensRay& ray : light.rays) {
             left = std::max(left, middle.x - ray.x - ray.mx * z);
@@ -215,7 +215,7 @@ void tell_distortion(const Subject& s, const Distortion& d, Result& result) {
 }  // namespace
 
 std::vector<double> spot_depths_mm(const Theory& t) {
-    const double L = t.central_depth_mm, near = t.depth_range_mm[0];
+    const double L = t.central_depth_mm, near = depth_mm(t.depth_near_per_mm);
     if (std::isinf(L)) return {near, 1.5 * near, 2 * near, 3 * near, 4 * near};
     const double half = std::min(0.5 * t.depth_of_field_mm, 0.9 * std::abs(L));
     return {L - half, L - half / 2, L, L + half / 2, L + half};

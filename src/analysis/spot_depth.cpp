@@ -1,6 +1,7 @@
 #include "analysis/spot_depth.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -8,8 +9,8 @@
 namespace lfdsim {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double far_mm = 1e12;  // what is sharp there has no bound
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double most_per_mm = 1e6;  // a nanometre before the lens
 constexpr int fan_rays = 1001;
 
 /// Where a predicate that changes once, from false at `out` to true at `in`, changes.
@@ -22,81 +23,127 @@ double change(double out, double in, Predicate holds) {
     return in;
 }
 
+/// Every second ray, with the rims.
+std::vector<Line> thinned(const std::vector<Line>& fan) {
+    std::vector<Line> half;
+    for (std::size_t k = 0; k < fan.size(); k += 2) half.push_back(fan[k]);
+    if (!fan.empty()) half.push_back(fan.back());
+    return half;
+}
+
+/// How far the finite number of rays may have carried the ends off: they stand as 1/n^2, so that half as many show three times it.
+std::array<double, 2> errors(const SharpDepths& all, const SharpDepths& half) {
+    const auto error = [](double a, double b) { return std::abs(a - b) + 1e-9 * std::abs(a); };
+    return {error(all.near_per_mm, half.near_per_mm), error(all.far_per_mm, half.far_per_mm)};
+}
+
+/// The same in millimetres, to first order.
+double error_mm(double per_mm, double error_per_mm) { return error_per_mm / (per_mm * per_mm); }
+
+/// Writes what is found and what theory says as millimetres from the vertex plane, and as dioptres from the principal plane.
+class Teller {
+  public:
+    Teller(const Subject& s, Result& result)
+        : from_vertex_(s.geometry().rear_principal_mm - s.geometry().vertex_plane_mm),
+          pixel_slope_(s.display().panel.pixel_pitch_mm / s.geometry().gap_mm),
+          paraxial_(ends_mm(s.theory().depth_near_per_mm, s.theory().depth_far_per_mm)),
+          result_(result) {}
+
+    void operator()(const std::string& key, const std::string& what, const std::vector<Line>& fan, double airy_slope,
+                    const std::string& remark) {
+        const SharpDepths depths = where_sharp(fan, pixel_slope_, airy_slope);
+        Finding finding{"Depth of field: " + what, "mm", {}, paraxial_, remark};
+        if (std::isnan(depths.near_per_mm)) {
+            for (const char* unit : {"_mm", "_diopters"}) result_.figures[key + unit] = Json();
+            finding.measured = {nan, nan};
+            finding.remark = fan.empty()
+                                 ? "no light of the panel's point on the axis gets through the lens"
+                                 : fmt::format(
+                                       "the spot is nowhere as narrow as a panel pixel's image; it comes nearest to that {} mm "
+                                       "before the lenses, where it is {:.4g} pixel images wide",
+                                       text_mm(depths.best_per_mm), depths.least_width / pixel_slope_);
+            result_.note(key + "_mm", finding.remark);
+            result_.note(key + "_diopters", finding.remark);
+        } else {
+            const auto [near, far] = errors(depths, where_sharp(thinned(fan), pixel_slope_, airy_slope));
+            finding.measured = ends_mm(depths.near_per_mm, depths.far_per_mm);
+            finding.error = {error_mm(depths.near_per_mm, near), error_mm(depths.far_per_mm, far)};
+            result_.figures[key + "_mm"] = numbers_json(finding.measured);
+            result_.figures[key + "_mm_error"] = numbers_json(finding.error);
+            result_.figures[key + "_diopters"] = numbers_json({1000 * depths.near_per_mm, 1000 * depths.far_per_mm});
+            result_.figures[key + "_diopters_error"] = numbers_json({1000 * near, 1000 * far});
+        }
+        result_.findings.push_back(std::move(finding));
+    }
+
+    std::vector<double> ends_mm(double near_per_mm, double far_per_mm) const {
+        return {depth_mm(near_per_mm) + from_vertex_, depth_mm(far_per_mm) + from_vertex_};
+    }
+    double pixel_slope() const { return pixel_slope_; }
+
+  private:
+    std::string text_mm(double per_mm) const {
+        const double z = depth_mm(per_mm) + from_vertex_;
+        return std::isinf(z) ? "infinitely many" : fmt::format("{:.4g}", z);
+    }
+
+    double from_vertex_, pixel_slope_;
+    std::vector<double> paraxial_;
+    Result& result_;
+};
+
 }  // namespace
 
-Allowed pixel_image(const Display& d, const Geometry& g, const Theory& t) {
-    if (std::isinf(t.central_depth_mm)) return {0, d.panel.pixel_pitch_mm / g.gap_mm};
-    return {t.pixel_image_mm, 0};
+SharpDepths where_sharp(const std::vector<Line>& fan, double pixel_slope, double airy_slope) {
+    if (fan.empty()) return {nan, nan, nan, nan};
+    // A ray at + slope z, over its depth: at/z + slope, a line over 1/z too. The width of a fan is so convex there, and is not
+    // above what is allowed in one interval about its minimum.
+    std::vector<Line> over_depth;
+    for (const Line& l : fan) over_depth.push_back({l.slope, l.at});
+    const auto width = [&](double per_mm) { return std::hypot(width_at(over_depth, per_mm).mm, airy_slope); };
+    const auto rises = [&](double per_mm) { return width_at(over_depth, per_mm).per_mm > 0; };
+    const auto sharp = [&](double per_mm) { return width(per_mm) <= pixel_slope; };
+    const double best = rises(-most_per_mm) ? -most_per_mm : change(-most_per_mm, most_per_mm, rises);
+    if (!sharp(best)) return {nan, nan, best, width(best)};
+    return {sharp(most_per_mm) ? most_per_mm : change(most_per_mm, best, sharp),
+            sharp(-most_per_mm) ? -most_per_mm : change(-most_per_mm, best, sharp), best, width(best)};
 }
 
-SharpDepths where_sharp(const std::vector<Line>& fan, Allowed allowed, double airy_per_mm) {
-    const auto width = [&](double z) {
-        const Width w = width_at(fan, z);
-        if (airy_per_mm == 0) return w;
-        const double mm = std::hypot(w.mm, airy_per_mm * z);
-        return Width{mm, mm > 0 ? (w.mm * w.per_mm + airy_per_mm * airy_per_mm * z) / mm : 0};
-    };
-    // Both are convex functions of z, and so is what is too much: it has one minimum, and is not above 0 in one interval about it.
-    const auto rises = [&](double z) { return width(z).per_mm > allowed.per_mm; };
-    const auto sharp = [&](double z) { return width(z).mm <= allowed.mm + allowed.per_mm * z; };
-    const double best = rises(-far_mm) ? -far_mm : rises(far_mm) ? change(-far_mm, far_mm, rises) : far_mm;
-    if (fan.empty() || !sharp(best)) return {nan, nan, best, width(best).mm};
-    return {sharp(-far_mm) ? -infinity : change(-far_mm, best, sharp), sharp(far_mm) ? infinity : change(far_mm, best, sharp), best,
-            width(best).mm};
+std::array<double, 2> quarter_wave_per_mm(double L, double D, double wavelength_mm) {
+    const double most = 2 * wavelength_mm / (D * D);
+    return {1 / L + most, 1 / L - most};
 }
 
-std::array<double, 2> quarter_wave_depths(double L, double D, double wavelength_mm) {
-    const double v = 1 / L, most = 2 * wavelength_mm / (D * D);
-    if (L < 0) return {v + most < 0 ? 1 / (v + most) : -infinity, 1 / (v - most)};
-    return {1 / (v + most), v > most ? 1 / (v - most) : infinity};
-}
-
-std::array<double, 2> add_spot_depths(const Subject& s, Result& result) {
+SharpDepths add_spot_depths(const Subject& s, Result& result) {
     const Theory& t = s.theory();
     const Geometry& g = s.geometry();
-    const double from_vertex = g.rear_principal_mm - g.vertex_plane_mm, D = g.clear_aperture_mm, L = t.central_depth_mm;
-    const double wavelength_mm = s.options().wavelength_nm * 1e-6;
+    const double D = g.clear_aperture_mm, wavelength_mm = s.options().wavelength_nm * 1e-6;
     const std::vector<Line> fan = fans(LensTrace(s.display(), g), {0, 0}, fan_rays).meridional;
-    const Allowed allowed = pixel_image(s.display(), g, t);
-    const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(); };
-    const std::vector<double> paraxial{t.depth_range_mm[0] + from_vertex, t.depth_range_mm[1] + from_vertex};
-
-    const auto say = [&](const char* key, const std::string& what, const SharpDepths& depths, const std::string& remark) {
-        Finding finding{"Depth of field: " + what, "mm", {}, paraxial, remark};
-        if (std::isnan(depths.low)) {
-            result.figures[key] = Json();
-            finding.remark = fmt::format(
-                "the spot is nowhere as narrow as a panel pixel's image; it comes nearest to that {:.4g} mm "
-                "before the lenses, where it is {:.4g} mm wide",
-                depths.best + from_vertex, depths.least_mm);
-            result.remarks.push_back(finding.what + ": " + finding.remark + ".");
-        } else {
-            finding.measured = {depths.low + from_vertex, depths.high + from_vertex};
-            result.figures[key] = {number(finding.measured[0]), number(finding.measured[1])};
-        }
-        result.findings.push_back(std::move(finding));
-        return depths;
-    };
-    const SharpDepths traced = say("spot_mm", "spot no wider than a pixel's image, traced", where_sharp(fan, allowed),
-                                   "on the axis; theory is paraxial: where they differ the lens's aberrations are the cause");
-    result.figures["spot_best_mm"] = number(traced.best + from_vertex);
-    result.figures["spot_least_width_mm"] = number(traced.least_mm);
+    Teller tell(s, result);
+    const SharpDepths traced = where_sharp(fan, tell.pixel_slope());
+    tell("spot", "spot no wider than a pixel's image, traced", fan, 0,
+         "on the axis; theory is paraxial: where they differ the lens's aberrations are the cause");
+    result.figures["spot_best_mm"] = number_json(depth_mm(traced.best_per_mm) + g.rear_principal_mm - g.vertex_plane_mm);
+    result.figures["spot_least_pixel_images"] = number_json(traced.least_width / tell.pixel_slope());
+    if (fan.empty())
+        for (const char* name : {"spot_best_mm", "spot_least_pixel_images"}) result.note(name, "no light gets through the lens");
     if (s.display().diffuser) {
-        const double z = *g.diffuser_z_mm - g.rear_principal_mm;
-        const double angle = diffuser_angle(s.display(), {1, 0});
-        say("spot_with_diffuser_mm", "the same with the diffuser's widening", where_sharp(diffused(fan, z, angle), allowed),
-            "the diffuser widens a spot by its angle times the distance from it");
+        const double z = *g.diffuser_z_mm - g.rear_principal_mm, angle = diffuser_angle(s.display(), {1, 0});
+        tell("spot_with_diffuser", "the same with the diffuser's widening", diffused(fan, z, angle), 0,
+             "the diffuser widens a spot by its angle times the distance from it");
     }
-    say("spot_with_diffraction_mm", fmt::format("the same with the Airy disk at {} nm", s.options().wavelength_nm),
-        where_sharp(fan, allowed, 2.44 * wavelength_mm / D), "2.44 wavelength z / D, added in quadrature");
-    const auto wave = quarter_wave_depths(L, D, wavelength_mm);
-    result.figures["diffraction_quarter_wave_mm"] = {number(wave[0] + from_vertex), number(wave[1] + from_vertex)};
+    tell("spot_with_diffraction", fmt::format("the same with the Airy disk at {} nm", s.options().wavelength_nm), fan,
+         2.44 * wavelength_mm / D, "2.44 wavelength z / D, added in quadrature");
+    const auto [near, far] = quarter_wave_per_mm(t.central_depth_mm, D, wavelength_mm);
+    const std::vector<double> wave = tell.ends_mm(near, far);
+    result.figures["diffraction_quarter_wave_mm"] = numbers_json(wave);
+    result.figures["diffraction_quarter_wave_diopters"] = numbers_json({1000 * near, 1000 * far});
     result.findings.push_back({"Depth of field: quarter of a wave, of a perfect lens",
                                "mm",
                                {},
-                               {wave[0] + from_vertex, wave[1] + from_vertex},
+                               wave,
                                "where diffraction alone begins to tell defocus; pixels coarser than the Airy disk allow more"});
-    return {traced.low + from_vertex, traced.high + from_vertex};
+    return traced;
 }
 
 }  // namespace lfdsim

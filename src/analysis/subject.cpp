@@ -15,8 +15,7 @@ Subject::Subject(Display display, std::optional<Scene> scene, AnalysisOptions op
       options_(std::move(options)) {}
 
 double Subject::viewing_distance_mm() const {
-    const Vec3d& p = display_.camera.position_mm;
-    return options_.viewing_distance_mm.value_or(std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]));
+    return options_.viewing_distance_mm.value_or(eye_distance_mm(display_));
 }
 
 const Scene& Subject::scene() const {

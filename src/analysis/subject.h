@@ -15,7 +15,7 @@ namespace lfdsim {
 
 struct AnalysisOptions {
     std::vector<double> angles_deg;  // of the views, rising; empty: see fov.h
-    std::vector<double> depths_mm;   // of the content before the vertex plane, rising; empty: see dof.h
+    std::vector<double> depths_mm;   // of the content before the vertex plane, rising; empty: see dof_depths.h
     std::optional<double> viewing_distance_mm =
         {};                       // of eyes from the panel; default: the camera's distance from the panel's centre
     double eye_distance_mm = 65;  // between a viewer's two eyes

@@ -52,14 +52,17 @@ class Projection {
 
 }  // namespace
 
-Display seen_from(const Display& display, double horizontal_deg, double vertical_deg) {
+Display seen_by(const Display& display, const Vec3d& eye) {
     Display d = display;
-    Camera& c = d.camera;
-    const double distance = std::sqrt(dot(c.position_mm, c.position_mm)), h = horizontal_deg * degree, v = vertical_deg * degree;
-    c.position_mm = {distance * std::sin(h) * std::cos(v), distance * std::sin(v), distance * std::cos(h) * std::cos(v)};
-    c.target_mm = {0, 0, 0};
-    c.up = {0, 1, 0};
+    d.camera.position_mm = eye;
+    d.camera.target_mm = {0, 0, 0};
+    d.camera.up = {0, 1, 0};
     return d;
+}
+
+Display seen_from(const Display& display, double horizontal_deg, double vertical_deg) {
+    const double distance = eye_distance_mm(display), h = horizontal_deg * degree, v = vertical_deg * degree;
+    return seen_by(display, {distance * std::sin(h) * std::cos(v), distance * std::sin(v), distance * std::cos(h) * std::cos(v)});
 }
 
 Region screen_region(const Display& d, const Geometry& g) {

@@ -5,6 +5,9 @@
 
 namespace lfdsim {
 
+/// The display with its camera at `eye`, upright, looking at the panel's centre.
+Display seen_by(const Display&, const Vec3d& eye);
+
 /// The display with its camera gone round the panel's centre at its distance |position|, from on axis: first to the right by
 /// `horizontal_deg`, then up by `vertical_deg`; it looks at the centre. Both within -80 .. 80.
 Display seen_from(const Display&, double horizontal_deg, double vertical_deg);

@@ -1,6 +1,8 @@
 #include "analysis/zone.h"
 
+#include "analysis/estimate.h"
 #include "analysis/parallel.h"
+#include "analysis/rules.h"
 #include "analysis/slope_spread.h"
 
 #include <fmt/format.h>
@@ -17,28 +19,48 @@ namespace {
 constexpr double degree = 3.14159265358979323846 / 180, infinity = std::numeric_limits<double>::infinity();
 constexpr int map_side = 61, curve_points = 181, distance_points = 61;  // odd: the middle is one of them
 constexpr int map_rays = 1024, curve_rays = 4096;
+constexpr std::uint32_t sets = 4;  // of lines of sight, independent of one another
 constexpr double thresholds[] = {0.01, 0.5};
 constexpr const char* missing = "Rays that miss their own lens's elemental image";
 
-/// The quantity that a search goes along: a lateral place in mm or a distance's inverse; and the share of wrong rays there.
-using Along = std::function<double(double)>;
+/// The share of wrong rays at a place that a search goes along, a lateral one in mm or a distance's inverse, by one set of lines.
+using Along = std::function<double(double, std::uint32_t)>;
 
 /// How far, from the middle of `places` towards their end (step 1) or start (-1), the share stays at most `most`: bisected between
-/// the last place where it does and the first where it does not. NaN: it does so to the end. The middle itself, if it fails there.
-double limit(const std::vector<double>& places, const std::vector<double>& wrong, int step, double most, const Along& wrong_at) {
+/// the last place where it does and the first where it does not, for each of the sets of lines of sight, which may fall there a
+/// place earlier or later.
+Limit limit(const std::vector<double>& places, const std::vector<double>& wrong, int step, double most, const Along& wrong_at) {
     const auto good = [&](double share) { return share <= most; };  // NaN: nothing is seen, which is not good
-    int k = int(places.size()) / 2;
-    if (!good(wrong[std::size_t(k)])) return places[std::size_t(k)];
-    for (;; k += step) {
-        if (k + step < 0 || k + step >= int(places.size())) return std::numeric_limits<double>::quiet_NaN();
-        if (!good(wrong[std::size_t(k + step)])) break;
+    const int middle = int(places.size()) / 2, last = step > 0 ? int(places.size()) - 1 : 0;
+    const auto at = [&](int k) { return places[std::size_t(k)]; };
+    Limit none;
+    if (!good(wrong[std::size_t(middle)])) {
+        none.missing = "more are wrong in the middle already";
+        return none;
     }
-    double in = places[std::size_t(k)], out = places[std::size_t(k + step)];
-    for (int n = 0; n < 20; ++n) {
-        const double middle = 0.5 * (in + out);
-        (good(wrong_at(middle)) ? in : out) = middle;
+    int in = middle;
+    while (in != last && good(wrong[std::size_t(in + step)])) in += step;
+    if (in == last) {
+        none.missing = "no more are wrong as far as was looked";
+        return none;
     }
-    return 0.5 * (in + out);
+    std::array<double, sets> found;
+    double precision = 0;
+    for (std::uint32_t set = 0; set < sets; ++set) {
+        int k = in;
+        while (k != middle && !good(wrong_at(at(k), set))) k -= step;
+        int next = k + step;
+        while (next != last && good(wrong_at(at(next), set))) next += step;
+        double inside = at(next - step), outside = at(next);
+        for (int n = 0; n < 12; ++n) {
+            const double half_way = 0.5 * (inside + outside);
+            (good(wrong_at(half_way, set)) ? inside : outside) = half_way;
+        }
+        found[set] = 0.5 * (inside + outside);
+        precision = std::max(precision, std::abs(outside - inside));
+    }
+    const auto [value, error] = estimate(found, precision);
+    return {value, error, {}};
 }
 
 std::vector<double> even_places(double low, double high, int count) {
@@ -49,7 +71,7 @@ std::vector<double> even_places(double low, double high, int count) {
 
 /// The paraxial zone of m lenses: slopes of viewers at distance eye_mm from H', made for made_for_mm; and the inverse distances.
 struct ParaxialZone {
-    double half_fov, fault_per_mm;  // p/2g; (m - 1) p/2 per difference of inverse distances
+    double half_fov, fault_per_mm;  // p'/2g; (m - 1) p/2 per difference of inverse distances
     double made_for_mm;
     double half_slope(double eye_mm) const {
         return std::max(half_fov - fault_per_mm * std::abs(1 / eye_mm - 1 / made_for_mm), 0.);
@@ -61,8 +83,8 @@ struct ParaxialZone {
 };
 
 ParaxialZone paraxial(const Subject& s, std::int64_t lenses) {
-    const double p = s.display().array.pitch_mm, g = s.geometry().gap_mm;
-    return {p / (2 * g), double(lenses - 1) * p / 2, s.display().content.viewing_distance_mm - s.geometry().rear_principal_mm};
+    return {s.theory().elemental_pitch_mm / (2 * s.geometry().gap_mm), double(lenses - 1) * s.display().array.pitch_mm / 2,
+            s.display().content.viewing_distance_mm - s.geometry().rear_principal_mm};
 }
 
 /// Of the search along the axis: the distance that the images are made for (the eye's, if that is none) in the middle, and as far
@@ -80,7 +102,7 @@ std::vector<double> inverse_distances(const Subject& s, double eye, const Paraxi
 
 struct Zone {
     std::vector<double> places, wrong, mixed, dark;
-    std::array<std::array<double, 2>, 2> limits;  // by threshold, side; NaN: none within the places
+    std::array<Interval, 2> limits;  // by threshold
 };
 
 class Search {
@@ -90,11 +112,16 @@ class Search {
           rays_(s.display(), s.geometry()),
           pickup_(s.display(), s.geometry()),
           more_(rays_.more_for({0, 0, s.viewing_distance_mm()})),
-          choices_(even_choices(curve_rays * more_)),
+          choices_([&] {
+              std::array<std::vector<Choice>, sets> all;
+              for (std::uint32_t set = 0; set < sets; ++set)
+                  all[set] = even_choices(curve_rays * more_, sets * std::uint32_t(s.display().render.seed) + set);
+              return all;
+          }()),
           parts(job, s.threads(), map_side + 2 * (curve_points + 4) + distance_points + 4, zone_steps(s)) {}
 
-    SightShares at(const Vec3d& eye, int rays) const {
-        return sight_shares(rays_, pickup_, display_, eye, std::span(choices_).first(std::size_t(rays * more_)));
+    SightShares at(const Vec3d& eye, int rays, std::uint32_t set = 0) const {
+        return sight_shares(rays_, pickup_, display_, eye, std::span(choices_[set]).first(std::size_t(rays * more_)));
     }
 
     /// Along the eyes that `eye_at` tells.
@@ -110,9 +137,10 @@ class Search {
             zone.dark[std::size_t(k)] = shares.dark;
         });
         parts.run(4, [&](int k) {
-            zone.limits[std::size_t(k / 2)][std::size_t(k % 2)] =
+            Interval& limits = zone.limits[std::size_t(k / 2)];
+            (k % 2 == 0 ? limits.low : limits.high) =
                 limit(zone.places, zone.wrong, k % 2 == 0 ? -1 : 1, thresholds[k / 2],
-                      [&](double place) { return at(eye_at(place), curve_rays).wrong; });
+                      [&](double place, std::uint32_t set) { return at(eye_at(place), curve_rays, set).wrong; });
         });
         return zone;
     }
@@ -122,15 +150,20 @@ class Search {
     EyeRays rays_;
     Pickup pickup_;
     int more_;
-    std::vector<Choice> choices_;
+    std::array<std::vector<Choice>, sets> choices_;
 
   public:
     Parts parts;
 };
 
-Json pair(double low, double high) {
-    const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(); };
-    return {number(low), number(high)};
+/// The same limits by another measure of the place, rising or falling; errors to first order.
+template <class Map>
+Interval mapped(const Interval& from, Map map) {
+    const auto limit = [&](const Limit& l) {
+        return Limit{map(l.at), 0.5 * std::abs(map(l.at + l.error) - map(l.at - l.error)), l.missing};
+    };
+    const Interval to{limit(from.low), limit(from.high)};
+    return map(1.) > map(0.5) ? to : Interval{to.high, to.low};
 }
 
 void add_map(Result& result, Search& search, double half, double distance) {
@@ -183,21 +216,20 @@ void add_sideways(Result& result, Search& search, const Subject& s, double half,
         for (const double mm : zone.places) angles.push_back(degrees(mm));
         const ParaxialZone zone_of = paraxial(s, lenses[std::size_t(axis)]);
         const double theory = degrees(eye * zone_of.half_slope(eye)), half_fov = degrees(eye * zone_of.half_fov);
-        Json& json = result.figures[name];
+        Json json = Json::object();
         json["theory_deg"] = {0 - theory, theory};
         for (const std::size_t t : {0u, 1u}) {
-            const auto [low, high] = zone.limits[t];
+            const Interval& mm = zone.limits[t];
+            const Interval deg = mapped(mm, degrees);
             const std::string percent = fmt::format("{:g}", 100 * thresholds[t]);
-            json[fmt::format("wrong_{}_percent_mm", percent)] = pair(low, high);
-            json[fmt::format("wrong_{}_percent_deg", percent)] = pair(degrees(low), degrees(high));
-            result.findings.push_back({fmt::format("Viewing zone, {}: at most {} % of the rays wrong", name, percent),
-                                       "deg",
-                                       {degrees(low), degrees(high)},
-                                       t == 0 ? std::vector<double>{0 - theory, theory} : std::vector<double>{-half_fov, half_fov},
-                                       low == high                           ? "more are wrong in the middle already"
-                                       : std::isnan(low) || std::isnan(high) ? "no bound: as far as was looked"
-                                                                             : fmt::format("{:.4g} to {:.4g} mm", low, high)});
+            add_limits(result, json, name + ".", fmt::format("wrong_{}_percent_mm", percent), mm);
+            add_limits(result, json, name + ".", fmt::format("wrong_{}_percent_deg", percent), deg);
+            result.findings.push_back(
+                finding(fmt::format("Viewing zone, {}: at most {} % of the rays wrong", name, percent), "deg", deg,
+                        t == 0 ? std::vector<double>{0 - theory, theory} : std::vector<double>{-half_fov, half_fov},
+                        fmt::format("{:.4g} to {:.4g} mm", mm.low.at, mm.high.at)));
         }
+        result.figures[name] = std::move(json);
         if (axis == 0) {
             table.columns = {{"place_mm", zone.places}, {"place_deg", angles}};
             plot.marks = {{"theory, horizontal", 0 - theory}, {"theory, horizontal", theory}, {"1 %", 0.01, false}};
@@ -222,17 +254,15 @@ void add_axis(Result& result, Search& search, const Subject& s, double distance)
         return Vec3d{0, 0, from_panel(inverse)};
     });
     for (double& place : zone.places) place = from_panel(place);
-    const double nearest = from_panel(zone.limits[0][1]), farthest = from_panel(zone.limits[0][0]),
-                 theory_nearest = rear + theory.distance_mm(-1), theory_farthest = rear + theory.distance_mm(1);
-    result.figures["distance"] = {{"wrong_1_percent_mm", pair(nearest, farthest)},
-                                  {"wrong_50_percent_mm", pair(from_panel(zone.limits[1][1]), from_panel(zone.limits[1][0]))},
-                                  {"theory_mm", pair(theory_nearest, theory_farthest)}};
-    result.findings.push_back(
-        {"Viewing zone along the axis: at most 1 % of the rays wrong",
-         "mm",
-         {nearest, farthest},
-         {theory_nearest, theory_farthest},
-         "nearest and farthest; without bound where the search, as far as the display's front, meets no end"});
+    const double theory_nearest = rear + theory.distance_mm(-1), theory_farthest = rear + theory.distance_mm(1);
+    const std::array<Interval, 2> limits{mapped(zone.limits[0], from_panel), mapped(zone.limits[1], from_panel)};
+    Json json = Json::object();
+    add_limits(result, json, "distance.", "wrong_1_percent_mm", limits[0]);
+    add_limits(result, json, "distance.", "wrong_50_percent_mm", limits[1]);
+    json["theory_mm"] = numbers_json({theory_nearest, theory_farthest});
+    result.figures["distance"] = std::move(json);
+    result.findings.push_back(finding("Viewing zone along the axis: at most 1 % of the rays wrong", "mm", limits[0],
+                                      {theory_nearest, theory_farthest}, "nearest and farthest, as far as the display's front"));
     Series near{"on axis", {}, {}};
     for (std::size_t k = zone.places.size(); k-- > 0 && zone.places[k] <= 4 * distance;) {
         near.x.push_back(zone.places[k]);

@@ -89,10 +89,21 @@ std::vector<const Measure*> chosen(const std::string& names) {
 
 std::string value_text(const Json& values, const std::string& unit) {
     if (values.empty()) return "";
+    if (std::all_of(values.begin(), values.end(), [](const Json& x) { return x.is_null(); })) return "not found";
     std::string text;
     for (const Json& x : values)
-        text += (text.empty() ? "" : " .. ") + (x.is_null() ? "unbounded" : fmt::format("{:.4g}", x.get<double>()));
+        text += (text.empty() ? "" : " .. ") + (x.is_null()     ? "not found"
+                                                : x.is_number() ? fmt::format("{:.4g}", x.get<double>())
+                                                                : x.get<std::string>());
     return text + (unit.empty() ? "" : " " + unit);
+}
+
+/// The largest of a finding's errors.
+std::string error_text(const Json& errors) {
+    double most = 0;
+    for (const Json& x : errors)
+        if (x.is_number()) most = std::max(most, x.get<double>());
+    return most > 0 ? fmt::format(" \u00b1 {:.2g}", most) : "";
 }
 
 std::string table_of(const Json& measured) {
@@ -100,8 +111,11 @@ std::string table_of(const Json& measured) {
     std::string text = fmt::format("\n{}\n", report.at("title").get<std::string>());
     for (const Json& f : report.at("findings")) {
         const std::string unit = f.at("unit"), theory = value_text(f.at("theory"), unit);
-        text += fmt::format("  {:<58} {:<24}{}\n", f.at("what").get<std::string>(), value_text(f.at("measured"), unit),
-                            theory.empty() ? "" : "theory " + theory);
+        const Json& values = f.at("measured");
+        text += fmt::format("  {:<58} {:<26}{}\n", f.at("what").get<std::string>(),
+                            value_text(values, unit) + error_text(f.at("error")), theory.empty() ? "" : "  theory " + theory);
+        if (std::any_of(values.begin(), values.end(), [](const Json& x) { return x.is_null(); }))
+            text += fmt::format("      {}\n", f.at("remark").get<std::string>());
     }
     return text;
 }

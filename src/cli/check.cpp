@@ -57,11 +57,16 @@ void run(const Arguments& args) {
     const Theory paraxial = theory(display, geometry);
     const std::vector<Setting> keys = settings(display);
     const std::vector<std::string> warnings = advice(display, geometry, paraxial);
-    if (args.json)
+    if (args.json) {
+        Json notes = Json::object();
+        add_notes(figures(geometry), "geometry", notes);
+        add_notes(figures(paraxial), "theory", notes);
         return print_json(Json{{"display", to_json(keys)},
                                {"geometry", to_json(figures(geometry))},
                                {"theory", to_json(figures(paraxial))},
+                               {"notes", notes},
                                {"warnings", warnings}});
+    }
 
     std::string text = args.display.path() + " is valid.\n", table;
     for (const Setting& s : keys) {

@@ -40,23 +40,28 @@ struct Geometry {
     double content_depth_mm, content_height_mm;
 };
 
-/// Paraxial theory, docs/model.md section "Theory". Infinite where a figure has no finite value.
+/// Paraxial theory, docs/model.md section "Theory". Infinite where a figure has no finite value, NaN where it is undefined.
 struct Theory {
-    double fov_deg;  // 2 atan(p / 2g)
+    double fov_deg;            // 2 atan(p / 2g)
+    double fov_elemental_deg;  // 2 atan(p' / 2g), p' the elemental images' pitch: what is seen through their whole width
     double focal_length_mm;
     double gap_mm;
-    double central_depth_mm;               // L, from the rear principal plane; negative: virtual
-    double pixel_image_mm;                 // P_I = a |L| / g
-    double depth_of_field_mm;              // 2 |L| P_I / D
-    std::array<double, 2> depth_range_mm;  // marginal planes, from the rear principal plane
-    double views;                          // N = p / a
-    double view_step_deg;                  // FOV / N
-    double viewing_zone_parallel_deg;      // whole screen, elemental-image pitch p
-    double viewing_zone_deg;               // whole screen, with the description's viewing distance
-    double elemental_pitch_mm;             // p (1 + g / (D - z_r))
-    double lens_sampling_limit_per_mm;     // 1 / 2p
-    double pixel_image_limit_per_mm;       // 1 / 2 P_I
-    double gap_closing_diffuser_deg;       // 2 atan(p / 2L)
+    double central_depth_mm;   // L, from the rear principal plane; negative: virtual
+    double pixel_image_mm;     // P_I = a |L| / g
+    double depth_of_field_mm;  // 2 |L| P_I / D, as published
+    // Depths z from the rear principal plane at which a lens's spot is no wider than a panel pixel's image, D |1 - z/L| <= a |z|/g:
+    // |1/z - 1/L| <= a/(g D). One interval of 1/z, whatever L; where it holds 0, infinity is sharp.
+    double depth_near_per_mm;           // 1/L + a/(g D)
+    double depth_far_per_mm;            // 1/L - a/(g D)
+    double views;                       // N = p / a
+    double view_step_deg;               // FOV / N
+    double viewing_zone_parallel_deg;   // whole screen, elemental-image pitch p
+    double viewing_zone_deg;            // whole screen, elemental images for the description's viewing distance, seen by the eye
+    double eyebox_mm;                   // width of the place from where an eye sees the middle lens's own image: E p' / g
+    double elemental_pitch_mm;          // p' = p (1 + g / (D - z_r))
+    double lens_sampling_limit_per_mm;  // 1 / 2p
+    double pixel_image_limit_per_mm;    // 1 / 2 P_I
+    double gap_closing_diffuser_deg;    // 2 atan(p / 2L)
 };
 
 // What any lens maker's prescription needs, and what the kernels hold.
@@ -69,6 +74,15 @@ std::vector<Problem> validate(const Display&);
 Geometry resolve(const Display&);
 
 Theory theory(const Display&, const Geometry&);
+
+/// Distance from the panel of the eyes that theory and measures reckon with: the camera's from the panel's centre.
+double eye_distance_mm(const Display&);
+
+/// The depth whose inverse is given, mm from the rear principal plane towards the viewer; infinite for 0.
+double depth_mm(double per_mm);
+
+/// Whether theory calls a depth sharp, z from the rear principal plane.
+bool is_sharp(const Theory&, double z_mm);
 
 /// Sag z - z_vertex in mm of a surface at distance s from its axis: c s^2/(1 + sqrt(1 - (1+k) c^2 s^2)) + a4 s^4 + ...
 double sag_mm(double curvature, double conic, const std::vector<double>& even_asphere, double s);

@@ -46,7 +46,7 @@ Plot fov_plot(const Display& display, std::shared_ptr<const Model> model, const 
     const Display d = small(display);
     const Geometry g = resolve(d);
     Subject subject(d, Scene(std::move(model), d, g), {});
-    const double edge = 0.5 * subject.theory().fov_deg, depth = fov_depth_mm(subject);
+    const double edge = 0.5 * subject.theory().fov_elemental_deg, depth = fov_depth_mm(subject);
     const double highest =
         std::acos(std::min(1.2 * nearest_eye_mm(g) / d.camera.position_mm[2], 1.)) / degree;  // before the display
     const double most = std::min({80., highest, 1.35 * edge + 2});
@@ -65,7 +65,7 @@ Plot fov_plot(const Display& display, std::shared_ptr<const Model> model, const 
     Plot plot{"fov", "Likeness of the simulated view to the scene", "horizontal angle of the view, degrees", "SSIM", {}};
     plot.series.push_back(std::move(likeness_series));
     for (const double side : {-edge, edge})
-        if (std::abs(side) <= most) plot.marks.push_back({"2 atan(p / 2g)", side});
+        if (std::abs(side) <= most) plot.marks.push_back({"2 atan(p' / 2g)", side});
     plot.marks.push_back({"eye", std::atan2(display.camera.position_mm[0], display.camera.position_mm[2]) / degree});
     return plot;
 }
@@ -79,8 +79,6 @@ Plot spot_plot(const Display& d) {
     const bool finite = std::abs(L) < 1e6;
     const double reach = finite ? std::clamp(0.75 * t.depth_of_field_mm, 0.2 * std::abs(L), 0.95 * std::abs(L)) : 0;
     const double low = finite ? L - reach : 0, high = finite ? L + reach : 2 * d.camera.position_mm[2];
-    const Allowed allowed = pixel_image(d, g, t);
-
     Series traced{"traced spot", {}, {}}, diffuse{"with the diffuser", {}, {}}, pixel{"a panel pixel's image", {}, {}};
     const std::vector<Line> after =
         d.diffuser ? diffused(fan, *g.diffuser_z_mm - g.rear_principal_mm, diffuser_angle(d, {1, 0})) : std::vector<Line>{};
@@ -89,7 +87,7 @@ Plot spot_plot(const Display& d) {
         for (Series* s : {&traced, &diffuse, &pixel}) s->x.push_back(z + from_vertex);
         traced.y.push_back(fan.empty() ? NAN : width_at(fan, z).mm);
         diffuse.y.push_back(after.empty() ? NAN : width_at(after, z).mm);
-        pixel.y.push_back(allowed.mm + allowed.per_mm * z);
+        pixel.y.push_back(d.panel.pixel_pitch_mm * std::abs(z) / g.gap_mm);
     }
     Plot plot{"spot", "Spot of a panel point on the lens's axis", "depth before the lenses, mm", "width, mm", {}};
     plot.series = {std::move(traced)};

@@ -66,8 +66,8 @@ TEST(Report, ShowsWhatTheFolderHolds) {
     const std::string html = c.report();
     for (const char* text :
          {"<h1>&lt;Display&gt; &amp; co</h1>", "lfdsim 1.2.3", "Edge &amp; rim", "<td>−20.5 to 21°</td><td>−20 to 20°</td>",
-          "<td>3 to no bound mm</td><td>–</td>", "<td>no bound</td><td>1</td>", "A remark &lt;with&gt; marks.", "The plot's title",
-          "A &quot;picture&quot;", "Turning", "edge_deg", "table.csv", "a&lt;b&gt;.obj", "name = &quot;d&quot;",
+          "<td>3 to not found mm</td><td>–</td>", "<td>not found</td><td>1</td>", "A remark &lt;with&gt; marks.",
+          "The plot's title", "A &quot;picture&quot;", "Turning", "edge_deg", "table.csv", "a&lt;b&gt;.obj", "name = &quot;d&quot;",
           "From the panel to the eye"})
         EXPECT_THAT(html, HasSubstr(text));
     EXPECT_THAT(html, HasSubstr(std::string(c.fov.says)));

@@ -23,14 +23,15 @@ TEST(Rules, ThresholdIsInterpolatedAndCarriesTheCurvesError) {
     const Interval i = where_at_least(tent, 0, 0.85);
     EXPECT_NEAR(i.low.at, -6.5, 1e-12);
     EXPECT_NEAR(i.high.at, 8.5, 1e-12);
-    EXPECT_NEAR(i.high.error, 0.004 / 0.02, 1e-12);
+    EXPECT_NEAR(i.high.error, std::hypot(0.004 / 0.02, 0.5), 1e-12);  // and half a step
     EXPECT_FALSE(i.empty);
 }
 
-TEST(Rules, WithoutACrossingTheIntervalIsUnbounded) {
+TEST(Rules, WithoutACrossingItSaysHowFarItWasSearched) {
     const Interval i = where_at_least(curve([](double) { return 0.9; }), 0, 0.85);
     EXPECT_TRUE(std::isnan(i.low.at) && std::isnan(i.high.at));
     EXPECT_TRUE(limits_json(i)[0].is_null());
+    EXPECT_NE(i.high.missing.find("20"), std::string::npos);
 }
 
 TEST(Rules, TheIntervalIsTheConnectedOne) {
@@ -42,8 +43,8 @@ TEST(Rules, TheIntervalIsTheConnectedOne) {
 TEST(Rules, EmptyWhereTheCentreBreaksTheRule) {
     const Interval i = where_at_least(curve([](double) { return 0.8; }), 0, 0.85);
     EXPECT_TRUE(i.empty);
-    EXPECT_EQ(i.low.at, 0);
-    EXPECT_EQ(i.high.at, 0);
+    EXPECT_TRUE(std::isnan(i.low.at) && std::isnan(i.high.at));
+    EXPECT_FALSE(i.low.missing.empty());
 }
 
 // The slope of 1 - 0.001 x^2 is 0.002 |x|: 0.005 at 2.5, exactly, as slopes stand half-way between places.
@@ -54,27 +55,45 @@ TEST(Rules, SteadyWhereSlopesAreSmall) {
 }
 
 TEST(Rules, EdgeIsHalfWayDownTheFall) {
-    // from 1 to 0.2 between 10 and 14 on the right, between -7 and -9 on the left
-    const auto fall = [](double x) { return x > 0 ? std::clamp((14 - x) / 4, 0., 1.) : std::clamp((x + 9) / 2, 0., 1.); };
-    const Interval i = where_edge(curve([&](double x) { return 0.2 + 0.8 * fall(x); }, 0.004), 0, 6, 5);
-    EXPECT_NEAR(i.low.at, -8, 1e-9);
-    EXPECT_NEAR(i.high.at, 12, 1e-9);
-    EXPECT_NEAR(i.high.error, 0.004 / 0.2, 1e-9);
+    // from 1 to 0.2 between 9 and 13 on the right, between -9 and -13 on the left
+    const auto fall = [](double x) { return std::clamp((13 - std::abs(x)) / 4, 0., 1.); };
+    const Interval i = where_it_falls(curve([&](double x) { return 0.2 + 0.8 * fall(x); }, 0.004), {-10.5, 10.5, 3});
+    EXPECT_NEAR(i.low.at, -11, 1e-9);
+    EXPECT_NEAR(i.high.at, 11, 1e-9);
+    // noise, half a step, and from nine tenths to one tenth of the fall, 1.6 to either side, what is more than half a step
+    EXPECT_NEAR(i.high.error, std::hypot(std::hypot(0.004 / 0.2, 0.5), std::sqrt(2.) * 1.1), 1e-9);
 }
 
-TEST(Rules, EdgeOfACurveThatRisesBeforeAndFallsOnAfter) {
-    const auto value = [](double x) { return std::abs(x) <= 12 ? 0.8 + 0.01 * std::abs(x) : 0.6 - 0.02 * (std::abs(x) - 13); };
-    // 0.92 at 12, 0.6 at 13, and 0.5 within 5 beyond: half-way is 0.71
-    const Interval i = where_edge(curve(value), 0, 8, 5);
-    EXPECT_NEAR(i.high.at, 12 + 0.21 / 0.32, 1e-9);
-    EXPECT_NEAR(i.low.at, -i.high.at, 1e-12);
+TEST(Rules, WhatLiesToOneSideIsInTheError) {
+    const Interval i = where_it_falls(curve([](double x) { return x > -9 && x < 11 ? 1. : 0.; }), {-10, 10, 2});
+    EXPECT_NEAR(i.low.at, -9 + 0.5, 0.51);
+    EXPECT_NEAR(i.low.error, std::hypot(0.5, 0.5 * std::abs(i.low.at + i.high.at)), 1e-9);
+}
+
+// A steeper fall elsewhere, as where a scene leaves the screen or a repeated view begins, is not the one looked for.
+TEST(Rules, AFallElsewhereIsNone) {
+    const auto value = [](double x) { return std::abs(x) < 2.5 ? 1. : std::abs(x) < 15.5 ? 0.5 : 0.3; };
+    const Interval i = where_it_falls(curve(value), {-15, 15, 2});
+    EXPECT_NEAR(i.high.at, 15.5, 1e-9);
+    const Interval none = where_it_falls(curve(value), {-9, 9, 2});
+    EXPECT_TRUE(std::isnan(none.low.at));
+    EXPECT_NE(none.high.missing.find("no clear fall"), std::string::npos);
+}
+
+TEST(Rules, AFallThatIsNotSustainedIsNone) {
+    const auto value = [](double x) { return std::abs(x) < 9.5 ? 1. : std::abs(x) == 12 ? 0.9 : 0.2; };
+    const Interval i = where_it_falls(curve(value), {-10, 10, 2});
+    EXPECT_TRUE(std::isnan(i.high.at));
+    EXPECT_NE(i.high.missing.find("3 times"), std::string::npos);
 }
 
 TEST(Rules, NoEdgeWhereNothingFallsClearly) {
-    const Interval flat = where_edge(curve([](double) { return 0.9; }), 0, 8, 4);
+    const Interval flat = where_it_falls(curve([](double) { return 0.9; }), {-10, 10, 2});
     EXPECT_TRUE(std::isnan(flat.low.at) && std::isnan(flat.high.at));
-    const Interval noisy = where_edge(curve([](double x) { return std::abs(x) > 10 ? 0.8 : 0.9; }, 0.03), 0, 8, 4);
+    const Interval noisy = where_it_falls(curve([](double x) { return std::abs(x) > 10 ? 0.8 : 0.9; }, 0.03), {-10, 10, 2});
     EXPECT_TRUE(std::isnan(noisy.low.at) && std::isnan(noisy.high.at));
+    const Interval outside = where_it_falls(curve([](double x) { return std::abs(x) > 19 ? 0. : 1.; }), {-19, 19, 2});
+    EXPECT_NE(outside.high.missing.find("too few"), std::string::npos);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "analysis/views.h"
 
 #include "analysis/dof.h"
+#include "analysis/dof_depths.h"
 #include "analysis/fov.h"
 #include "example.h"
 
@@ -49,23 +50,45 @@ TEST_P(Fields, EdgesStandWhereTheoryHasThem) {
     const Result r = measure_fov(s, job);
     for (const char* axis : {"horizontal", "vertical"})
         for (const std::size_t side : {0u, 1u}) {
-            const Json& limit = r.figures.at(axis).at("gradient_edge_deg").at(side);
-            ASSERT_TRUE(limit.is_number()) << axis;
-            EXPECT_NEAR(limit.get<double>(), (side ? 0.5 : -0.5) * GetParam(), 1) << axis;
+            const Json& of = r.figures.at(axis);
+            const double theory = (side ? 1 : -1) * r.figures.at("theory_edge_deg").get<double>();
+            const auto figure = [&](const char* name) { return of.at(name).at(side).get<double>(); };
+            EXPECT_NEAR(figure("own_lens_deg"), theory, figure("own_lens_deg_error") + 0.01) << axis;
+            EXPECT_LE(figure("own_lens_deg_error"), 0.05) << axis;
+            EXPECT_EQ(of.at("own_lens_deg").at(0).get<double>(), -of.at("own_lens_deg").at(1).get<double>());
+            EXPECT_NEAR(figure("gradient_edge_deg"), theory, figure("gradient_edge_deg_error")) << axis;
+            EXPECT_LT(figure("gradient_edge_deg_error"), 2.5) << axis;
         }
 }
 
+// Even over 1/z, over twice theory's range, which is 1/L -/+ a/(g D); an ideal lens is its own vertex and principal plane.
 TEST(Views, DepthsOfTheDepthOfField) {
+    for (const double L : {60., -60.}) {
+        const Display d = display(40, L);
+        const std::vector<DepthRun> runs = dof_depths(Subject(d, std::nullopt, {}));
+        ASSERT_EQ(runs.size(), 1u);
+        const std::vector<double>& depths = runs[0].depths_mm;
+        ASSERT_EQ(depths.size(), 31u);
+        const double half = 0.2 / (*d.array.gap_mm * 6);
+        EXPECT_NEAR(1 / depths.front(), 1 / L + 2 * half, 1e-9);
+        EXPECT_NEAR(1 / depths.back(), 1 / L - 2 * half, 1e-9);
+        EXPECT_NEAR(1 / depths[1] - 1 / depths[0], -4 * half / 30, 1e-9);
+        EXPECT_NE(runs[0].why_high.find("twice"), std::string::npos);
+    }
+}
+
+// Collimated, twice the range goes through infinity: to the eye before the lenses, to where the scene looks too small behind them.
+TEST(Views, DepthsThroughInfinityAreCut) {
     Display d = display(40, 200);
-    Subject s(d, std::nullopt, {});
-    const std::vector<double> depths = dof_depths_mm(s);
-    ASSERT_EQ(depths.size(), 31u);
-    EXPECT_NEAR(depths.front(), 50, 1e-9);  // an ideal lens is its own vertex and principal plane
-    EXPECT_NEAR(depths.back(), 350, 1e-9);
-    Display near = display(40, 60);
-    EXPECT_NEAR(dof_depths_mm(Subject(near, std::nullopt, {})).front(), 10, 1e-9);
-    Display behind = display(40, -200);
-    EXPECT_NEAR(dof_depths_mm(Subject(behind, std::nullopt, {})).back(), -50, 1e-9);
+    d.lens.focal_length_mm = *d.array.gap_mm;
+    d.diffuser.reset();
+    const std::vector<DepthRun> runs = dof_depths(Subject(d, std::nullopt, {}));
+    ASSERT_EQ(runs.size(), 2u);
+    EXPECT_LT(runs[0].depths_mm.back(), 0);
+    EXPECT_GT(runs[1].depths_mm.front(), 0);
+    EXPECT_LT(runs[1].depths_mm.back(), 2000 - *d.array.gap_mm);
+    EXPECT_NE(runs[1].why_high.find("eye"), std::string::npos);
+    EXPECT_NE(runs[0].why_low.find("small"), std::string::npos);
 }
 
 TEST(Views, AStoppedMeasureStops) {

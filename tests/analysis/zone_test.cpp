@@ -112,8 +112,7 @@ TEST(Zone, IsTheorysWhereTheLensIsSharpAtTheEye) {
             EXPECT_NEAR(high, edge, pixel) << axis << share;
         }
         const double theory = figures.at(axis).at("theory_deg").at(1);
-        EXPECT_NEAR(theory, resolve(d).gap_mm == 8 ? std::atan(4. / 16) / degree : 0, 1e-9);
-        EXPECT_NEAR(edge / theory, 1, 0.015);
+        EXPECT_NEAR(theory, edge, 1e-9);
     }
 }
 
@@ -191,7 +190,8 @@ TEST(Zone, OfADarkDisplayIsEmpty) {
     Display d = many_lenses(7);
     d.array.offset_mm = {600, 0};
     const Result result = measured(d);
-    EXPECT_EQ(both(result.figures.at("horizontal").at("wrong_1_percent_mm")), (std::array{0., 0.}));
+    EXPECT_TRUE(result.figures.at("horizontal").at("wrong_1_percent_mm").at(0).is_null());
+    EXPECT_TRUE(result.notes.contains("horizontal.wrong_1_percent_mm"));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ Theory theory_of(const Display& d) { return theory(d, resolve(d)); }
 struct Figures {
     const char* name;
     Display display;
-    double f, central_depth, pixel_image, near, far;
+    double f, central_depth, pixel_image, near, far;  // marginal planes as published: L -/+ |L| P_I / D
 };
 
 // Half a unit in the last place that is given.
@@ -33,8 +33,7 @@ TEST(Theory, DesktopDisplays) {
         EXPECT_NEAR(t.focal_length_mm, want.f, 5e-4) << want.name;
         EXPECT_NEAR(t.central_depth_mm, want.central_depth, 0.05) << want.name;
         EXPECT_NEAR(t.pixel_image_mm, want.pixel_image, 5e-4) << want.name;
-        EXPECT_NEAR(t.depth_range_mm[0], want.near, 0.2) << want.name;
-        EXPECT_NEAR(t.depth_range_mm[1], want.far, 0.2) << want.name;
+        EXPECT_NEAR(t.central_depth_mm - 0.5 * t.depth_of_field_mm, want.near, 0.2) << want.name;
         EXPECT_NEAR(t.depth_of_field_mm, want.far - want.near, 0.2) << want.name;
         EXPECT_NEAR(t.views, 88, 0.01) << want.name;
         EXPECT_NEAR(t.view_step_deg, 40.0 / 88, 1e-3) << want.name;
@@ -59,8 +58,8 @@ TEST(Theory, CollimatedLens) {
     d.array.gap_mm = 15.7;
     const Theory t = theory_of(d);
     EXPECT_TRUE(std::isinf(t.central_depth_mm) && std::isinf(t.pixel_image_mm) && std::isinf(t.depth_of_field_mm));
-    EXPECT_NEAR(t.depth_range_mm[0], 12 * 15.7 / 0.13636, 1e-9);  // where a pixel's image a z/g has grown to D
-    EXPECT_TRUE(std::isinf(t.depth_range_mm[1]));
+    EXPECT_NEAR(depth_mm(t.depth_near_per_mm), 12 * 15.7 / 0.13636, 1e-9);  // where a pixel's image a z/g has grown to D
+    EXPECT_EQ(t.depth_far_per_mm, -t.depth_near_per_mm);                    // and as far behind the lenses
     EXPECT_EQ(t.gap_closing_diffuser_deg, 0);
     EXPECT_EQ(t.pixel_image_limit_per_mm, 0);
 }
@@ -73,8 +72,39 @@ TEST(Theory, VirtualCentralDepthPlane) {
     EXPECT_LT(t.central_depth_mm, 0);
     EXPECT_NEAR(t.central_depth_mm, L, 1e-9);
     EXPECT_NEAR(t.pixel_image_mm, 0.13636 * -L / 15, 1e-9);
-    EXPECT_LT(t.depth_range_mm[0], L);
-    EXPECT_GT(t.depth_range_mm[1], L);
+    EXPECT_NEAR(t.depth_near_per_mm, 1 / L + 0.13636 / (15 * t.gap_mm / 15 * resolve(d).clear_aperture_mm), 1e-15);
+    EXPECT_NEAR(t.depth_far_per_mm, 2 / L - t.depth_near_per_mm, 1e-15);
+}
+
+// At both ends, whatever L, a lens's spot D |1 - z/L| is as wide as a panel pixel's image a |z|/g; between them in 1/z it is
+// narrower.
+TEST(Theory, DepthOfFieldIsOneIntervalOfInverseDepths) {
+    Display d = example_ideal();
+    d.array.aperture = Aperture::square;
+    double before = -INFINITY;
+    for (const double gap : {3., 9., 14.9, 15.5, 15.69, 15.6999, 15.7, 15.7001, 15.71, 15.9, 16.485, 20., 60.}) {
+        d.array.gap_mm = gap;
+        const Theory t = theory_of(d);
+        const double f = d.lens.focal_length_mm, inverse_L = gap == f ? 0 : 1 / f - 1 / gap;
+        const auto excess = [&](double per_mm) { return 12 * std::abs(per_mm - inverse_L) - 0.13636 / gap; };  // over |z|
+        EXPECT_NEAR(excess(t.depth_near_per_mm), 0, 1e-12) << gap;
+        EXPECT_NEAR(excess(t.depth_far_per_mm), 0, 1e-12) << gap;
+        EXPECT_LT(t.depth_far_per_mm, t.depth_near_per_mm);
+        EXPECT_LT(excess(inverse_L), 0);
+        EXPECT_TRUE(inverse_L == 0 || is_sharp(t, 1 / inverse_L));
+        EXPECT_GT(t.depth_near_per_mm + t.depth_far_per_mm, before);  // continuous and rising through the collimated lens
+        before = t.depth_near_per_mm + t.depth_far_per_mm;
+    }
+}
+
+TEST(Theory, FieldOfViewOfWholeElementalImages) {
+    Display d = example_ideal();
+    d.camera.position_mm = {0, 0, 600};
+    const Theory t = theory_of(d);
+    EXPECT_NEAR(t.fov_elemental_deg, 2 * std::atan(12 * (1 + 16.485 / (2000 - 16.485)) / (2 * 16.485)) / degree, 1e-12);
+    EXPECT_NEAR(t.eyebox_mm, 2 * (600 - 16.485) * std::tan(t.fov_elemental_deg / 2 * degree), 1e-9);
+    d.content.viewing_distance_mm = INFINITY;
+    EXPECT_EQ(theory_of(d).fov_elemental_deg, theory_of(d).fov_deg);
 }
 
 // The widest angle from which every lens of a row shows its own elemental image, by following lines through lens centres.
@@ -84,7 +114,7 @@ double counted_zone_deg(const Display& d, const Geometry& g, double elemental_pi
         for (std::int64_t i = 0; i < d.array.count[0]; ++i) {
             const double k = double(i) + 0.5 - double(d.array.count[0]) / 2, lens = k * p;
             const double seen = lens - g.gap_mm * (X - lens) / above;
-            if (std::abs(seen - k * elemental_pitch) > p / 2) return false;
+            if (std::abs(seen - k * elemental_pitch) > elemental_pitch / 2) return false;
         }
         return true;
     };
@@ -98,7 +128,7 @@ TEST(Theory, ViewingZonesByCountingLenses) {
     Display d = example_ideal();
     Geometry g = resolve(d);
     Theory t = theory(d, g);
-    EXPECT_NEAR(t.viewing_zone_deg, t.fov_deg, 1e-9);
+    EXPECT_NEAR(t.viewing_zone_deg, t.fov_elemental_deg, 1e-9);
     EXPECT_NEAR(t.viewing_zone_deg, counted_zone_deg(d, g, t.elemental_pitch_mm, 2000), 1e-6);
     EXPECT_NEAR(t.viewing_zone_parallel_deg, counted_zone_deg(d, g, 12, 2000), 1e-6);
     EXPECT_GT(t.viewing_zone_parallel_deg, 20);

@@ -178,9 +178,10 @@ TEST(Validate, WhatPassesIsFinite) {
             RC_ASSERT(std::isfinite(z));
         RC_ASSERT(g.base_z_mm > -1e-6 && g.top_z_mm >= g.base_z_mm && g.gap_mm > 0 && g.clear_aperture_mm > 0);
         const Theory t = theory(d, g);
-        for (const double x : {t.fov_deg, t.central_depth_mm, t.pixel_image_mm, t.depth_of_field_mm, t.depth_range_mm[0],
-                               t.depth_range_mm[1], t.viewing_zone_deg, t.viewing_zone_parallel_deg, t.elemental_pitch_mm})
+        for (const double x : {t.fov_deg, t.central_depth_mm, t.pixel_image_mm, t.depth_of_field_mm, t.depth_near_per_mm,
+                               t.depth_far_per_mm, t.elemental_pitch_mm, t.fov_elemental_deg})
             RC_ASSERT(!std::isnan(x));
+        RC_ASSERT(std::isnan(t.viewing_zone_deg) == !(eye_distance_mm(d) > g.rear_principal_mm));
     }));
 }
 

@@ -1,0 +1,172 @@
+#include "analysis/own_lens.h"
+
+#include "analysis/estimate.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lfdsim {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180, nan = std::numeric_limits<double>::quiet_NaN();
+constexpr int sets = 4, first_rays = 1024, coarse_rays = 512, most_growth = 64;
+
+/// Lines of sight of the other side: a display that is symmetric then has the same share there to the last bit.
+void mirror(std::vector<Choice>& choices, int axis) {
+    for (Choice& c : choices)
+        for (const std::size_t k : {0u, 2u, 4u}) c[k + std::size_t(axis)] = -c[k + std::size_t(axis)];
+}
+
+}  // namespace
+
+OwnLens::OwnLens(Display display, bool with_diffuser)
+    : display_([&] {
+          if (!with_diffuser) display.diffuser.reset();
+          display.panel.emission_exponent = 0;
+          return std::move(display);
+      }()),
+      geometry_(resolve(display_)),
+      rays_(display_, geometry_),
+      pickup_(display_, geometry_),
+      half_image_mm_(0.5 * display_.array.pitch_mm * pickup_.scale) {}
+
+bool OwnLens::is_whole(double x, double y) const {
+    const double turn = display_.array.rotation_deg * degree,
+                 reach = half_image_mm_ * (std::abs(std::cos(turn)) + std::abs(std::sin(turn))), slack = 1e-9 * half_image_mm_;
+    return std::abs(x) + reach <= 0.5 * geometry_.panel_width_mm + slack &&
+           std::abs(y) + reach <= 0.5 * geometry_.panel_height_mm + slack;
+}
+
+std::int64_t OwnLens::whole_images() const {
+    std::int64_t whole = 0;
+    const auto [nx, ny] = display_.array.count;
+    for (std::int64_t j = 0; j < ny; ++j)
+        for (std::int64_t i = 0; i < nx; ++i) {
+            const Vec3d lens = rays_.point((double(i) + 0.5 - 0.5 * double(nx)) * display_.array.pitch_mm,
+                                           (double(j) + 0.5 - 0.5 * double(ny)) * display_.array.pitch_mm);
+            whole += is_whole(lens[0] * pickup_.scale, lens[1] * pickup_.scale);
+        }
+    return whole;
+}
+
+double OwnLens::share(const Vec3d& eye, std::span<const Choice> choices) const {
+    const double turn = display_.array.rotation_deg * degree, c = std::cos(turn), s = std::sin(turn);
+    double own = 0, all = 0;
+    for (const Choice& choice : choices) {
+        const Sight sight = rays_.look(eye, choice);
+        if (!(sight.light > 0)) continue;
+        const double x = sight.lens[0] * pickup_.scale, y = sight.lens[1] * pickup_.scale;
+        if (!is_whole(x, y)) continue;
+        all += sight.light;
+        const double dx = sight.x - x, dy = sight.y - y;
+        if (std::max(std::abs(c * dx + s * dy), std::abs(c * dy - s * dx)) <= half_image_mm_) own += sight.light;
+    }
+    return all > 0 ? own / all : nan;
+}
+
+namespace {
+
+/// Of one side: the steps between which the share falls below one half, on few lines of sight, or why there are none.
+struct Bracket {
+    double in = nan, out = nan;
+    std::string missing;
+};
+
+Bracket bracket(const OwnLens& lens, const EyePath& path, int side, std::span<const Choice> choices) {
+    const double middle = lens.share(path.eye(0), choices);
+    if (std::isnan(middle)) return {nan, nan, "no light of lenses whose whole elemental image lies on the panel is seen"};
+    if (middle < 0.5)
+        return {nan, nan,
+                fmt::format("the share is {:.2f} in the middle already: elemental images are made for another distance than the "
+                            "eye's, or for another array",
+                            middle)};
+    for (double in = 0; in < path.most;) {
+        const double out = std::min(in + path.step, path.most), share = lens.share(path.eye(side * out), choices);
+        if (std::isnan(share)) return {nan, nan, fmt::format("no light is seen from {:.4g} on, before the share falls", out)};
+        if (share < 0.5) return {in, out, {}};
+        in = out;
+    }
+    return {nan, nan, fmt::format("the share is above one half as far as {:.4g}, where the search ends", path.most)};
+}
+
+/// The place of one half between them, a step farther on either side: other lines of sight may fall there.
+double half_way(const OwnLens& lens, const EyePath& path, int side, Bracket b, double precision, std::span<const Choice> choices) {
+    const auto own = [&](double at) { return lens.share(path.eye(side * at), choices) >= 0.5; };
+    while (b.in > 0 && !own(b.in)) b.in = std::max(b.in - path.step, 0.);
+    while (b.out < path.most && own(b.out)) b.out = std::min(b.out + path.step, path.most);
+    while (b.out - b.in > precision) {
+        const double middle = 0.5 * (b.in + b.out);
+        (own(middle) ? b.in : b.out) = middle;
+    }
+    return side * 0.5 * (b.in + b.out);
+}
+
+}  // namespace
+
+OwnRange where_own(const OwnLens& lens, const EyePath& path, double wanted, std::uint32_t seed, Parts& parts) {
+    OwnRange range{{nan, nan}, {nan, nan}, {}};
+    const int more = lens.rays().more_for(path.eye(0));
+    const double precision = 0.05 * wanted;
+    parts.run(own_range_parts, [&](int part) {
+        const int side = part == 0 ? -1 : 1;
+        const std::size_t k = std::size_t(part);
+        const auto choices = [&](int count, std::uint32_t set) {
+            std::vector<Choice> all = even_choices(count * more, set);
+            if (side < 0) mirror(all, path.mirrored);
+            return all;
+        };
+        Bracket b = bracket(lens, path, side, choices(coarse_rays, sets * seed));
+        range.missing[k] = b.missing;
+        if (!b.missing.empty()) return;
+        for (int growth = 1; growth <= most_growth; growth *= 4) {
+            std::array<double, sets> found;
+            for (std::uint32_t set = 0; set < sets; ++set)
+                found[set] = half_way(lens, path, side, b, precision, choices(first_rays * growth, sets * seed + set));
+            const auto [at, error] = estimate(found, precision);
+            range.at[k] = at;
+            range.error[k] = error;
+            if (error <= wanted) break;
+            b.in = std::max(std::abs(at) - 3 * error, 0.);
+            b.out = std::min(std::abs(at) + 3 * error, path.most);
+        }
+    });
+    return range;
+}
+
+namespace {
+
+/// Along an axis of the array, as a unit vector of the display.
+std::array<double, 2> array_axis(const Display& d, int axis) {
+    const double turn = d.array.rotation_deg * degree, c = std::cos(turn), s = std::sin(turn);
+    return axis == 0 ? std::array{c, s} : std::array{-s, c};
+}
+
+double half_field(const Geometry& g, const Theory& t) { return std::atan(0.5 * t.elemental_pitch_mm / g.gap_mm); }
+
+}  // namespace
+
+EyePath arc(const Display& d, const Geometry& g, double distance, int axis) {
+    const auto [x, y] = array_axis(d, axis);
+    const auto eye = [=, x = x, y = y](double angle) {
+        const double aside = distance * std::sin(angle * degree);
+        return Vec3d{aside * x, aside * y, distance * std::cos(angle * degree)};
+    };
+    const double before = std::acos(std::min(1.001 * nearest_eye_mm(g) / distance, 1.)) / degree;
+    return {eye, std::min(85., before), std::min(0.1 * half_field(g, theory(d, g)) / degree, 1.), axis};
+}
+
+double arc_edge_deg(const Geometry& g, const Theory& t, double distance) {
+    const double slope = 0.5 * t.elemental_pitch_mm / g.gap_mm;
+    return (std::atan(slope) - std::asin(slope * g.rear_principal_mm / (distance * std::hypot(1, slope)))) / degree;
+}
+
+EyePath across(const Display& d, const Geometry& g, double distance, int axis) {
+    const auto [x, y] = array_axis(d, axis);
+    const auto eye = [=, x = x, y = y](double aside) { return Vec3d{aside * x, aside * y, distance}; };
+    const double away = distance - g.rear_principal_mm;
+    return {eye, away * std::tan(85 * degree), 0.1 * away * std::tan(half_field(g, theory(d, g))), axis};
+}
+
+}  // namespace lfdsim
