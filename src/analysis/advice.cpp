@@ -57,7 +57,8 @@ std::vector<std::string> advice(const Display& d, const Geometry& g, const Theor
     // Depths count from the vertex plane, the theory's from the rear principal plane.
     const double from_lens = g.content_depth_mm + g.vertex_plane_mm - g.rear_principal_mm;
     if (!is_sharp(t, from_lens))
-        add("the content's centre, {:.4g} mm from the lenses, is outside the depth of field, whose ends are at {:.4g} and {:.4g} mm",
+        add("the content's centre, {:.4g} mm from the lenses, is outside the depth of field, whose ends are at {:.4g} and {:.4g} "
+            "mm",
             from_lens, depth_mm(t.depth_near_per_mm), depth_mm(t.depth_far_per_mm));
     const std::string& model = d.content.model;
     if (std::error_code error; !model.empty() && model != built_in_spheres && !std::filesystem::exists(model, error))

@@ -14,9 +14,7 @@ Subject::Subject(Display display, std::optional<Scene> scene, AnalysisOptions op
       scene_(std::move(scene)),
       options_(std::move(options)) {}
 
-double Subject::viewing_distance_mm() const {
-    return options_.viewing_distance_mm.value_or(eye_distance_mm(display_));
-}
+double Subject::viewing_distance_mm() const { return options_.viewing_distance_mm.value_or(eye_distance_mm(display_)); }
 
 const Scene& Subject::scene() const {
     if (!scene_) throw InputError("--model", "there is nothing to show; give a mesh file or built-in:spheres");
