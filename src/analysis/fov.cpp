@@ -139,6 +139,20 @@ void add_likeness(Result& result, Json& json, const std::string& name, const Cur
         "the published rule, which ends before the edge where steps are of a degree");
 }
 
+/// How much more the edges by likeness lie to one side than those by geometry.
+double most_aside_deg(const Json& figures) {
+    double most = 0;
+    for (const char* axis : {"horizontal", "vertical"}) {
+        const auto aside = [&](const char* name) {
+            const Json& at = figures.at(axis).at(name);
+            return at[0].is_number() && at[1].is_number() ? at[0].get<double>() + at[1].get<double>() : 0;
+        };
+        for (const char* name : {"gradient_edge_deg", "ssim_half_way_deg", "ssim_rule_deg", "gradient_rule_deg"})
+            most = std::max(most, std::abs(aside(name) - aside("own_lens_with_diffuser_deg")));
+    }
+    return most;
+}
+
 /// Where an eye may be in the plane at its distance: the width and the height.
 void add_eyebox(Result& result, const Subject& s, const std::array<OwnRange, 2>& ranges) {
     const double theory =
@@ -278,6 +292,12 @@ Result measure_fov(Subject& subject, Job& job) {
     result.figures["step_deg"] = angles[1] - angles[0];
     result.tables.push_back(std::move(table));
     result.plots = {std::move(plot), std::move(shares)};
+    if (const double aside = most_aside_deg(result.figures); aside > 0.5 * (angles[1] - angles[0]))
+        result.remarks.push_back(
+            fmt::format("The edges by likeness lie up to {:.2g} degrees farther out on one side than on the other, more than those "
+                        "by geometry: "
+                        "the scene is not its own mirror image, and different parts of it are compared on either side.",
+                        aside));
     if (depth != described)
         result.remarks.push_back(fmt::format(
             "The scene stands at {:.4g} mm here: at {:.4g} mm, as described, it would not be seen before the screen from "

@@ -92,12 +92,13 @@ Limit fall(const Curve& c, double expected, double reach, double step, int side)
                                    crossings != 1 ? fmt::format("{} times", crossings) : "elsewhere");
         return none;
     }
-    // What the curve is made of decides where in its fall the middle lies: from nine tenths of the way up to one tenth, at most.
+    // What the curve is made of decides where in its fall the middle lies: from three quarters of it down to one, at most.
     const auto passed = [&](double share) {
         return first_below(c, found->at - side * reach, side, bottom + share * (top - bottom)).at;
     };
-    for (const double tenth : {passed(0.9), passed(0.1)})
-        if (std::isfinite(tenth)) found->error = std::hypot(found->error, std::max(std::abs(tenth - found->at) - 0.5 * step, 0.));
+    for (const double quarter : {passed(0.75), passed(0.25)})
+        if (std::isfinite(quarter))
+            found->error = std::hypot(found->error, std::max(std::abs(quarter - found->at) - 0.5 * step, 0.));
     return *found;
 }
 

@@ -60,8 +60,8 @@ TEST(Rules, EdgeIsHalfWayDownTheFall) {
     const Interval i = where_it_falls(curve([&](double x) { return 0.2 + 0.8 * fall(x); }, 0.004), {-10.5, 10.5, 3});
     EXPECT_NEAR(i.low.at, -11, 1e-9);
     EXPECT_NEAR(i.high.at, 11, 1e-9);
-    // noise, half a step, and from nine tenths to one tenth of the fall, 1.6 to either side, what is more than half a step
-    EXPECT_NEAR(i.high.error, std::hypot(std::hypot(0.004 / 0.2, 0.5), std::sqrt(2.) * 1.1), 1e-9);
+    // noise, half a step, and from three quarters to one quarter of the fall, 1 to either side, what is more than half a step
+    EXPECT_NEAR(i.high.error, std::hypot(std::hypot(0.004 / 0.2, 0.5), std::sqrt(2.) * 0.5), 1e-9);
 }
 
 TEST(Rules, WhatLiesToOneSideIsInTheError) {
