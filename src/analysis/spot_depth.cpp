@@ -31,6 +31,11 @@ std::vector<Line> thinned(const std::vector<Line>& fan) {
     return half;
 }
 
+/// A fan, and every second ray of it.
+struct Fan {
+    std::vector<Line> all, half;
+};
+
 /// How far the finite number of rays may have carried the ends off: they stand as 1/n^2, so that half as many show three times it.
 std::array<double, 2> errors(const SharpDepths& all, const SharpDepths& half) {
     const auto error = [](double a, double b) { return std::abs(a - b) + 1e-9 * std::abs(a); };
@@ -49,14 +54,13 @@ class Teller {
           paraxial_(ends_mm(s.theory().depth_near_per_mm, s.theory().depth_far_per_mm)),
           result_(result) {}
 
-    void operator()(const std::string& key, const std::string& what, const std::vector<Line>& fan, double airy_slope,
-                    const std::string& remark) {
-        const SharpDepths depths = where_sharp(fan, pixel_slope_, airy_slope);
+    void operator()(const std::string& key, const std::string& what, const Fan& fan, double airy_slope, const std::string& remark) {
+        const SharpDepths depths = where_sharp(fan.all, pixel_slope_, airy_slope);
         Finding finding{"Depth of field: " + what, "mm", {}, paraxial_, remark};
         if (std::isnan(depths.near_per_mm)) {
             for (const char* unit : {"_mm", "_diopters"}) result_.figures[key + unit] = Json();
             finding.measured = {nan, nan};
-            finding.remark = fan.empty()
+            finding.remark = fan.all.empty()
                                  ? "no light of the panel's point on the axis gets through the lens"
                                  : fmt::format(
                                        "the spot is nowhere as narrow as a panel pixel's image; it comes nearest to that {} mm "
@@ -65,7 +69,7 @@ class Teller {
             result_.note(key + "_mm", finding.remark);
             result_.note(key + "_diopters", finding.remark);
         } else {
-            const auto [near, far] = errors(depths, where_sharp(thinned(fan), pixel_slope_, airy_slope));
+            const auto [near, far] = errors(depths, where_sharp(fan.half, pixel_slope_, airy_slope));
             finding.measured = ends_mm(depths.near_per_mm, depths.far_per_mm);
             finding.error = {error_mm(depths.near_per_mm, near), error_mm(depths.far_per_mm, far)};
             result_.figures[key + "_mm"] = numbers_json(finding.measured);
@@ -118,18 +122,20 @@ SharpDepths add_spot_depths(const Subject& s, Result& result) {
     const Theory& t = s.theory();
     const Geometry& g = s.geometry();
     const double D = g.clear_aperture_mm, wavelength_mm = s.options().wavelength_nm * 1e-6;
-    const std::vector<Line> fan = fans(LensTrace(s.display(), g), {0, 0}, fan_rays).meridional;
+    const std::vector<Line> traced_fan = fans(LensTrace(s.display(), g), {0, 0}, fan_rays).meridional;
+    const Fan fan{traced_fan, thinned(traced_fan)};
     Teller tell(s, result);
-    const SharpDepths traced = where_sharp(fan, tell.pixel_slope());
+    const SharpDepths traced = where_sharp(fan.all, tell.pixel_slope());
     tell("spot", "spot no wider than a pixel's image, traced", fan, 0,
          "on the axis; theory is paraxial: where they differ the lens's aberrations are the cause");
     result.figures["spot_best_mm"] = number_json(depth_mm(traced.best_per_mm) + g.rear_principal_mm - g.vertex_plane_mm);
     result.figures["spot_least_pixel_images"] = number_json(traced.least_width / tell.pixel_slope());
-    if (fan.empty())
+    if (fan.all.empty())
         for (const char* name : {"spot_best_mm", "spot_least_pixel_images"}) result.note(name, "no light gets through the lens");
     if (s.display().diffuser) {
         const double z = *g.diffuser_z_mm - g.rear_principal_mm, angle = diffuser_angle(s.display(), {1, 0});
-        tell("spot_with_diffuser", "the same with the diffuser's widening", diffused(fan, z, angle), 0,
+        tell("spot_with_diffuser", "the same with the diffuser's widening",
+             {diffused(fan.all, z, angle), diffused(fan.half, z, angle)}, 0,
              "the diffuser widens a spot by its angle times the distance from it");
     }
     tell("spot_with_diffraction", fmt::format("the same with the Airy disk at {} nm", s.options().wavelength_nm), fan,
