@@ -109,7 +109,9 @@ std::vector<Figure> figures(const Theory& t) {
             {"lens_sampling_limit_per_mm", t.lens_sampling_limit_per_mm, "resolution limit of the lens pitch", "1 / 2p"},
             {"pixel_image_limit_per_mm", t.pixel_image_limit_per_mm, "resolution limit of the panel pixels", "1 / 2 P_I"},
             {"gap_closing_diffuser_deg", t.gap_closing_diffuser_deg, "diffuser at L that closes the gaps between lenses",
-             "2 atan(p / 2 |L|)"}};
+             "2 atan(p / 2 |L|)"},
+            {"gap_closing_here_deg", t.gap_closing_here_deg, "angle that closes them from where the diffuser stands",
+             "2 atan(p / 2d), d its height above the lenses' rims", "there is no diffuser"}};
 }
 
 Json to_json(const std::vector<Setting>& all) {

@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/display_options.h"
 #include "cli/output.h"
+#include "content/content.h"
 
 #include <fmt/format.h>
 #include <cmath>
@@ -51,12 +52,25 @@ void add_line(std::string& text, std::string line) {
     text += line + "\n";
 }
 
+/// With what only the model itself says: that it cannot be read, and its size.
+std::vector<std::string> all_advice(const Display& display, const Geometry& geometry, const Theory& paraxial) {
+    const std::string& model = display.content.model;
+    try {
+        const Scene scene(model.empty() ? built_in_model() : load_model(model), display, geometry);
+        return advice(display, geometry, paraxial, scene.half_size_mm());
+    } catch (const InputError& error) {
+        std::vector<std::string> warnings = advice(display, geometry, paraxial);
+        warnings.push_back(fmt::format("content.model cannot be shown: {}", error.what()));
+        return warnings;
+    }
+}
+
 void run(const Arguments& args) {
     const Display display = args.display.read();
     const Geometry geometry = resolve(display);
     const Theory paraxial = theory(display, geometry);
     const std::vector<Setting> keys = settings(display);
-    const std::vector<std::string> warnings = advice(display, geometry, paraxial);
+    const std::vector<std::string> warnings = all_advice(display, geometry, paraxial);
     if (args.json) {
         Json notes = Json::object();
         add_notes(figures(geometry), "geometry", notes);

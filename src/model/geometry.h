@@ -61,7 +61,8 @@ struct Theory {
     double elemental_pitch_mm;          // p' = p (1 + g / (D - z_r))
     double lens_sampling_limit_per_mm;  // 1 / 2p
     double pixel_image_limit_per_mm;    // 1 / 2 P_I
-    double gap_closing_diffuser_deg;    // 2 atan(p / 2L)
+    double gap_closing_diffuser_deg;    // 2 atan(p / 2L), as published: of a diffuser at L
+    double gap_closing_here_deg;        // 2 atan(p / 2d), d the diffuser's own height above the apertures (bands.h)
 };
 
 // What any lens maker's prescription needs, and what the kernels hold.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/bands.h"
 #include "model/geometry.h"
 
 namespace lfdsim {
@@ -43,7 +44,8 @@ Theory theory(const Display& d, const Geometry& g) {
     t.viewing_zone_deg = zone_deg(gap / made_for);
     t.lens_sampling_limit_per_mm = 1 / (2 * p);
     t.pixel_image_limit_per_mm = 1 / (2 * t.pixel_image_mm);
-    t.gap_closing_diffuser_deg = 2 * std::atan(p / (2 * std::abs(L))) / degree;
+    t.gap_closing_diffuser_deg = gap_closing_angle_deg(p, std::abs(L));
+    t.gap_closing_here_deg = g.diffuser_z_mm ? gap_closing_angle_deg(p, *g.diffuser_z_mm - aperture_plane_mm(d, g)) : std::nan("");
     return t;
 }
 

@@ -2,6 +2,7 @@
 
 #include "analysis/description.h"
 #include "engine/scene.h"
+#include "model/bands.h"
 #include "model/geometry.h"
 #include "model/keys.h"
 #include "view/slider.h"
@@ -37,10 +38,12 @@ Json json_of(const List& list) {
     return json;
 }
 
-/// A diffuser that could be put before a display that has none.
-Diffuser new_diffuser(const Geometry& g, const Theory& t) {
-    const double weakest = rounded(std::clamp(t.gap_closing_diffuser_deg, 0.1, 20.), 2);
-    return {rounded(g.top_z_mm - g.vertex_plane_mm + 10 * std::max(g.gap_mm, 1.), 2), {weakest, weakest}, Profile::box};
+/// A diffuser that could be put before a display that has none: it joins the lenses from there.
+Diffuser new_diffuser(const Display& d, const Geometry& g) {
+    const double distance = rounded(g.top_z_mm - g.vertex_plane_mm + 10 * std::max(g.gap_mm, 1.), 2);
+    const double joining = gap_closing_angle_deg(d.array.pitch_mm, g.vertex_plane_mm + distance - aperture_plane_mm(d, g));
+    const double angle = rounded(std::clamp(joining, 0.1, 20.), 2);
+    return {distance, {angle, angle}, Profile::box};
 }
 
 /// Of keys that are absent: what holds without them, or else a start.
@@ -83,7 +86,7 @@ class Lister {
           described_(described),
           geometry_(resolve(described)),
           no_diffuser_(!display.diffuser),
-          suggested_diffuser_(new_diffuser(geometry_, theory(described, geometry_))) {}
+          suggested_diffuser_(new_diffuser(described, geometry_)) {}
 
     Json list() {
         visit_tables(trial_, [&]<class T, class Values>(const Table<T>& table, Values& values) {

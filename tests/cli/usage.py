@@ -48,11 +48,11 @@ wide = program.must("check tiny.toml --json --set camera.frame_width_mm=none cam
 checks.that('"frame_width_mm": 50' in wide and '"fov_deg": null' in wide, "--frame-width-mm does not replace camera.fov_deg")
 
 table = program.must("check tiny.toml --set diffuser.angle_deg=[1,1]")
-for words in ["pixel_pitch_mm         0.5 mm", "surround               opaque", "default", "field of view", "gap_mm", "weaker than"]:
+for words in ["pixel_pitch_mm         0.5 mm", "surround               opaque", "default", "field of view", "gap_mm", "dark bands"]:
     checks.that(words in table, f"check does not print {words!r}:\n{table}")
 
 for model, there in [("none.obj", False), ("built-in:spheres", True)]:
-    told = "does not exist" in program.must(f"check tiny.toml --set content.model={model}")
+    told = "no such model file" in program.must(f"check tiny.toml --set content.model={model}")
     checks.that(told != there, f"check, model {model}")
 
 gpu = program.must("doctor")

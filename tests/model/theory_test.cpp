@@ -40,6 +40,9 @@ TEST(Theory, DesktopDisplays) {
     }
     EXPECT_NEAR(theory_of(stopped).gap_closing_diffuser_deg, 4.74, 5e-3);
     EXPECT_NEAR(theory_of(ideal).gap_closing_diffuser_deg, 2.085, 5e-4);
+    EXPECT_TRUE(std::isnan(theory_of(ideal).gap_closing_here_deg));
+    ideal.diffuser = Diffuser{100, {1, 1}, Profile::box};
+    EXPECT_NEAR(theory_of(ideal).gap_closing_here_deg, 2 * std::atan(0.06) / degree, 1e-9);
 }
 
 // Both forms of the depth of field, and both resolution limits.

@@ -1,0 +1,111 @@
+#include "model/bands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "model/prescription.h"
+
+namespace lfdsim {
+namespace {
+
+constexpr double pi = std::numbers::pi, degree = pi / 180;
+
+bool stop_before_lens(const Display& d, const Geometry& g) {
+    return d.lens.stop_radius_mm && (g.surfaces.empty() || std::abs(g.stop_z_mm - g.surfaces.back().z_mm) < 1e-9);
+}
+
+/// Radius of what an upright line of sight may hit of a lens, without the walls of its cell: the narrowest of all apertures, each
+/// as the viewer sees it, divided by the height at which a paraxial ray passes it that comes down at height 1.
+double pupil_radius_mm(const Display& d, const Geometry& g) {
+    double radius = std::numeric_limits<double>::infinity(), height = 1, slope = 0, z = g.vertex_plane_mm;
+    const auto narrow = [&](double aperture) { radius = std::min(radius, aperture / std::abs(height)); };
+    if (g.surfaces.empty()) {
+        if (d.array.aperture == Aperture::circle) narrow(g.glass_radius_mm);
+        if (d.lens.stop_radius_mm) narrow(*d.lens.stop_radius_mm);
+    }
+    for (std::size_t k = g.surfaces.size(); k-- > 0;) {
+        const PlacedSurface& s = g.surfaces[k];
+        height += slope * (z - s.z_mm);
+        z = s.z_mm;
+        narrow(s.semi_aperture_mm);
+        if (d.lens.stop_radius_mm && s.z_mm == g.stop_z_mm) narrow(*d.lens.stop_radius_mm);
+        // Going down, a surface with c < 0 is convex to the ray.
+        slope = (s.index_above * slope + s.curvature_per_mm * (s.index_below - s.index_above) * height) / s.index_below;
+    }
+    return radius;
+}
+
+constexpr int bins = 32, places = 32 * bins, harmonics = places / 4;
+
+/// Amplitudes of the waves cos(2 pi k x / p), x from a joint, of the share that is lit of a line across lenses of that radius in
+/// square cells.
+std::vector<double> lit_waves(double pitch, double radius) {
+    std::vector<double> amplitudes(harmonics), wave(2 * places);
+    for (std::size_t m = 0; m < wave.size(); ++m) wave[m] = std::cos(pi * double(m) / places);
+    for (std::size_t n = 0; n < places; ++n) {
+        const double x = pitch * ((double(n) + 0.5) / places - 0.5);
+        const double lit = std::abs(x) < radius ? std::min(2 * std::sqrt(radius * radius - x * x) / pitch, 1.) : 0;
+        for (std::size_t k = 0; k < harmonics; ++k)
+            amplitudes[k] += (k == 0 ? 1. : 2.) / places * lit * wave[k * (2 * n + 1) % wave.size()];
+    }
+    return amplitudes;
+}
+
+double sinc(double x) { return std::abs(x) < 1e-9 ? 1 : std::sin(x) / x; }
+
+/// What the diffuser leaves of a wave of light in its own plane's axis with `frequency` periods per mm at the lenses.
+double spread_transform(const Diffuser& diffuser, int axis, double height_mm, double frequency) {
+    const double width = 2 * height_mm * std::tan(diffuser.angle_deg[std::size_t(axis)] * degree / 2), x = pi * frequency * width;
+    if (diffuser.profile == Profile::gaussian) return std::exp(-x * x / (4 * std::numbers::ln2));
+    return sinc(x);
+}
+
+double michelson_of(const std::vector<double>& waves) {
+    double least = std::numeric_limits<double>::infinity(), greatest = 0;
+    for (int b = 0; b < bins; ++b) {
+        double light = 0;
+        for (std::size_t k = 0; k < harmonics; ++k)
+            light += waves[k] * sinc(pi * double(k) / bins) * std::cos(2 * pi * double(k) * (b + 0.5) / bins);
+        least = std::min(least, std::max(light, 0.));
+        greatest = std::max(greatest, light);
+    }
+    return greatest > 0 ? (greatest - least) / (greatest + least) : 0;
+}
+
+}  // namespace
+
+double aperture_plane_mm(const Display& d, const Geometry& g) {
+    if (g.surfaces.empty() || stop_before_lens(d, g)) return g.surfaces.empty() ? g.vertex_plane_mm : g.stop_z_mm;
+    const PlacedSurface& last = g.surfaces.back();
+    const bool square = d.array.aperture == Aperture::square;
+    return last.z_mm + sag_mm(last.curvature_per_mm, last.conic, last.even_asphere,
+                              square ? std::min(d.array.pitch_mm / 2, last.semi_aperture_mm) : last.semi_aperture_mm);
+}
+
+double gap_closing_angle_deg(double pitch_mm, double height_mm) { return 2 * std::atan(pitch_mm / (2 * height_mm)) / degree; }
+
+std::array<double, 2> band_contrast(const Display& d, const Geometry& g) {
+    // Between lenses that are not set in black light passes too; a sheet of stops is black in any case.
+    if (d.array.surround != Surround::opaque && !d.lens.stop_radius_mm) return {0, 0};
+    const double height = d.diffuser ? *g.diffuser_z_mm - aperture_plane_mm(d, g) : 0;
+    const double turn = d.array.rotation_deg * degree;
+    const std::vector<double> lit = lit_waves(d.array.pitch_mm, pupil_radius_mm(d, g));
+    std::array<double, 2> contrast{};
+    for (const int axis : {0, 1}) {
+        // The waves run along the array's axis, the diffuser spreads along the display's.
+        const double across = axis == 0 ? std::cos(turn) : -std::sin(turn), up = axis == 0 ? std::sin(turn) : std::cos(turn);
+        std::vector<double> seen = lit;
+        for (std::size_t k = 0; d.diffuser && k < seen.size(); ++k) {
+            const double frequency = double(k) / d.array.pitch_mm;
+            seen[k] *= spread_transform(*d.diffuser, 0, height, frequency * across) *
+                       spread_transform(*d.diffuser, 1, height, frequency * up);
+        }
+        contrast[std::size_t(axis)] = michelson_of(seen);
+    }
+    return contrast;
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,24 @@
+// Dark bands between round lenses, and the diffuser that joins the lenses. docs/model.md, "Dark bands between lenses". Floor 0.
+#pragma once
+#include "model/display.h"
+#include "model/geometry.h"
+
+#include <array>
+
+namespace lfdsim {
+
+/// Bands of less contrast (Michelson's) go unnoticed beside the picture's own steps from lens to lens.
+inline constexpr double visible_band_contrast = 0.1;
+
+/// z, mm from the panel, of the plane that cuts off light on the viewer's side: the stop before the lens, else the lens's rim.
+double aperture_plane_mm(const Display&, const Geometry&);
+
+/// The diffuser's full angle (full width at half maximum, if gaussian) that joins the lenses from `height_mm` above that plane:
+/// 2 atan(p / 2 height). Lines of sight are then spread over just one lens pitch.
+double gap_closing_angle_deg(double pitch_mm, double height_mm);
+
+/// Michelson contrast, along the array's own x and y, of the light of a white panel across one lens pitch, averaged over 1/32 of
+/// it and along the other axis, as an eye sees it from far away on the axis. By the apertures and the diffuser alone.
+std::array<double, 2> band_contrast(const Display&, const Geometry&);
+
+}  // namespace lfdsim

@@ -1,0 +1,173 @@
+// Advice appears where a display will disappoint, says how to mend that, and not elsewhere.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <numbers>
+#include <random>
+
+#include "analysis/advice.h"
+#include "files/display_file.h"
+
+namespace lfdsim {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::vector<std::string> advice_for(const Display& d, const std::optional<Vec3d>& half_size = std::nullopt) {
+    const Geometry g = resolve(d);
+    return advice(d, g, theory(d, g), half_size);
+}
+
+/// The display of README.md.
+Display tablet() {
+    Display d;
+    d.panel.pixels = {3840, 2160};
+    d.panel.pixel_pitch_mm = 0.08;
+    d.lens.sphere_radius_mm = 1.5;
+    d.lens.aperture_radius_mm = 0.48;
+    d.lens.cylinder_height_mm = 0.5;
+    d.lens.index = 1.4918;
+    d.array.count = {320, 180};
+    d.array.pitch_mm = 0.96;
+    d.array.gap_mm = 3.2;
+    d.diffuser = Diffuser{60, {0.9, 0.9}, Profile::box};
+    d.camera.position_mm = {0, 0, 600};
+    d.content.viewing_distance_mm = 600;
+    return d;
+}
+
+/// Collimating lenses right before the eye.
+Display near_eye() {
+    Display d = tablet();
+    d.panel.pixels = {1920, 1080};
+    d.panel.pixel_pitch_mm = 0.01;
+    d.lens = {};
+    d.lens.type = LensType::ideal;
+    d.lens.focal_length_mm = 3.3;
+    d.array.count = {16, 9};
+    d.array.pitch_mm = 1;
+    d.array.gap_mm = 3.3;
+    d.array.aperture = Aperture::square;
+    d.diffuser.reset();
+    d.camera.position_mm = {0, 0, 21.3};
+    d.content.viewing_distance_mm = 21.3;
+    return d;
+}
+
+TEST(Advice, NoneForReadyDisplays) {
+    EXPECT_THAT(advice_for(tablet()), IsEmpty());
+    for (const char* name : {"clear", "ideal", "plate", "asphere", "spherical", "stopped"})
+        EXPECT_THAT(advice_for(read_display(std::string(LFDSIM_SOURCE_DIR "/displays/desktop-") + name + ".toml")), IsEmpty())
+            << name;
+    for (const char* name : {"asphere-bare", "asphere-weak-diffuser"})
+        EXPECT_THAT(advice_for(read_display(std::string(LFDSIM_SOURCE_DIR "/displays/desktop-") + name + ".toml")),
+                    ElementsAre(HasSubstr("dark bands")))
+            << name;
+}
+
+/// Displays by first-order design, from a telephone to a wall: the panel holds the elemental images, the diffuser stands on the
+/// central depth plane and joins the lenses there.
+Display sane(std::mt19937& random) {
+    const auto even = [&](double low, double high) { return low + (high - low) * double(random()) / double(std::mt19937::max()); };
+    const double eye = 300 * std::pow(20, even(0, 1)), width = eye * even(0.2, 0.9), central = eye * even(0.03, 0.33);
+    Display d;
+    d.array.count = {std::int64_t(even(20, 200)), 0};
+    d.array.count[1] = std::int64_t(double(d.array.count[0]) * even(0.5, 0.7));
+    const double p = d.array.pitch_mm = width / double(d.array.count[0]), gap = p * even(1.2, 5), views = std::floor(even(8, 80));
+    d.array.gap_mm = gap;
+    d.lens.type = LensType::ideal;
+    d.lens.focal_length_mm = 1 / (1 / gap + 1 / central);
+    d.lens.aperture_radius_mm = p * even(0.4, 0.5);
+    d.panel.pixel_pitch_mm = p / views;
+    for (const std::size_t k : {0u, 1u})
+        d.panel.pixels[k] = std::int64_t(double(d.array.count[k]) * views * (1 + gap / eye) * even(1, 1.05)) + 1;
+    const double angle = 2 * std::atan(p / 2 / central) * 180 / std::numbers::pi;
+    d.diffuser = Diffuser{central, {angle, angle}, even(0, 1) < 0.5 ? Profile::box : Profile::gaussian};
+    d.camera.position_mm = {0, 0, eye};
+    d.content.viewing_distance_mm = eye * even(0.99, 1.01);
+    return d;
+}
+
+TEST(Advice, NoneForSaneDisplays) {
+    std::mt19937 random(3);
+    for (int n = 0; n < 60; ++n) EXPECT_THAT(advice_for(sane(random)), IsEmpty()) << n;
+}
+
+/// Each fault by itself gives its sentence, with the remedy.
+TEST(Advice, ForEachFault) {
+    struct Fault {
+        const char *words, *remedy;
+        Display start;
+        std::function<void(Display&)> make;
+    } faults[] = {
+        {"moved by 100, 0 mm", "array.offset_mm=[0, 0]", tablet(),
+         [](Display& d) {
+             d.array.offset_mm = {100, 0};
+         }},
+        {"turned by 60 degrees", "array.rotation_deg=0", tablet(), [](Display& d) { d.array.rotation_deg = 60; }},
+        {"elemental images for a viewer at 25 mm", "array.count=[2", tablet(),
+         [](Display& d) { d.diffuser.reset(), d.content.viewing_distance_mm = d.camera.position_mm[2] = 25; }},
+        {"smaller than a panel pixel", "array.pitch_mm", tablet(), [](Display& d) { d.panel.pixel_pitch_mm = 1; }},
+        {"less than two panel pixels", "panel.pixel_pitch_mm", tablet(), [](Display& d) { d.panel.pixel_pitch_mm = 0.5; }},
+        {"hardly any power (focal length inf", "lens.index", tablet(), [](Display& d) { d.lens.index = 1; }},
+        {"hardly any power", "lens.index", tablet(), [](Display& d) { d.lens.index = 1.04; }},
+        {"stronger than 30 degrees", "diffuser.distance_mm", tablet(),
+         [](Display& d) {
+             d.diffuser = Diffuser{0.5, {40, 40}, {}};
+         }},
+        {"is behind the eye", "content.depth_mm", tablet(), [](Display& d) { d.content.depth_mm = 700; }},
+        {"larger than the display", "content.height_mm", tablet(), [](Display& d) { d.content.height_mm = 200; }},
+        {"larger than the display", "content.height_mm", tablet(), [](Display& d) { d.content.depth_mm = 400; }},
+        {"nearer than eyes can focus", "content.depth_mm=-1500", near_eye(), [](Display&) {}},
+        {"nearer than eyes can focus", "content.depth_mm=149", tablet(), [](Display& d) { d.content.depth_mm = 520; }},
+        // The lenses of a meniscus lie before its principal planes.
+        {"stands inside the display", "camera.position_mm", tablet(),
+         [](Display& d) {
+             d.lens = {};
+             d.lens.type = LensType::surfaces;
+             d.lens.surfaces = {{-0.2, 0, {}, 0.48, 4, 1.5}, {-0.2, 0, {}, 0.48, 0, 1}};
+             d.array.gap_mm = 40;
+             d.diffuser.reset();
+             d.camera.position_mm = {0, 0, 40};
+         }},
+        {"puts the eye that the elemental images are made for inside the display", "content.viewing_distance_mm=600", tablet(),
+         [](Display& d) { d.content.viewing_distance_mm = 50; }},
+        {"made for an eye 2000 mm from the panel", "content.viewing_distance_mm=500", tablet(),
+         [](Display& d) {
+             d.camera.position_mm = {0, 0, 500}, d.content.viewing_distance_mm = 2000;
+         }},
+        {"made for an eye at infinity", "content.viewing_distance_mm=600", tablet(),
+         [](Display& d) { d.content.viewing_distance_mm = INFINITY; }},
+        {"dark bands", "diffuser.angle_deg=[0.9", tablet(),
+         [](Display& d) {
+             d.diffuser->angle_deg = {0.3, 0.9};
+         }},
+        {"dark bands", "diffuser.distance_mm=", tablet(), [](Display& d) { d.diffuser.reset(); }},
+    };
+    for (const Fault& fault : faults) {
+        Display d = fault.start;
+        fault.make(d);
+        EXPECT_THAT(advice_for(d), Contains(AllOf(HasSubstr(fault.words), HasSubstr(fault.remedy))));
+    }
+}
+
+// What the sentence of a near-eye display proposes mends it.
+TEST(Advice, NearEyeSceneFarAway) {
+    Display d = near_eye();
+    d.content.depth_mm = -1500;
+    d.content.height_mm = 250;
+    EXPECT_THAT(advice_for(d), IsEmpty());
+}
+
+// A model's width and depth are known once it has been read.
+TEST(Advice, OfTheModelItself) {
+    EXPECT_THAT(advice_for(tablet(), Vec3d{100, 40, 60}), IsEmpty());
+    EXPECT_THAT(advice_for(tablet(), Vec3d{200, 40, 60}), Contains(HasSubstr("larger than the display")));
+    EXPECT_THAT(advice_for(tablet(), Vec3d{100, 40, 700}), Contains(HasSubstr("is behind the eye")));
+}
+
+}  // namespace
+}  // namespace lfdsim
