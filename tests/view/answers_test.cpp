@@ -214,7 +214,7 @@ TEST_F(AnswersTest, PlotsAreDrawnAndStop) {
     Wanted aside = wanted();
     aside.eye_mm = {100, 0, 590};
     const std::string fov = ask(all, aside, Ask::What::plot, "fov")["svg"], spot = ask(all, aside, Ask::What::plot, "spot")["svg"];
-    EXPECT_THAT(fov, HasSubstr("2 atan(p / 2g)"));
+    EXPECT_THAT(fov, HasSubstr("2 atan(p' / 2g)"));
     EXPECT_THAT(fov, HasSubstr("eye"));
     EXPECT_THAT(spot, HasSubstr("central depth plane"));
     EXPECT_THAT(spot, HasSubstr("with the diffuser"));
