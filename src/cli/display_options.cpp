@@ -60,10 +60,12 @@ std::string toml_value(const KeyOption& option, const std::string& text) {
 
 const std::span<const KeyOption> camera_options = camera;
 const std::span<const KeyOption> sample_options = sample;
+const std::span<const KeyOption> point_options = std::span(sample).subspan(1);
 const std::span<const KeyOption> content_options = content;
 
-DisplayOptions::DisplayOptions(Command command) {
-    command.add_option("DISPLAY.toml", path_, "Description of the display").type_name("").required();
+DisplayOptions::DisplayOptions(Command command, bool required) {
+    Option path = command.add_option("DISPLAY.toml", path_, "Description of the display").type_name("");
+    if (required) path.required();
     command
         .add_option("--set", settings_,
                     "Overrides a key of the description, value in TOML syntax: array.pitch_mm=8; none takes a key or table out: "
@@ -72,8 +74,8 @@ DisplayOptions::DisplayOptions(Command command) {
         .allow_extra_args(false);
 }
 
-DisplayOptions::DisplayOptions(Command command, std::initializer_list<std::span<const KeyOption>> groups)
-    : DisplayOptions(command) {
+DisplayOptions::DisplayOptions(Command command, std::initializer_list<std::span<const KeyOption>> groups, bool required)
+    : DisplayOptions(command, required) {
     for (const auto group : groups)
         for (const KeyOption& option : group)
             options_.emplace_back(&option, command.add_option(option.option, option.help).type_name(option.value));
@@ -106,14 +108,14 @@ std::vector<std::string> DisplayOptions::overrides() const {
     return all;
 }
 
-Display DisplayOptions::read() const {
-    if (path_.empty()) throw InputError("DISPLAY.toml", "the name is empty; give the description of a display");
+Display DisplayOptions::read(const std::string& path) const {
+    if (path.empty()) throw InputError("DISPLAY.toml", "the name is empty; give the description of a display");
     Faults faults;
     const auto [overrides, written] = all_overrides(faults);
     Display display;
     faults.of([&, &set = overrides, &places = written] {
         try {
-            display = read_display(path_, set);
+            display = read_display(path, set);
         } catch (InputError& e) {
             for (Problem& p : e.problems)
                 if (const auto option = places.find(p.where); option != places.end()) p.where = option->second;

@@ -27,16 +27,19 @@ struct KeyOption {
 
 extern const std::span<const KeyOption> camera_options;   // from where and how large the picture is
 extern const std::span<const KeyOption> sample_options;   // how a rendering samples
+extern const std::span<const KeyOption> point_options;    // those of them that matter where no estimator is chosen
 extern const std::span<const KeyOption> content_options;  // where the model stands
 
 class DisplayOptions {
   public:
     /// Adds DISPLAY.toml and --set.
-    explicit DisplayOptions(Command command);
-    DisplayOptions(Command command, std::initializer_list<std::span<const KeyOption>> groups);
+    explicit DisplayOptions(Command command, bool required = true);
+    DisplayOptions(Command command, std::initializer_list<std::span<const KeyOption>> groups, bool required = true);
 
     /// The description with all overrides, validated. Throws InputError with all problems; those of an option carry its name.
-    Display read() const;
+    Display read() const { return read(path_); }
+    /// Another description with the same overrides.
+    Display read(const std::string& path) const;
     /// --set and the options as "key=value", in the order in which they apply. Throws InputError.
     std::vector<std::string> overrides() const;
     const std::string& path() const { return path_; }

@@ -12,7 +12,7 @@ namespace {
 
 struct Arguments {
     explicit Arguments(Command command)
-        : display(command, {content_options, camera_options}),
+        : display(command, {content_options, camera_options, point_options}),
           model(command),
           crop(command),
           output(command, ".png (sRGB), or linear .exr .npy"),
@@ -24,6 +24,16 @@ struct Arguments {
     WorkOptions work;
 };
 
+// A pinhole that looks through pixel centres casts one ray a pixel.
+void refuse_idle_samples(const Arguments& args, const Camera& camera) {
+    if (camera.pupil_diameter_mm || camera.pixel_filter == PixelFilter::box) return;
+    for (const KeyOption& option : point_options)
+        if (args.display.given(option.option))
+            throw InputError(option.option,
+                             "has no effect on a pinhole that looks through pixel centres; give the camera a pupil (--set "
+                             "camera.pupil_diameter_mm=4) or a pixel filter (--set camera.pixel_filter=box)");
+}
+
 void run(const Arguments& args) {
     Faults faults;
     Display display;
@@ -31,6 +41,7 @@ void run(const Arguments& args) {
     faults.of([&] {
         display = args.display.read();
         crop = args.crop.read(display.camera, 0);
+        refuse_idle_samples(args, display.camera);
     });
     faults.of([&] { args.work.check(); });
     faults.of([&] { args.output.check(); });
@@ -52,7 +63,9 @@ void run(const Arguments& args) {
 void add_photo(Command program) {
     Command command = program.add_subcommand("photo", "The reference photograph: the model itself, seen by the same camera");
     const auto args = std::make_shared<Arguments>(command);
-    command.footer("Example:\n  lfdsim photo display.toml --model monkey.blend --camera-mm 518,0,1932 -o photo.png");
+    command.footer(
+        "Example:\n  lfdsim photo display.toml --model monkey.blend --camera-mm 518,0,1932 -o photo.png\n"
+        "  lfdsim photo display.toml --set camera.pupil_diameter_mm=20 camera.focus_distance_mm=1800 -o blurred.png");
     command.callback([args] { run(*args); });
 }
 

@@ -13,12 +13,24 @@
 
 namespace lfdsim {
 
-/// Casts one ray for every pixel of `crop` in a frame of width x height pixels. fill(column, row, block) sets the rays of the
-/// 4 x 4 pixels from there on. Blocks are aligned to the frame, never to the crop or to a thread's share, so that every pixel
-/// comes out the same whichever way the frame is divided. Throws InputError for a crop outside the frame or a bad thread count.
+/// What rays of each pixel are wanted: `samples` of them, whose mean is its light, for the pixels of `crop` in a frame of width x
+/// height pixels.
+struct Wanted {
+    int width, height;
+    Rect crop;
+    std::int64_t samples = 1;
+};
+
+/// Casts the rays. fill(column, row, block) sets those of the 4 x 4 pixels from there on, of the sample that the block names;
+/// samples of a block come in their order. Blocks are aligned to the frame, never to the crop or to a thread's share, so that every
+/// pixel comes out the same whichever way the frame is divided. Throws InputError for a crop outside the frame or a bad thread
+/// count.
 template <class Fill>
-Picture cast(const Scene::Impl& scene, const Beam& beam, int width, int height, const Rect& crop, int threads, const char* stage,
-             Job& job, const Fill& fill) {
+Picture cast(const Scene::Impl& scene, const Beam& beam, const Wanted& frame, int threads, const char* stage, Job& job,
+             const Fill& fill) {
+    const int width = frame.width, height = frame.height;
+    const Rect& crop = frame.crop;
+    const std::int64_t samples = frame.samples;
     if (crop.x0 < 0 || crop.y0 < 0 || crop.x1 > width || crop.y1 > height || crop.x0 >= crop.x1 || crop.y0 >= crop.y1)
         throw InputError("crop", "it must lie inside the frame, which has " + std::to_string(width) + " x " +
                                      std::to_string(height) + " pixels");
@@ -34,30 +46,43 @@ Picture cast(const Scene::Impl& scene, const Beam& beam, int width, int height, 
         std::int64_t count = 0;
         RayBlock block;
         Lanes::Mask wanted;
+        double sum[3][RayBlock::lanes];  // of the samples' light
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
         context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
         for (int y = y0; y < y0 + tile; y += RayBlock::side) {
+            if (samples > 1 && job.cancelled()) {  // a tile may take long
+                stopped = true;
+                break;
+            }
             for (int x = x0; x < x0 + tile; x += RayBlock::side) {
                 if (y + RayBlock::side <= crop.y0 || y >= crop.y1 || x + RayBlock::side <= crop.x0 || x >= crop.x1) continue;
-                fill(x, y, block);
                 const bool inside = x >= crop.x0 && y >= crop.y0 && x + RayBlock::side <= crop.x1 && y + RayBlock::side <= crop.y1;
-                if (!inside) {
-                    for (int k = 0; k < RayBlock::lanes; ++k) {
-                        const int i = x + k % RayBlock::side, j = y + k / RayBlock::side;
-                        block.exists.of[k] &= -(int(i < width) & int(j < height));
-                        block.may_hit.of[k] &= block.exists.of[k];
-                        wanted.of[k] = -(int(i >= crop.x0) & int(i < crop.x1) & int(j >= crop.y0) & int(j < crop.y1));
+                bool lit = false;
+                for (block.sample = 0; block.sample < samples; ++block.sample) {
+                    fill(x, y, block);
+                    if (!inside) {
+                        for (int k = 0; k < RayBlock::lanes; ++k) {
+                            const int i = x + k % RayBlock::side, j = y + k / RayBlock::side;
+                            block.exists.of[k] &= -(int(i < width) & int(j < height));
+                            block.may_hit.of[k] &= block.exists.of[k];
+                            wanted.of[k] = -(int(i >= crop.x0) & int(i < crop.x1) & int(j >= crop.y0) & int(j < crop.y1));
+                        }
                     }
+                    int number = 0;
+                    for (int k = 0; k < RayBlock::lanes; ++k) number -= block.exists.of[k] & (inside ? -1 : wanted.of[k]);
+                    count += number;
+                    if (!trace(scene, beam, context, block)) continue;
+                    if (!lit) std::fill_n(sum[0], 3 * RayBlock::lanes, 0.);
+                    lit = true;
+                    for (int k = 0; k < RayBlock::lanes; ++k)
+                        for (int c = 0; c < 3 && block.hit.of[k]; ++c) sum[c][k] += double(block.light[c].of[k]);
                 }
-                int number = 0;
-                for (int k = 0; k < RayBlock::lanes; ++k) number -= block.exists.of[k] & (inside ? -1 : wanted.of[k]);
-                count += number;
-                if (!trace(scene, beam, context, block)) continue;
+                if (!lit) continue;
                 for (int k = 0; k < RayBlock::lanes; ++k) {
-                    if (!block.hit.of[k] || !(inside || wanted.of[k])) continue;
+                    if (!inside && !wanted.of[k]) continue;
                     float* to = out.image.at(x + k % RayBlock::side - crop.x0, y + k / RayBlock::side - crop.y0);
-                    for (int c = 0; c < 3; ++c) to[c] = block.light[c].of[k];
+                    for (int c = 0; c < 3; ++c) to[c] = float(sum[c][k] / double(samples));
                 }
             }
         }

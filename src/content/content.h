@@ -76,8 +76,9 @@ struct Picture {
 /// bits for any number of threads. Throws InputError for a bad thread count.
 Picture elemental_images(const Display&, const Geometry&, const Scene&, int threads, Job&);
 
-/// The scene seen directly by the display's camera, one ray through each pixel centre (the pixel filter never applies).
-/// A crop has the full frame's pixels, bit for bit. Throws InputError for a crop outside the frame or a bad thread count.
+/// The scene seen directly by the display's camera: one ray through each pixel's centre, or, with a pupil or a pixel filter, the
+/// display's samples (100 where it names none) spread over both as a rendering's are, whatever its estimator. A crop has the full
+/// frame's pixels, bit for bit. Throws InputError for a crop outside the frame or a bad thread count.
 Picture reference_photograph(const Display&, const Geometry&, const Scene&, int threads, std::optional<Rect> crop, Job&);
 
 /// Test patterns of the panel's size: "checkerboard", "white", "view" (one view white), "edge" (slanted edge), "address" (ramp).

@@ -119,7 +119,7 @@ class PickupRays {
 Picture elemental_images(const Display& display, const Geometry& geometry, const Scene& scene, int threads, Job& job) {
     const PickupRays rays(display, geometry, scene);
     const int width = int(display.panel.pixels[0]), height = int(display.panel.pixels[1]);
-    return cast(scene.impl(), rays.beam(), width, height, {0, 0, width, height}, threads, "elemental images", job, rays);
+    return cast(scene.impl(), rays.beam(), {width, height, {0, 0, width, height}}, threads, "elemental images", job, rays);
 }
 
 }  // namespace lfdsim

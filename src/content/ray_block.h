@@ -1,9 +1,11 @@
 // The rays of 4 x 4 pixels, from their set-up to their light. Floor 2, internal to content.
 #pragma once
 #include "content/scene.h"
+#include "optics/sampler.h"
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace lfdsim {
 
@@ -24,7 +26,9 @@ struct RayBlock {
     Lanes::Mask exists;   // a pixel without a lens has no ray
     Lanes::Mask may_hit;  // only these are traced
     Lanes::Mask hit;
-    Lanes light[3];  // of the rays that hit
+    Lanes light[3];                              // of the rays that hit
+    std::int64_t sample = 0;                     // which of its pixels' rays these are
+    std::vector<optics::Sampler<float>> points;  // of the pixels' samples, kept from one to the next by whoever needs them
 
     RayBlock() {
         // What Embree asks for and never changes.

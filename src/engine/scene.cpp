@@ -1,5 +1,7 @@
 #include "engine/scene.h"
 
+#include "optics/directions.h"
+
 #include "engine/kernel.h"
 #include "model/prescription.h"
 
@@ -212,7 +214,7 @@ Estimator estimator_of(const Display& display) {
 
 std::int64_t samples_of(const Display& display) {
     if (sample_dimensions(display) == 0) return 1;
-    if (estimator_of(display) == Estimator::point) return display.render.samples.value_or(100);
+    if (estimator_of(display) == Estimator::point) return display.render.samples.value_or(default_points);
     const double strata = std::ceil(std::sqrt(double(display.render.samples.value_or(4))));
     return std::int64_t(strata) * std::int64_t(strata);
 }
@@ -239,29 +241,7 @@ int block_side(const optics::Scene<float>& scene, const optics::View& view, int 
 }
 
 const optics::Directions& sobol_directions() {
-    static const optics::Directions directions = [] {
-        // s, a and m_1 .. m_s of dimensions 2 .. 6; dimension 1 is van der Corput's sequence.
-        struct Row {
-            int s, a, m[4];
-        };
-        constexpr Row rows[optics::kDimensions - 1] = {
-            {1, 0, {1}}, {2, 1, {1, 3}}, {3, 1, {1, 3, 1}}, {3, 2, {1, 1, 1}}, {4, 1, {1, 1, 3, 3}}};
-        optics::Directions d{};
-        for (int i = 0; i < 32; ++i) d.v[0][i] = 1u << (31 - i);
-        for (int k = 1; k < optics::kDimensions; ++k) {
-            const Row& row = rows[k - 1];
-            std::uint32_t* const v = d.v[k];
-            for (int i = 0; i < 32; ++i) {
-                if (i < row.s) {
-                    v[i] = std::uint32_t(row.m[i]) << (31 - i);
-                    continue;
-                }
-                v[i] = v[i - row.s] ^ (v[i - row.s] >> row.s);
-                for (int j = 1; j < row.s; ++j) v[i] ^= (row.a >> (row.s - 1 - j) & 1) * v[i - j];
-            }
-        }
-        return d;
-    }();
+    static constexpr optics::Directions directions = optics::sobol_directions();
     return directions;
 }
 

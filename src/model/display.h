@@ -88,6 +88,9 @@ struct Content {
     bool operator==(const Content&) const = default;
 };
 
+/// Samples of a pixel where none are asked for and single rays are cast.
+inline constexpr std::int64_t default_points = 100;
+
 struct Render {
     Estimator estimator = Estimator::filtered;
     std::optional<std::int64_t> samples;  // default: 4 filtered ones, or 100 points

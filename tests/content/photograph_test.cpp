@@ -118,4 +118,97 @@ TEST(Photograph, AgreesWithTheElementalImages) {
     EXPECT_GT(lit, 10);
 }
 
+/// The moments of a picture's light about the frame's middle: all of it, the mean squared distance and the greatest, in pixels.
+struct Moments {
+    double light = 0, squared = 0, furthest = 0;
+    explicit Moments(const Image& image) {
+        for (int j = 0; j < image.height; ++j) {
+            for (int i = 0; i < image.width; ++i) {
+                const double x = i + 0.5 - 0.5 * image.width, y = j + 0.5 - 0.5 * image.height, r2 = x * x + y * y;
+                const double here = image.at(i, j)[1];
+                light += here, squared += here * r2;
+                if (here > 0) furthest = std::max(furthest, std::sqrt(r2));
+            }
+        }
+        squared /= light;
+    }
+};
+
+// A thin lens of diameter A, focused at F, shows a point at depth z as a disk: in the frame, at the target's distance T, it is
+// A T |1/F - 1/z| wide and evenly bright.
+TEST(Photograph, PupilBlursAPointToADisk) {
+    Folder folder;
+    Display d = display();
+    const fs::path model = write_patches(folder, {{-0.5, 0.5, -0.5, 0.5, 0, "white"}});
+    d.content.height_mm = 1;
+    d.camera.pupil_diameter_mm = 20;
+    d.render.samples = 1024;
+    const double T = 500, a = 0.2, vertex = resolve(d).vertex_plane_mm;
+    for (const auto& [depth_mm, focus_mm] : {std::pair(60., 500.), {60., 380.}, {-150., 400.}}) {
+        d.content.depth_mm = depth_mm;
+        d.camera.focus_distance_mm = focus_mm;
+        const double z = T - vertex - depth_mm, radius = 20 * T * std::abs(1 / focus_mm - 1 / z) / 2 / a, side = T / z / a;
+        const Moments found(shoot(d, model).image);
+        EXPECT_NEAR(found.light, facing_light * side * side, 0.01 * found.light);
+        EXPECT_NEAR(found.squared, radius * radius / 2 + side * side / 6, 0.01 * found.squared);
+        EXPECT_LT(found.furthest, radius + side * std::sqrt(0.5) + 1);
+        EXPECT_GT(found.furthest, radius);
+    }
+}
+
+// What stands in the plane of focus has the pinhole's picture.
+TEST(Photograph, PupilLeavesThePlaneOfFocusSharp) {
+    Folder folder;
+    Display d = display();
+    const fs::path model = write_patches(folder, {{-8.02, 8.02, -10, 10, 0, "white"}});
+    const Image pinhole = shoot(d, model).image;
+    d.camera.pupil_diameter_mm = 20;
+    d.camera.focus_distance_mm = 500 - resolve(d).vertex_plane_mm;
+    d.render.samples = 16;
+    const Image image = shoot(d, model).image;
+    for (std::size_t k = 0; k < image.rgb.size(); ++k) ASSERT_NEAR(image.rgb[k], pinhole.rgb[k], 1e-6) << k;
+}
+
+// A pixel of the box filter is lit by the share of it that the patch covers.
+TEST(Photograph, PixelFilterCountsTheShareOfAPixel) {
+    Folder folder;
+    Display d = display();
+    d.camera.target_mm = {0, 0, resolve(d).vertex_plane_mm};
+    d.content.height_mm = 20.1;
+    d.camera.pixel_filter = PixelFilter::box;
+    d.render.samples = 256;
+    const Image image = shoot(d, write_patches(folder, {{-8.05, 8.05, -10.05, 10.05, 0, "white"}})).image;
+    const auto share = [&](int column, int row) { return image.at(column, row)[1] / facing_light; };
+    EXPECT_NEAR(share(120, 80), 1, 1e-6);
+    EXPECT_NEAR(share(79, 80), 0.25, 0.01);
+    EXPECT_NEAR(share(160, 80), 0.25, 0.01);
+    EXPECT_NEAR(share(120, 29), 0.25, 0.01);
+    EXPECT_NEAR(share(79, 29), 0.0625, 0.01);
+    EXPECT_EQ(share(78, 80), 0);
+}
+
+// Sampled photographs, too, are the same on any number of threads and in any crop, and go by their seed.
+TEST(Photograph, SampledPixelsAreReproducible) {
+    Folder folder;
+    Display d = display();
+    d.content.yaw_deg = 25;
+    d.camera.pupil_diameter_mm = 30;
+    d.camera.pixel_filter = PixelFilter::box;
+    d.render.samples = 7;
+    const fs::path model = write_patches(folder, {{-8, 8, -10, 10, 0, "white"}, {-3, 9, -4, 4, 6, "red"}});
+    const Picture full = shoot(d, model);
+    EXPECT_EQ(full.rays, 7 * 240 * 160);
+    const Rect crop{77, 31, 170, 102};
+    for (const int threads : {1, 3}) {
+        const Picture part = shoot(d, model, crop, threads);
+        for (int row = 0; row < 71; ++row)
+            for (int column = 0; column < 93; ++column)
+                for (int c = 0; c < 3; ++c) ASSERT_EQ(part.image.at(column, row)[c], full.image.at(77 + column, 31 + row)[c]);
+    }
+    d.render.seed = 1;
+    EXPECT_NE(shoot(d, model).image.rgb, full.image.rgb);
+    d.render.sampling = Sampling::random;
+    EXPECT_NE(shoot(d, model).image.rgb, full.image.rgb);
+}
+
 }  // namespace

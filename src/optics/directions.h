@@ -1,0 +1,30 @@
+// Direction numbers of the Sobol sequence (Joe and Kuo 2008, new-joe-kuo-6). Floor 1; for the host.
+#pragma once
+#include "optics/scene.h"
+
+namespace lfdsim::optics {
+
+constexpr Directions sobol_directions() {
+    // s, a and m_1 .. m_s of dimensions 2 .. 6; dimension 1 is van der Corput's sequence.
+    struct Row {
+        int s, a, m[4];
+    };
+    constexpr Row rows[kDimensions - 1] = {{1, 0, {1}}, {2, 1, {1, 3}}, {3, 1, {1, 3, 1}}, {3, 2, {1, 1, 1}}, {4, 1, {1, 1, 3, 3}}};
+    Directions d{};
+    for (int i = 0; i < 32; ++i) d.v[0][i] = 1u << (31 - i);
+    for (int k = 1; k < kDimensions; ++k) {
+        const Row& row = rows[k - 1];
+        std::uint32_t* const v = d.v[k];
+        for (int i = 0; i < 32; ++i) {
+            if (i < row.s) {
+                v[i] = std::uint32_t(row.m[i]) << (31 - i);
+                continue;
+            }
+            v[i] = v[i - row.s] ^ (v[i - row.s] >> row.s);
+            for (int j = 1; j < row.s; ++j) v[i] ^= std::uint32_t(row.a >> (row.s - 1 - j) & 1) * v[i - j];
+        }
+    }
+    return d;
+}
+
+}  // namespace lfdsim::optics
