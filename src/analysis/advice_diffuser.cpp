@@ -16,6 +16,12 @@ double best_distance_mm(const Geometry& g, const Theory& t, double pitch, double
     return central > g.top_z_mm - g.vertex_plane_mm && central < eye_mm / 2 ? central : std::min(20 * pitch, eye_mm / 2);
 }
 
+/// Whether a pupil does what a diffuser would: out of focus at the lenses, it sees each of their places as a disk of A |1 - E/F|.
+/// One of three pitches leaves of the finest dots bands of a contrast of 0.08, twice the fourth lobe of 2 J1(x)/x.
+bool joined_by_pupil(const Display& d, const Geometry& g, double eye) {
+    return d.camera.pupil_diameter_mm.value_or(0) * std::abs(1 - eye / g.focus_distance_mm) >= 3 * d.array.pitch_mm;
+}
+
 }  // namespace
 
 void advise_on_diffuser(Advised& a) {
@@ -32,7 +38,7 @@ void advise_on_diffuser(Advised& a) {
     const bool bands = std::max(across, up) > visible_band_contrast;
     const std::string seen =
         fmt::format("dark bands between the lenses (Michelson contrast {:.2f} across, {:.2f} upwards)", across, up);
-    if (bands && !d.diffuser)
+    if (bands && !d.diffuser && !joined_by_pupil(d, g, eye))
         a.say("{}: the lenses do not fill their cells, and no diffuser joins them. One would, of {}", seen, best);
     if (!d.diffuser) return;
 

@@ -162,6 +162,22 @@ TEST(Advice, NearEyeSceneFarAway) {
     EXPECT_THAT(advice_for(d), IsEmpty());
 }
 
+// A pupil out of focus joins lenses that do not fill their cells; a pinhole, or one that looks at the lenses, does not.
+TEST(Advice, PupilJoinsLenses) {
+    Display d = near_eye();
+    d.content.depth_mm = -1500;
+    d.content.height_mm = 250;
+    d.array.aperture = Aperture::circle;
+    d.lens.aperture_radius_mm = 0.25;
+    const auto bands = Contains(HasSubstr("dark bands between the lenses"));
+    EXPECT_THAT(advice_for(d), bands);
+    d.camera.pupil_diameter_mm = 4;
+    d.camera.focus_distance_mm = 1500;
+    EXPECT_THAT(advice_for(d), IsEmpty());
+    d.camera.focus_distance_mm = 18;
+    EXPECT_THAT(advice_for(d), bands);
+}
+
 // A model's width and depth are known once it has been read.
 TEST(Advice, OfTheModelItself) {
     EXPECT_THAT(advice_for(tablet(), Vec3d{100, 40, 60}), IsEmpty());

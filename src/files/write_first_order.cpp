@@ -1,0 +1,193 @@
+#include "files/write_first_order.h"
+
+#include "files/values.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+namespace {
+
+/// A description in the making: keys, and comments in lines of a hundred columns.
+class Text {
+  public:
+    template <class... Values>
+    void note(fmt::format_string<Values...> words, Values&&... values) {
+        std::string text = fmt::format(words, std::forward<Values>(values)...);
+        for (char& c : text)  // a file's name may hold a line's end
+            if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+        std::string line = "#";
+        for (std::size_t start = 0; start < text.size();) {
+            const std::size_t end = std::min(text.find(' ', start), text.size());
+            if (line.size() > 1 && line.size() + 1 + end - start > 100) {
+                all += line + "\n";
+                line = "#";
+            }
+            line += " " + text.substr(start, end - start);
+            start = end + 1;
+        }
+        all += line + "\n";
+    }
+    template <class Value>
+    void key(const char* name, const Value& value) {
+        all += fmt::format("{} = {}\n", name, toml_text(value));
+    }
+    void table(const char* name) { all += fmt::format("\n[{}]\n", name); }
+
+    std::string all;
+};
+
+/// A depth whose inverse is given, in words.
+std::string end_of_depth(double per_mm) {
+    if (per_mm == 0) return "infinity";
+    return per_mm > 0 ? fmt::format("{:.4g} mm before them", 1 / per_mm) : fmt::format("{:.4g} mm behind them", -1 / per_mm);
+}
+
+void write_panel(const FirstOrder& o, Text& text) {
+    const Panel& panel = o.display.panel;
+    text.table("panel");
+    text.key("pixels", panel.pixels);
+    text.note("a = 25.4 x {:g} inches / sqrt({}^2 + {}^2)", o.request.panel_inch, panel.pixels[0], panel.pixels[1]);
+    text.key("pixel_pitch_mm", panel.pixel_pitch_mm);
+}
+
+void write_lens(const FirstOrder& o, Text& text) {
+    const Lens& lens = o.display.lens;
+    const double f = o.theory.focal_length_mm, g = *o.display.array.gap_mm;
+    text.table("lens");
+    text.note("f = 1 / (1/g + 1/L) = {:.5g} mm images the panel at the central depth plane, L = {:g} mm from the lenses{}.", f,
+              *o.request.depth_mm, *o.request.depth_mm < 0 ? " (behind them)" : "");
+    text.key("type", lens.type);
+    if (lens.type == LensType::ideal) {
+        text.key("focal_length_mm", lens.focal_length_mm);
+        return;
+    }
+    text.note("The flat face is towards the panel. R = (n - 1) f; f/{:.3g} at the width below.",
+              f / (2 * *lens.aperture_radius_mm));
+    text.key("sphere_radius_mm", lens.sphere_radius_mm);
+    if (o.aperture_rule == ApertureRule::cell)
+        text.note("r = p/2: the lens fills its cell, as its spherical aberration is no wider than a panel pixel.");
+    if (o.aperture_rule == ApertureRule::sphere)
+        text.note("r = 0.9 R, {:.3g} of p/2: a wider cap would come too near to half a ball. What lies between lenses is black.",
+                  2 * *lens.aperture_radius_mm / o.display.array.pitch_mm);
+    if (o.aperture_rule == ApertureRule::aberration)
+        text.note(
+            "r is {:.3g} of p/2: a wider lens would blur a panel pixel (a/g = {:.3g} milliradians) by its spherical aberration, K "
+            "(2r/f)^3 with K = {:.4f} for n = {}. What lies between lenses is black; an asphere (type \"surfaces\") could fill it.",
+            2 * *lens.aperture_radius_mm / o.display.array.pitch_mm, 1000 * o.display.panel.pixel_pitch_mm / g, spherical_blur,
+            pmma_index);
+    text.key("aperture_radius_mm", *lens.aperture_radius_mm);
+    text.note("The wall under the cap, a quarter of the pitch or of the gap.");
+    text.key("cylinder_height_mm", lens.cylinder_height_mm);
+    text.note("PMMA at 589 nm");
+    text.key("index", lens.index);
+}
+
+std::string pitch_reason(const FirstOrder& o) {
+    const double eye = o.eye_mm, L = *o.request.depth_mm;
+    switch (o.pitch_rule) {
+        case PitchRule::balanced:
+            return fmt::format(
+                "Seen by the eye a lens is then {:.3g} arc minutes wide and the image of a panel pixel on the central depth plane "
+                "{:.3g}, "
+                "so that lenses and pixels limit resolution about equally: wider lenses would give more views and a finer picture "
+                "at that "
+                "depth, but a coarser one at the lenses and less depth of field.",
+                3437.75 * o.display.array.pitch_mm / eye, 3437.75 * o.theory.pixel_image_mm / (eye - L));
+        case PitchRule::pupil:
+            return fmt::format("It is about half of a pupil of {:g} mm, so that light of several lenses enters the eye together.",
+                               pupil_mm);
+        case PitchRule::lenses:
+            return fmt::format(
+                "Wider lenses would resolve more, but fewer than {} of them would be left along the panel's shorter side.",
+                fewest_lenses);
+        case PitchRule::views:
+            break;
+    }
+    return fmt::format(
+        "That many are needed for a picture that changes with the place of the eye; lenses and pixels would limit resolution "
+        "about equally with fewer.");
+}
+
+void write_array(const FirstOrder& o, Text& text) {
+    const LensArray& array = o.display.array;
+    const double t = std::tan(o.request.fov_deg * std::acos(-1.0) / 360);
+    text.table("array");
+    text.note("p = N a with N = {} panel pixels, and so {} x {} views. {}", o.views, o.views, o.views, pitch_reason(o));
+    text.key("pitch_mm", array.pitch_mm);
+    text.note(
+        "Elemental images are p' = p (1 + g/E) = {:.6g} mm wide, E = {:.6g} mm from the lenses to the eye; as many as are whole on "
+        "the panel.",
+        o.theory.elemental_pitch_mm, o.eye_mm);
+    text.key("count", array.count);
+    text.note(
+        "From the panel to the lens's panel-side principal plane: g = 1 / (2 tan(FOV/2) / p - 1/E), so that the field of view, 2 "
+        "atan(p' / 2g), is {:g} degrees (tan(FOV/2) = {:.5g}). Depth of field: |1/z - 1/L| <= a/(g D), from {} to {}.",
+        o.request.fov_deg, t, end_of_depth(o.theory.depth_near_per_mm), end_of_depth(o.theory.depth_far_per_mm));
+    text.key("gap_mm", *array.gap_mm);
+    if (array.aperture != Aperture::circle) text.key("aperture", array.aperture);
+}
+
+void write_diffuser(const FirstOrder& o, Text& text) {
+    if (!o.display.diffuser) {
+        text.all += "\n";
+        text.note("No diffuser: near the eye the pupil mixes the light of neighbouring lenses.");
+        return;
+    }
+    const Diffuser& diffuser = *o.display.diffuser;
+    text.table("diffuser");
+    if (*o.request.depth_mm > 0)
+        text.note("On the central depth plane, where it does not blur the picture.");
+    else
+        text.note(
+            "Before the lenses, as far as the central depth plane is behind them, but not beyond a quarter of the way to the eye.");
+    text.key("distance_mm", diffuser.distance_mm);
+    text.note(
+        "2 atan(p / 2d): what a lens pitch spans from the distance d of the diffuser, so that dark gaps between lenses close.");
+    text.key("angle_deg", diffuser.angle_deg);
+}
+
+void write_camera_and_content(const FirstOrder& o, Text& text) {
+    const Camera& camera = o.display.camera;
+    const Content& content = o.display.content;
+    text.table("camera");
+    text.key("position_mm", camera.position_mm);
+    text.note("The lens array as it is seen from there, with a margin of about 5 %.");
+    text.key("frame_width_mm", *camera.frame_width_mm);
+    text.key("resolution", camera.resolution);
+    if (camera.pupil_diameter_mm) {
+        text.note("An eye that looks at the central depth plane.");
+        text.key("pupil_diameter_mm", *camera.pupil_diameter_mm);
+        text.key("focus_distance_mm", *camera.focus_distance_mm);
+    }
+    text.table("content");
+    text.key("model", content.model);
+    text.note("On the central depth plane, where the picture is sharpest.");
+    text.key("depth_mm", *content.depth_mm);
+    text.note("Half the panel's height as the eye sees it, or |L| where that is less.");
+    text.key("height_mm", *content.height_mm);
+    text.note("Elemental images are made for the eye's place.");
+    text.key("viewing_distance_mm", content.viewing_distance_mm);
+}
+
+}  // namespace
+
+std::string write_first_order(const FirstOrder& o, const std::string& made_by) {
+    Text text;
+    text.note("A first-order design, to go on from. Made by: {}", made_by);
+    text.note(
+        "It follows from thin-lens arithmetic alone. `lfdsim check` tells what theory expects of it, `lfdsim analyze` measures "
+        "what "
+        "real lenses make of it; the formulas are those of docs/model.md. Lengths are in mm.");
+    text.key("schema", std::int64_t{1});
+    text.key("name", o.display.name);
+    write_panel(o, text);
+    write_lens(o, text);
+    write_array(o, text);
+    write_diffuser(o, text);
+    write_camera_and_content(o, text);
+    return text.all;
+}
+
+}  // namespace lfdsim
