@@ -156,6 +156,18 @@ std::string finding_rows(const Json& report) {
     return html;
 }
 
+std::vector<std::string> figures_of(const ResultFolder& folder, const Json& measured) {
+    const Json& report = measured.at("report");
+    std::vector<std::string> all;
+    for (const char* list : {"plots", "maps", "pictures", "animations"})
+        for (const Json& entry : report.at(list)) {
+            const bool drawn = entry.at("file").get<std::string>().ends_with(".svg");
+            const Json one = Json::array({entry});
+            all.push_back(drawn ? plots(folder, one) : pictures(folder, one, list == std::string_view("animations")));
+        }
+    return all;
+}
+
 std::string measure_section(const ResultFolder& folder, const Json& measured) {
     const Json& report = measured.at("report");
     std::string html =

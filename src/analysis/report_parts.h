@@ -4,6 +4,7 @@
 #include "analysis/subject.h"
 
 #include <string>
+#include <vector>
 
 namespace lfdsim {
 
@@ -15,6 +16,9 @@ std::string finding_rows(const Json& report);
 
 /// Title, meaning, source, findings, remarks, plots, pictures and all figures of one measure, from what its NAME.json holds.
 std::string measure_section(const ResultFolder&, const Json& measured);
+
+/// Plots, maps, pictures and animations of one measure, in this order, each by itself.
+std::vector<std::string> figures_of(const ResultFolder&, const Json& measured);
 
 /// Sizes and paraxial theory of the display as a table, and its views from the side.
 std::string display_section(const Subject&);

@@ -2,20 +2,25 @@
 #include "analysis/measure.h"
 #include "analysis/memory.h"
 #include "analysis/report.h"
+#include "analysis/side_by_side.h"
 #include "analysis/views.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/display_options.h"
+#include "cli/findings_text.h"
 #include "cli/interrupt.h"
 #include "cli/output.h"
 #include "cli/panel_source.h"
 #include "cli/work_options.h"
 #include "files/display_file.h"
+#include "image/file.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <algorithm>
+#include <cctype>
 #include <chrono>
+#include <filesystem>
 
 // lfdsim analyze: measures a display. What is finished stays, whatever happens to the rest.
 namespace lfdsim::cli {
@@ -23,12 +28,16 @@ namespace {
 
 struct Arguments {
     explicit Arguments(Command command)
-        : measures_option(
-              command.add_option("MEASURE", measures, "One or more with commas between, or all").type_name("").required()),
-          display(command, {content_options, camera_options, sample_options}),
+        : measures_option(command.add_option("MEASURE", measures, "One or more with commas between; left out, or all: all of them")
+                              .type_name("")
+                              .required()),
+          display(command, {content_options, camera_options, sample_options}, false),
           model(command),
           device(command),
           work(command) {
+        command
+            .add_option("OTHER.toml", others, "More displays: each is measured in a folder of its own, and shown beside the first")
+            .type_name("");
         command.add_option("-o,--output", output, "Folder for the results and report.html; made if missing")
             .type_name("DIR")
             .required();
@@ -48,6 +57,7 @@ struct Arguments {
     ModelOption model;
     DeviceOption device;
     WorkOptions work;
+    std::vector<std::string> others;
     std::string output, angles, depths, viewing_distance, eye_distance, wavelength;
     bool resume = false;
 };
@@ -85,39 +95,6 @@ std::vector<const Measure*> chosen(const std::string& names) {
         start = end + 1;
     }
     return result;
-}
-
-std::string value_text(const Json& values, const std::string& unit) {
-    if (values.empty()) return "";
-    if (std::all_of(values.begin(), values.end(), [](const Json& x) { return x.is_null(); })) return "not found";
-    std::string text;
-    for (const Json& x : values)
-        text += (text.empty() ? "" : " .. ") + (x.is_null()     ? "not found"
-                                                : x.is_number() ? fmt::format("{:.4g}", x.get<double>())
-                                                                : x.get<std::string>());
-    return text + (unit.empty() ? "" : " " + unit);
-}
-
-/// The largest of a finding's errors.
-std::string error_text(const Json& errors) {
-    double most = 0;
-    for (const Json& x : errors)
-        if (x.is_number()) most = std::max(most, x.get<double>());
-    return most > 0 ? fmt::format(" \u00b1 {:.2g}", most) : "";
-}
-
-std::string table_of(const Json& measured) {
-    const Json& report = measured.at("report");
-    std::string text = fmt::format("\n{}\n", report.at("title").get<std::string>());
-    for (const Json& f : report.at("findings")) {
-        const std::string unit = f.at("unit"), theory = value_text(f.at("theory"), unit);
-        const Json& values = f.at("measured");
-        text += fmt::format("  {:<58} {:<26}{}\n", f.at("what").get<std::string>(),
-                            value_text(values, unit) + error_text(f.at("error")), theory.empty() ? "" : "  theory " + theory);
-        if (std::any_of(values.begin(), values.end(), [](const Json& x) { return x.is_null(); }))
-            text += fmt::format("      {}\n", f.at("remark").get<std::string>());
-    }
-    return text;
 }
 
 /// What tells evenly spaced values from others.
@@ -173,18 +150,47 @@ struct Run {
     }
 };
 
-void run(const Arguments& args) {
-    Faults faults;
-    Display display;
-    AnalysisOptions options;
+bool names_measures(const std::string& word) {
+    if (word == "all") return true;
+    try {
+        measure_named(word.substr(0, word.find(',')));
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+/// What is asked for. Where the first word is a description, MEASURE was left out.
+struct Request {
     std::vector<const Measure*> wanted;
-    faults.of([&] { wanted = chosen(args.measures); });
-    faults.of([&] {
-        display = args.display.read();
-        require_panel_memory(display);
-    });
+    std::vector<std::string> paths;
+    std::vector<Display> displays;
+    AnalysisOptions options;
+};
+
+Request request_of(const Arguments& args) {
+    Request request;
+    Faults faults;
+    std::string names = args.measures;
+    request.paths = args.others;
+    request.paths.insert(request.paths.begin(), args.display.path());
+    std::error_code none;
+    if (!names_measures(names) && (names.ends_with(".toml") || std::filesystem::is_regular_file(names, none))) {
+        if (args.display.path().empty()) request.paths.clear();
+        request.paths.insert(request.paths.begin(), names);
+        names = "all";
+    }
+    faults.of([&] { request.wanted = chosen(names); });
+    for (const std::string& path : request.paths)
+        faults.of([&] {
+            Display& display = request.displays.emplace_back(args.display.read(path));
+            require_panel_memory(display);
+            args.model.apply(display);
+            if (display.content.model.empty()) display.content.model = built_in_spheres;
+        });
     faults.of([&] { args.work.check(); });
     faults.of([&] { args.device.apply(); });
+    AnalysisOptions& options = request.options;
     faults.of([&] { options.angles_deg = steps("--angles-deg", args.angles, -80, 80); });
     faults.of([&] { options.depths_mm = steps("--depths-mm", args.depths, -1e6, 1e6); });
     faults.of([&] {
@@ -195,10 +201,21 @@ void run(const Arguments& args) {
     });
     if (args.output.empty()) faults.of([] { throw InputError("--output", "the name is empty; give a folder"); });
     faults.report();
-    args.model.apply(display);
-    if (display.content.model.empty()) display.content.model = built_in_spheres;
     options.threads = args.work.threads();
+    return request;
+}
 
+/// What has become of one display.
+struct Outcome {
+    ResultFolder folder;
+    Json found = Json::object();
+    bool interrupted;
+    std::vector<Problem> problems;
+};
+
+Outcome measure(const Arguments& args, const Request& request, const Display& display, const std::filesystem::path& place) {
+    const std::vector<const Measure*>& wanted = request.wanted;
+    const AnalysisOptions& options = request.options;
     std::optional<Scene> scene;
     if (std::any_of(wanted.begin(), wanted.end(), [](const Measure* m) { return m->needs_scene; })) {
         const Geometry geometry = resolve(display);
@@ -207,30 +224,91 @@ void run(const Arguments& args) {
     }
     Subject subject(display, std::move(scene), options);
     const std::string description = write_display(display);
-    const ResultFolder folder(args.output, Json{{"lfdsim", LFDSIM_VERSION},
-                                                {"display", description},
-                                                {"model", stamp(display.content.model)},
-                                                {"angles_deg", ends(options.angles_deg)},
-                                                {"depths_mm", ends(options.depths_mm)},
-                                                {"viewing_distance_mm", subject.viewing_distance_mm()},
-                                                {"eye_distance_mm", options.eye_distance_mm},
-                                                {"wavelength_nm", options.wavelength_nm}});
+    const ResultFolder folder(place, Json{{"lfdsim", LFDSIM_VERSION},
+                                          {"display", description},
+                                          {"model", stamp(display.content.model)},
+                                          {"angles_deg", ends(options.angles_deg)},
+                                          {"depths_mm", ends(options.depths_mm)},
+                                          {"viewing_distance_mm", subject.viewing_distance_mm()},
+                                          {"eye_distance_mm", options.eye_distance_mm},
+                                          {"wavelength_nm", options.wavelength_nm}});
     Run run{subject, folder, {command_line(), description, wanted}};
     run.measure(args.resume, args.work.progress());
-
-    Json found = Json::object();
+    Outcome outcome{folder, Json::object(), run.about.interrupted, run.problems};
     for (const Measure* m : wanted)
-        if (folder.has(*m)) found[std::string(m->name)] = folder.read(*m);
-    if (run.about.interrupted) {
-        spdlog::warn("interrupted; {} holds {} of {} measures; the same command with --resume goes on", args.output, found.size(),
-                     wanted.size());
+        if (folder.has(*m)) outcome.found[std::string(m->name)] = folder.read(*m);
+    return outcome;
+}
+
+/// Names of folders, one for each display: its own or its file's, of letters that every file system takes.
+std::vector<std::string> folder_names(const Request& request) {
+    std::vector<std::string> all;
+    for (std::size_t n = 0; n < request.displays.size(); ++n) {
+        std::string name = request.displays[n].name;
+        if (name.empty()) name = std::filesystem::path(request.paths[n]).stem();
+        for (char& c : name)
+            if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_' && c != '.') c = '_';
+        name = name.substr(0, 100);
+        if (name.starts_with('.')) name[0] = '_';
+        std::string unique = name;
+        for (int k = 2; std::find(all.begin(), all.end(), unique) != all.end(); ++k) unique = fmt::format("{}-{}", name, k);
+        all.push_back(unique);
+    }
+    return all;
+}
+
+/// Each display in a folder of its own, then all of them in one report. What is finished is kept and reported here, too.
+void side_by_side(const Arguments& args, const Request& request) {
+    const std::filesystem::path place = args.output;
+    for (const Measure& m : measures())
+        if (std::filesystem::exists(place / (std::string(m.name) + ".json")))
+            throw InputError("--output", fmt::format("{} holds the results of one display; give another folder", args.output));
+    const std::vector<std::string> names = folder_names(request);
+    std::vector<MeasuredDisplay> measured;
+    std::vector<Problem> problems;
+    Json found = Json::object();
+    bool interrupted = false;
+    for (std::size_t n = 0; n < names.size() && !interrupted; ++n) {
+        Outcome outcome = measure(args, request, request.displays[n], place / names[n]);
+        interrupted = outcome.interrupted;
+        for (const Problem& p : outcome.problems) problems.push_back({names[n] + ": " + p.where, p.what});
+        found[names[n]] = std::move(outcome.found);
+        measured.push_back({names[n], request.displays[n], std::move(outcome.folder)});
+    }
+    Json all = differences(measured);
+    std::string missing = interrupted ? "The run was interrupted; the same command with --resume goes on." : "";
+    for (const Problem& p : problems) missing += fmt::format("{}{}: {}.", missing.empty() ? "" : " ", p.where, p.what);
+    detail::OutputFile file(place / report_name);
+    const std::string html = side_by_side_html(measured, all, command_line(), missing);
+    file.write(html.data(), html.size());
+    file.commit();
+    if (interrupted) {
+        spdlog::warn("interrupted; {} holds what is finished; the same command with --resume goes on", args.output);
         throw Interrupted{};
     }
-    if (!run.problems.empty()) throw InputError(run.problems);
-    if (args.work.json()) return print_json(wanted.size() == 1 ? found.front() : found);
+    if (!problems.empty()) throw InputError(problems);
+    if (args.work.json()) {
+        all["results"] = found;
+        return print_json(all);
+    }
+    print(fmt::format("{}\n{}: the report; of each display by itself: {}\n", table_of_differences(all),
+                      (place / report_name).string(), fmt::join(names, ", ")));
+}
+
+void run(const Arguments& args) {
+    const Request request = request_of(args);
+    if (request.displays.size() > 1) return side_by_side(args, request);
+    const Outcome outcome = measure(args, request, request.displays.front(), args.output);
+    if (outcome.interrupted) {
+        spdlog::warn("interrupted; {} holds {} of {} measures; the same command with --resume goes on", args.output,
+                     outcome.found.size(), request.wanted.size());
+        throw Interrupted{};
+    }
+    if (!outcome.problems.empty()) throw InputError(outcome.problems);
+    if (args.work.json()) return print_json(request.wanted.size() == 1 ? outcome.found.front() : outcome.found);
     std::string text;
-    for (const Json& measured : found) text += table_of(measured);
-    print(fmt::format("{}\n{}: the report; the figures lie beside it\n", text, (folder.path() / report_name).string()));
+    for (const Json& measured : outcome.found) text += table_of(measured);
+    print(fmt::format("{}\n{}: the report; the figures lie beside it\n", text, (outcome.folder.path() / report_name).string()));
 }
 
 }  // namespace
@@ -242,7 +320,8 @@ void add_analyze(Command program) {
     for (const Measure& m : measures()) list += fmt::format("  {:<12} {}\n", m.name, m.says);
     command.footer(list +
                    "Examples:\n  lfdsim analyze all display.toml --model monkey.blend -o report\n"
-                   "  lfdsim analyze fov,dof display.toml --model monkey.blend --size 960x540 -o quick --json");
+                   "  lfdsim analyze fov,dof display.toml --model monkey.blend --size 960x540 -o quick --json\n"
+                   "  lfdsim analyze fov,mtf flat.toml curved.toml -o both");
     command.callback([args] { run(*args); });
 }
 

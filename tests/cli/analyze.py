@@ -119,6 +119,44 @@ report = (program.folder / "partly/report.html").read_text()
 for words in ["Field of view (fov) could not be measured: --angles-deg", 'id="dof"']:
     checks.that(words in report, f"one measure refused: report has no {words!r}")
 
+# Two displays side by side: a folder of each with its report, and one report with what differs.
+(program.folder / "other.toml").write_text((program.folder / "tiny.toml").read_text().replace("gap_mm = 5.0", "gap_mm = 5.2"))
+TWO = "dof tiny.toml other.toml --model pyramid.obj --depths-mm 10,40,10 --progress none -o two"
+code, out, err = analyze(f"{TWO} --json")
+checks.that(code == 0, f"two displays: exit code {code}: {err}")
+both = json.loads(out)
+checks.that(both["displays"] == ["tiny", "tiny-2"] and [row["key"] for row in both["settings"]] == ["array.gap_mm"], f"two displays: {out[:300]}")
+for name in both["displays"]:
+    written = json.loads((program.folder / f"two/{name}/dof.json").read_text())
+    checks.that(both["results"][name]["dof"] == written, f"two displays: {name}'s results are not those of its folder")
+    checks.that("Depth of field" in (program.folder / f"two/{name}/report.html").read_text(), f"two displays: {name} has no report")
+checks.that(any(row["difference"][0] for row in both["findings"]), "two displays: nothing differs")
+page = Page((program.folder / "two/report.html").read_text())
+checks.that(not page.open and not page.wrong, f"two displays: tags not closed in order: {page.open} {page.wrong}")
+before = times("two/tiny-2")
+code, out, err = analyze(f"{TWO} --resume")
+checks.that(code == 0 and "tiny-2" in out and "array" not in err, f"two displays again: {code} {out} {err}")
+checks.that(times("two/tiny-2")["dof.json"] == before["dof.json"], "two displays: --resume measured again")
+
+# Ctrl-C in the second display: the first is whole, the page says what is missing, and --resume goes on.
+LONG_TWO = LONG.replace("fov,dof tiny.toml", "dof tiny.toml other.toml").replace("10,1000,0.1", "10,40,10").replace("-o cut", "-o cut_two --samples 4096")
+process = program.start(f"analyze {LONG_TWO}")
+for line in process.stderr:
+    if (program.folder / "cut_two/tiny/report.html").exists():
+        break
+process.send_signal(signal.SIGINT)
+process.communicate(timeout=60)
+checks.that(process.returncode == 130, f"two displays interrupted: exit code {process.returncode}")
+checks.that((program.folder / "cut_two/tiny/dof.json").exists() and not (program.folder / "cut_two/tiny-2/dof.json").exists(), "two displays interrupted: what is kept")
+checks.that("The run was interrupted" in (program.folder / "cut_two/report.html").read_text(), "two displays interrupted: report")
+checks.refused(program, "two displays in a folder of one", f"analyze {TWO.replace('-o two', '-o two/tiny')}", "holds the results of one display")
+
+# Without MEASURE all are taken: told by what is refused of each.
+code, out, err = analyze(f"tiny.toml --depths-mm 40,10,1 --model pyramid.obj -o none")
+checks.that(code == 2 and "MEASURE" not in err and "--depths-mm" in err, f"no measure: {err}")
+checks.refused(program, "a display that is not there", "analyze fov tiny.toml none.toml -o bad", "none.toml", "no such file")
+checks.refused(program, "no display", "analyze fov -o bad", "DISPLAY.toml")
+
 # Bad input writes nothing.
 (program.folder / "file").write_text("")
 (program.folder / "points.obj").write_text("v 0 0 0\nv 1 1 1\n")
