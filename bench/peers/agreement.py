@@ -15,6 +15,7 @@ from scenes import ROOT, Exported, Scene, Truth, address, address_panel, describ
 sys.path.insert(0, str(ROOT / "tests/oracle"))
 from path import PANEL, TOTAL  # noqa: E402
 
+TITLE = "### POV-Ray: true surfaces"
 WITHIN = 1 / 255 + 1e-5
 KINDS = ("next to a lens edge", "panel pixel border", "total internal reflection", "other")
 COLOURS = ((0.9, 0.75, 0.1), (0.1, 0.35, 0.9), (0.1, 0.7, 0.2), (0.9, 0.05, 0.05))
@@ -92,7 +93,7 @@ def sheet(shown):
 def text(found, image):
     rows = found["rows"]
     odd = sum(row["odd_where_exact_is_on_panel"] for row in rows)
-    lines = ["### POV-Ray: true surfaces", "",
+    lines = [TITLE, "",
              f"{found['program']}, one ray through each pixel's centre, {rows[0]['size'][0]} x {rows[0]['size'][1]} pixels, no diffuser; with Fresnel's exact weights where the surround is opaque, without elsewhere. "
              "Agree: share of the pixels away from lens edges whose colours are within 1/255 in linear light. "
              "In brackets, what that share would be if lfdsim's gap were longer by a thousandth: the comparison would see it. The last four columns count "

@@ -6,7 +6,7 @@ a pixel crosses a border in a tenth of all cases.
 import numpy as np
 
 import programs
-from programs import NAMES, say
+from programs import NAMES, failed_row, going_on, say
 from scenes import Exported, Scene, Truth, address, address_panel, described
 
 FAR = 40  # panel pixels, half an elemental image: such rays went another way through the lens, and are counted apart
@@ -36,9 +36,9 @@ def measure(program, folder, size, peers, counts, degrees=15, name="desktop-sphe
     scene = Scene(program, folder / "meshes", description, address_panel(description))
     exact, _ = scene.lfdsim("--estimator", "point")
     where = Truth(description).away
-    found = {"display": name, "degrees": degrees, "size": list(size), "versions": {p: programs.version(p) for p in peers}, "pictured": peers[0],
+    found = {"display": name, "degrees": degrees, "size": list(size), "versions": {p: programs.version(p) for p in peers},
              "counts": len(counts), "rows": [], "orders": []}
-    shown = []
+    shown = {peer: [] for peer in peers}
     for normals in ("flat", "smooth"):
         mine = []
         for triangles in counts:
@@ -48,23 +48,27 @@ def measure(program, folder, size, peers, counts, degrees=15, name="desktop-sphe
         found["rows"] += [row for _, row in mine]
         found["orders"].append({"peer": "lfdsim", "normals": normals, "q": order([row for _, row in mine])})
         for peer in peers:
-            rows = []
-            for triangles, (own, same) in zip(counts, mine):
-                picture, ran = Exported(scene, peer, "--triangles", str(triangles), "--normals", normals).render()
-                against = shift(picture, own, where)
-                if peer == peers[0] and triangles == counts[min(1, len(counts) - 1)]:
-                    shown.append(colored(picture, exact, where))
-                rows.append({"peer": peer, "normals": normals, "triangles": same["triangles"], **shift(picture, exact, where),
-                             "same_as_lfdsim_meshed": against["same"], "mean_shift_from_lfdsim_meshed": against["mean_shift"], "within_one_of_lfdsim_meshed": against["within_one"],
-                             "wall_s": ran.wall, "processor_s": ran.processor})
-                row = rows[-1]
-                say(f"{NAMES[peer]}, {row['triangles']} triangles, {normals}: mean shift {row['mean_shift']:.4f} panel pixels ({same['mean_shift']:.4f} of lfdsim's own "
-                    f"mesh), {100 * row['within_one']:.2f} % within one; the panel pixel of lfdsim's mesh in {100 * against['same']:.2f} %")
-            found["rows"] += rows
-            found["orders"].append({"peer": peer, "normals": normals, "q": order(rows)})
+            if peer in programs.failed:
+                continue
+            with going_on(peer):
+                rows = []
+                for triangles, (own, same) in zip(counts, mine):
+                    picture, ran = Exported(scene, peer, "--triangles", str(triangles), "--normals", normals).render()
+                    against = shift(picture, own, where)
+                    if triangles == counts[min(1, len(counts) - 1)]:
+                        shown[peer].append(colored(picture, exact, where))
+                    rows.append({"peer": peer, "normals": normals, "triangles": same["triangles"], **shift(picture, exact, where),
+                                 "same_as_lfdsim_meshed": against["same"], "mean_shift_from_lfdsim_meshed": against["mean_shift"], "within_one_of_lfdsim_meshed": against["within_one"],
+                                 "wall_s": ran.wall, "processor_s": ran.processor})
+                    row = rows[-1]
+                    say(f"{NAMES[peer]}, {row['triangles']} triangles, {normals}: mean shift {row['mean_shift']:.4f} panel pixels ({same['mean_shift']:.4f} of lfdsim's own "
+                        f"mesh), {100 * row['within_one']:.2f} % within one; the panel pixel of lfdsim's mesh in {100 * against['same']:.2f} %")
+                found["rows"] += rows
+                found["orders"].append({"peer": peer, "normals": normals, "q": order(rows)})
     for one in found["orders"]:
         say(f"order of convergence, {NAMES.get(one['peer'], 'lfdsim')}, {one['normals']}: " + ("-" if one["q"] is None else f"N^-{one['q']:.2f}"))
-    return found, shown
+    found["pictured"] = next((peer for peer in peers if peer not in programs.failed), None)
+    return found, shown.get(found["pictured"], [])
 
 
 def colored(found, exact, away):
@@ -78,7 +82,7 @@ def colored(found, exact, away):
     return shown
 
 
-def text(found, image):
+def text(found, image, failed):
     lines = ["### Cycles and Mitsuba: lenses of triangles", "",
              f"{', '.join(found['versions'].values())}; {found['display']} from {found['degrees']}°, {found['size'][0]} x {found['size'][1]} pixels, one ray "
              "each, away from lens edges as above. *Mean shift*: how far rays land on the panel from where the true surfaces send them, along rows or columns. "
@@ -93,6 +97,9 @@ def text(found, image):
             same = f"{100 * row['same_as_lfdsim_meshed']:.2f} %, {100 * row['within_one_of_lfdsim_meshed']:.2f} % | {row['mean_shift_from_lfdsim_meshed']:.4f}"
         lines.append(f"| {NAMES.get(row['peer'], 'lfdsim')} | {row['normals']} | {row['triangles']} | {row['mean_shift']:.4f} | {100 * row['within_one']:.2f} % | {same} | "
                      + ("" if q is None else f"N^-{q:.2f}") + " |")
+    lines += [failed_row(peer, why, 8) for peer, why in failed.items() if peer in found["versions"]]
+    if not found["pictured"]:
+        return lines
     lines += ["", "The shift from lfdsim's picture of the same triangles is the renderer's own: both follow rays in single precision over the whole distance from "
               "the camera. Where it is as large as the shift from the true surfaces, more triangles do not help, and the order ends there.", "",
               f"![Where rays land]({image})", "",

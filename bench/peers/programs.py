@@ -1,10 +1,13 @@
 """The programs that are compared: which are there, how those that are missing are got, how they are run and timed."""
+import contextlib
 import functools
+import glob
 import os
 import pathlib
 import re
 import resource
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -13,6 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 VENV = ROOT / "build/peers/venv"  # Mitsuba's own
 NAMES = {"pov": "POV-Ray", "cycles": "Cycles", "mitsuba": "Mitsuba 3"}
 begun = time.monotonic()
+failed = {}  # renderers that failed on the way, and how; they are left out from then on
 
 
 def say(text):
@@ -31,7 +35,8 @@ class Ran:
         self.text, self.good = done.stdout, done.returncode == 0
         if not self.good:
             self.text += done.stderr
-            self.why = f"{' '.join(map(str, command))}: {self.text[-1500:]}"
+            self.how = f"ended by {signal.Signals(-done.returncode).name}" if done.returncode < 0 else f"exit code {done.returncode}"
+            self.why = f"{' '.join(map(str, command))}: {self.how}: {self.text[-1500:]}"
 
 
 def run(command, folder):
@@ -41,9 +46,38 @@ def run(command, folder):
     return done
 
 
-def works(*command):
+class PeerFailed(Exception):
+    """A renderer ended by a signal or with an error, or left no picture."""
+
+
+def run_peer(command, folder, picture):
+    done = Ran(command, folder)
+    if not done.good:
+        say(done.why)
+        raise PeerFailed(done.how)
+    if not picture.is_file():
+        raise PeerFailed(f"left no {picture.name}")
+    return done
+
+
+@contextlib.contextmanager
+def going_on(peer):
+    """What a renderer does within may fail: that is noted, and the others go on. A failure of lfdsim itself ends the run."""
     try:
-        return subprocess.run(command, capture_output=True).returncode == 0
+        yield
+    except PeerFailed as error:
+        failed[peer] = str(error)
+        say(f"{NAMES[peer]} failed ({error}) and is left out from here on")
+
+
+def failed_row(peer, why, columns):
+    """Its line of a table."""
+    return f"| {NAMES[peer]} | failed: {why} " + "| " * (columns - 2) + "|"
+
+
+def works(*command, env={}):
+    try:
+        return subprocess.run(command, capture_output=True, env={**os.environ, **env}).returncode == 0
     except OSError:
         return False
 
@@ -52,11 +86,40 @@ def venv_python():
     return str(VENV / "bin/python3")
 
 
+def llvms():
+    """The LLVM libraries to try for Mitsuba, as DRJIT_LIBLLVM_PATH takes them: the one that it chooses (""), then the newest. LLVM 15, the newest that Debian 12
+    installs by itself, crashes on processors that it does not know, as those of the Zen 5 family. What the user names is taken alone."""
+    if named := os.environ.get("DRJIT_LIBLLVM_PATH"):
+        return [named]
+    numbers = lambda path: [int(number) for number in re.findall(r"\d+", pathlib.Path(path).name)]
+    paths = [path for pattern in ("/usr/lib/*-linux-gnu/libLLVM*.so*", "/usr/lib/llvm-*/lib/libLLVM*.so*") for path in sorted(glob.glob(pattern))]
+    newer = {numbers(path)[0]: path for path in paths if numbers(path) and numbers(path)[0] > 15}
+    return ["", *(newer[number] for number in sorted(newer, reverse=True))]
+
+
+# A picture, since an LLVM that does not know the processor fails only in the code of a whole renderer.
+PROBE = """import numpy, mitsuba as m
+m.set_variant('llvm_ad_rgb')
+scene = m.load_dict({'type': 'scene', 'integrator': {'type': 'path'}, 'emitter': {'type': 'constant'}, 'shape': {'type': 'sphere', 'bsdf': {'type': 'dielectric'}},
+                     'sensor': {'type': 'perspective', 'to_world': m.ScalarTransform4f().look_at([0, 0, 5], [0, 0, 0], [0, 1, 0]),
+                                'film': {'type': 'hdrfilm', 'width': 16, 'height': 16}}})
+assert numpy.isfinite(numpy.array(m.render(scene, spp=4))).all()"""
+
+
 @functools.lru_cache(1)
 def working_mitsuba():
-    """A Python that has Mitsuba and a variant of it that works, or none."""
-    test = "import numpy, mitsuba; mitsuba.set_variant('llvm_ad_rgb'); import drjit; drjit.eval(drjit.arange(mitsuba.Float, 4) + 1)"
-    return next((python for python in (sys.executable, "python3", venv_python()) if works(python, "-c", test)), None)
+    """A Python that has Mitsuba and an LLVM with which it makes a picture, or none. The LLVM is then that of all that runs from here."""
+    for python in (sys.executable, "python3", venv_python()):
+        if not works(python, "-c", "import numpy, mitsuba"):
+            continue
+        for library in llvms():
+            if works(python, "-c", PROBE, env={"DRJIT_LIBLLVM_PATH": library} if library else {}):
+                if library:
+                    os.environ["DRJIT_LIBLLVM_PATH"] = library
+                    say(f"Mitsuba takes {library}")
+                return python
+            say(f"Mitsuba of {python} makes no picture with {library or 'the LLVM that it chooses'}")
+    return None
 
 
 def mitsuba_python():
@@ -67,6 +130,13 @@ def there(peer):
     return {"pov": lambda: shutil.which("povray"), "cycles": lambda: shutil.which("blender"), "mitsuba": working_mitsuba}[peer]()
 
 
+NEWER_LLVM = "libllvm19"  # of Debian 12
+
+
+def as_root(*command):
+    return command if os.geteuid() == 0 else ("sudo", "-n", *command)
+
+
 def install(peer):
     """Says in words why it could not, and goes on."""
     if peer == "mitsuba":
@@ -75,11 +145,11 @@ def install(peer):
         if not made or not works(venv_python(), "-m", "pip", "install", "--quiet", "mitsuba", "numpy"):
             say("pip could not install it (no network, or no python3-venv)")
         working_mitsuba.cache_clear()
+        if made and not working_mitsuba() and works(*as_root("apt-get", "install", "-y", "--no-install-recommends", NEWER_LLVM)):
+            working_mitsuba.cache_clear()
         return
     package = {"pov": "povray", "cycles": "blender"}[peer]
-    command = ["apt-get", "install", "-y", "--no-install-recommends", package]
-    if os.geteuid() != 0:
-        command = ["sudo", "-n", *command]
+    command = as_root("apt-get", "install", "-y", "--no-install-recommends", package)
     say(f"{NAMES[peer]} is missing: {' '.join(command)}")
     if not works(*command):
         say("apt could not install it (no right to, or no network)")

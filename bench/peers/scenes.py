@@ -66,7 +66,7 @@ class Exported:
         self.told = json.loads(self.ran.text)
 
     def render(self, samples=1, times=1):
-        """The peer's picture, each side `times` as many pixels; and how long it took."""
+        """The peer's picture, each side `times` as many pixels; and how long it took. Raises PeerFailed."""
         width, height = (times * n for n in self.size)
         if self.peer == "pov":
             command, picture = ["povray", "+Iscene.pov", "+Oview.ppm", f"+W{width}", f"+H{height}", "-D", "-A", "+FP16", "File_Gamma=1.0"], "view.ppm"
@@ -77,10 +77,11 @@ class Exported:
             command += ["--samples", samples, "--size", f"{width}x{height}"]
         path = self.folder / picture
         path.unlink(missing_ok=True)
-        ran = programs.run(command, self.folder)
+        ran = programs.run_peer(command, self.folder, path)
         if self.peer == "mitsuba":  # its files are compressed by wavelets: it reads them itself
-            programs.run([programs.mitsuba_python(), "-c", READ, path, path.with_suffix(".npy")], self.folder)
-            path = path.with_suffix(".npy")
+            array = path.with_suffix(".npy")
+            programs.run_peer([programs.mitsuba_python(), "-c", READ, path, array], self.folder, array)
+            path = array
         return pictures.read(path), ran
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 import pictures
 import programs
-from programs import NAMES, say
+from programs import NAMES, failed_row, going_on, say
 from scenes import Exported, Scene, described, monkey_panel
 
 DISPLAY, MESH = "desktop-asphere", 3386  # triangles a lens, as the 2019 paper had them
@@ -122,7 +122,11 @@ def measure(program, folder, size, peers, counts, rounds, references):
         goal = mine[0]["rmse"]
         say(f"{case}: 100 random samples have an RMSE of {goal:.5f}; the reference's own error is about {pictures.rmse(*halves) / 2:.6f}")
         centers = scene_of(program, folder, case, size, panel, "center")
-        theirs = [peer(centers if name == "pov" else scene, reference, name, normals, counts, goal) for name, normals in rows]
+        theirs = []
+        for name, normals in rows:
+            if name not in programs.failed:
+                with going_on(name):
+                    theirs.append(peer(centers if name == "pov" else scene, reference, name, normals, counts, goal))
         filtered = next(row for row in mine if row["program"].endswith("filtered"))
         for row in theirs:
             row["samples_as_filtered"] = samples_for(row["runs"], row["bias"], filtered["rmse"])[0]
@@ -141,7 +145,7 @@ def seconds(value):
     return "never" if value is None else f"{value:.3g}"
 
 
-def text(found, load):
+def text(found, load, failed):
     lines = [f"{found['display']} ({found['size'][0]} x {found['size'][1]} pixels, 43 x 24 lenses, 3840 x 2160 panel pixels, exact Fresnel weights), "
              f"{'; '.join(found['versions'].values())}; lenses of about {found['triangles']} triangles but for POV-Ray. {load}", ""]
     for case, made in found["cases"].items():
@@ -159,6 +163,7 @@ def text(found, load):
                          f"{row['start_wall_s']:.2f} ({row['start_processor_s']:.2f}) | {row['bias']:.5f} | N^-{row['law']:.2f} | "
                          f"{made['goal']:.5f} | {row['over_filtered_wall']:.0f} ({row['over_filtered_processor']:.0f}) | "
                          f"{row['over_filtered_at_its_error_wall']:.0f} ({row['over_filtered_at_its_error_processor']:.0f}) | {row['over_point_wall']:.0f} ({row['over_point_processor']:.0f}) |")
+        lines += [failed_row(name, why, 10) for name, why in failed.items() if name in found["versions"]]
         cycles = next((row for row in made["peers"] if row["program"] == NAMES["cycles"] and case == "with diffuser"), None)
         if cycles:
             at_goal, at_own = cycles["over_filtered_processor"], cycles["over_filtered_at_its_error_processor"]
@@ -170,7 +175,10 @@ def text(found, load):
         if never:
             lines += ["", f"Counting what the triangles do wrong, too, no number of samples brings {' and '.join(never)} to that RMSE."]
         lines.append("")
-    counts = ", ".join(str(run["samples"]) for run in made["peers"][0]["runs"])
+    measured = [row for made in found["cases"].values() for row in made["peers"]]
+    if not measured:
+        return lines
+    counts = ", ".join(str(run["samples"]) for run in measured[-1]["runs"])
     lines += [f"All errors are RMSE in linear light against {made['reference_samples']} points by lfdsim through the true surfaces (their own error is about "
               f"{made['reference_error']:.6f}). A peer's pictures of {counts} samples a pixel have two errors: what its triangles, and all else in which it differs, do "
               "wrong (*that samples do not lower*: two pictures with other random numbers have it in common), and noise. Samples and times are those for the "

@@ -17,6 +17,8 @@ PROGRAM, PEER = os.path.abspath(sys.argv[1]), sys.argv[2]
 sys.argv[1:] = [PROGRAM]
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "cli"))
 from program import TINY  # noqa: E402
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent.parent / "bench/peers"))
+import programs  # noqa: E402
 
 SHARP = ["--set", "diffuser=none"]
 # Name, options, least SSIM, greatest RMSE in linear light. 0.01 of RMSE is one pixel in 10 000 that is black for white.
@@ -39,8 +41,9 @@ if PEER == "mitsuba":
 def found():
     if PEER == "cycles":
         return shutil.which("blender"), "the program blender is not installed (Debian: blender)"
-    done = subprocess.run(["python3", "-c", "import mitsuba; mitsuba.set_variant('llvm_ad_rgb')"], capture_output=True)
-    return done.returncode == 0, "python3 has no module mitsuba whose variant llvm_ad_rgb works (PyPI: mitsuba; LLVM's library)"
+    python = programs.working_mitsuba()
+    return python is not None and shutil.which("python3") in (shutil.which(python), python), \
+        "python3 has no module mitsuba whose variant llvm_ad_rgb makes a picture (PyPI: mitsuba; LLVM's library)"
 
 
 def run(command, folder):
