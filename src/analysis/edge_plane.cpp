@@ -18,13 +18,26 @@ constexpr double radian = std::numbers::pi / 180;
 constexpr int least_lenses = 400;  // that edges cross: so many phases of the lenses enter the mean
 constexpr double golden = 0.6180339887498949;
 constexpr int most_pictures = 32;                         // of one view, to reach as many
+constexpr double systematic = 0.005;                      // of the modulation
 constexpr double pixels_wanted = 8e5, most_pixels = 4e6;  // of all pictures of a view
 
 }  // namespace
 
-double MtfCurves::below(std::size_t channel, double level) const {
-    if (mtf[channel].empty()) return std::numeric_limits<double>::quiet_NaN();
-    return falls_below(frequencies_per_mm, mtf[channel], level);
+Estimate MtfCurves::below(std::size_t channel, double level) const {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    if (mtf[channel].empty()) return {nan, nan};
+    Estimate found = jackknife(
+        [&](int k) { return falls_below(frequencies_per_mm, k < 0 ? mtf[channel] : without[std::size_t(k)][channel], level); });
+    if (!std::isfinite(found.value)) return found;
+    // What phases of lenses and pixels that are not met evenly, bins and the window leave of the curve itself
+    const double lower = falls_below(frequencies_per_mm, mtf[channel], level + systematic),
+                 higher = falls_below(frequencies_per_mm, mtf[channel], level - systematic);
+    found.error = std::hypot(found.error, std::max(found.value - lower, higher - found.value));
+    return found;
+}
+
+double MtfCurves::theory_below(double level) const {
+    return has_theory() ? falls_below(frequencies_per_mm, theory, level) : std::numeric_limits<double>::quiet_NaN();
 }
 
 EdgePlane::EdgePlane(const Subject& s, double depth_mm, bool horizontal, const Pyramid& white, const Job& job)
@@ -107,7 +120,9 @@ bool EdgePlane::strays(double angle_deg) {
 /// next to nothing is left.
 MtfCurves EdgePlane::blank(double angle_deg, double blur_mm) const {
     const Eye at = eye(angle_deg);
-    MtfCurves m{depth_mm_, angle_deg, bars_.upright, (at.z_mm() - bars_.z_mm) / std::cos(angle_deg * radian) * radian, {}, {}, {}};
+    const double cosine = std::cos(angle_deg * radian);  // by so much the plane is foreshortened to the side
+    const double mm_per_deg = (at.z_mm() - bars_.z_mm) / cosine * radian / (bars_.upright ? cosine : 1);
+    MtfCurves m{depth_mm_, angle_deg, bars_.upright, mm_per_deg, {}, {}, light_astray(s_, angle_deg, at.distance_mm), {}, {}};
     const Blur by_theory = blur(s_.display(), s_.geometry(), s_.theory(), bars_.z_mm, angle_deg);
     const double most = 1 / std::max(by_theory.pixel_mm, 0.25 * blur_mm);
     constexpr int steps = 160;
@@ -122,7 +137,7 @@ std::vector<MtfCurves> EdgePlane::measure(const std::vector<double>& angles) {
     const double farthest = angles.back();
     double blur_mm = blur(s_.display(), s_.geometry(), s_.theory(), bars_.z_mm, farthest).width_mm(bars_.upright);
     const auto [across, along] = seen_half_mm(s_.display(), s_.geometry(), bars_, eye(farthest));
-    const bool seen = across > 0 && along > 0;
+    const bool seen = across > 0 && along > 0 && !at_the_lenses(s_.display(), s_.geometry(), bars_.z_mm);
     while (seen && set_bars(blur_mm, farthest) && strays(angles.front())) blur_mm *= 3;
 
     std::vector<MtfCurves> all;
@@ -147,7 +162,10 @@ std::vector<MtfCurves> EdgePlane::measure(const std::vector<double>& angles) {
         std::vector<double> per_pixel = m.frequencies_per_mm;
         for (double& f : per_pixel) f *= pixel;
         m.mtf = spreads[n].mtf(per_pixel);
+        for (int k = 0; k < independent_sets; ++k) m.without[std::size_t(k)] = spreads[n].mtf(per_pixel, k);
         for (std::vector<double>& curve : m.mtf) curve[0] = 1;  // of edges without end
+        for (auto& curves : m.without)
+            for (std::vector<double>& curve : curves) curve[0] = 1;
     }
     return all;
 }

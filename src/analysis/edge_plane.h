@@ -15,12 +15,17 @@ struct MtfCurves {
     double mm_per_deg;                       // in the edges' plane, as the eye sees it
     std::vector<double> frequencies_per_mm;  // in the edges' plane, from 0
     std::vector<double> theory;              // of as many
+    double astray;                           // share of the light of which theory says nothing
     std::array<std::vector<double>, 3> mtf;  // red, green, blue; empty: no edge was seen
-    int lenses = 0;                          // that the edges crossed
+    std::array<std::array<std::vector<double>, 3>, independent_sets>
+        without;     // the same of all sets of the pictures' parts but one
+    int lenses = 0;  // that the edges crossed
 
+    bool has_theory() const { return astray < 0.01; }
+    bool seen() const { return !mtf[1].empty(); }
     /// The frequency at which a colour's modulation falls below a level; NaN: it never does.
-    double below(std::size_t channel, double level) const;
-    double theory_below(double level) const { return falls_below(frequencies_per_mm, theory, level); }
+    Estimate below(std::size_t channel, double level) const;
+    double theory_below(double level) const;
 };
 
 class EdgePlane {

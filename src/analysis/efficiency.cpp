@@ -15,7 +15,7 @@ constexpr int rays_a_part = 1 << 12;
 constexpr double degree = std::numbers::pi / 180;
 
 /// Of the light that one part's rays find.
-struct Sums {
+struct Found {
     double reaches = 0, leaves = 0, leaves_in_fov = 0;
 };
 
@@ -30,7 +30,7 @@ double flux_per_radiance(const Vec3d& at, const Vec3d& to, const Sight& sight) {
 
 }  // namespace
 
-LightBudget light_budget(const Display& display, const Geometry& geometry, Parts& parts) {
+std::array<LightBudget, independent_sets> light_budgets(const Display& display, const Geometry& geometry, Parts& parts) {
     Display bare = display;
     bare.diffuser.reset();
     const EyeRays lenses(bare, resolve(bare));
@@ -43,10 +43,10 @@ LightBudget light_budget(const Display& display, const Geometry& geometry, Parts
     const double c = std::cos(display.array.rotation_deg * degree), s = std::sin(display.array.rotation_deg * degree);
     const bool ideal = display.lens.type == LensType::ideal;
     const int rays = rays_a_part * lenses.more_for({0, 0, geometry.vertex_plane_mm + 1e6});
-    std::array<Sums, light_budget_parts> sums{};
+    std::array<Found, light_budget_parts> sums{};
     parts.run(light_budget_parts, [&](int part) {
-        Sums& sum = sums[std::size_t(part)];
-        for (const Choice& choice : even_choices(rays, std::uint32_t(part))) {
+        Found& sum = sums[std::size_t(part)];
+        for (const Choice& choice : even_choices(rays, set_number(display.render.seed, part))) {
             Vec3d to;  // as dense as its cosine: evenly over the disk below the hemisphere
             optics::disk(choice[2], choice[3], to[0], to[1]);
             to[2] = -std::sqrt(std::max(1 - to[0] * to[0] - to[1] * to[1], 0.));
@@ -64,16 +64,31 @@ LightBudget light_budget(const Display& display, const Geometry& geometry, Parts
             if (std::max(std::abs(along), std::abs(across)) <= -to[2] * fov_slope) sum.leaves_in_fov += light;
         }
     });
-    Sums all;
-    for (const Sums& sum : sums) {
-        all.reaches += sum.reaches;
-        all.leaves += sum.leaves;
-        all.leaves_in_fov += sum.leaves_in_fov;
-    }
-    const double flux = std::numbers::pi / (double(rays) * light_budget_parts), per_ray = flux * width * height,
+    const double flux = std::numbers::pi * independent_sets / (double(rays) * light_budget_parts), per_ray = flux * width * height,
                  per_wide_ray = flux * (width + 2 * margin) * (height + 2 * margin);
-    return {geometry.panel_width_mm * geometry.panel_height_mm * 2 * std::numbers::pi / (m + 2), all.reaches * per_ray,
-            all.leaves * per_wide_ray, all.leaves_in_fov * per_wide_ray};
+    std::array<LightBudget, independent_sets> budgets{};
+    for (LightBudget& b : budgets) b.emitted = geometry.panel_width_mm * geometry.panel_height_mm * 2 * std::numbers::pi / (m + 2);
+    for (std::size_t part = 0; part < sums.size(); ++part) {
+        LightBudget& b = budgets[part % independent_sets];
+        b.reaches_array += sums[part].reaches * per_ray;
+        b.leaves += sums[part].leaves * per_wide_ray;
+        b.leaves_in_fov += sums[part].leaves_in_fov * per_wide_ray;
+    }
+    return budgets;
+}
+
+LightBudget mean_budget(const std::array<LightBudget, independent_sets>& sets, int without) {
+    LightBudget mean{};
+    for (int k = 0; k < independent_sets; ++k) {
+        if (k == without) continue;
+        const LightBudget& b = sets[std::size_t(k)];
+        const double share = 1. / (independent_sets - (without >= 0));
+        mean.emitted += share * b.emitted;
+        mean.reaches_array += share * b.reaches_array;
+        mean.leaves += share * b.leaves;
+        mean.leaves_in_fov += share * b.leaves_in_fov;
+    }
+    return mean;
 }
 
 }  // namespace lfdsim

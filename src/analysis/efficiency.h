@@ -1,8 +1,11 @@
 // Where the panel's light goes. Floor 3.
 #pragma once
+#include "analysis/estimate.h"
 #include "analysis/parallel.h"
 #include "model/display.h"
 #include "model/geometry.h"
+
+#include <array>
 
 namespace lfdsim {
 
@@ -18,6 +21,10 @@ constexpr int light_budget_parts = 128;
 
 /// Rays traced backwards from all places before the array and in all directions, as many of each as carry equal shares of an even
 /// radiance: what they find of the panel's, times pi and the area, is the light that leaves.
-LightBudget light_budget(const Display&, const Geometry&, Parts&);
+/// As each set of rays finds it.
+std::array<LightBudget, independent_sets> light_budgets(const Display&, const Geometry&, Parts&);
+
+/// The mean of all sets but one.
+LightBudget mean_budget(const std::array<LightBudget, independent_sets>&, int without = -1);
 
 }  // namespace lfdsim

@@ -1,10 +1,15 @@
-// A figure found several times with independent random numbers: its mean, and the error to state. Floor 3.
+// Figures found with independent random numbers, and the errors to state. Floor 3.
 #pragma once
+#include "analysis/result.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
+#include <string>
 
 namespace lfdsim {
 
@@ -22,5 +27,23 @@ inline Estimate estimate(std::span<const double> found, double precision = 0) {
     for (const double x : found) squares += (x - sum) * (x - sum);
     return {sum, precision + student[std::min<std::size_t>(found.size(), 8)] * std::sqrt(squares / (n - 1) / n)};
 }
+
+/// A figure is measured with so many independent sets of random numbers.
+inline constexpr int independent_sets = 8;
+
+/// A figure of all sets together and its error, by the jackknife: figure(k) is that of all sets but k, figure(-1) that of all of
+/// them. It may be any smooth function of sums over the sets. Where it is not finite the error is NaN.
+Estimate jackknife(const std::function<double(int without)>& figure);
+
+/// Of each set.
+using Sums = std::array<double, independent_sets>;
+/// Of all sets but one.
+double total(const Sums&, int without = -1);
+
+/// The number of the n-th set of random numbers: other ones for each render.seed.
+std::uint32_t set_number(std::int64_t seed, int n);
+
+/// Writes json[name] and json[name + "_error"].
+void add_figure(Json& json, const std::string& name, const Estimate&);
 
 }  // namespace lfdsim

@@ -26,7 +26,7 @@ constexpr Measure all[] = {
     {"zone", "Viewing zone", "From where all of the screen shows its own views, and not those of neighbouring lenses.",
      "Rays traced from viewers' places; paraxial theory", false, zone_steps, measure_zone},
     {"crosstalk", "Crosstalk", "How much light of other views, and of what the other eye should see, an eye sees.",
-     "Woods 2012: (leak - black) / (signal - black)", false, crosstalk_steps, measure_crosstalk},
+     "Woods 2012, IEC 62629-22-1, IDMS: 100 (leak - black) / (signal - black)", false, crosstalk_steps, measure_crosstalk},
     {"mtf", "Resolution", "How fine a detail the display shows at which depth, seen from which angle.",
      "Slanted edges after ISO 12233; theory: image of a panel pixel, paraxial spot and diffuser", false, mtf_steps, measure_mtf},
     {"uniformity", "Uniformity and light",

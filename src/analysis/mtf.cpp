@@ -1,7 +1,6 @@
 #include "analysis/mtf.h"
 
-#include "analysis/edge_plane.h"
-#include "analysis/mtf_theory.h"
+#include "analysis/mtf_resolution.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -15,31 +14,48 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<const char*, 3> channels{"red", "green", "blue"};
 
-Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(); }
-
-Json by_channel(const MtfCurves& m, double level, double scale) {
-    Json json;
-    for (std::size_t c = 0; c < 3; ++c) json[channels[c]] = number_or_null(m.below(c, level) * scale);
-    return json;
+/// Adds NAME and NAME_error of red, green and blue.
+void add_channels(Json& json, const std::string& name, const MtfCurves& m, double level, double scale) {
+    for (std::size_t c = 0; c < 3; ++c) {
+        const Estimate found = m.below(c, level);
+        json[name][channels[c]] = number_json(found.value * scale);
+        json[name + "_error"][channels[c]] = number_json(found.error * scale);
+    }
 }
 
 const char* direction(const MtfCurves& m) { return m.horizontal ? "horizontal" : "vertical"; }
 
-Json to_json(const MtfCurves& m) {
-    return {{"depth_mm", m.depth_mm},
-            {"angle_deg", m.angle_deg},
-            {"direction", direction(m)},
-            {"mtf50_per_mm", by_channel(m, 0.5, 1)},
-            {"mtf50_per_deg", by_channel(m, 0.5, m.mm_per_deg)},
-            {"mtf10_per_mm", by_channel(m, 0.1, 1)},
-            {"theory_mtf50_per_mm", number_or_null(m.theory_below(0.5))},
-            {"lenses_crossed", m.lenses}};
+Json to_json(const MtfCurves& m, const Resolution& r) {
+    Json json{{"depth_mm", m.depth_mm}, {"angle_deg", m.angle_deg}, {"direction", direction(m)}};
+    for (const auto& [unit, scale] : {std::pair{"_per_mm", 1.}, std::pair{"_per_deg", m.mm_per_deg}}) {
+        add_figure(json, std::string("resolution") + unit, {r.per_mm.value * scale, r.per_mm.error * scale});
+        json[std::string("lens_sampling_limit") + unit] = number_json(r.lens_limit_per_mm * scale);
+        json[std::string("pixel_image_limit") + unit] = number_json(r.pixel_limit_per_mm * scale);
+        add_channels(json, std::string("mtf50") + unit, m, 0.5, scale);
+        add_channels(json, std::string("mtf10") + unit, m, 0.1, scale);
+        json[std::string("theory_mtf50") + unit] = number_json(m.theory_below(0.5) * scale);
+        json[std::string("theory_resolution") + unit] = number_json(r.theory_per_mm * scale);
+    }
+    json["limited_by"] = r.missing.empty() ? Json(r.limited_by) : Json();
+    json["astray_share"] = m.astray;
+    json["lenses_crossed"] = m.lenses;
+    return json;
 }
 
-/// The lenses as samples of the edges' plane: half a cycle a pitch, as the eye on axis projects it there.
-double lens_limit_per_mm(const Subject& s, double depth_mm) {
-    const Bars plane{true, s.geometry().vertex_plane_mm + depth_mm, 1, 1, 0};
-    return s.theory().lens_sampling_limit_per_mm / scale_to_bars(s.geometry(), plane, {0, s.viewing_distance_mm()});
+/// Why figures of measurement n are null.
+void add_notes(const MtfCurves& m, const Resolution& r, std::size_t n, Result& result) {
+    const std::string path = fmt::format("measurements[{}]", n);
+    if (!m.has_theory())
+        for (const char* name : {"theory_mtf50", "theory_resolution"})
+            result.note(fmt::format("{}.{}", path, name),
+                        fmt::format("{:.3g} % of the light is seen on other lenses' elemental images, which theory leaves out",
+                                    100 * m.astray));
+    if (!r.missing.empty()) return result.note(path, r.missing);
+    for (const auto& [name, level] : {std::pair{"mtf50", 0.5}, std::pair{"mtf10", 0.1}})
+        if (std::isnan(m.below(1, level).value))
+            result.note(fmt::format("{}.{}", path, name),
+                        fmt::format("modulation is never below {:.0f} % as far as was measured, {:.4g} per mm", 100 * level,
+                                    m.frequencies_per_mm.back()));
 }
 
 /// The depth that the curves are plotted of: the one nearest to the central depth plane.
@@ -54,16 +70,24 @@ std::string label(bool horizontal, double angle) {
     return fmt::format("{}, {:.3g} degrees", horizontal ? "horizontal" : "vertical", angle);
 }
 
-void add_findings(const MtfCurves& m, Result& result) {
-    const double theory = m.theory_below(0.5);
-    const std::string what = fmt::format("MTF50 at {:.4g} mm, {}", m.depth_mm, label(m.horizontal, m.angle_deg));
-    const double measured = m.below(1, 0.5);
-    std::string remark = m.mtf[1].empty()       ? "no edge is seen there: too little light, or more blur than the screen is wide"
-                         : std::isnan(measured) ? "never below one half as far as was measured"
-                         : measured < 0.9 * theory
-                             ? "aberrations and light through other lenses take more than the paraxial blur does"
-                             : "theory: image of a panel pixel, paraxial spot and diffuser together";
-    result.findings.push_back({what, "per mm", {measured}, {theory}, std::move(remark)});
+void add_findings(const MtfCurves& m, const Resolution& r, Result& result) {
+    const double mtf50 = m.below(1, 0.5).value;
+    std::string remark = r.missing;
+    if (remark.empty()) {
+        remark = fmt::format("{:.4g} cycles per degree, limited by {}", r.per_mm.value * m.mm_per_deg, r.limited_by);
+        if (std::isnan(mtf50))
+            remark += "; MTF is never below one half as far as was measured";
+        else if (mtf50 > r.per_mm.value)
+            remark += fmt::format("; MTF50 by itself is {:.4g} per mm", mtf50);
+        if (r.per_mm.value < 0.9 * r.theory_per_mm)
+            remark += "; aberrations and light through other lenses take more than the paraxial blur does";
+    }
+    result.findings.push_back({fmt::format("Resolution at {:.4g} mm, {}", m.depth_mm, label(m.horizontal, m.angle_deg)),
+                               "per mm",
+                               {r.per_mm.value},
+                               {r.theory_per_mm},
+                               std::move(remark),
+                               {r.per_mm.error}});
 }
 
 /// The plot of the curves at one depth.
@@ -73,16 +97,18 @@ Plot curves(const Subject& s, const std::vector<MtfCurves>& all, double depth) {
     for (const MtfCurves& m : all) {
         if (m.depth_mm != depth) continue;
         if (!first) first = &m;
-        if (!m.mtf[1].empty()) plot.series.push_back({label(m.horizontal, m.angle_deg), m.frequencies_per_mm, m.mtf[1]});
+        if (m.seen()) plot.series.push_back({label(m.horizontal, m.angle_deg), m.frequencies_per_mm, m.mtf[1]});
     }
     plot.series.push_back({"theory, horizontal, 0 degrees", first->frequencies_per_mm, first->theory, true});
     plot.marks.push_back({"0.5", 0.5, false});
-    const Geometry& g = s.geometry();
-    const auto mark = [&](const char* text, double at) {
-        if (at > 0 && at < first->frequencies_per_mm.back()) plot.marks.push_back({text, at});
+    const Resolution r = resolution(s, *first);
+    const auto mark = [&](const char* text, const char* limit, double at) {
+        if (at > 0 && at < first->frequencies_per_mm.back())
+            plot.marks.push_back({fmt::format("{}{}", text, std::string_view(limit) == r.limited_by ? ", which limits" : ""), at});
     };
-    mark("pixel limit", 0.5 / pixel_image_mm(s.display(), g, g.vertex_plane_mm + depth));
-    mark("lens sampling", lens_limit_per_mm(s, depth));
+    mark("pixel limit", "pixel image", r.pixel_limit_per_mm);
+    mark("lens sampling", "lens sampling", r.lens_limit_per_mm);
+    if (std::string_view(r.limited_by) == "mtf50") mark("MTF50", "mtf50", r.per_mm.value);
     return plot;
 }
 
@@ -90,10 +116,10 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
             const std::vector<MtfCurves>& all, Result& result) {
     const double plotted = plotted_depth_mm(s, depths);
     for (const MtfCurves& m : all)
-        if (m.depth_mm == plotted) add_findings(m, result);
+        if (m.depth_mm == plotted) add_findings(m, resolution(s, m), result);
     result.plots.push_back(curves(s, all, plotted));
 
-    Plot plot{"mtf50", "Where modulation falls to one half", "depth before the lenses, mm", "cycles per mm", {}};
+    Plot plot{"mtf50", "Resolution: MTF50, or the limit below it", "depth before the lenses, mm", "cycles per mm", {}};
     DataTable table{"mtf50", {{"depth_mm", depths}}};
     for (const bool horizontal : {true, false}) {
         DataTable all_curves{horizontal ? "mtf_horizontal" : "mtf_vertical",
@@ -107,12 +133,14 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
         for (const double angle : angles) {
             std::array<Column, 3> columns;
             Column theory{fmt::format("{}_{:.3g}_deg_theory_per_mm", horizontal ? "horizontal" : "vertical", angle), {}};
+            Column resolved{fmt::format("{}_{:.3g}_deg_resolution_per_mm", horizontal ? "horizontal" : "vertical", angle), {}};
             for (std::size_t c = 0; c < 3; ++c)
                 columns[c].name =
                     fmt::format("{}_{:.3g}_deg_{}_per_mm", horizontal ? "horizontal" : "vertical", angle, channels[c]);
             for (const MtfCurves& m : all) {
                 if (m.horizontal != horizontal || m.angle_deg != angle) continue;
-                for (std::size_t c = 0; c < 3; ++c) columns[c].values.push_back(m.below(c, 0.5));
+                for (std::size_t c = 0; c < 3; ++c) columns[c].values.push_back(m.below(c, 0.5).value);
+                resolved.values.push_back(resolution(s, m).per_mm.value);
                 theory.values.push_back(m.theory_below(0.5));
                 for (std::size_t k = 0; k < m.frequencies_per_mm.size(); ++k) {
                     const auto value = [&](std::size_t c) { return m.mtf[c].empty() ? nan : m.mtf[c][k]; };
@@ -120,18 +148,21 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
                     for (std::size_t c = 0; c < row.size(); ++c) all_curves.columns[c].values.push_back(row[c]);
                 }
             }
-            plot.series.push_back({label(horizontal, angle), depths, columns[1].values});
-            if (horizontal && angle == 0) plot.series.push_back({"theory, " + label(true, 0), depths, theory.values, true});
+            plot.series.push_back({label(horizontal, angle), depths, resolved.values});
+            if (horizontal && angle == 0) plot.series.push_back({"theory's MTF50, " + label(true, 0), depths, theory.values, true});
             for (Column& c : columns) table.columns.push_back(std::move(c));
             table.columns.push_back(std::move(theory));
+            table.columns.push_back(std::move(resolved));
         }
         result.tables.push_back(std::move(all_curves));
     }
     Column lens{"lens_sampling_limit_per_mm", {}}, pixel{"pixel_limit_per_mm", {}};
     for (const double z : depths) {
-        lens.values.push_back(lens_limit_per_mm(s, z));
-        const double limit = 0.5 / pixel_image_mm(s.display(), s.geometry(), s.geometry().vertex_plane_mm + z);
-        pixel.values.push_back(std::isfinite(limit) ? limit : nan);
+        const auto at =
+            std::find_if(all.begin(), all.end(), [&](const MtfCurves& m) { return m.depth_mm == z && m.angle_deg == 0; });
+        const Resolution r = resolution(s, *at);
+        lens.values.push_back(r.lens_limit_per_mm);
+        pixel.values.push_back(std::isfinite(r.pixel_limit_per_mm) ? r.pixel_limit_per_mm : nan);
     }
     plot.series.push_back({"lens sampling, 1/2p", depths, lens.values});
     plot.series.push_back({"pixel limit, g/2az", depths, pixel.values});
@@ -143,7 +174,10 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
     result.plots.push_back(std::move(plot));
 
     result.remarks.push_back(
-        "The display is seen by a pinhole, so that neither an eye's optics nor its focus enters. Lenses that see a place of the "
+        "Resolution is MTF50, or where they are lower half a cycle a lens pitch or an image of a panel pixel: finer detail shows "
+        "as "
+        "false detail. Per degree as seen from the eye. The display is seen by a pinhole, so that neither an eye's optics nor its "
+        "focus enters. Lenses that see a place of the "
         "edges' plane at different places of it blur the mean edge; how the picture breaks up at their borders is not in it.");
     const bool grey =
         std::all_of(all.begin(), all.end(), [](const MtfCurves& m) { return m.mtf[0] == m.mtf[1] && m.mtf[1] == m.mtf[2]; });
@@ -207,9 +241,13 @@ Result measure_mtf(Subject& s, Job& job) {
     Result result;
     result.figures["slant_deg"] = slant_deg;
     result.figures["lens_sampling_limit_per_mm"] = s.theory().lens_sampling_limit_per_mm;
-    result.figures["pixel_image_limit_per_mm"] = number_or_null(s.theory().pixel_image_limit_per_mm);
+    result.figures["pixel_image_limit_per_mm"] = number_json(s.theory().pixel_image_limit_per_mm);
     result.figures["measurements"] = Json::array();
-    for (const MtfCurves& m : all) result.figures["measurements"].push_back(to_json(m));
+    for (std::size_t n = 0; n < all.size(); ++n) {
+        const Resolution r = resolution(s, all[n]);
+        result.figures["measurements"].push_back(to_json(all[n], r));
+        add_notes(all[n], r, n, result);
+    }
     report(s, depths, angles, all, result);
     return result;
 }

@@ -1,6 +1,7 @@
 #include "analysis/mtf_theory.h"
 
 #include "analysis/edge_view.h"
+#include "analysis/slope_spread.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +28,10 @@ double pixel_image_mm(const Display& d, const Geometry& g, double z_mm) {
     return d.panel.pixel_pitch_mm * std::abs(z_mm - g.rear_principal_mm) / g.gap_mm;
 }
 
+bool at_the_lenses(const Display& d, const Geometry& g, double z_mm) {
+    return pixel_image_mm(d, g, z_mm) < 1e-6 * d.array.pitch_mm;
+}
+
 Blur blur(const Display& d, const Geometry& g, const Theory& t, double z_mm, double angle_deg) {
     Blur b{pixel_image_mm(d, g, z_mm),
            g.clear_aperture_mm * std::abs(1 - (z_mm - g.rear_principal_mm) / t.central_depth_mm),
@@ -43,6 +48,14 @@ Blur blur(const Display& d, const Geometry& g, const Theory& t, double z_mm, dou
     b.diffuser_mm = {away * (slope(angle + half(0)) - slope(angle - half(0))), away * 2 * slope(half(1))};
     b.gaussian = d.diffuser->profile == Profile::gaussian;
     return b;
+}
+
+double light_astray(const Subject& s, double angle_deg, double distance_mm) {
+    const double eye = distance_mm * std::cos(angle_deg * radian) - s.geometry().rear_principal_mm;
+    const double half = 0.5 * s.theory().elemental_pitch_mm / s.geometry().gap_mm;
+    if (!(eye > 0)) return 1;
+    return 1 - SlopeSpread(s, eye, 0).within(distance_mm * std::sin(angle_deg * radian), -half, half) *
+                   SlopeSpread(s, eye, 1).within(0, -half, half);
 }
 
 double Blur::mtf(double f, bool horizontal) const {

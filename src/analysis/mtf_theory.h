@@ -1,6 +1,6 @@
 // How an edge at a depth is blurred, by paraxial theory. Floor 3.
 #pragma once
-#include "model/geometry.h"
+#include "analysis/subject.h"
 
 #include <array>
 
@@ -8,6 +8,9 @@ namespace lfdsim {
 
 /// Width of the image of a panel pixel by the nodal points, in the plane z_mm from the panel: a |z - z_H'| / g.
 double pixel_image_mm(const Display&, const Geometry&, double z_mm);
+
+/// Whether a plane at this height above the panel is the lenses' own, where each of them shows but one point.
+bool at_the_lenses(const Display&, const Geometry&, double z_mm);
 
 /// What each line of sight's crossing of a plane and that of the panel pixel's nodal line, which it sees, differ by: the sum of
 /// independent parts.
@@ -24,6 +27,9 @@ struct Blur {
     /// About the full width of an edge's blur.
     double width_mm(bool horizontal) const;
 };
+
+/// Share of the light that an eye at this angle and distance sees on other lenses' elemental images, where Blur says nothing of it.
+double light_astray(const Subject&, double angle_deg, double distance_mm);
 
 /// At an angle of view to the right.
 Blur blur(const Display&, const Geometry&, const Theory&, double z_mm, double angle_deg);

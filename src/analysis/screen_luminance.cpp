@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 namespace lfdsim {
 namespace {
@@ -14,6 +14,8 @@ std::array<int, 2> parts_along(const std::array<std::int64_t, 2>& lenses) {
     const std::int64_t together = (std::max(lenses[0], lenses[1]) + most_parts_along - 1) / most_parts_along;
     return {int(std::max<std::int64_t>(lenses[0] / together, 1)), int(std::max<std::int64_t>(lenses[1] / together, 1))};
 }
+
+double lenses_of(int part, int parts, std::int64_t lenses) { return double((part + 1) * lenses / parts - part * lenses / parts); }
 
 /// A number in [-1, 1] that chooses a lens: made to choose one of part `k` of `parts`.
 double within_part(double number, int k, int parts, std::int64_t lenses) {
@@ -31,33 +33,63 @@ int screen_luminance_parts(const Display& d) {
 ScreenLuminance screen_luminance(const EyeRays& rays, const Display& d, const Vec3d& eye, Parts& parts) {
     const std::array<std::int64_t, 2> lenses = d.array.count;
     const auto [columns, rows] = parts_along(lenses);
-    ScreenLuminance screen{columns, rows, {}};
-    screen.values.resize(std::size_t(screen.columns) * std::size_t(screen.rows));
-    const int rays_each = rays_a_part * rays.more_for(eye);
+    ScreenLuminance screen{columns, rows, {}, {}};
+    screen.parts.resize(std::size_t(columns) * std::size_t(rows));
+    for (int k = 0; k < columns * rows; ++k)
+        screen.lenses.push_back(lenses_of(k % columns, columns, lenses[0]) * lenses_of(rows - 1 - k / columns, rows, lenses[1]));
+    const int rays_each = rays_a_part / independent_sets * rays.more_for(eye);
     parts.run(columns * rows, [&](int part) {
-        double sum = 0;
-        for (Choice choice : even_choices(rays_each, std::uint32_t(part))) {
-            choice[4] = within_part(choice[4], part % screen.columns, screen.columns, lenses[0]);
-            choice[5] = within_part(choice[5], screen.rows - 1 - part / screen.columns, screen.rows, lenses[1]);
-            sum += rays.look(eye, choice).light;
+        for (int set = 0; set < independent_sets; ++set) {
+            double sum = 0;
+            for (Choice choice : even_choices(rays_each, set_number(d.render.seed, independent_sets * part + set))) {
+                choice[4] = within_part(choice[4], part % screen.columns, screen.columns, lenses[0]);
+                choice[5] = within_part(choice[5], screen.rows - 1 - part / screen.columns, screen.rows, lenses[1]);
+                sum += rays.look(eye, choice).light;
+            }
+            screen.parts[std::size_t(part)][std::size_t(set)] = sum / rays_each;
         }
-        screen.values[std::size_t(part)] = sum / rays_each;
     });
     return screen;
 }
 
-double ScreenLuminance::least() const { return *std::min_element(values.begin(), values.end()); }
-double ScreenLuminance::greatest() const { return *std::max_element(values.begin(), values.end()); }
-double ScreenLuminance::mean() const { return std::accumulate(values.begin(), values.end(), 0.) / double(values.size()); }
+std::vector<double> means(const std::vector<Sums>& all) {
+    std::vector<double> result;
+    for (const Sums& sums : all) result.push_back(total(sums) / independent_sets);
+    return result;
+}
 
-double ScreenLuminance::least_inside() const {
-    const auto inside = [](int k, int count) { return std::abs((k + 0.5) / count - 0.5) <= 0.4; };
-    double least = greatest();
-    for (int row = 0; row < rows; ++row)
-        for (int column = 0; column < columns; ++column)
-            if (inside(row, rows) && inside(column, columns))
-                least = std::min(least, values[std::size_t(row) * std::size_t(columns) + std::size_t(column)]);
-    return least;
+std::vector<double> ScreenLuminance::values() const { return means(parts); }
+double ScreenLuminance::least() const { return std::ranges::min(values()); }
+double ScreenLuminance::greatest() const { return std::ranges::max(values()); }
+
+Estimate ScreenLuminance::mean() const {
+    Sums sums{};
+    double all = 0;
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+        all += lenses[part];
+        for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += lenses[part] * parts[part][k];
+    }
+    for (double& sum : sums) sum /= all;
+    return estimate(sums);
+}
+
+Estimate ScreenLuminance::uniformity_percent(bool inside) const {
+    const auto counts = [&](std::size_t part) {
+        const auto central = [](int k, int count) { return std::abs((k + 0.5) / count - 0.5) <= 0.4; };
+        return !inside || (central(int(part) / columns, rows) && central(int(part) % columns, columns));
+    };
+    Estimate least{std::numeric_limits<double>::infinity(), 0}, greatest{0, 0};
+    double squares = 0;  // of the parts' errors
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        const Estimate part = estimate(parts[k]);
+        squares += part.error * part.error / double(parts.size());
+        if (part.value > greatest.value) greatest = part;
+        if (counts(k) && part.value < least.value) least = part;
+    }
+    if (!(greatest.value > 0)) return {0, 0};
+    const double ratio = least.value / greatest.value, typical = std::sqrt(squares);
+    const double error = std::max(least.error, typical) + ratio * std::max(greatest.error, typical);
+    return {100 * ratio, 100 * error / greatest.value};
 }
 
 PitchLuminance pitch_luminance(const EyeRays& rays, const Display& d, const Vec3d& eye, Parts& parts) {
@@ -71,38 +103,52 @@ PitchLuminance pitch_luminance(const EyeRays& rays, const Display& d, const Vec3
         return (double(lens) + 0.5 - 0.5 * double(lenses)) * pitch;
     };
     const auto cell = [](double number) { return std::size_t(std::min(int((0.5 + 0.5 * number) * side), side - 1)); };
-    std::vector<std::vector<double>> sums(pitch_luminance_parts);
+    std::vector<std::vector<double>> sums(pitch_luminance_parts);  // part k is of set k modulo their number
     parts.run(pitch_luminance_parts, [&](int part) {
         std::vector<double>& sum = sums[std::size_t(part)];
         sum.resize(side * side);
-        for (const Choice& c : even_choices(rays_each, std::uint32_t(part))) {
+        for (const Choice& c : even_choices(rays_each, set_number(d.render.seed, part))) {
             const Vec3d at =
                 rays.point(axis(d.array.count[0], c[4]) + 0.5 * pitch * c[0], axis(d.array.count[1], c[5]) + 0.5 * pitch * c[1]);
             sum[(side - 1 - cell(c[1])) * side + cell(c[0])] += rays.look_through(eye, at, c[2], c[3]).light;
         }
     });
     // The choices are a net: as many of them lie in each of the cells.
-    const double each = double(pitch_luminance_parts) * rays_each / (side * side);
-    PitchLuminance luminance{std::vector<double>(side * side)};
-    for (std::size_t k = 0; k < luminance.values.size(); ++k) {
-        double light = 0;
-        for (const std::vector<double>& sum : sums) light += sum[k];
-        luminance.values[k] = light / each;
-    }
+    const double each = double(pitch_luminance_parts) / independent_sets * rays_each / (side * side);
+    PitchLuminance luminance{std::vector<Sums>(side * side)};
+    for (std::size_t part = 0; part < sums.size(); ++part)
+        for (std::size_t k = 0; k < sums[part].size(); ++k) luminance.places[k][part % independent_sets] += sums[part][k] / each;
     return luminance;
 }
 
-std::vector<double> PitchLuminance::profile(int axis) const {
-    std::vector<double> means(side, 0);
+std::vector<double> PitchLuminance::values() const { return means(places); }
+
+std::vector<Sums> PitchLuminance::profile(int axis) const {
+    std::vector<Sums> along(side, Sums{});
     for (int row = 0; row < side; ++row)
         for (int column = 0; column < side; ++column)
-            means[std::size_t(axis == 0 ? column : side - 1 - row)] += values[std::size_t(row * side + column)] / side;
-    return means;
+            for (std::size_t k = 0; k < independent_sets; ++k)
+                along[std::size_t(axis == 0 ? column : side - 1 - row)][k] += places[std::size_t(row * side + column)][k] / side;
+    return along;
 }
 
 double michelson(const std::vector<double>& values) {
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     return *high > 0 ? (*high - *low) / (*high + *low) : 0;
+}
+
+Estimate michelson(const std::vector<Sums>& values) {
+    Sums found{};
+    for (int set = 0; set < independent_sets; ++set) {
+        const auto [low, high] = std::ranges::minmax_element(values, {}, [&](const Sums& v) { return total(v, set); });
+        const double least = (*low)[std::size_t(set)], greatest = (*high)[std::size_t(set)];
+        found[std::size_t(set)] = greatest + least > 0 ? (greatest - least) / (greatest + least) : 0;
+    }
+    Estimate contrast = estimate(found);
+    contrast.value = std::clamp(contrast.value, 0., 1.);
+    // Sets that miss the true places by chance tell too little, all sets together too much.
+    contrast.error = std::hypot(contrast.error, michelson(means(values)) - contrast.value);
+    return contrast;
 }
 
 }  // namespace lfdsim

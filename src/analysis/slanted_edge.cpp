@@ -45,35 +45,46 @@ bool bridge(std::vector<double>& values) {
 
 }  // namespace
 
-EdgeSpread::EdgeSpread(double reach)
-    : reach_(reach), light_(2 * std::size_t(std::ceil(reach * bins_per_pixel))), white_(light_.size()) {}
+EdgeSpread::EdgeSpread(double reach) : reach_(reach) {
+    for (std::vector<Bin>& bins : sets_) bins.resize(2 * std::size_t(std::ceil(reach * bins_per_pixel)));
+}
 
 void EdgeSpread::add(const Edges& edges, const Image& picture, const Image& white) {
-    const double scale = cosine(edges) * bins_per_pixel, middle = 0.5 * double(light_.size());
-    for (int row = 0; row < picture.height; ++row)
+    const double scale = cosine(edges) * bins_per_pixel, middle = 0.5 * double(sets_[0].size());
+    for (int row = 0; row < picture.height; ++row) {
+        std::vector<Bin>& bins = sets_[std::size_t((2 * pictures_ + (2 * row >= picture.height)) % independent_sets)];
         for (const Edges::Line& line : edges.lines) {
             const double x = line.at + edges.slope * (row + 0.5);
             const Span span = reached(edges, x, picture.width);
             for (int column = span.from; column < span.to; ++column) {
                 const double distance = column + 0.5 - x;
-                const std::size_t bin =
-                    std::size_t(std::clamp(std::floor(distance * scale + middle), 0., double(light_.size() - 1)));
+                Bin& bin = bins[std::size_t(std::clamp(std::floor(distance * scale + middle), 0., double(bins.size() - 1)))];
                 for (std::size_t c = 0; c < 3; ++c) {
                     const double light = picture.at(column, row)[c], full = white.at(column, row)[c];
-                    light_[bin][c] += line.rising ? light : full - light;
-                    white_[bin][c] += full;
+                    bin.light[c] += line.rising ? light : full - light;
+                    bin.white[c] += full;
                 }
             }
         }
+    }
+    ++pictures_;
 }
 
-std::array<std::vector<double>, 3> EdgeSpread::mtf(std::span<const double> frequencies) const {
-    const std::size_t bins = light_.size();
+std::array<std::vector<double>, 3> EdgeSpread::mtf(std::span<const double> frequencies, int without) const {
+    const std::size_t bins = sets_[0].size();
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     std::array<std::vector<double>, 3> result;
     for (std::size_t c = 0; c < 3; ++c) {
         std::vector<double> spread(bins), line;
-        for (std::size_t k = 0; k < bins; ++k) spread[k] = white_[k][c] > 0 ? light_[k][c] / white_[k][c] : nan;
+        for (std::size_t k = 0; k < bins; ++k) {
+            double light = 0, white = 0;
+            for (int set = 0; set < independent_sets; ++set) {
+                if (set == without) continue;
+                light += sets_[std::size_t(set)][k].light[c];
+                white += sets_[std::size_t(set)][k].white[c];
+            }
+            spread[k] = white > 0 ? light / white : nan;
+        }
         if (!bridge(spread)) {
             result[c].assign(frequencies.size(), nan);
             continue;

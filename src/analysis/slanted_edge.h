@@ -4,6 +4,7 @@
 // light and the like drop out, and nothing is normalised: light that strays farther than the edge's reach counts as lost contrast.
 // The edges' direction is known, too. A line fitted to the picture would follow the facets in which a lens array shows an edge.
 #pragma once
+#include "analysis/estimate.h"
 #include "image/image.h"
 
 #include <array>
@@ -25,7 +26,7 @@ struct Edges {
 
 /// The edge spread function: light as a share of white's against the distance to the right of the edge, in bins of a quarter pixel;
 /// the mean of all edges of all pictures that are added. Of a falling edge what it lacks of white counts, so that all blur the same
-/// way round.
+/// way round. The upper and lower halves of pictures are taken by turns to `independent_sets` sets.
 class EdgeSpread {
   public:
     /// The edges' reach, which all that are added have.
@@ -35,11 +36,16 @@ class EdgeSpread {
 
     /// For red, green and blue, at frequencies in cycles a pixel, 0 to 1: the modulus of the Fourier transform of the spread
     /// function's derivative. What the bins and the differences between them take away is put back. NaN where there is no light.
-    std::array<std::vector<double>, 3> mtf(std::span<const double> frequencies) const;
+    /// Of all sets but the one numbered `without`.
+    std::array<std::vector<double>, 3> mtf(std::span<const double> frequencies, int without = -1) const;
 
   private:
+    struct Bin {
+        std::array<double, 3> light{}, white{};
+    };
     double reach_;
-    std::vector<std::array<double, 3>> light_, white_;
+    std::array<std::vector<Bin>, independent_sets> sets_;
+    int pictures_ = 0;
 };
 
 /// Where a curve over rising frequencies first falls below a level; NaN if it never does.

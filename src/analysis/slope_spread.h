@@ -1,36 +1,47 @@
-// Paraxially: which slopes the light that one eye gathers from a screen has at the lenses. Floor 3.
+// Which slopes the light has, at the lenses, that one eye gathers from a screen: for lenses without aberration. Floor 3.
 #pragma once
 #include "analysis/subject.h"
 
-#include <array>
+#include <functional>
 
 namespace lfdsim {
 
-/// Lines of sight of an eye at the lateral place X have the slope X/E through lens centres, E the eye's distance from the lenses'
-/// viewer-side principal plane. Around it they spread, each of these independently of the others (docs/model.md, "Crosstalk"):
-/// - by the lens aperture: q (1/E - 1/L), q the place in the aperture;
-/// - by the diffuser: theta (1 - d/E), d its distance from that plane;
-/// - by the lenses across, C (1/E - 1/M), where elemental images were made for another distance M.
+/// A line of sight of an eye at x that aims at the place X across the array has the slope m = (X - x)/E, E the eye's distance from
+/// the lenses' viewer-side principal plane, and sees what is meant for a viewer of the slope s from the screen's middle. Where the
+/// elemental images are made for the distance M, s is x/E and the sum of
+/// - the lens aperture: q (1/E - 1/L), q the place in the aperture;
+/// - the diffuser: (tan(atan m + theta) - m)(d/M - 1), theta its angle, d its distance from that plane; what it turns past the
+///   array's border is dark;
+/// - the lenses across: X (1/M - 1/E).
 class SlopeSpread {
   public:
-    /// eye_mm: E, more than 0.
-    SlopeSpread(const Subject&, double eye_mm);
+    /// eye_mm: E, more than 0. Along the array's width, or with axis 1 along its height.
+    SlopeSpread(const Subject&, double eye_mm, int axis = 0);
 
-    /// Share of the light whose slope lies between low and high from that of the line of sight, either end infinite at will.
-    double within(double low, double high) const;
+    /// Share of the light with slopes s from low to high for an eye at x, either end infinite at will.
+    double within(double x_mm, double low, double high) const;
+
+    /// The same where light on the elemental image of the k-th neighbour counts as what it is meant for: slopes less by k p'/g.
+    double meant(double x_mm, double low, double high) const;
 
     /// Full width of aperture and diffuser together; of a gaussian diffuser that at half maximum.
-    double width() const { return aperture_.width + diffuser_.width; }
+    double width() const;
 
   private:
-    enum class Shape { even, disk, gaussian };  // a disk's chords; a gaussian's width is that at half maximum
+    /// Light below a slope; none is below `low` and all below `high`.
     struct Spread {
-        Shape shape;
-        double width;
-        double below(double x) const;  // share less than x
-        double reach() const;          // no more of it beyond on either side
+        double low, high;
+        std::function<double(double)> below;
     };
-    Spread aperture_, diffuser_, lenses_;
+    Spread aperture() const, lenses() const, diffuser(double x_mm, double aimed_mm) const;
+    static double convolved(const Spread& a, const Spread& b, const Spread& c, double low, double high);
+    double turned_less(double angle) const;
+
+    double eye_mm_, field_;  // slopes of one elemental image, p'/g
+    double array_mm_, aperture_slopes_, lens_slopes_per_mm_;
+    bool round_;
+    double half_rad_, above_mm_, diffuser_scale_;  // half the diffuser's angle; its height above the vertex plane; 1 - d/M
+    bool box_;
 };
 
 }  // namespace lfdsim

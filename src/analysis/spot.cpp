@@ -44,19 +44,21 @@ struct Spot {
     double rms, meridional, sagittal, meridional_diffused, sagittal_diffused;
 };
 
+/// A size at depth z as far as double precision tells it: rays that meet in one point leave some 1e-14 mm.
+double told(double mm, double z) { return mm < 1e-9 + 1e-14 * std::abs(z) ? 0 : mm; }
+
 Spot spot_at(const Subject& s, const Field& f, double z) {
     if (f.light.rays.empty() || f.rims.meridional.empty()) return {nan, nan, nan, nan, nan};
-    Spot spot{centroid_at(f.light, z).rms, width_at(f.rims.meridional, z).mm, width_at(f.rims.sagittal, z).mm, nan, nan};
+    Spot spot{told(centroid_at(f.light, z).rms, z), told(width_at(f.rims.meridional, z).mm, z),
+              told(width_at(f.rims.sagittal, z).mm, z), nan, nan};
     if (!s.display().diffuser) return spot;
     const double z_diffuser = *s.geometry().diffuser_z_mm - s.geometry().rear_principal_mm,
                  height = std::hypot(f.panel[0], f.panel[1]);
     const Point u = height > 0 ? Point{f.panel[0] / height, f.panel[1] / height} : Point{1, 0}, v{-u[1], u[0]};
-    spot.meridional_diffused = width_at(diffused(f.rims.meridional, z_diffuser, diffuser_angle(s.display(), u)), z).mm;
-    spot.sagittal_diffused = width_at(diffused(f.rims.sagittal, z_diffuser, diffuser_angle(s.display(), v)), z).mm;
+    spot.meridional_diffused = told(width_at(diffused(f.rims.meridional, z_diffuser, diffuser_angle(s.display(), u)), z).mm, z);
+    spot.sagittal_diffused = told(width_at(diffused(f.rims.sagittal, z_diffuser, diffuser_angle(s.display(), v)), z).mm, z);
     return spot;
 }
-
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(); }
 
 /// The table of all spots, as CSV and JSON.
 void tell_spots(const Subject& s, const std::vector<Field>& fields, const std::vector<double>& depths, double from_vertex,
@@ -92,11 +94,16 @@ void tell_spots(const Subject& s, const std::vector<Field>& fields, const std::v
             Json json{{"field", f.name}};
             for (std::size_t c = 0; c < names.size(); ++c) {
                 table.columns[c].values.push_back(row[c]);
-                json[names[c]] = number(row[c]);
+                json[names[c]] = number_json(row[c]);
             }
+            if (std::isnan(spot.rms))
+                result.note(fmt::format("spots[{}]", spots.size()), "no light of this panel point gets through the lens");
             spots.push_back(std::move(json));
         }
     }
+    if (!s.display().diffuser)
+        for (const char* name : {"meridional_with_diffuser_mm", "sagittal_with_diffuser_mm"})
+            result.note(fmt::format("spots[].{}", name), "there is no diffuser");
     result.tables.push_back(std::move(table));
 }
 
@@ -190,13 +197,19 @@ void tell_distortion(const Subject& s, const Distortion& d, Result& result) {
     }
     const double rms = open > 0 ? std::sqrt(sum / open) : nan, mm = s.theory().pixel_image_mm;
     if (open == 0) most = nan;
-    const double row[] = {most, rms, most * mm, rms * mm, double(open) / double(d.pixel_images.size())};
+    const double in_mm = std::isfinite(mm) ? mm : nan;
+    const double row[] = {most, rms, most * in_mm, rms * in_mm, double(open) / double(d.pixel_images.size())};
     const char* names[] = {"max_pixel_images", "rms_pixel_images", "max_mm", "rms_mm", "lit_share"};
     DataTable table{"spot_distortion", {}};
     for (int c = 0; c < 5; ++c) {
         table.columns.push_back({names[c], {row[c]}});
-        result.figures["distortion"][names[c]] = number(row[c]);
+        result.figures["distortion"][names[c]] = number_json(row[c]);
     }
+    if (open == 0)
+        result.note("distortion", "no light of any pixel of the elemental image gets through the lens");
+    else if (!std::isfinite(mm))
+        for (const char* name : {"max_mm", "rms_mm"})
+            result.note(fmt::format("distortion.{}", name), "images of pixels are at infinity: see pixel_images");
     result.tables.push_back(std::move(table));
     if (open > 0) {
         const double half = s.display().array.pitch_mm / 2;
@@ -252,7 +265,8 @@ Distortion distortion(const Display& display, const Geometry& g, const Theory& t
             y += r.my + r.y / L;
         }
         const double rays = double(light.rays.size());
-        return std::hypot(x / rays + panel[0] / gap, y / rays + panel[1] / gap) * gap / display.panel.pixel_pitch_mm;
+        const double images = std::hypot(x / rays + panel[0] / gap, y / rays + panel[1] / gap) * gap / display.panel.pixel_pitch_mm;
+        return images < 1e-9 ? 0 : images;  // as far as double precision tells
     };
     Distortion result{n, std::vector<double>(std::size_t(n) * std::size_t(n), nan)};
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
@@ -282,8 +296,8 @@ Result measure_spot(Subject& s, Job& job) {
     const std::vector<Field> fields = trace_fields(s, lens);
     if (job.cancelled()) throw Stopped{};
     job.advance(1);
-    result.figures["central_depth_mm"] = number(s.theory().central_depth_mm + from_vertex);
-    result.figures["pixel_image_mm"] = number(s.theory().pixel_image_mm);
+    result.figures["central_depth_mm"] = number_json(s.theory().central_depth_mm + from_vertex);
+    result.figures["pixel_image_mm"] = number_json(s.theory().pixel_image_mm);
     tell_spots(s, fields, depths, from_vertex, result);
     for (const Field& f : fields) result.plots.push_back(diagram(s, lens, f, depths, from_vertex));
     tell_focus(s, fields, depths, from_vertex, result);

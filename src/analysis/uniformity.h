@@ -1,5 +1,6 @@
 // A white panel: luminance over the screen, within a lens pitch and over viewing angle, and light efficiency. Floor 3.
 #pragma once
+#include "analysis/estimate.h"
 #include "analysis/eye_rays.h"
 #include "analysis/parallel.h"
 #include "analysis/result.h"
@@ -12,10 +13,14 @@ namespace lfdsim {
 /// as equal as lenses allow, row 0 at the top.
 struct ScreenLuminance {
     int columns, rows;
-    std::vector<double> values;
-    double least() const, greatest() const, mean() const;
-    /// The least of the parts whose middle lies in the middle 8/10 of width and height.
-    double least_inside() const;
+    std::vector<Sums> parts;     // mean luminance of each part by each set of lines of sight
+    std::vector<double> lenses;  // in each part
+    std::vector<double> values() const;
+    Estimate mean() const;
+    double least() const, greatest() const;
+    /// 100 least / greatest; `inside`: the least of the parts whose middle lies in the middle 8/10 of width and height. The error
+    /// contains that by chance one part of many looks darkest.
+    Estimate uniformity_percent(bool inside) const;
 };
 /// Takes screen_luminance_parts(...) parts.
 ScreenLuminance screen_luminance(const EyeRays&, const Display&, const Vec3d& eye, Parts&);
@@ -25,14 +30,21 @@ int screen_luminance_parts(const Display&);
 /// top, over lines of sight that cross the vertex plane there.
 struct PitchLuminance {
     static constexpr int side = 32;
-    std::vector<double> values;
-    std::vector<double> profile(int axis) const;  // along x (0) or y (1), averaged over the other
+    std::vector<Sums> places;
+    std::vector<double> values() const;
+    std::vector<Sums> profile(int axis) const;  // along x (0) or y (1), averaged over the other
 };
 constexpr int pitch_luminance_parts = 128;
 PitchLuminance pitch_luminance(const EyeRays&, const Display&, const Vec3d& eye, Parts&);
 
+/// The mean of all sets.
+std::vector<double> means(const std::vector<Sums>&);
+
 /// Michelson contrast (max - min) / (max + min); 0 if all is dark.
 double michelson(const std::vector<double>&);
+/// The same of noisy values: where the greatest and the least are is found by seven sets and what they are by the eighth, for each
+/// in turn, so that noise by itself makes no contrast.
+Estimate michelson(const std::vector<Sums>&);
 
 std::int64_t uniformity_steps(const Subject&);
 Result measure_uniformity(Subject&, Job&);

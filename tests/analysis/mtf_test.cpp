@@ -134,6 +134,36 @@ TEST(Mtf, BehindADiffuserToo) {
     agrees(d, {80, 170});
 }
 
+// At the lenses there is none; at the central depth plane the lenses limit it, half as far again the pixels' images, and farther
+// out all of the blur together.
+TEST(Mtf, ResolutionIsTheLeastOfMtf50AndTheLimits) {
+    AnalysisOptions options;
+    options.depths_mm = {0, 120, 190, 400};
+    Subject subject(ideal_display(), {}, options);
+    Counting job;
+    const Result result = measure_mtf(subject, job);
+    for (const Json& m : result.figures["measurements"]) {
+        const double depth = m["depth_mm"];
+        if (depth == 0) {
+            EXPECT_TRUE(m["resolution_per_mm"].is_null() && m["limited_by"].is_null() && m["mtf50_per_mm"]["green"].is_null());
+            EXPECT_EQ(m["pixel_image_limit_per_mm"], "infinite");
+            EXPECT_TRUE(result.notes.contains("measurements[0]"));
+            continue;
+        }
+        const double angle = m["angle_deg"], eye = 1500 * std::cos(angle * radian) - 8, mtf50 = m["mtf50_per_mm"]["green"],
+                     error = m["mtf50_per_mm_error"]["green"], lens = 0.1 / ((eye - depth) / eye), pixel = 0.5 * 8 / 0.25 / depth;
+        EXPECT_NEAR(m["lens_sampling_limit_per_mm"], lens, 1e-9);
+        EXPECT_NEAR(m["pixel_image_limit_per_mm"], pixel, 1e-9);
+        EXPECT_NEAR(m["resolution_per_mm"], std::min({mtf50, lens, pixel}), 1e-9);
+        EXPECT_EQ(m["limited_by"], depth == 120 ? "lens sampling" : depth == 190 ? "pixel image" : "mtf50") << mtf50;
+        EXPECT_NEAR(mtf50, m["theory_mtf50_per_mm"], error) << depth << " " << angle << " " << m["direction"];
+        EXPECT_LT(error, 0.05 * mtf50);
+        const double foreshortened = m["direction"] == "horizontal" ? std::cos(angle * radian) : 1;
+        EXPECT_NEAR(double(m["resolution_per_deg"]) / double(m["resolution_per_mm"]),
+                    (eye - depth) / std::cos(angle * radian) / foreshortened * radian, 1e-9);
+    }
+}
+
 TEST(Mtf, WithoutALensToSeeThroughIsNull) {
     Display d = ideal_display();
     d.array.offset_mm = {5000, 0};

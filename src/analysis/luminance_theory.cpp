@@ -1,0 +1,150 @@
+#include "analysis/luminance_theory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace lfdsim {
+namespace {
+
+constexpr double pi = std::numbers::pi, nan = std::numeric_limits<double>::quiet_NaN();
+
+struct Weighted {
+    double at, share;
+};
+
+/// The diffuser's angles along one axis, radians; 0 alone without one.
+std::vector<Weighted> diffuser_angles(const Display& d, int axis) {
+    constexpr int steps = 128;
+    const double half = d.diffuser ? d.diffuser->angle_deg[std::size_t(axis)] * pi / 360 : 0;
+    if (half <= 0) return {{0, 1}};
+    const bool box = d.diffuser->profile == Profile::box;
+    const double sigma = half / std::sqrt(2 * std::numbers::ln2), reach = box ? half : std::min(4.5 * sigma, 1.55);
+    std::vector<Weighted> angles;
+    double all = 0;
+    for (int k = 0; k < steps; ++k) {
+        const double a = reach * ((2 * k + 1.) / steps - 1);
+        angles.push_back({a, box ? 1 : std::exp(-0.5 * a * a / (sigma * sigma))});
+        all += angles.back().share;
+    }
+    for (Weighted& a : angles) a.share /= all;
+    return angles;
+}
+
+bool is_round(const Display& d) { return d.array.aperture == Aperture::circle || d.lens.stop_radius_mm; }
+
+/// Places across the clear aperture: chords of a disk, or evenly.
+std::vector<Weighted> aperture_places(const Display& d, const Geometry& g) {
+    constexpr int steps = 64;
+    std::vector<Weighted> places;
+    double all = 0;
+    for (int k = 0; k < steps; ++k) {
+        const double u = (2 * k + 1.) / steps - 1;
+        places.push_back({0.5 * g.clear_aperture_mm * u, is_round(d) ? std::sqrt(1 - u * u) : 1});
+        all += places.back().share;
+    }
+    for (Weighted& p : places) p.share /= all;
+    return places;
+}
+
+/// One axis of the display as an eye on axis sees it through thin lenses.
+struct Axis {
+    double eye, gap, focal_length, diffuser, pitch, offset, lenses, panel_half;
+    Axis(const Display& d, const Geometry& g, double eye_mm, std::size_t k)
+        : eye(eye_mm - g.rear_principal_mm),
+          gap(g.gap_mm),
+          focal_length(g.focal_length_mm),
+          diffuser(d.diffuser ? d.diffuser->distance_mm : 0),
+          pitch(d.array.pitch_mm),
+          offset(d.array.offset_mm[k]),
+          lenses(double(d.array.count[k])),
+          panel_half(0.5 * (k == 0 ? g.panel_width_mm : g.panel_height_mm)) {}
+
+    /// Share of the lenses whose place q lies between these.
+    double share_between(double low, double high, double q) const {
+        const auto lens = [&](double place) { return (place - q - offset) / pitch + 0.5 * lenses - 0.5; };
+        const double first = std::max(std::ceil(lens(low)), 0.), last = std::min(std::floor(lens(high)), lenses - 1);
+        return std::max(last - first + 1, 0.) / lenses;
+    }
+
+    /// Share of the lines through place q of a lens that see the panel after the diffuser has turned them by an angle. They aim at
+    /// X, come down at Y = X + d (s - X/E), s the slope behind the diffuser, and see the panel at Y - q g/f + g s. For the panel's
+    /// ends X is found as a fixed point.
+    double seen(double angle, double q) const {
+        const auto slope = [&](double x) { return std::tan(std::atan(x / eye) + angle); };
+        const auto down = [&](double x) { return x + diffuser * (slope(x) - x / eye); };
+        const auto aimed_at_panel = [&](double end) {
+            double x = end;
+            for (int k = 0; k < 30; ++k) x = end + q * gap / focal_length - gap * slope(x) - (down(x) - x);
+            return x;
+        };
+        const double half = 0.5 * lenses * pitch;
+        return share_between(down(std::max(offset - half, aimed_at_panel(-panel_half))),
+                             down(std::min(offset + half, aimed_at_panel(panel_half))), q);
+    }
+};
+
+double seen_share(const Display& d, const Geometry& g, double eye_mm, int axis) {
+    const Axis along(d, g, eye_mm, std::size_t(axis));
+    double share = 0;
+    for (const Weighted& angle : diffuser_angles(d, axis))
+        for (const Weighted& q : aperture_places(d, g)) share += angle.share * q.share * along.seen(angle.at, q.at);
+    return share;
+}
+
+double transmission(const Display& d, const Geometry& g) {
+    double t = 1;
+    if (d.render.fresnel == Fresnel::none) return t;
+    for (const PlacedSurface& s : g.surfaces)
+        t *= 4 * s.index_below * s.index_above / ((s.index_below + s.index_above) * (s.index_below + s.index_above));
+    return t;
+}
+
+/// What lenses pass on of the light of a panel behind all of the array.
+double passed(const Display& d, const Geometry& g) {
+    const double r = 0.5 * g.clear_aperture_mm / d.array.pitch_mm, fill = is_round(d) ? pi * r * r : 1, t = transmission(d, g);
+    if (d.lens.type == LensType::ideal || d.array.surround == Surround::opaque || d.lens.stop_radius_mm) return fill * t;
+    return d.array.surround == Surround::plate ? t : fill * t + 1 - fill;
+}
+
+/// The integral over y of the chord of round lenses through y, in units of the pitch; 1 a pitch less what lies beside the lenses.
+double below_chord(double y, double pitch, double radius) {
+    const double lens = std::floor(y / pitch + 0.5), u = std::clamp((y - lens * pitch) / radius, -1., 1.), fill = radius / pitch;
+    return pi * fill * fill * lens + fill * fill * (u * std::sqrt(1 - u * u) + std::asin(u));
+}
+
+}  // namespace
+
+TheoryFigure luminance_over_panel(const Display& d, const Geometry& g, double eye_mm) {
+    if (d.panel.emission_exponent != 0) return {nan, "theory holds for a panel that is as bright from all sides"};
+    if (d.array.rotation_deg != 0) return {nan, "theory holds for arrays that are not turned"};
+    return {passed(d, g) * seen_share(d, g, eye_mm, 0) * seen_share(d, g, eye_mm, 1), ""};
+}
+
+TheoryFigure band_contrast(const Display& d, const Geometry& g, double eye_mm, int axis, int bins) {
+    if (d.lens.type != LensType::ideal) return {nan, "theory holds for ideal lenses"};
+    if (d.array.rotation_deg != 0) return {nan, "theory holds for arrays that are not turned"};
+    if (d.panel.emission_exponent != 0) return {nan, "theory holds for a panel that is as bright from all sides"};
+    if (!is_round(d)) return {0, ""};
+    constexpr int places = 16;  // across the middle half
+    const double pitch = d.array.pitch_mm, eye = eye_mm - g.rear_principal_mm, bin = pitch / bins;
+    const double above = d.diffuser ? d.diffuser->distance_mm : 0;
+    const double array = pitch * double(d.array.count[std::size_t(axis)]), offset = d.array.offset_mm[std::size_t(axis)];
+    std::vector<double> profile(std::size_t(bins), 0.);
+    for (const Weighted& angle : diffuser_angles(d, axis))
+        for (int k = 0; k < places; ++k) {
+            const double slope = (offset + 0.25 * array * ((2 * k + 1.) / places - 1)) / eye;
+            const double carried = above * (std::tan(std::atan(slope) + angle.at) - slope);
+            for (int n = 0; n < bins; ++n) {
+                const double y = carried - 0.5 * pitch + n * bin;
+                profile[std::size_t(n)] += angle.share * (below_chord(y + bin, pitch, 0.5 * g.clear_aperture_mm) -
+                                                          below_chord(y, pitch, 0.5 * g.clear_aperture_mm));
+            }
+        }
+    const auto [low, high] = std::ranges::minmax(profile);
+    return {high > 0 ? (high - low) / (high + low) : 0, ""};
+}
+
+}  // namespace lfdsim

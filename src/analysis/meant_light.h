@@ -1,0 +1,47 @@
+// For whom the light is meant that an eye gathers. Floor 3.
+#pragma once
+#include "analysis/estimate.h"
+#include "analysis/eye_rays.h"
+#include "content/pickup.h"
+
+#include <array>
+#include <limits>
+#include <vector>
+
+namespace lfdsim {
+
+/// Independent sets of lines of sight, with each line its mirror image in the plane x = 0.
+class LineSets {
+  public:
+    /// `count` lines in each set, and as many mirrored.
+    LineSets(int count, std::int64_t seed);
+    const std::array<std::vector<Choice>, independent_sets>& sets() const { return sets_; }
+    static Choice mirrored(const Choice& c) { return {-c[0], c[1], -c[2], c[3], -c[4], c[5]}; }
+
+  private:
+    std::array<std::vector<Choice>, independent_sets> sets_;
+};
+
+/// The light that one eye gathers of a white panel, told by whom its panel points are meant for: the horizontal slope at which
+/// their elemental image's lens shows them, through its nodal points, to a viewer before the screen's middle. A viewer at x, E from
+/// the principal plane, is meant to see the slope x/E.
+class MeantLight {
+  public:
+    MeantLight(const EyeRays&, const Pickup&, const Geometry&, const Vec3d& eye, const LineSets&);
+    /// Of the slopes from low to high. Light exactly at either end counts half.
+    Sums between(double low, double high) const;
+    Sums all() const { return between(-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()); }
+    /// Crosstalk in per cent, 100 leak / signal: infinite where there is leak alone, NaN where there is no light. The error is not
+    /// less than what three lines of sight count, for as many may be missed by chance.
+    Estimate crosstalk_percent(const Sums& leak, const Sums& signal) const;
+
+  private:
+    struct Ray {
+        double slope;
+        float light;  // sums of floats in double are exact, so that mirrored displays have the same sums
+    };
+    std::array<std::vector<Ray>, independent_sets> rays_;
+    double slope_tolerance_;
+};
+
+}  // namespace lfdsim

@@ -1,0 +1,37 @@
+#include "analysis/mtf_resolution.h"
+
+#include "analysis/mtf_theory.h"
+
+#include <cmath>
+#include <limits>
+
+namespace lfdsim {
+
+Resolution resolution(const Subject& s, const MtfCurves& m) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+    const Geometry& g = s.geometry();
+    const Bars plane{m.horizontal, g.vertex_plane_mm + m.depth_mm, 1, 1, 0};
+    const double pixel = pixel_image_mm(s.display(), g, plane.z_mm), theory = m.theory_below(0.5);
+    Resolution r{s.theory().lens_sampling_limit_per_mm / scale_to_bars(g, plane, {m.angle_deg, s.viewing_distance_mm()}),
+                 pixel > 0 ? 0.5 / pixel : infinity,
+                 {nan, nan},
+                 "",
+                 "",
+                 nan};
+    const double limit = std::min(r.lens_limit_per_mm, r.pixel_limit_per_mm);
+    if (m.has_theory()) r.theory_per_mm = std::isnan(theory) ? limit : std::min(theory, limit);
+    if (at_the_lenses(s.display(), g, plane.z_mm)) {
+        r.missing = "in the lenses' own plane each lens shows but one point of the edges";
+        r.theory_per_mm = nan;
+    } else if (!m.seen())
+        r.missing = "no edge is seen there: too little light, or more blur than the screen is wide";
+    else {
+        const Estimate mtf50 = m.below(1, 0.5);
+        const bool limited = !(mtf50.value < limit);  // or never below one half as far as was measured
+        r.per_mm = limited ? Estimate{limit, 0} : mtf50;
+        r.limited_by = !limited ? "mtf50" : r.lens_limit_per_mm <= r.pixel_limit_per_mm ? "lens sampling" : "pixel image";
+    }
+    return r;
+}
+
+}  // namespace lfdsim
