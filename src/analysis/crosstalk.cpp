@@ -239,13 +239,9 @@ void between_eyes(const Subject& s, Eyes& eyes, Result& result) {
     plot.marks.push_back({"10 %", tolerable_percent, false});
     if (theory <= 100) plot.marks.push_back({"theory, head in the middle", theory, false});
     json["theory_percent"] = number_json(theory);
-    json["head_within_10_percent_mm"] = limits_json(range);
-    result.findings.push_back(
-        {"Head's places where both eyes have at most 10 % crosstalk",
-         "mm",
-         bounds(range),
-         {},
-         range.empty ? "more in the middle already" : "what the panel shows stays; no bound: as far as 1.5 eye distances"});
+    add_limits(result, json, "between_eyes.", "head_within_10_percent_mm", range);
+    result.findings.push_back(finding("Head's places where both eyes have at most 10 % crosstalk", "mm", range, {},
+                                      "what the panel shows stays; looked at to 1.5 eye distances"));
     result.plots.push_back(std::move(plot));
     result.tables.push_back(std::move(table));
 }

@@ -18,20 +18,21 @@ constexpr double radian = std::numbers::pi / 180;
 constexpr int least_lenses = 400;  // that edges cross: so many phases of the lenses enter the mean
 constexpr double golden = 0.6180339887498949;
 constexpr int most_pictures = 32;                         // of one view, to reach as many
-constexpr double systematic = 0.005;                      // of the modulation
+constexpr double systematic = 0.008;                      // of the modulation
 constexpr double pixels_wanted = 8e5, most_pixels = 4e6;  // of all pictures of a view
 
 }  // namespace
 
 Estimate MtfCurves::below(std::size_t channel, double level) const {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    if (mtf[channel].empty()) return {nan, nan};
+    if (mtf[channel].empty() || too_much_lost()) return {nan, nan};
     Estimate found = jackknife(
         [&](int k) { return falls_below(frequencies_per_mm, k < 0 ? mtf[channel] : without[std::size_t(k)][channel], level); });
     if (!std::isfinite(found.value)) return found;
-    // What phases of lenses and pixels that are not met evenly, bins and the window leave of the curve itself
-    const double lower = falls_below(frequencies_per_mm, mtf[channel], level + systematic),
-                 higher = falls_below(frequencies_per_mm, mtf[channel], level - systematic);
+    // Light lost beyond the window may belong to the curve, and phases of lenses and pixels, bins and the window leave some of it.
+    const double aside = std::hypot(systematic, uneven);
+    const double lower = falls_below(frequencies_per_mm, mtf[channel], level + aside),
+                 higher = falls_below(frequencies_per_mm, mtf[channel], level - aside - lost);
     found.error = std::hypot(found.error, std::max(found.value - lower, higher - found.value));
     return found;
 }
@@ -122,7 +123,7 @@ MtfCurves EdgePlane::blank(double angle_deg, double blur_mm) const {
     const Eye at = eye(angle_deg);
     const double cosine = std::cos(angle_deg * radian);  // by so much the plane is foreshortened to the side
     const double mm_per_deg = (at.z_mm() - bars_.z_mm) / cosine * radian / (bars_.upright ? cosine : 1);
-    MtfCurves m{depth_mm_, angle_deg, bars_.upright, mm_per_deg, {}, {}, light_astray(s_, angle_deg, at.distance_mm), {}, {}};
+    MtfCurves m{depth_mm_, angle_deg, bars_.upright, mm_per_deg, {}, {}, light_astray(s_, angle_deg, at.distance_mm), 0, {}, {}};
     const Blur by_theory = blur(s_.display(), s_.geometry(), s_.theory(), bars_.z_mm, angle_deg);
     const double most = 1 / std::max(by_theory.pixel_mm, 0.25 * blur_mm);
     constexpr int steps = 160;
@@ -130,6 +131,9 @@ MtfCurves EdgePlane::blank(double angle_deg, double blur_mm) const {
         m.frequencies_per_mm.push_back(most * k / steps);
         m.theory.push_back(by_theory.mtf(m.frequencies_per_mm.back(), bars_.upright));
     }
+    if (const double half = m.theory_below(0.5); std::isfinite(half))
+        for (const double share : {1., 0.5})
+            m.uneven = std::max(m.uneven, std::abs(mtf_of_lines(s_, bars_, at, half, share) - by_theory.mtf(half, bars_.upright)));
     return m;
 }
 
@@ -163,6 +167,7 @@ std::vector<MtfCurves> EdgePlane::measure(const std::vector<double>& angles) {
         for (double& f : per_pixel) f *= pixel;
         m.mtf = spreads[n].mtf(per_pixel);
         for (int k = 0; k < independent_sets; ++k) m.without[std::size_t(k)] = spreads[n].mtf(per_pixel, k);
+        m.lost = std::max(1 - m.mtf[1][0], 0.);
         for (std::vector<double>& curve : m.mtf) curve[0] = 1;  // of edges without end
         for (auto& curves : m.without)
             for (std::vector<double>& curve : curves) curve[0] = 1;

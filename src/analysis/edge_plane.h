@@ -16,14 +16,17 @@ struct MtfCurves {
     std::vector<double> frequencies_per_mm;  // in the edges' plane, from 0
     std::vector<double> theory;              // of as many
     double astray;                           // share of the light of which theory says nothing
+    double uneven;                           // by how much modulation may be wrong as phases of pixels are not met evenly
     std::array<std::vector<double>, 3> mtf;  // red, green, blue; empty: no edge was seen
     std::array<std::array<std::vector<double>, 3>, independent_sets>
-        without;     // the same of all sets of the pictures' parts but one
-    int lenses = 0;  // that the edges crossed
+        without;      // the same of all sets of the pictures' parts but one
+    double lost = 0;  // share of the light that lands farther from an edge than was looked
+    int lenses = 0;   // that the edges crossed
 
     bool has_theory() const { return astray < 0.01; }
+    bool too_much_lost() const { return lost > 0.2; }
     bool seen() const { return !mtf[1].empty(); }
-    /// The frequency at which a colour's modulation falls below a level; NaN: it never does.
+    /// The frequency at which a colour's modulation falls below a level; NaN: it never does, or too much of the light is lost.
     Estimate below(std::size_t channel, double level) const;
     double theory_below(double level) const;
 };

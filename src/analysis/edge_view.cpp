@@ -17,6 +17,8 @@ namespace {
 constexpr double radian = std::numbers::pi / 180;
 const double sine = std::sin(slant_deg * radian), cosine = std::cos(slant_deg * radian), tangent = sine / cosine;
 
+constexpr int samples_a_pixel = 16;
+
 struct Box {
     double a, b, half_a, half_b;  // centre and half sizes
 };
@@ -92,6 +94,9 @@ std::array<double, 2> seen_half_mm(const Display& d, const Geometry& g, const Ba
 
 EdgeView edge_view(const Display& display, const Geometry& geometry, const Bars& bars, const Eye& eye, double pixel_mm) {
     EdgeView view{display, {}, {}};
+    // Points: filtered samples read the panel in boxes, whose width would count as blur. Noise leaves the mean edge alone.
+    view.seen.render.estimator = Estimator::point;
+    view.seen.render.samples = samples_a_pixel;
     Box box = seen_box(display, geometry, bars, eye);
     box.half_b = 0.5 * bars.length_mm;
     const double margin = box.half_b * tangent + 0.5 * bars.width_mm / cosine;  // from an edge's middle to its farthest pixel

@@ -25,6 +25,8 @@ Resolution resolution(const Subject& s, const MtfCurves& m) {
         r.theory_per_mm = nan;
     } else if (!m.seen())
         r.missing = "no edge is seen there: too little light, or more blur than the screen is wide";
+    else if (m.too_much_lost())
+        r.missing = "light is spread there farther than the screen shows of the plane";
     else {
         const Estimate mtf50 = m.below(1, 0.5);
         const bool limited = !(mtf50.value < limit);  // or never below one half as far as was measured
