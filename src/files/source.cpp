@@ -5,6 +5,7 @@
 #include <charconv>
 #include <optional>
 
+#include "files/override_hint.h"
 #include "files/text_file.h"
 #include "files/values.h"
 #include "model/keys.h"
@@ -77,7 +78,10 @@ Source::Source(std::string_view text, std::string_view name, const std::vector<s
         try {
             apply(text_of_one);
         } catch (const toml::parse_error& error) {
-            problems.push_back({"--set " + text_of_one, "the value is not TOML: " + std::string(error.description())});
+            const std::size_t equals = text_of_one.find('=');  // there is one: a value was parsed
+            const std::string hint = override_hint(text_of_one.substr(0, equals), text_of_one.substr(equals + 1));
+            problems.push_back(
+                {"--set " + text_of_one, "the value is not TOML: " + (hint.empty() ? std::string(error.description()) : hint)});
         } catch (const InputError& error) {
             problems.push_back({"--set " + text_of_one, error.problems.front().what});
         }

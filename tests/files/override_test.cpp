@@ -81,6 +81,30 @@ TEST(Override, FaultsNameTheOption) {
     EXPECT_THAT(fault_of({"bad", "worse"}), HasSubstr("--set worse"));
 }
 
+// Numbers as people write them: the message has what to write.
+TEST(Override, HintsForNumbers) {
+    const auto hint = [](const std::string& override_text, const char* remedy) {
+        EXPECT_THAT(fault_of({override_text}), HasSubstr("the value is not TOML: ")) << override_text;
+        EXPECT_THAT(fault_of({override_text}), testing::EndsWith(remedy)) << override_text;
+    };
+    hint("lens.index=.6", "write 0.6");
+    hint("lens.index=-.6", "write -0.6");
+    hint("lens.index=6.", "write 6");
+    hint("lens.index=01.5", "write 1.5");
+    hint("array.pitch_mm=1.866mm", "numbers carry no unit, that of array.pitch_mm is mm; write 1.866");
+    hint("array.pitch_mm=1.866 mm", "write 1.866");
+    hint("array.pitch_mm=1.866cm", "that of array.pitch_mm is mm; write the number in it");
+    hint("content.yaw_deg=90\u00b0", "write 90");
+    hint("lens.index=1.5x", "a number alone is wanted; write 1.5");
+    hint("array.pitch_mm=1,5", "decimals follow a point; write 1.5");
+    hint("array.pitch_mm=1e", "the exponent is missing; write a number such as 1e3");
+    hint("array.pitch_mm=1e+", "the exponent is missing; write a number such as 1e3");
+    hint("array.pitch_mm=\"0.5", "numbers stand without quotes; write 0.5");
+    hint("array.pitch_mm=+-", "give a number such as 12.5 or 1e3");
+    hint("array.count=11, 6", "a list stands in brackets; write [11, 6]");
+    hint("lens.surface.0.conic=.5", "write 0.5");
+}
+
 // A model named in the file lies beside the file, one named on the command line beside its user.
 TEST(Override, ModelPaths) {
     const std::filesystem::path folder = std::filesystem::path(LFDSIM_BINARY_DIR) / "model-paths";
