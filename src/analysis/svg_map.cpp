@@ -12,7 +12,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr double width = 720, bar_width = 18;
+constexpr double width = 600, bar_width = 18;
 
 /// Dark blue over green to light yellow, 0 .. 1: lightness rises evenly, so that the map reads in grey and without colour vision.
 /// Oklab (Ottosson, "A perceptual color space for image processing", 2020) to sRGB.

@@ -9,7 +9,8 @@
 namespace lfdsim {
 namespace {
 
-constexpr double width = 720, row_height = 20, mark_row = 15;
+// Narrow, so that text of 12 pixels is read where a plot is shown 480 pixels wide.
+constexpr double width = 600, row_height = 20, mark_row = 15;
 
 // Colours that colour-blind people tell apart, of middling lightness, so that they show on white and on black; with other dashes
 // for each that follow, and for the same colour again.

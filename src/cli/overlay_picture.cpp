@@ -51,7 +51,7 @@ Image overlay_picture(const Match& match, const Region& screen) {
 Image difference_picture(const Match& match, const Region& screen) {
     const Rect box = screen.bounds();
     const int width = box.x1 - box.x0, height = box.y1 - box.y0;
-    const int scale = std::max(1, width / 320), label = glyph_height * scale + margin / 2;
+    const int scale = readable_scale(width), label = glyph_height * scale + margin / 2;
     Image to(width + 2 * margin, height + 2 * label + 3 * margin);
     std::fill(to.rgb.begin(), to.rgb.end(), background);
     tbb::parallel_for(0, int(screen.rows.size()), [&](int k) {

@@ -1,5 +1,7 @@
 #include "image/font.h"
 
+#include <algorithm>
+
 namespace lfdsim {
 namespace {
 
@@ -27,6 +29,8 @@ std::string_view glyph(unsigned char c) {
 int dots(char digit) { return digit <= '9' ? digit - '0' : digit - 'A' + 10; }
 
 }  // namespace
+
+int readable_scale(int picture_width) { return std::max(1, (picture_width + 479) / 480); }
 
 void draw_text(Image& image, int x, int y, int scale, std::string_view text, float light) {
     for (const char c : text) {

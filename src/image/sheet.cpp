@@ -3,16 +3,45 @@
 #include "image/font.h"
 
 #include <algorithm>
-#include <cmath>
+#include <sstream>
+#include <vector>
 
 namespace lfdsim {
 namespace {
 
 constexpr int margin = 12;
+constexpr std::size_t most_lines = 4;             // of a label
 constexpr float background = 0.012f, ink = 0.6f;  // linear light: a dark grey, and a light one
+
+// A degree sign has two bytes.
+std::size_t letters_of(const std::string& text) {
+    return std::size_t(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
 
 void paste(const Image& from, Image& to, int x, int y) {
     for (int row = 0; row < from.height; ++row) std::copy_n(from.at(0, row), std::size_t(from.width) * 3, to.at(x, y + row));
+}
+
+// In lines of so many letters, broken between words; the first few of them.
+std::vector<std::string> lines_of(const std::string& label, std::size_t letters) {
+    std::vector<std::string> lines;
+    std::istringstream words(label);
+    for (std::string word; words >> word;) {
+        if (!lines.empty() && letters_of(lines.back()) + 1 + letters_of(word) <= letters)
+            lines.back() += " " + word;
+        else
+            lines.push_back(word);
+    }
+    lines.resize(std::min(lines.size(), most_lines));
+    return lines;
+}
+
+// As large as reads well on a sheet of that width, but not so large that a word is wider than a picture.
+int label_scale(std::span<const std::string> labels, int picture_width, int sheet_width) {
+    std::size_t longest = 1;
+    for (const std::string& label : labels)
+        for (const std::string& word : lines_of(label, 1)) longest = std::max(longest, letters_of(word));
+    return std::clamp(picture_width / (glyph_width * int(longest)), 1, readable_scale(sheet_width));
 }
 
 }  // namespace
@@ -22,7 +51,11 @@ Image contact_sheet(std::span<const Image> pictures, std::span<const std::string
     columns = std::clamp(columns, 1, std::max(count, 1));
     int width = 1;
     for (const Image& p : pictures) width = std::max(width, p.width);
-    const int scale = std::max(1, width / 240), label = labels.empty() ? 0 : glyph_height * scale + margin / 2;
+    const int sheet_width = columns * (width + margin) + margin, scale = label_scale(labels, width, sheet_width);
+    const auto letters = std::size_t(width / (glyph_width * scale));
+    std::size_t lines = 0;  // of the longest label
+    for (const std::string& each : labels) lines = std::max(lines, lines_of(each, letters).size());
+    const int label = labels.empty() ? 0 : int(lines) * glyph_height * scale + margin / 2;
     std::vector<int> tops;  // of each row
     int bottom = margin;
     for (int first = 0; first < count; first += columns) {
@@ -31,13 +64,16 @@ Image contact_sheet(std::span<const Image> pictures, std::span<const std::string
         tops.push_back(bottom);
         bottom += label + tallest + margin;
     }
-    Image sheet(columns * (width + margin) + margin, bottom);
+    Image sheet(sheet_width, bottom);
     std::fill(sheet.rgb.begin(), sheet.rgb.end(), background);
     for (int i = 0; i < count; ++i) {
         const int x = margin + i % columns * (width + margin), y = tops[std::size_t(i / columns)];
         if (!labels.empty()) {
-            const auto fitting = std::size_t(width / (glyph_width * scale));
-            draw_text(sheet, x, y, scale, labels[std::size_t(i)].substr(0, fitting), ink);
+            int line_y = y;
+            for (const std::string& line : lines_of(labels[std::size_t(i)], letters)) {
+                draw_text(sheet, x, line_y, scale, line.substr(0, letters), ink);
+                line_y += glyph_height * scale;
+            }
         }
         paste(pictures[std::size_t(i)], sheet, x, y + label);
     }

@@ -1,0 +1,43 @@
+// Contact sheets: labels are whole, and large enough where a sheet is shown 480 pixels wide.
+#include "image/sheet.h"
+
+#include <gtest/gtest.h>
+
+namespace lfdsim {
+namespace {
+
+/// Rows of a sheet with anything of a label's colour in them.
+int inked_rows(const Image& sheet) {
+    int rows = 0;
+    for (int y = 0; y < sheet.height; ++y) {
+        bool ink = false;
+        for (int x = 0; x < sheet.width; ++x) ink = ink || sheet.at(x, y)[0] == 0.6f;
+        rows += ink;
+    }
+    return rows;
+}
+
+TEST(Sheet, LabelsAreReadAt480Pixels) {
+    for (const auto& [count, width] : {std::pair{7, 480}, {2, 406}, {2, 640}, {1, 100}, {3, 2000}}) {
+        const std::vector<Image> pictures(std::size_t(count), Image(width, 4));
+        std::vector<std::string> labels(std::size_t(count), "view, +10.3\xc2\xb0"), cut(labels);
+        cut.back().resize(cut.back().size() - 2);
+        const Image sheet = contact_sheet(pictures, labels, count);
+        EXPECT_GE(inked_rows(sheet) * 480. / sheet.width, 7) << count << " of " << width;  // of ten dots a letter has seven
+        EXPECT_NE(sheet.rgb, contact_sheet(pictures, cut, count).rgb) << "the last letter is cut off: " << count << " of " << width;
+    }
+}
+
+TEST(Sheet, TakesAnyLabel) {
+    const std::vector<Image> pictures(3, Image(20, 10));
+    for (const std::string label :
+         {"", " ", "\n\t", "averyveryverylongwordthatfitsnowhere", "\xc2", "a b c d e f g h i j k l m n o p q r s t u"}) {
+        const Image sheet = contact_sheet(pictures, std::vector<std::string>(3, label), 3);
+        EXPECT_EQ(sheet.width, 3 * 32 + 12);
+        EXPECT_LE(sheet.height, 200) << label;
+    }
+    EXPECT_EQ(contact_sheet(pictures, {}, 2).height, 2 * 10 + 3 * 12);
+}
+
+}  // namespace
+}  // namespace lfdsim
