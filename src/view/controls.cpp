@@ -82,7 +82,8 @@ const T* part(const Display& d) {
 class Lister {
   public:
     Lister(const Display& display, const Display& described)
-        : trial_(display),
+        : lens_(display.lens),
+          trial_(display),
           described_(described),
           geometry_(resolve(described)),
           no_diffuser_(!display.diffuser),
@@ -170,9 +171,17 @@ class Lister {
         constexpr bool whole = std::is_integral_v<Number>;
         const Number value = field;
         control["value"] = json_of(value);
-        const Slider s = slider(path, range, double(value), double(described ? *described : value), whole,
-                                [&](double x) { field = to<Number>(x); });
+        const bool limits = path == "array.pitch_mm";
+        const Slider s = slider(path, range, double(value), double(described ? *described : value), whole, [&](double x) {
+            field = to<Number>(x);
+            if (limits) lower_limited();
+        });
         field = value;
+        if (limits) {
+            trial_.lens = lens_;
+            control["limits"] = Json::object();
+            visit_limited(trial_, [&](const std::string& key, double&) { control["limits"][key] = most_of_pitch; });
+        }
         set_slider(control, s, whole);
         control["form"] = whole ? "integer" : "number";
     }
@@ -236,6 +245,25 @@ class Lister {
 
     void add(Json&, const std::string&, const Range&, std::string&, const std::string*) {}  // content.model, which is left out
 
+    /// Radii that are half the pitch at most. They follow a pitch that becomes smaller, or it could not.
+    template <class Visit>
+    static void visit_limited(Display& d, const Visit& visit) {
+        if (d.array.aperture == Aperture::circle) {
+            if (d.lens.aperture_radius_mm) visit("lens.aperture_radius_mm", *d.lens.aperture_radius_mm);
+            for (std::size_t i = 0; i < d.lens.surfaces.size(); ++i)
+                visit(fmt::format("{}.{}.semi_aperture_mm", surface_table.name, i), d.lens.surfaces[i].semi_aperture_mm);
+        }
+        if (d.lens.stop_radius_mm) visit("lens.stop_radius_mm", *d.lens.stop_radius_mm);
+    }
+    static constexpr double most_of_pitch = 0.5;
+
+    void lower_limited() {
+        trial_.lens = lens_;
+        visit_limited(
+            trial_, [&](const std::string&, double& radius) { radius = std::min(radius, most_of_pitch * trial_.array.pitch_mm); });
+    }
+
+    const Lens lens_;
     Display trial_;
     const Display& described_;
     const Geometry geometry_;

@@ -89,6 +89,9 @@ TEST(Controls, SlidersOfReadyDisplaysGoWhereTheDisplayIsValid) {
             if (c["value"].is_null()) continue;
             for (const char* end : {"low", "high"}) {
                 changed.set = {set(key, c["form"] == "pair" ? Json{c[end], c["value"][1]} : c[end])};
+                for (const auto& [limited, share] : c.value("limits", Json::object()).items())
+                    changed.set.push_back(set(limited, std::min(control(message, limited)["value"].get<double>(),
+                                                                share.get<double>() * c[end].get<double>())));
                 EXPECT_NO_THROW(library.display(changed)) << name << " " << changed.set[0];
             }
         }
@@ -105,7 +108,9 @@ TEST_F(AnswersTest, SlidersEndWhereTheDisplayDoes) {
     EXPECT_EQ(radius["label"], "sphere radius");
     EXPECT_EQ(radius["unit"], "mm");
     EXPECT_EQ(radius["table"], "lens");
-    EXPECT_NEAR(pitch["low"], 5.8, 1.1 * pitch["step"].get<double>());  // 2 r
+    EXPECT_EQ(pitch["low"], pitch["value"].get<double>() / 4);  // r follows
+    EXPECT_EQ(pitch["limits"], (Json{{"lens.aperture_radius_mm", 0.5}}));
+    EXPECT_EQ(control(message, "lens.aperture_radius_mm")["high"], 0.5 * pitch["value"].get<double>());
     EXPECT_TRUE(stop["value"].is_null());
     EXPECT_EQ(stop["absent"], "none");
     EXPECT_EQ(stop["suggested"], 2.9);

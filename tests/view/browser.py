@@ -15,6 +15,7 @@ import time
 from browser_session import HERE, Page, Server
 
 GAP = "#c-array-gap_mm"
+PITCH = "#c-array-pitch_mm"
 
 
 def first_picture(page, server):
@@ -100,6 +101,35 @@ def parameter_takes_effect(page):
     rows = page.run("return [...document.querySelectorAll('.control')].filter((c) => c.offsetParent).length")
     assert 1 <= rows < 6, f"{rows} rows are about an offset"
     page.run("const f = document.getElementById('filter'); f.value = ''; f.dispatchEvent(new Event('input'))")
+
+
+def parameters_do_not_block_each_other(page, real):
+    """What cannot be gives way to the next change; apertures follow a pitch that becomes smaller than them, and come back with it."""
+    before, gap = page.picture(), page.find(GAP).get_attribute("value")
+    page.type(GAP, "-3")
+    page.until("a problem", lambda s: s["problems"])
+    page.find("#stage").send_keys("\ue014")  # right
+    page.until("no problem", lambda s: not s["problems"])
+    page.sharp()
+    assert "array.gap_mm" not in page.state()["set"] and page.find(GAP).get_attribute("value") == gap, "what cannot be stays in the way"
+    assert page.picture()["sum"] != before["sum"], "the eye did not move"
+    page.find("#stage").send_keys("\ue012")
+    if real:
+        pitch = float(page.find(PITCH).get_attribute("value"))
+        slide = ("const s = document.querySelector('.control:has(#c-array-pitch_mm) input[type=range]');"
+                 "s.value = arguments[0]; s.dispatchEvent(new Event('input')); if (arguments[1]) s.dispatchEvent(new Event('change'))")
+        apertures = {key: value for key, value in page.run("return lfdsim.controls()").items() if key.endswith("aperture_mm")}
+        page.run(slide, 0.75 * pitch, False)
+        page.until("a smaller pitch", lambda s: f"array.pitch_mm={0.75 * pitch:g}" in (s["command"] or ""))
+        assert not page.stats()["problems"] and apertures, page.stats()["problems"]
+        assert all(page.state()["set"][key] == f"{0.375 * pitch:g}" for key in apertures), page.state()["set"]
+        assert "follows the pitch" in page.find("#controls").text
+        page.run(slide, pitch, True)
+        page.until("the pitch as before", lambda s: f"array.pitch_mm={pitch:g}" in (s["command"] or ""))
+        assert set(page.state()["set"]) == {"array.pitch_mm"} and "follows" not in page.find("#controls").text, "apertures did not come back"
+    page.run("document.getElementById('reset-all').click()")
+    page.sharp()
+    assert page.picture()["sum"] == before["sum"]
 
 
 def layouts(page):
@@ -271,6 +301,7 @@ def main():
             figures = first_picture(page, server)
             drag_moves_the_picture(page)
             parameter_takes_effect(page)
+            parameters_do_not_block_each_other(page, bool(options.program))
             layouts(page)
             drawings(page)
             files(page, folder)

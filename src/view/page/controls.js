@@ -20,12 +20,19 @@ const value_text = (value) => (value === null ? "" : typeof value === "number" ?
 const toml = (text) => (/^\s*infinite\s*$/i.test(text) ? "inf" : text.trim());
 
 class Control {
-  constructor(data, store, settle) {
-    Object.assign(this, { key: data.key, store, settle, data, held: false });
+  /// `follower(key)`: the control of another key.
+  constructor(data, store, settle, follower) {
+    Object.assign(this, { key: data.key, store, settle, follower, data, held: false });
     const id = "c-" + data.key.replaceAll(".", "-");
     this.error = make("div", { className: "error", id: id + "-error", hidden: true });
+    this.note = make("div", { className: "note", hidden: true });
+    this.before = {};  // what it limits, as it was when the hand came
     this.back = make("button", { className: "back", textContent: "↺", title: "As described", "aria-label": `${data.label}: as described` });
-    this.back.onclick = () => this.store.set(this.key, null);
+    this.back.onclick = () => {
+      const limited = Object.keys(this.data.limits || {}).filter((key) => this.follower(key)?.note.textContent);
+      this.store.set_all({ [this.key]: null, ...Object.fromEntries(limited.map((key) => [key, null])) });
+      for (const key of limited) this.follower(key).tell("");
+    };
     this.fields = make("span", { className: "fields" });
     const many = data.form === "pair" ? 2 : 1;
     this.inputs = Array.from({ length: many }, (_, k) => this.field(k, many));
@@ -36,7 +43,7 @@ class Control {
       make("span", { className: "unit", textContent: data.unit === "degrees" ? "°" : data.unit || "" }), this.back);
     this.sliders = ["word", "list"].includes(data.form) ? [] : this.inputs.map((_, k) => this.slider(k, many));
     if (this.sliders.length) this.row.append(make("span", { className: "sliders" }, ...this.sliders));
-    this.row.append(this.error);
+    this.row.append(this.error, this.note);
     this.words = `${data.key} ${data.label} ${table_name(data.table)} ${data.doc || ""}`.toLowerCase();
   }
   named(k, many) {
@@ -53,7 +60,11 @@ class Control {
     }
     const input = make("input", { type: "text", inputMode: "decimal", autocomplete: "off", "aria-label": this.named(k, many), spellcheck: false });
     input.shown = "";
-    input.onchange = () => this.typed();
+    input.onchange = () => {
+      this.typed();
+      this.before = {};
+    };
+    input.onblur = () => { this.before = {}; };
     input.onkeydown = (event) => {
       const steps = { ArrowUp: 1, ArrowDown: -1 }[event.key], step = this.at("step", k);
       if (!steps || !Number.isFinite(Number(input.value)) || !(step > 0)) return;
@@ -72,6 +83,7 @@ class Control {
     };
     input.onchange = () => {
       this.held = false;
+      this.before = {};
       this.settle();
     };
     return input;
@@ -89,7 +101,25 @@ class Control {
     texts.forEach((text, k) => {
       if (text === "") texts[k] = this.at("suggested", k) ?? texts.find((other) => other !== "");
     });
-    this.store.set(this.key, this.text_of(texts), moving, time);
+    this.store.set_all({ [this.key]: this.text_of(texts), ...this.lowered(Number(texts[0])) }, moving, time);
+    this.tell("");
+  }
+  /// What it limits goes down with it, and up again as far as it was while the same hand moves.
+  lowered(value) {
+    const set = {};
+    for (const [key, share] of Object.entries(this.data.limits || {})) {
+      const other = this.follower(key), most = share * value;
+      if (!other || !(most > 0)) continue;
+      const was = this.before[key] ??= { said: this.store.now.set[key] ?? null, value: Number(other.data.value) };
+      const follows = was.value > most;
+      set[key] = follows ? String(most) : was.said;
+      other.tell(follows ? `follows the ${this.data.label}` : "");
+    }
+    return set;
+  }
+  tell(note) {
+    this.note.hidden = !note;
+    say(this.note, note);
   }
   text_of(values) {
     return this.data.form === "pair" ? `[${values.join(", ")}]` : String(values[0]);
@@ -99,6 +129,7 @@ class Control {
     this.data = data;
     const said = set[this.key];
     this.row.classList.toggle("changed", said !== undefined);
+    if (said === undefined) this.tell("");
     // What was set by hand is shown as it was typed, valid or not.
     const inside = said?.replace(/^\[|\]$/g, ""), typed = data.form === "pair" ? inside?.split(/\s*,\s*/) : [inside];
     const is = data.form === "list" ? [data.value?.map((x) => short(x, 8)).join(", ") ?? ""] : [data.value].flat().map(value_text);
@@ -171,7 +202,7 @@ export class Controls {
   rebuild(controls, shape) {
     this.shape = shape;
     const focused = document.activeElement?.id, open = new Set([...this.place.querySelectorAll("details[open]")].map((d) => d.dataset.table));
-    this.all = new Map(controls.map((data) => [data.key, new Control(data, this.store, this.settle)]));
+    this.all = new Map(controls.map((data) => [data.key, new Control(data, this.store, this.settle, (key) => this.all.get(key))]));
     const diffuser = this.all.get("diffuser");
     if (diffuser) diffuser.inputs[0].onchange = (event) => this.switch_diffuser(event.target.value === "none", this.told);
     const first = make("div", {}), tables = new Map();

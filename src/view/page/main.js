@@ -41,6 +41,7 @@ function say_wish(id, moving) {
   const size = picture.arrange(store.now, most_pixels);
   wanted_size = size;
   if (!connection.send({ ...wish(store.now, size), id, moving })) return false;
+  store.said(id);
   ++stats.sent;
   return true;
 }
@@ -78,11 +79,13 @@ function message(m) {
   } else if (m.type === "resolved") {
     resolved = m;
     problems.right(m.id);
+    store.right(m.id);
     if (!resolving) requestAnimationFrame(show_resolved);  // several may come within one
     resolving = true;
   } else if (m.type === "problems") {
     pacing.answer(m.id);
     problems.told(m);
+    store.wrong(m.id);
   } else if (m.type === "progress") {
     show_progress(m);
   } else if (m.type === "error") {
@@ -241,6 +244,7 @@ buttons();
 /// For tests: what is wanted, and what was seen.
 window.lfdsim = {
   state: () => structuredClone(store.now),
+  controls: () => Object.fromEntries((resolved?.controls ?? []).map((c) => [c.key, c.value])),
   stats: () => structuredClone({
     ...stats, last_ids: Object.fromEntries(lanes_of(store.now).map((lane) => [lane, stats.last_ids[lane] ?? 0])), frames: picture.counts, id: pacing.id, answered: pacing.answered, problems: problems.list, notes: problems.notes, connects: connection.connects,
     malformed: connection.malformed, theory: resolved?.theory ?? null, command: resolved?.command ?? null, poses: path.poses.length,

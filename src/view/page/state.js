@@ -51,16 +51,42 @@ export class Store {
     this.past = [];
     this.future = [];
     this.known = this.now;  // as of the last step
+    this.sent = new Map();  // id: what was wanted
+    this.good = { id: 0, wanted: null };  // the newest that the program has said can be
+    this.bad_id = 0;  // the newest that it has said cannot be
+    this.last_key = null;
   }
   change(parts, moving = false, time = performance.now()) {
-    this.now = { ...this.now, ...parts };
+    this.last_key = null;
+    this.now = { ...this.now, set: this.possible(), ...parts };
     this.changed(moving, time);
   }
-  set(key, value, moving = false, time = performance.now()) {
-    const set = { ...this.now.set };
-    if (value === null) delete set[key];
-    else set[key] = value;
+  /// Parameters by key; null: as described.
+  set_all(values, moving = false, time = performance.now()) {
+    const key = Object.keys(values)[0], set = { ...(key === this.last_key ? this.now.set : this.possible()) };
+    for (const [name, value] of Object.entries(values))
+      if (value === null) delete set[name];
+      else set[name] = value;
     this.change({ set }, moving, time);
+    this.last_key = key;
+  }
+  set(key, value, moving = false, time = performance.now()) {
+    this.set_all({ [key]: value }, moving, time);
+  }
+  /// What cannot be stays until something else is changed; then it is as it last could be, or nothing would be shown any more.
+  possible() {
+    const { wanted } = this.good;
+    return this.bad_id > this.good.id && wanted?.display === this.now.display ? wanted.set : this.now.set;
+  }
+  said(id) {
+    this.sent.set(id, this.now);
+    this.sent.delete(id - 100);
+  }
+  right(id) {
+    if (id > this.good.id && this.sent.has(id)) this.good = { id, wanted: this.sent.get(id) };
+  }
+  wrong(id) {
+    this.bad_id = Math.max(this.bad_id, id);
   }
   /// A step to undo ends here, if anything differs.
   step() {
