@@ -52,7 +52,7 @@ ResultFolder::ResultFolder(fs::path path, Json settings) : path_(std::move(path)
     if (path_.empty()) throw InputError("--output", "the name is empty; give a folder");
     fs::create_directories(path_, error);
     if (!fs::is_directory(path_)) throw InputError(path_.string(), "is not a folder and cannot be made one");
-    detail::check_replaceable(path_ / "report.html");
+    detail::check_replaceable(path_ / report_name);
 }
 
 Json ResultFolder::read(const Measure& measure) const {
@@ -66,11 +66,9 @@ Json ResultFolder::read(const Measure& measure) const {
 }
 
 bool ResultFolder::has(const Measure& measure) const {
-    if (!fs::is_regular_file(path_ / (std::string(measure.name) + ".json"))) return false;
+    if (settings_of(measure) != settings_) return false;
     try {
-        const Json json = read(measure);
-        if (!json.is_object() || json.value("settings", Json()) != settings_) return false;
-        for (const Json& file : json.at("report").at("files")) {
+        for (const Json& file : read(measure).at("report").at("files")) {
             const fs::path name = file.get<std::string>();
             if (name != name.filename() || !fs::is_regular_file(path_ / name)) return false;
         }
@@ -78,6 +76,48 @@ bool ResultFolder::has(const Measure& measure) const {
     } catch (const std::exception&) {
         return false;  // cut off or changed by hand: it is measured again
     }
+}
+
+/// Null: there is nothing, or nothing that a measure leaves.
+Json ResultFolder::settings_of(const Measure& measure) const {
+    if (!fs::is_regular_file(path_ / (std::string(measure.name) + ".json"))) return {};
+    try {
+        const Json json = read(measure);
+        return json.is_object() ? json.value("settings", Json()) : Json();
+    } catch (const std::exception&) {
+        return {};
+    }
+}
+
+std::vector<std::string> ResultFolder::others() const {
+    std::vector<std::string> all;
+    for (const Measure& m : measures()) {
+        const Json theirs = settings_of(m);
+        if (!theirs.is_object() || theirs == settings_) continue;
+        std::vector<std::string> keys;
+        for (const auto& [key, value] : settings_.items())
+            if (theirs.value(key, Json()) != value) keys.push_back(key);
+        all.push_back(fmt::format("{} ({})", m.name, fmt::join(keys, ", ")));
+    }
+    return all;
+}
+
+void ResultFolder::remove_others() const {
+    bool any = false;
+    for (const Measure& m : measures()) {
+        const Json theirs = settings_of(m);
+        if (!theirs.is_object() || theirs == settings_) continue;
+        any = true;
+        std::vector<std::string> names{std::string(m.name) + ".json"};  // first: what has none is incomplete
+        try {
+            for (const Json& file : read(m).at("report").at("files")) names.push_back(file.get<std::string>());
+        } catch (const std::exception&) {  // changed by hand: its other files are not known
+        }
+        for (const fs::path name : names)
+            if (std::error_code error; name == name.filename() && fs::is_regular_file(fs::symlink_status(path_ / name, error)))
+                fs::remove(path_ / name, error);
+    }
+    if (std::error_code error; any) fs::remove(path_ / report_name, error);
 }
 
 Json ResultFolder::write(const Measure& measure, const Result& result, double seconds) const {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace lfdsim {
 
@@ -20,6 +21,10 @@ class ResultFolder {
 
     /// Whether a measure has been finished there with the same settings.
     bool has(const Measure&) const;
+    /// The measures that have been finished there with other settings, each with what differs: "fov (display, model)".
+    std::vector<std::string> others() const;
+    /// Removes their results, and the report.
+    void remove_others() const;
     /// What NAME.json holds. Throws InputError if it cannot be read.
     Json read(const Measure&) const;
     /// Returns what NAME.json then holds. Throws std::runtime_error when writing fails.
@@ -27,7 +32,12 @@ class ResultFolder {
     /// Writes a text file, beside and renamed.
     void write_text(const std::string& name, const std::string& text) const;
 
+    /// The name of the report in a folder of results.
+    static constexpr const char* report_name = "report.html";
+
   private:
+    Json settings_of(const Measure&) const;
+
     std::filesystem::path path_;
     Json settings_;
 };

@@ -8,6 +8,8 @@
 #include "cli/commands.h"
 #include "cli/display_options.h"
 #include "cli/findings_text.h"
+#include "cli/folder_lock.h"
+#include "cli/input_files.h"
 #include "cli/interrupt.h"
 #include "cli/output.h"
 #include "cli/panel_source.h"
@@ -42,6 +44,7 @@ struct Arguments {
             .type_name("DIR")
             .required();
         command.add_flag("--resume", resume, "Leave out what an earlier run with the same settings has finished there");
+        command.add_flag("--replace", replace, "Remove what an earlier run with other settings has left there");
         command.add_option("--angles-deg", angles, "Views of the field of view; default -30,30,1 or wider, as theory expects")
             .type_name("FROM,TO,STEP");
         command.add_option("--depths-mm", depths, "Depths of the model for the depth of field; default 31, a centimetre apart")
@@ -59,7 +62,7 @@ struct Arguments {
     WorkOptions work;
     std::vector<std::string> others;
     std::string output, angles, depths, viewing_distance, eye_distance, wavelength;
-    bool resume = false;
+    bool resume = false, replace = false;
 };
 
 /// "-30,30,1": rising, both ends within low .. high, at most 10000 steps.
@@ -103,7 +106,22 @@ Json ends(const std::vector<double>& values) {
     return {{"from", values.front()}, {"to", values.back()}, {"count", values.size()}};
 }
 
-constexpr const char* report_name = "report.html";
+/// Throws InputError if a file of the folder, by its ending one that measures may write, is one that the command reads.
+void refuse_inputs_in(const std::filesystem::path& folder) {
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+        for (const char* ending : {".json", ".csv", ".svg", ".png", ".html"})
+            if (entry.path().extension() == ending) refuse_input(entry.path());
+}
+
+/// Throws InputError if the folder holds results of other settings, unless they are to be replaced, which are removed then.
+void keep_apart(const ResultFolder& folder, bool replace) {
+    if (replace) return folder.remove_others();
+    if (const std::vector<std::string> others = folder.others(); !others.empty())
+        throw InputError(folder.path().string(),
+                         fmt::format("holds results of other settings: {}; give another folder, or --replace to remove them",
+                                     fmt::join(others, ", ")));
+}
 
 /// What is finished is kept and reported, whatever becomes of the rest.
 struct Run {
@@ -146,7 +164,8 @@ struct Run {
         }
     }
     void report() {
-        if (about.interrupted || has_results(folder)) folder.write_text(report_name, report_html(subject, folder, about));
+        if (about.interrupted || has_results(folder))
+            folder.write_text(ResultFolder::report_name, report_html(subject, folder, about));
     }
 };
 
@@ -186,7 +205,6 @@ Request request_of(const Arguments& args) {
             Display& display = request.displays.emplace_back(args.display.read(path));
             require_panel_memory(display);
             args.model.apply(display);
-            if (display.content.model.empty()) display.content.model = built_in_spheres;
         });
     faults.of([&] { args.work.check(); });
     faults.of([&] { args.device.apply(); });
@@ -224,14 +242,17 @@ Outcome measure(const Arguments& args, const Request& request, const Display& di
     }
     Subject subject(display, std::move(scene), options);
     const std::string description = write_display(display);
+    refuse_inputs_in(place);
+    const FolderLock lock(place);
     const ResultFolder folder(place, Json{{"lfdsim", LFDSIM_VERSION},
                                           {"display", description},
-                                          {"model", stamp(display.content.model)},
+                                          {"model", stamp(model_of(display))},
                                           {"angles_deg", ends(options.angles_deg)},
                                           {"depths_mm", ends(options.depths_mm)},
                                           {"viewing_distance_mm", subject.viewing_distance_mm()},
                                           {"eye_distance_mm", options.eye_distance_mm},
                                           {"wavelength_nm", options.wavelength_nm}});
+    keep_apart(folder, args.replace);
     Run run{subject, folder, {command_line(), description, wanted}};
     run.measure(args.resume, args.work.progress());
     Outcome outcome{folder, Json::object(), run.about.interrupted, run.problems};
@@ -260,6 +281,7 @@ std::vector<std::string> folder_names(const Request& request) {
 /// Each display in a folder of its own, then all of them in one report. What is finished is kept and reported here, too.
 void side_by_side(const Arguments& args, const Request& request) {
     const std::filesystem::path place = args.output;
+    const FolderLock lock(place);
     for (const Measure& m : measures())
         if (std::filesystem::exists(place / (std::string(m.name) + ".json")))
             throw InputError("--output", fmt::format("{} holds the results of one display; give another folder", args.output));
@@ -278,7 +300,7 @@ void side_by_side(const Arguments& args, const Request& request) {
     Json all = differences(measured);
     std::string missing = interrupted ? "The run was interrupted; the same command with --resume goes on." : "";
     for (const Problem& p : problems) missing += fmt::format("{}{}: {}.", missing.empty() ? "" : " ", p.where, p.what);
-    detail::OutputFile file(place / report_name);
+    detail::OutputFile file(place / ResultFolder::report_name);
     const std::string html = side_by_side_html(measured, all, command_line(), missing);
     file.write(html.data(), html.size());
     file.commit();
@@ -292,7 +314,7 @@ void side_by_side(const Arguments& args, const Request& request) {
         return print_json(all);
     }
     print(fmt::format("{}\n{}: the report; of each display by itself: {}\n", table_of_differences(all),
-                      (place / report_name).string(), fmt::join(names, ", ")));
+                      (place / ResultFolder::report_name).string(), fmt::join(names, ", ")));
 }
 
 void run(const Arguments& args) {
@@ -308,7 +330,8 @@ void run(const Arguments& args) {
     if (args.work.json()) return print_json(request.wanted.size() == 1 ? outcome.found.front() : outcome.found);
     std::string text;
     for (const Json& measured : outcome.found) text += table_of(measured);
-    print(fmt::format("{}\n{}: the report; the figures lie beside it\n", text, (outcome.folder.path() / report_name).string()));
+    print(fmt::format("{}\n{}: the report; the figures lie beside it\n", text,
+                      (outcome.folder.path() / ResultFolder::report_name).string()));
 }
 
 }  // namespace

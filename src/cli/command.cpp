@@ -30,7 +30,6 @@ Option Option::allow_extra_args(bool allowed) { return Option(option_->allow_ext
 Option Option::capture_default_str() { return Option(option_->capture_default_str()); }
 std::size_t Option::count() const { return option_->count(); }
 const std::vector<std::string>& Option::results() const { return option_->results(); }
-const std::vector<std::string>& Option::get_lnames() const { return option_->get_lnames(); }
 
 Command Command::add_subcommand(const std::string& name, const std::string& description) {
     return Command(app_->add_subcommand(name, description));
@@ -46,6 +45,12 @@ Option Command::add_option(const std::string& names, std::vector<std::string>& v
 }
 Option Command::add_flag(const std::string& names, bool& variable, const std::string& description) {
     return Option(app_->add_flag(names, variable, description));
+}
+std::string Command::name() const { return app_->get_name(); }
+bool Command::knows(const std::string& option) const { return app_->get_option_no_throw(option) != nullptr; }
+bool Command::given(const std::string& option) const { return knows(option) && app_->count(option) > 0; }
+std::vector<std::string> Command::values(const std::string& option) const {
+    return given(option) ? app_->get_option(option)->results() : std::vector<std::string>();
 }
 void Command::footer(const std::string& text) { app_->footer(text); }
 void Command::callback(std::function<void()> function) { app_->callback(std::move(function)); }

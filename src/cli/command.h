@@ -25,7 +25,6 @@ class Option {
     Option capture_default_str();          // help shows the variable's present value
     std::size_t count() const;             // values given
     const std::vector<std::string>& results() const;
-    const std::vector<std::string>& get_lnames() const;  // without dashes
 
   private:
     CLI::Option* option_ = nullptr;
@@ -41,6 +40,11 @@ class Command {
     Option add_option(const std::string& names, std::string& variable, const std::string& description);
     Option add_option(const std::string& names, std::vector<std::string>& variable, const std::string& description);
     Option add_flag(const std::string& names, bool& variable, const std::string& description);
+    std::string name() const;
+    /// Of an option by its name with dashes: whether the command has it, whether it was given, and with which words.
+    bool knows(const std::string& option) const;
+    bool given(const std::string& option) const;
+    std::vector<std::string> values(const std::string& option) const;
     void footer(const std::string&);
     void callback(std::function<void()>);
 

@@ -3,6 +3,8 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/compare_photo.h"
+#include "cli/effects.h"
+#include "cli/made_for.h"
 #include "cli/output.h"
 #include "image/image_file.h"
 
@@ -13,11 +15,14 @@ namespace lfdsim::cli {
 namespace {
 
 struct Arguments {
+    explicit Arguments(Command of) : command(of) {}
+    Command command;
     std::string a, b, encoding = "srgb", crop;
     bool json = false;
 };
 
 void run(const Arguments& args, const PhotoOptions& photo) {
+    check_effects(args.command);
     if (photo.given()) return photo.run(args.a, args.b, args.encoding, args.crop, args.json);
     // Errors are measured in linear light: code values have to be decoded as they were written.
     const Encoding encoding = word("--encoding", args.encoding, {"srgb", "linear"}) == "srgb" ? Encoding::srgb : Encoding::linear;
@@ -37,6 +42,7 @@ void run(const Arguments& args, const PhotoOptions& photo) {
                                              b.width, b.height, args.a, a.width, a.height));
     std::optional<Rect> region;
     if (!args.crop.empty()) region = rectangle("--crop", args.crop, a.width, a.height);
+    warn_if_other_camera(args.a, args.b);
     const Comparison c = compare(a, b, region);
     if (args.json)
         return print_json(Json{{"ssim", c.ssim},
@@ -61,7 +67,7 @@ void add_compare(Command program) {
     Command command = program.add_subcommand(
         "compare",
         "How alike two pictures are: SSIM, PSNR, RMSE, greatest difference; or a view and a photograph of a real display");
-    const auto args = std::make_shared<Arguments>();
+    const auto args = std::make_shared<Arguments>(command);
     command.add_option("A", args->a, "Picture: .png .exr .npy .jpg").type_name("").required();
     command.add_option("B", args->b, "Picture of the same size; or a photograph: see --corners").type_name("").required();
     command

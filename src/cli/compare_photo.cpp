@@ -102,26 +102,17 @@ PhotoOptions::PhotoOptions(Command command) {
                            "B is a photograph of the display: the outer corners of its lens array there, in pixels from the upper "
                            "left corner of the picture as viewers show it; top left, top right, bottom right, bottom left of the "
                            "screen as its viewer sees it");
-    view_corners_option_ = command.add_option(
+    const Option view_corners = command.add_option(
         "--view-corners", view_corners_, "The same corners in A; default: from the display that a picture made by lfdsim carries");
-    for (Option option : {corners_option_, view_corners_option_}) option.type_name(four).expected(1, 4);
-    fit_corners_option_ = command.add_flag("--fit-corners", fit_corners_,
-                                           "Move each corner by up to 5 pixels of the photograph to where both agree best");
-    fit_blur_option_ = command.add_flag("--fit-blur", fit_blur_, "Blur A by the Gaussian that makes it most like the photograph");
+    for (Option option : {corners_option_, view_corners}) option.type_name(four).expected(1, 4);
+    command.add_flag("--fit-corners", fit_corners_,
+                     "Move each corner by up to 5 pixels of the photograph to where both agree best");
+    command.add_flag("--fit-blur", fit_blur_, "Blur A by the Gaussian that makes it most like the photograph");
     overlay_option_ =
         command.add_option("-o,--overlay", overlay_, "Picture to write: both side by side, as a checkerboard and half of each");
     difference_option_ =
         command.add_option("--difference", difference_, "Picture to write: where the photograph is brighter or darker");
     for (Option option : {overlay_option_, difference_option_}) option.type_name("FILE");
-}
-
-bool PhotoOptions::given() const {
-    if (corners_option_.count() > 0) return true;
-    for (const Option& option : {view_corners_option_, fit_corners_option_, fit_blur_option_, overlay_option_, difference_option_})
-        if (option.count() > 0)
-            throw InputError("--" + option.get_lnames().front(),
-                             "is for a photograph of a display; give the corners of the screen in it: --corners");
-    return false;
 }
 
 void PhotoOptions::run(const std::string& view_path, const std::string& photo_path, const std::string& encoding_name,
@@ -135,10 +126,12 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
     });
     faults.of([&] { corners = read_corners("--corners", corners_); });
     if (!view_corners_.empty()) faults.of([&] { view_corners = read_corners("--view-corners", view_corners_); });
-    if (difference_option_.count() > 0) faults.of([&] { check_output(difference_, "--difference"); });
-    if (overlay_option_.count() > 0) faults.of([&] { check_output(overlay_, "--overlay"); });
     faults.of([&] { check_input("A", view_path); });
     faults.of([&] { check_input("B", photo_path); });
+    if (difference_option_.count() > 0) faults.of([&] { check_output(difference_, "--difference"); });
+    if (overlay_option_.count() > 0) faults.of([&] { check_output(overlay_, "--overlay"); });
+    if (overlay_option_.count() > 0 && overlay_ == difference_)
+        faults.of([] { throw InputError("--overlay, --difference", "are two pictures of one name; give two names"); });
     faults.report();
     faults.of([&] {
         view = read_image(view_path, Encoding::srgb);

@@ -12,8 +12,7 @@ class PhotoOptions {
   public:
     explicit PhotoOptions(Command command);
 
-    /// Whether --corners is given. Throws InputError if another option is given without it.
-    bool given() const;
+    bool given() const { return corners_option_.count() > 0; }
 
     /// Compares and prints. `encoding`, of the photograph, and `crop`, of the view, are what the command's other options say.
     void run(const std::string& view, const std::string& photograph, const std::string& encoding, const std::string& crop,
@@ -23,7 +22,7 @@ class PhotoOptions {
     std::vector<std::string> corners_, view_corners_;
     std::string overlay_, difference_;
     bool fit_blur_ = false, fit_corners_ = false;
-    Option corners_option_, view_corners_option_, fit_corners_option_, fit_blur_option_, overlay_option_, difference_option_;
+    Option corners_option_, overlay_option_, difference_option_;
 };
 
 }  // namespace lfdsim::cli

@@ -1,6 +1,7 @@
 #include "cli/display_options.h"
 
 #include "cli/arguments.h"
+#include "cli/input_files.h"
 #include "files/display_file.h"
 
 #include <fmt/format.h>
@@ -81,11 +82,6 @@ DisplayOptions::DisplayOptions(Command command, std::initializer_list<std::span<
             options_.emplace_back(&option, command.add_option(option.option, option.help).type_name(option.value));
 }
 
-bool DisplayOptions::given(std::string_view option) const {
-    return std::any_of(options_.begin(), options_.end(),
-                       [&](const auto& each) { return each.first->option == option && each.second.count() > 0; });
-}
-
 // Options become overrides of the description, so that one validation judges file, --set and options together.
 std::pair<std::vector<std::string>, std::map<std::string, std::string>> DisplayOptions::all_overrides(Faults& faults) const {
     std::vector<std::string> overrides = settings_;
@@ -110,6 +106,7 @@ std::vector<std::string> DisplayOptions::overrides() const {
 
 Display DisplayOptions::read(const std::string& path) const {
     if (path.empty()) throw InputError("DISPLAY.toml", "the name is empty; give the description of a display");
+    remember_input("the description", path);
     Faults faults;
     const auto [overrides, written] = all_overrides(faults);
     Display display;

@@ -2,6 +2,8 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/display_options.h"
+#include "cli/effects.h"
+#include "cli/made_for.h"
 #include "cli/panel_source.h"
 #include "cli/work_options.h"
 
@@ -12,12 +14,14 @@ namespace lfdsim::cli {
 namespace {
 
 struct Arguments {
-    explicit Arguments(Command command)
-        : display(command, {content_options}),
+    explicit Arguments(Command of)
+        : command(of),
+          display(command, {content_options}),
           model(command),
           pattern(command),
           output(command, ".png with the panel's encoding, or linear .exr .npy"),
           work(command) {}
+    Command command;
     DisplayOptions display;
     ModelOption model;
     PatternOption pattern;
@@ -36,12 +40,11 @@ void run(const Arguments& args) {
                        picture_bytes(columns, rows));
     });
     faults.of([&] { pattern_options = args.pattern.read(); });
+    faults.of([&] { args.model.apply(display); });
     faults.of([&] { args.work.check(); });
     faults.of([&] { args.output.check(); });
-    if (args.pattern.given() && args.model.given())
-        faults.of([] { throw InputError("--pattern", "cannot be shown together with --model; give one of them"); });
+    faults.of([&] { check_effects(args.command); });
     faults.report();
-    args.model.apply(display);
 
     const Geometry geometry = resolve(display);
     Picture picture;
@@ -52,8 +55,9 @@ void run(const Arguments& args) {
         const Scene scene = load_scene(display, geometry);
         picture = elemental_images(display, geometry, scene, args.work.threads(), progress);
     }
-    args.output.write(picture.image, display.panel.encoding, display, {{"seconds", fmt::format("{:.3f}", picture.seconds)}},
-                      picture.complete, progress);
+    Metadata about{{"seconds", fmt::format("{:.3f}", picture.seconds)}};
+    if (args.pattern.given()) about[pattern_mark] = args.pattern.name();
+    args.output.write(picture.image, display.panel.encoding, display, std::move(about), picture.complete, progress);
     print_made(Made{args.output.path(), picture.image.width, picture.image.height, "rays", picture.rays, picture.seconds},
                args.work.json());
 }

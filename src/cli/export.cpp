@@ -2,6 +2,8 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/display_options.h"
+#include "cli/effects.h"
+#include "cli/input_files.h"
 #include "cli/interrupt.h"
 #include "cli/shown_panel.h"
 #include "cli/work_options.h"
@@ -21,8 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-    explicit Arguments(Command command)
-        : peer_option(
+    explicit Arguments(Command of)
+        : command(of),
+          peer_option(
               command.add_option("PEER", peer, "For which program: pov (POV-Ray 3.7), cycles (Blender), mitsuba (Mitsuba 3)")
                   .type_name("pov|cycles|mitsuba")
                   .required()),
@@ -41,6 +44,7 @@ struct Arguments {
             .add_option("--normals", normals, "Of the triangles: as they lie, or the true surface's at their corners; default flat")
             .type_name("flat|smooth");
     }
+    Command command;
     std::string peer, folder, triangles, normals;
     Option peer_option;
     DisplayOptions display;
@@ -114,23 +118,25 @@ void run(const Arguments& args) {
     faults.of([&] { args.panel_image.check(); });
     faults.of([&] { pattern_options = args.pattern.read(); });
     faults.of([&] { options = options_of(args); });
+    faults.of([&] { args.model.apply(display); });
     faults.of([&] { args.work.check(); });
     faults.of([&] { check_folder(args.folder); });
-    if (args.panel_image.given() + args.model.given() + args.pattern.given() > 1)
-        faults.of([] { throw InputError("--panel-image, --model, --pattern", "the panel shows one thing; give one of them"); });
+    faults.of([&] { check_effects(args.command); });
     faults.report();
-    args.model.apply(display);
 
     const Geometry geometry = resolve(display);
     if (std::vector<Problem> problems = not_expressed(peer, display, geometry, options); !problems.empty())
         throw InputError(std::move(problems));
     Progress progress(args.work.progress());
+    const fs::path folder = args.folder;
+    PeerScene scene = peer_scene(peer, display, geometry, options);
+    Json files = Json::array({scene.panel_file, "display.toml", "README.txt"});
+    for (const PeerFile& file : scene.files) files.push_back(file.name);
+    for (const std::string file : files) refuse_input(folder / file);
     const PanelLight panel =
         shown_panel(args.panel_image, args.pattern, display, geometry, pattern_options, args.work.threads(), progress);
-    PeerScene scene = peer_scene(peer, display, geometry, options);
     if (const auto deviation = panel_deviation(scene, panel.texels)) scene.deviations.push_back(*deviation);
 
-    const fs::path folder = args.folder;
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) throw InputError(args.folder, fmt::format("cannot be made: {}", error.message()));
@@ -138,11 +144,7 @@ void run(const Arguments& args) {
     guard_output(folder / scene.panel_file);
     write_image(folder / scene.panel_file, picture_of(panel.texels), {16, Encoding::linear, {}, {}}, &progress);
     progress.end();
-    Json files = Json::array({scene.panel_file, "display.toml", "README.txt"});
-    for (const PeerFile& file : scene.files) {
-        write_file(folder / file.name, file.bytes);
-        files.push_back(file.name);
-    }
+    for (const PeerFile& file : scene.files) write_file(folder / file.name, file.bytes);
     scene.shown.content.model.clear();
     write_file(folder / "display.toml", write_display(scene.shown));
     write_file(folder / "README.txt", readme(scene, lfdsims));

@@ -1,5 +1,7 @@
 #include "cli/interrupt.h"
 
+#include "cli/input_files.h"
+
 #include <fmt/format.h>
 #include <unistd.h>
 #include <atomic>
@@ -37,6 +39,7 @@ void catch_signals() {
 }
 
 void guard_output(const std::filesystem::path& path) {
+    refuse_input(path);
     static std::string text;
     partial_file = nullptr;
     text = fmt::format("{}.partial-{}", path.string(), getpid());  // the name that write_image() uses

@@ -12,7 +12,8 @@ struct Interrupted {};
 /// From now on a signal ends the program at once with exit code 130, its partial file removed.
 void catch_signals();
 
-/// Where an image will be written: a signal that ends the program removes what is partly written beside it.
+/// Where a file will be written: a signal that ends the program removes what is partly written beside it. Throws InputError if the
+/// command reads that very file.
 void guard_output(const std::filesystem::path&);
 
 /// While one of these lives, the first signal only makes interrupted() true, so that the work can end in order; the second ends

@@ -13,10 +13,10 @@ LensMeshOptions::LensMeshOptions(Command command)
                   .add_option("--lens-mesh", triangles_,
                               "Lenses of about so many triangles each in place of their true surfaces, as other renderers have "
                               "them (docs/meshed.md); point samples, surround opaque")
-                  .type_name("TRIANGLES")),
-      normals_option_(
-          command.add_option("--lens-normals", normals_, "The triangles' own, or the true surface's, interpolated; default flat")
-              .type_name("flat|smooth")) {}
+                  .type_name("TRIANGLES")) {
+    command.add_option("--lens-normals", normals_, "The triangles' own, or the true surface's, interpolated; default flat")
+        .type_name("flat|smooth");
+}
 
 std::int64_t LensMeshOptions::triangles() const {
     return whole_number("--lens-mesh", triangles_, least_lens_triangles, most_lens_triangles);
@@ -25,8 +25,6 @@ std::int64_t LensMeshOptions::triangles() const {
 void LensMeshOptions::check() const {
     Faults faults;
     if (given()) faults.of([&] { triangles(); });
-    if (!given() && normals_option_.count() > 0)
-        faults.of([] { throw InputError("--lens-normals", "are those of --lens-mesh, which is not given"); });
     faults.of([&] { word("--lens-normals", normals_, {"flat", "smooth"}); });
     faults.report();
 }

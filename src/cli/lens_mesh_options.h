@@ -26,7 +26,7 @@ class LensMeshOptions {
     std::int64_t triangles() const;
 
     std::string triangles_, normals_ = "flat";
-    Option option_, normals_option_;
+    Option option_;
 };
 
 }  // namespace lfdsim::cli

@@ -1,6 +1,7 @@
 #include "cli/output.h"
 
 #include "cli/arguments.h"
+#include "cli/input_files.h"
 #include "cli/interrupt.h"
 #include "files/display_file.h"
 #include "files/shell.h"
@@ -43,6 +44,7 @@ void print_json(const Json& json) { print(json.dump(2, ' ', false, Json::error_h
 
 void check_input(const std::string& argument, const std::string& path) {
     if (path.empty()) throw InputError(argument, "the name is empty; give the file to read");
+    remember_input(argument, path);
 }
 
 void check_output(const std::string& path, const std::string& option) {
@@ -85,6 +87,7 @@ void OutputOptions::write(const Image& image, Encoding encoding, const Display& 
 
 void OutputOptions::save(const std::filesystem::path& path, const Image& image, Encoding encoding, const Display& display,
                          Metadata about, std::vector<ImageLayer> layers, Job* job) const {
+    guard_output(path);
     about["Software"] = software;
     about["command"] = command_line();
     about["display"] = write_display(display);

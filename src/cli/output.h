@@ -29,11 +29,12 @@ inline constexpr const char* software = "lfdsim " LFDSIM_VERSION;
 /// The key of a picture's metadata that says that it is not complete.
 inline constexpr const char* incomplete_mark = "incomplete";
 
-/// Throws InputError that names the argument if no file is named.
+/// Remembers the file that an argument names as one that no output may replace. Throws InputError that names the argument if no
+/// file is named.
 void check_input(const std::string& argument, const std::string& path);
 
-/// To be called before long work. From here on a signal removes what is partly written. Throws InputError unless a picture can be
-/// written at `path`, which the option gave.
+/// To be called before long work, and after the inputs are known. From here on a signal removes what is partly written. Throws
+/// InputError unless a picture can be written at `path`, which the option gave, without replacing an input.
 void check_output(const std::string& path, const std::string& option = "--output");
 
 /// -o and --bits.

@@ -1,6 +1,8 @@
 #include "cli/panel_source.h"
 
 #include "cli/arguments.h"
+#include "cli/input_files.h"
+#include "cli/made_for.h"
 #include "cli/output.h"
 #include "image/image_file.h"
 
@@ -16,30 +18,41 @@ void PanelImageOption::check() const {
     if (given()) check_input("--panel-image", path_);
 }
 
-PanelImageOption::Read PanelImageOption::read(const Panel& panel, Job& job) const {
-    const bool incomplete = read_metadata(path_).count(incomplete_mark) > 0;
+bool PanelImageOption::warn(const Display& display) const {
+    const Metadata about = read_metadata(path_);
+    const bool incomplete = about.count(incomplete_mark) > 0;
     if (incomplete)
         spdlog::warn("{}: is marked incomplete: the run that made it was interrupted, and what it had not done is black", path_);
+    warn_if_for_another(path_, about, display);
+    return incomplete;
+}
+
+PanelImageOption::Read PanelImageOption::read(const Display& display, Job& job) const {
+    const Panel& panel = display.panel;
+    const bool incomplete = warn(display);
     return {read_panel_image(path_, panel.encoding, panel.pixels[0], panel.pixels[1], &job), incomplete};
 }
 
 ModelOption::ModelOption(Command command)
     : option_(command
-                  .add_option(
-                      "--model", path_,
-                      "Mesh file to show (any format Assimp reads), or built-in:spheres; default: the description's content.model")
+                  .add_option("--model", path_,
+                              "Mesh file to show (any format Assimp reads), or built-in:spheres; default: the description's "
+                              "content.model, or the "
+                              "spheres where it has none")
                   .type_name("FILE")) {}
 
 void ModelOption::apply(Display& display) const {
-    if (given()) display.content.model = path_;
+    remember_input("the model", display.content.model);
+    if (!given()) return;
+    if (path_.empty()) throw InputError("--model", "the name is empty; give a mesh file or built-in:spheres");
+    remember_input("the model", path_);
+    display.content.model = path_;
 }
 
 Scene load_scene(const Display& display, const Geometry& geometry) {
-    if (display.content.model.empty())
-        throw InputError("--model",
-                         "there is nothing to show; give a mesh file or built-in:spheres, or set content.model in the description");
-    const std::shared_ptr<const Model> model = load_model(display.content.model);
-    for (const std::string& note : info(*model).notes) spdlog::warn("{}: {}", display.content.model, note);
+    const std::string name = model_of(display);
+    const std::shared_ptr<const Model> model = load_model(name);
+    for (const std::string& note : info(*model).notes) spdlog::warn("{}: {}", name, note);
     return Scene(model, display, geometry);
 }
 
@@ -64,22 +77,19 @@ PatternOptions PatternOption::read() const {
     PatternOptions options;
     Faults faults;
     if (given()) faults.of([&] { word("--pattern", name_, pattern_names()); });
-    const auto value = [&](const char* option, const std::string& text, const char* pattern, auto parse) {
-        if (text.empty()) return;
-        if (name_ != pattern) faults.of([&] { throw InputError(option, fmt::format("is for --pattern {} alone", pattern)); });
-        faults.of(parse);
+    const auto value = [&](const std::string& text, auto parse) {
+        if (!text.empty()) faults.of(parse);
     };
-    value("--cell-pixels", cell_, "checkerboard",
-          [&] { options.cell_pixels = int(whole_number("--cell-pixels", cell_, 1, 1 << 30)); });
-    value("--view", view_, "view", [&] {
+    value(cell_, [&] { options.cell_pixels = int(whole_number("--cell-pixels", cell_, 1, 1 << 30)); });
+    value(view_, [&] {
         const std::vector<double> xy = numbers("--view", view_, 2);
         options.view_x = xy[0];
         options.view_y = xy[1];
         if (std::max(std::abs(xy[0]), std::abs(xy[1])) > 0.5)
             throw InputError("--view", fmt::format("\"{}\" is not possible; both are -0.5 to 0.5 of the elemental image", view_));
     });
-    value("--edge-deg", edge_, "edge", [&] { options.edge_deg = number("--edge-deg", edge_); });
-    value("--edge-depth-mm", depth_, "edge", [&] { options.depth_mm = number("--edge-depth-mm", depth_); });
+    value(edge_, [&] { options.edge_deg = number("--edge-deg", edge_); });
+    value(depth_, [&] { options.depth_mm = number("--edge-depth-mm", depth_); });
     faults.report();
     return options;
 }

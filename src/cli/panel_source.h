@@ -20,12 +20,15 @@ class PanelImageOption {
     /// Throws InputError if it is given without a name.
     void check() const;
     const std::string& path() const { return path_; }
-    /// Says on standard error if the image is marked as that of an interrupted run. Throws InputError.
+    /// Says on standard error if the image is marked as that of an interrupted run, and so returns true, or if it was made for
+    /// another display. Throws InputError.
+    bool warn(const Display&) const;
     struct Read {
         Texels texels;
         bool incomplete;
     };
-    Read read(const Panel&, Job&) const;
+    /// Warns, too. Throws InputError.
+    Read read(const Display&, Job&) const;
 
   private:
     std::string path_;
@@ -37,7 +40,8 @@ class ModelOption {
   public:
     explicit ModelOption(Command command);
     bool given() const { return option_.count() > 0; }
-    /// Puts the option's file, if there is one, into the display.
+    /// Puts the option's file, if it is given, which no output may replace, into the display. Throws InputError if it is given
+    /// without a name.
     void apply(Display&) const;
     const std::string& path() const { return path_; }
 
@@ -57,7 +61,7 @@ class PatternOption {
   public:
     explicit PatternOption(Command command);
     bool given() const { return option_.count() > 0; }
-    /// Reads the values strictly. Throws InputError for those that are wrong or belong to no chosen pattern.
+    /// Reads the values strictly. Throws InputError for those that are wrong.
     PatternOptions read() const;
     const std::string& name() const { return name_; }
 

@@ -43,10 +43,10 @@ void run(const Arguments& args) {
         crop = args.crop.read(display.camera, 0);
         refuse_idle_samples(args, display.camera);
     });
+    faults.of([&] { args.model.apply(display); });
     faults.of([&] { args.work.check(); });
     faults.of([&] { args.output.check(); });
     faults.report();
-    args.model.apply(display);
 
     const Geometry geometry = resolve(display);
     const Scene scene = load_scene(display, geometry);

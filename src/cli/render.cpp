@@ -4,6 +4,7 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/display_options.h"
+#include "cli/effects.h"
 #include "cli/lens_mesh_options.h"
 #include "cli/panel_source.h"
 #include "cli/render_path.h"
@@ -11,6 +12,7 @@
 #include "cli/shown_panel.h"
 #include "cli/work_options.h"
 #include "engine/devices.h"
+#include "engine/scene.h"
 #include "model/keys.h"
 
 #include <fmt/format.h>
@@ -21,8 +23,9 @@ namespace lfdsim::cli {
 namespace {
 
 struct Arguments {
-    explicit Arguments(Command command)
-        : display(command, {camera_options, sample_options, content_options}),
+    explicit Arguments(Command of)
+        : command(of),
+          display(command, {camera_options, sample_options, content_options}),
           panel_image(command),
           model(command),
           pattern(command),
@@ -42,6 +45,7 @@ struct Arguments {
                 "a layer \"error\"")
             .type_name("E");
     }
+    Command command;
     DisplayOptions display;
     PanelImageOption panel_image;
     ModelOption model;
@@ -56,11 +60,14 @@ struct Arguments {
 };
 
 void render_frames(const Arguments& args, const Display& display, const CameraPath& path, const RenderOptions& options,
-                   const PanelLight& panel, Progress& progress) {
-    const std::string shown = args.panel_image.given() ? args.panel_image.path()
-                              : args.pattern.given()   ? ""
-                                                       : display.content.model;
-    PathMade made = render_path({args.path, args.output, path, display, options, stamp(shown).dump()}, panel.texels, progress);
+                   const std::function<PanelLight()>& light, Progress& progress) {
+    const std::string shown = args.panel_image.given() ? args.panel_image.path() : args.pattern.given() ? "" : model_of(display);
+    PanelLight panel;
+    const auto texels = [&]() -> const Texels& {
+        panel = light();
+        return panel.texels;
+    };
+    PathMade made = render_path({args.path, args.output, path, display, options, stamp(shown).dump()}, texels, progress);
     const auto [columns, rows] = display.camera.resolution;
     made.more.update({{"frames", made.frames}, {"rendered", made.rendered}});
     made.more.update(panel.made);
@@ -72,11 +79,6 @@ void render_frames(const Arguments& args, const Display& display, const CameraPa
                made.more);
 }
 
-InputError not_with_lens_mesh(const std::string& option) {
-    return {fmt::format("--lens-mesh, {}", option),
-            "lenses of triangles are traced sample by sample, in one way, for one picture; give one of them"};
-}
-
 void run(const Arguments& args) {
     Faults faults;
     Display display;
@@ -86,8 +88,8 @@ void run(const Arguments& args) {
         display = args.display.read();
         crop = args.crop.read(display.camera, texel_bytes(display));
         if (!args.panel_image.given()) require_panel_memory(display);
-        if (args.lens_mesh.given() && args.display.given("--estimator") && display.render.estimator == Estimator::filtered)
-            throw not_with_lens_mesh("--estimator filtered");
+        if (args.command.given("--sampling") && !args.lens_mesh.given() && estimator_of(display) == Estimator::filtered)
+            throw InputError("--sampling", "is that of points; give --estimator point, too");
     });
     faults.of([&] { args.panel_image.check(); });
     faults.of([&] { pattern_options = args.pattern.read(); });
@@ -101,6 +103,7 @@ void run(const Arguments& args) {
         target = number("--target-error", args.target_error);
         if (*target <= 0) throw InputError("--target-error", fmt::format("is {}, allowed is more than 0", args.target_error));
     });
+    faults.of([&] { args.model.apply(display); });
     faults.of([&] { args.work.check(); });
     std::optional<CameraPath> path;
     faults.of([&] { args.path.check(args.output); });
@@ -108,29 +111,20 @@ void run(const Arguments& args) {
         faults.of([&] { path = args.path.read(); });
     else
         faults.of([&] { args.output.check(); });
-    if (path && args.display.given("--camera-mm"))
-        faults.of([] { throw InputError("--camera-mm, --path", "the camera stands in one place or on a path; give one of them"); });
     faults.of([&] { args.lens_mesh.check(); });
-    if (args.lens_mesh.given()) {
-        for (const auto& [given, option] : {std::pair{!args.target_error.empty(), "--target-error"},
-                                            {args.path.given(), "--path"},
-                                            {args.device.names_gpu(), "--device cuda"},
-                                            {!args.kernel.empty(), "--kernel"}})
-            if (given) faults.of([name = option] { throw not_with_lens_mesh(name); });
-    }
-    if (args.panel_image.given() + args.model.given() + args.pattern.given() > 1)
-        faults.of([] { throw InputError("--panel-image, --model, --pattern", "the panel shows one thing; give one of them"); });
+    faults.of([&] { check_effects(args.command); });
     faults.report();
-    args.model.apply(display);
     if (path) args.path.check(*path, display);
 
     const Geometry geometry = resolve(display);
     Progress progress(args.work.progress());
     const std::optional<MeshedLens> lens = args.lens_mesh.lens(display, geometry);
-    const PanelLight panel =
-        shown_panel(args.panel_image, args.pattern, display, geometry, pattern_options, args.work.threads(), progress);
+    const auto light = [&] {
+        return shown_panel(args.panel_image, args.pattern, display, geometry, pattern_options, args.work.threads(), progress);
+    };
     const RenderOptions options{args.work.threads(), args.kernel, crop, target};
-    if (path) return render_frames(args, display, *path, options, panel, progress);
+    if (path) return render_frames(args, display, *path, options, light, progress);
+    const PanelLight panel = light();
     Rendering r = lens ? render_meshed(display, geometry, panel.texels, *lens, options, progress)
                        : render(display, geometry, panel.texels, options, progress);
     Rendered facts = rendered(r, target, keeps_layers(args.output.path()));

@@ -1,6 +1,8 @@
 #include "cli/render_path.h"
 
 #include "cli/arguments.h"
+#include "cli/folder_lock.h"
+#include "cli/input_files.h"
 #include "cli/interrupt.h"
 #include "cli/rendered.h"
 #include "engine/ahead.h"
@@ -11,6 +13,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <algorithm>
+#include <charconv>
 
 namespace lfdsim::cli {
 namespace {
@@ -33,18 +36,24 @@ Display at_frame(const CameraPath& path, std::int64_t frame, Display display) {
     return display;
 }
 
-// Without the option that alone may differ between a run and the one that goes on with it.
+// Without the options that alone may differ between a run and the one that goes on with it.
 std::string resumed(std::string command) {
-    constexpr std::string_view option = " --resume";
-    for (std::size_t i = 0; (i = command.find(option, i)) != command.npos;)
-        if (const std::size_t end = i + option.size(); end == command.size() || command[end] == ' ')
-            command.erase(i, option.size());
-        else
-            i = end;
+    for (const std::string_view option : {" --resume", " --replace"})
+        for (std::size_t i = 0; (i = command.find(option, i)) != command.npos;)
+            if (const std::size_t end = i + option.size(); end == command.size() || command[end] == ' ')
+                command.erase(i, option.size());
+            else
+                i = end;
     return command;
 }
 
-// Whether the same command has made that frame of the same things.
+bool named_as_frame(const fs::path& file) {
+    const std::string name = file.stem(), kind = file.extension();
+    const bool number = name.size() >= 4 && name.find_first_not_of("0123456789") == name.npos;
+    return number && (kind == ".png" || kind == ".exr" || kind == ".npy");
+}
+
+// Whether the same command, but for what it does with frames that are there, has made that frame of the same things.
 bool finished(const fs::path& file, const Display& display, const std::string& shown) {
     if (!fs::is_regular_file(file)) return false;
     try {
@@ -56,20 +65,62 @@ bool finished(const fs::path& file, const Display& display, const std::string& s
     }
 }
 
+enum class Maker { nobody, lfdsim, other };
+
+// Of a picture; one that is cut off is nobody's, and an .npy does not say.
+Maker maker_of(const fs::path& file) {
+    try {
+        Metadata about = read_metadata(file);
+        return file.extension() == ".npy" || about["Software"].starts_with("lfdsim ") ? Maker::lfdsim : Maker::other;
+    } catch (const InputError&) {
+        return Maker::nobody;
+    }
+}
+
+// Pictures in the folder, named as frames are, that this run would not make so: of another display, path or command.
+std::vector<fs::path> others(const PathWork& w, std::int64_t frames) {
+    std::vector<fs::path> all;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(w.output.path(), none)) {
+        const fs::path& file = entry.path();
+        if (!named_as_frame(file) || maker_of(file) == Maker::nobody) continue;
+        std::int64_t k = -1;
+        const std::string number = file.stem();
+        std::from_chars(number.data(), number.data() + number.size(), k);
+        const bool ours = 0 <= k && k < frames && file == w.options.file(w.output, k, frames) &&
+                          finished(file, at_frame(w.path, k, w.display), w.shown);
+        if (!ours) all.push_back(file);
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+// Removes them if they are to be replaced, else throws InputError.
+void keep_apart(const PathWork& w, std::int64_t frames) {
+    const std::vector<fs::path> found = others(w, frames);
+    if (!found.empty() && !w.options.replace())
+        throw InputError(w.output.path(),
+                         fmt::format("holds {} pictures that another command or other files have made, such as {}; give another "
+                                     "folder, or --replace to remove them",
+                                     found.size(), found.front().filename().string()));
+    for (const fs::path& file : found)
+        if (maker_of(file) == Maker::other)
+            throw InputError(file.string(), "is a picture that lfdsim has not made; give another folder for frames");
+    for (const fs::path& file : found) fs::remove(file);
+}
+
 }  // namespace
 
 PathOptions::PathOptions(Command command)
     : option_(command.add_option("--path", path_, "Camera path (docs/path.md): a picture for each of its frames, in the folder -o")
-                  .type_name("FILE")),
-      kind_option_(command.add_option("--frames-as", kind_, "Kind of a path's pictures; default png").type_name("png|exr|npy")),
-      resume_option_(
-          command.add_flag("--resume", resume_, "Leave out frames that the same command has made there of the same files")) {}
+                  .type_name("FILE")) {
+    command.add_option("--frames-as", kind_, "Kind of a path's pictures; default png").type_name("png|exr|npy");
+    command.add_flag("--resume", resume_, "Leave out frames that the same command has made there of the same files");
+    command.add_flag("--replace", replace_, "Remove frames there that another command has made, or the same of other files");
+}
 
 void PathOptions::check(const OutputOptions& output) const {
     Faults faults;
-    for (const Option& option : {kind_option_, resume_option_})
-        if (!given() && option.count() > 0)
-            faults.of([&] { throw InputError("--" + option.get_lnames().front(), "is for frames of a --path alone"); });
     if (given()) {
         faults.of([&] { word("--frames-as", kind_, {"png", "exr", "npy"}); });
         faults.of([&] { output.check_bits("frame." + kind_); });
@@ -87,6 +138,7 @@ void PathOptions::check(const OutputOptions& output) const {
 
 CameraPath PathOptions::read() const {
     if (path_.empty()) throw InputError("--path", "the name is empty; give a camera path");
+    remember_input("the camera path", path_);
     return read_path(path_);
 }
 
@@ -113,20 +165,21 @@ fs::path PathOptions::file(const OutputOptions& output, std::int64_t frame, std:
     return fs::path(output.path()) / fmt::format("{:0{}}.{}", frame, digits, kind_);
 }
 
-PathMade render_path(const PathWork& w, const Texels& panel, Progress& progress) {
+PathMade render_path(const PathWork& w, const std::function<const Texels&()>& panel, Progress& progress) {
     PathMade made;
     made.frames = w.path.frames();
-    std::error_code error;
-    fs::create_directories(w.output.path(), error);
-    if (!fs::is_directory(w.output.path())) throw InputError(w.output.path(), "is not a folder and cannot be made one");
+    const FolderLock lock(w.output.path());
     check_output(w.options.file(w.output, 0, made.frames));
+    for (std::int64_t k = 0; k < made.frames; ++k) refuse_input(w.options.file(w.output, k, made.frames));
+
+    keep_apart(w, made.frames);
 
     std::vector<std::int64_t> left;
     for (std::int64_t k = 0; k < made.frames; ++k)
         if (!w.options.resume() || !finished(w.options.file(w.output, k, made.frames), at_frame(w.path, k, w.display), w.shown))
             left.push_back(k);
     if (left.empty()) return made;
-    const Pyramid pyramid(panel, w.rendering.threads);
+    const Pyramid pyramid(panel(), w.rendering.threads);
     const auto [columns, rows] = w.display.camera.resolution;
     const std::optional<Rect>& crop = w.rendering.crop;
     progress.stage("rendering",
@@ -142,7 +195,6 @@ PathMade render_path(const PathWork& w, const Texels& panel, Progress& progress)
         const fs::path file = w.options.file(w.output, left[i], made.frames);
         Rendered facts = rendered(r, w.rendering.target_error, keeps_layers(file));
         facts.about["shown"] = w.shown;
-        guard_output(file);
         w.output.save(file, r.image, Encoding::srgb, at_frame(w.path, left[i], w.display), std::move(facts.about),
                       std::move(facts.layers));
         ++made.rendered;

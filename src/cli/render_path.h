@@ -8,16 +8,17 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 namespace lfdsim::cli {
 
-/// --path, --frames-as, --resume. With --path, --output names a folder.
+/// --path, --frames-as, --resume, --replace. With --path, --output names a folder.
 class PathOptions {
   public:
     explicit PathOptions(Command command);
     bool given() const { return option_.count() > 0; }
-    /// Throws InputError if there is no path to which the other options could belong, or if the pictures cannot be made so.
+    /// Throws InputError if there is a path and the pictures cannot be made so.
     void check(const OutputOptions&) const;
     /// Throws InputError if the file cannot be read.
     CameraPath read() const;
@@ -26,11 +27,12 @@ class PathOptions {
     /// Of one of so many frames: 0000.png.
     std::filesystem::path file(const OutputOptions&, std::int64_t frame, std::int64_t frames) const;
     bool resume() const { return resume_; }
+    bool replace() const { return replace_; }
 
   private:
     std::string path_, kind_ = "png";
-    bool resume_ = false;
-    Option option_, kind_option_, resume_option_;
+    bool resume_ = false, replace_ = false;
+    Option option_;
 };
 
 /// What all frames share.
@@ -50,7 +52,8 @@ struct PathMade {
     Json more = Json::object();  // for --json
 };
 
-/// Writes the frames, in order; those that are finished stay, whatever becomes of the rest. Throws InputError, Interrupted.
-PathMade render_path(const PathWork&, const Texels& panel, Progress&);
+/// Writes the frames, in order; those that are finished stay, whatever becomes of the rest. `panel` gives the panel's light, which
+/// is asked for once it is sure that frames can be written and are left to be made. Throws InputError, Interrupted.
+PathMade render_path(const PathWork&, const std::function<const Texels&()>& panel, Progress&);
 
 }  // namespace lfdsim::cli

@@ -25,6 +25,7 @@ void run(const Arguments& args) {
     std::int64_t columns = 0, width = 0;
     faults.of([&] { columns = whole_number("--columns", args.columns, 1, 100); });
     faults.of([&] { width = whole_number("--width-px", args.width_px, 16, 16384); });
+    for (const std::string& path : args.images) faults.of([&] { check_input("IMAGE", path); });
     faults.of([&] { check_output(args.output); });
     if (!args.labels.empty() && args.labels.size() != args.images.size())
         faults.of([&] {
@@ -36,7 +37,6 @@ void run(const Arguments& args) {
     std::vector<Image> cells;
     for (const std::string& path : args.images)
         faults.of([&] {
-            check_input("IMAGE", path);
             const Image image = read_image(path, Encoding::srgb);
             const double height = std::max(1.0, std::round(double(width) * image.height / image.width));
             require_memory(path, fmt::format("a cell of {} x {:.0f} pixels", width, height), double(width) * height * 12);

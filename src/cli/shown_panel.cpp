@@ -5,7 +5,7 @@ namespace lfdsim::cli {
 PanelLight shown_panel(const PanelImageOption& image, const PatternOption& shape, const Display& display, const Geometry& geometry,
                        const PatternOptions& pattern_options, int threads, Progress& progress) {
     if (image.given()) {
-        PanelImageOption::Read panel = image.read(display.panel, progress);
+        PanelImageOption::Read panel = image.read(display, progress);
         return {std::move(panel.texels), {{"panel_image", {{"incomplete", panel.incomplete}}}}};
     }
     if (shape.given()) return {shown_texels(pattern(shape.name(), display, geometry, pattern_options), display.panel.encoding)};

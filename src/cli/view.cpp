@@ -1,6 +1,7 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/display_options.h"
+#include "cli/effects.h"
 #include "cli/interrupt.h"
 #include "cli/output.h"
 #include "cli/panel_source.h"
@@ -21,8 +22,8 @@ namespace lfdsim::cli {
 namespace {
 
 struct Arguments {
-    explicit Arguments(Command command)
-        : display(command, {sample_options, content_options}), panel_image(command), model(command), device(command) {
+    explicit Arguments(Command of)
+        : command(of), display(command, {sample_options, content_options}), panel_image(command), model(command), device(command) {
         pattern_option =
             command.add_option("--pattern", pattern, fmt::format("Test pattern to show: {}", fmt::join(pattern_names(), ", ")))
                 .type_name("NAME");
@@ -37,6 +38,7 @@ struct Arguments {
         command.add_option("--visitors", visitors, "Browsers at a time, 1 to 64; default 8").type_name("N");
         command.add_option("--threads", threads, "Default: all processors").type_name("N");
     }
+    Command command;
     DisplayOptions display;
     PanelImageOption panel_image;
     ModelOption model;
@@ -67,12 +69,14 @@ void run(const Arguments& args) {
     view::Start start;
     view::ServerOptions options;
     int threads = 0;
+    Display display;
     faults.of([&] {
-        args.display.read();
+        display = args.display.read();
         start.display = args.display.path();
         start.set = args.display.overrides();
     });
     faults.of([&] { args.panel_image.check(); });
+    faults.of([&] { args.model.apply(display); });
     faults.of([&] {
         if (args.pattern_option.count() > 0) word("--pattern", args.pattern, pattern_names());
     });
@@ -85,8 +89,7 @@ void run(const Arguments& args) {
         if (!args.threads.empty()) threads = int(whole_number("--threads", args.threads, 1, 1024));
     });
     faults.of([&] { args.device.apply(); });
-    if (args.panel_image.given() + args.model.given() + int(args.pattern_option.count()) > 1)
-        faults.of([] { throw InputError("--panel-image, --model, --pattern", "the panel shows one thing; give one of them"); });
+    faults.of([&] { check_effects(args.command); });
     faults.report();
     options.host = args.host;
     start.model = args.model.path();
@@ -96,6 +99,9 @@ void run(const Arguments& args) {
     const std::filesystem::path folder = args.folder.empty() ? start.display.parent_path() : std::filesystem::path(args.folder);
     const view::Library library(start, folder.empty() ? "." : folder);
     view::Panels panels;
+    Job nobody;
+    if (args.panel_image.given()) args.panel_image.warn(display);
+    panels.prepare(view::source_of(library, {}, display), display, resolve(display), threads, nobody);
     view::Server server(options, view::page(), [&](view::Outbox& outbox) {
         return std::make_unique<view::Visit>(library, panels, outbox, threads, LFDSIM_VERSION);
     });

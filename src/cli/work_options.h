@@ -45,7 +45,6 @@ class DeviceOption {
     explicit DeviceOption(Command command);
     /// Makes it the device of all renderings that name none. Throws InputError that says what is missing.
     void apply() const;
-    bool names_gpu() const { return device_.rfind("cuda", 0) == 0; }
 
   private:
     std::string device_;

@@ -35,6 +35,9 @@ struct LoadOptions {
 inline constexpr std::string_view built_in_spheres = "built-in:spheres";
 std::shared_ptr<const Model> built_in_model();
 
+/// The model that a display shows: content.model, or the one that is built in where the description names none.
+std::string model_of(const Display&);
+
 /// The built-in model, or that of a file. Throws InputError that names the file: missing, unreadable, unknown format, no triangles,
 /// crashed or exhausted the reader; std::runtime_error if the reader program lfdsim-model-reader is missing.
 std::shared_ptr<const Model> load_model(const std::filesystem::path&, const LoadOptions& = {});

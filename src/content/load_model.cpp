@@ -89,6 +89,10 @@ std::shared_ptr<const Model> load_model(const fs::path& path, const LoadOptions&
     return model;
 }
 
+std::string model_of(const Display& display) {
+    return display.content.model.empty() ? std::string(built_in_spheres) : display.content.model;
+}
+
 ModelInfo info(const Model& m) {
     return {std::int64_t(m.triangles()), std::int64_t(m.vertices()), std::int64_t(m.materials.size()),
             std::int64_t(m.textures.size()), m.notes};

@@ -105,7 +105,8 @@ constexpr Key<Camera> camera_keys[] = {
 };
 
 constexpr Key<Content> content_keys[] = {
-    {"model", &Content::model, no_range, false, "Mesh file, relative to the description's folder, or built-in:spheres.", "none"},
+    {"model", &Content::model, no_range, false, "Mesh file, relative to the description's folder, or built-in:spheres.",
+     "built-in:spheres, five chequered spheres"},
     {"depth_mm", &Content::depth_mm, any_length, false, "Of the model's centre, from the array's viewer-side vertex plane.",
      "the central depth plane, or 0 where that is further from the lenses than half the viewer's distance"},
     {"height_mm", &Content::height_mm, positive_length, false, "Of the model.", "half the panel's height"},

@@ -86,16 +86,16 @@ Json side(const Display& display, const std::string& name) {
               {"box", {f.left, f.top, f.width, f.height}}}}};
 }
 
-/// The file of the model that is shown, or would be if something else were not; empty: none.
+/// The file of the model that is shown, or would be if something else were not; or built-in:spheres.
 std::string model_file(const Library& library, const Wanted& wanted, const Display& display) {
     if (wanted.shown.kind == Shown::Kind::model)
         return wanted.shown.name == built_in_spheres ? wanted.shown.name : library.file(wanted.shown.name).string();
-    return library.start().model.empty() ? display.content.model : library.start().model;
+    return library.model(display);
 }
 
 /// Keeps the one that was asked for last: reading one takes a second.
 std::shared_ptr<const Model> model(const std::string& file) {
-    if (file.empty() || file == built_in_spheres) return built_in_model();
+    if (file == built_in_spheres) return built_in_model();
     static std::mutex mutex;
     static std::string kept_file;
     static std::filesystem::file_time_type kept_time;
@@ -126,7 +126,7 @@ std::string toml(const Library& library, const Wanted& wanted, const std::filesy
     Display display = library.display(wanted);
     const std::string file = model_file(library, wanted, display);
     display.content.model = file;
-    if (!file.empty() && file != built_in_spheres) {
+    if (file != built_in_spheres) {
         const fs::path relative = fs::absolute(file).lexically_normal().lexically_relative(fs::absolute(folder).lexically_normal());
         const bool below = !relative.empty() && *relative.begin() != "..";
         display.content.model = below ? relative.string() : fs::absolute(file).lexically_normal().string();

@@ -1,5 +1,6 @@
 #include "view/library.h"
 
+#include "content/content.h"
 #include "files/display_file.h"
 
 #include <nlohmann/json.hpp>
@@ -112,6 +113,8 @@ Library::Library(Start start, fs::path folder) : start_(std::move(start)), folde
     std::error_code error;
     if (!fs::is_directory(folder_, error)) throw InputError(folder_.string(), "is no folder; give the one to serve files from");
 }
+
+std::string Library::model(const Display& display) const { return start_.model.empty() ? model_of(display) : start_.model; }
 
 fs::path Library::file(const std::string& name) const {
     const fs::path path = folder_ / relative(name);

@@ -24,6 +24,8 @@ class Library {
     Library(Start, std::filesystem::path folder);
 
     const Start& start() const { return start_; }
+    /// The model that is shown of a description unless a page names another: --model, or the description's.
+    std::string model(const Display&) const;
 
     /// The file that a page names, inside the folder. Throws InputError for what is outside (.., absolute, links that lead out), is
     /// not a plain file, or does not exist.

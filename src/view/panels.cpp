@@ -61,7 +61,7 @@ Source source_of(const Library& library, const Shown& shown, const Display& disp
     }
     if (!start.pattern.empty()) return {Shown::Kind::pattern, start.pattern};
     if (!start.panel_image.empty()) return of_file(Shown::Kind::panel_image, start.panel_image.string());
-    return model_source(start.model.empty() ? display.content.model : start.model);
+    return model_source(library.model(display));
 }
 
 // The nodal pick-up (content/pickup.h) and the model's pose (content/scene.cpp) read these, resolved, and nothing else.
@@ -113,6 +113,15 @@ std::shared_ptr<const ShownPanel> Panels::make(const Source& source, const Displ
     const Picture images = elemental_images(display, geometry, posed, threads, job);
     if (!images.complete) throw Stopped{};
     return std::make_shared<ShownPanel>(shown_texels(images.image, panel.encoding), threads);
+}
+
+void Panels::prepare(const Source& source, const Display& display, const Geometry& geometry, int threads, Job& job) {
+    if (source.kind == Shown::Kind::panel_image) {
+        get(panel_key(source, display, geometry), display, geometry, threads, job);
+        return;
+    }
+    require_panel_memory(display);
+    if (source.kind == Shown::Kind::model) scene(source, display, geometry, job);
 }
 
 Scene Panels::scene(const Source& source, const Display& display, const Geometry& geometry, Job& job) {

@@ -17,7 +17,7 @@ namespace lfdsim::view {
 /// What a panel shows, with names resolved to files.
 struct Source {
     Shown::Kind kind = Shown::Kind::model;  // never start
-    std::string name;                       // path, built-in:spheres, or a pattern's name; empty: no model is known
+    std::string name;                       // path, built-in:spheres, or a pattern's name; empty: no model is known, as of an image
     std::int64_t changed = 0, bytes = 0;    // of a file, when it last was looked at
     bool operator==(const Source&) const = default;
 };
@@ -48,6 +48,10 @@ class Panels {
 
     /// Makes it, and keeps nothing but model and scene.
     std::shared_ptr<const ShownPanel> make(const Source&, const Display&, const Geometry&, int threads, Job&);
+
+    /// Reads the picture or the model that a source names, and keeps it, so that what cannot be shown is told before anyone looks.
+    /// Throws like get().
+    void prepare(const Source&, const Display&, const Geometry&, int threads, Job&);
 
     /// The model of a source in its place before the display. Throws like get().
     Scene scene(const Source&, const Display&, const Geometry&, Job&);

@@ -16,7 +16,7 @@ Json hello(const Library& library, const std::string& version) {
     const Start& start = library.start();
     const Display display = read_display(start.display, start.set);
     const char* const kind = !start.pattern.empty() ? "pattern" : !start.panel_image.empty() ? "panel_image" : "model";
-    const std::filesystem::path model = start.model.empty() ? display.content.model : start.model;
+    const std::filesystem::path model = library.model(display);
     const std::string shown = !start.pattern.empty()       ? start.pattern
                               : !start.panel_image.empty() ? start.panel_image.filename().string()
                                                            : model.filename().string();

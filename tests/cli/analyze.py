@@ -65,10 +65,17 @@ code, out, err = analyze(f"{other_order} -o whole --resume --json")
 after = times("whole")
 checks.that(code == 0 and list(json.loads(out)) == ["dof", "fov"], f"--resume: exit code {code}: {err}")
 checks.that(all(after[name] == before[name] for name in before if name != "report.html"), "--resume measured again")
-code, out, err = analyze(f"fov {QUICK} -o whole --resume --set array.gap_mm=5.1")
-changed = times("whole")
-anew = {name for name in ["fov.json", "dof.json"] if changed[name] != after[name]}
-checks.that(code == 0 and anew == {"fov.json"}, f"changed settings: exit code {code}, {anew} {err}")
+code, out, err = analyze(f"spot {QUICK} -o whole")
+checks.that(code == 0 and {"fov.json", "dof.json", "spot.json"} <= set(times("whole")), f"another measure of the same settings: {err}")
+
+# Results of other settings never lie beside: they are refused, or replaced.
+CHANGED = f"fov {QUICK} -o whole --set array.gap_mm=5.1"
+for resume in ["", " --resume"]:
+    checks.refused(program, "other settings", "analyze " + CHANGED + resume, "whole: holds results of other settings: fov (display)", "dof (display)", "--replace")
+(program.folder / "whole/notes.txt").write_text("mine")
+code, out, err = analyze(CHANGED + " --replace --resume")
+left = {name for name in times("whole") if name.endswith(".json") or name in ["notes.txt", "report.html"]}
+checks.that(code == 0 and left == {"fov.json", "notes.txt", "report.html"}, f"--replace: exit code {code}, left {left} {err}")
 checks.that('id="dof"' not in (program.folder / "whole/report.html").read_text(), "the report shows a measure of other settings")
 
 # Progress over the whole run.
@@ -81,6 +88,9 @@ checks.that({line["stage"] for line in lines} == {"analyzing"} and last["done"] 
 LONG = "fov,dof tiny.toml --model pyramid.obj --angles-deg -30,30,30 --depths-mm 10,1000,0.1 --size 640x360 --progress json -o cut"
 process = program.start(f"analyze {LONG} --json")
 for line in process.stderr:
+    if "second" not in locals():
+        second = program.run(f"analyze fov {QUICK} -o cut")
+        checks.that(second[0] == 2 and "cut: another run is writing" in second[2], f"two runs in one folder: {second}")
     if (program.folder / "cut/fov.json").exists():
         break
 time.sleep(0.3)

@@ -129,7 +129,6 @@ CASES = [  # name, arguments, words of the message
     ("bits", "render tiny.toml --panel-image panel.png --bits 12 -o out.png", "8, 16"),
     ("bits of an EXR", "render tiny.toml --panel-image panel.png --bits 16 -o out.exr", "--bits"),
     # what the panel shows
-    ("nothing to show", "render tiny.toml -o out.png", "content.model"),
     ("two things to show", "render tiny.toml --panel-image panel.png --pattern white -o out.png", "one of them"),
     ("missing panel image", "render tiny.toml --panel-image none.png -o out.png", "none.png"),
     ("empty panel image", "render tiny.toml --panel-image empty.png -o out.png", "empty.png: is empty"),
@@ -145,6 +144,16 @@ CASES = [  # name, arguments, words of the message
     ("option of another pattern", "eia tiny.toml --pattern white --edge-deg 3 -o out.png", "--edge-deg"),
     ("view outside", "eia tiny.toml --pattern view --view 0.6,0 -o out.png", "--view"),
     ("cell of no pixels", "eia tiny.toml --pattern checkerboard --cell-pixels 0 -o out.png", "--cell-pixels"),
+    # options without effect beside others
+    ("a depth of an image", "render tiny.toml --panel-image panel.png --depth-mm 9 -o out.png", "--depth-mm, --panel-image"),
+    ("a turn of an image", "export pov tiny.toml --panel-image panel.png --yaw-deg 9 -o out", "--yaw-deg, --panel-image"),
+    ("a height of a pattern", "eia tiny.toml --pattern white --height-mm 9 -o out.png", "--height-mm, --pattern"),
+    ("a model and a pattern", "eia tiny.toml --pattern white --model pyramid.obj -o out.png", "give one of them"),
+    ("samples and an error", "render tiny.toml --panel-image panel.png --samples 9 --target-error 0.1 -o out.png", "--samples, --target-error"),
+    ("points' sampling of footprints", "render tiny.toml --panel-image panel.png --sampling random -o out.png", "--estimator point"),
+    ("a kernel on a GPU", "render tiny.toml --panel-image panel.png --kernel scalar --device cuda -o out.png", "--kernel"),
+    ("an edge of no pattern", "render tiny.toml --edge-deg 3 -o out.png", "--pattern edge alone"),
+    ("replace without a path", "render tiny.toml --replace -o out.png", "--path alone"),
     # where the picture goes
     ("no output", "render tiny.toml --panel-image panel.png", "--output"),
     ("output folder missing", "render tiny.toml --panel-image panel.png -o none/out.png", "the folder none does not exist"),

@@ -4,6 +4,7 @@ import pathlib
 import signal
 
 import numpy as np
+from PIL import Image
 
 from program import Checks, Program
 
@@ -38,7 +39,7 @@ for k in range(5):
     share = (t - t0) / (t1 - t0)
     expected.append([[a + (b - a) * share for a, b in zip(*ends)] for ends in ((p0, p1), (q0, q1))])
 for how in ["", "--estimator point --samples 5", "--crop 10,5,60,50"]:
-    program.must(f"{SHOWN} {how} --path path.json -o walk --frames-as npy")
+    program.must(f"{SHOWN} {how} --path path.json -o walk --frames-as npy --replace")
     checks.that(sorted(times("walk")) == [f"000{k}.npy" for k in range(5)], f"{how}: made {sorted(times('walk'))}")
     for k, (position, target) in enumerate(expected):
         views = [",".join(map(repr, v)) for v in (position, target)]
@@ -66,14 +67,25 @@ program.must(GO_ON)
 then = times("again")
 checks.that({k for k in then if then[k] != first.get(k)} == {"0002.png", "0003.png"}, "resume: made other frames than those missing")
 write(path(pose(0, A, target_mm=[10, 0, 0]), pose(0.6, B), pose(1.1, A, target_mm=[0, 8, 0])))
-program.must(GO_ON)
+checks.refused(program, "another path", GO_ON, "again: holds 2 pictures", "0003.png", "--replace")
+program.must(GO_ON + " --replace")
 last = times("again")
 checks.that({k for k in last if last[k] != then[k]} == {"0003.png", "0004.png"}, "resume: a pose changed, and with it two frames")
 program.must("eia tiny.toml --pattern white -o panel.png")
-program.must(GO_ON)
+checks.refused(program, "another panel image", GO_ON, "again: holds 5 pictures")
+program.must(GO_ON + " --replace")
 checks.that(all(last[k] != changed for k, changed in times("again").items()), "resume: kept frames of another panel image")
 done = times("again")
 checks.that("5 of them made before" in program.must(GO_ON) and times("again") == done, "resume: nothing was left to do")
+
+# Frames of a longer path, or those of another display, do not stay beside; pictures that are no frames are never removed.
+write(path(pose(0, A)), "short.json")
+checks.refused(program, "a shorter path", f"{SHOWN} --path short.json -o again", "again: holds 5 pictures")
+checks.refused(program, "another display", f"{SHOWN} --path path.json -o again --set array.gap_mm=5.1", "again: holds 5 pictures")
+program.must(f"{SHOWN} --path short.json -o again --replace")
+checks.that(list(times("again")) == ["0000.png"], f"replaced: {times('again')}")
+Image.new("RGB", (8, 6)).save(folder / "again/0007.png")
+checks.refused(program, "somebody's picture", f"{SHOWN} --path short.json -o again --replace", "0007.png: is a picture that lfdsim has not made")
 
 # Ctrl-C keeps finished frames, whole; the same command goes on.
 write(path(pose(0, A), pose(25, B)), "long.json")

@@ -16,7 +16,7 @@ os.environ.pop("LFDSIM_STAND_IN", None)
 os.environ["LFDSIM_DEVICE"] = "cpu"
 program, checks = Program(), Checks()
 SHOWN = "render tiny.toml --panel-image panel.png --progress none"
-MOVING = f"{SHOWN} --path path.json --frames-as npy"
+MOVING = f"{SHOWN} --path path.json --frames-as npy --replace"
 (program.folder / "path.json").write_text(json.dumps({"schema": 1, "frames_per_second": 4, "poses": [
     {"time_s": 0, "position_mm": [-30, 0, 400]}, {"time_s": 0.5, "position_mm": [40, 10, 400]}]}))
 

@@ -1,0 +1,27 @@
+#include "cli/folder_lock.h"
+
+#include "model/error.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+#include <cerrno>
+#include <system_error>
+
+namespace lfdsim::cli {
+
+FolderLock::FolderLock(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor_ < 0) throw InputError(folder.string(), "is not a folder and cannot be made one");
+    // File systems that know no locks give other errors: there, runs are not kept apart.
+    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        close(descriptor_);
+        throw InputError(folder.string(), "another run is writing its results there; wait for its end, or give another folder");
+    }
+}
+
+FolderLock::~FolderLock() { close(descriptor_); }
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,20 @@
+// A folder of results that one run at a time writes to. Floor 4.
+#pragma once
+#include <filesystem>
+
+namespace lfdsim::cli {
+
+/// Holds a folder, which is made if it is missing, until it goes or the program ends in any way. Leaves nothing in it.
+class FolderLock {
+  public:
+    /// Throws InputError if another run holds the folder, or if it is none and cannot be made one.
+    explicit FolderLock(const std::filesystem::path&);
+    ~FolderLock();
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+
+  private:
+    int descriptor_ = -1;
+};
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,35 @@
+#include "cli/input_files.h"
+
+#include "model/error.h"
+
+#include <fmt/format.h>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace lfdsim::cli {
+namespace {
+
+struct Input {
+    std::string what;
+    std::filesystem::path path;
+};
+
+// The program runs one command.
+std::vector<Input>& inputs() {
+    static std::vector<Input> all;
+    return all;
+}
+
+}  // namespace
+
+void remember_input(const std::string& what, const std::filesystem::path& path) { inputs().push_back({what, path}); }
+
+void refuse_input(const std::filesystem::path& output) {
+    for (const Input& input : inputs())
+        if (std::error_code none; std::filesystem::equivalent(output, input.path, none))
+            throw InputError(output.string(), fmt::format("is the same file as {}, {}, which would be lost; give another output",
+                                                          input.what, input.path.string()));
+}
+
+}  // namespace lfdsim::cli
