@@ -68,7 +68,8 @@ Json ResultFolder::read(const Measure& measure) const {
 bool ResultFolder::has(const Measure& measure) const {
     if (settings_of(measure) != settings_) return false;
     try {
-        for (const Json& file : read(measure).at("report").at("files")) {
+        const Json json = read(measure);
+        for (const Json& file : json.at("report").at("files")) {
             const fs::path name = file.get<std::string>();
             if (name != name.filename() || !fs::is_regular_file(path_ / name)) return false;
         }
@@ -110,7 +111,8 @@ void ResultFolder::remove_others() const {
         any = true;
         std::vector<std::string> names{std::string(m.name) + ".json"};  // first: what has none is incomplete
         try {
-            for (const Json& file : read(m).at("report").at("files")) names.push_back(file.get<std::string>());
+            const Json json = read(m);
+            for (const Json& file : json.at("report").at("files")) names.push_back(file.get<std::string>());
         } catch (const std::exception&) {  // changed by hand: its other files are not known
         }
         for (const fs::path name : names)

@@ -125,6 +125,7 @@ std::string toml(const Library& library, const Wanted& wanted, const std::filesy
     namespace fs = std::filesystem;
     Display display = library.display(wanted);
     const std::string file = model_file(library, wanted, display);
+    if (file == model_of(display) && file == built_in_spheres) return write_display(display);  // said, or shown without a word
     display.content.model = file;
     if (file != built_in_spheres) {
         const fs::path relative = fs::absolute(file).lexically_normal().lexically_relative(fs::absolute(folder).lexically_normal());

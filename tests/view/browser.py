@@ -105,6 +105,8 @@ def parameter_takes_effect(page):
 
 def parameters_do_not_block_each_other(page, real):
     """What cannot be gives way to the next change; apertures follow a pitch that becomes smaller than them, and come back with it."""
+    page.run("document.getElementById('reset-all').click()")
+    page.sharp()
     before, gap = page.picture(), page.find(GAP).get_attribute("value")
     page.type(GAP, "-3")
     page.until("a problem", lambda s: s["problems"])

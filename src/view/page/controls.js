@@ -230,6 +230,7 @@ export class Controls {
   }
   /// Marks what is wrong in its place; what a text stands for that no row has is left to the caller.
   mark(problems) {
+    if (problems.length) this.shown = null;  // fields hold what was typed, whatever is said next
     for (const c of this.all.values()) c.mark(problems.filter((p) => p.key === c.key).map((p) => p.what).join(" "));
   }
 }

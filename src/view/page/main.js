@@ -114,6 +114,7 @@ function drawn(header) {
   if (store.now.compare === "none") stats.ssim = null;
   show_ssim(stats.ssim, header.quality === "final");
   problems.right(header.id);
+  store.right(header.id);
   byId("progress").hidden = true;
   if (header.lane !== lanes_of(store.now)[0]) return;
   stats.quality = header.quality;
