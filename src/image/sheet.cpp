@@ -14,33 +14,42 @@ constexpr std::size_t most_lines = 4;             // of a label
 constexpr float background = 0.012f, ink = 0.6f;  // linear light: a dark grey, and a light one
 
 // A degree sign has two bytes.
-std::size_t letters_of(const std::string& text) {
-    return std::size_t(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
-}
+bool begins_letter(char c) { return (c & 0xc0) != 0x80; }
+std::size_t letters_of(const std::string& text) { return std::size_t(std::count_if(text.begin(), text.end(), begins_letter)); }
 
 void paste(const Image& from, Image& to, int x, int y) {
     for (int row = 0; row < from.height; ++row) std::copy_n(from.at(0, row), std::size_t(from.width) * 3, to.at(x, y + row));
 }
 
-// In lines of so many letters, broken between words; the first few of them.
+std::string first_letters(const std::string& text, std::size_t letters) {
+    std::size_t end = 0;
+    for (; end < text.size(); ++end)
+        if (begins_letter(text[end]) && letters-- == 0) break;
+    return text.substr(0, end);
+}
+
+// In lines of so many letters, broken between words; the first few of them, and of a word what a line holds.
 std::vector<std::string> lines_of(const std::string& label, std::size_t letters) {
     std::vector<std::string> lines;
     std::istringstream words(label);
     for (std::string word; words >> word;) {
         if (!lines.empty() && letters_of(lines.back()) + 1 + letters_of(word) <= letters)
             lines.back() += " " + word;
+        else if (lines.size() < most_lines)
+            lines.push_back(first_letters(word, letters));
         else
-            lines.push_back(word);
+            break;
     }
-    lines.resize(std::min(lines.size(), most_lines));
     return lines;
 }
 
 // As large as reads well on a sheet of that width, but not so large that a word is wider than a picture.
 int label_scale(std::span<const std::string> labels, int picture_width, int sheet_width) {
     std::size_t longest = 1;
-    for (const std::string& label : labels)
-        for (const std::string& word : lines_of(label, 1)) longest = std::max(longest, letters_of(word));
+    for (const std::string& label : labels) {
+        std::istringstream words(label);
+        for (std::string word; words >> word;) longest = std::max(longest, letters_of(word));
+    }
     return std::clamp(picture_width / (glyph_width * int(longest)), 1, readable_scale(sheet_width));
 }
 
@@ -71,7 +80,7 @@ Image contact_sheet(std::span<const Image> pictures, std::span<const std::string
         if (!labels.empty()) {
             int line_y = y;
             for (const std::string& line : lines_of(labels[std::size_t(i)], letters)) {
-                draw_text(sheet, x, line_y, scale, line.substr(0, letters), ink);
+                draw_text(sheet, x, line_y, scale, line, ink);
                 line_y += glyph_height * scale;
             }
         }

@@ -20,11 +20,14 @@ int inked_rows(const Image& sheet) {
 TEST(Sheet, LabelsAreReadAt480Pixels) {
     for (const auto& [count, width] : {std::pair{7, 480}, {2, 406}, {2, 640}, {1, 100}, {3, 2000}}) {
         const std::vector<Image> pictures(std::size_t(count), Image(width, 4));
-        std::vector<std::string> labels(std::size_t(count), "view, +10.3\xc2\xb0"), cut(labels);
-        cut.back().resize(cut.back().size() - 2);
-        const Image sheet = contact_sheet(pictures, labels, count);
-        EXPECT_GE(inked_rows(sheet) * 480. / sheet.width, 7) << count << " of " << width;  // of ten dots a letter has seven
-        EXPECT_NE(sheet.rgb, contact_sheet(pictures, cut, count).rgb) << "the last letter is cut off: " << count << " of " << width;
+        for (const char* label : {"view, +10.3\xc2\xb0", "scene, +0\xc2\xb0"}) {
+            std::vector<std::string> labels(std::size_t(count), label), cut(labels);
+            cut.back().resize(cut.back().size() - 2);
+            const Image sheet = contact_sheet(pictures, labels, count);
+            EXPECT_GE(inked_rows(sheet) * 480. / sheet.width, 7) << label << count << " of " << width;  // a letter's dots of ten
+            EXPECT_NE(sheet.rgb, contact_sheet(pictures, cut, count).rgb)
+                << "the last letter is cut off: " << count << " of " << width;
+        }
     }
 }
 
