@@ -281,6 +281,7 @@ std::vector<std::string> folder_names(const Request& request) {
 /// Each display in a folder of its own, then all of them in one report. What is finished is kept and reported here, too.
 void side_by_side(const Arguments& args, const Request& request) {
     const std::filesystem::path place = args.output;
+    refuse_inputs_in(place);
     const FolderLock lock(place);
     for (const Measure& m : measures())
         if (std::filesystem::exists(place / (std::string(m.name) + ".json")))

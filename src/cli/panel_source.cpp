@@ -52,7 +52,9 @@ void ModelOption::apply(Display& display) const {
 Scene load_scene(const Display& display, const Geometry& geometry) {
     const std::string name = model_of(display);
     const std::shared_ptr<const Model> model = load_model(name);
-    for (const std::string& note : info(*model).notes) spdlog::warn("{}: {}", name, note);
+    const ModelInfo about = info(*model);
+    for (const std::string& note : about.notes) spdlog::warn("{}: {}", name, note);
+    for (const std::string& file : about.files) remember_input("a file of the model", file);
     return Scene(model, display, geometry);
 }
 

@@ -23,6 +23,7 @@ class Model;
 struct ModelInfo {
     std::int64_t triangles, vertices, materials, textures;
     std::vector<std::string> notes;  // what was dropped or repaired, in words
+    std::vector<std::string> files;  // that were read: the model's own, and those that it names; none of a built-in one
 };
 
 struct LoadOptions {

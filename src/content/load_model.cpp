@@ -94,8 +94,12 @@ std::string model_of(const Display& display) {
 }
 
 ModelInfo info(const Model& m) {
-    return {std::int64_t(m.triangles()), std::int64_t(m.vertices()), std::int64_t(m.materials.size()),
-            std::int64_t(m.textures.size()), m.notes};
+    return {std::int64_t(m.triangles()),
+            std::int64_t(m.vertices()),
+            std::int64_t(m.materials.size()),
+            std::int64_t(m.textures.size()),
+            m.notes,
+            m.files};
 }
 
 }  // namespace lfdsim

@@ -32,6 +32,7 @@ class Model {
     std::vector<Material> materials;
     std::vector<Texture> textures;
     std::vector<std::string> notes;  // what was dropped or repaired
+    std::vector<std::string> files;  // that were read: the model's own, and those that it names
 
     std::size_t vertices() const { return positions.size() / 3; }
     std::size_t triangles() const { return indices.size() / 3; }

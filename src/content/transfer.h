@@ -25,7 +25,8 @@ void transfer(Io& io, Model& model) {
         io.value(t.height);
         io.array(t.rgba);
     });
-    io.list(model.notes, [&](std::string& note) { io.array(note); });
+    for (std::vector<std::string>* texts : {&model.notes, &model.files})
+        io.list(*texts, [&](std::string& text) { io.array(text); });
 }
 
 }  // namespace lfdsim

@@ -57,6 +57,9 @@ os.link(folder / "eia.png", folder / "frames/0001.png")
 os.symlink("../tiny.toml", folder / "results/report.html")
 (folder / "path.json").write_text(json.dumps({"schema": 1, "frames_per_second": 1, "poses": [
     {"time_s": 0, "position_mm": [0, 0, 400]}, {"time_s": 1, "position_mm": [9, 0, 400]}]}))
+(folder / "skin.obj").write_text("mtllib skin.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl skin\nf 1/1 2/2 3/3\n")
+(folder / "skin.mtl").write_text("newmtl skin\nmap_Kd skin.png\n")
+(folder / "skin.png").write_bytes((folder / "small.png").read_bytes())
 CORNERS = "--corners 9,9 79,9 79,40 9,40 --view-corners 9,9 79,9 79,40 9,40"
 for name, arguments, *words in [
     ("the panel image", "render tiny.toml --panel-image eia.png -o eia.png", "--panel-image, eia.png"),
@@ -66,6 +69,7 @@ for name, arguments, *words in [
     ("frames of a path", "render tiny.toml --panel-image eia.png --path path.json -o frames", "frames/0001.png: is the same file as"),
     ("the description", f"export pov tiny.toml --set diffuser=none {QUIET} -o .", "display.toml: is the same file as the description, tiny.toml"),
     ("the report", f"analyze spot tiny.toml {QUIET} -o results", "results/report.html: is the same file as the description"),
+    ("a model's texture", f"photo tiny.toml --model skin.obj {QUIET} -o skin.png", "skin.png: is the same file as a file of the model"),
     ("an overlay", f"compare view.png eia.png {CORNERS} -o view.png", "view.png: is the same file as A"),
     ("a difference", f"compare view.png eia.png {CORNERS} --difference link.png", "link.png: is the same file as B"),
     ("two pictures of one name", f"compare view.png eia.png {CORNERS} -o x.png --difference x.png", "--overlay, --difference"),

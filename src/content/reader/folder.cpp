@@ -20,6 +20,7 @@ bool Folder::Exists(const char* file) const { return inside(fs::absolute(file)) 
 // Regular files only: a pipe or device named by a model would never end.
 Assimp::IOStream* Folder::Open(const char* file, const char* mode) {
     if (std::strchr(mode, 'w') || std::strchr(mode, 'a') || !Exists(file)) return nullptr;
+    opened_.push_back(fs::absolute(file).string());
     return DefaultIOSystem::Open(file, mode);
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace lfdsim::reader {
 
@@ -20,9 +21,13 @@ class Folder : public Assimp::DefaultIOSystem {
     /// and small letters are the same where no exact match exists.
     std::optional<std::filesystem::path> find(std::string name) const;
 
+    /// Those that were opened for reading.
+    const std::vector<std::string>& opened() const { return opened_; }
+
   private:
     bool inside(const std::filesystem::path&) const;
     std::filesystem::path root_;
+    std::vector<std::string> opened_;
 };
 
 }  // namespace lfdsim::reader

@@ -58,6 +58,7 @@ class Conversion {
     Model run() {
         for (unsigned m = 0; m < scene_.mNumMeshes; ++m) add(*scene_.mMeshes[m]);
         model_.textures = std::move(textures_.textures);
+        model_.files = std::move(textures_.files);
         model_.notes.insert(model_.notes.end(), textures_.notes.begin(), textures_.notes.end());
         if (dropped_ > 0) model_.notes.push_back(std::to_string(dropped_) + " faces left out: degenerate");
         if (transparent_) model_.notes.push_back("transparent materials are shown opaque");
@@ -215,6 +216,7 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     Model model = Conversion(*scene, *folder, format, turn(*scene, format, up)).run();
     // Blender's loader warns of every field that a version of the program did not have.
     if (!format.starts_with("Blender")) model.notes.insert(model.notes.end(), warnings->texts.begin(), warnings->texts.end());
+    model.files.insert(model.files.end(), folder->opened().begin(), folder->opened().end());
     mend_normals(model);
     return model;
 }

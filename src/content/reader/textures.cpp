@@ -73,6 +73,8 @@ int Textures::load(const std::string& name) {
     } else if (!decode(*file, decoded)) {
         notes.push_back("texture \"" + name + "\" left out: " + stbi_failure_reason());
         return -1;
+    } else {
+        files.push_back(file->string());
     }
     textures.push_back(std::move(decoded));
     return int(textures.size()) - 1;

@@ -20,6 +20,7 @@ class Textures {
 
     std::vector<Texture> textures;
     std::vector<std::string> notes;
+    std::vector<std::string> files;  // that textures were read from
 
   private:
     int load(const std::string& name);
