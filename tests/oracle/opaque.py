@@ -17,6 +17,7 @@ def trace_ideal(path, display, lattice):
     q = (p - lattice.axis(i, j))[:, :2]
     inside = on & (display.square | (np.hypot(*q.T) <= getattr(display.lens, "aperture_radius_mm", np.inf)))
     path.status[rays[~inside]] = BLACK
+    path.meet(rays[inside], i[inside], j[inside])
     slope = d[:, :2] / d[:, 2:] + q / display.lens.focal_length_mm
     d = -np.column_stack([slope, np.ones(len(slope))])  # downwards: dz = -1
     path.d[rays] = d / np.linalg.norm(d, axis=1, keepdims=True)

@@ -7,16 +7,20 @@ ALIVE, PANEL, OFF_PANEL, BLACK, TOTAL, ESCAPED, TOO_MANY, LOST = range(8)
 
 
 class Path:
-    """Rays in the array's frame: points o, unit directions d, Fresnel weight, status, surfaces met, and the way: a number of the lenses met."""
+    """Rays in the array's frame: points o, unit directions d, Fresnel weight, status, surfaces met, the first lens met (n, 2), and the way: a number of
+    all lenses met."""
 
     def __init__(self, o, d):
         n = len(o)
         self.o, self.d, self.weight = o.copy(), d.copy(), np.ones(n)
         self.status, self.met, self.way = np.full(n, ALIVE), np.zeros(n, np.int64), np.zeros(n, np.uint64)
         self.stop_seen = np.zeros(n, bool)
+        self.lens = np.full((n, 2), -1)  # -1: none, or the face of a sheet between lenses
 
     def meet(self, rays, i, j):
         """Adds lenses (i, j), -1 between lenses, to the ways of the rays."""
+        fresh = self.way[rays] == 0
+        self.lens[rays[fresh]] = np.column_stack([i, j])[fresh]
         here = ((i + 1) * 65536 + j + 2).astype(np.uint64)
         self.way[rays] = self.way[rays] * np.uint64(1000003) + here
 

@@ -16,7 +16,7 @@ def trace(display, o, d, turn=None):
 
     Returns arrays: status (path.py), column and row of the panel pixel (-1: none), weight (Fresnel), cosine (at the panel), met (surfaces
     met between the lenses' outsides and the panel; glass only), x and y (on the panel, in pixels from its top left corner), way (a number that
-    is the same for rays that meet the same lenses in the same order; 0 is none).
+    is the same for rays that meet the same lenses in the same order; 0 is none), lens (n, 2) (the first one met; -1 is none).
     """
     d = d / np.linalg.norm(d, axis=1, keepdims=True)
     turn = np.zeros((len(o), 2)) if turn is None else turn
@@ -39,7 +39,7 @@ def _trace(display, o, d, turn):
     column, row = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
     on = (path.status == OFF_PANEL) & (column >= 0) & (column < columns) & (row >= 0) & (row < rows)
     return SimpleNamespace(status=np.where(on, PANEL, path.status), column=np.where(on, column, -1), row=np.where(on, row, -1),
-                           weight=np.where(on, path.weight, 0.0), cosine=np.where(on, -d[:, 2], 1.0), met=path.met, x=x, y=y, way=path.way)
+                           weight=np.where(on, path.weight, 0.0), cosine=np.where(on, -d[:, 2], 1.0), met=path.met, x=x, y=y, way=path.way, lens=path.lens)
 
 
 def _diffuse(z, o, d, turn):

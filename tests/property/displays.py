@@ -1,0 +1,112 @@
+"""Displays drawn at random: the same number, the same display. A description is a dictionary with the tables and keys of docs/format.md."""
+import math
+
+import numpy as np
+
+import oracle
+
+SIZES = ("160x90", "240x135", "320x180")  # of pictures
+KINDS = {"near-eye": ((18, 45), (0.2, 2)), "hand-held": ((150, 450), (0.2, 5)), "desk": ((400, 1200), (0.4, 25)),
+         "wall": ((1500, 5000), (3, 60))}  # eye to lenses and lens pitch, from and to, mm
+CONTENTS = ("built-in:spheres", "relief.obj", "pyramid.gltf")  # the files are written by contents.py
+
+
+def draw(number, most_pixels):
+    """Display `number`, with at most most_pixels panel pixels. Not all that is drawn can be built: `check` refuses some."""
+    rng = np.random.default_rng([2024, number])
+    pitch = log_uniform(rng, 0.2, 60)
+    kind = rng.choice([name for name, (_, (least, most)) in KINDS.items() if least <= pitch <= most])
+    eye = log_uniform(rng, *KINDS[kind][0])
+    lens, aperture = draw_lens(rng, pitch)
+    trial = oracle.resolve({"lens": lens, "array": {"pitch_mm": pitch, "aperture": aperture, "gap_mm": 0.0}})
+    gap = draw_gap(rng, trial.paraxial.f, eye)
+    array = {"pitch_mm": pitch, "gap_mm": gap, "aperture": aperture}
+    if lens["type"] == "plano_convex" and rng.random() < 0.35:
+        array["surround"] = str(rng.choice(["clear", "plate"]))
+    height = gap + trial.vertex_plane  # of the vertex plane
+    distance = eye + height  # of the eye from the panel
+    per_lens = log_uniform(rng, 6, 100)
+    array["count"] = count(rng, pitch, eye, per_lens, most_pixels)
+    viewing = float(rng.choice([1, 1, 1, 1, 1, 1, 1, 0.7, 1.5, math.inf])) * distance
+    stretch = 1 + gap / (viewing - height)
+    pixel = pitch / per_lens
+    cover = stretch if rng.random() < 0.6 else 1.0  # wide enough for the outermost elemental images, or as wide as the array
+    columns, rows = (max(1, math.ceil(n * per_lens * cover)) for n in array["count"])
+    if rng.random() < 0.15:
+        array["rotation_deg"] = float(rng.uniform(-45, 45))
+    if rng.random() < 0.2:
+        array["offset_mm"] = [float(v) for v in rng.uniform(-pitch, pitch, 2)]
+    description = {
+        "schema": 1, "name": f"{kind} {number}",
+        "panel": {"pixels": [columns, rows], "pixel_pitch_mm": pixel, "emission_exponent": float(rng.choice([0, 0, 0, 0, 1]))},
+        "lens": lens, "array": array,
+        "camera": {"position_mm": [0.0, 0.0, distance], "resolution": [int(v) for v in SIZES[number % 3].split("x")]},
+        "content": {"viewing_distance_mm": viewing, "model": CONTENTS[number // 3 % 3]},
+        "render": {"fresnel": str(rng.choice(["exact", "exact", "exact", "schlick", "none"])), "seed": number},
+    }
+    if rng.random() < 0.5:
+        description["diffuser"] = draw_diffuser(rng, pitch, eye)
+    return description
+
+
+def log_uniform(rng, low, high):
+    return float(math.exp(rng.uniform(math.log(low), math.log(high))))
+
+
+def draw_lens(rng, pitch):
+    """A lens for cells of `pitch` mm, f/1 to f/12, and the aperture's shape."""
+    aperture = str(rng.choice(["circle", "circle", "square"]))
+    semi = pitch / 2 * (1.0 if aperture == "square" else float(rng.choice([1.0, rng.uniform(0.6, 1)])))
+    focal = log_uniform(rng, 1, 12) * 2 * semi
+    index = float(rng.uniform(1.45, 1.75))
+    kind = rng.choice(["ideal", "plano_convex", "plano_convex", "asphere", "two surfaces"])
+    corner = pitch / math.sqrt(2) if aperture == "square" else semi  # how far from the axis the glass reaches
+    radius = focal * (index - 1)
+    if kind == "ideal":
+        lens = {"type": "ideal", "focal_length_mm": focal, "aperture_radius_mm": semi}
+    elif kind == "plano_convex":
+        lens = {"type": "plano_convex", "sphere_radius_mm": max(radius, 1.02 * corner), "aperture_radius_mm": semi, "index": index,
+                "cylinder_height_mm": float(rng.uniform(0.05, 0.4)) * semi, "facing": str(rng.choice(["viewer", "viewer", "panel"]))}
+    elif kind == "asphere":  # a conic that brings collimated light together, bent a little at the rim
+        radius = max(radius, 1.1 * corner)
+        bend = [float(rng.uniform(-0.02, 0.02)) / radius**3, float(rng.uniform(-0.02, 0.02)) / radius**5]
+        curved = {"curvature_per_mm": -1 / radius, "conic": float(rng.uniform(-1, 0)), "even_asphere": bend, "semi_aperture_mm": corner}
+        flat = {"curvature_per_mm": 0.0, "semi_aperture_mm": corner, "index": index, "distance_mm": corner**2 / radius + 0.1 * corner}
+        lens = {"type": "surfaces", "surface": [flat, curved]}
+    else:
+        share = float(rng.uniform(0.2, 0.8))  # of the power, on the panel's side
+        first, last = (share * (index - 1) and share / radius), (1 - share) / radius
+        steep = max(first, last) * corner
+        shrink = min(1.0, 0.9 / steep)
+        thick = corner**2 * (first + last) * shrink + 0.1 * corner
+        lens = {"type": "surfaces", "surface": [
+            {"curvature_per_mm": first * shrink, "conic": float(rng.uniform(-1, 0)), "semi_aperture_mm": corner, "index": index, "distance_mm": thick},
+            {"curvature_per_mm": -last * shrink, "conic": float(rng.uniform(-1, 0)), "semi_aperture_mm": corner}]}
+    if rng.random() < 0.15:
+        lens["stop_radius_mm"] = float(rng.uniform(0.2, 0.8)) * semi
+    return lens, aperture
+
+
+def draw_gap(rng, focal, eye):
+    """The gap for a central depth plane that is real, virtual or infinitely far."""
+    kind = rng.choice(["real", "real", "virtual", "infinite"])
+    if kind == "infinite":
+        return focal
+    if kind == "real":
+        near = 2 * focal
+        return 1 / (1 / focal - 1 / log_uniform(rng, near, max(0.8 * eye, 1.5 * near)))
+    return 1 / (1 / focal + 1 / log_uniform(rng, max(2 * focal, 0.3 * eye), 30 * max(focal, eye)))
+
+
+def count(rng, pitch, eye, per_lens, most_pixels):
+    """Lenses across and up: 5 x 5 to about 300 x 200, not wider than 1.5 times the eye's distance."""
+    most = min(300, 1.5 * eye / pitch, math.sqrt(1.6 * most_pixels) / per_lens)
+    across = max(5, round(log_uniform(rng, 5, max(5.01, most))))
+    return [across, max(5, round(across * float(rng.uniform(0.5, 1))))]
+
+
+def draw_diffuser(rng, pitch, eye):
+    """Spreads light over about a lens pitch where it stands, which joins neighbouring lenses."""
+    distance = min(log_uniform(rng, pitch, 60 * pitch), 0.6 * eye)
+    angles = np.minimum(np.degrees(2 * math.atan(pitch / 2 / distance)) * rng.uniform(0.4, 1.6, 2), 28)
+    return {"distance_mm": distance, "angle_deg": [float(v) for v in angles], "profile": str(rng.choice(["box", "gaussian"]))}

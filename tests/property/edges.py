@@ -1,0 +1,66 @@
+"""Where a share of lines of sight, about 1 in the middle, falls to a level: the nearest such place on either side."""
+import math
+
+import numpy as np
+
+SURE = 3  # standard errors: what lies nearer to the level than these is not known to be on either side
+
+
+class Unsure(Exception):
+    """The form's own error is too large to say whether there is an edge."""
+
+
+def edge(share, level, step, limit):
+    """The least x > 0 at which the mean of share(x), an array over sets of lines, falls below `level`: (x, its error), or None if it is below it at 0.
+
+    Searched outwards in steps, to `limit`; share may contain nan where there is nothing to see. None, too, if no edge is found.
+    """
+    here, before = share(0.0), 0.0
+    middle = here.mean()
+    if math.isnan(middle):
+        return None
+    if abs(middle - level) < SURE * error_of(here) + 1e-9:
+        raise Unsure
+    if middle < level:
+        return None
+    x = step
+    while x < limit:
+        now = share(x)
+        if not now.mean() >= level:
+            return refine(share, level, before, here, x, now)
+        before, here, x = x, now, x + step
+    return None
+
+
+def refine(share, level, low, at_low, high, at_high):
+    """Narrows [low, high] by false position and halving in turn."""
+    for turn in range(12):
+        a, b = at_low.mean() - level, level - at_high.mean()
+        part = 0.5 if turn % 2 or not b > 0 else min(max(a / (a + b), 0.05), 0.95)
+        x = low + part * (high - low)
+        now = share(x)
+        if now.mean() >= level:
+            low, at_low = x, now
+        else:
+            high, at_high = x, now
+        if high - low < 2e-4 * high:
+            break
+    x = (low + high) / 2
+    wide = 0.02 * x
+    below, above = share(x - wide), share(x + wide)
+    slope = (below.mean() - above.mean()) / (2 * wide)
+    if not slope > 0:
+        raise Unsure
+    spread = 0.5 * (error_of(below) + error_of(above))
+    return x, spread / slope + (high - low) / 2
+
+
+def error_of(sets):
+    """Standard error of the mean over sets."""
+    return sets.std(ddof=1) / np.sqrt(len(sets))
+
+
+def both_edges(share, level, step, limit):
+    """((low, error), (high, error)) about 0, each None where there is none."""
+    low, high = edge(lambda x: share(-x), level, step, limit), edge(share, level, step, limit)
+    return low and (-low[0], low[1]), high

@@ -1,0 +1,122 @@
+"""Light of a panel point through one lens by itself, forward, in the plane of the point and the lens's axis: fans of rays and their width at depths.
+
+A lens's own frame: x and y from its axis, z from the panel; depths from the rear principal plane.
+"""
+import numpy as np
+
+from surface import EPS, refract
+
+FAN = 4001  # rays tried
+
+
+def through(display, x, slopes):
+    """Rays from (x, 0, 0) with dx/dz = slopes: (place at the rear principal plane, slope) of each behind the lens, nan where it does not get through."""
+    o = np.tile([float(x), 0.0, 0.0], (len(slopes), 1))
+    d = np.column_stack([slopes, np.zeros_like(slopes), np.ones_like(slopes)])
+    d /= np.linalg.norm(d, axis=1, keepdims=True)
+    if display.ideal:
+        q = x + slopes * display.lens_z
+        inside = np.abs(q) <= (display.array.pitch_mm / 2 if display.square else display.lens.aperture_radius_mm) + EPS
+        inside &= np.abs(q) <= (display.stop_radius or np.inf) + EPS
+        return np.where(inside, q, np.nan), slopes - q / display.lens.focal_length_mm
+    ok = in_stop(display, o, d) if display.stop_z < display.surfaces[-1].z else np.ones(len(o), bool)
+    for surface in display.surfaces:
+        t, normal = forward(surface, o, d)
+        ok &= np.isfinite(t)
+        o = o + np.where(ok, t, 0.0)[:, None] * d
+        ok &= np.abs(o[:, 0]) <= (display.array.pitch_mm / 2 if display.square else np.inf) + EPS
+        bent, _, _, _, total = refract(d, normal, np.full(len(o), surface.n_below), np.full(len(o), surface.n_above))
+        ok &= ~total
+        d = np.where(ok[:, None], bent, d)
+    ok &= in_stop(display, o, d) if display.stop_z >= display.surfaces[-1].z else True
+    slope = d[:, 0] / d[:, 2]
+    return np.where(ok, o[:, 0] + (display.paraxial.rear - o[:, 2]) * slope, np.nan), slope
+
+
+def in_stop(display, o, d):
+    at = o[:, 0] + (display.stop_z - o[:, 2]) * d[:, 0] / d[:, 2]
+    return np.abs(at) <= (display.stop_radius or np.inf)
+
+
+def forward(surface, o, d):
+    """The first passage towards the viewer."""
+    best, normal = np.full(len(o), np.inf), np.zeros((len(o), 3))
+    normal[:, 2] = 1.0
+    for t in surface.roots(o, d):
+        p = o + np.where(np.isfinite(t), t, 0.0)[:, None] * d
+        n = surface.normal(p)
+        ok = np.isfinite(t) & (t > -EPS) & (t < best) & (np.sum(d * n, axis=1) > 0)
+        best[ok], normal[ok] = t[ok], n[ok]
+    return best, normal
+
+
+def fan(display, x=0.0):
+    """The rays that get through, evenly spread and to the very rims: (places, slopes); empty if none does."""
+    reach = 1.5 * display.array.pitch_mm / min(s.z_min for s in display.surfaces) if display.surfaces else display.array.pitch_mm / display.lens_z
+    slopes = np.linspace(-reach, reach, FAN) - x / display.paraxial.front
+    lit = np.flatnonzero(np.isfinite(through(display, x, slopes)[0]))
+    if not len(lit):
+        return np.array([]), np.array([])
+    ends = [rim(display, x, slopes[lit[0]], slopes[max(lit[0] - 1, 0)]), rim(display, x, slopes[lit[-1]], slopes[min(lit[-1] + 1, FAN - 1)])]
+    places, out = through(display, x, np.linspace(*ends, FAN))
+    lit = np.isfinite(places)
+    return places[lit], out[lit]
+
+
+def rim(display, x, passes, fails):
+    """The last slope that gets through."""
+    for _ in range(45):
+        middle = 0.5 * (passes + fails)
+        if np.isfinite(through(display, x, np.array([middle]))[0][0]):
+            passes = middle
+        else:
+            fails = middle
+    return passes
+
+
+def width_over_depth(rays, u):
+    """Width of a fan at z = 1/u, divided by |z|; continuous in u (1/mm), also at 0."""
+    at = rays[0] * u + rays[1]
+    return at.max() - at.min()
+
+
+def sharp_range(rays, most):
+    """The range of u = 1/z where the fan's width is at most `most` |z|, or None. The width over |z| is convex in u."""
+    low, high = -1.0, 1.0
+    while width_over_depth(rays, low) <= width_over_depth(rays, 0.9 * low):
+        low *= 2
+    while width_over_depth(rays, high) <= width_over_depth(rays, 0.9 * high):
+        high *= 2
+    best = least(lambda u: width_over_depth(rays, u), low, high)
+    if width_over_depth(rays, best) > most:
+        return None
+    return crossing(rays, most, best, low), crossing(rays, most, best, high)
+
+
+def least(f, low, high):
+    """Where a convex function is least, by golden sections."""
+    ratio = (5**0.5 - 1) / 2
+    a, b = high - ratio * (high - low), low + ratio * (high - low)
+    fa, fb = f(a), f(b)
+    for _ in range(90):
+        if fa < fb:
+            high, b, fb = b, a, fa
+            a = high - ratio * (high - low)
+            fa = f(a)
+        else:
+            low, a, fa = a, b, fb
+            b = low + ratio * (high - low)
+            fb = f(b)
+    return 0.5 * (low + high)
+
+
+def crossing(rays, most, inside, outside):
+    while width_over_depth(rays, outside) <= most:
+        outside += outside - inside
+    for _ in range(80):
+        middle = 0.5 * (inside + outside)
+        if width_over_depth(rays, middle) <= most:
+            inside = middle
+        else:
+            outside = middle
+    return inside

@@ -1,0 +1,31 @@
+"""The viewing zone: of the lines of sight that get through a lens, how many end on a pixel of that lens's own elemental image; where fewer than a share do."""
+import math
+
+import numpy as np
+
+import oracle
+from edges import both_edges
+from sight import per_set
+
+
+def right_share(sight, eye):
+    """For each set the share of lines through lenses that end on a pixel whose centre lies in their own elemental images."""
+    hits, panel = sight.see(eye), sight.display.panel
+    passed = ((hits.status == oracle.PANEL) | (hits.status == oracle.OFF_PANEL)) & (hits.lens[:, 0] >= 0)
+    centre = np.column_stack([hits.column + 0.5, -(hits.row + 0.5)]) * panel.pixel_pitch_mm + [-sight.half_panel[0], sight.half_panel[1]]
+    off = (centre - sight.centres(hits.lens)) @ sight.axes.T
+    own = (hits.column >= 0) & (np.abs(off) <= 0.5 * sight.stretch * sight.pitch).all(axis=1)
+    with np.errstate(invalid="ignore"):
+        return per_set((passed & own).astype(float)) / per_set(passed.astype(float))
+
+
+def zone_deg(sight, axis, distance, wrong, hint):
+    """((low, error), (high, error)) in degrees from the rear principal plane for eyes in the plane z = distance; at most a share `wrong` is wrong."""
+    above = distance - sight.display.paraxial.rear
+    step = above * math.tan(math.radians(hint)) / 6
+
+    def degrees(edge):
+        return edge and (math.degrees(math.atan(edge[0] / above)), math.degrees(edge[1] * above / (above**2 + edge[0] ** 2)))
+
+    edges = both_edges(lambda x: right_share(sight, np.append(x * sight.axes[axis], distance)), 1 - wrong, step, 20 * step)
+    return tuple(degrees(e) for e in edges)
