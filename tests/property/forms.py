@@ -1,36 +1,41 @@
 """Which figures of `lfdsim check` and `lfdsim analyze` are held against which form, and what the program is told to measure for them."""
 import math
 
+import crosstalk
 import field_of_view
 import one_lens
 import paraxial
+import sharpness
 import viewing_zone
 import white
 from edges import Unsure
-from sight import Sight
+from sight import Sight, without_diffuser
 from table import UNSURE
 
-LINES = 512  # of sight in each set; many for shares of 1 %
-MANY = 2048
+LINES = 512   # of sight in each set
+MANY = 2048   # for shares of 1 % and for means
+BETWEEN_EYES_MM = 65.0
+LOOSE = 0.05  # of a frequency: a form that knows it no better does not tell
 
 
 class Forms:
-    """All forms of a drawn display, worked out when asked for. Each method gives {path in the result: form, or a list of forms}."""
+    """All forms of a drawn display. Each method is named as its measure, takes its result, and gives {path there: form, or a list of forms}."""
 
     def __init__(self, display, description, seed):
         self.display, self.description, self.seed = display, description, seed
         self.viewing = description["content"]["viewing_distance_mm"]
         self.eye = description["camera"]["position_mm"][2]
         stretch = 1 + display.paraxial.front / (self.viewing - display.paraxial.rear)
+        self.stretch = stretch
         self.hint = math.degrees(math.atan(stretch * display.array.pitch_mm / (2 * display.paraxial.front)))
 
     def sight(self, lines, with_diffuser):
         return Sight(self.display, self.viewing, lines, self.seed, with_diffuser)
 
-    def check(self):
+    def check(self, result):
         return {f"theory.{path}": form for path, form in paraxial.forms(self.display, self.description).items()}
 
-    def fov(self):
+    def fov(self, result):
         bare, out = self.sight(LINES, False), {}
         for axis, name in enumerate(("horizontal", "vertical")):
             out[f"{name}.own_lens_deg"] = pair(field_of_view.own_lens_deg, bare, axis, self.eye, self.hint)
@@ -41,21 +46,52 @@ class Forms:
                 out[f"{name}.own_lens_with_diffuser_deg"] = pair(field_of_view.own_lens_deg, spread, axis, self.eye, self.hint)
         return out
 
-    def dof(self):
+    def dof(self, result):
         rays = one_lens.fan(self.display)
         most = self.display.panel.pixel_pitch_mm / self.display.paraxial.front
         ends = one_lens.sharp_range(rays, most) if len(rays[0]) else None
         return {"spot_diopters": [None, None] if ends is None else [(1000 * u, 1e-6 * 1000 * (ends[1] - ends[0])) for u in ends]}
 
-    def zone(self):
+    def zone(self, result):
         lines, out = self.sight(MANY, True), {}
         for axis, name in enumerate(("horizontal", "vertical")):
             for percent in (1, 50):
                 out[f"{name}.wrong_{percent}_percent_deg"] = pair(viewing_zone.zone_deg, lines, axis, self.eye, percent / 100, self.hint)
         return out
 
-    def uniformity(self):
-        return {"screen.luminance_over_panel": white.luminance(self.sight(MANY, True), [0.0, 0.0, self.eye])}
+    def uniformity(self, result):
+        eye, out = [0.0, 0.0, self.eye], {"screen.luminance_over_panel": white.luminance(self.sight(MANY, True), [0.0, 0.0, self.eye])}
+        middle = Sight(self.display, self.viewing, 4 * MANY, self.seed, True, middle_half=True)
+        for axis, name in enumerate(("horizontal", "vertical")):
+            out[f"bands.{name}_contrast"] = white.band_contrast(middle, eye, axis)
+        out["light.efficiency"] = white.efficiency(without_diffuser(self.display), MANY, self.seed)
+        return out
+
+    def crosstalk(self, result):
+        lines, above = self.sight(MANY, True), self.eye - self.display.paraxial.rear
+        apart = 0.5 * BETWEEN_EYES_MM / above > 0.5 * self.stretch * self.display.array.pitch_mm / self.display.paraxial.front
+        sides = {f"between_eyes.{name}_eye_percent": None if apart else crosstalk.eye_percent(lines, self.eye, side, BETWEEN_EYES_MM)
+                 for name, side in (("left", -1), ("right", 1))}
+        return {"between_views.woods_percent": crosstalk.middle_view_percent(lines, self.eye), **sides}
+
+    def mtf(self, result):
+        lines, d, out = self.sight(LINES, True), self.display, {}
+        for k, m in enumerate(result["measurements"]):
+            angle = math.radians(m["angle_deg"])
+            z = m["depth_mm"] + d.vertex_plane - d.paraxial.rear
+            greatest = 0.8 * d.paraxial.front / (d.panel.pixel_pitch_mm * max(abs(z), 1e-3 * self.eye))  # 0.6 is the limit of a pixel's image
+            form = sharpness.mtf50(lines, [self.eye * math.sin(angle), 0.0, self.eye * math.cos(angle)], m["depth_mm"], int(m["direction"] == "vertical"), greatest)
+            out[f"measurements.{k}.mtf50_per_mm.green"] = UNSURE if form and form[1] > LOOSE * form[0] else form
+        return out
+
+    def spot(self, result):
+        rays, d, out = one_lens.fan(self.display), self.display, {}
+        for k, spot in enumerate(result["spots"]):
+            if spot["field"] == "axis" and spot["depth_mm"] is not None:
+                z = spot["depth_mm"] + d.vertex_plane - d.paraxial.rear
+                width = one_lens.width_over_depth(rays, 1 / z) * abs(z)
+                out[f"spots.{k}.meridional_width_mm"] = width, 1e-5 * width + 1e-9
+        return out
 
 
 def sure(form, *arguments):

@@ -6,6 +6,7 @@ code is 1 if fewer than 95 % of its figures lie within their own stated error, i
 is above 2 % (0.1 degrees for the field of view), or if a null has no reason.
 """
 import argparse
+import functools
 import json
 import multiprocessing
 import pathlib
@@ -19,13 +20,14 @@ import oracle
 import table
 from forms import Forms
 
-MEASURES = ("fov", "dof", "zone", "uniformity")
+EVERY = {"fov": 1, "dof": 3, "zone": 3, "crosstalk": 3, "uniformity": 3, "spot": 3, "mtf": 10}  # --quick: one display of as many has the measure
 TRIES = 20  # drawings for one display, where `check` refuses some
 
 
 class Harness:
-    def __init__(self, program, folder, most_pixels, keep):
-        self.program, self.folder, self.most_pixels, self.keep = program, pathlib.Path(folder), most_pixels, keep
+    def __init__(self, program, folder, quick):
+        self.program, self.folder, self.quick = program, folder, quick
+        self.most_pixels = 4e5 if quick else 4e6  # of a panel
 
     def lfdsim(self, *arguments):
         return subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, timeout=600, cwd=self.folder)
@@ -44,56 +46,81 @@ class Harness:
         raise RuntimeError(f"display {number}: {TRIES} drawings refused, the last: {done.stderr}")
 
     def measured(self, path, measure, forms):
-        reach = round(1.5 * forms.hint, 2)
-        views = ["--angles-deg", f"{-reach},{reach},{reach / 6}"] if measure == "fov" else []
-        done = self.lfdsim("analyze", measure, path, *views, "--threads", 1, "--progress", "none", "--json", "-o", self.folder / f"{path.stem}-{measure}")
+        done = self.lfdsim("analyze", measure, path, *few_pictures(measure, forms), "--threads", 1, "--progress", "none", "--json", "-o", f"{path.stem}-{measure}")
         if done.returncode:
             raise RuntimeError(f"lfdsim analyze {measure} {path}: {done.stderr}")
         return json.loads(done.stdout)
 
+    def takes(self, index, measure):
+        return not self.quick or (index + list(EVERY).index(measure)) % EVERY[measure] == 0
+
+
+def few_pictures(measure, forms):
+    """Options that keep views and depths few."""
+    if measure == "fov":
+        reach = 1.5 * forms.hint
+        return "--angles-deg", f"{-reach},{reach},{reach / 6}"
+    if measure == "dof":
+        return "--depths-mm", f"{0.1 * forms.eye},{0.5 * forms.eye},{0.1 * forms.eye}"
+    if measure == "mtf":
+        return "--depths-mm", f"{0.1 * forms.eye},{0.2 * forms.eye},{0.1 * forms.eye}"
+    return ()
+
 
 def look_up(result, path):
-    """What stands at a path such as horizontal.own_lens_deg; KeyError if nothing does."""
+    """What stands at a path such as spots.2.depth_mm; KeyError if nothing does."""
     for name in path.split("."):
-        result = result[name]
+        result = result[int(name) if isinstance(result, list) else name]
     return result
 
 
-def number(value):
-    return 0.0 if value == "infinite" else value
+def label(measure, path):
+    return measure + " " + ".".join(p for p in path.split(".") if not p.isdigit() and p not in ("horizontal", "vertical", "theory", "green"))
+
+
+def error_at(result, path):
+    """The stated error of a figure, as an object of colours has it; None where there is none."""
+    name, _, colour = path.partition("_per_mm.")
+    try:
+        return look_up(result, f"{name}_per_mm_error.{colour}" if colour else path + "_error")
+    except KeyError:
+        return None
 
 
 def cases_of(measure, display, result, forms):
     for path, form in forms.items():
-        label = f"{measure} {path.removeprefix('horizontal.').removeprefix('vertical.').removeprefix('theory.')}"
-        several = isinstance(form, list)
+        name, several = label(measure, path), isinstance(form, list)
+        here = form if several else [form]
         try:
-            values = look_up(result, path)
+            values, errors = look_up(result, path), error_at(result, path)
         except KeyError:
-            yield table.Case(label, display, form[0] if several else form, None, absent=True)
+            yield table.Case(name, display, here[0], None, absent=True)
             continue
-        try:
-            errors = look_up(result, path + "_error")
-        except KeyError:
-            errors = [0.0, 0.0] if several else 0.0
-        forms_here, values, errors = (form, values or [None, None], errors or [0.0, 0.0]) if several else ([form], [values], [errors])
-        if measure == "check" and path.endswith("_mm") and "depth" in path:  # told in mm, compared in dioptres: infinitely far is 0
-            values = [v and (0.0 if v == "infinite" else 1000 / v) for v in values]
-        scale = max((abs(f[0]) for f in forms_here if isinstance(f, tuple)), default=1.0)
+        if not several:
+            values, errors = [values], [errors]
+        values, errors = values or [None] * len(here), errors or [0.0] * len(here)
+        if measure == "check" and "depth" in path and path.endswith("_mm"):  # told in mm, compared in dioptres: infinitely far is 0
+            values = [0.0 if v == "infinite" else v and 1000 / v for v in values]
+        scale = max((abs(f[0]) for f in here if isinstance(f, tuple)), default=1.0) or 1.0
         noted = any(path.startswith(key) or key.startswith(path) for key in result.get("notes", {}))
-        for f, value, error in zip(forms_here, values, errors):
-            yield table.Case(label, display, f, value, error or 0.0, scale, noted)
+        for f, value, error in zip(here, values, errors):
+            yield table.Case(name, display, f, value, error or 0.0, scale, noted)
 
 
-def display_cases(harness, index, only):
-    """All cases of display `index`, and how many drawings were refused."""
+def display_cases(harness, only, index):
+    """All cases of display `index`, how many drawings were refused, and what the program failed at."""
     description, path, checked, refused = harness.drawn(index)
     forms = Forms(oracle.resolve(description), description, index)
-    found = list(cases_of("check", index, checked, forms.check())) if only in "check" else []
-    for measure in MEASURES:
-        if only in measure:
-            found += cases_of(measure, index, harness.measured(path, measure, forms), getattr(forms, measure)())
-    return found, refused
+    found, failed = list(cases_of("check", index, checked, forms.check(checked))) if only in "check" else [], []
+    for measure in EVERY:
+        if only in measure and harness.takes(index, measure):
+            try:
+                result = harness.measured(path, measure, forms)
+            except (RuntimeError, subprocess.TimeoutExpired) as failure:
+                failed.append(str(failure))
+                continue
+            found += cases_of(measure, index, result, getattr(forms, measure)(result))
+    return found, refused, failed
 
 
 def main():
@@ -101,7 +128,7 @@ def main():
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("--displays", type=int, default=200)
     parser.add_argument("--first", type=int, default=0, help="number of the first display")
-    parser.add_argument("--most-pixels", type=float, default=4e6, help="of a panel")
+    parser.add_argument("--quick", action="store_true", help="small panels, and the measures by turns: each display has a few of them")
     parser.add_argument("--only", default="", help="measures whose names contain this")
     parser.add_argument("--wrong", action="store_true", help="print every figure that does not agree")
     parser.add_argument("--keep", type=pathlib.Path, help="folder for descriptions and results")
@@ -110,19 +137,22 @@ def main():
         folder = options.keep or pathlib.Path(folder)
         folder.mkdir(parents=True, exist_ok=True)
         contents.write(folder)
-        harness = Harness(options.program.resolve(), folder.resolve(), options.most_pixels, options.keep)
+        harness = Harness(options.program.resolve(), folder.resolve(), options.quick)
         with multiprocessing.Pool() as pool:
-            parts = pool.starmap(display_cases, [(harness, k, options.only) for k in range(options.first, options.first + options.displays)], chunksize=1)
-    found = table.rows([case for cases, _ in parts for case in cases])
+            numbers = range(options.first, options.first + options.displays)
+            parts = list(pool.imap(functools.partial(display_cases, harness, options.only), numbers))
+    found = table.rows([case for cases, _, _ in parts for case in cases])
     if options.wrong:
         for row in found:
             for case in row.wrong + [c for c in row.cases if c.null]:
                 print(f"{row.measure}: display {case.display}: measured {case.measured} +- {case.error}, form {case.form}")
-    print(f"{options.displays} displays; {sum(refused for _, refused in parts)} drawings refused by check")
+    failed = [message for _, _, failures in parts for message in failures]
+    print(*failed, sep="\n")
+    print(f"{options.displays} displays; {sum(refused for _, refused, _ in parts)} drawings refused by check; {len(failed)} measures failed\n")
     print(table.text(found))
     faults = [row for row in found if row.faults]
-    print(f"{len(found) - len(faults)} measures hold, {len(faults)} do not")
-    sys.exit(1 if faults or not found else 0)
+    print(f"\n{len(found) - len(faults)} figures hold, {len(faults)} do not")
+    sys.exit(1 if faults or failed or not found else 0)
 
 
 if __name__ == "__main__":

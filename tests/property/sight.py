@@ -21,16 +21,18 @@ def even_points(n, dimensions, seed):
 
 
 class Sight:
-    """What eyes see of a display through n lines in each set; with_diffuser: turned by its angles, too."""
+    """What eyes see of a display through n lines in each set; with_diffuser: turned by its angles, too. middle_half: of the lenses across and up alone."""
 
-    def __init__(self, display, viewing_distance, n, seed, with_diffuser=False):
+    def __init__(self, display, viewing_distance, n, seed, with_diffuser=False, middle_half=False):
         self.display = display if with_diffuser else without_diffuser(display)
         d = self.display
         u = even_points(n, 6, seed).reshape(-1, 6)
         turn = np.radians(d.array.rotation_deg)
         self.axes = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])  # rows: x' and y' in x and y
         count, self.pitch = np.array(d.array.count), d.array.pitch_mm
-        places = (np.floor(u[:, :2] * count) + u[:, 2:4] - count / 2) * self.pitch
+        first = count // 4 if middle_half else np.zeros(2)
+        self.in_cell = u[:, 2:4]  # places within a cell, from its corner, in pitches
+        places = (first + np.floor(u[:, :2] * (count - 2 * first)) + self.in_cell - count / 2) * self.pitch
         self.aim = np.column_stack([places @ self.axes + d.array.offset_mm, np.full(len(u), d.vertex_plane)])
         self.turns = diffuser_turns(d.diffuser, u[:, 4:]) if d.diffuser else None
         self.stretch = 1 + d.paraxial.front / (viewing_distance - d.paraxial.rear)  # of elemental images against lenses

@@ -1,0 +1,44 @@
+"""Crosstalk: how much of the light that an eye sees is meant for other views, or for the other eye. Leak over signal; the panel's black is 0.
+
+A panel point P in the elemental image centred at e C is meant for the slope s = (e C - P)/g along x'. View k is the strip with s within half a step of
+k a/g; whole views are those whose strip lies in the elemental image.
+"""
+import numpy as np
+
+from edges import error_of
+from sight import per_set
+from white import radiance
+
+
+def slopes(sight, eye):
+    """s of each line of sight from an eye, and its light; light on no lens's image does not count."""
+    d, hits = sight.display, sight.see(eye)
+    count = np.array(d.array.count)
+    lens = np.floor((hits.at / sight.stretch - d.array.offset_mm) @ sight.axes.T / sight.pitch + count / 2)
+    owned = (lens >= 0).all(axis=1) & (lens < count).all(axis=1)
+    return ((sight.centres(lens) - hits.at) @ sight.axes.T)[:, 0] / d.paraxial.front, np.where(owned, radiance(d, hits), 0.0)
+
+
+def over(leak, signal):
+    """In per cent, of sets: (value, error); None without signal."""
+    leak, signal = per_set(leak), per_set(signal)
+    if not signal.sum() > 0:
+        return None
+    share = leak.sum() / signal.sum()
+    return 100 * share, 100 * error_of(leak - share * signal) / signal.mean()
+
+
+def middle_view_percent(sight, distance):
+    """Of an eye before the middle at z = distance: all other whole views over view 0."""
+    s, light = slopes(sight, [0.0, 0.0, distance])
+    step = sight.display.panel.pixel_pitch_mm / sight.display.paraxial.front
+    last = np.floor(0.5 * sight.stretch * sight.pitch / sight.display.panel.pixel_pitch_mm - 0.5 + 1e-9)
+    view = np.floor(s / step + 0.5)
+    return over(light * ((view != 0) & (np.abs(view) <= last)), light * (view == 0))
+
+
+def eye_percent(sight, distance, side, between):
+    """Of one of two eyes `between` mm apart, side -1 (left) or 1: light meant for the other side of the head over that for its own."""
+    eye = np.append(0.5 * side * between * np.array([1.0, 0.0]), distance)
+    s, light = slopes(sight, eye)
+    return over(light * (side * s < 0), light * (side * s > 0))

@@ -1,0 +1,51 @@
+"""Modulation transfer in a plane at a depth: how far what is seen along a line of sight lies from where that line meets the plane.
+
+A panel pixel shows what its lens's nodal line meets in the plane. The distances between that and the line of sight are the line spread function; its
+Fourier transform is the modulation transfer function.
+"""
+import numpy as np
+
+from edges import error_of
+from sight import SETS
+
+STEPS = 400  # frequencies tried between 0 and the greatest
+
+
+def differences(sight, eye, depth):
+    """(n, 2) mm by which the nodal lines of the pixels seen pass the lines of sight in the plane `depth` before the vertex plane, and their light."""
+    d, hits = sight.display, sight.see(eye)
+    pixel = np.column_stack([hits.column + 0.5, -(hits.row + 0.5)]) * d.panel.pixel_pitch_mm + [-sight.half_panel[0], sight.half_panel[1]]
+    count = np.array(d.array.count)
+    lens = np.floor((pixel / sight.stretch - d.array.offset_mm) @ sight.axes.T / sight.pitch + count / 2)  # whose elemental image has the pixel
+    owned = (hits.column >= 0) & (lens >= 0).all(axis=1) & (lens < count).all(axis=1)
+    axis = sight.centres(lens) / sight.stretch
+    slope = (axis - pixel) / d.paraxial.front
+    plane = d.vertex_plane + depth
+    shown = axis + slope * (plane - d.paraxial.rear)
+    seen = eye[:2] + (sight.aim[:, :2] - eye[:2]) * ((eye[2] - plane) / (eye[2] - d.vertex_plane))
+    light = np.where(hits.column >= 0, hits.weight * hits.cosine**d.panel.emission_exponent, 0.0)
+    return shown - seen, np.where(owned, light, 0.0), light
+
+
+def mtf50(sight, eye, depth, axis, greatest):
+    """(the least frequency per mm at which modulation falls below a half, its error), None if it does not up to `greatest`."""
+    by, light, white = differences(sight, np.asarray(eye, float), depth)
+    by, light, white = (v.reshape(SETS, -1) for v in (by[:, axis], light, white))
+
+    def modulation(frequency):
+        return np.abs((light * np.exp(2j * np.pi * frequency * by)).sum(axis=1)) / white.sum(axis=1)
+
+    frequencies = np.linspace(0, greatest, STEPS)[1:]
+    before = None
+    for frequency in frequencies:
+        now = modulation(frequency)
+        if now.mean() < 0.5:
+            break
+        before = now
+    else:
+        return None
+    if before is None:
+        return None
+    step = frequencies[1] - frequencies[0]
+    fall = before.mean() - now.mean()
+    return frequency - step * (0.5 - now.mean()) / fall, step * max(error_of(now), error_of(before)) / fall + 0.02 * step
