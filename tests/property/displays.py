@@ -31,7 +31,8 @@ def draw(number, most_pixels):
     stretch = 1 + gap / (viewing - height)
     pixel = pitch / per_lens
     cover = stretch if rng.random() < 0.6 else 1.0  # wide enough for the outermost elemental images, or as wide as the array
-    columns, rows = (max(1, math.ceil(n * per_lens * cover)) for n in array["count"])
+    # A pixel whose centre lies between two elemental images belongs to either: an even number of lenses on an odd number of pixels has such.
+    columns, rows = (math.ceil(n * per_lens * cover / 2) * 2 for n in array["count"])
     if rng.random() < 0.15:
         array["rotation_deg"] = float(rng.uniform(-45, 45))
     if rng.random() < 0.2:

@@ -43,7 +43,7 @@ def refine(share, level, low, at_low, high, at_high):
             low, at_low = x, now
         else:
             high, at_high = x, now
-        if high - low < 2e-4 * high:
+        if high - low < 1e-3 * high:
             break
     x = (low + high) / 2
     wide = 0.02 * x

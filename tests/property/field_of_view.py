@@ -20,12 +20,12 @@ def own_lens_deg(sight, axis, radius, hint):
     """((low, error), (high, error)) in degrees along x' or y'; the eye goes round the panel's centre at `radius`."""
     lowest = max(sight.display.vertex_plane, sight.display.diffuser.z if sight.display.diffuser else 0)
     limit = min(math.degrees(math.acos(lowest / radius)), 85)
-    return both_edges(lambda deg: own_share(sight, sight.on_arc(math.radians(deg), axis, radius)), 0.5, hint / 6, limit)
+    return both_edges(lambda deg: own_share(sight, sight.on_arc(math.radians(deg), axis, radius)), 0.5, hint / 4, limit)
 
 
 def eyebox_mm(sight, axis, distance, hint):
     """(width, error) in the plane z = distance, or None."""
-    step = distance * math.tan(math.radians(hint)) / 6
+    step = distance * math.tan(math.radians(hint)) / 4
     edges = both_edges(lambda x: own_share(sight, np.append(x * sight.axes[axis], distance)), 0.5, step, 60 * step)
     if not all(edges):
         return None

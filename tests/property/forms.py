@@ -12,8 +12,8 @@ from edges import Unsure
 from sight import Sight, without_diffuser
 from table import UNSURE
 
-LINES = 512   # of sight in each set
-MANY = 2048   # for shares of 1 % and for means
+LINES = 384   # of sight in each set
+MANY = 1024   # for shares of 1 % and for means
 BETWEEN_EYES_MM = 65.0
 LOOSE = 0.05  # of a frequency: a form that knows it no better does not tell
 
@@ -41,16 +41,23 @@ class Forms:
             out[f"{name}.own_lens_deg"] = pair(field_of_view.own_lens_deg, bare, axis, self.eye, self.hint)
         out["eyebox_mm"] = [sure(field_of_view.eyebox_mm, bare, axis, self.eye, self.hint) for axis in (0, 1)]
         if self.display.diffuser:
-            spread = self.sight(LINES, True)
-            for axis, name in enumerate(("horizontal", "vertical")):
-                out[f"{name}.own_lens_with_diffuser_deg"] = pair(field_of_view.own_lens_deg, spread, axis, self.eye, self.hint)
+            out |= {f"{name}.own_lens_with_diffuser_deg": ends for name, ends in self.edges_as_shown().items()}
         return out
+
+    def edges_as_shown(self):
+        """Through the diffuser where there is one."""
+        sight = self.sight(LINES, True)
+        return {name: pair(field_of_view.own_lens_deg, sight, axis, self.eye, self.hint) for axis, name in enumerate(("horizontal", "vertical"))}
+
+    def likeness(self, result):
+        """The scene's share of the picture is a half where that of its light is."""
+        return {f"{name}.gradient_edge_deg": ends for name, ends in self.edges_as_shown().items()}
 
     def dof(self, result):
         rays = one_lens.fan(self.display)
         most = self.display.panel.pixel_pitch_mm / self.display.paraxial.front
         ends = one_lens.sharp_range(rays, most) if len(rays[0]) else None
-        return {"spot_diopters": [None, None] if ends is None else [(1000 * u, 1e-6 * 1000 * (ends[1] - ends[0])) for u in ends]}
+        return {"spot_diopters": [None, None] if ends is None else [(1000 * u, 1e-6 * 1000 * (ends[1] - ends[0])) for u in reversed(ends)]}  # near, far
 
     def zone(self, result):
         lines, out = self.sight(MANY, True), {}
@@ -61,7 +68,7 @@ class Forms:
 
     def uniformity(self, result):
         eye, out = [0.0, 0.0, self.eye], {"screen.luminance_over_panel": white.luminance(self.sight(MANY, True), [0.0, 0.0, self.eye])}
-        middle = Sight(self.display, self.viewing, 4 * MANY, self.seed, True, middle_half=True)
+        middle = Sight(self.display, self.viewing, 8 * MANY, self.seed, True, middle_half=True)
         for axis, name in enumerate(("horizontal", "vertical")):
             out[f"bands.{name}_contrast"] = white.band_contrast(middle, eye, axis)
         out["light.efficiency"] = white.efficiency(without_diffuser(self.display), MANY, self.seed)
