@@ -27,6 +27,8 @@ class Forms:
         self.eye = description["camera"]["position_mm"][2]
         stretch = 1 + display.paraxial.front / (self.viewing - display.paraxial.rear)
         self.stretch = stretch
+        power = 1 / display.paraxial.f - 1 / display.paraxial.front
+        self.central_depth = 1 / power if power else math.inf
         self.hint = math.degrees(math.atan(stretch * display.array.pitch_mm / (2 * display.paraxial.front)))
 
     def sight(self, lines, with_diffuser):

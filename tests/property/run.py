@@ -65,7 +65,8 @@ def few_pictures(measure, forms):
     if measure == "dof":
         return "--depths-mm", f"{0.1 * forms.eye},{0.5 * forms.eye},{0.1 * forms.eye}"
     if measure == "mtf":
-        return "--depths-mm", f"{0.1 * forms.eye},{0.2 * forms.eye},{0.1 * forms.eye}"
+        z = min(abs(forms.central_depth), 0.2 * forms.eye)
+        return "--depths-mm", f"{0.7 * z},{z},{0.3 * z}"
     return ()
 
 
