@@ -1,7 +1,7 @@
 """Crosstalk: how much of the light that an eye sees is meant for other views, or for the other eye. Leak over signal; the panel's black is 0.
 
-A panel point P in the elemental image centred at e C is meant for the slope s = (e C - P)/g along x'. View k is the strip with s within half a step of
-k a/g; whole views are those whose strip lies in the elemental image.
+A panel point P in the elemental image centred at e C is meant for the horizontal slope s = (e C - P)/g. View k is the strip with s within half a step of
+k a/g.
 """
 import numpy as np
 
@@ -16,7 +16,7 @@ def slopes(sight, eye):
     count = np.array(d.array.count)
     lens = np.floor((hits.at / sight.stretch - d.array.offset_mm) @ sight.axes.T / sight.pitch + count / 2)
     owned = (lens >= 0).all(axis=1) & (lens < count).all(axis=1)
-    return ((sight.centres(lens) - hits.at) @ sight.axes.T)[:, 0] / d.paraxial.front, np.where(owned, radiance(d, hits), 0.0)
+    return (sight.centres(lens) - hits.at)[:, 0] / d.paraxial.front, np.where(owned, radiance(d, hits), 0.0)
 
 
 def over(leak, signal):
@@ -29,12 +29,11 @@ def over(leak, signal):
 
 
 def middle_view_percent(sight, distance):
-    """Of an eye before the middle at z = distance: all other whole views over view 0."""
+    """Of an eye before the middle at z = distance: all other light over that of view 0."""
     s, light = slopes(sight, [0.0, 0.0, distance])
     step = sight.display.panel.pixel_pitch_mm / sight.display.paraxial.front
-    last = np.floor(0.5 * sight.stretch * sight.pitch / sight.display.panel.pixel_pitch_mm - 0.5 + 1e-9)
-    view = np.floor(s / step + 0.5)
-    return over(light * ((view != 0) & (np.abs(view) <= last)), light * (view == 0))
+    meant = np.abs(s) <= 0.5 * step
+    return over(light * ~meant, light * meant)
 
 
 def eye_percent(sight, distance, side, between):

@@ -12,8 +12,8 @@ from edges import Unsure
 from sight import Sight, without_diffuser
 from table import UNSURE
 
-LINES = 384   # of sight in each set
-MANY = 1024   # for shares of 1 % and for means
+LINES = 192   # of sight in each set
+MANY = 512    # for shares of 1 % and for means
 BETWEEN_EYES_MM = 65.0
 LOOSE = 0.05  # of a frequency: a form that knows it no better does not tell
 
@@ -77,7 +77,7 @@ class Forms:
         return out
 
     def crosstalk(self, result):
-        lines, above = self.sight(MANY, True), self.eye - self.display.paraxial.rear
+        lines, above = self.sight(8 * MANY, True), self.eye - self.display.paraxial.rear
         apart = 0.5 * BETWEEN_EYES_MM / above > 0.5 * self.stretch * self.display.array.pitch_mm / self.display.paraxial.front
         sides = {f"between_eyes.{name}_eye_percent": None if apart else crosstalk.eye_percent(lines, self.eye, side, BETWEEN_EYES_MM)
                  for name, side in (("left", -1), ("right", 1))}
@@ -89,8 +89,9 @@ class Forms:
             angle = math.radians(m["angle_deg"])
             z = m["depth_mm"] + d.vertex_plane - d.paraxial.rear
             greatest = 0.8 * d.paraxial.front / (d.panel.pixel_pitch_mm * max(abs(z), 1e-3 * self.eye))  # 0.6 is the limit of a pixel's image
-            form = sharpness.mtf50(lines, [self.eye * math.sin(angle), 0.0, self.eye * math.cos(angle)], m["depth_mm"], int(m["direction"] == "vertical"), greatest)
-            out[f"measurements.{k}.mtf50_per_mm.green"] = UNSURE if form and form[1] > LOOSE * form[0] else form
+            eye = [self.eye * math.sin(angle), 0.0, self.eye * math.cos(angle)]
+            form = sure(sharpness.mtf50, lines, eye, m["depth_mm"], int(m["direction"] == "vertical"), greatest)
+            out[f"measurements.{k}.mtf50_per_mm.green"] = UNSURE if form and form != UNSURE and form[1] > LOOSE * form[0] else form
         return out
 
     def spot(self, result):

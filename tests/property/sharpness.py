@@ -3,9 +3,11 @@
 A panel pixel shows what its lens's nodal line meets in the plane. The distances between that and the line of sight are the line spread function; its
 Fourier transform is the modulation transfer function.
 """
+import math
+
 import numpy as np
 
-from edges import error_of
+from edges import Unsure, error_of
 from sight import SETS
 
 STEPS = 400  # frequencies tried between 0 and the greatest
@@ -27,9 +29,15 @@ def differences(sight, eye, depth):
     return shown - seen, np.where(owned, light, 0.0), light
 
 
+MOST_OF_SCREEN = 0.2  # that a line may be spread over for its edges to stand clear of each other
+
+
 def mtf50(sight, eye, depth, axis, greatest):
     """(the least frequency per mm at which modulation falls below a half, its error), None if it does not up to `greatest`."""
     by, light, white = differences(sight, np.asarray(eye, float), depth)
+    low, high = np.quantile(by[light > 0][:, axis], [0.05, 0.95]) if light.any() else (0.0, math.inf)
+    if high - low > MOST_OF_SCREEN * sight.display.array.count[axis] * sight.pitch * (1 - depth / eye[2]):
+        raise Unsure
     by, light, white = (v.reshape(SETS, -1) for v in (by[:, axis], light, white))
 
     def modulation(frequency):

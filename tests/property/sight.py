@@ -9,7 +9,7 @@ import numpy as np
 
 import oracle
 
-SETS = 8
+SETS = 16
 _ROOT = {2: 1.32471795724, 4: 1.16730397826, 6: 1.11277568428}  # positive roots of x^(d+1) = x + 1: lattices that fill d dimensions evenly
 
 
