@@ -12,7 +12,7 @@ from edges import Unsure
 from sight import Sight, without_diffuser
 from table import UNSURE
 
-LINES = 192   # of sight in each set
+LINES = 128   # of sight in each set
 MANY = 512    # for shares of 1 % and for means
 BETWEEN_EYES_MM = 65.0
 LOOSE = 0.05  # of a frequency: a form that knows it no better does not tell
