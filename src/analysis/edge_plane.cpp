@@ -132,8 +132,7 @@ MtfCurves EdgePlane::blank(double angle_deg, double blur_mm) const {
         m.theory.push_back(by_theory.mtf(m.frequencies_per_mm.back(), bars_.upright));
     }
     if (const double half = m.theory_below(0.5); std::isfinite(half))
-        for (const double share : {1., 0.5})
-            m.uneven = std::max(m.uneven, std::abs(mtf_of_lines(s_, bars_, at, half, share) - by_theory.mtf(half, bars_.upright)));
+        m.uneven = std::abs(mtf_of_lines(s_, bars_, at, half) - by_theory.mtf(half, bars_.upright));
     return m;
 }
 

@@ -109,42 +109,12 @@ double passed(const Display& d, const Geometry& g) {
     return d.array.surround == Surround::plate ? t : fill * t + 1 - fill;
 }
 
-/// The integral over y of the chord of round lenses through y, in units of the pitch; 1 a pitch less what lies beside the lenses.
-double below_chord(double y, double pitch, double radius) {
-    const double lens = std::floor(y / pitch + 0.5), u = std::clamp((y - lens * pitch) / radius, -1., 1.), fill = radius / pitch;
-    return pi * fill * fill * lens + fill * fill * (u * std::sqrt(1 - u * u) + std::asin(u));
-}
-
 }  // namespace
 
 TheoryFigure luminance_over_panel(const Display& d, const Geometry& g, double eye_mm) {
     if (d.panel.emission_exponent != 0) return {nan, "theory holds for a panel that is as bright from all sides"};
     if (d.array.rotation_deg != 0) return {nan, "theory holds for arrays that are not turned"};
     return {passed(d, g) * seen_share(d, g, eye_mm, 0) * seen_share(d, g, eye_mm, 1), ""};
-}
-
-TheoryFigure band_contrast(const Display& d, const Geometry& g, double eye_mm, int axis, int bins) {
-    if (d.lens.type != LensType::ideal) return {nan, "theory holds for ideal lenses"};
-    if (d.array.rotation_deg != 0) return {nan, "theory holds for arrays that are not turned"};
-    if (d.panel.emission_exponent != 0) return {nan, "theory holds for a panel that is as bright from all sides"};
-    if (!is_round(d)) return {0, ""};
-    constexpr int places = 16;  // across the middle half
-    const double pitch = d.array.pitch_mm, eye = eye_mm - g.rear_principal_mm, bin = pitch / bins;
-    const double above = d.diffuser ? d.diffuser->distance_mm : 0;
-    const double array = pitch * double(d.array.count[std::size_t(axis)]), offset = d.array.offset_mm[std::size_t(axis)];
-    std::vector<double> profile(std::size_t(bins), 0.);
-    for (const Weighted& angle : diffuser_angles(d, axis))
-        for (int k = 0; k < places; ++k) {
-            const double slope = (offset + 0.25 * array * ((2 * k + 1.) / places - 1)) / eye;
-            const double carried = above * (std::tan(std::atan(slope) + angle.at) - slope);
-            for (int n = 0; n < bins; ++n) {
-                const double y = carried - 0.5 * pitch + n * bin;
-                profile[std::size_t(n)] += angle.share * (below_chord(y + bin, pitch, 0.5 * g.clear_aperture_mm) -
-                                                          below_chord(y, pitch, 0.5 * g.clear_aperture_mm));
-            }
-        }
-    const auto [low, high] = std::ranges::minmax(profile);
-    return {high > 0 ? (high - low) / (high + low) : 0, ""};
 }
 
 }  // namespace lfdsim

@@ -75,8 +75,8 @@ double light_astray(const Subject& s, double angle_deg, double distance_mm) {
                    SlopeSpread(s, eye, 1).within(0, -half, half);
 }
 
-double mtf_of_lines(const Subject& s, const Bars& bars, const Eye& eye, double per_mm, double share) {
-    constexpr int count = 8192;
+double mtf_of_lines(const Subject& s, const Bars& bars, const Eye& eye, double per_mm) {
+    constexpr int count = 1 << 16;
     const Display& d = s.display();
     const Geometry& g = s.geometry();
     const Pickup pickup(d, g);
@@ -89,7 +89,7 @@ double mtf_of_lines(const Subject& s, const Bars& bars, const Eye& eye, double p
     for (const Choice& choice : even_choices(count)) {
         double at[2], slope[2], place[2];
         for (std::size_t k = 0; k < 2; ++k) {
-            const double aimed = 0.5 * share * (k == 0 ? g.array_width_mm : g.array_height_mm) * choice[k] + d.array.offset_mm[k],
+            const double aimed = 0.5 * (k == 0 ? g.array_width_mm : g.array_height_mm) * choice[k] + d.array.offset_mm[k],
                          straight = (aimed - e[k]) / height;
             slope[k] = straight;
             if (d.diffuser) slope[k] = std::tan(std::atan(straight) + diffuser_rad(*d.diffuser, k, choice[2 + k]));

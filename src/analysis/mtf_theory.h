@@ -32,9 +32,9 @@ struct Blur {
 /// Share of the light that an eye at this angle and distance sees on other lenses' elemental images, where Blur says nothing of it.
 double light_astray(const Subject&, double angle_deg, double distance_mm);
 
-/// Modulation at a frequency by a sum over lines of sight through paraxial lenses to the very pixels of the panel, for the middle
-/// `share` of the array along each axis: where pixels are met in all phases alike, that of the closed form.
-double mtf_of_lines(const Subject&, const Bars&, const Eye&, double per_mm, double share);
+/// Modulation at a frequency by a sum over lines of sight through paraxial lenses to the very pixels of the panel: where they are
+/// met in all phases alike, that of the closed form.
+double mtf_of_lines(const Subject&, const Bars&, const Eye&, double per_mm);
 
 /// At an angle of view to the right.
 Blur blur(const Display&, const Geometry&, const Theory&, double z_mm, double angle_deg);

@@ -2,6 +2,7 @@
 
 #include "analysis/efficiency.h"
 #include "analysis/luminance_theory.h"
+#include "model/bands.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -68,7 +69,7 @@ void add_screen(Result& result, const ScreenLuminance& screen, const Subject& s,
             "leaves it out.");
 }
 
-void add_bands(Result& result, const PitchLuminance& pitch, const Subject& s, double distance) {
+void add_bands(Result& result, const PitchLuminance& pitch, const Subject& s) {
     constexpr int side = PitchLuminance::side;
     const double half = s.display().array.pitch_mm / 2;
     std::vector<double> places;
@@ -79,19 +80,19 @@ void add_bands(Result& result, const PitchLuminance& pitch, const Subject& s, do
               "of the panel's",
               {}};
     DataTable table{"uniformity_bands", {{"place_mm", places}}};
+    const std::array<double, 2> foreseen = band_contrast(s.display(), s.geometry());
     Json& json = result.figures["bands"];
     for (const int axis : {0, 1}) {
         const std::string name = axis == 0 ? "horizontal" : "vertical";
         const std::vector<Sums> profile = pitch.profile(axis);
         const Estimate contrast = michelson(profile);
-        const TheoryFigure theory = band_contrast(s.display(), s.geometry(), distance, axis, side);
+        const double theory = foreseen[std::size_t(axis)];
         add_figure(json, name + "_contrast", contrast);
-        json["theory_" + name + "_contrast"] = number_json(theory.value);
-        if (!theory.missing.empty()) result.note("bands.theory_" + name + "_contrast", theory.missing);
+        json["theory_" + name + "_contrast"] = theory;
         result.findings.push_back({fmt::format("Dark bands at lens joints, {}: Michelson contrast", name),
                                    "",
                                    {contrast.value},
-                                   theory.missing.empty() ? std::vector{theory.value} : std::vector<double>{},
+                                   {theory},
                                    "across one pitch, averaged along the other axis",
                                    {contrast.error}});
         plot.series.push_back({name, places, means(profile)});
@@ -243,7 +244,7 @@ Result measure_uniformity(Subject& s, Job& job) {
     Result result;
     result.figures["viewing_distance_mm"] = distance;
     add_screen(result, screen_luminance(rays, s.display(), eye, parts), s, distance);
-    add_bands(result, pitch_luminance(rays, s.display(), eye, parts), s, distance);
+    add_bands(result, pitch_luminance(rays, s.display(), eye, parts), s);
     add_angles(result, s, rays, distance, parts);
     add_budget(result, light_budgets(s.display(), s.geometry(), parts));
     result.remarks.push_back(
