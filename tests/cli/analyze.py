@@ -149,7 +149,7 @@ checks.that(code == 0 and "tiny-2" in out and "array" not in err, f"two displays
 checks.that(times("two/tiny-2")["dof.json"] == before["dof.json"], "two displays: --resume measured again")
 
 # Ctrl-C in the second display: the first is whole, the page says what is missing, and --resume goes on.
-LONG_TWO = LONG.replace("fov,dof tiny.toml", "dof tiny.toml other.toml").replace("10,1000,0.1", "10,40,10").replace("-o cut", "-o cut_two --samples 4096")
+LONG_TWO = LONG.replace("fov,dof tiny.toml", "dof tiny.toml other.toml").replace("10,1000,0.1", "10,40,0.5").replace("-o cut", "-o cut_two")
 process = program.start(f"analyze {LONG_TWO}")
 for line in process.stderr:
     if (program.folder / "cut_two/tiny/report.html").exists():

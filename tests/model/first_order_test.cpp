@@ -78,7 +78,7 @@ TEST(FirstOrder, RefusalsNameAPossibleValue) {
     const Case cases[] = {
         {{0.7, {1920, 1080}, 10, 20, {}}, "--fov-deg", &DesignRequest::fov_deg, 10, 15},
         {{0.7, {1920, 1080}, 10, 20, {}}, "--fov-deg", &DesignRequest::distance_mm, 20, 30},
-        {{8, {2560, 1600}, 119, 500, {}}, "--fov-deg", &DesignRequest::fov_deg, 90, 119},
+        {{8, {2560, 1600}, 119, 500, {}}, "--fov-deg", &DesignRequest::fov_deg, 70, 119},
     };
     for (const Case& c : cases) {
         try {
