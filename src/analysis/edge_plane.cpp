@@ -18,7 +18,7 @@ constexpr double radian = std::numbers::pi / 180;
 constexpr int least_lenses = 400;  // that edges cross: so many phases of the lenses enter the mean
 constexpr double golden = 0.6180339887498949;
 constexpr int most_pictures = 32;                         // of one view, to reach as many
-constexpr double systematic = 0.008;                      // of the modulation
+constexpr double systematic = 0.01;                       // of the modulation
 constexpr double pixels_wanted = 8e5, most_pixels = 4e6;  // of all pictures of a view
 
 }  // namespace

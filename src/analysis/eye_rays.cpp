@@ -29,6 +29,29 @@ optics::PanelPoint<double> trace(const optics::Scene<double>& scene, const optic
     }
 }
 
+/// Whether a line among glass meets a lens at all, and the first that it meets. In `clear` all glass is lenses; in `plate` it is
+/// what is not flat. In the array's axes, from the base lens's, z from the panel.
+bool first_lens(const optics::Scene<double>& scene, const optics::Extent<double>& extent, const optics::Ray<double>& ray,
+                optics::Cell<double>& cell) {
+    optics::GlassRays<double> rays{ray.at, ray.to, {0, 0}, false, false};
+    double weight = 1;
+    for (int surfaces = 0; surfaces < 4; ++surfaces) {  // a sheet's two faces, and as many reflections
+        optics::Crossing<double> next{1e30, {0, 0, 1}, {0, 0}, false};
+        const bool clear = scene.surround == Surround::clear;
+        if (clear)
+            optics::next_in_clear(scene, extent, rays, true, next);
+        else
+            optics::next_in_plate(scene, extent, rays, true, next);
+        if (!next.found) return false;
+        if (clear || std::hypot(next.normal.x, next.normal.y) > 0) {
+            cell = next.cell;
+            return true;
+        }
+        optics::cross(scene, next, true, rays, weight);
+    }
+    return false;
+}
+
 Vec3d unit_vector(const Vec3d& from, const Vec3d& towards) {
     const Vec3d d{towards[0] - from[0], towards[1] - from[1], towards[2] - from[2]};
     const double length = std::hypot(d[0], d[1], d[2]);
@@ -130,11 +153,18 @@ Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) 
     const bool beside =
         std::abs(x) * scene_.pixels_per_mm > 0.5 * scene_.columns || std::abs(y) * scene_.pixels_per_mm > 0.5 * scene_.rows;
     optics::Cell<double> cell = end.cell;
-    if (optics::way_through(scene_) == optics::Way::glass) {  // light finds its own way: that of the cell where it leaves the array
+    bool by_lens = true;
+    if (optics::way_through(scene_) == optics::Way::glass) {  // light finds its own way: its lens is the first that it meets
         const auto [leaves_x, leaves_y] = come_down_to(vertex_plane_);
         cell = {optics::nearest_cell(scene_, leaves_x), optics::nearest_cell(scene_, leaves_y)};
+        const auto [to_x, to_y] = to_array(ray.to.x, ray.to.y);
+        by_lens = first_lens(scene_, extent, {{ray.at.x, ray.at.y, start_z_}, {to_x, to_y, ray.to.z}}, cell);
     }
-    return {beside ? 0 : end.weight, true, x, y,
+    return {beside ? 0 : end.weight,
+            true,
+            by_lens,
+            x,
+            y,
             point(base_axis_[0] + cell.i * scene_.pitch, base_axis_[1] + cell.j * scene_.pitch)};
 }
 

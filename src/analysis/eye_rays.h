@@ -20,7 +20,8 @@ std::vector<Choice> even_choices(int count, std::uint32_t set = 0);
 /// Where a line of sight ends.
 struct Sight {
     double light = 0;      // radiance, 1 for a white panel's along its normal; 0: it is blocked, or ends beside the panel
-    bool through = false;  // it gets through the lenses; else the rest means nothing
+    bool through = false;  // it gets through the array; else the rest means nothing
+    bool by_lens = false;  // it meets a lens on its way; among glass others pass between the caps
     double x = 0, y = 0;   // in the panel's plane, mm from its centre
     Vec3d lens{};          // where the axis of the cell that it came through meets the vertex plane
     bool operator==(const Sight&) const = default;

@@ -56,7 +56,7 @@ double OwnLens::share(const Vec3d& eye, std::span<const Choice> choices) const {
     double own = 0, all = 0;
     for (const Choice& choice : choices) {
         const Sight sight = rays_.look(eye, choice);
-        if (!(sight.light > 0)) continue;
+        if (!(sight.light > 0 && sight.by_lens)) continue;
         const double x = sight.lens[0] * pickup_.scale, y = sight.lens[1] * pickup_.scale;
         if (!is_whole(x, y)) continue;
         all += sight.light;

@@ -57,7 +57,7 @@ double median(std::vector<double> v) {
 }
 
 /// The fall about `expected` as the curve is walked outwards to one side.
-Limit fall(const Curve& c, double expected, double reach, double step, int side) {
+Limit fall(const Curve& c, double expected, double reach, int side) {
     Limit none;
     if (!std::isfinite(expected)) {
         none.missing = "there is no edge to look for";
@@ -92,13 +92,7 @@ Limit fall(const Curve& c, double expected, double reach, double step, int side)
                                    crossings != 1 ? fmt::format("{} times", crossings) : "elsewhere");
         return none;
     }
-    // What the curve is made of decides where in its fall the middle lies: from three quarters of it down to one, at most.
-    const auto passed = [&](double share) {
-        return first_below(c, found->at - side * reach, side, bottom + share * (top - bottom)).at;
-    };
-    for (const double quarter : {passed(0.75), passed(0.25)})
-        if (std::isfinite(quarter))
-            found->error = std::hypot(found->error, std::max(std::abs(quarter - found->at) - 0.5 * step, 0.));
+    found->error = std::hypot(found->error, found->at - expected);
     return *found;
 }
 
@@ -119,7 +113,7 @@ Interval where_steady(const Curve& c, double centre, double most) {
 
 Interval where_it_falls(const Curve& c, const Falls& expected) {
     const double step = (c.at.back() - c.at.front()) / double(c.at.size() - 1), reach = std::max(expected.reach, 2 * step);
-    Interval edges{fall(c, expected.low, reach, step, -1), fall(c, expected.high, reach, step, 1)};
+    Interval edges{fall(c, expected.low, reach, -1), fall(c, expected.high, reach, 1)};
     const double aside = 0.5 * std::abs(edges.low.at + edges.high.at - expected.low - expected.high);
     if (std::isfinite(aside))
         for (Limit* limit : {&edges.low, &edges.high}) limit->error = std::hypot(limit->error, aside);

@@ -43,8 +43,8 @@ struct Falls {
 /// On each side the one sustained fall that contains the expected place: the curve crosses the middle between its medians inside
 /// and outside of the fall once, and stays on either side of it. The medians are of the places between one and three reaches (of
 /// two steps at least) from the expected one. None where the medians differ by less than 0.02 or five standard deviations, where
-/// the curve crosses more than once, or where it ends before. The error contains the noise, half a step, half of what the two
-/// limits lie to one side of the expected ones, and the width of the fall, since the content decides where in it the middle lies.
+/// the curve crosses more than once, or where it ends before. The error contains the noise, half a step, how far the limit lies
+/// from the expected place, which knows no content, and half of what both limits lie to one side of those.
 Interval where_it_falls(const Curve&, const Falls&);
 
 /// [low, high] with null where there is none.

@@ -23,23 +23,37 @@ double change(double out, double in, Predicate holds) {
     return in;
 }
 
-/// Every second ray, with the rims.
-std::vector<Line> thinned(const std::vector<Line>& fan) {
+/// Every second ray, from the first or the second on, with the rims.
+std::vector<Line> thinned(const std::vector<Line>& fan, std::size_t first) {
     std::vector<Line> half;
-    for (std::size_t k = 0; k < fan.size(); k += 2) half.push_back(fan[k]);
-    if (!fan.empty()) half.push_back(fan.back());
+    for (std::size_t k = first; k < fan.size(); k += 2) half.push_back(fan[k]);
+    if (!fan.empty()) half.insert(half.end(), {fan.front(), fan.back()});
     return half;
 }
 
-/// A fan, and every second ray of it.
+/// A fan, and both halves of it: every second ray.
 struct Fan {
-    std::vector<Line> all, half;
+    explicit Fan(const std::vector<Line>& fan) : all(fan), halves{thinned(fan, 0), thinned(fan, 1)} {}
+    /// Each ray turned by the diffuser.
+    Fan diffused_at(double z, double angle) const {
+        Fan turned(*this);
+        for (std::vector<Line>* lines : {&turned.all, &turned.halves[0], &turned.halves[1]}) *lines = diffused(*lines, z, angle);
+        return turned;
+    }
+    std::vector<Line> all;
+    std::array<std::vector<Line>, 2> halves;
 };
 
-/// How far the finite number of rays may have carried the ends off: they stand as 1/n^2, so that half as many show three times it.
-std::array<double, 2> errors(const SharpDepths& all, const SharpDepths& half) {
-    const auto error = [](double a, double b) { return std::abs(a - b) + 1e-9 * std::abs(a); };
-    return {error(all.near_per_mm, half.near_per_mm), error(all.far_per_mm, half.far_per_mm)};
+/// How far the finite number of rays may have carried the ends off. An end is told by the ray that goes farthest: it misses the
+/// true one by half a step between rays at most, the half without that ray by a whole one, which is four times as much.
+std::array<double, 2> errors(const SharpDepths& all, const Fan& fan, double pixel_slope, double airy_slope) {
+    std::array<double, 2> most{1e-9 * std::abs(all.near_per_mm), 1e-9 * std::abs(all.far_per_mm)};
+    for (const std::vector<Line>& half : fan.halves) {
+        const SharpDepths other = where_sharp(half, pixel_slope, airy_slope);
+        most[0] = std::max(most[0], std::abs(all.near_per_mm - other.near_per_mm));
+        most[1] = std::max(most[1], std::abs(all.far_per_mm - other.far_per_mm));
+    }
+    return most;
 }
 
 /// The same in millimetres, to first order.
@@ -69,7 +83,7 @@ class Teller {
             result_.note(key + "_mm", finding.remark);
             result_.note(key + "_diopters", finding.remark);
         } else {
-            const auto [near, far] = errors(depths, where_sharp(fan.half, pixel_slope_, airy_slope));
+            const auto [near, far] = errors(depths, fan, pixel_slope_, airy_slope);
             finding.measured = ends_mm(depths.near_per_mm, depths.far_per_mm);
             finding.error = {error_mm(depths.near_per_mm, near), error_mm(depths.far_per_mm, far)};
             result_.figures[key + "_mm"] = numbers_json(finding.measured);
@@ -122,8 +136,7 @@ SharpDepths add_spot_depths(const Subject& s, Result& result) {
     const Theory& t = s.theory();
     const Geometry& g = s.geometry();
     const double D = g.clear_aperture_mm, wavelength_mm = s.options().wavelength_nm * 1e-6;
-    const std::vector<Line> traced_fan = fans(LensTrace(s.display(), g), {0, 0}, fan_rays).meridional;
-    const Fan fan{traced_fan, thinned(traced_fan)};
+    const Fan fan(fans(LensTrace(s.display(), g), {0, 0}, fan_rays).meridional);
     Teller tell(s, result);
     const SharpDepths traced = where_sharp(fan.all, tell.pixel_slope());
     tell("spot", "spot no wider than a pixel's image, traced", fan, 0,
@@ -134,8 +147,7 @@ SharpDepths add_spot_depths(const Subject& s, Result& result) {
         for (const char* name : {"spot_best_mm", "spot_least_pixel_images"}) result.note(name, "no light gets through the lens");
     if (s.display().diffuser) {
         const double z = *g.diffuser_z_mm - g.rear_principal_mm, angle = diffuser_angle(s.display(), {1, 0});
-        tell("spot_with_diffuser", "the same with the diffuser's widening",
-             {diffused(fan.all, z, angle), diffused(fan.half, z, angle)}, 0,
+        tell("spot_with_diffuser", "the same with the diffuser's widening", fan.diffused_at(z, angle), 0,
              "the diffuser widens a spot by its angle times the distance from it");
     }
     tell("spot_with_diffraction", fmt::format("the same with the Airy disk at {} nm", s.options().wavelength_nm), fan,

@@ -287,6 +287,7 @@ SightShares sight_shares(const EyeRays& rays, const Pickup& pickup, const Displa
             ++dark;
             continue;
         }
+        if (!s.by_lens) continue;
         ++through;
         const double column = std::floor(s.x / pixel + 0.5 * double(d.panel.pixels[0])),
                      row = std::floor(0.5 * double(d.panel.pixels[1]) - s.y / pixel);

@@ -82,6 +82,11 @@ DisplayOptions::DisplayOptions(Command command, std::initializer_list<std::span<
             options_.emplace_back(&option, command.add_option(option.option, option.help).type_name(option.value));
 }
 
+bool DisplayOptions::given(std::string_view option) const {
+    return std::any_of(options_.begin(), options_.end(),
+                       [&](const auto& each) { return each.first->option == option && each.second.count() > 0; });
+}
+
 // Options become overrides of the description, so that one validation judges file, --set and options together.
 std::pair<std::vector<std::string>, std::map<std::string, std::string>> DisplayOptions::all_overrides(Faults& faults) const {
     std::vector<std::string> overrides = settings_;

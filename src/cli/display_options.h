@@ -43,6 +43,8 @@ class DisplayOptions {
     /// --set and the options as "key=value", in the order in which they apply. Throws InputError.
     std::vector<std::string> overrides() const;
     const std::string& path() const { return path_; }
+    /// Whether an option of the groups was given.
+    bool given(std::string_view option) const;
 
   private:
     // With, for each override, the place that messages give for it: what the user wrote.
