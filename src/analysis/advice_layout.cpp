@@ -60,7 +60,10 @@ void advise_on_layout(Advised& a) {
             g.panel_height_mm, 100 * beside_straight, fitting(g.panel_width_mm, d.array.count[0]),
             fitting(g.panel_height_mm, d.array.count[1]));
     }
-    if (g.array_width_mm * scale < 0.9 * g.panel_width_mm || g.array_height_mm * scale < 0.9 * g.panel_height_mm)
+    const auto unused = [&](double array_mm, double panel_mm) {  // more than a tenth, and room for another lens
+        return panel_mm - scale * array_mm > std::max(0.1 * panel_mm, a.theory.elemental_pitch_mm);
+    };
+    if (unused(g.array_width_mm, g.panel_width_mm) || unused(g.array_height_mm, g.panel_height_mm))
         a.say("the lens array ({:.5g} x {:.5g} mm) leaves more than a tenth of the panel ({:.5g} x {:.5g} mm) unused",
               g.array_width_mm, g.array_height_mm, g.panel_width_mm, g.panel_height_mm);
 }

@@ -274,6 +274,21 @@ void add_axis(Result& result, Search& search, const Subject& s, double distance)
         {"zone_distance", {{"distance_mm", zone.places}, {"wrong_share", zone.wrong}, {"dark_share", zone.dark}}});
 }
 
+/// Why a zone is not symmetric, where it is not by more than the stated errors.
+std::string aside_remark(const Json& figures) {
+    for (const char* axis : {"horizontal", "vertical"})
+        for (const std::string name : {"wrong_1_percent_deg", "wrong_50_percent_deg"}) {
+            const Json &at = figures.at(axis).at(name), &error = figures.at(axis).at(name + "_error");
+            if (!at[0].is_number() || !at[1].is_number()) continue;
+            const double aside = at[0].get<double>() + at[1].get<double>();
+            if (std::abs(aside) > error[0].get<double>() + error[1].get<double>())
+                return "The zone is not symmetric: the array is shifted or turned, or pixels whose centres lie on the border of "
+                       "two "
+                       "elemental images belong, as whole pixels must, to the one to the right and above.";
+        }
+    return "";
+}
+
 }  // namespace
 
 SightShares sight_shares(const EyeRays& rays, const Pickup& pickup, const Display& d, const Vec3d& eye,
@@ -320,6 +335,7 @@ Result measure_zone(Subject& s, Job& job) {
     add_map(result, search, half, distance);
     add_axis(result, search, s, distance);
     const double spread = SlopeSpread(s, eye).width() * s.geometry().gap_mm, image = s.theory().elemental_pitch_mm;
+    if (const std::string aside = aside_remark(result.figures); !aside.empty()) result.remarks.push_back(aside);
     result.remarks.push_back(fmt::format(
         "A ray is wrong if it comes through a lens and ends elsewhere than on that lens's elemental image: on another's, so that "
         "views repeat, or on none. Where all are wrong but few are mixed (show another neighbour's image than most do) a repeated "

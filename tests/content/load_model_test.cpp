@@ -144,7 +144,7 @@ TEST_F(Impostor, ClaimsTooMuch) {
 
 // Positions for one vertex and nothing else: all lists empty.
 TEST_F(Impostor, ListsThatDoNotFit) {
-    EXPECT_THAT(answer("printf '1omL'; exec head -c 72 /dev/zero"), testing::HasSubstr("no triangles"));
+    EXPECT_THAT(answer("printf '1omL'; exec head -c 80 /dev/zero"), testing::HasSubstr("no triangles"));
 }
 
 TEST_F(Impostor, MissingReaderIsNoFaultOfTheModel) {

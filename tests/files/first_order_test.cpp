@@ -10,9 +10,12 @@ namespace {
 
 TEST(WriteFirstOrder, ReadsBackAsTheDesign) {
     const DesignRequest requests[] = {
-        {8, {2560, 1600}, 30, 500, {}},     {8, {2560, 1600}, 70, 500, -40},
-        {0.7, {1920, 1080}, 30, 20, -1000}, {100, {3840, 2160}, 40, 3000, {}, LensType::ideal},
-        {5, {1080, 1920}, 100, 300, 30, LensType::ideal},    {2, {64, 48}, 20, 400, 20},
+        {8, {2560, 1600}, 30, 500, {}},
+        {8, {2560, 1600}, 70, 500, -40},
+        {0.7, {1920, 1080}, 30, 20, -1000},
+        {100, {3840, 2160}, 40, 3000, {}, LensType::ideal},
+        {5, {1080, 1920}, 100, 300, 30, LensType::ideal},
+        {2, {64, 48}, 20, 400, 20},
     };
     for (const DesignRequest& request : requests) {
         FirstOrder made = first_order(request);

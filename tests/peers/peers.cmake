@@ -8,7 +8,7 @@ if(TARGET lfdsim)
     add_test(NAME peers.cycles COMMAND ${PYTHON} ${CMAKE_CURRENT_LIST_DIR}/renderers.py $<TARGET_FILE:lfdsim> cycles)
     add_test(NAME peers.mitsuba COMMAND ${PYTHON} ${CMAKE_CURRENT_LIST_DIR}/renderers.py $<TARGET_FILE:lfdsim> mitsuba)
     add_test(NAME peers.failing COMMAND ${PYTHON} ${CMAKE_CURRENT_LIST_DIR}/failing.py $<TARGET_FILE:lfdsim>)
-    set_tests_properties(peers.failing PROPERTIES TIMEOUT 300)
+    set_tests_properties(peers.failing PROPERTIES TIMEOUT 300 LABELS full)
     # All of them side by side, and whether they differ no more than they should
     add_test(NAME peers COMMAND ${PYTHON} ${PROJECT_SOURCE_DIR}/bench/peers/run --smallest --no-install --program $<TARGET_FILE:lfdsim>
       --out ${CMAKE_BINARY_DIR}/peers)

@@ -69,7 +69,6 @@ for name, arguments, *words in [
                      "lens.cylinder_height_mm=none lens.index=none -o out", "lens.type", "a real lens"),
     ("pupil", f"export cycles tiny.toml --pattern white {BARE} --set camera.pupil_diameter_mm=3 -o out", "camera.pupil_diameter_mm=none"),
     ("two contents", f"export pov tiny.toml --pattern white --panel-image panel.png {BARE} -o out", "give one of them"),
-    ("no content", f"export pov tiny.toml {BARE} -o out", "nothing to show"),
     ("wrong panel image", f"export pov tiny.toml --panel-image tiny.toml {BARE} -o out", "tiny.toml"),
     ("a file for a folder", f"export pov tiny.toml --pattern white {BARE} -o panel.png", "is not a folder"),
     ("empty folder", ["export", "pov", "tiny.toml", "--pattern", "white", "--set", "diffuser=none", "-o", ""], "--output", "empty"),
