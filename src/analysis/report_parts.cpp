@@ -133,24 +133,19 @@ std::string value_html(const Json& values, const std::string& unit) {
     return text + (unit == "deg" ? "°" : unit.empty() ? "" : " " + escaped(unit));
 }
 
-namespace {
-
-/// The largest of a finding's errors.
-std::string error_html(const Json& errors) {
+std::string error_text(const Json& errors) {
     double most = 0;
     for (const Json& x : errors)
         if (x.is_number()) most = std::max(most, x.get<double>());
     return most > 0 ? fmt::format(" ± {:.2g}", most) : "";
 }
 
-}  // namespace
-
 std::string finding_rows(const Json& report) {
     std::string html;
     for (const Json& f : report.at("findings")) {
         const std::string unit = f.at("unit");
         html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td class=\"remark\">{}</td></tr>\n",
-                            text_of(f, "what"), value_html(f.at("measured"), unit) + error_html(f.at("error")),
+                            text_of(f, "what"), value_html(f.at("measured"), unit) + error_text(f.at("error")),
                             value_html(f.at("theory"), unit), text_of(f, "remark"));
     }
     return html;

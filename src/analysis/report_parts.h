@@ -11,6 +11,9 @@ namespace lfdsim {
 /// "-20.1 to 19.9°", "12.3 mm", "–" for none; null: "not found".
 std::string value_html(const Json& values, const std::string& unit);
 
+/// " ± 0.02", the largest of a finding's errors; nothing if none is stated.
+std::string error_text(const Json& errors);
+
 /// Rows of the table of theory beside measurement.
 std::string finding_rows(const Json& report);
 

@@ -119,10 +119,7 @@ std::string settings_section(const Json& all) {
 
 std::string figure_html(const Json& measured, const Json& error, const std::string& unit) {
     if (measured.is_null()) return "–";
-    double most = 0;
-    for (const Json& e : error)
-        if (e.is_number()) most = std::max(most, e.get<double>());
-    return value_html(measured, unit) + (most > 0 ? fmt::format(" ± {:.2g}", most) : "");
+    return value_html(measured, unit) + error_text(error);
 }
 
 std::string difference_html(const Json& difference, const Json& more) {

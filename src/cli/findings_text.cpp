@@ -1,6 +1,7 @@
 #include "cli/findings_text.h"
 
 #include "analysis/measure.h"
+#include "analysis/report_parts.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -17,14 +18,6 @@ std::string value_text(const Json& values, const std::string& unit) {
                                                 : x.is_number() ? fmt::format("{:.4g}", x.get<double>())
                                                                 : x.get<std::string>());
     return text + (unit.empty() ? "" : " " + unit);
-}
-
-/// The largest of a finding's errors.
-std::string error_text(const Json& errors) {
-    double most = 0;
-    for (const Json& x : errors)
-        if (x.is_number()) most = std::max(most, x.get<double>());
-    return most > 0 ? fmt::format(" \u00b1 {:.2g}", most) : "";
 }
 
 }  // namespace
