@@ -11,6 +11,7 @@ namespace lfdsim {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180, nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double share_error = 0.005;  // what the place has to hold for: the share is not known, nor does it matter, better
 constexpr int sets = 4, first_rays = 1024, coarse_rays = 512, most_growth = 64;
 
 /// Lines of sight of the other side: a display that is symmetric then has the same share there to the last bit.
@@ -91,9 +92,11 @@ Bracket bracket(const OwnLens& lens, const EyePath& path, int side, std::span<co
     return {nan, nan, fmt::format("the share is above one half as far as {:.4g}, where the search ends", path.most)};
 }
 
-/// The place of one half between them, a step farther on either side: other lines of sight may fall there.
-double half_way(const OwnLens& lens, const EyePath& path, int side, Bracket b, double precision, std::span<const Choice> choices) {
-    const auto own = [&](double at) { return lens.share(path.eye(side * at), choices) >= 0.5; };
+/// The place between them where the share falls below a level, or steps farther on either side: other lines of sight may fall
+/// there.
+double falls_to(double level, const OwnLens& lens, const EyePath& path, int side, Bracket b, double precision,
+                std::span<const Choice> choices) {
+    const auto own = [&](double at) { return lens.share(path.eye(side * at), choices) >= level; };
     while (b.in > 0 && !own(b.in)) b.in = std::max(b.in - path.step, 0.);
     while (b.out < path.most && own(b.out)) b.out = std::min(b.out + path.step, path.most);
     while (b.out - b.in > precision) {
@@ -123,10 +126,15 @@ OwnRange where_own(const OwnLens& lens, const EyePath& path, double wanted, std:
         for (int growth = 1; growth <= most_growth; growth *= 4) {
             std::array<double, sets> found;
             for (std::uint32_t set = 0; set < sets; ++set)
-                found[set] = half_way(lens, path, side, b, precision, choices(first_rays * growth, sets * seed + set));
+                found[set] = falls_to(0.5, lens, path, side, b, precision, choices(first_rays * growth, sets * seed + set));
             const auto [at, error] = estimate(found, precision);
+            // Where few lenses fall out one after the other the share has steps, and one of them may lie at one half.
+            const std::vector<Choice> lines = choices(first_rays * growth, sets * seed);
+            const auto away = [&](double share) {
+                return std::abs(falls_to(share, lens, path, side, b, precision, lines) - found[0]);
+            };
             range.at[k] = at;
-            range.error[k] = error;
+            range.error[k] = std::hypot(error, std::max(away(0.5 - share_error), away(0.5 + share_error)));
             if (error <= wanted) break;
             b.in = std::max(std::abs(at) - 3 * error, 0.);
             b.out = std::min(std::abs(at) + 3 * error, path.most);
