@@ -44,7 +44,7 @@ Json to_json(const MtfCurves& m, const Resolution& r) {
 
 /// Why figures of measurement n are null.
 void add_notes(const MtfCurves& m, const Resolution& r, std::size_t n, Result& result) {
-    const std::string path = fmt::format("measurements[{}]", n);
+    const std::string path = fmt::format("measurements.{}", n);
     if (!m.has_theory())
         for (const char* name : {"theory_mtf50", "theory_resolution"})
             result.note(fmt::format("{}.{}", path, name),

@@ -97,13 +97,13 @@ void tell_spots(const Subject& s, const std::vector<Field>& fields, const std::v
                 json[names[c]] = number_json(row[c]);
             }
             if (std::isnan(spot.rms))
-                result.note(fmt::format("spots[{}]", spots.size()), "no light of this panel point gets through the lens");
+                result.note(fmt::format("spots.{}", spots.size()), "no light of this panel point gets through the lens");
             spots.push_back(std::move(json));
         }
     }
     if (!s.display().diffuser)
         for (const char* name : {"meridional_with_diffuser_mm", "sagittal_with_diffuser_mm"})
-            result.note(fmt::format("spots[].{}", name), "there is no diffuser");
+            result.note(fmt::format("spots.{}", name), "there is no diffuser");
     result.tables.push_back(std::move(table));
 }
 

@@ -147,7 +147,7 @@ TEST(Mtf, ResolutionIsTheLeastOfMtf50AndTheLimits) {
         if (depth == 0) {
             EXPECT_TRUE(m["resolution_per_mm"].is_null() && m["limited_by"].is_null() && m["mtf50_per_mm"]["green"].is_null());
             EXPECT_EQ(m["pixel_image_limit_per_mm"], "infinite");
-            EXPECT_TRUE(result.notes.contains("measurements[0]"));
+            EXPECT_TRUE(result.notes.contains("measurements.0"));
             continue;
         }
         const double angle = m["angle_deg"], eye = 1500 * std::cos(angle * radian) - 8, mtf50 = m["mtf50_per_mm"]["green"],
