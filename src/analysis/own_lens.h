@@ -51,9 +51,9 @@ struct EyePath {
     int mirrored;  // the axis along which the other side's lines of sight are the mirror images of this side's: 0 (x') or 1 (y')
 };
 
-/// Four independent sets of lines of sight each give a place. The error is what they scatter, as wide as covers the truth in 95 of 100
-/// cases, and how far to either side the share is within 0.005 of one half. More lines are taken until the scatter is below `wanted` or
-/// there are 64 times as many. Throws Stopped.
+/// Four independent sets of lines of sight each give a place. The error is what they scatter, as wide as covers the truth in 95 of
+/// 100 cases, and how far to either side the share is within 0.005 of one half. More lines are taken until the scatter is below
+/// `wanted` or there are 64 times as many. Throws Stopped.
 OwnRange where_own(const OwnLens&, const EyePath&, double wanted, std::uint32_t seed, Parts&);
 constexpr int own_range_parts = 2;
 
