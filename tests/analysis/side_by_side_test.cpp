@@ -65,7 +65,9 @@ TEST(SideBySide, TellsSettingsThatDifferAndNoOthers) {
     EXPECT_THAT(keys, testing::IsSupersetOf({"name", "array.gap_mm", "diffuser.distance_mm", "diffuser.angle_deg"}));
     EXPECT_THAT(keys, Not(testing::Contains("array.pitch_mm")));
     for (const Json& row : all["settings"])
-        if (row["key"] == "diffuser.distance_mm") EXPECT_EQ(row["values"], Json({nullptr, 30.0}));
+        if (row["key"] == "diffuser.distance_mm") {
+            EXPECT_EQ(row["values"], Json({nullptr, 30.0}));
+        }
 }
 
 TEST(SideBySide, WeighsDifferencesAgainstErrors) {

@@ -82,7 +82,9 @@ TEST(SpotDepth, IsTheIntervalOfABruteForceSearch) {
                 EXPECT_EQ(slope <= pixel_slope, 1 / z >= depths.far_per_mm && 1 / z <= depths.near_per_mm) << name << " " << z;
             }
             EXPECT_LE(depths.least_width, least + 1e-12) << name;
-            if (std::abs(depths.best_per_mm) > 1e-3) EXPECT_NEAR(depths.least_width, least, 0.05 * least + 1e-4) << name;
+            if (std::abs(depths.best_per_mm) > 1e-3) {
+                EXPECT_NEAR(depths.least_width, least, 0.05 * least + 1e-4) << name;
+            }
         }
     }
 }
@@ -135,7 +137,9 @@ TEST(SpotDepth, QuarterOfAWave) {
         EXPECT_LT(far, near);
         for (const double per_mm : {near, far}) EXPECT_NEAR(error_in_waves(1 / per_mm, L, 2.319), 0.25, 1e-12);
         const double rayleigh = 2 * wavelength * L * L / (2.319 * 2.319);  // for depths much less than L
-        if (std::isfinite(L)) EXPECT_NEAR((1 / far - 1 / near) / (2 * rayleigh), 1, 0.01);
+        if (std::isfinite(L)) {
+            EXPECT_NEAR((1 / far - 1 / near) / (2 * rayleigh), 1, 0.01);
+        }
     }
     // so small a hole that infinity is sharp with L
     EXPECT_LT(quarter_wave_per_mm(1000, 0.5, wavelength)[1], 0);
