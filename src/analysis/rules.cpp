@@ -132,7 +132,6 @@ std::string why_missing(const Interval& i) {
 }  // namespace
 
 Json limits_json(const Interval& i) { return numbers_json(bounds(i)); }
-Json errors_json(const Interval& i) { return numbers_json({i.low.error, i.high.error}); }
 std::vector<double> bounds(const Interval& i) { return {i.low.at, i.high.at}; }
 
 Finding finding(const std::string& what, const std::string& unit, const Interval& i, std::vector<double> theory,
@@ -143,7 +142,7 @@ Finding finding(const std::string& what, const std::string& unit, const Interval
 
 void add_limits(Result& result, Json& figures, const std::string& path, const std::string& name, const Interval& i) {
     figures[name] = limits_json(i);
-    figures[name + "_error"] = errors_json(i);
+    figures[name + "_error"] = numbers_json({i.low.error, i.high.error});
     if (const std::string why = why_missing(i); !why.empty()) result.note(path + name, why);
 }
 

@@ -49,8 +49,6 @@ Interval where_it_falls(const Curve&, const Falls&);
 
 /// [low, high] with null where there is none.
 Json limits_json(const Interval&);
-/// The same of the limits' errors.
-Json errors_json(const Interval&);
 /// For Finding::measured.
 std::vector<double> bounds(const Interval&);
 /// With why a limit is missing, if one is, in place of the remark.

@@ -1,7 +1,5 @@
 #include "analysis/spot.h"
 
-#include "analysis/spot_depth.h"
-
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>

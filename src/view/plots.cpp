@@ -3,7 +3,6 @@
 #include "analysis/eye_rays.h"
 #include "analysis/fov.h"
 #include "analysis/lens_trace.h"
-#include "analysis/spot_depth.h"
 #include "analysis/views.h"
 
 #include <fmt/format.h>
