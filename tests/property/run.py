@@ -21,7 +21,7 @@ import table
 from forms import Forms
 
 # --quick: one display of as many has the measure. "likeness" is `analyze fov` with all its views.
-EVERY = {"fov": 3, "likeness": 10, "dof": 4, "zone": 10, "crosstalk": 8, "uniformity": 8, "spot": 4, "mtf": 10}
+EVERY = {"fov": 2, "likeness": 10, "dof": 4, "zone": 10, "crosstalk": 8, "uniformity": 8, "spot": 4, "mtf": 10}
 TRIES = 20  # drawings for one display, where `check` refuses some
 
 
