@@ -93,6 +93,10 @@ Vec3d EyeRays::point(double x, double y) const {
 std::array<double, 2> EyeRays::to_array(double x, double y) const { return {cos_ * x + sin_ * y, cos_ * y - sin_ * x}; }
 
 Sight EyeRays::look(const Vec3d& eye, const Choice& choice) const {
+    return look_through(eye, aim(eye, choice), choice[2], choice[3]);
+}
+
+Vec3d EyeRays::aim(const Vec3d& eye, const Choice& choice) const {
     std::array<double, 2> axis, moved{};
     for (std::size_t k = 0; k < 2; ++k) {
         const double lens = std::min(std::floor((0.5 + 0.5 * choice[4 + k]) * count_[k]), count_[k] - 1);
@@ -111,7 +115,7 @@ Sight EyeRays::look(const Vec3d& eye, const Choice& choice) const {
         place[k] = 0.5 * choice[k] - moved[k] / scene_.pitch;
         place[k] = axis[k] + scene_.pitch * (place[k] - std::floor(place[k] + 0.5));
     }
-    return look_through(eye, point(place[0], place[1]), choice[2], choice[3]);
+    return point(place[0], place[1]);
 }
 
 Sight EyeRays::look_through(const Vec3d& eye, const Vec3d& at, double a, double b) const {

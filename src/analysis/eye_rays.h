@@ -38,6 +38,9 @@ class EyeRays {
     /// by as much as the diffuser turns it, which leaves all means as they are and spreads it evenly where it meets the lens.
     Sight look(const Vec3d& eye, const Choice&) const;
 
+    /// The point of the vertex plane that this line aims at.
+    Vec3d aim(const Vec3d& eye, const Choice&) const;
+
     /// Of the line from an eye through a point, turned by the diffuser's angles for the numbers a and b.
     Sight look_through(const Vec3d& eye, const Vec3d& point, double a, double b) const;
 

@@ -1,10 +1,12 @@
 #include "analysis/mtf.h"
 
+#include "analysis/edge_plane.h"
 #include "analysis/mtf_resolution.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 // docs/model.md, "Resolution".
@@ -13,11 +15,13 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<const char*, 3> channels{"red", "green", "blue"};
+constexpr std::array levels{std::pair{"mtf50", 0.5}, std::pair{"mtf10", 0.1}};
 
 /// Adds NAME and NAME_error of red, green and blue.
-void add_channels(Json& json, const std::string& name, const MtfCurves& m, double level, double scale) {
+template <class Figure>
+void add_channels(Json& json, const std::string& name, double scale, const Figure& figure) {
     for (std::size_t c = 0; c < 3; ++c) {
-        const Estimate found = m.below(c, level);
+        const Estimate found = figure(c);
         json[name][channels[c]] = number_json(found.value * scale);
         json[name + "_error"][channels[c]] = number_json(found.error * scale);
     }
@@ -31,8 +35,11 @@ Json to_json(const MtfCurves& m, const Resolution& r) {
         add_figure(json, std::string("resolution") + unit, {r.per_mm.value * scale, r.per_mm.error * scale});
         json[std::string("lens_sampling_limit") + unit] = number_json(r.lens_limit_per_mm * scale);
         json[std::string("pixel_image_limit") + unit] = number_json(r.pixel_limit_per_mm * scale);
-        add_channels(json, std::string("mtf50") + unit, m, 0.5, scale);
-        add_channels(json, std::string("mtf10") + unit, m, 0.1, scale);
+        for (const auto& [name, level] : levels) {
+            add_channels(json, std::string(name) + unit, scale, [&, at = level](std::size_t) { return m.below(at); });
+            add_channels(json, std::string("edge_") + name + unit, scale,
+                         [&, at = level](std::size_t c) { return m.edges_below(c, at); });
+        }
         json[std::string("theory_mtf50") + unit] = number_json(m.theory_below(0.5) * scale);
         json[std::string("theory_resolution") + unit] = number_json(r.theory_per_mm * scale);
     }
@@ -51,11 +58,14 @@ void add_notes(const MtfCurves& m, const Resolution& r, std::size_t n, Result& r
                         fmt::format("{:.3g} % of the light is seen on other lenses' elemental images, which theory leaves out",
                                     100 * m.astray));
     if (!r.missing.empty()) return result.note(path, r.missing);
-    for (const auto& [name, level] : {std::pair{"mtf50", 0.5}, std::pair{"mtf10", 0.1}})
-        if (std::isnan(m.below(1, level).value))
-            result.note(fmt::format("{}.{}", path, name),
-                        fmt::format("modulation is never below {:.0f} % as far as was measured, {:.4g} per mm", 100 * level,
-                                    m.frequencies_per_mm.back()));
+    for (const auto& [name, level] : levels) {
+        const std::string never = fmt::format("modulation is never below {:.0f} % as far as was measured, {:.4g} per mm",
+                                              100 * level, m.frequencies_per_mm.back());
+        if (std::isnan(m.below(level).value)) result.note(fmt::format("{}.{}", path, name), never);
+        if (std::isnan(m.edges_below(1, level).value))
+            result.note(fmt::format("{}.edge_{}", path, name),
+                        m.edges[1].all.empty() ? "the screen shows too little about an edge of the plane for its light" : never);
+    }
 }
 
 /// The depth that the curves are plotted of: the one nearest to the central depth plane.
@@ -71,7 +81,7 @@ std::string label(bool horizontal, double angle) {
 }
 
 void add_findings(const MtfCurves& m, const Resolution& r, Result& result) {
-    const double mtf50 = m.below(1, 0.5).value;
+    const double mtf50 = m.below(0.5).value;
     std::string remark = r.missing;
     if (remark.empty()) {
         remark = fmt::format("{:.4g} cycles per degree, limited by {}", r.per_mm.value * m.mm_per_deg, r.limited_by);
@@ -97,8 +107,11 @@ Plot curves(const Subject& s, const std::vector<MtfCurves>& all, double depth) {
     for (const MtfCurves& m : all) {
         if (m.depth_mm != depth) continue;
         if (!first) first = &m;
-        if (m.seen()) plot.series.push_back({label(m.horizontal, m.angle_deg), m.frequencies_per_mm, m.mtf[1]});
+        if (!m.missing.empty()) continue;
+        plot.series.push_back({label(m.horizontal, m.angle_deg), m.frequencies_per_mm, m.modulation.all});
     }
+    if (!first->edges[1].all.empty())
+        plot.series.push_back({"edges, horizontal, 0 degrees", first->frequencies_per_mm, first->edges[1].all, true});
     plot.series.push_back({"theory, horizontal, 0 degrees", first->frequencies_per_mm, first->theory, true});
     plot.marks.push_back({"0.5", 0.5, false});
     const Resolution r = resolution(s, *first);
@@ -126,33 +139,39 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
                              {{"depth_mm", {}},
                               {"angle_deg", {}},
                               {"frequency_per_mm", {}},
-                              {"red", {}},
-                              {"green", {}},
-                              {"blue", {}},
+                              {"modulation", {}},
+                              {"edge_red", {}},
+                              {"edge_green", {}},
+                              {"edge_blue", {}},
                               {"theory", {}}}};
         for (const double angle : angles) {
-            std::array<Column, 3> columns;
-            Column theory{fmt::format("{}_{:.3g}_deg_theory_per_mm", horizontal ? "horizontal" : "vertical", angle), {}};
-            Column resolved{fmt::format("{}_{:.3g}_deg_resolution_per_mm", horizontal ? "horizontal" : "vertical", angle), {}};
-            for (std::size_t c = 0; c < 3; ++c)
-                columns[c].name =
-                    fmt::format("{}_{:.3g}_deg_{}_per_mm", horizontal ? "horizontal" : "vertical", angle, channels[c]);
+            const auto column = [&](const char* what) {
+                return Column{fmt::format("{}_{:.3g}_deg_{}_per_mm", horizontal ? "horizontal" : "vertical", angle, what), {}};
+            };
+            Column mtf50 = column("mtf50"), edges = column("edge_mtf50"), theory = column("theory"),
+                   resolved = column("resolution");
             for (const MtfCurves& m : all) {
                 if (m.horizontal != horizontal || m.angle_deg != angle) continue;
-                for (std::size_t c = 0; c < 3; ++c) columns[c].values.push_back(m.below(c, 0.5).value);
-                resolved.values.push_back(resolution(s, m).per_mm.value);
+                mtf50.values.push_back(m.below(0.5).value);
+                edges.values.push_back(m.edges_below(1, 0.5).value);
                 theory.values.push_back(m.theory_below(0.5));
+                resolved.values.push_back(resolution(s, m).per_mm.value);
                 for (std::size_t k = 0; k < m.frequencies_per_mm.size(); ++k) {
-                    const auto value = [&](std::size_t c) { return m.mtf[c].empty() ? nan : m.mtf[c][k]; };
-                    const std::array row{m.depth_mm, angle, m.frequencies_per_mm[k], value(0), value(1), value(2), m.theory[k]};
+                    const auto value = [&](const Modulation& of) { return of.all.empty() ? nan : of.all[k]; };
+                    const std::array row{m.depth_mm,
+                                         angle,
+                                         m.frequencies_per_mm[k],
+                                         value(m.modulation),
+                                         value(m.edges[0]),
+                                         value(m.edges[1]),
+                                         value(m.edges[2]),
+                                         m.theory[k]};
                     for (std::size_t c = 0; c < row.size(); ++c) all_curves.columns[c].values.push_back(row[c]);
                 }
             }
             plot.series.push_back({label(horizontal, angle), depths, resolved.values});
             if (horizontal && angle == 0) plot.series.push_back({"theory's MTF50, " + label(true, 0), depths, theory.values, true});
-            for (Column& c : columns) table.columns.push_back(std::move(c));
-            table.columns.push_back(std::move(theory));
-            table.columns.push_back(std::move(resolved));
+            for (Column* c : {&mtf50, &edges, &theory, &resolved}) table.columns.push_back(std::move(*c));
         }
         result.tables.push_back(std::move(all_curves));
     }
@@ -175,13 +194,13 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
 
     result.remarks.push_back(
         "Resolution is MTF50, or where they are lower half a cycle a lens pitch or an image of a panel pixel: finer detail shows "
-        "as "
-        "false detail. Per degree as seen from the eye. The display is seen by a pinhole, so that neither an eye's optics nor its "
-        "focus enters. Lenses that see a place of the "
-        "edges' plane at different places of it blur the mean edge; how the picture breaks up at their borders is not in it.");
-    const bool grey =
-        std::all_of(all.begin(), all.end(), [](const MtfCurves& m) { return m.mtf[0] == m.mtf[1] && m.mtf[1] == m.mtf[2]; });
-    if (grey) result.remarks.push_back("Red, green and blue are alike: the model has neither dispersion nor subpixels.");
+        "as false detail. Per degree as seen from the eye. The display is seen by a pinhole, so that neither an eye's optics nor "
+        "its "
+        "focus enters. MTF is that of lines of sight through all of the screen; edges in pictures, which are a sample of places, "
+        "stand beside it. Lenses that see a place of the plane at different places of it blur the mean edge; how the picture "
+        "breaks "
+        "up at their borders is not in it.");
+    result.remarks.push_back("Red, green and blue are alike: the model has neither dispersion nor subpixels.");
 }
 
 void check(const Subject& s, const std::vector<double>& depths, const std::vector<double>& angles) {
@@ -231,10 +250,19 @@ Result measure_mtf(Subject& s, Job& job) {
     const std::vector<double> depths = mtf_depths_mm(s), angles = mtf_angles_deg(s);
     check(s, depths, angles);
     const auto white = bars_panel(s.display(), s.geometry(), {}, s.threads());
+    std::vector<SeenThroughLenses> seen;
+    for (const double angle : angles) {
+        if (job.cancelled()) throw Stopped{};
+        const Eye eye{angle, s.viewing_distance_mm()};
+        seen.emplace_back(s, Vec3d{eye.x_mm(), 0, eye.z_mm()});
+    }
     std::vector<MtfCurves> all;
     for (const double depth : depths)
         for (const bool horizontal : {true, false}) {
-            for (MtfCurves& m : EdgePlane(s, depth, horizontal, white->pyramid(), job).measure(angles)) all.push_back(std::move(m));
+            std::vector<MtfCurves> plane;
+            for (std::size_t k = 0; k < angles.size(); ++k) plane.push_back(mtf_curves(s, seen[k], depth, angles[k], horizontal));
+            EdgePlane(s, depth, horizontal, white->pyramid(), job).measure(plane);
+            std::move(plane.begin(), plane.end(), std::back_inserter(all));
             job.advance(1);
         }
 

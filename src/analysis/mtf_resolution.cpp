@@ -20,15 +20,11 @@ Resolution resolution(const Subject& s, const MtfCurves& m) {
                  nan};
     const double limit = std::min(r.lens_limit_per_mm, r.pixel_limit_per_mm);
     if (m.has_theory()) r.theory_per_mm = std::isnan(theory) ? limit : std::min(theory, limit);
-    if (at_the_lenses(s.display(), g, plane.z_mm)) {
-        r.missing = "in the lenses' own plane each lens shows but one point of the edges";
-        r.theory_per_mm = nan;
-    } else if (!m.seen())
-        r.missing = "no edge is seen there: too little light, or more blur than the screen is wide";
-    else if (m.too_much_lost())
-        r.missing = "light is spread there farther than the screen shows of the plane";
-    else {
-        const Estimate mtf50 = m.below(1, 0.5);
+    if (!m.missing.empty()) {
+        r.missing = m.missing;
+        if (at_the_lenses(s.display(), g, plane.z_mm)) r.theory_per_mm = nan;
+    } else {
+        const Estimate mtf50 = m.below(0.5);
         const bool limited = !(mtf50.value < limit);  // or never below one half as far as was measured
         r.per_mm = limited ? Estimate{limit, 0} : mtf50;
         r.limited_by = !limited ? "mtf50" : r.lens_limit_per_mm <= r.pixel_limit_per_mm ? "lens sampling" : "pixel image";

@@ -1,6 +1,6 @@
-// What an edge's plane resolves: the least of MTF50 and of what samples the picture there. Floor 3.
+// What a plane resolves: the least of MTF50 and of what samples the picture there. Floor 3.
 #pragma once
-#include "analysis/edge_plane.h"
+#include "analysis/mtf_curves.h"
 
 #include <string>
 
@@ -9,7 +9,7 @@ namespace lfdsim {
 struct Resolution {
     double lens_limit_per_mm;   // half a cycle a lens pitch, as the eye projects it into the plane
     double pixel_limit_per_mm;  // half a cycle an image of a panel pixel; infinite in the lenses' own plane
-    Estimate per_mm;            // green's; NaN where it is undefined, and `missing` says why
+    Estimate per_mm;            // NaN where it is undefined, and `missing` says why
     const char* limited_by;     // "mtf50", "lens sampling" or "pixel image"; nothing where it is undefined
     std::string missing;
     double theory_per_mm;  // the same of theory's MTF50

@@ -1,4 +1,4 @@
-// How an edge at a depth is blurred, by paraxial theory. Floor 3.
+// How what is shown at a depth is blurred, by paraxial theory. Floor 3.
 #pragma once
 #include "analysis/edge_view.h"
 #include "analysis/subject.h"
@@ -23,7 +23,7 @@ struct Blur {
     std::array<double, 2> diffuser_mm;  // along x and y: full widths, at half maximum if gaussian
     bool gaussian;
 
-    /// Modulation at a frequency per mm, 0 or more: across edges near the vertical (horizontal) or near the horizontal.
+    /// Modulation at a frequency per mm, 0 or more, along x or, not horizontal, along y.
     double mtf(double per_mm, bool horizontal) const;
     /// About the full width of an edge's blur.
     double width_mm(bool horizontal) const;
@@ -31,10 +31,6 @@ struct Blur {
 
 /// Share of the light that an eye at this angle and distance sees on other lenses' elemental images, where Blur says nothing of it.
 double light_astray(const Subject&, double angle_deg, double distance_mm);
-
-/// Modulation at a frequency by a sum over lines of sight through paraxial lenses to the very pixels of the panel: where they are
-/// met in all phases alike, that of the closed form.
-double mtf_of_lines(const Subject&, const Bars&, const Eye&, double per_mm);
 
 /// At an angle of view to the right.
 Blur blur(const Display&, const Geometry&, const Theory&, double z_mm, double angle_deg);

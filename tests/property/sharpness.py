@@ -14,7 +14,10 @@ STEPS = 400  # frequencies tried between 0 and the greatest
 
 
 def differences(sight, eye, depth):
-    """(n, 2) mm by which the nodal lines of the pixels seen pass the lines of sight in the plane `depth` before the vertex plane, and their light."""
+    """(n, 2) mm by which the nodal lines of the pixels seen pass the lines of sight in the plane `depth` before the vertex plane, and their light.
+
+    Pixels of no elemental image have none: they are black whatever is shown.
+    """
     d, hits = sight.display, sight.see(eye)
     pixel = np.column_stack([hits.column + 0.5, -(hits.row + 0.5)]) * d.panel.pixel_pitch_mm + [-sight.half_panel[0], sight.half_panel[1]]
     count = np.array(d.array.count)
@@ -25,8 +28,7 @@ def differences(sight, eye, depth):
     plane = d.vertex_plane + depth
     shown = axis + slope * (plane - d.paraxial.rear)
     seen = eye[:2] + (sight.aim[:, :2] - eye[:2]) * ((eye[2] - plane) / (eye[2] - d.vertex_plane))
-    light = np.where(hits.column >= 0, hits.weight * hits.cosine**d.panel.emission_exponent, 0.0)
-    return shown - seen, np.where(owned, light, 0.0), light
+    return shown - seen, np.where(owned, hits.weight * hits.cosine**d.panel.emission_exponent, 0.0)
 
 
 MOST_OF_SCREEN = 0.2  # that a line may be spread over for its edges to stand clear of each other
@@ -34,14 +36,14 @@ MOST_OF_SCREEN = 0.2  # that a line may be spread over for its edges to stand cl
 
 def mtf50(sight, eye, depth, axis, greatest):
     """(the least frequency per mm at which modulation falls below a half, its error), None if it does not up to `greatest`."""
-    by, light, white = differences(sight, np.asarray(eye, float), depth)
+    by, light = differences(sight, np.asarray(eye, float), depth)
     low, high = np.quantile(by[light > 0][:, axis], [0.05, 0.95]) if light.any() else (0.0, math.inf)
     if high - low > MOST_OF_SCREEN * sight.display.array.count[axis] * sight.pitch * (1 - depth / eye[2]):
         raise Unsure
-    by, light, white = (v.reshape(SETS, -1) for v in (by[:, axis], light, white))
+    by, light = (v.reshape(SETS, -1) for v in (by[:, axis], light))
 
     def modulation(frequency):
-        return np.abs((light * np.exp(2j * np.pi * frequency * by)).sum(axis=1)) / white.sum(axis=1)
+        return np.abs((light * np.exp(2j * np.pi * frequency * by)).sum(axis=1)) / light.sum(axis=1)
 
     frequencies = np.linspace(0, greatest, STEPS)[1:]
     before = None

@@ -51,10 +51,6 @@ class Case:
         return self.off / allowed if allowed > 0 else math.inf if self.off else 0.0
 
 
-# What falls short of the goals, and how far it may. Phases of pixels against lenses and the light beyond the screen's border leave an
-# edge's modulation to a hundredth, and where few of them blur it, the form is not what is seen.
-SHORT_OF_GOAL = {"mtf measurements.mtf50_per_mm": 0.08}
-SHORT_OF_AGREEMENT = {"mtf measurements.mtf50_per_mm": 0.75}
 MAY_BE_NULL = ("likeness gradient_edge_deg",)  # a fall in likeness that pictures may not have: where they do, it must be in the right place
 
 
@@ -85,7 +81,7 @@ class Row:
         found = []
         if self.absent or not self.cases:
             return ["no such figure" if self.absent else "no case"]
-        if self.agreement < SHORT_OF_AGREEMENT.get(self.measure, AGREEMENT) and not (len(self.wrong) == 1 and len(self.cases) < FEW):
+        if self.agreement < AGREEMENT and not (len(self.wrong) == 1 and len(self.cases) < FEW):
             found.append("agreement")
         if self.silent:
             found.append(f"{self.silent} null without a reason")
@@ -93,7 +89,7 @@ class Row:
             return found
         if self.nulls > MOST_NULL:
             found.append("null")
-        if self.error > SHORT_OF_GOAL.get(self.measure, self.goal):
+        if self.error > self.goal:
             found.append("stated error")
         return found
 
@@ -110,7 +106,6 @@ def text(table):
     lines = ["| measure | cases | undefined | agreement | largest error over stated | median stated error | null | |", "|---|---|---|---|---|---|---|---|"]
     for row in table:
         error = f"{row.error:.2g}°" if row.degrees else f"{row.error:.2g}" if row.contrast else f"{100 * row.error:.2g} %"
-        short = ["short of the goal"] if (row.error > row.goal or row.agreement < AGREEMENT) and not row.faults and row.measure not in MAY_BE_NULL else []
         lines.append(f"| {row.measure} | {len(row.cases)} | {row.undefined} | {100 * row.agreement:.1f} % | {row.largest:.2g} | {error} | "
-                     f"{100 * row.nulls:.1f} % | {', '.join(row.faults + short)} |")
+                     f"{100 * row.nulls:.1f} % | {', '.join(row.faults)} |")
     return "\n".join(lines)

@@ -46,7 +46,8 @@ def efficiency(display, n, seed):
     down = -cosine_directions(u[:, 4:])
     lowest = display.lens_z if display.ideal else min(min(s.z_min, s.z_rim) for s in display.surfaces)
     reaching = on_panel(display, np.column_stack([(lens + cell) @ axes + display.array.offset_mm, np.full(len(u), lowest)]), down)
-    if display.ideal or display.array.surround != "opaque":  # all that leaves through the rectangle
+    rectangle = display.ideal or display.array.surround != "opaque"  # all that leaves through it, not only by caps
+    if rectangle:
         height, normal, area = np.full(len(u), display.vertex_plane), np.tile([0.0, 0.0, 1.0], (len(u), 1)), np.ones(len(u))
     else:
         top, s2 = display.surfaces[-1], (cell**2).sum(axis=1)
@@ -57,8 +58,10 @@ def efficiency(display, n, seed):
     normal[:, :2] = normal[:, :2] @ axes
     start = np.column_stack([(lens + cell) @ axes + display.array.offset_mm, height])
     out = around(normal, u[:, 4:])
-    hits = oracle.trace(display, start + 1e-6 * pitch * out, -out)
-    light = radiance(display, hits) * area
+    above = (display.vertex_plane + 1e-6 * pitch - height) / np.maximum(out[:, 2], 1e-9)  # past other caps and a stop before the lenses
+    hits = oracle.trace(display, start + above[:, None] * out, -out)
+    free = (np.abs((hits.lens + 0.5 - count / 2) * pitch - lens) < 0.5 * pitch).all(axis=1)
+    light = np.where(rectangle | free, radiance(display, hits) * area, 0.0)
     if display.ideal:  # it keeps slopes' extent
         light = light * (hits.cosine / out[:, 2]) ** 4
     ratio = light.reshape(SETS, -1).mean(axis=1) / reaching.reshape(SETS, -1).mean(axis=1)

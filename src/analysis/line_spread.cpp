@@ -1,0 +1,113 @@
+#include "analysis/line_spread.h"
+
+#include "analysis/eye_rays.h"
+#include "content/pickup.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+
+namespace lfdsim {
+namespace {
+
+constexpr int lines_a_set = 4096;
+constexpr std::array plastic{0.7548776662466927, 0.5698402909980532};  // steps that fill a square evenly
+
+}  // namespace
+
+double LineSpread::width_mm(double share) const {
+    std::vector<Line> all;
+    double light = 0;
+    for (const std::vector<Line>& lines : sets_)
+        for (const Line& line : lines) {
+            all.push_back({std::abs(line.off_mm), line.light});
+            light += line.light;
+        }
+    std::sort(all.begin(), all.end(), [](const Line& a, const Line& b) { return a.off_mm < b.off_mm; });
+    double within = 0;
+    for (const Line& line : all)
+        if ((within += line.light) >= share * light) return 2 * line.off_mm;
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+Modulation LineSpread::mtf(double step_per_mm, int count) const {
+    std::array<std::vector<std::complex<double>>, independent_sets> sums;
+    tbb::parallel_for(std::size_t(0), sums.size(), [&](std::size_t set) {
+        sums[set].resize(std::size_t(count));
+        for (const Line& line : sets_[set]) {
+            const std::complex<double> turn = std::polar(1., 2 * std::numbers::pi * step_per_mm * line.off_mm);
+            std::complex<double> wave = line.light;
+            for (std::complex<double>& sum : sums[set]) {
+                sum += wave;
+                wave = {wave.real() * turn.real() - wave.imag() * turn.imag(),
+                        wave.real() * turn.imag() + wave.imag() * turn.real()};
+            }
+        }
+    });
+    const auto of_all_but = [&](int left_out) {
+        std::vector<double> modulation;
+        for (std::size_t k = 0; k < std::size_t(count); ++k) {
+            std::complex<double> sum = 0, light = 0;
+            for (std::size_t set = 0; set < sums.size(); ++set) {
+                if (int(set) == left_out) continue;
+                sum += sums[set][k];
+                light += sums[set][0];
+            }
+            modulation.push_back(std::abs(sum) / light.real());
+        }
+        return modulation;
+    };
+    Modulation m{of_all_but(-1), {}};
+    for (int set = 0; set < independent_sets; ++set) m.without[std::size_t(set)] = of_all_but(set);
+    return m;
+}
+
+SeenThroughLenses::SeenThroughLenses(const Subject& s, const Vec3d& eye)
+    : principal_mm_(s.geometry().rear_principal_mm), vertex_mm_(s.geometry().vertex_plane_mm) {
+    const Display& d = s.display();
+    const EyeRays rays(d, s.geometry());
+    const Pickup pickup(d, s.geometry());
+    const int count = lines_a_set * rays.more_for(eye);
+    const double pixel = d.panel.pixel_pitch_mm, down = vertex_mm_ - eye[2];
+    tbb::parallel_for(0, independent_sets, [&](int set) {
+        std::array<double, 2> phase{};
+        for (const Choice& choice : even_choices(count, set_number(d.render.seed, set))) {
+            for (std::size_t k = 0; k < 2; ++k) phase[k] = std::fmod(phase[k] + plastic[k], 1);
+            const Vec3d aimed = rays.aim(eye, choice);
+            const Sight sight = rays.look_through(eye, aimed, choice[2], choice[3]);
+            if (!(sight.light > 0)) continue;
+            const auto add = [&](Sets& to, const std::array<double, 2>& shift) {
+                const double column = std::floor(sight.x / pixel + 0.5 * double(d.panel.pixels[0]) + shift[0]) - shift[0],
+                             row = std::floor(0.5 * double(d.panel.pixels[1]) - sight.y / pixel + shift[1]) - shift[1];
+                const NodalLine line = pickup.line(pickup.x_mm(column), pickup.y_mm(row));
+                if (!line.owned) return;  // black, whatever is shown
+                to[std::size_t(set)].push_back({{line.x, line.y},
+                                                {line.mx, line.my},
+                                                {aimed[0], aimed[1]},
+                                                {(aimed[0] - eye[0]) / down, (aimed[1] - eye[1]) / down},
+                                                sight.light});
+            };
+            add(as_described_, {0, 0});
+            add(anywhere_, phase);
+        }
+    });
+}
+
+LineSpread SeenThroughLenses::spread(double z_mm, bool horizontal, Pixels pixels) const {
+    const std::size_t k = horizontal ? 0 : 1;
+    const Sets& seen = pixels == Pixels::as_described ? as_described_ : anywhere_;
+    LineSpread::Sets sets;
+    for (std::size_t set = 0; set < seen.size(); ++set)
+        for (const Seen& s : seen[set]) {
+            const double shown = s.at[k] + (z_mm - principal_mm_) * s.slope[k],
+                         looked_at = s.aimed[k] + (z_mm - vertex_mm_) * s.straight[k];
+            sets[set].push_back({shown - looked_at, s.light});
+        }
+    return LineSpread(std::move(sets));
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,63 @@
+// How far what an eye sees of a plane lies from where it looks; the transform of that is the modulation transfer. Floor 3.
+//
+// A line of sight ends on a panel pixel, which shows what its lens's nodal line meets in the plane. Of an edge there, an eye that
+// looks through all the screen sees the mean over these distances: no edge needs to be drawn, and no phase of lenses against
+// pixels is left out.
+#pragma once
+#include "analysis/estimate.h"
+#include "analysis/subject.h"
+
+#include <array>
+#include <vector>
+
+namespace lfdsim {
+
+/// Modulation over frequencies, of all lines of sight and of all sets of them but one.
+struct Modulation {
+    std::vector<double> all;
+    std::array<std::vector<double>, independent_sets> without;
+};
+
+/// Distances in one direction of one plane, with the light of their lines.
+class LineSpread {
+  public:
+    struct Line {
+        double off_mm, light;
+    };
+    using Sets = std::array<std::vector<Line>, independent_sets>;
+    explicit LineSpread(Sets sets) : sets_(std::move(sets)) {}
+
+    /// Of the strip about 0 that holds this share of the light; NaN where there is none.
+    double width_mm(double share) const;
+
+    /// The modulus of the transform at `count` frequencies from 0 on in equal steps.
+    Modulation mtf(double step_per_mm, int count) const;
+
+  private:
+    Sets sets_;
+};
+
+/// What one eye sees of a display whose elemental images are those of the nodal pick-up.
+class SeenThroughLenses {
+  public:
+    SeenThroughLenses(const Subject&, const Vec3d& eye_mm);
+
+    /// Where the panel's pixels lie: as described, or shifted by parts of a pixel that are all as likely, as in displays that are
+    /// put together. On a screen of many lenses that does not matter; else what it changes is part of the figure's error.
+    enum class Pixels { as_described, anywhere };
+
+    /// In a plane at a height above the panel, below the eye; along x or, not horizontal, along y.
+    LineSpread spread(double z_mm, bool horizontal, Pixels) const;
+
+  private:
+    struct Seen {
+        std::array<double, 2> at, slope;        // of the pixel's nodal line at the principal plane
+        std::array<double, 2> aimed, straight;  // of the line of sight at the vertex plane
+        double light;
+    };
+    using Sets = std::array<std::vector<Seen>, independent_sets>;
+    double principal_mm_, vertex_mm_;
+    Sets as_described_, anywhere_;
+};
+
+}  // namespace lfdsim

@@ -1,0 +1,74 @@
+#include "analysis/mtf_curves.h"
+
+#include "analysis/mtf_theory.h"
+#include "analysis/slanted_edge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lfdsim {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+Estimate crossing(const std::vector<double>& frequencies, const Modulation& m, double level) {
+    if (m.all.empty()) return {nan, nan};
+    return jackknife([&](int k) { return falls_below(frequencies, k < 0 ? m.all : m.without[std::size_t(k)], level); });
+}
+
+}  // namespace
+
+Estimate MtfCurves::below(double level) const {
+    Estimate found = crossing(frequencies_per_mm, modulation, level);
+    if (const double anywhere = falls_below(frequencies_per_mm, pixels_anywhere, level); std::isfinite(anywhere))
+        found.error = std::hypot(found.error, found.value - anywhere);
+    return found;
+}
+
+Estimate MtfCurves::edges_below(std::size_t channel, double level) const {
+    Estimate found = crossing(frequencies_per_mm, edges[channel], level);
+    found.error = std::hypot(found.error, found.value - below(level).value);
+    return found;
+}
+
+double MtfCurves::theory_below(double level) const { return has_theory() ? falls_below(frequencies_per_mm, theory, level) : nan; }
+
+MtfCurves mtf_curves(const Subject& s, const SeenThroughLenses& seen, double depth_mm, double angle_deg, bool horizontal) {
+    constexpr double radian = std::numbers::pi / 180;
+    constexpr int steps = 160;
+    constexpr double most_lost = 0.2;  // of the light, beyond what the screen shows of the plane
+    const Eye eye{angle_deg, s.viewing_distance_mm()};
+    const Bars plane{horizontal, s.geometry().vertex_plane_mm + depth_mm, 1, 1, 0};
+    using Pixels = SeenThroughLenses::Pixels;
+    const LineSpread spread = seen.spread(plane.z_mm, horizontal, Pixels::as_described);
+    const double cosine = std::cos(angle_deg * radian);  // by so much the plane is foreshortened to the side
+    MtfCurves m{};
+    m.depth_mm = depth_mm, m.angle_deg = angle_deg, m.horizontal = horizontal;
+    m.mm_per_deg = (eye.z_mm() - plane.z_mm) / cosine * radian / (horizontal ? cosine : 1);
+    m.astray = light_astray(s, angle_deg, eye.distance_mm);
+    m.spread_mm = spread.width_mm(0.95);
+    if (at_the_lenses(s.display(), s.geometry(), plane.z_mm))
+        m.missing = "in the lenses' own plane each lens shows but one point of it";
+    else if (!(m.spread_mm > 0))
+        m.missing = "no light of elemental images is seen there";
+    else if (spread.width_mm(1 - most_lost) > 2 * seen_half_mm(s.display(), s.geometry(), plane, eye)[0])
+        m.missing = "light is spread there farther than the screen shows of the plane";
+
+    // To the first zero of a pixel's image or, where the blur is far wider, to where next to nothing is left
+    const Blur by_theory = blur(s.display(), s.geometry(), s.theory(), plane.z_mm, angle_deg);
+    const double width = m.spread_mm > 0 ? m.spread_mm : by_theory.width_mm(horizontal),
+                 step = 1 / std::max(by_theory.pixel_mm, 0.25 * width) / steps;
+    for (int k = 0; k <= steps; ++k) {
+        m.frequencies_per_mm.push_back(step * k);
+        m.theory.push_back(by_theory.mtf(step * k, horizontal));
+    }
+    if (m.missing.empty()) {
+        m.modulation = spread.mtf(step, steps + 1);
+        m.pixels_anywhere = seen.spread(plane.z_mm, horizontal, Pixels::anywhere).mtf(step, steps + 1).all;
+    }
+    return m;
+}
+
+}  // namespace lfdsim
