@@ -4,6 +4,7 @@
 #include "analysis/parallel.h"
 #include "analysis/rules.h"
 #include "analysis/slope_spread.h"
+#include "model/numbers.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -16,7 +17,6 @@
 namespace lfdsim {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int lines_a_set = 512, fine_lines_a_set = 16384;  // and as many mirrored
 constexpr int most_views = 61, places_of_curves = 97, heads = 61;
 constexpr double tolerable_percent = 10;  // of the head's range
@@ -118,7 +118,6 @@ void between_views(const Subject& s, Eyes& eyes, Result& result) {
     const double across = s.theory().elemental_pitch_mm / s.display().panel.pixel_pitch_mm,
                  last = std::floor(0.5 * (across - 1) + 1e-9);
     json["whole_views"] = last < 0 ? 0 : 2 * std::int64_t(std::min(last, 1e6)) + 1;
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     const ViewsCrosstalk views =
         last < 0 ? ViewsCrosstalk{{0}, {{nan, nan}}, {{nan, nan}}} : look_at_views(eyes, int(std::min(last, 1e6)));
     const std::size_t middle_view = views.view.size() / 2;

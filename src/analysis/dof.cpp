@@ -14,7 +14,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr double least_ssim = 0.85, most_slope_per_mm = 0.02 / 10;  // the 2019 paper's, which counts in centimetres
+constexpr double least_depth_ssim = 0.85, most_slope_per_mm = 0.02 / 10;  // the 2019 paper's, which counts in centimetres
 
 /// Places count from the vertex plane, theory's from the rear principal plane.
 double from_vertex_mm(const Subject& s) { return s.geometry().rear_principal_mm - s.geometry().vertex_plane_mm; }
@@ -36,13 +36,13 @@ Centre centre(const Subject& s, const std::vector<DepthRun>& runs) {
 }
 
 /// SSIM of screen and of content along one run.
-struct Curves {
+struct DepthCurves {
     Curve screen, content;
 };
 
 /// `noisy`: the place where the noise is looked at; none if it is none of the run's.
-Curves measure(Subject& s, const std::vector<double>& depths, std::size_t noisy, double white, Job& job) {
-    Curves curves{{depths, {}}, {depths, {}}};
+DepthCurves measure(Subject& s, const std::vector<double>& depths, std::size_t noisy, double white, Job& job) {
+    DepthCurves curves{{depths, {}}, {depths, {}}};
     for (std::size_t k = 0; k < depths.size(); ++k) {
         const Scene scene = s.scene().at_depth(depths[k]);
         const auto panel = elemental_panel(s.display(), s.geometry(), scene, s.threads(), job);
@@ -70,7 +70,7 @@ Interval explained(Interval i, const DepthRun& run) {
 
 void add_rules(Result& result, const std::string& region, const Curve& curve, const DepthRun& run, double centre_mm) {
     const bool screen = region == "screen";
-    const Interval by_ssim = explained(where_at_least(curve, centre_mm, least_ssim), run),
+    const Interval by_ssim = explained(where_at_least(curve, centre_mm, least_depth_ssim), run),
                    steady = explained(where_steady(curve, centre_mm, most_slope_per_mm), run);
     const auto best = std::max_element(curve.value.begin(), curve.value.end()) - curve.value.begin();
     Json json{{"most_alike_mm", curve.at[std::size_t(best)]}, {"ssim_error", curve.error}, {"region", region}};
@@ -84,7 +84,7 @@ void add_rules(Result& result, const std::string& region, const Curve& curve, co
     const auto add = [&](const std::string& what, const Interval& i) {
         result.findings.push_back(finding("Depth of field: " + what, "mm", i, {}, "the published rule"));
     };
-    add(fmt::format("SSIM of {} or more", least_ssim), by_ssim);
+    add(fmt::format("SSIM of {} or more", least_depth_ssim), by_ssim);
     add("slope of 0.02 a centimetre or less", steady);
 }
 
@@ -108,7 +108,7 @@ void add_likeness(Subject& s, Result& result, Plot& plot, Job& job) {
     DataTable table{"dof", {{"depth_mm", {}}, {"ssim", {}}, {"content_ssim", {}}}};
     for (std::size_t r = 0; r < runs.size(); ++r) {
         const std::vector<double>& depths = runs[r].depths_mm;
-        const Curves curves = measure(s, depths, r == middle.run ? middle.place : depths.size(), white, job);
+        const DepthCurves curves = measure(s, depths, r == middle.run ? middle.place : depths.size(), white, job);
         if (r == middle.run) {
             add_rules(result, "screen", curves.screen, runs[r], depths[middle.place]);
             add_rules(result, "content", curves.content, runs[r], depths[middle.place]);
@@ -143,7 +143,7 @@ Result measure_dof(Subject& s, Job& job) {
               "depth of the scene before the lenses, mm",
               "SSIM",
               {},
-              {{"0.85", least_ssim, false}}};
+              {{"0.85", least_depth_ssim, false}}};
     add_likeness(s, result, plot, job);
     const double from_vertex = from_vertex_mm(s), middle = s.theory().central_depth_mm + from_vertex;
     const double near = depth_mm(s.theory().depth_near_per_mm) + from_vertex,

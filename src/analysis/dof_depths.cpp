@@ -11,14 +11,14 @@ constexpr double least_rows = 16;
 constexpr double least_mm = 1e-6;  // of a depth, where the lenses have no thickness
 
 /// An interval of 1/z, 1/mm from the rear principal plane.
-struct Range {
+struct DepthRange {
     double low, high;
     double length() const { return std::max(high - low, 0.); }
 };
 
 /// Where the scene's centre can be looked at behind the lenses, and before them.
 struct Reach {
-    Range behind, before;
+    DepthRange behind, before;
 };
 
 Reach reach(const Subject& s) {
@@ -46,14 +46,14 @@ std::vector<DepthRun> dof_depths(const Subject& s) {
     }
     const Theory& t = s.theory();
     const double middle = 0.5 * (t.depth_near_per_mm + t.depth_far_per_mm), half = t.depth_near_per_mm - t.depth_far_per_mm;
-    const Range wanted{middle - half, middle + half};  // twice as wide
-    const auto cut = [&](const Range& r) { return Range{std::max(wanted.low, r.low), std::min(wanted.high, r.high)}; };
+    const DepthRange wanted{middle - half, middle + half};  // twice as wide
+    const auto cut = [&](const DepthRange& r) { return DepthRange{std::max(wanted.low, r.low), std::min(wanted.high, r.high)}; };
     const Reach reachable = reach(s);
-    const Range behind = cut(reachable.behind), before = cut(reachable.before);
+    const DepthRange behind = cut(reachable.behind), before = cut(reachable.before);
     const double from_vertex = s.geometry().rear_principal_mm - s.geometry().vertex_plane_mm;
     const std::string twice = "twice theory's depth of field ends there", lenses = "the lenses stand there";
     std::vector<DepthRun> runs;
-    const auto add = [&](const Range& r, const std::string& beyond_low, const std::string& beyond_high) {
+    const auto add = [&](const DepthRange& r, const std::string& beyond_low, const std::string& beyond_high) {
         const int count = int(std::lround(depths * r.length() / (behind.length() + before.length())));
         if (!(r.length() > 0) || count < 3) return;
         DepthRun run{{}, r.high < wanted.high ? beyond_low : twice, r.low > wanted.low ? beyond_high : twice};

@@ -1,8 +1,9 @@
 #include "analysis/edge_plane.h"
 
+#include "model/numbers.h"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 // An edge seen through a lens array is a mosaic; its mean profile means something only if each distance from the edge is seen
 // through all parts of lenses and of panel pixels alike. So the edges of all pictures together lean over each other without gaps:
@@ -11,7 +12,6 @@
 namespace lfdsim {
 namespace {
 
-constexpr double radian = std::numbers::pi / 180;
 constexpr int least_lenses = 400;  // that edges cross: so many phases of the lenses enter the mean
 constexpr double golden = 0.6180339887498949;
 constexpr int most_pictures = 32;                         // of one view, to reach as many
@@ -31,12 +31,12 @@ double EdgePlane::pitch_mm() const { return s_.display().array.pitch_mm * scale_
 /// Makes bars wide enough to hold twice the blur, such that neighbouring edges meet the lenses in ever other phases, or as wide as
 /// fit on the screen.
 void EdgePlane::set_bars(double blur_mm, double angle_deg) {
-    const double pitch = pitch_mm(), tangent = std::tan(slant_deg * radian);
+    const double pitch = pitch_mm(), tangent = std::tan(slant_deg * degree);
     const auto [across, along] = seen_half_mm(s_.display(), s_.geometry(), bars_, eye(angle_deg));
     const double most = 1.2 * (across - along * tangent);
     bars_.width_mm = (std::max(1., std::ceil(2 * blur_mm / pitch - golden)) + golden) * pitch;
     bars_.width_mm = std::min(bars_.width_mm, most);
-    const double step = bars_.width_mm / std::cos(slant_deg * radian), lean = 2 * along * tangent;
+    const double step = bars_.width_mm / std::cos(slant_deg * degree), lean = 2 * along * tangent;
     pictures_ = std::clamp(int(std::ceil(step / lean)), 4, most_pictures);
     const double least = std::min(lean, step / pictures_);
     bars_.length_mm = std::floor(lean / least) * least / tangent;

@@ -2,20 +2,20 @@
 
 #include "content/pickup.h"
 #include "engine/render.h"
+#include "model/numbers.h"
 
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 // Places in the bars' plane are (a, b), a rising across upright bars to the right and b down along them: (x, -y). For bars that
 // are not upright the two change their parts: (-y, x). A picture, transposed for the latter, has its columns along a, rows along b.
 namespace lfdsim {
 namespace {
 
-constexpr double radian = std::numbers::pi / 180;
-const double sine = std::sin(slant_deg * radian), cosine = std::cos(slant_deg * radian), tangent = sine / cosine;
+const double slant_sine = std::sin(slant_deg * degree), slant_cosine = std::cos(slant_deg * degree),
+             slant_tangent = slant_sine / slant_cosine;
 
 constexpr int samples_a_pixel = 16;
 
@@ -25,7 +25,7 @@ struct Box {
 
 /// The upright rectangle within the array, where there is a panel behind it too, less a lens at each border.
 Box screen_middle(const Display& d, const Geometry& g) {
-    const double c = std::abs(std::cos(d.array.rotation_deg * radian)), s = std::abs(std::sin(d.array.rotation_deg * radian));
+    const double c = std::abs(std::cos(d.array.rotation_deg * degree)), s = std::abs(std::sin(d.array.rotation_deg * degree));
     const double w = 0.5 * g.array_width_mm, h = 0.5 * g.array_height_mm;
     const double share = std::min(w / (w * c + h * s), h / (w * s + h * c));
     const auto along = [&](double offset, double array_half, double panel_half, double& centre, double& half) {
@@ -45,7 +45,7 @@ Box seen_box(const Display& d, const Geometry& g, const Bars& bars, const Eye& e
     const Box m = screen_middle(d, g);
     const double k = scale_to_bars(g, bars, eye), x = eye.x_mm() + (m.a - eye.x_mm()) * k, y = m.b * k;
     Box box = bars.upright ? Box{x, -y, m.half_a * k, m.half_b * k} : Box{-y, x, m.half_b * k, m.half_a * k};
-    box.half_b = std::min(box.half_b, 0.5 * box.half_a / tangent);
+    box.half_b = std::min(box.half_b, 0.5 * box.half_a / slant_tangent);
     return box;
 }
 
@@ -62,7 +62,9 @@ double scale_to_bars(const Geometry& g, const Bars& bars, const Eye& eye) {
     return (eye.z_mm() - bars.z_mm) / (eye.z_mm() - g.vertex_plane_mm);
 }
 
-double across_mm(const Bars& bars, double x, double y) { return bars.upright ? x * cosine - y * sine : x * sine - y * cosine; }
+double across_mm(const Bars& bars, double x, double y) {
+    return bars.upright ? x * slant_cosine - y * slant_sine : x * slant_sine - y * slant_cosine;
+}
 
 std::unique_ptr<ShownPanel> bars_panel(const Display& display, const Geometry& geometry, const std::optional<Bars>& bars,
                                        int threads) {
@@ -84,8 +86,8 @@ std::unique_ptr<ShownPanel> bars_panel(const Display& display, const Geometry& g
     return std::make_unique<ShownPanel>(std::move(texels), threads);
 }
 
-double Eye::x_mm() const { return distance_mm * std::sin(angle_deg * radian) + aside_mm; }
-double Eye::z_mm() const { return distance_mm * std::cos(angle_deg * radian); }
+double Eye::x_mm() const { return distance_mm * std::sin(angle_deg * degree) + aside_mm; }
+double Eye::z_mm() const { return distance_mm * std::cos(angle_deg * degree); }
 
 std::array<double, 2> seen_half_mm(const Display& d, const Geometry& g, const Bars& bars, const Eye& eye) {
     const Box box = seen_box(d, g, bars, eye);
@@ -99,11 +101,13 @@ EdgeView edge_view(const Display& display, const Geometry& geometry, const Bars&
     view.seen.render.samples = samples_a_pixel;
     Box box = seen_box(display, geometry, bars, eye);
     box.half_b = 0.5 * bars.length_mm;
-    const double margin = box.half_b * tangent + 0.5 * bars.width_mm / cosine;  // from an edge's middle to its farthest pixel
-    const int per_edge = std::max(1, int(2 * box.half_b / (cosine * scale_to_bars(geometry, bars, eye) * display.array.pitch_mm)));
+    const double margin =
+        box.half_b * slant_tangent + 0.5 * bars.width_mm / slant_cosine;  // from an edge's middle to its farthest pixel
+    const int per_edge =
+        std::max(1, int(2 * box.half_b / (slant_cosine * scale_to_bars(geometry, bars, eye) * display.array.pitch_mm)));
     // Edge k has its middle at this a.
-    const auto middle = [&](double k) { return (bars.offset_mm + k * bars.width_mm - box.b * sine) / cosine; };
-    const double nearest = std::round((box.a * cosine + box.b * sine - bars.offset_mm) / bars.width_mm);
+    const auto middle = [&](double k) { return (bars.offset_mm + k * bars.width_mm - box.b * slant_sine) / slant_cosine; };
+    const double nearest = std::round((box.a * slant_cosine + box.b * slant_sine - bars.offset_mm) / bars.width_mm);
     double first = nearest, last = nearest;
     const auto fits = [&](double k) { return std::abs(middle(k) - box.a) + margin <= box.half_a; };
     if (!fits(nearest)) return view;
@@ -127,10 +131,10 @@ EdgeView edge_view(const Display& display, const Geometry& geometry, const Bars&
     camera.resolution = {2 * (bars.upright ? half_a : half_b), 2 * (bars.upright ? half_b : half_a)};
     camera.frame_width_mm = double(camera.resolution[0]) * pixel_mm * eye.z_mm() / (eye.z_mm() - bars.z_mm);
 
-    view.edges.slope = -tangent;
+    view.edges.slope = -slant_tangent;
     view.edges.reach = 0.5 * bars.width_mm / pixel_mm;
     for (double k = first; k <= last; ++k) {
-        const double a = middle(k) - (axis_b + j0 * pixel_mm - box.b) * tangent;  // in the crop's first row
+        const double a = middle(k) - (axis_b + j0 * pixel_mm - box.b) * slant_tangent;  // in the crop's first row
         view.edges.lines.push_back({(a - axis_a) / pixel_mm - i0, std::fmod(k, 2) == 0});
     }
     return view;

@@ -1,18 +1,17 @@
 #include "analysis/efficiency.h"
 
 #include "analysis/eye_rays.h"
+#include "model/numbers.h"
 #include "optics/camera.h"
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 namespace lfdsim {
 namespace {
 
-constexpr int rays_a_part = 1 << 12;
-constexpr double degree = std::numbers::pi / 180;
+constexpr int budget_rays_a_part = 1 << 12;
 
 /// Of the light that one part's rays find.
 struct Found {
@@ -42,7 +41,7 @@ std::array<LightBudget, independent_sets> light_budgets(const Display& display, 
     const double m = display.panel.emission_exponent, fov_slope = display.array.pitch_mm / (2 * geometry.gap_mm);
     const double c = std::cos(display.array.rotation_deg * degree), s = std::sin(display.array.rotation_deg * degree);
     const bool ideal = display.lens.type == LensType::ideal;
-    const int rays = rays_a_part * lenses.more_for({0, 0, geometry.vertex_plane_mm + 1e6});
+    const int rays = budget_rays_a_part * lenses.more_for({0, 0, geometry.vertex_plane_mm + 1e6});
     std::array<Found, light_budget_parts> sums{};
     parts.run(light_budget_parts, [&](int part) {
         Found& sum = sums[std::size_t(part)];
@@ -64,10 +63,10 @@ std::array<LightBudget, independent_sets> light_budgets(const Display& display, 
             if (std::max(std::abs(along), std::abs(across)) <= -to[2] * fov_slope) sum.leaves_in_fov += light;
         }
     });
-    const double flux = std::numbers::pi * independent_sets / (double(rays) * light_budget_parts), per_ray = flux * width * height,
+    const double flux = pi * independent_sets / (double(rays) * light_budget_parts), per_ray = flux * width * height,
                  per_wide_ray = flux * (width + 2 * margin) * (height + 2 * margin);
     std::array<LightBudget, independent_sets> budgets{};
-    for (LightBudget& b : budgets) b.emitted = geometry.panel_width_mm * geometry.panel_height_mm * 2 * std::numbers::pi / (m + 2);
+    for (LightBudget& b : budgets) b.emitted = geometry.panel_width_mm * geometry.panel_height_mm * 2 * pi / (m + 2);
     for (std::size_t part = 0; part < sums.size(); ++part) {
         LightBudget& b = budgets[part % independent_sets];
         b.reaches_array += sums[part].reaches * per_ray;

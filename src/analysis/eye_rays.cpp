@@ -1,6 +1,7 @@
 #include "analysis/eye_rays.h"
 
 #include "engine/scene.h"
+#include "model/numbers.h"
 #include "optics/sampler.h"
 #include "optics/trace.h"
 
@@ -10,8 +11,6 @@
 
 namespace lfdsim {
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 optics::PanelPoint<double> trace(const optics::Scene<double>& scene, const optics::Extent<double>& extent,
                                  const optics::Ray<double>& ray) {

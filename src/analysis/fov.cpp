@@ -5,36 +5,35 @@
 #include "analysis/slope_spread.h"
 #include "analysis/views.h"
 #include "engine/ahead.h"
+#include "model/numbers.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 // The field of view by geometry; and by simulated views beside photographs of the scene, against the angle of the view.
 // docs/model.md, "Field of view".
 namespace lfdsim {
 namespace {
 
-constexpr double least_ssim = 0.85, most_slope_per_deg = 0.005;  // the 2019 paper's
-constexpr double degree = std::numbers::pi / 180;
+constexpr double least_view_ssim = 0.85, most_slope_per_deg = 0.005;  // the 2019 paper's
 constexpr double wanted_error_deg = 0.05;
 
 double theory_edge_deg(const Subject& s) { return arc_edge_deg(s.geometry(), s.theory(), s.viewing_distance_mm()); }
 
 /// What all views share: the scene, its elemental images, the white field.
-struct Shown {
+struct ShownEdge {
     Scene scene;
     const Pyramid& panel;
     double white;
 };
 
 /// Over the angles along one axis: SSIM of screen and content, and the photograph's share in the view.
-struct Curves {
+struct AngleCurves {
     Curve screen, content, share;
 };
 
-Curves measure(const Subject& subject, const Shown& shown, int axis, const std::vector<double>& angles, Job& job) {
+AngleCurves measure(const Subject& subject, const ShownEdge& shown, int axis, const std::vector<double>& angles, Job& job) {
     const EyePath path = arc(subject.display(), subject.geometry(), subject.viewing_distance_mm(), axis);
     const auto seen_at = [&](double angle) { return seen_by(subject.display(), path.eye(angle)); };
     const auto expected_at = [&](double angle) {
@@ -43,7 +42,7 @@ Curves measure(const Subject& subject, const Shown& shown, int axis, const std::
     const auto likeness_at = [&](double angle, const ExpectedView& expected) {
         return likeness(expected, seen_at(angle), subject.geometry(), shown.panel, shown.white, subject.threads(), job);
     };
-    Curves curves{{angles, {}}, {angles, {}}, {angles, {}}};
+    AngleCurves curves{{angles, {}}, {angles, {}}, {angles, {}}};
     const auto compare = [&](std::size_t k, const ExpectedView& expected) {
         const Likeness l = likeness_at(angles[k], expected);
         curves.screen.value.push_back(l.screen);
@@ -94,7 +93,7 @@ double fades_over_deg(const Subject& s) {
 }
 
 void add_rules(Result& result, Json& json, const std::string& path, const Curve& c, const Falls& expected) {
-    const Interval ssim = where_at_least(c, 0, least_ssim), gradient = where_steady(c, 0, most_slope_per_deg);
+    const Interval ssim = where_at_least(c, 0, least_view_ssim), gradient = where_steady(c, 0, most_slope_per_deg);
     add_limits(result, json, path, "ssim_rule_deg", ssim);
     add_limits(result, json, path, "gradient_rule_deg", gradient);
     add_limits(result, json, path, "ssim_half_way_deg", where_it_falls(c, expected));
@@ -117,8 +116,8 @@ void add_geometry(Result& result, Json& json, const std::string& name, const Geo
                 "the same light, turned by the diffuser");
 }
 
-void add_likeness(Result& result, Json& json, const std::string& name, const Curves& curves, const Geometric& g, double edge_deg,
-                  double reach_deg) {
+void add_likeness(Result& result, Json& json, const std::string& name, const AngleCurves& curves, const Geometric& g,
+                  double edge_deg, double reach_deg) {
     const double low = g.diffused.at[0], high = g.diffused.at[1];
     const Falls expected{std::isnan(low) ? -edge_deg : low, std::isnan(high) ? edge_deg : high, reach_deg};
     add_limits(result, json, name + ".", "gradient_edge_deg", where_it_falls(curves.share, expected));
@@ -134,7 +133,8 @@ void add_likeness(Result& result, Json& json, const std::string& name, const Cur
         "where the scene's share in the view falls half-way; beside it the edge by geometry");
     add("SSIM half-way down", where_it_falls(curves.screen, expected), {},
         "early by up to half the diffuser's angle: SSIM falls with the first ghost");
-    add(fmt::format("SSIM of {} or more", least_ssim), where_at_least(curves.screen, 0, least_ssim), {}, "the published rule");
+    add(fmt::format("SSIM of {} or more", least_view_ssim), where_at_least(curves.screen, 0, least_view_ssim), {},
+        "the published rule");
     add(fmt::format("slope of {} a degree or less", most_slope_per_deg), where_steady(curves.screen, 0, most_slope_per_deg), {},
         "the published rule, which ends before the edge where steps are of a degree");
 }
@@ -265,14 +265,14 @@ Result measure_fov(Subject& subject, Job& job) {
     std::unique_ptr<ShownPanel> own;
     if (depth != described)
         own = elemental_panel(display, subject.geometry(), subject.scene().at_depth(depth), subject.threads(), job);
-    const Shown shown{subject.scene().at_depth(depth), own ? own->pyramid() : subject.panel(job), subject.white_field(job)};
+    const ShownEdge shown{subject.scene().at_depth(depth), own ? own->pyramid() : subject.panel(job), subject.white_field(job)};
     Plot plot{"fov", "Likeness of the simulated view to the scene", "angle of the view, degrees", "SSIM", {}};
     Plot shares{"fov-share", "The scene's share in the view", "angle of the view, degrees", "covariance / variance", {}};
     DataTable table{"fov", {{"angle_deg", angles}}};
     for (const int axis : {0, 1}) {
         const std::string name = axis == 0 ? "horizontal" : "vertical";
         const Geometric& edges = geometric[std::size_t(axis)];
-        const Curves curves = measure(subject, shown, axis, angles, job);
+        const AngleCurves curves = measure(subject, shown, axis, angles, job);
         Json json = Json::object();
         add_geometry(result, json, name, edges, edge);
         add_likeness(result, json, name, curves, edges, edge, fades_over_deg(subject));
@@ -287,7 +287,7 @@ Result measure_fov(Subject& subject, Job& job) {
     for (Plot* p : {&plot, &shares})
         for (const double at : geometric[0].lenses.at)
             if (std::abs(at) <= angles.back()) p->marks.push_back({"edge by geometry", at});
-    plot.marks.push_back({"0.85", least_ssim, false});
+    plot.marks.push_back({"0.85", least_view_ssim, false});
     result.figures["content_depth_mm"] = depth;
     result.figures["step_deg"] = angles[1] - angles[0];
     result.tables.push_back(std::move(table));

@@ -1,17 +1,14 @@
 #include "analysis/lens_trace.h"
 
 #include "engine/scene.h"
+#include "model/numbers.h"
 #include "optics/sequential.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 namespace lfdsim {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity(), radian = std::numbers::pi / 180;
 
 /// The lens turned over: its first surface, from the panel, is then the highest.
 Geometry mirrored(Geometry g) {
@@ -263,14 +260,14 @@ Width width_at(const std::vector<Line>& lines, double z) {
 
 double diffuser_angle(const Display& d, Point along) {
     if (!d.diffuser) return 0;
-    const double turn = d.array.rotation_deg * radian, c = std::cos(turn), s = std::sin(turn);
-    const double x = std::abs(c * along[0] - s * along[1]) * d.diffuser->angle_deg[0] * radian / 2,
-                 y = std::abs(s * along[0] + c * along[1]) * d.diffuser->angle_deg[1] * radian / 2;
+    const double turn = d.array.rotation_deg * degree, c = std::cos(turn), s = std::sin(turn);
+    const double x = std::abs(c * along[0] - s * along[1]) * d.diffuser->angle_deg[0] * degree / 2,
+                 y = std::abs(s * along[0] + c * along[1]) * d.diffuser->angle_deg[1] * degree / 2;
     return d.diffuser->profile == Profile::box ? x + y : std::hypot(x, y);  // a rectangle's reach; a normal distribution's width
 }
 
 std::vector<Line> diffused(const std::vector<Line>& lines, double z, double angle) {
-    constexpr double most = 89 * radian;
+    constexpr double most = 89 * degree;
     std::vector<Line> result;
     for (const Line& l : lines)
         for (const double turn : {-angle, angle}) {

@@ -14,7 +14,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr int lines_a_set = 4096;
+constexpr int spread_lines_a_set = 4096;
 constexpr std::array plastic{0.7548776662466927, 0.5698402909980532};  // steps that fill a square evenly
 
 }  // namespace
@@ -71,7 +71,7 @@ SeenThroughLenses::SeenThroughLenses(const Subject& s, const Vec3d& eye)
     const Display& d = s.display();
     const EyeRays rays(d, s.geometry());
     const Pickup pickup(d, s.geometry());
-    const int count = lines_a_set * rays.more_for(eye);
+    const int count = spread_lines_a_set * rays.more_for(eye);
     const double pixel = d.panel.pixel_pitch_mm, down = vertex_mm_ - eye[2];
     tbb::parallel_for(0, independent_sets, [&](int set) {
         std::array<double, 2> phase{};

@@ -1,15 +1,14 @@
 #include "analysis/luminance_theory.h"
 
+#include "model/numbers.h"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
 namespace lfdsim {
 namespace {
-
-constexpr double pi = std::numbers::pi, nan = std::numeric_limits<double>::quiet_NaN();
 
 struct Weighted {
     double at, share;
@@ -50,9 +49,9 @@ std::vector<Weighted> aperture_places(const Display& d, const Geometry& g) {
 }
 
 /// One axis of the display as an eye on axis sees it through thin lenses.
-struct Axis {
+struct AxisLight {
     double eye, gap, focal_length, diffuser, pitch, offset, lenses, panel_half;
-    Axis(const Display& d, const Geometry& g, double eye_mm, std::size_t k)
+    AxisLight(const Display& d, const Geometry& g, double eye_mm, std::size_t k)
         : eye(eye_mm - g.rear_principal_mm),
           gap(g.gap_mm),
           focal_length(g.focal_length_mm),
@@ -87,7 +86,7 @@ struct Axis {
 };
 
 double seen_share(const Display& d, const Geometry& g, double eye_mm, int axis) {
-    const Axis along(d, g, eye_mm, std::size_t(axis));
+    const AxisLight along(d, g, eye_mm, std::size_t(axis));
     double share = 0;
     for (const Weighted& angle : diffuser_angles(d, axis))
         for (const Weighted& q : aperture_places(d, g)) share += angle.share * q.share * along.seen(angle.at, q.at);

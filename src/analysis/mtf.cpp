@@ -2,18 +2,17 @@
 
 #include "analysis/edge_plane.h"
 #include "analysis/mtf_resolution.h"
+#include "model/numbers.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 // docs/model.md, "Resolution".
 namespace lfdsim {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<const char*, 3> channels{"red", "green", "blue"};
 constexpr std::array levels{std::pair{"mtf50", 0.5}, std::pair{"mtf10", 0.1}};
 

@@ -2,16 +2,13 @@
 
 #include "analysis/mtf_theory.h"
 #include "analysis/slanted_edge.h"
+#include "model/numbers.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 namespace lfdsim {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Estimate crossing(const std::vector<double>& frequencies, const Modulation& m, double level) {
     if (m.all.empty()) return {nan, nan};
@@ -36,17 +33,16 @@ Estimate MtfCurves::edges_below(std::size_t channel, double level) const {
 double MtfCurves::theory_below(double level) const { return has_theory() ? falls_below(frequencies_per_mm, theory, level) : nan; }
 
 MtfCurves mtf_curves(const Subject& s, const SeenThroughLenses& seen, double depth_mm, double angle_deg, bool horizontal) {
-    constexpr double radian = std::numbers::pi / 180;
     constexpr int steps = 160;
     constexpr double most_lost = 0.2;  // of the light, beyond what the screen shows of the plane
     const Eye eye{angle_deg, s.viewing_distance_mm()};
     const Bars plane{horizontal, s.geometry().vertex_plane_mm + depth_mm, 1, 1, 0};
     using Pixels = SeenThroughLenses::Pixels;
     const LineSpread spread = seen.spread(plane.z_mm, horizontal, Pixels::as_described);
-    const double cosine = std::cos(angle_deg * radian);  // by so much the plane is foreshortened to the side
+    const double cosine = std::cos(angle_deg * degree);  // by so much the plane is foreshortened to the side
     MtfCurves m{};
     m.depth_mm = depth_mm, m.angle_deg = angle_deg, m.horizontal = horizontal;
-    m.mm_per_deg = (eye.z_mm() - plane.z_mm) / cosine * radian / (horizontal ? cosine : 1);
+    m.mm_per_deg = (eye.z_mm() - plane.z_mm) / cosine * degree / (horizontal ? cosine : 1);
     m.astray = light_astray(s, angle_deg, eye.distance_mm);
     m.spread_mm = spread.width_mm(0.95);
     if (at_the_lenses(s.display(), s.geometry(), plane.z_mm))

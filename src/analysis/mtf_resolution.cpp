@@ -1,14 +1,13 @@
 #include "analysis/mtf_resolution.h"
 
 #include "analysis/mtf_theory.h"
+#include "model/numbers.h"
 
 #include <cmath>
-#include <limits>
 
 namespace lfdsim {
 
 Resolution resolution(const Subject& s, const MtfCurves& m) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
     const Geometry& g = s.geometry();
     const Bars plane{m.horizontal, g.vertex_plane_mm + m.depth_mm, 1, 1, 0};
     const double pixel = pixel_image_mm(s.display(), g, plane.z_mm), theory = m.theory_below(0.5);

@@ -1,19 +1,17 @@
 #include "analysis/mtf_theory.h"
 
-#include "analysis/edge_view.h"
+#include "analysis/slanted_edge.h"
 #include "analysis/slope_spread.h"
+#include "model/numbers.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace lfdsim {
 namespace {
 
-constexpr double pi = std::numbers::pi, radian = pi / 180;
 const double fwhm_per_sigma = 2 * std::sqrt(2 * std::log(2.));
 
-double sinc(double x) { return x == 0 ? 1 : std::sin(pi * x) / (pi * x); }
 double disk(double x) { return x == 0 ? 1 : 2 * std::cyl_bessel_j(1, pi * x) / (pi * x); }
 
 }  // namespace
@@ -30,12 +28,12 @@ Blur blur(const Display& d, const Geometry& g, const Theory& t, double z_mm, dou
     Blur b{pixel_image_mm(d, g, z_mm),
            g.clear_aperture_mm * std::abs(1 - (z_mm - g.rear_principal_mm) / t.central_depth_mm),
            d.array.aperture == Aperture::circle || d.lens.stop_radius_mm,
-           d.array.rotation_deg * radian,
+           d.array.rotation_deg * degree,
            {0, 0},
            false};
     if (!d.diffuser) return b;
-    const double away = std::abs(z_mm - *g.diffuser_z_mm), angle = angle_deg * radian;
-    const auto half = [&](std::size_t axis) { return 0.5 * d.diffuser->angle_deg[axis] * radian; };
+    const double away = std::abs(z_mm - *g.diffuser_z_mm), angle = angle_deg * degree;
+    const auto half = [&](std::size_t axis) { return 0.5 * d.diffuser->angle_deg[axis] * degree; };
     // The turn about x comes last and sees the ray from the side: its slope upwards grows by it whatever the angle of view.
     // Past the horizontal nothing is seen: an angle near it is as good.
     const auto slope = [](double a) { return std::tan(std::clamp(a, -1.5, 1.5)); };
@@ -45,10 +43,10 @@ Blur blur(const Display& d, const Geometry& g, const Theory& t, double z_mm, dou
 }
 
 double light_astray(const Subject& s, double angle_deg, double distance_mm) {
-    const double eye = distance_mm * std::cos(angle_deg * radian) - s.geometry().rear_principal_mm;
+    const double eye = distance_mm * std::cos(angle_deg * degree) - s.geometry().rear_principal_mm;
     const double half = 0.5 * s.theory().elemental_pitch_mm / s.geometry().gap_mm;
     if (!(eye > 0)) return 1;
-    return 1 - SlopeSpread(s, eye, 0).within(distance_mm * std::sin(angle_deg * radian), -half, half) *
+    return 1 - SlopeSpread(s, eye, 0).within(distance_mm * std::sin(angle_deg * degree), -half, half) *
                    SlopeSpread(s, eye, 1).within(0, -half, half);
 }
 

@@ -1,16 +1,15 @@
 #include "analysis/own_lens.h"
 
 #include "analysis/estimate.h"
+#include "model/numbers.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace lfdsim {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180, nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double share_error = 0.005;  // what the place has to hold for: the share is not known, nor does it matter, better
 constexpr int sets = 4, first_rays = 1024, coarse_rays = 512, most_growth = 64;
 

@@ -29,7 +29,7 @@ bool holds(const std::vector<Shown>& shown, const Measure* m) {
 std::string name_of(const Measure* m) { return fmt::format("{} ({})", escaped(m->title), escaped(m->name)); }
 
 /// What is missing of what was asked for, and why; empty: nothing is.
-std::string missing(const std::vector<Shown>& shown, const ReportAbout& about) {
+std::string missing_measures(const std::vector<Shown>& shown, const ReportAbout& about) {
     std::string why, names;
     for (const auto& [m, what] : about.failed)
         why += fmt::format("<p>{} could not be measured: {}</p>\n", name_of(m), escaped(what));
@@ -99,7 +99,7 @@ std::string report_html(const Subject& subject, const ResultFolder& folder, cons
         "<title>{0}: measurements</title>\n<style>{1}</style>\n</head>\n<body>\n<header>\n<h1>{0}</h1>\n"
         "<p class=\"about\">A light field display, simulated and measured by lfdsim {2}.</p>\n</header>\n",
         name, report_style, escaped(folder.settings().value("lfdsim", std::string())));
-    html += missing(shown, about) + "<main>\n" + contents(shown) + summary(shown) + display_section(subject);
+    html += missing_measures(shown, about) + "<main>\n" + contents(shown) + summary(shown) + display_section(subject);
     for (const Shown& s : shown) html += measure_section(folder, s.measured);
     return html + settings(folder, about) + "</main>\n</body>\n</html>\n";
 }

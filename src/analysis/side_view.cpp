@@ -1,16 +1,15 @@
 #include "analysis/side_view.h"
 
 #include "analysis/side_scale.h"
+#include "model/numbers.h"
 
 #include <fmt/format.h>
-#include <numbers>
 
 namespace lfdsim {
 namespace {
 
 constexpr double width = 960, side = 72, drawn = width - 2 * side;
 constexpr double least_height = 48, most_height = 400;
-constexpr double degree = std::numbers::pi / 180;
 
 /// Half the height of a turned rectangle where x = 0 cuts it.
 double half_height(const Display& d, const Geometry& g) {

@@ -1,15 +1,15 @@
 #include "analysis/side_scale.h"
 #include "analysis/side_view.h"
+#include "model/numbers.h"
 
 #include <fmt/format.h>
-#include <numbers>
 
 // The close-up. Rays end at the picture's edge, which a nested <svg> cuts off.
 namespace lfdsim {
 namespace {
 
-constexpr double width = 960, left = 76, top = 16, notes = 220, drawn = width - left - notes, most_height = 440;
-constexpr double degree = std::numbers::pi / 180;
+constexpr double lens_page_width = 960, left = 76, top = 16, notes = 220, lens_drawn = lens_page_width - left - notes,
+                 lens_most_height = 440;
 
 double rim_z(const PlacedSurface& f, double rim) { return f.z_mm + sag_mm(f.curvature_per_mm, f.conic, f.even_asphere, rim); }
 
@@ -27,8 +27,8 @@ Window window_of(const Display& d, const Geometry& g) {
     w.high = lens_at(d, w.last).y_mm + 0.6 * p;
     w.from = std::min(0., g.base_z_mm) - 0.05 * depth;
     // As far before the lenses as the picture has room for at the scale that its height allows.
-    const double scale = std::min(most_height / (w.high - w.low), drawn / (depth + std::max(1.2 * p, 0.5 * depth)));
-    w.to = w.from + drawn / scale;
+    const double scale = std::min(lens_most_height / (w.high - w.low), lens_drawn / (depth + std::max(1.2 * p, 0.5 * depth)));
+    w.to = w.from + lens_drawn / scale;
     return w;
 }
 
@@ -148,12 +148,14 @@ std::string lens_view_svg(const Subject& s, SideFrame* frame) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();
     const Window w = window_of(d, g);
-    const double per_z = drawn / (w.to - w.from), per_y = std::max(per_z, 160 / (w.high - w.low)), high = per_y * (w.high - w.low);
+    const double per_z = lens_drawn / (w.to - w.from), per_y = std::max(per_z, 160 / (w.high - w.low)),
+                 high = per_y * (w.high - w.low);
     const SideScale scale{0, 0.5 * high, w.from, 0.5 * (w.low + w.high), per_z, per_y};
-    if (frame) *frame = {w.low, w.high, w.from, w.to, left, top, drawn, high};
-    Drawing drawing(width, std::max(top + high + 60, 60 + 21. * 12), "Lenses of the display from the side, with their rays");
+    if (frame) *frame = {w.low, w.high, w.from, w.to, left, top, lens_drawn, high};
+    Drawing drawing(lens_page_width, std::max(top + high + 60, 60 + 21. * 12),
+                    "Lenses of the display from the side, with their rays");
     drawing.add(fmt::format("<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"0 0 {2} {3}\" overflow=\"hidden\">\n",
-                            px(left), px(top), px(drawn), px(high)));
+                            px(left), px(top), px(lens_drawn), px(high)));
     for (std::int64_t row = w.first; row <= w.last; ++row) draw_lens(drawing, scale, d, g, lens_at(d, row).y_mm);
     for (std::int64_t row = w.first; row <= w.last + 1; ++row)
         draw_between(drawing, scale, d, g, lens_at(d, row).y_mm - 0.5 * d.array.pitch_mm, row<d.array.count[1], row> 0);
@@ -198,13 +200,14 @@ std::string lens_view_svg(const Subject& s, SideFrame* frame) {
     drawing.dimension(at(upper - half, beside), at(upper + half, beside), "D = " + mm(g.clear_aperture_mm));
     double row = top + 16;
     for (const std::string& line : notes_of(s)) {
-        drawing.text({width - notes + 18, row}, line, "font-size=\"12\"");
+        drawing.text({lens_page_width - notes + 18, row}, line, "font-size=\"12\"");
         row += 21;
     }
-    drawing.text({width - notes + 18, row + 6}, "from the eye back to the panel", "font-size=\"12\" fill=\"#d55e00\"");
-    drawing.text({width - notes + 18, row + 27}, "the light of one pixel", "font-size=\"12\" fill=\"#1f7fc0\"");
+    drawing.text({lens_page_width - notes + 18, row + 6}, "from the eye back to the panel", "font-size=\"12\" fill=\"#d55e00\"");
+    drawing.text({lens_page_width - notes + 18, row + 27}, "the light of one pixel", "font-size=\"12\" fill=\"#1f7fc0\"");
     if (!scale.true_to_scale())
-        drawing.text({width - notes + 18, row + 48}, fmt::format("heights drawn {:.3g} times", per_y / per_z), "font-size=\"11\"");
+        drawing.text({lens_page_width - notes + 18, row + 48}, fmt::format("heights drawn {:.3g} times", per_y / per_z),
+                     "font-size=\"11\"");
     return drawing.svg();
 }
 

@@ -1,16 +1,16 @@
 #include "analysis/slanted_edge.h"
 
+#include "model/numbers.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace lfdsim {
 namespace {
 
 constexpr double bins_per_pixel = 4;
 constexpr double flat_share = 0.75;  // of the reach: farther out the window falls to 0
-constexpr double pi = std::numbers::pi;
 
 double cosine(const Edges& e) { return 1 / std::sqrt(1 + e.slope * e.slope); }
 
@@ -23,8 +23,6 @@ Span reached(const Edges& e, double x, int width) {
     const auto pixel = [&](double at) { return int(std::ceil(std::clamp(at - 0.5, 0., double(width)))); };
     return {pixel(x - half), pixel(x + half)};
 }
-
-double sinc(double x) { return x == 0 ? 1 : std::sin(pi * x) / (pi * x); }
 
 /// Fills bins that no light fell into from their neighbours. False: there is none at all.
 bool bridge(std::vector<double>& values) {
@@ -72,7 +70,6 @@ void EdgeSpread::add(const Edges& edges, const Image& picture, const Image& whit
 
 std::array<std::vector<double>, 3> EdgeSpread::mtf(std::span<const double> frequencies, int without) const {
     const std::size_t bins = sets_[0].size();
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     std::array<std::vector<double>, 3> result;
     for (std::size_t c = 0; c < 3; ++c) {
         std::vector<double> spread(bins), line;

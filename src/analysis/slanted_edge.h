@@ -6,8 +6,10 @@
 #pragma once
 #include "analysis/estimate.h"
 #include "image/image.h"
+#include "model/numbers.h"
 
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -47,6 +49,9 @@ class EdgeSpread {
     std::array<std::vector<Bin>, independent_sets> sets_;
     int pictures_ = 0;
 };
+
+/// sin(pi x) / (pi x).
+inline double sinc(double x) { return x == 0 ? 1 : std::sin(pi * x) / (pi * x); }
 
 /// Where a curve over rising frequencies first falls below a level; NaN if it never does.
 double falls_below(std::span<const double> frequencies, std::span<const double> curve, double level);

@@ -1,5 +1,7 @@
 #include "analysis/spot.h"
 
+#include "model/numbers.h"
+
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
@@ -7,14 +9,11 @@
 #include <oneapi/tbb/task_arena.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 // docs/model.md, "Spots of one lens".
 namespace lfdsim {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int bundle_rays = 256, pixel_rays = 64, shown_rays = 22, fan_rays = 1001, focus_steps = 121, most_places = 96;
 
 /// A point of the panel under the lens, and what comes of it.
@@ -75,7 +74,7 @@ void tell_spots(const Subject& s, const std::vector<Field>& fields, const std::v
     for (const std::string& name : names) table.columns.push_back({name, {}});
     Json& spots = result.figures["spots"] = Json::array();
     for (const Field& f : fields) {
-        const double angle = std::atan(std::hypot(f.panel[0], f.panel[1]) / s.geometry().gap_mm) * 180 / std::numbers::pi;
+        const double angle = std::atan(std::hypot(f.panel[0], f.panel[1]) / s.geometry().gap_mm) * 180 / pi;
         const double share = fields.front().light.light > 0 ? f.light.light / fields.front().light.light : nan;
         for (const double z : depths) {
             const Spot spot = spot_at(s, f, z);

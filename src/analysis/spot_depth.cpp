@@ -1,17 +1,17 @@
 #include "analysis/spot_depth.h"
 
+#include "model/numbers.h"
+
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 // docs/model.md, "Depth of field by spot size".
 namespace lfdsim {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double most_per_mm = 1e6;  // a nanometre before the lens
-constexpr int fan_rays = 1001;
+constexpr int depth_fan_rays = 1001;
 
 /// Where a predicate that changes once, from false at `out` to true at `in`, changes.
 template <class Predicate>
@@ -136,7 +136,7 @@ SharpDepths add_spot_depths(const Subject& s, Result& result) {
     const Theory& t = s.theory();
     const Geometry& g = s.geometry();
     const double D = g.clear_aperture_mm, wavelength_mm = s.options().wavelength_nm * 1e-6;
-    const Fan fan(fans(LensTrace(s.display(), g), {0, 0}, fan_rays).meridional);
+    const Fan fan(fans(LensTrace(s.display(), g), {0, 0}, depth_fan_rays).meridional);
     Teller tell(s, result);
     const SharpDepths traced = where_sharp(fan.all, tell.pixel_slope());
     tell("spot", "spot no wider than a pixel's image, traced", fan, 0,

@@ -19,14 +19,14 @@ double round_up(double x) {
 
 }  // namespace
 
-void Range::add(double value) {
+void PlotRange::add(double value) {
     if (!(std::abs(value) <= most)) return;
     const bool first = empty();
     low = first ? value : std::min(low, value);
     high = first ? value : std::max(high, value);
 }
 
-Axis::Axis(double low, double high, int ticks) : low_(low), high_(high) {
+PlotAxis::PlotAxis(double low, double high, int ticks) : low_(low), high_(high) {
     if (low_ > high_) low_ = 0, high_ = 1;
     const double size = std::max(std::abs(low_), std::abs(high_));
     if (high_ - low_ <= 1e-10 * size || size == 0) {  // the same number throughout
@@ -37,13 +37,13 @@ Axis::Axis(double low, double high, int ticks) : low_(low), high_(high) {
     step_ = round_up((high_ - low_) / std::max(ticks, 1));
 }
 
-std::vector<double> Axis::ticks() const {
+std::vector<double> PlotAxis::ticks() const {
     std::vector<double> all;
     for (double k = std::ceil(low_ / step_ - 1e-9); k <= std::floor(high_ / step_ + 1e-9); ++k) all.push_back(k * step_);
     return all;
 }
 
-std::string Axis::label(double tick) const {
+std::string PlotAxis::label(double tick) const {
     if (std::abs(tick) < 0.5 * step_) return "0";
     const double size = std::max(std::abs(low_), std::abs(high_));
     const int of_step = int(std::floor(std::log10(step_) + 1e-9)), of_size = int(std::floor(std::log10(size)));
@@ -52,7 +52,7 @@ std::string Axis::label(double tick) const {
     return (tick < 0 ? "\u2212" : "") + text;
 }
 
-double room_beside(const Axis& axis) {
+double room_beside(const PlotAxis& axis) {
     double widest = 0;
     for (const double tick : axis.ticks()) widest = std::max(widest, text_width(axis.label(tick), 12));
     return widest + 36;

@@ -8,10 +8,10 @@
 namespace lfdsim {
 
 /// A range of numbers with ticks at multiples of 1, 2 or 5 times a power of ten.
-class Axis {
+class PlotAxis {
   public:
     /// At most about `ticks` of them. A range without width is widened; low > high: nothing is known, 0 .. 1.
-    Axis(double low, double high, int ticks);
+    PlotAxis(double low, double high, int ticks);
 
     double low() const { return low_; }
     double high() const { return high_; }
@@ -26,7 +26,7 @@ class Axis {
 };
 
 /// The smallest and the greatest of what has been put in; values that are not finite do not count.
-struct Range {
+struct PlotRange {
     double low = 1, high = -1;
     bool empty() const { return low > high; }
     void add(double value);
@@ -35,7 +35,7 @@ struct Range {
 /// The rectangle of a plot in its drawing, pixels.
 struct Frame {
     double left, top, width, height;
-    Axis x, y;
+    PlotAxis x, y;
 
     Point at(double x_value, double y_value) const {
         return {left + width * x.share(x_value), top + height * (1 - y.share(y_value))};
@@ -47,7 +47,7 @@ struct Frame {
 };
 
 /// Pixels that the numbers and the label of an axis take beside the frame.
-double room_beside(const Axis&);
+double room_beside(const PlotAxis&);
 inline constexpr double room_below = 48;
 
 }  // namespace lfdsim

@@ -12,7 +12,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr double width = 600, bar_width = 18;
+constexpr double map_width = 600, bar_width = 18;
 
 /// Dark blue over green to light yellow, 0 .. 1: lightness rises evenly, so that the map reads in grey and without colour vision.
 /// Oklab (Ottosson, "A perceptual color space for image processing", 2020) to sRGB.
@@ -74,9 +74,9 @@ std::string svg(const ColourMap& map) {
     if (map.columns < 1 || map.rows < 1 || map.values.size() != std::size_t(map.columns) * std::size_t(map.rows))
         throw std::invalid_argument("a map's values are not rows x columns");
     if (!(map.x0 <= map.x1 && map.y0 <= map.y1 && map.low <= map.high)) throw std::invalid_argument("a map's range falls");
-    const Axis x(map.x0, map.x1, 8), y(map.y0, map.y1, 6), scale(map.low, map.high, 6);
+    const PlotAxis x(map.x0, map.x1, 8), y(map.y0, map.y1, 6), scale(map.low, map.high, 6);
     const double left = room_beside(y) + 4, right = bar_width + 24 + room_beside(scale);
-    double wide = width - left - right, high = 320;
+    double wide = map_width - left - right, high = 320;
     if (const std::string of_x = unit(map.x_label); !of_x.empty() && of_x == unit(map.y_label)) {
         const double sides = (x.high() - x.low()) / (y.high() - y.low());  // as they are
         if (sides > 0.2 && sides < 5) {
@@ -84,10 +84,10 @@ std::string svg(const ColourMap& map) {
             wide = high * sides;
         }
     }
-    const std::vector<std::string> title = wrapped(map.title, 16, width - 24);
+    const std::vector<std::string> title = wrapped(map.title, 16, map_width - 24);
     const double top = 20 + 20 * double(title.size());
     const Frame frame{left, top, wide, high, x, y};
-    Drawing drawing(width, frame.bottom() + room_below, map.title);
+    Drawing drawing(map_width, frame.bottom() + room_below, map.title);
     for (std::size_t k = 0; k < title.size(); ++k)
         drawing.text({12, 22 + 20 * double(k)}, title[k], "font-size=\"15\" font-weight=\"600\"");
     drawing.add(picture(png_of(map), {left, top}, wide, high));

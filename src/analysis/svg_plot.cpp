@@ -10,7 +10,7 @@ namespace lfdsim {
 namespace {
 
 // Narrow, so that text of 12 pixels is read where a plot is shown 480 pixels wide.
-constexpr double width = 600, row_height = 20, mark_row = 15;
+constexpr double plot_width = 600, row_height = 20, mark_row = 15;
 
 // Colours that colour-blind people tell apart, of middling lightness, so that they show on white and on black; with other dashes
 // for each that follow, and for the same colour again.
@@ -35,7 +35,7 @@ std::string dots(const std::vector<Point>& points, std::size_t k) {
 }
 
 struct Ranges {
-    Range x, y;
+    PlotRange x, y;
 };
 
 Ranges ranges(const Plot& plot) {
@@ -71,7 +71,7 @@ struct Legend {
 
     void add(const std::string& label, int series) {
         const double sample = series < 0 ? 0 : 36, wide = sample + text_width(label, 13) + 18;
-        if (rows == 0 || next_ + wide > width - 12) {
+        if (rows == 0 || next_ + wide > plot_width - 12) {
             ++rows;
             next_ = 12;
         }
@@ -83,9 +83,9 @@ struct Legend {
     double next_ = 0;
 };
 
-bool within(const Axis& axis, double value) { return value >= axis.low() && value <= axis.high(); }
+bool within(const PlotAxis& axis, double value) { return value >= axis.low() && value <= axis.high(); }
 
-Legend legend_of(const Plot& plot, const Axis& x, const Axis& y) {
+Legend legend_of(const Plot& plot, const PlotAxis& x, const PlotAxis& y) {
     Legend legend;
     for (std::size_t k = 0; k < plot.series.size(); ++k)
         if (plot.series.size() > 1 || !plot.series[k].label.empty()) legend.add(plot.series[k].label, int(k));
@@ -101,7 +101,7 @@ struct MarkLabels {
     std::vector<LabelPlace> places;
     int rows = 0;
 
-    MarkLabels(const Plot& plot, const Axis& axis, double left, double wide) {
+    MarkLabels(const Plot& plot, const PlotAxis& axis, double left, double wide) {
         for (const PlotMark& m : plot.marks)
             if (m.vertical && within(axis, m.at)) marks.push_back(&m);
         std::stable_sort(marks.begin(), marks.end(), [](const PlotMark* a, const PlotMark* b) { return a->at < b->at; });
@@ -111,7 +111,7 @@ struct MarkLabels {
             lines.push_back(left + wide * axis.share(m->at));
             labels.push_back(m->label);
         }
-        places = place_labels(lines, labels, 12, width);
+        places = place_labels(lines, labels, 12, plot_width);
         for (const LabelPlace& place : places) rows = std::max(rows, place.row + 1);
     }
 };
@@ -138,7 +138,7 @@ void draw_series(Drawing& drawing, const Frame& frame, const Series& s, std::siz
 /// The same scale along both: the axis that would be shown larger is widened. Room is left at the borders.
 void make_equal(Ranges& r, double wide, double high) {
     const double per_pixel = 1.06 * std::max((r.x.high - r.x.low) / wide, (r.y.high - r.y.low) / high);
-    const auto widen = [&](Range& range, double pixels) {
+    const auto widen = [&](PlotRange& range, double pixels) {
         const double more = 0.5 * (per_pixel * pixels - (range.high - range.low));
         range = {range.low - more, range.high + more};
     };
@@ -153,24 +153,24 @@ std::string svg(const Plot& plot) {
     double right = 16;
     for (const PlotMark& m : plot.marks)
         if (!m.vertical) right = std::max(right, text_width(m.label, 12) + 12);
-    right = std::min(right, 0.4 * width);
-    const double left = room_beside(Axis(r.y.low, r.y.high, 6)) + 4;
+    right = std::min(right, 0.4 * plot_width);
+    const double left = room_beside(PlotAxis(r.y.low, r.y.high, 6)) + 4;
     double area = 300;
     if (plot.equal_axes && !r.x.empty() && (r.x.high > r.x.low || r.y.high > r.y.low)) {
-        const double wide = width - left - right, sides = (r.y.high - r.y.low) / (r.x.high - r.x.low);
+        const double wide = plot_width - left - right, sides = (r.y.high - r.y.low) / (r.x.high - r.x.low);
         area = std::clamp(wide * sides, 200., 440.);
         make_equal(r, wide, area);
     }
-    const Axis x(r.x.low, r.x.high, 9), y(r.y.low, r.y.high, 6);
+    const PlotAxis x(r.x.low, r.x.high, 9), y(r.y.low, r.y.high, 6);
 
-    const std::vector<std::string> title = wrapped(plot.title, 16, width - 24);
+    const std::vector<std::string> title = wrapped(plot.title, 16, plot_width - 24);
     const Legend legend = legend_of(plot, x, y);
-    const MarkLabels marks(plot, x, left, width - left - right);
+    const MarkLabels marks(plot, x, left, plot_width - left - right);
     const double legend_top = 12 + row_height * double(title.size());
     const double top = legend_top + row_height * legend.rows + mark_row * marks.rows + 14;
-    const Frame frame{left, top, width - left - right, area, x, y};
+    const Frame frame{left, top, plot_width - left - right, area, x, y};
 
-    Drawing drawing(width, frame.bottom() + room_below, plot.title);
+    Drawing drawing(plot_width, frame.bottom() + room_below, plot.title);
     for (std::size_t k = 0; k < title.size(); ++k)
         drawing.text({12, 22 + row_height * double(k)}, title[k], "font-size=\"15\" font-weight=\"600\"");
     for (const Legend::Entry& e : legend.entries) {

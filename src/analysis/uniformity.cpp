@@ -3,6 +3,7 @@
 #include "analysis/efficiency.h"
 #include "analysis/luminance_theory.h"
 #include "model/bands.h"
+#include "model/numbers.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -14,8 +15,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
-constexpr int lines_a_set = 256;  // of an eye at an angle; and three times as many mirrored
+constexpr int angle_lines_a_set = 256;  // of an eye at an angle; and three times as many mirrored
 constexpr double step_deg = 2.5, last_deg = 80;
 
 std::vector<double> angles_deg() {
@@ -112,7 +112,7 @@ class LuminanceOverAngle {
   public:
     LuminanceOverAngle(const Subject& s, const EyeRays& rays, double distance)
         : rays_(rays), distance_(distance), nearest_(nearest_eye_mm(s.geometry())) {
-        const int count = lines_a_set * rays.more_for({0, 0, distance});
+        const int count = angle_lines_a_set * rays.more_for({0, 0, distance});
         for (int k = 0; k < independent_sets; ++k)
             sets_[std::size_t(k)] = even_choices(count, set_number(s.display().render.seed, k));
     }
@@ -162,7 +162,6 @@ Estimate half_luminance(const LuminanceOverAngle& luminance, int axis, const std
     for (int k = middle + side; k >= 0 && k < count && !std::isnan(light[std::size_t(k)]); k += side)
         if (light[std::size_t(k)] < 0.5 * light[std::size_t(middle)])
             return luminance.half_deg(axis, angles[std::size_t(k - side)], angles[std::size_t(k)]);
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     return {nan, nan};
 }
 

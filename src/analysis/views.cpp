@@ -3,17 +3,15 @@
 #include "engine/scene.h"
 #include "engine/screen.h"
 #include "model/error.h"
+#include "model/numbers.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace lfdsim {
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 Vec3d minus(const Vec3d& a, const Vec3d& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 double dot(const Vec3d& a, const Vec3d& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }

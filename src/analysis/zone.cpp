@@ -4,22 +4,21 @@
 #include "analysis/parallel.h"
 #include "analysis/rules.h"
 #include "analysis/slope_spread.h"
+#include "model/numbers.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 
 // Lines of sight from viewers about the zone, and whose elemental images they end on. docs/model.md, "Viewing zone".
 namespace lfdsim {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180, infinity = std::numeric_limits<double>::infinity();
 constexpr int map_side = 61, curve_points = 181, distance_points = 61;  // odd: the middle is one of them
 constexpr int map_rays = 1024, curve_rays = 4096;
-constexpr std::uint32_t sets = 4;  // of lines of sight, independent of one another
+constexpr std::uint32_t zone_sets = 4;  // of lines of sight, independent of one another
 constexpr double thresholds[] = {0.01, 0.5};
 constexpr const char* missing = "Rays that miss their own lens's elemental image";
 
@@ -44,9 +43,9 @@ Limit limit(const std::vector<double>& places, const std::vector<double>& wrong,
         none.missing = "no more are wrong as far as was looked";
         return none;
     }
-    std::array<double, sets> found;
+    std::array<double, zone_sets> found;
     double precision = 0;
-    for (std::uint32_t set = 0; set < sets; ++set) {
+    for (std::uint32_t set = 0; set < zone_sets; ++set) {
         int k = in;
         while (k != middle && !good(wrong_at(at(k), set))) k -= step;
         int next = k + step;
@@ -113,9 +112,9 @@ class Search {
           pickup_(s.display(), s.geometry()),
           more_(rays_.more_for({0, 0, s.viewing_distance_mm()})),
           choices_([&] {
-              std::array<std::vector<Choice>, sets> all;
-              for (std::uint32_t set = 0; set < sets; ++set)
-                  all[set] = even_choices(curve_rays * more_, sets * std::uint32_t(s.display().render.seed) + set);
+              std::array<std::vector<Choice>, zone_sets> all;
+              for (std::uint32_t set = 0; set < zone_sets; ++set)
+                  all[set] = even_choices(curve_rays * more_, zone_sets * std::uint32_t(s.display().render.seed) + set);
               return all;
           }()),
           parts(job, s.threads(), map_side + 2 * (curve_points + 4) + distance_points + 4, zone_steps(s)) {}
@@ -150,7 +149,7 @@ class Search {
     EyeRays rays_;
     Pickup pickup_;
     int more_;
-    std::array<std::vector<Choice>, sets> choices_;
+    std::array<std::vector<Choice>, zone_sets> choices_;
 
   public:
     Parts parts;

@@ -28,8 +28,8 @@
 namespace lfdsim::cli {
 namespace {
 
-struct Arguments {
-    explicit Arguments(Command command)
+struct AnalyzeArguments {
+    explicit AnalyzeArguments(Command command)
         : measures_option(command.add_option("MEASURE", measures, "One or more with commas between; left out, or all: all of them")
                               .type_name("")
                               .required()),
@@ -124,7 +124,7 @@ void keep_apart(const ResultFolder& folder, bool replace) {
 }
 
 /// What is finished is kept and reported, whatever becomes of the rest.
-struct Run {
+struct Analysis {
     Subject& subject;
     const ResultFolder& folder;
     ReportAbout about;
@@ -187,7 +187,7 @@ struct Request {
     AnalysisOptions options;
 };
 
-Request request_of(const Arguments& args) {
+Request request_of(const AnalyzeArguments& args) {
     Request request;
     Faults faults;
     std::string names = args.measures;
@@ -231,7 +231,7 @@ struct Outcome {
     std::vector<Problem> problems;
 };
 
-Outcome measure(const Arguments& args, const Request& request, const Display& display, const std::filesystem::path& place) {
+Outcome measure(const AnalyzeArguments& args, const Request& request, const Display& display, const std::filesystem::path& place) {
     const std::vector<const Measure*>& wanted = request.wanted;
     const AnalysisOptions& options = request.options;
     std::optional<Scene> scene;
@@ -253,7 +253,7 @@ Outcome measure(const Arguments& args, const Request& request, const Display& di
                                           {"eye_distance_mm", options.eye_distance_mm},
                                           {"wavelength_nm", options.wavelength_nm}});
     keep_apart(folder, args.replace);
-    Run run{subject, folder, {command_line(), description, wanted}};
+    Analysis run{subject, folder, {command_line(), description, wanted}};
     run.measure(args.resume, args.work.progress());
     Outcome outcome{folder, Json::object(), run.about.interrupted, run.problems};
     for (const Measure* m : wanted)
@@ -279,7 +279,7 @@ std::vector<std::string> folder_names(const Request& request) {
 }
 
 /// Each display in a folder of its own, then all of them in one report. What is finished is kept and reported here, too.
-void side_by_side(const Arguments& args, const Request& request) {
+void side_by_side(const AnalyzeArguments& args, const Request& request) {
     const std::filesystem::path place = args.output;
     refuse_inputs_in(place);
     const FolderLock lock(place);
@@ -318,7 +318,7 @@ void side_by_side(const Arguments& args, const Request& request) {
                       (place / ResultFolder::report_name).string(), fmt::join(names, ", ")));
 }
 
-void run(const Arguments& args) {
+void run(const AnalyzeArguments& args) {
     const Request request = request_of(args);
     if (request.displays.size() > 1) return side_by_side(args, request);
     const Outcome outcome = measure(args, request, request.displays.front(), args.output);
@@ -339,7 +339,7 @@ void run(const Arguments& args) {
 
 void add_analyze(Command program) {
     Command command = program.add_subcommand("analyze", "Measures a display: field of view, depth of field and more");
-    const auto args = std::make_shared<Arguments>(command);
+    const auto args = std::make_shared<AnalyzeArguments>(command);
     std::string list = "Measures:\n";
     for (const Measure& m : measures()) list += fmt::format("  {:<12} {}\n", m.name, m.says);
     command.footer(list +

@@ -35,8 +35,8 @@ std::vector<std::string> group_names() {
     return names;
 }
 
-struct Arguments {
-    explicit Arguments(Command command) : work(command) {
+struct BenchArguments {
+    explicit BenchArguments(Command command) : work(command) {
         command
             .add_option("GROUP", chosen, fmt::format("What to measure; default: all. There are {}", fmt::join(group_names(), ", ")))
             .type_name("");
@@ -61,7 +61,7 @@ struct Arguments {
     WorkOptions work;
 };
 
-BenchSettings read(const Arguments& args) {
+BenchSettings settings_of(const BenchArguments& args) {
     BenchSettings s;
     s.quick = args.quick;
     s.runs = args.quick ? 1 : s.runs;
@@ -102,8 +102,8 @@ Json about(const BenchSettings& s) {
         {"quick", s.quick}};
 }
 
-void run(const Arguments& args) {
-    const BenchSettings settings = read(args);
+void run(const BenchArguments& args) {
+    const BenchSettings settings = settings_of(args);
     Json all = about(settings);
     if (!settings.json)
         print(fmt::format("lfdsim {}, {}, {}\n{}, {} processors; kernel {}, {} threads; medians of {} (least .. most)\n",
@@ -131,7 +131,7 @@ void run(const Arguments& args) {
 
 void add_bench(Command program) {
     Command command = program.add_subcommand("bench", "How fast this machine renders, what each duty costs, error against time");
-    const auto args = std::make_shared<Arguments>(command);
+    const auto args = std::make_shared<BenchArguments>(command);
     command.footer(
         "Examples:\n  lfdsim bench --quick\n  lfdsim bench rendering kernels --threads 1\n"
         "  lfdsim bench estimators --display displays/desktop-asphere.toml displays/desktop-ideal.toml --json");

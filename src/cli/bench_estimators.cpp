@@ -19,16 +19,16 @@ namespace lfdsim::cli {
 namespace {
 
 /// A way to spend samples. Another needs one more line here, and nothing else.
-struct Estimator {
+struct Contender {
     const char* name;
     void (*choose)(Display&);
 };
-constexpr Estimator estimators[] = {
-    {"point, sobol", [](Display& d) { d.render.estimator = lfdsim::Estimator::point, d.render.sampling = Sampling::sobol; }},
-    {"point, random", [](Display& d) { d.render.estimator = lfdsim::Estimator::point, d.render.sampling = Sampling::random; }},
-    {"filtered", [](Display& d) { d.render.estimator = lfdsim::Estimator::filtered; }},
+constexpr Contender estimators[] = {
+    {"point, sobol", [](Display& d) { d.render.estimator = Estimator::point, d.render.sampling = Sampling::sobol; }},
+    {"point, random", [](Display& d) { d.render.estimator = Estimator::point, d.render.sampling = Sampling::random; }},
+    {"filtered", [](Display& d) { d.render.estimator = Estimator::filtered; }},
 };
-constexpr const Estimator &brute_force = estimators[0], &papers = estimators[1];
+constexpr const Contender &brute_force = estimators[0], &papers = estimators[1];
 
 constexpr std::int64_t papers_samples = 100;
 constexpr std::int64_t sample_counts[] = {1, 4, 9, 16, 36, 64, papers_samples, 256, 1024};
@@ -48,8 +48,8 @@ Error error_of(const Image& a, const Image& truth) {
     return {std::sqrt(squares / double(a.rgb.size())), sum / wanted - 1};
 }
 
-struct Point {
-    const Estimator* estimator;
+struct Spent {
+    const Contender* estimator;
     std::int64_t samples;
     Error error;
     Measured time;
@@ -64,9 +64,9 @@ constexpr Ratio ratios_told[] = {{"time_to_papers_error_over_papers", "time", &M
                                  {"processor_time_to_papers_error_over_papers", "processor time", &Measured::processor_median}};
 
 /// The least seconds among those measured that come to an error.
-std::optional<double> seconds_to(double rmse, const Estimator& estimator, const std::vector<Point>& points, Clock clock) {
+std::optional<double> seconds_to(double rmse, const Contender& estimator, const std::vector<Spent>& points, Clock clock) {
     std::optional<double> least;
-    for (const Point& p : points) {
+    for (const Spent& p : points) {
         if (p.estimator != &estimator || p.error.rmse > rmse) continue;
         const double seconds = (p.time.*clock)();
         least = least ? std::min(*least, seconds) : seconds;
@@ -85,7 +85,7 @@ struct View {
     std::string name() const {
         return fmt::format("{}, {}, crop {},{},{},{}", display.name, content, crop.x0, crop.y0, crop.x1, crop.y1);
     }
-    Rendering rendered(const Bench& bench, const Estimator& how, std::int64_t samples, std::int64_t seed, Job& job) const {
+    Rendering rendered(const Bench& bench, const Contender& how, std::int64_t samples, std::int64_t seed, Job& job) const {
         Display d = display;
         how.choose(d);
         d.render.samples = samples;
@@ -111,12 +111,12 @@ std::optional<Reference> reference_of(const View& view, Bench& bench) {
 }
 
 // Seconds are those of the whole call, so that what an estimator prepares is not left out.
-std::vector<Point> points_of(const View& view, const Image& truth, Bench& bench) {
-    std::vector<Point> points;
-    for (const Estimator& e : estimators)
+std::vector<Spent> points_of(const View& view, const Image& truth, Bench& bench) {
+    std::vector<Spent> points;
+    for (const Contender& e : estimators)
         for (const std::int64_t samples : sample_counts) points.push_back({&e, samples, {}, {}});
     std::vector<Case> cases;
-    for (Point& p : points)
+    for (Spent& p : points)
         cases.push_back({fmt::format("{}, {} samples", p.estimator->name, p.samples), [&](Job& job) {
                              const auto start = std::chrono::steady_clock::now();
                              const Rendering r = view.rendered(bench, *p.estimator, p.samples, view.display.render.seed, job);
@@ -130,13 +130,13 @@ std::vector<Point> points_of(const View& view, const Image& truth, Bench& bench)
     return points;
 }
 
-void report(const View& view, const Reference& reference, const std::vector<Point>& points, Bench& bench) {
+void report(const View& view, const Reference& reference, const std::vector<Spent>& points, Bench& bench) {
     const auto wanted = std::find_if(points.begin(), points.end(),
-                                     [](const Point& p) { return p.estimator == &papers && p.samples == papers_samples; });
+                                     [](const Spent& p) { return p.estimator == &papers && p.samples == papers_samples; });
     Json rows = Json::array();
     std::string text =
         fmt::format("{} samples a pixel as reference, whose own error is {:.6f}\n", reference.samples, reference.rmse);
-    for (const Point& p : points) {
+    for (const Spent& p : points) {
         rows.push_back({{"estimator", p.estimator->name},
                         {"samples", p.samples},
                         {"rmse", p.error.rmse},
@@ -156,7 +156,7 @@ void report(const View& view, const Reference& reference, const std::vector<Poin
         for (const Ratio& c : ratios_told) {
             text += fmt::format("  {} to the RMSE of {} samples of \"{}\", over theirs:", c.name, papers_samples, papers.name);
             Json ratios = Json::object();
-            for (const Estimator& e : estimators) {
+            for (const Contender& e : estimators) {
                 const std::optional<double> seconds = seconds_to(wanted->error.rmse, e, points, c.clock);
                 const double ratio = seconds ? *seconds / (wanted->time.*c.clock)() : NAN;  // null in JSON
                 ratios[e.name] = ratio;
@@ -175,7 +175,7 @@ void compare_estimators(const View& view, Bench& bench) {
     if (!reference) return;
     if (reference->samples <= 2)
         return bench.not_measured("estimators", view.name(), "without diffuser, pixel filter and pupil one ray tells all");
-    const std::vector<Point> points = points_of(view, reference->image, bench);
+    const std::vector<Spent> points = points_of(view, reference->image, bench);
     if (!points.empty()) report(view, *reference, points, bench);
 }
 

@@ -12,8 +12,8 @@
 namespace lfdsim::cli {
 namespace {
 
-struct Arguments {
-    explicit Arguments(Command command) : display(command, {camera_options, sample_options, content_options}) {
+struct CheckArguments {
+    explicit CheckArguments(Command command) : display(command, {camera_options, sample_options, content_options}) {
         command.add_flag("--json", json, "Print results as JSON");
     }
     DisplayOptions display;
@@ -65,7 +65,7 @@ std::vector<std::string> all_advice(const Display& display, const Geometry& geom
     }
 }
 
-void run(const Arguments& args) {
+void run(const CheckArguments& args) {
     const Display display = args.display.read();
     const Geometry geometry = resolve(display);
     const Theory paraxial = theory(display, geometry);
@@ -102,7 +102,7 @@ void run(const Arguments& args) {
 void add_check(Command program) {
     Command command =
         program.add_subcommand("check", "Validates a description; prints all it says, what follows, and the paraxial theory");
-    const auto args = std::make_shared<Arguments>(command);
+    const auto args = std::make_shared<CheckArguments>(command);
     command.footer("Example:\n  lfdsim check display.toml --set array.gap_mm=17");
     command.callback([args] { run(*args); });
 }

@@ -14,14 +14,14 @@
 namespace lfdsim::cli {
 namespace {
 
-struct Arguments {
-    explicit Arguments(Command of) : command(of) {}
+struct CompareArguments {
+    explicit CompareArguments(Command of) : command(of) {}
     Command command;
     std::string a, b, encoding = "srgb", crop;
     bool json = false;
 };
 
-void run(const Arguments& args, const PhotoOptions& photo) {
+void run(const CompareArguments& args, const PhotoOptions& photo) {
     check_effects(args.command);
     if (photo.given()) return photo.run(args.a, args.b, args.encoding, args.crop, args.json);
     // Errors are measured in linear light: code values have to be decoded as they were written.
@@ -67,7 +67,7 @@ void add_compare(Command program) {
     Command command = program.add_subcommand(
         "compare",
         "How alike two pictures are: SSIM, PSNR, RMSE, greatest difference; or a view and a photograph of a real display");
-    const auto args = std::make_shared<Arguments>(command);
+    const auto args = std::make_shared<CompareArguments>(command);
     command.add_option("A", args->a, "Picture: .png .exr .npy .jpg").type_name("").required();
     command.add_option("B", args->b, "Picture of the same size; or a photograph: see --corners").type_name("").required();
     command

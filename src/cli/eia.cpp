@@ -13,8 +13,8 @@
 namespace lfdsim::cli {
 namespace {
 
-struct Arguments {
-    explicit Arguments(Command of)
+struct EiaArguments {
+    explicit EiaArguments(Command of)
         : command(of),
           display(command, {content_options}),
           model(command),
@@ -29,7 +29,7 @@ struct Arguments {
     WorkOptions work;
 };
 
-void run(const Arguments& args) {
+void run(const EiaArguments& args) {
     Faults faults;
     Display display;
     PatternOptions pattern_options;
@@ -66,7 +66,7 @@ void run(const Arguments& args) {
 
 void add_eia(Command program) {
     Command command = program.add_subcommand("eia", "What the panel shows: the elemental images of a model, or a test pattern");
-    const auto args = std::make_shared<Arguments>(command);
+    const auto args = std::make_shared<EiaArguments>(command);
     command.footer(
         "Examples:\n  lfdsim eia display.toml --model monkey.blend --height-mm 120 -o eia.png\n"
         "  lfdsim eia display.toml --pattern checkerboard --cell-pixels 8 -o eia.png");

@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
-    explicit Arguments(Command of)
+struct ExportArguments {
+    explicit ExportArguments(Command of)
         : command(of),
           peer_option(
               command.add_option("PEER", peer, "For which program: pov (POV-Ray 3.7), cycles (Blender), mitsuba (Mitsuba 3)")
@@ -59,7 +59,7 @@ Peer peer_of(const std::string& name) {
     return name == "pov" ? Peer::pov : name == "cycles" ? Peer::cycles : Peer::mitsuba;
 }
 
-PeerOptions options_of(const Arguments& args) {
+PeerOptions options_of(const ExportArguments& args) {
     PeerOptions options;
     if (!args.triangles.empty())
         options.triangles = whole_number("--triangles", args.triangles, 1, std::numeric_limits<std::int32_t>::max());
@@ -101,7 +101,7 @@ std::string readme(const PeerScene& scene, const std::string& lfdsims) {
     return text;
 }
 
-void run(const Arguments& args) {
+void run(const ExportArguments& args) {
     Faults faults;
     Display display;
     PatternOptions pattern_options;
@@ -167,7 +167,7 @@ void run(const Arguments& args) {
 void add_export(Command program) {
     Command command =
         program.add_subcommand("export", "The display as a scene for another renderer, for a second opinion on what it shows");
-    const auto args = std::make_shared<Arguments>(command);
+    const auto args = std::make_shared<ExportArguments>(command);
     command.footer(
         "Examples:\n  lfdsim export pov display.toml --panel-image eia.png --set diffuser=none -o scene\n"
         "  lfdsim export cycles display.toml --panel-image eia.png --triangles 16380 --normals smooth -o scene");

@@ -20,26 +20,26 @@ struct Said {
     std::vector<double> values;
 };
 
-struct Made {
+struct MadeFor {
     Display display;
     Geometry geometry;
 };
 
 // Anybody may have written it: what the reader of descriptions refuses is not looked at.
-std::optional<Made> made_for(const Metadata& about) {
+std::optional<MadeFor> made_for(const Metadata& about) {
     const auto text = about.find("display");
     if (text == about.end()) return {};
     try {
         Display display = parse_display(text->second, "display");
         Geometry geometry = resolve(display);
-        return Made{std::move(display), std::move(geometry)};
+        return MadeFor{std::move(display), std::move(geometry)};
     } catch (const InputError&) {
         return {};
     }
 }
 
 // All that elemental images depend on but the model, from which lengths on the lens's axis come out however it is described.
-std::vector<Said> pickup_of(const Made& made) {
+std::vector<Said> pickup_of(const MadeFor& made) {
     const auto& [d, g] = made;
     return {{"panel.pixel_pitch_mm", {d.panel.pixel_pitch_mm}},
             {"array.count", {double(d.array.count[0]), double(d.array.count[1])}},
@@ -52,7 +52,7 @@ std::vector<Said> pickup_of(const Made& made) {
             {"distance of its vertex from them", {g.vertex_plane_mm - g.rear_principal_mm}}};
 }
 
-std::vector<Said> camera_of(const Made& made) {
+std::vector<Said> camera_of(const MadeFor& made) {
     const Camera& c = made.display.camera;
     return {{"camera.position_mm", {c.position_mm.begin(), c.position_mm.end()}},
             {"camera.target_mm", {c.target_mm.begin(), c.target_mm.end()}},
@@ -88,7 +88,7 @@ bool drawn_for_lenses(const Metadata& about) {
 }  // namespace
 
 void warn_if_for_another(const std::filesystem::path& panel_image, const Metadata& about, const Display& display) {
-    const std::optional<Made> made = made_for(about);
+    const std::optional<MadeFor> made = made_for(about);
     if (!made || !drawn_for_lenses(about)) return;
     std::string what = differences(pickup_of(*made), pickup_of({display, resolve(display)}));
     if (made->display.panel.encoding != display.panel.encoding && holds_codes(panel_image))
@@ -98,7 +98,7 @@ void warn_if_for_another(const std::filesystem::path& panel_image, const Metadat
 }
 
 void warn_if_other_camera(const std::filesystem::path& a, const std::filesystem::path& b) {
-    const std::optional<Made> first = made_for(read_metadata(a)), second = made_for(read_metadata(b));
+    const std::optional<MadeFor> first = made_for(read_metadata(a)), second = made_for(read_metadata(b));
     if (!first || !second) return;
     const std::string what = differences(camera_of(*first), camera_of(*second));
     if (!what.empty()) spdlog::warn("{} and {}: were seen by different cameras: {}", a.string(), b.string(), what);

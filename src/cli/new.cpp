@@ -16,12 +16,12 @@
 namespace lfdsim::cli {
 namespace {
 
-struct Arguments {
+struct NewArguments {
     std::string panel_inch, pixels, fov_deg = "30", distance_mm, depth_mm, lens = "plano_convex", output;
     bool force = false;
 };
 
-DesignRequest request_of(const Arguments& args) {
+DesignRequest request_of(const NewArguments& args) {
     DesignRequest request;
     Faults faults;
     faults.of([&] { request.panel_inch = number("--panel-inch", args.panel_inch); });
@@ -36,7 +36,7 @@ DesignRequest request_of(const Arguments& args) {
     return request;
 }
 
-void check_free(const Arguments& args) {
+void check_free(const NewArguments& args) {
     if (args.output.empty()) throw InputError("--output", "the name is empty; give the file to write");
     const std::filesystem::path path = args.output;
     guard_output(path);
@@ -48,7 +48,7 @@ void check_free(const Arguments& args) {
         throw InputError("--output", fmt::format("{} is there already; --force replaces it", args.output));
 }
 
-void run(const Arguments& args) {
+void run(const NewArguments& args) {
     Faults faults;
     FirstOrder made;
     faults.of([&] { made = first_order(request_of(args)); });
@@ -78,7 +78,7 @@ void run(const Arguments& args) {
 }  // namespace
 
 void add_new(Command program) {
-    const auto args = std::make_shared<Arguments>();
+    const auto args = std::make_shared<NewArguments>();
     Command command = program.add_subcommand("new", "Writes a commented description of a first design, to go on from");
     command.add_option("--panel-inch", args->panel_inch, "Diagonal of the panel").type_name("I").required();
     command.add_option("--pixels", args->pixels, "Of the panel").type_name("WxH").required();

@@ -10,8 +10,8 @@
 namespace lfdsim::cli {
 namespace {
 
-struct Arguments {
-    explicit Arguments(Command command)
+struct PhotoArguments {
+    explicit PhotoArguments(Command command)
         : display(command, {content_options, camera_options, point_options}),
           model(command),
           crop(command),
@@ -25,7 +25,7 @@ struct Arguments {
 };
 
 // A pinhole that looks through pixel centres casts one ray a pixel.
-void refuse_idle_samples(const Arguments& args, const Camera& camera) {
+void refuse_idle_samples(const PhotoArguments& args, const Camera& camera) {
     if (camera.pupil_diameter_mm || camera.pixel_filter == PixelFilter::box) return;
     for (const KeyOption& option : point_options)
         if (args.display.given(option.option))
@@ -34,7 +34,7 @@ void refuse_idle_samples(const Arguments& args, const Camera& camera) {
                              "camera.pupil_diameter_mm=4) or a pixel filter (--set camera.pixel_filter=box)");
 }
 
-void run(const Arguments& args) {
+void run(const PhotoArguments& args) {
     Faults faults;
     Display display;
     std::optional<Rect> crop;
@@ -62,7 +62,7 @@ void run(const Arguments& args) {
 
 void add_photo(Command program) {
     Command command = program.add_subcommand("photo", "The reference photograph: the model itself, seen by the same camera");
-    const auto args = std::make_shared<Arguments>(command);
+    const auto args = std::make_shared<PhotoArguments>(command);
     command.footer(
         "Example:\n  lfdsim photo display.toml --model monkey.blend --camera-mm 518,0,1932 -o photo.png\n"
         "  lfdsim photo display.toml --set camera.pupil_diameter_mm=20 camera.focus_distance_mm=1800 -o blurred.png");

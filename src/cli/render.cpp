@@ -22,8 +22,8 @@
 namespace lfdsim::cli {
 namespace {
 
-struct Arguments {
-    explicit Arguments(Command of)
+struct RenderArguments {
+    explicit RenderArguments(Command of)
         : command(of),
           display(command, {camera_options, sample_options, content_options}),
           panel_image(command),
@@ -59,7 +59,7 @@ struct Arguments {
     std::string kernel, target_error;
 };
 
-void render_frames(const Arguments& args, const Display& display, const CameraPath& path, const RenderOptions& options,
+void render_frames(const RenderArguments& args, const Display& display, const CameraPath& path, const RenderOptions& options,
                    const std::function<PanelLight()>& light, Progress& progress) {
     const std::string shown = args.panel_image.given() ? args.panel_image.path() : args.pattern.given() ? "" : model_of(display);
     PanelLight panel;
@@ -79,7 +79,7 @@ void render_frames(const Arguments& args, const Display& display, const CameraPa
                made.more);
 }
 
-void run(const Arguments& args) {
+void run(const RenderArguments& args) {
     Faults faults;
     Display display;
     PatternOptions pattern_options;
@@ -145,7 +145,7 @@ void run(const Arguments& args) {
 
 void add_render(Command program) {
     Command command = program.add_subcommand("render", "What a camera sees of the display");
-    const auto args = std::make_shared<Arguments>(command);
+    const auto args = std::make_shared<RenderArguments>(command);
     command.footer(
         "Examples:\n  lfdsim render display.toml --panel-image eia.png --camera-mm -300,0,1800 -o view.png\n"
         "  lfdsim render display.toml --panel-image eia.png --target-error 0.005 -o view.exr\n"

@@ -14,13 +14,13 @@
 namespace lfdsim::cli {
 namespace {
 
-struct Arguments {
+struct SheetArguments {
     std::vector<std::string> images, labels;
     std::string output, columns = "2", width_px = "640";
     bool json = false;
 };
 
-void run(const Arguments& args) {
+void run(const SheetArguments& args) {
     Faults faults;
     std::int64_t columns = 0, width = 0;
     faults.of([&] { columns = whole_number("--columns", args.columns, 1, 100); });
@@ -59,7 +59,7 @@ void run(const Arguments& args) {
 }  // namespace
 
 void add_sheet(Command program) {
-    const auto args = std::make_shared<Arguments>();
+    const auto args = std::make_shared<SheetArguments>();
     Command command = program.add_subcommand("sheet", "A contact sheet: pictures side by side, with labels");
     command.add_option("IMAGE", args->images, "Pictures, row by row").type_name("").required();
     command.add_option("-o,--output", args->output, "Picture to write: .png (sRGB), or linear .exr .npy")

@@ -21,8 +21,8 @@
 namespace lfdsim::cli {
 namespace {
 
-struct Arguments {
-    explicit Arguments(Command of)
+struct ViewArguments {
+    explicit ViewArguments(Command of)
         : command(of), display(command, {sample_options, content_options}), panel_image(command), model(command), device(command) {
         pattern_option =
             command.add_option("--pattern", pattern, fmt::format("Test pattern to show: {}", fmt::join(pattern_names(), ", ")))
@@ -54,9 +54,9 @@ std::string address(const std::string& host) {
     return host.find(':') == host.npos ? host : "[" + host + "]";
 }
 
-int port_of(const Arguments& args) { return args.port.empty() ? 0 : int(whole_number("--port", args.port, 1, 65535)); }
+int port_of(const ViewArguments& args) { return args.port.empty() ? 0 : int(whole_number("--port", args.port, 1, 65535)); }
 
-std::string token_of(const Arguments& args) {
+std::string token_of(const ViewArguments& args) {
     if (args.token.empty()) return view::make_token();
     const bool plain = std::all_of(args.token.begin(), args.token.end(), [](unsigned char c) { return std::isalnum(c); });
     if (args.token.size() < 16 || args.token.size() > 128 || !plain)
@@ -64,7 +64,7 @@ std::string token_of(const Arguments& args) {
     return args.token;
 }
 
-void run(const Arguments& args) {
+void run(const ViewArguments& args) {
     Faults faults;
     view::Start start;
     view::ServerOptions options;
@@ -120,7 +120,7 @@ void run(const Arguments& args) {
 void add_view(Command program) {
     Command command =
         program.add_subcommand("view", "Shows the display in a browser: eye and parameters move, the picture follows");
-    const auto args = std::make_shared<Arguments>(command);
+    const auto args = std::make_shared<ViewArguments>(command);
     command.footer(
         "Examples:\n  lfdsim view display.toml --model monkey.blend\n"
         "  lfdsim view display.toml --panel-image eia.png --port 8080\n"

@@ -1,6 +1,7 @@
 #include "content/content.h"
 #include "content/pickup.h"
 #include "image/encoding.h"
+#include "model/numbers.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,8 +11,6 @@
 
 namespace lfdsim {
 namespace {
-
-constexpr double radian = 3.14159265358979323846 / 180;
 
 template <class Colour>
 Image fill(const Display& display, const Colour& colour) {
@@ -52,7 +51,7 @@ Image view(const Display& display, const Geometry& geometry, const PatternOption
 // counter-clockwise.
 Image edge(const Display& display, const Geometry& geometry, const PatternOptions& o) {
     const Pickup pickup(display, geometry);
-    const double c = std::cos(o.edge_deg * radian), s = std::sin(o.edge_deg * radian),
+    const double c = std::cos(o.edge_deg * degree), s = std::sin(o.edge_deg * degree),
                  height = geometry.vertex_plane_mm + o.depth_mm - pickup.z_rear;
     return fill(display, [&](int column, int row, float* rgb) {
         const NodalLine l = pickup.line(pickup.x_mm(column), pickup.y_mm(row));

@@ -2,6 +2,7 @@
 #pragma once
 #include "model/display.h"
 #include "model/geometry.h"
+#include "model/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +23,8 @@ class Pickup {
         : nx_(double(d.array.count[0])),
           ny_(double(d.array.count[1])),
           pitch_(d.array.pitch_mm),
-          cos_(std::cos(d.array.rotation_deg * radian)),
-          sin_(std::sin(d.array.rotation_deg * radian)),
+          cos_(std::cos(d.array.rotation_deg * degree)),
+          sin_(std::sin(d.array.rotation_deg * degree)),
           offset_x_(d.array.offset_mm[0]),
           offset_y_(d.array.offset_mm[1]),
           inverse_gap_(1 / g.gap_mm),
@@ -70,7 +71,6 @@ class Pickup {
         return whole > near ? whole - 1 : whole;
     }
 
-    static constexpr double radian = 3.14159265358979323846 / 180;
     double nx_, ny_, pitch_, cos_, sin_, offset_x_, offset_y_, inverse_gap_, inverse_pitch_, pixel_, left_, top_;
 
   public:

@@ -1,5 +1,6 @@
 #include "content/scene.h"
 #include "model/keys.h"
+#include "model/numbers.h"
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
@@ -9,8 +10,6 @@
 
 namespace lfdsim {
 namespace {
-
-constexpr double radian = 3.14159265358979323846 / 180;
 
 struct Box {
     Vec3d low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
@@ -27,10 +26,10 @@ struct Box {
 struct Turn {
     double ct, st, cy, sy;
     explicit Turn(const Content& c)
-        : ct(std::cos(c.tilt_deg * radian)),
-          st(std::sin(c.tilt_deg * radian)),
-          cy(std::cos(c.yaw_deg * radian)),
-          sy(std::sin(c.yaw_deg * radian)) {}
+        : ct(std::cos(c.tilt_deg * degree)),
+          st(std::sin(c.tilt_deg * degree)),
+          cy(std::cos(c.yaw_deg * degree)),
+          sy(std::sin(c.yaw_deg * degree)) {}
     Vec3d operator()(const float* p) const {
         const double y = ct * p[1] + st * p[2], z = ct * p[2] - st * p[1];
         return {cy * p[0] + sy * z, y, cy * z - sy * p[0]};

@@ -1,5 +1,6 @@
 #include "engine/scene.h"
 
+#include "model/numbers.h"
 #include "optics/directions.h"
 
 #include "engine/kernel.h"
@@ -17,8 +18,6 @@ namespace {
 using optics::kMaxAsphereTerms;
 using optics::kMaxSurfaces;
 using optics::Shape;
-
-constexpr double kRadians = std::numbers::pi / 180;
 
 template <class S>
 optics::Interface<S> interface(double above, double below) {
@@ -133,8 +132,8 @@ optics::Scene<S> make_scene(const Display& display, const Geometry& geometry) {
     scene.half_pitch = S(array.pitch_mm / 2);
     scene.pitch_pixels = S(array.pitch_mm / display.panel.pixel_pitch_mm);
     scene.rotated = array.rotation_deg != 0;
-    scene.cos_rotation = S(std::cos(array.rotation_deg * kRadians));
-    scene.sin_rotation = S(std::sin(array.rotation_deg * kRadians));
+    scene.cos_rotation = S(std::cos(array.rotation_deg * degree));
+    scene.sin_rotation = S(std::sin(array.rotation_deg * degree));
 
     scene.fresnel = display.render.fresnel;
     scene.has_diffuser = display.diffuser.has_value();
@@ -144,14 +143,14 @@ optics::Scene<S> make_scene(const Display& display, const Geometry& geometry) {
         scene.start_above = S(*geometry.diffuser_z_mm - first);
         scene.small_angles = scene.diffuser_profile == Profile::box;
         for (int axis = 0; axis < 2; ++axis) {
-            const double angle = display.diffuser->angle_deg[axis] * kRadians;
+            const double angle = display.diffuser->angle_deg[axis] * degree;
             if (scene.diffuser_profile == Profile::box) {
                 scene.half_angle[axis] = S(angle / 2);
                 scene.small_angles = scene.small_angles && angle / 2 <= 0.05;
             } else {  // sigma sqrt 2 of a normal distribution with this full width at half maximum
                 const double scale = angle / (2 * std::sqrt(std::numbers::ln2));
                 scene.half_angle[axis] = S(scale);
-                scene.gaussian_tail[axis] = S(scale > 0 ? std::erf(89 * kRadians / scale) : 1);
+                scene.gaussian_tail[axis] = S(scale > 0 ? std::erf(89 * degree / scale) : 1);
             }
         }
     }
@@ -197,8 +196,8 @@ optics::View make_view(const Display& display, const Geometry& geometry) {
         view.count[k] = double(display.array.count[k]);
         view.offset[k] = display.array.offset_mm[k];
     }
-    view.cos_rotation = std::cos(display.array.rotation_deg * kRadians);
-    view.sin_rotation = std::sin(display.array.rotation_deg * kRadians);
+    view.cos_rotation = std::cos(display.array.rotation_deg * degree);
+    view.sin_rotation = std::sin(display.array.rotation_deg * degree);
     view.panel_width = geometry.panel_width_mm;
     view.panel_height = geometry.panel_height_mm;
     view.pixels_per_mm = 1 / display.panel.pixel_pitch_mm;

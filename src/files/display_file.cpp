@@ -19,14 +19,14 @@ namespace {
 constexpr std::int64_t known_schema = 1;
 
 // More than a person mends in one go: a file of another kind in TOML can hold a hundred thousand unknown keys.
-constexpr std::size_t most_problems = 50;
+constexpr std::size_t most_problems_told = 50;
 
 // Fills a display from a parsed description, by the tables of keys. It goes on after a fault: a value that cannot be read keeps its
 // default, and its key is passed to validate()'s steps as known to be wrong, so that they judge all others and each fault is
 // reported once. In the end all are sorted by place.
-class Reader {
+class DisplayReader {
   public:
-    explicit Reader(const Source& s) : source(s) {}
+    explicit DisplayReader(const Source& s) : source(s) {}
 
     Display read() {
         Display display;
@@ -159,9 +159,9 @@ class Reader {
             return std::tie(a.place.line, a.place.column) < std::tie(b.place.line, b.place.column);
         });
         std::vector<Problem> problems;
-        for (std::size_t i = 0; i < std::min(all.size(), most_problems); ++i)
+        for (std::size_t i = 0; i < std::min(all.size(), most_problems_told); ++i)
             problems.push_back({std::move(all[i].place.text), std::move(all[i].what)});
-        if (all.size() > most_problems) problems.push_back({"", fmt::format("and {} more", all.size() - most_problems)});
+        if (all.size() > most_problems_told) problems.push_back({"", fmt::format("and {} more", all.size() - most_problems_told)});
         throw InputError(std::move(problems));
     }
 
@@ -182,7 +182,7 @@ class Reader {
 Display parse_display(std::string_view text, std::string_view name, const std::vector<std::string>& overrides) {
     check_text(text, name);
     const Source source(text, name, overrides);
-    return Reader(source).read();
+    return DisplayReader(source).read();
 }
 
 Display read_display(const std::filesystem::path& path, const std::vector<std::string>& overrides) {

@@ -20,9 +20,9 @@ constexpr double most_frames_per_second = 1000;
 constexpr std::size_t most_problems = 20;  // of a file whose every pose is wrong
 
 /// Reads values and gathers what is wrong with them.
-class Reader {
+class PathReader {
   public:
-    explicit Reader(std::string_view name) : name_(name) {}
+    explicit PathReader(std::string_view name) : name_(name) {}
 
     template <class... Values>
     void refuse(const std::string& place, fmt::format_string<Values...> what, Values&&... values) {
@@ -114,7 +114,7 @@ CameraPath parse_path(std::string_view text, std::string_view name) {
         const std::size_t begin = says.find("] ") + 2, end = std::min(says.find("; last read"), begin + 160);
         throw InputError(std::string(name), "is no camera path in JSON: " + says.substr(begin, end - begin));
     }
-    Reader reader(name);
+    PathReader reader(name);
     CameraPath path;
     if (!reader.object(json, "the file", path_keys, 3)) reader.report();
     if (json["schema"] != 1) reader.refuse("schema", "only 1 is known");

@@ -38,11 +38,11 @@ void on_progress(j_common_ptr common) {
         file_of(common).refuse(fmt::format("has more than {} scans; save it again as a baseline JPEG", max_scans));
 }
 
-struct Reader {
+struct JpegReader {
     jpeg_decompress_struct jpeg{};
     Hooks hooks{};
 
-    explicit Reader(const InputFile& file, bool with_exif = false) {
+    explicit JpegReader(const InputFile& file, bool with_exif = false) {
         jpeg.err = jpeg_std_error(&hooks.error);
         hooks.error.error_exit = on_error;
         hooks.error.emit_message = on_message;
@@ -54,9 +54,9 @@ struct Reader {
         jpeg_stdio_src(&jpeg, file.stream());
         if (with_exif) jpeg_save_markers(&jpeg, JPEG_APP0 + 1, 0xffff);
     }
-    ~Reader() { jpeg_destroy_decompress(&jpeg); }
-    Reader(const Reader&) = delete;
-    Reader& operator=(const Reader&) = delete;
+    ~JpegReader() { jpeg_destroy_decompress(&jpeg); }
+    JpegReader(const JpegReader&) = delete;
+    JpegReader& operator=(const JpegReader&) = delete;
 };
 
 /// Tag 0x0112 of an APP1 marker "Exif" (CIPA DC-008: a TIFF file, of which the first directory counts); 0: says nothing.
@@ -83,7 +83,7 @@ int exif_orientation(std::span<const unsigned char> marker) {
 }  // namespace
 
 int read_jpeg_orientation(const InputFile& file) {
-    Reader reader(file, true);
+    JpegReader reader(file, true);
     jpeg_read_header(&reader.jpeg, TRUE);
     for (const jpeg_marker_struct* marker = reader.jpeg.marker_list; marker; marker = marker->next)
         if (const int orientation = exif_orientation({marker->data, marker->data_length}); orientation >= 1 && orientation <= 8)
@@ -92,7 +92,7 @@ int read_jpeg_orientation(const InputFile& file) {
 }
 
 void read_jpeg(const InputFile& file, Encoding encoding, const Allocate& allocate) {
-    Reader reader(file);
+    JpegReader reader(file);
     jpeg_decompress_struct& jpeg = reader.jpeg;
     jpeg_read_header(&jpeg, TRUE);
     // At best one bit tells a block of 8 x 8 samples, each of which covers 4 x 4 pixels.

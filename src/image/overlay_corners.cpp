@@ -12,10 +12,10 @@ namespace {
 
 constexpr int unknowns = 8;
 using Vector = std::array<double, unknowns>;
-using Matrix = std::array<Vector, unknowns>;
+using NormalMatrix = std::array<Vector, unknowns>;
 
 /// By Cholesky's factors; `a` is symmetric and positive definite.
-Vector solve(Matrix a, Vector b) {
+Vector solve(NormalMatrix a, Vector b) {
     for (std::size_t j = 0; j < unknowns; ++j)
         for (std::size_t i = j; i < unknowns; ++i) {
             for (std::size_t k = 0; k < j; ++k) a[i][j] -= a[i][k] * a[j][k];
@@ -61,7 +61,7 @@ class Level {
     }
 
     struct Sums {
-        Matrix normal{};
+        NormalMatrix normal{};
         Vector right{};
         double squares = 0, pixels = 0, light = 0;  // squared residuals; squared light of the view
     };

@@ -14,7 +14,7 @@ namespace {
 constexpr int cell_side = 8;          // pixels; more than a blur or a misplaced corner moves light
 constexpr double least_share = 0.05;  // of the brightest cell: darker ones tell nothing of a gain
 constexpr double least_used = 0.01, most_blur_px = 64;
-constexpr const char* channel_names[] = {"red", "green", "blue"};
+constexpr const char* colour_names[] = {"red", "green", "blue"};
 
 /// Mean light of a square of pixels that are on the screen and not saturated.
 struct Cell {
@@ -201,7 +201,7 @@ std::array<double, 3> fit_gains(const Image& simulated, const Aligned& photo, do
             throw InputError(
                 "", fmt::format("the photograph's {} channel is black between the corners, the view's is not; see that the "
                                 "corners are right, or expose longer",
-                                channel_names[c]));
+                                colour_names[c]));
         sum += result[c];
         ++known;
     }

@@ -30,20 +30,20 @@ void check_signature(const InputFile& file) {
         file.refuse("is not a PNG file, whatever its name says");
 }
 
-struct Reader {
+struct PngReader {
     png_structp png;
     png_infop info;
 
-    explicit Reader(const InputFile& file)
+    explicit PngReader(const InputFile& file)
         : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, const_cast<InputFile*>(&file), on_error, on_warning)),
           info(png ? png_create_info_struct(png) : nullptr) {
         if (!info) throw std::bad_alloc();
         png_set_read_fn(png, file.stream(), on_read);
         png_set_sig_bytes(png, 8);  // check_signature() has read them
     }
-    ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
-    Reader(const Reader&) = delete;
-    Reader& operator=(const Reader&) = delete;
+    ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
+    PngReader(const PngReader&) = delete;
+    PngReader& operator=(const PngReader&) = delete;
 };
 
 /// Rows first .. first + rows - 1; `Code` is the type of a sample.
@@ -55,7 +55,7 @@ struct Band {
 
 /// One thread inflates, others turn codes into light: as much work again, most of it the first touch of the memory.
 template <class Code>
-void read_rows(const Reader& reader, int passes, std::int64_t rows, const std::vector<float>& table, const Pixels& pixels) {
+void read_rows(const PngReader& reader, int passes, std::int64_t rows, const std::vector<float>& table, const Pixels& pixels) {
     constexpr std::int64_t band_codes = 1 << 18;  // what fits a core's own cache
     const std::int64_t row_codes = pixels.columns * 3;
     // Interlaced pictures come in passes, each of which touches every row: all codes must be kept until the last.
@@ -89,7 +89,7 @@ void read_rows(const Reader& reader, int passes, std::int64_t rows, const std::v
 
 Metadata read_png_metadata(const InputFile& file) {
     check_signature(file);
-    const Reader reader(file);
+    const PngReader reader(file);
     png_read_info(reader.png, reader.info);
     png_textp texts = nullptr;
     const int count = png_get_text(reader.png, reader.info, &texts, nullptr);
@@ -100,7 +100,7 @@ Metadata read_png_metadata(const InputFile& file) {
 
 void read_png(const InputFile& file, Encoding encoding, const Allocate& allocate) {
     check_signature(file);
-    const Reader reader(file);
+    const PngReader reader(file);
     png_set_user_limits(reader.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // check_size is stricter
     png_set_chunk_cache_max(reader.png, 16);                            // texts are not used: do not collect them
     png_read_info(reader.png, reader.info);

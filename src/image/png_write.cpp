@@ -18,9 +18,11 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr int strip_rows = 64;  // a strip is compressed on its own; larger than deflate's 32 KiB window, so little is lost
 
-[[noreturn]] void on_error(png_structp, png_const_charp message) { throw std::runtime_error(fmt::format("PNG: {}", message)); }
+[[noreturn]] void on_write_error(png_structp, png_const_charp message) {
+    throw std::runtime_error(fmt::format("PNG: {}", message));
+}
 
-void on_warning(png_structp, png_const_charp) {}
+void no_warning(png_structp, png_const_charp) {}
 
 void on_write(png_structp png, png_bytep data, std::size_t bytes) { static_cast<Output*>(png_get_io_ptr(png))->write(data, bytes); }
 
@@ -31,7 +33,7 @@ struct Writer {
     png_infop info;
 
     explicit Writer(Output& file)
-        : png(png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, on_error, on_warning)),
+        : png(png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, on_write_error, no_warning)),
           info(png ? png_create_info_struct(png) : nullptr) {
         if (!info) throw std::bad_alloc();
         png_set_write_fn(png, &file, on_write, on_flush);

@@ -6,12 +6,11 @@
 #include <numbers>
 #include <vector>
 
+#include "model/numbers.h"
 #include "model/prescription.h"
 
 namespace lfdsim {
 namespace {
-
-constexpr double pi = std::numbers::pi, degree = pi / 180;
 
 bool stop_before_lens(const Display& d, const Geometry& g) {
     return d.lens.stop_radius_mm && (g.surfaces.empty() || std::abs(g.stop_z_mm - g.surfaces.back().z_mm) < 1e-9);

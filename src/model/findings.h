@@ -34,6 +34,8 @@ class Findings {
     std::vector<Problem>& all_;
 };
 
+inline constexpr double rounding_mm = 1e-9;  // of sums of lengths up to a metre
+
 // The steps of validate(), in order. A reader may come first and name the keys that it could not read; they are judged no further.
 void validate_values(const Display&, Findings&);  // each key by itself: ranges, NaN, counts, keys that exclude or need one another
 void validate_lens(const Display&, Findings&);    // whether such a lens can be made and fits its cell

@@ -1,5 +1,7 @@
 #include "model/keys.h"
 
+#include "model/numbers.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -7,7 +9,6 @@
 namespace lfdsim {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double two_to_63 = 9223372036854775808.0;  // what the largest 64-bit integer, 2^63 - 1, rounds to
 constexpr Range no_range{-infinity, infinity}, count_range{1, two_to_31, false, true}, index_range{1, 4}, turn{-360, 360};
 constexpr Range angle{0, 180, false, true}, open_angle{0, 180, true, true};

@@ -7,8 +7,6 @@
 namespace lfdsim {
 namespace {
 
-constexpr double rounding_mm = 1e-9;  // of sums of lengths up to a metre
-
 // The lens must stand before the panel, and the planes that theory measures from must be at finite places.
 void check_heights(const Display& d, const Geometry& g, Findings& findings) {
     const char* given = d.array.gap_mm ? "array.gap_mm" : "array.base_z_mm";

@@ -7,8 +7,6 @@
 namespace lfdsim {
 namespace {
 
-constexpr double rounding_mm = 1e-9;  // of sums of lengths up to a metre
-
 class LensCheck {
   public:
     LensCheck(const Display& d, Findings& f) : lens(d.lens), array(d.array), findings(f) {}

@@ -13,7 +13,7 @@ namespace {
 using Point = std::array<double, 3>;
 
 // Black rings of neighbours overlap by so much, and lie so far before a flat face at the same height: no ray slips through between.
-constexpr double overlap_mm = 1e-3;
+constexpr double solid_overlap_mm = 1e-3;
 
 std::uint32_t add_vertex(Patch& patch, const Point& at, const Point& normal) {
     for (const double p : at) patch.vertices_mm.push_back(float(p));
@@ -177,7 +177,7 @@ class ArrayBuilder {
     // A little before a flat face at the same height.
     double before_faces(double z) const {
         for (const PlacedSurface& s : geometry_.surfaces)
-            if (is_plane(s) && std::abs(s.z_mm - z) < overlap_mm) z = s.z_mm + overlap_mm;
+            if (is_plane(s) && std::abs(s.z_mm - z) < solid_overlap_mm) z = s.z_mm + solid_overlap_mm;
         return z;
     }
 
@@ -191,7 +191,7 @@ class ArrayBuilder {
                                                [&](const PlacedSurface& s) { return s.semi_aperture_mm == ring.radius_mm; });
                 const bool of_surface = same != surfaces.end() && !all_beside;
                 add_ring(black, of_surface ? rims_[std::size_t(same - surfaces.begin())] : circle(ring.radius_mm, 512), z, half_,
-                         half_ + overlap_mm);
+                         half_ + solid_overlap_mm);
                 if (all_beside || &ring == &rings.front() || &ring == &rings.back())
                     add_frame(beside, array_half(geometry_), z, 100 * sheet_half(display_, geometry_));
             }

@@ -26,7 +26,7 @@ std::string shown_option(const Library& library, const Shown& shown) {
     return start.model.empty() ? "" : " --model " + shell_file(start.model);
 }
 
-std::string words(const Library::Description& description) {
+std::string words_of(const Library::Description& description) {
     std::string text = shell_file(description.file.string());
     for (const std::string& one : description.set) text += " --set " + shell_word(one);
     return text;
@@ -39,11 +39,11 @@ std::string command(const Library& library, const Wanted& wanted) {
     if (wanted.shown.hold && !shown.starts_with(" --panel-image")) {
         Wanted described = wanted;
         described.set.clear();
-        text = "lfdsim eia " + words(library.description(described)) + shown + " -o eia.png && ";
+        text = "lfdsim eia " + words_of(library.description(described)) + shown + " -o eia.png && ";
         shown = " --panel-image eia.png";
     }
     const auto render = [&](int eye, const char* picture) {
-        return "lfdsim render " + words(library.description(wanted, eye)) + shown + " -o " + picture;
+        return "lfdsim render " + words_of(library.description(wanted, eye)) + shown + " -o " + picture;
     };
     if (wanted.layout == Layout::one) return text + render(0, "view.png");
     return text + render(-1, "left.png") + " && " + render(1, "right.png");

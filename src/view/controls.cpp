@@ -5,11 +5,11 @@
 #include "model/bands.h"
 #include "model/geometry.h"
 #include "model/keys.h"
+#include "model/numbers.h"
 #include "view/slider.h"
 
 #include <fmt/format.h>
 #include <cmath>
-#include <numbers>
 
 namespace lfdsim::view {
 namespace {
@@ -26,15 +26,15 @@ std::string label(std::string_view key) {
     return words;
 }
 
-Json json_of(double x) {
+Json control_json(double x) {
     if (std::isfinite(x)) return x;
     return x > 0 ? "infinite" : "-infinite";
 }
-Json json_of(std::int64_t n) { return n; }
+Json control_json(std::int64_t n) { return n; }
 template <class List>
-Json json_of(const List& list) {
+Json control_json(const List& list) {
     Json json = Json::array();
-    for (const auto& x : list) json.push_back(json_of(x));
+    for (const auto& x : list) json.push_back(control_json(x));
     return json;
 }
 
@@ -48,7 +48,6 @@ Diffuser new_diffuser(const Display& d, const Geometry& g) {
 
 /// Of keys that are absent: what holds without them, or else a start.
 double suggested(std::string_view path, const Display& d, const Geometry& g) {
-    const double degree = std::numbers::pi / 180;
     const std::pair<std::string_view, double> all[] = {
         {"lens.aperture_radius_mm", g.glass_radius_mm},
         {"lens.stop_radius_mm", 0.5 * g.clear_aperture_mm},
@@ -170,7 +169,7 @@ class Lister {
     void add(Json& control, const std::string& path, const Range& range, Number& field, const Number* described) {
         constexpr bool whole = std::is_integral_v<Number>;
         const Number value = field;
-        control["value"] = json_of(value);
+        control["value"] = control_json(value);
         const bool limits = path == "array.pitch_mm";
         const Slider s = slider(path, range, double(value), double(described ? *described : value), whole, [&](double x) {
             field = to<Number>(x);
@@ -206,7 +205,7 @@ class Lister {
              const std::array<Number, 2>* described) {
         constexpr bool whole = std::is_integral_v<Number>;
         const std::array<Number, 2> value = field;
-        control["value"] = json_of(value);
+        control["value"] = control_json(value);
         Slider s[2];
         for (std::size_t k = 0; k < 2; ++k) {
             s[k] = slider(path, range, double(value[k]), double(described ? (*described)[k] : value[k]), whole,
@@ -224,7 +223,7 @@ class Lister {
     template <class List>
     requires std::is_same_v<List, Vec3d> || std::is_same_v<List, std::vector<double>>
     void add(Json& control, const std::string&, const Range&, List& field, const List*) {
-        control["value"] = json_of(field);
+        control["value"] = control_json(field);
         control["form"] = "list";
     }
 

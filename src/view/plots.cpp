@@ -4,18 +4,17 @@
 #include "analysis/fov.h"
 #include "analysis/lens_trace.h"
 #include "analysis/views.h"
+#include "model/numbers.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <mutex>
-#include <numbers>
 
 namespace lfdsim::view {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr std::int64_t picture_width = 320, most_panel_pixels = std::int64_t(7680) * 4320;
 constexpr int angles_each_side = 12, spot_depths = 161, spot_rays = 301;
 

@@ -4,12 +4,12 @@
 #include "analysis/side_scale.h"
 #include "engine/scene.h"
 #include "model/geometry.h"
+#include "model/numbers.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 namespace lfdsim::view {
 namespace {
@@ -17,7 +17,6 @@ namespace {
 using Place = std::array<double, 2>;
 using Number = std::array<std::int64_t, 2>;
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr int fan_rays = 5, cone_rays = 65;
 
 /// From the camera through a place of its picture, of unit length.

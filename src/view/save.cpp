@@ -13,20 +13,20 @@ namespace lfdsim::view {
 namespace {
 
 /// A hidden file beside the one to be made; removed in the end.
-class Beside {
+class TemporaryFile {
   public:
-    explicit Beside(const std::filesystem::path& path) {
+    explicit TemporaryFile(const std::filesystem::path& path) {
         static std::atomic<int> count = 0;  // several visitors may save at once
         path_ = path.parent_path() / fmt::format(".{}.{}-{}", path.filename().string(), getpid(), ++count);
         descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor_ < 0) fail(path);
     }
-    ~Beside() {
+    ~TemporaryFile() {
         if (descriptor_ >= 0) close(descriptor_);
         unlink(path_.c_str());
     }
-    Beside(const Beside&) = delete;
-    Beside& operator=(const Beside&) = delete;
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
 
     void write(const std::string& text) {
         for (std::size_t done = 0; done < text.size();) {
@@ -57,7 +57,7 @@ class Beside {
 }  // namespace
 
 void save_text(const std::filesystem::path& path, const std::string& text, bool overwrite) {
-    Beside file(path);
+    TemporaryFile file(path);
     file.write(text);
     file.become(path, overwrite);
 }

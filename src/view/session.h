@@ -57,7 +57,7 @@ class Session : public Outbox, public std::enable_shared_from_this<Session> {
     template <class Work>
     void post(Work);
 
-    boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
+    boost::beast::websocket::stream<boost::beast::tcp_stream, false> socket_;  // pictures are compressed already
     boost::asio::executor_work_guard<boost::beast::tcp_stream::executor_type> work_;
     const std::chrono::seconds most_silence_;
     Tally& tally_;

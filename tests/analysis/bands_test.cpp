@@ -9,11 +9,10 @@
 #include "analysis/eye_rays.h"
 #include "analysis/uniformity.h"
 #include "model/bands.h"
+#include "model/numbers.h"
 
 namespace lfdsim {
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 /// Displays of all sizes: lenses of 0.2 to 60 mm, round or square, with or without a stop, ideal or of glass, in black, clear or in
 /// a plate, f/1.2 to f/12; a diffuser near or far that spreads light over a twentieth of the pitch to three of it.

@@ -1,6 +1,7 @@
 // A small display for the tests of the measures.
 #pragma once
 #include "model/display.h"
+#include "model/numbers.h"
 
 #include <cmath>
 
@@ -9,7 +10,6 @@ namespace lfdsim::analysis_example {
 /// 40 x 24 ideal lenses of 6 mm pitch in square cells, the field of view `fov_deg`, the central depth plane `depth_mm` before the
 /// lenses, a diffuser there that closes the gaps (none where it would stand behind the lenses); seen from 2 m.
 inline Display display(double fov_deg, double depth_mm) {
-    constexpr double degree = 3.14159265358979323846 / 180;
     Display d;
     d.panel.pixels = {1200, 720};
     d.panel.pixel_pitch_mm = 0.2;

@@ -1,16 +1,14 @@
 #include "analysis/mtf.h"
+#include "model/numbers.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <random>
 
 namespace lfdsim {
 namespace {
-
-constexpr double radian = std::numbers::pi / 180;
 
 /// 40 x 30 ideal lenses with 20 x 20 views, seen from 1500 mm; the central depth plane 120 mm before them.
 Display ideal_display() {
@@ -37,7 +35,7 @@ Difference differences(const Display& d, double depth, double angle_deg, double 
     std::mt19937_64 engine(1);
     const auto uniform = [&](double low, double high) { return low + (high - low) * double(engine() >> 11) * 0x1p-53; };
     const double gap = *d.array.gap_mm, p = d.array.pitch_mm, a = d.panel.pixel_pitch_mm, f = d.lens.focal_length_mm;
-    const double eye_x = 1500 * std::sin(angle_deg * radian), eye_z = 1500 * std::cos(angle_deg * radian) - gap;  // from the lenses
+    const double eye_x = 1500 * std::sin(angle_deg * degree), eye_z = 1500 * std::cos(angle_deg * degree) - gap;  // from the lenses
     Difference all;
     while (all.x.size() < 100000) {
         const double at[2] = {share * uniform(-100, 100),
@@ -47,8 +45,8 @@ Difference differences(const Display& d, double depth, double angle_deg, double 
         double start[2] = {at[0], at[1]}, turned[2] = {slope[0], slope[1]};
         if (d.diffuser) {  // rotations about y, then about x, of the direction down
             const double distance = d.diffuser->distance_mm;
-            const double u = uniform(-0.5, 0.5) * d.diffuser->angle_deg[0] * radian,
-                         v = uniform(-0.5, 0.5) * d.diffuser->angle_deg[1] * radian;
+            const double u = uniform(-0.5, 0.5) * d.diffuser->angle_deg[0] * degree,
+                         v = uniform(-0.5, 0.5) * d.diffuser->angle_deg[1] * degree;
             const double i[3] = {-slope[0], -slope[1], -1};
             const double ix = std::cos(u) * i[0] + std::sin(u) * i[2], iz = std::cos(u) * i[2] - std::sin(u) * i[0];
             const double jy = std::cos(v) * i[1] - std::sin(v) * iz, jz = std::sin(v) * i[1] + std::cos(v) * iz;
@@ -97,7 +95,7 @@ double transform(const Difference& d, bool horizontal, double slant, double freq
     for (std::size_t n = 0; n < d.x.size(); ++n) {
         const double across =
             horizontal ? d.x[n] * std::cos(slant) - d.y[n] * std::sin(slant) : d.x[n] * std::sin(slant) - d.y[n] * std::cos(slant);
-        sum += std::polar(1., 2 * std::numbers::pi * frequency * across);
+        sum += std::polar(1., 2 * pi * frequency * across);
     }
     return std::abs(sum) / double(d.x.size());
 }
@@ -112,7 +110,7 @@ void agrees(const Display& d, const std::vector<double>& depths) {
     const Result result = measure_mtf(subject, job);
     EXPECT_EQ(job.done, mtf_steps(subject));
     for (const Json& m : result.figures["measurements"]) EXPECT_GE(m["lenses_crossed"].get<int>(), 200);
-    const double slant = result.figures["slant_deg"].get<double>() * radian;
+    const double slant = result.figures["slant_deg"].get<double>() * degree;
     for (const bool horizontal : {true, false}) {
         const DataTable& t = table(result, horizontal ? "mtf_horizontal" : "mtf_vertical");
         const std::vector<double>&z = column(t, "depth_mm"), &angle = column(t, "angle_deg"), &f = column(t, "frequency_per_mm"),
@@ -161,7 +159,7 @@ TEST(Mtf, ResolutionIsTheLeastOfMtf50AndTheLimits) {
             EXPECT_TRUE(result.notes.contains("measurements.0"));
             continue;
         }
-        const double angle = m["angle_deg"], eye = 1500 * std::cos(angle * radian) - 8, mtf50 = m["mtf50_per_mm"]["green"],
+        const double angle = m["angle_deg"], eye = 1500 * std::cos(angle * degree) - 8, mtf50 = m["mtf50_per_mm"]["green"],
                      error = m["mtf50_per_mm_error"]["green"], lens = 0.1 / ((eye - depth) / eye), pixel = 0.5 * 8 / 0.25 / depth;
         EXPECT_NEAR(m["lens_sampling_limit_per_mm"], lens, 1e-9);
         EXPECT_NEAR(m["pixel_image_limit_per_mm"], pixel, 1e-9);
@@ -170,9 +168,9 @@ TEST(Mtf, ResolutionIsTheLeastOfMtf50AndTheLimits) {
         EXPECT_NEAR(mtf50, m["theory_mtf50_per_mm"], error) << depth << " " << angle << " " << m["direction"];
         EXPECT_LT(error, 0.05 * mtf50);
         EXPECT_NEAR(m["edge_mtf50_per_mm"]["green"], mtf50, 0.05 * mtf50) << depth << " " << angle << " " << m["direction"];
-        const double foreshortened = m["direction"] == "horizontal" ? std::cos(angle * radian) : 1;
+        const double foreshortened = m["direction"] == "horizontal" ? std::cos(angle * degree) : 1;
         EXPECT_NEAR(double(m["resolution_per_deg"]) / double(m["resolution_per_mm"]),
-                    (eye - depth) / std::cos(angle * radian) / foreshortened * radian, 1e-9);
+                    (eye - depth) / std::cos(angle * degree) / foreshortened * degree, 1e-9);
     }
 }
 

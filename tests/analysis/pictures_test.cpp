@@ -10,7 +10,7 @@
 namespace lfdsim {
 namespace {
 
-struct Counting : Job {
+struct CountedSteps : Job {
     void advance(std::int64_t units) override { done += units; }
     std::int64_t done = 0;
 };
@@ -27,7 +27,7 @@ TEST(Components, DiffuserAloneBlursTheBoardAndBendsNothing) {
     Display d = analysis_example::display(40, 60);
     d.diffuser = Diffuser{1, {0, 0}};  // without any angle: the panel itself is seen
     Subject s = subject(d);
-    Counting job;
+    CountedSteps job;
     const Result r = measure_components(s, job);
     EXPECT_EQ(job.done, components_steps(s));
     // The camera sees the panel, 240 mm wide, in a frame of 247.2 mm: squares of 4 lenses = 24 mm are 46.6 pixels wide, and the
@@ -48,7 +48,7 @@ TEST(Components, WithoutADiffuserThatPictureIsLeftOut) {
     Display d = analysis_example::display(40, 60);
     d.diffuser.reset();
     Subject s = subject(d);
-    Counting job;
+    CountedSteps job;
     const Result r = measure_components(s, job);
     EXPECT_EQ(job.done, components_steps(s));
     EXPECT_THROW(named(r, "components-diffuser"), std::runtime_error);
@@ -57,7 +57,7 @@ TEST(Components, WithoutADiffuserThatPictureIsLeftOut) {
 
 TEST(Directions, SheetsAndFramesAreThere) {
     Subject s = subject(analysis_example::display(40, 60));
-    Counting job;
+    CountedSteps job;
     const Result r = measure_directions(s, job);
     EXPECT_EQ(job.done, directions_steps(s));
     EXPECT_EQ(r.pictures.size(), 2u);

@@ -5,20 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <regex>
 
 #include "../image/helpers.h"
 #include "../optics/example.h"
 #include "analysis/side_view.h"
+#include "model/numbers.h"
 
 namespace lfdsim {
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 const Json settings{{"lfdsim", "1.2.3"}, {"model", "a<b>.obj"}};
 

@@ -4,11 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <regex>
 
 #include "../image/helpers.h"
 #include "../optics/example.h"
+#include "model/numbers.h"
 
 namespace lfdsim {
 namespace {
@@ -16,8 +16,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Result result(double shift, bool error = true) {
     Result r;
@@ -29,12 +27,12 @@ Result result(double shift, bool error = true) {
     return r;
 }
 
-struct Case {
+struct Comparison {
     test::TemporaryFolder place;
     std::vector<MeasuredDisplay> displays;
     const Measure &fov = measure_named("fov"), &dof = measure_named("dof");
 
-    explicit Case(double shift, bool error = true) {
+    explicit Comparison(double shift, bool error = true) {
         Display one = example(), other = example();
         one.name = "one", other.name = "<other>";
         other.array.gap_mm = 5.25;
@@ -58,7 +56,7 @@ Json finding(const Json& all, const std::string& measure, const std::string& wha
 }
 
 TEST(SideBySide, TellsSettingsThatDifferAndNoOthers) {
-    const Json all = differences(Case(1).displays);
+    const Json all = differences(Comparison(1).displays);
     EXPECT_EQ(all["displays"], Json({"one", "_other_"}));
     std::vector<std::string> keys;
     for (const Json& row : all["settings"]) keys.push_back(row["key"]);
@@ -71,16 +69,16 @@ TEST(SideBySide, TellsSettingsThatDifferAndNoOthers) {
 }
 
 TEST(SideBySide, WeighsDifferencesAgainstErrors) {
-    const Json edge = finding(differences(Case(0.25).displays), "fov", "Edge <a>");  // more than 0.1 + 0.1 at the first end
+    const Json edge = finding(differences(Comparison(0.25).displays), "fov", "Edge <a>");  // more than 0.1 + 0.1 at the first end
     EXPECT_EQ(edge["measured"], Json({{-20., 20.}, {-20.25, 20.25}}));
     EXPECT_EQ(edge["difference"], Json::array({{-0.25, 0.25}}));
     EXPECT_EQ(edge["more_than_errors"], Json::array({true}));
-    EXPECT_EQ(finding(differences(Case(0.125).displays), "fov", "Edge <a>")["more_than_errors"], Json::array({false}));
-    EXPECT_EQ(finding(differences(Case(1, false).displays), "fov", "Edge <a>")["more_than_errors"], Json::array({nullptr}));
+    EXPECT_EQ(finding(differences(Comparison(0.125).displays), "fov", "Edge <a>")["more_than_errors"], Json::array({false}));
+    EXPECT_EQ(finding(differences(Comparison(1, false).displays), "fov", "Edge <a>")["more_than_errors"], Json::array({nullptr}));
 }
 
 TEST(SideBySide, KeepsWhatCannotBeCompared) {
-    const Json all = differences(Case(1).displays);
+    const Json all = differences(Comparison(1).displays);
     EXPECT_EQ(finding(all, "fov", "Far")["difference"], Json::array({nullptr}));  // no end to subtract
     EXPECT_EQ(finding(all, "fov", "First's own")["measured"], Json::array({{1.}, nullptr}));
     EXPECT_EQ(finding(all, "fov", "Second's own")["measured"], Json::array({nullptr, {1.}}));
@@ -88,7 +86,7 @@ TEST(SideBySide, KeepsWhatCannotBeCompared) {
 }
 
 TEST(SideBySide, PageShowsBoth) {
-    const std::string html = Case(0.25).html();
+    const std::string html = Comparison(0.25).html();
     for (const char* text : {"<h1>one beside _other_</h1>", "<mark>&lt;other&gt;</mark>", "array.gap_mm", "Edge &lt;a&gt;",
                              "−20.25 to 20.25°", "<mark>−0.25, +0.25, more than the errors</mark>", "First's plot", "Second's plot",
                              "href=\"_other_/report.html\"", "lfdsim analyze 'x y'"})
@@ -97,7 +95,7 @@ TEST(SideBySide, PageShowsBoth) {
     EXPECT_THAT(html, Not(HasSubstr("incomplete.")));
     EXPECT_FALSE(
         std::regex_search(html, std::regex("(src|href)=\"(?!data:image/png;base64,|#|one/report.html|_other_/report.html)")));
-    EXPECT_THAT(Case(1).html("The run was <cut>."), HasSubstr("incomplete.</strong> The run was &lt;cut&gt;."));
+    EXPECT_THAT(Comparison(1).html("The run was <cut>."), HasSubstr("incomplete.</strong> The run was &lt;cut&gt;."));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ double traced(const Display& d, const SideRay& ray) {
     Display alone = d;
     alone.array.count = {1, 1};
     alone.diffuser.reset();
-    const Scene<double> scene = make_scene<double>(alone, g);
+    const optics::Scene<double> scene = make_scene<double>(alone, g);
     const double first = g.surfaces.empty() ? g.vertex_plane_mm : g.surfaces.back().z_mm;
     const PanelBase<double> base{0, 0, 0, 0};
     const Extent<double> extent{0, 0, 0, 0};

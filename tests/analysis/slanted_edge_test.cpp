@@ -1,13 +1,12 @@
 #include "analysis/slanted_edge.h"
+#include "model/numbers.h"
 
 #include <gtest/gtest.h>
 #include <cmath>
-#include <numbers>
 
 namespace lfdsim {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr int width = 120, height = 200;
 
 /// Edges that lean by `slope`, one rising and one falling, behind uneven light with dark stripes, as gaps between lenses. The share

@@ -2,20 +2,17 @@
 #include "analysis/spot_depth.h"
 
 #include "lenses.h"
+#include "model/numbers.h"
 
 #include <gtest/gtest.h>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 namespace lfdsim {
 namespace {
 
 using namespace lens_examples;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Result measured(const Display& d, double wavelength_nm = 550) {
+Result sharp_depths(const Display& d, double wavelength_nm = 550) {
     AnalysisOptions options;
     options.wavelength_nm = wavelength_nm;
     Subject subject(d, {}, options);
@@ -33,14 +30,14 @@ TEST(SpotDepth, OfIdealLensesIsTheParaxialOne) {
     for (const double fov : {24., 32., 40., 50., 60.})
         for (const double pitch : {0.5, 2., 12.})
             for (const double f_per_gap : {0.9, 0.97, 1., 1.2}) {
-                const double gap = pitch / (2 * std::tan(fov * std::numbers::pi / 360));
+                const double gap = pitch / (2 * std::tan(fov * pi / 360));
                 Display d = ideal(pitch, gap, f_per_gap * gap, pitch > 1 ? 70 : 20);
                 if (pitch == 2) d.array.aperture = Aperture::circle, d.lens.aperture_radius_mm = 0.9;
                 if (pitch == 12) d.lens.stop_radius_mm = 2;
                 const Geometry g = resolve(d);
                 const Theory t = theory(d, g);
                 ASSERT_NEAR(t.fov_deg, fov, 1e-9);
-                const Json figures = measured(d).figures, ends = figures.at("spot_diopters"),
+                const Json figures = sharp_depths(d).figures, ends = figures.at("spot_diopters"),
                            errors = figures.at("spot_diopters_error");
                 const double tolerance = 1e-6 * 1000 * (t.depth_near_per_mm - t.depth_far_per_mm);
                 EXPECT_NEAR(end(ends, 0), 1000 * t.depth_near_per_mm, tolerance) << fov << " " << pitch << " " << f_per_gap;
@@ -58,7 +55,7 @@ TEST(SpotDepth, CountsFromTheVertexPlane) {
     const Geometry g = resolve(d);
     const Theory t = theory(d, g);
     ASSERT_GT(g.vertex_plane_mm - g.rear_principal_mm, 1);
-    const double best = measured(d).figures.at("spot_best_mm").get<double>();
+    const double best = sharp_depths(d).figures.at("spot_best_mm").get<double>();
     EXPECT_NEAR(best, t.central_depth_mm + g.rear_principal_mm - g.vertex_plane_mm, 0.5);
 }
 
@@ -91,7 +88,7 @@ TEST(SpotDepth, IsTheIntervalOfABruteForceSearch) {
 
 TEST(SpotDepth, OfAFullSphereIsNone) {
     Display d = shipped("desktop-spherical");
-    const Result result = measured(d);
+    const Result result = sharp_depths(d);
     EXPECT_TRUE(result.figures.at("spot_mm").is_null());
     EXPECT_TRUE(result.figures.at("spot_with_diffuser_mm").is_null());
     EXPECT_NE(result.notes.at("spot_mm").get<std::string>().find("nowhere"), std::string::npos);
@@ -104,22 +101,22 @@ TEST(SpotDepth, DiffuserNarrowsIt) {
     Display d = ideal(12, 16.485, 15.7, 88);
     const Theory t = theory(d, resolve(d));
     d.diffuser = Diffuser{t.central_depth_mm, {1, 1}, Profile::box};
-    const Result result = measured(d);
+    const Result result = sharp_depths(d);
     const double L = t.central_depth_mm, slope = 12 / L / 2;
     // a rim's ray, at the angle atan(slope) to the axis, is turned outwards by half a degree
-    const double turned = 2 * std::tan(std::atan(slope) + 0.5 * std::numbers::pi / 180), pixel = t.pixel_image_mm / L;
+    const double turned = 2 * std::tan(std::atan(slope) + 0.5 * pi / 180), pixel = t.pixel_image_mm / L;
     const double near = L * turned / (turned + pixel), far = L * turned / (turned - pixel);  // turned |z - L| = pixel z
     EXPECT_NEAR(end(result.figures.at("spot_with_diffuser_mm"), 0), near, 1e-6 * L);
     EXPECT_NEAR(end(result.figures.at("spot_with_diffuser_mm"), 1), far, 1e-6 * L);
     EXPECT_GT(near, end(result.figures.at("spot_mm"), 0) + 5);
     d.diffuser.reset();
-    EXPECT_FALSE(measured(d).figures.contains("spot_with_diffuser_mm"));
+    EXPECT_FALSE(sharp_depths(d).figures.contains("spot_with_diffuser_mm"));
 }
 
 TEST(SpotDepth, AiryDiskNarrowsIt) {
     const Display d = ideal(1, 2, 1.9, 20);
     const Theory t = theory(d, resolve(d));
-    const Json range = measured(d, 700).figures.at("spot_with_diffraction_mm");
+    const Json range = sharp_depths(d, 700).figures.at("spot_with_diffraction_mm");
     const double per_mm = 2.44 * 700e-6 / 1, L = t.central_depth_mm;
     for (const int side : {0, 1}) {
         const double z = end(range, side);

@@ -13,7 +13,7 @@ namespace {
 
 using namespace lens_examples;
 
-Result measured(const Display& d, int threads = 0) {
+Result spots_of(const Display& d, int threads = 0) {
     AnalysisOptions options;
     options.threads = threads;
     Subject subject(d, {}, options);
@@ -50,7 +50,7 @@ TEST(Spot, IdealLensMeetsTheNodalLines) {
 
 TEST(Spot, IdealLensHasNoDistortion) {
     for (const double f : {15.7, 16.485, 20.}) {
-        const Result r = measured(ideal(12, 16.485, f, 20));
+        const Result r = spots_of(ideal(12, 16.485, f, 20));
         EXPECT_LT(r.figures.at("distortion").at("max_pixel_images").get<double>(), 1e-6) << f;
         EXPECT_EQ(r.figures.at("distortion").at("lit_share"), 1);
         EXPECT_EQ(r.figures.at("distortion").at("max_mm").is_null(), f == 16.485) << "no length at infinity";
@@ -90,7 +90,7 @@ TEST(Spot, DistortionThroughAPinhole) {
 TEST(Spot, ShareOfALambertianPointThroughAHole) {
     Display d = ideal(12, 10, 9, 10);
     d.lens.stop_radius_mm = 0.5;
-    const Result r = measured(d);
+    const Result r = spots_of(d);
     EXPECT_EQ(spot(r, "axis", 0).at("through_share"), 1);
     // cos^4 of the field angle, for a hole small against its distance
     const double tan2 = 0.36;
@@ -98,7 +98,7 @@ TEST(Spot, ShareOfALambertianPointThroughAHole) {
 }
 
 TEST(Spot, TablesAndFigures) {
-    const Result r = measured(shipped("desktop-asphere"));
+    const Result r = spots_of(shipped("desktop-asphere"));
     // marginal planes: 0.4 mm narrower before and beyond than theory's 2.72, as another program says of planes 75 mm from 329.9 mm
     EXPECT_NEAR(spot(r, "axis", 0).at("meridional_width_mm").get<double>(), 2.60, 0.05);
     EXPECT_NEAR(spot(r, "axis", 2).at("meridional_width_mm").get<double>(), 0.41, 0.03);
@@ -116,7 +116,7 @@ TEST(Spot, TablesAndFigures) {
 TEST(Spot, SameOnAnyNumberOfThreads) {
     Display d = shipped("desktop-stopped");
     d.panel.pixel_pitch_mm = 0.5;
-    EXPECT_EQ(measured(d, 1).figures, measured(d, 3).figures);
+    EXPECT_EQ(spots_of(d, 1).figures, spots_of(d, 3).figures);
 }
 
 // No number that is not finite gets into the figures, whatever the display.
@@ -149,7 +149,7 @@ TEST(Spot, EveryKindOfDisplay) {
     turned.diffuser->profile = Profile::gaussian;
     displays.emplace_back("turned, wide diffuser", turned);
     for (const auto& [name, d] : displays) {
-        const Result r = measured(d, 1);
+        const Result r = spots_of(d, 1);
         expect_finite(r.figures, name);
         EXPECT_TRUE(spot(r, "axis", 2).at("meridional_width_mm").is_number()) << name;
         EXPECT_GT(r.figures.at("distortion").at("lit_share").get<double>(), 0) << name;

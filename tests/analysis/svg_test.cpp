@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <regex>
 
 #include "../image/helpers.h"
 #include "analysis/base64.h"
 #include "analysis/svg_axes.h"
+#include "model/numbers.h"
 
 namespace lfdsim {
 namespace {
@@ -19,15 +19,13 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
-
-std::vector<std::string> labels(const Axis& axis) {
+std::vector<std::string> labels(const PlotAxis& axis) {
     std::vector<std::string> all;
     for (const double tick : axis.ticks()) all.push_back(axis.label(tick));
     return all;
 }
 
-TEST(Axis, HasRoundTicks) {
+TEST(PlotAxis, HasRoundTicks) {
     EXPECT_THAT(labels({0, 1, 5}), ElementsAre("0", "0.2", "0.4", "0.6", "0.8", "1.0"));
     EXPECT_THAT(labels({-30, 30, 6}), ElementsAre("−30", "−20", "−10", "0", "10", "20", "30"));
     EXPECT_THAT(labels({0.71, 0.79, 4}), ElementsAre("0.72", "0.74", "0.76", "0.78"));
@@ -35,9 +33,9 @@ TEST(Axis, HasRoundTicks) {
     EXPECT_THAT(labels({1000, 1000.2, 2}), ElementsAre("1000.0", "1000.1", "1000.2"));
 }
 
-TEST(Axis, StaysSoundForAnyRange) {
+TEST(PlotAxis, StaysSoundForAnyRange) {
     for (const auto& [low, high] : {std::pair(0., 0.), {5., 5.}, {-1e300, 1e300}, {1e-300, 2e-300}, {1e20, 1e20}, {1., -1.}}) {
-        const Axis axis(low, high, 6);
+        const PlotAxis axis(low, high, 6);
         EXPECT_LT(axis.low(), axis.high());
         EXPECT_GE(axis.ticks().size(), 1u) << low;
         EXPECT_LE(axis.ticks().size(), 8u) << low;

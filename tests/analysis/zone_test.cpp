@@ -8,10 +8,10 @@
 namespace lfdsim {
 namespace {
 
-constexpr double eye_mm = 600;  // from the lenses
+constexpr double zone_eye_mm = 600;  // from the lenses
 
-/// 41 x 23 ideal lenses before a panel of fine pixels, larger than their elemental images. Seen from eye_mm before the lenses, for
-/// which the elemental images are made.
+/// 41 x 23 ideal lenses before a panel of fine pixels, larger than their elemental images. Seen from zone_eye_mm before the lenses,
+/// for which the elemental images are made.
 Display many_lenses(double focal_length_mm) {
     Display d;
     d.panel.pixels = {9000, 6000};
@@ -22,14 +22,14 @@ Display many_lenses(double focal_length_mm) {
     d.array.pitch_mm = 4;
     d.array.gap_mm = 8;
     d.array.aperture = Aperture::square;
-    d.camera.position_mm = {0, 0, eye_mm + 8};
-    d.content.viewing_distance_mm = eye_mm + 8;
+    d.camera.position_mm = {0, 0, zone_eye_mm + 8};
+    d.content.viewing_distance_mm = zone_eye_mm + 8;
     return d;
 }
 /// The focal length that images the panel to the eye, so that an eye sees one point of it through a whole lens.
-const double sharp_at_eye = 1 / (1 / 8. + 1 / eye_mm);
+const double sharp_at_eye = 1 / (1 / 8. + 1 / zone_eye_mm);
 
-Result measured(const Display& d, AnalysisOptions options = {}) {
+Result zone_of(const Display& d, AnalysisOptions options = {}) {
     Subject subject(d, {}, options);
     Job job;
     return measure_zone(subject, job);
@@ -102,9 +102,9 @@ TEST(EyeRays, AreTurnedByTheDiffuser) {
 
 TEST(Zone, IsTheorysWhereTheLensIsSharpAtTheEye) {
     const Display d = many_lenses(sharp_at_eye);
-    const Json figures = measured(d).figures;
-    const double scale = 1 + 8 / eye_mm, pixel = 0.025 / 2 / 8 / degree;  // half a pixel, degrees
-    const double edge = std::atan(scale * 4 / (2 * 8)) / degree;          // elemental images are `scale` p wide
+    const Json figures = zone_of(d).figures;
+    const double scale = 1 + 8 / zone_eye_mm, pixel = 0.025 / 2 / 8 / degree;  // half a pixel, degrees
+    const double edge = std::atan(scale * 4 / (2 * 8)) / degree;               // elemental images are `scale` p wide
     for (const char* axis : {"horizontal", "vertical"}) {
         for (const char* share : {"wrong_1_percent_deg", "wrong_50_percent_deg"}) {
             const auto [low, high] = both(figures.at(axis).at(share));
@@ -121,7 +121,7 @@ TEST(Zone, IsNarrowerForImagesMadeForInfinity) {
     Display d = many_lenses(sharp_at_eye);
     d.content.viewing_distance_mm = INFINITY;
     Subject subject(d, {}, {});
-    const Json figures = measured(d).figures;
+    const Json figures = zone_of(d).figures;
     const double expected = 0.5 * subject.theory().viewing_zone_deg;
     EXPECT_NEAR(both(figures.at("horizontal").at("wrong_1_percent_deg"))[1], expected, 0.15);
     EXPECT_NEAR(double(figures.at("horizontal").at("theory_deg").at(1)), expected, 1e-6);
@@ -134,14 +134,14 @@ TEST(Zone, SharesAreThoseCountedLensByLens) {
     const Pickup pickup(d, resolve(d));
     const std::vector<Choice> choices = even_choices(4096);
     for (const double x : {0., 70., 100., 130., 150., 170., 300., 400.}) {
-        const SightShares found = sight_shares(rays, pickup, d, {x, 0, eye_mm + 8}, choices);
-        EXPECT_NEAR(found.wrong, counted(d, x, eye_mm + 8), 0.003) << x;
+        const SightShares found = sight_shares(rays, pickup, d, {x, 0, zone_eye_mm + 8}, choices);
+        EXPECT_NEAR(found.wrong, counted(d, x, zone_eye_mm + 8), 0.003) << x;
         EXPECT_LT(found.dark, 0.05) << x;  // beside the array's images
     }
-    for (const double limit : both(measured(d).figures.at("horizontal").at("wrong_1_percent_mm"))) {
-        const double pixel_mm = 0.5 * d.panel.pixel_pitch_mm * eye_mm / *d.array.gap_mm;  // half of one, where the eye is
-        EXPECT_LT(counted(d, std::abs(limit) - pixel_mm, eye_mm + 8), 0.011) << limit;
-        EXPECT_GT(counted(d, std::abs(limit) + pixel_mm, eye_mm + 8), 0.009) << limit;
+    for (const double limit : both(zone_of(d).figures.at("horizontal").at("wrong_1_percent_mm"))) {
+        const double pixel_mm = 0.5 * d.panel.pixel_pitch_mm * zone_eye_mm / *d.array.gap_mm;  // half of one, where the eye is
+        EXPECT_LT(counted(d, std::abs(limit) - pixel_mm, zone_eye_mm + 8), 0.011) << limit;
+        EXPECT_GT(counted(d, std::abs(limit) + pixel_mm, zone_eye_mm + 8), 0.009) << limit;
     }
 }
 
@@ -151,8 +151,8 @@ TEST(Zone, Repeats) {
     const EyeRays rays(d, resolve(d));
     const Pickup pickup(d, resolve(d));
     const std::vector<Choice> choices = even_choices(8192);
-    const double apart = 4 * (1 + 8 / eye_mm) * eye_mm / 8;
-    const auto seen_from = [&](double x) { return sight_shares(rays, pickup, d, {x, 0, eye_mm + 8}, choices); };
+    const double apart = 4 * (1 + 8 / zone_eye_mm) * zone_eye_mm / 8;
+    const auto seen_from = [&](double x) { return sight_shares(rays, pickup, d, {x, 0, zone_eye_mm + 8}, choices); };
     EXPECT_EQ(seen_from(0).mixed, 0);
     EXPECT_EQ(seen_from(0).wrong, 0);
     EXPECT_EQ(seen_from(apart).wrong, 1);
@@ -163,7 +163,7 @@ TEST(Zone, Repeats) {
 
 TEST(Zone, EndsAlongTheAxisWhereLensesGoWrong) {
     const Display d = many_lenses(sharp_at_eye);
-    const auto [nearest, farthest] = both(measured(d).figures.at("distance").at("wrong_1_percent_mm"));
+    const auto [nearest, farthest] = both(zone_of(d).figures.at("distance").at("wrong_1_percent_mm"));
     EXPECT_GT(nearest, 100);
     EXPECT_LT(counted(d, 0, nearest + 3), 0.01);
     EXPECT_GT(counted(d, 0, nearest - 3), 0.01);
@@ -177,7 +177,7 @@ TEST(Zone, SaysWhereEyesCannotBe) {
     AnalysisOptions options;
     options.viewing_distance_mm = 100;
     try {
-        measured(d, options);
+        zone_of(d, options);
         FAIL();
     } catch (const InputError& e) {
         EXPECT_NE(std::string(e.what()).find("--viewing-distance-mm"), std::string::npos) << e.what();
@@ -189,7 +189,7 @@ TEST(Zone, SaysWhereEyesCannotBe) {
 TEST(Zone, OfADarkDisplayIsEmpty) {
     Display d = many_lenses(7);
     d.array.offset_mm = {600, 0};
-    const Result result = measured(d);
+    const Result result = zone_of(d);
     EXPECT_TRUE(result.figures.at("horizontal").at("wrong_1_percent_mm").at(0).is_null());
     EXPECT_TRUE(result.notes.contains("horizontal.wrong_1_percent_mm"));
 }

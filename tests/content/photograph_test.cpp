@@ -5,7 +5,7 @@ namespace {
 
 using namespace small_world;
 
-Picture shoot(const Display& d, const fs::path& model, std::optional<Rect> crop = {}, int threads = 0) {
+Picture photo_of(const Display& d, const fs::path& model, std::optional<Rect> crop = {}, int threads = 0) {
     Job job;
     const Geometry g = resolve(d);
     return reference_photograph(d, g, Scene(load_model(model), d, g), threads, crop, job);
@@ -16,7 +16,7 @@ TEST(Photograph, PatchInTheTargetPlane) {
     Folder folder;
     Display d = display();
     d.camera.target_mm = {0, 0, resolve(d).vertex_plane_mm};
-    const Picture p = shoot(d, write_patches(folder, {{-8, 8, -10, 10, 0, "white"}}));
+    const Picture p = photo_of(d, write_patches(folder, {{-8, 8, -10, 10, 0, "white"}}));
     EXPECT_EQ(p.rays, 240 * 160);
     for (int row = 0; row < 160; ++row) {
         for (int column = 0; column < 240; ++column) {
@@ -34,7 +34,7 @@ TEST(Photograph, ObliqueCamera) {
     d.camera.position_mm = {120, -80, 300};
     d.camera.target_mm = {2, 1, 0};
     d.camera.up = {0.3, 1, 0.1};
-    const Picture p = shoot(d, write_patches(folder, {{-8, 8, -10, 10, 0, "white"}}));
+    const Picture p = photo_of(d, write_patches(folder, {{-8, 8, -10, 10, 0, "white"}}));
     // The frame: w towards the target, u to the right, v up.
     const Vec3d w{2 - 120., 1 + 80., -300}, up = d.camera.up;
     const double length = std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
@@ -63,10 +63,10 @@ TEST(Photograph, CropHasTheFullFramesPixels) {
     d.content.yaw_deg = 25;
     const fs::path model =
         write_patches(folder, {{-8, 8, -10, 10, 0, "white"}, {-3, 9, -4, 4, 6, "red"}, {-3, 9, -4, 4, 6, "green"}});
-    const Picture full = shoot(d, model);
+    const Picture full = photo_of(d, model);
     const Rect crop{77, 31, 170, 102};
     for (const int threads : {1, 3}) {
-        const Picture part = shoot(d, model, crop, threads);
+        const Picture part = photo_of(d, model, crop, threads);
         ASSERT_EQ(part.image.width, 93);
         ASSERT_EQ(part.image.height, 71);
         EXPECT_EQ(part.rays, 93 * 71);
@@ -76,8 +76,8 @@ TEST(Photograph, CropHasTheFullFramesPixels) {
             }
         }
     }
-    EXPECT_THROW(shoot(d, model, Rect{0, 0, 241, 10}), InputError);
-    EXPECT_THROW(shoot(d, model, Rect{10, 10, 10, 20}), InputError);
+    EXPECT_THROW(photo_of(d, model, Rect{0, 0, 241, 10}), InputError);
+    EXPECT_THROW(photo_of(d, model, Rect{10, 10, 10, 20}), InputError);
 }
 
 // What stands behind the camera is not seen.
@@ -86,7 +86,7 @@ TEST(Photograph, CameraInsideTheScene) {
     Display d = display();
     const double z = resolve(d).vertex_plane_mm;
     d.camera.position_mm = {0, 0, z + 20};
-    const Picture p = shoot(d, write_patches(folder, {{-10, 10, -10, 10, -30, "green"}, {-10, 10, -10, 10, 30, "red"}}));
+    const Picture p = photo_of(d, write_patches(folder, {{-10, 10, -10, 10, -30, "green"}, {-10, 10, -10, 10, 30, "red"}}));
     EXPECT_FLOAT_EQ(p.image.at(120, 80)[0], 0);
     EXPECT_NEAR(p.image.at(120, 80)[1], facing_light, 1e-6);
 }
@@ -104,7 +104,7 @@ TEST(Photograph, AgreesWithTheElementalImages) {
     d.camera.frame_width_mm = 12 * 4.2;
     d.camera.resolution = {12, 8};  // a pixel a lens
     const fs::path model = write_patches(folder, {{-8, 8, -10, 10, 0, "white"}, {-3, 9, -4, 4, 6, "red"}});
-    const Picture photo = shoot(d, model);
+    const Picture photo = photo_of(d, model);
     const Geometry g = resolve(d);
     Job job;
     const Picture eia = elemental_images(d, g, Scene(load_model(model), d, g), 0, job);
@@ -148,7 +148,7 @@ TEST(Photograph, PupilBlursAPointToADisk) {
         d.content.depth_mm = depth_mm;
         d.camera.focus_distance_mm = focus_mm;
         const double z = T - vertex - depth_mm, radius = 20 * T * std::abs(1 / focus_mm - 1 / z) / 2 / a, side = T / z / a;
-        const Moments found(shoot(d, model).image);
+        const Moments found(photo_of(d, model).image);
         EXPECT_NEAR(found.light, facing_light * side * side, 0.01 * found.light);
         EXPECT_NEAR(found.squared, radius * radius / 2 + side * side / 6, 0.01 * found.squared);
         EXPECT_LT(found.furthest, radius + side * std::sqrt(0.5) + 1);
@@ -161,11 +161,11 @@ TEST(Photograph, PupilLeavesThePlaneOfFocusSharp) {
     Folder folder;
     Display d = display();
     const fs::path model = write_patches(folder, {{-8.02, 8.02, -10, 10, 0, "white"}});
-    const Image pinhole = shoot(d, model).image;
+    const Image pinhole = photo_of(d, model).image;
     d.camera.pupil_diameter_mm = 20;
     d.camera.focus_distance_mm = 500 - resolve(d).vertex_plane_mm;
     d.render.samples = 16;
-    const Image image = shoot(d, model).image;
+    const Image image = photo_of(d, model).image;
     for (std::size_t k = 0; k < image.rgb.size(); ++k) ASSERT_NEAR(image.rgb[k], pinhole.rgb[k], 1e-6) << k;
 }
 
@@ -177,7 +177,7 @@ TEST(Photograph, PixelFilterCountsTheShareOfAPixel) {
     d.content.height_mm = 20.1;
     d.camera.pixel_filter = PixelFilter::box;
     d.render.samples = 256;
-    const Image image = shoot(d, write_patches(folder, {{-8.05, 8.05, -10.05, 10.05, 0, "white"}})).image;
+    const Image image = photo_of(d, write_patches(folder, {{-8.05, 8.05, -10.05, 10.05, 0, "white"}})).image;
     const auto share = [&](int column, int row) { return image.at(column, row)[1] / facing_light; };
     EXPECT_NEAR(share(120, 80), 1, 1e-6);
     EXPECT_NEAR(share(79, 80), 0.25, 0.01);
@@ -196,19 +196,19 @@ TEST(Photograph, SampledPixelsAreReproducible) {
     d.camera.pixel_filter = PixelFilter::box;
     d.render.samples = 7;
     const fs::path model = write_patches(folder, {{-8, 8, -10, 10, 0, "white"}, {-3, 9, -4, 4, 6, "red"}});
-    const Picture full = shoot(d, model);
+    const Picture full = photo_of(d, model);
     EXPECT_EQ(full.rays, 7 * 240 * 160);
     const Rect crop{77, 31, 170, 102};
     for (const int threads : {1, 3}) {
-        const Picture part = shoot(d, model, crop, threads);
+        const Picture part = photo_of(d, model, crop, threads);
         for (int row = 0; row < 71; ++row)
             for (int column = 0; column < 93; ++column)
                 for (int c = 0; c < 3; ++c) ASSERT_EQ(part.image.at(column, row)[c], full.image.at(77 + column, 31 + row)[c]);
     }
     d.render.seed = 1;
-    EXPECT_NE(shoot(d, model).image.rgb, full.image.rgb);
+    EXPECT_NE(photo_of(d, model).image.rgb, full.image.rgb);
     d.render.sampling = Sampling::random;
-    EXPECT_NE(shoot(d, model).image.rgb, full.image.rgb);
+    EXPECT_NE(photo_of(d, model).image.rgb, full.image.rgb);
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ std::string about(int number, const Display& d) {
            std::to_string(*d.render.samples);
 }
 
-double mean(const Image& a) {
+double mean_of(const Image& a) {
     double sum = 0;
     for (const float x : a.rgb) sum += x;
     return sum / double(a.rgb.size());
@@ -139,7 +139,7 @@ TEST(FilteredExtremes, LightStaysLight) {
                 break;
             }
         }
-        lit += mean(reference) > 0.01;
+        lit += mean_of(reference) > 0.01;
         for (const KernelInfo& kernel : kernels()) {
             if (!kernel.available || kernel.name == "scalar") continue;
             const Image other = picture(d, panel, {2, kernel.name, part});
@@ -163,9 +163,9 @@ TEST(FilteredExtremes, TheMeanIsThatOfBruteForce) {
         d.render.estimator = Estimator::point;
         d.render.sampling = Sampling::random;
         const Image points = picture(d, panel, {0, "", part});
-        const double truth = mean(points), pixels = double(points.rgb.size()) / 3;
+        const double truth = mean_of(points), pixels = double(points.rgb.size()) / 3;
         const double standard_error = std::sqrt(truth / (pixels * double(*d.render.samples)));  // light is at most 1
-        EXPECT_NEAR(mean(filtered), truth, 4 * standard_error + 0.02 * truth + 1e-4) << about(n, d);
+        EXPECT_NEAR(mean_of(filtered), truth, 4 * standard_error + 0.02 * truth + 1e-4) << about(n, d);
         compared += truth > 0.01;
     }
     EXPECT_GT(compared, kDisplays / 4);

@@ -5,11 +5,11 @@
 #include <array>
 #include <filesystem>
 #include <map>
-#include <numbers>
 
 #include "../optics/example.h"
 #include "files/display_file.h"
 #include "meshed/lens_mesh.h"
+#include "model/numbers.h"
 
 namespace lfdsim {
 namespace {
@@ -135,7 +135,7 @@ TEST(LensMesh, EveryBodyIsClosedAndLooksOutwards) {
 TEST(LensMesh, AreaAndVolumeTendToTheClosedForms) {
     const Display d = example();
     const Geometry g = resolve(d);
-    const double R = 3, r = 2, h = 0.5, pi = std::numbers::pi, cap = R - std::sqrt(R * R - r * r);
+    const double R = 3, r = 2, h = 0.5, cap = R - std::sqrt(R * R - r * r);
     double before = 0;
     for (const std::int64_t n : {1000, 4000, 16000, 64000}) {
         const LensMesh mesh = mesh_lens(d, g, n);

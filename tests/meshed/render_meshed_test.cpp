@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-Display shipped(const std::string& name) { return read_display(LFDSIM_SOURCE_DIR "/displays/" + name + ".toml"); }
+Display ready_display(const std::string& name) { return read_display(LFDSIM_SOURCE_DIR "/displays/" + name + ".toml"); }
 
 Rendering meshed(const Display& d, const Texels& panel, std::int64_t triangles, LensNormals normals,
                  const RenderOptions& options = {}) {
@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Convergence, testing::Values("desktop-spherica
                          });
 
 TEST_P(Convergence, IsOfTheOrderThatTheTriangleSizePromises) {
-    Display d = shipped(GetParam());
+    Display d = ready_display(GetParam());
     look_from(d, 8, 2000);
     const std::vector<std::int64_t> n{860, 3386, 16380, 65000, 260000};
     for (const LensNormals normals : {LensNormals::flat, LensNormals::smooth}) {

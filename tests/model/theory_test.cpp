@@ -5,11 +5,10 @@
 
 #include "example.h"
 #include "model/geometry.h"
+#include "model/numbers.h"
 
 namespace lfdsim {
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 Theory theory_of(const Display& d) { return theory(d, resolve(d)); }
 

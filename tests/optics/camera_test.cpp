@@ -6,7 +6,7 @@
 namespace lfdsim::optics {
 namespace {
 
-using V = std::array<double, 3>;
+using Point3 = std::array<double, 3>;
 
 Display oblique() {
     Display d = example();
@@ -24,7 +24,7 @@ Display oblique() {
 
 /// Where a ray is in the display's frame, given its place from the axis of its base lens in the array's.
 template <class F>
-V place(const Display& d, const View& view, const PixelRays<F>& pixel, F x, F y) {
+Point3 place(const Display& d, const View& view, const PixelRays<F>& pixel, F x, F y) {
     const double i = -double(pixel.extent.low_i), j = -double(pixel.extent.low_j);  // the base lens
     const double ax = double(x) + (i + 0.5 - 0.5 * view.count[0]) * d.array.pitch_mm;
     const double ay = double(y) + (j + 0.5 - 0.5 * view.count[1]) * d.array.pitch_mm;
@@ -33,15 +33,15 @@ V place(const Display& d, const View& view, const PixelRays<F>& pixel, F x, F y)
 }
 
 /// The ray from pupil point (u, v) mm that meets the pinhole's ray through frame point (x, y) pixels in the plane of focus.
-void draw(const Display& d, double x, double y, double u, double v, V& from, V& through) {
+void draw(const Display& d, double x, double y, double u, double v, Point3& from, Point3& through) {
     const Geometry g = resolve(d);
-    V forward, right, up;
+    Point3 forward, right, up;
     double distance = 0;
     for (int k = 0; k < 3; ++k) forward[k] = d.camera.target_mm[k] - d.camera.position_mm[k], distance += forward[k] * forward[k];
     distance = std::sqrt(distance);
     for (double& a : forward) a /= distance;
-    auto cross = [](const V& a, const V& b) {
-        return V{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    auto cross = [](const Point3& a, const Point3& b) {
+        return Point3{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     };
     right = cross(forward, d.camera.up);
     const double length = std::hypot(right[0], right[1], right[2]);
@@ -67,10 +67,10 @@ void check_displaced(double bound_mm, double bound) {
         const double jx = random(-1, 1), jy = random(-1, 1), u = random(-0.7, 0.7), v = random(-0.7, 0.7);
         const PixelRays<F> pixel = pixel_rays<F>(view, column, row);
         const Ray<F> ray = displaced(view, pixel, F(jx), F(jy), F(u), F(v));
-        V from, through;
+        Point3 from, through;
         draw(d, column + 0.5 + jx / 2, row + 0.5 - jy / 2, 2 * u, 2 * v, from, through);
         const double t = (view.start_z - from[2]) / (through[2] - from[2]);
-        const V at = place(d, view, pixel, ray.at.x, ray.at.y);
+        const Point3 at = place(d, view, pixel, ray.at.x, ray.at.y);
         const double length = std::hypot(through[0] - from[0], through[1] - from[1], through[2] - from[2]);
         const double to[3] = {double(ray.to.x), double(ray.to.y), double(ray.to.z)};
         for (int a = 0; a < 3; ++a) {
@@ -88,7 +88,7 @@ TEST(Camera, PixelCentres) {
     const View view = make_view(d, g);
     for (int row = 0; row < 112; row += 7) {
         for (int column = 0; column < 160; column += 7) {
-            V from, through;
+            Point3 from, through;
             draw(d, column + 0.5, row + 0.5, 0, 0, from, through);
             const double t = (view.start_z - from[2]) / (through[2] - from[2]);
             const PixelRays<float> narrow = pixel_rays<float>(view, column, row);
@@ -116,7 +116,7 @@ TEST(Camera, PanelBase) {
     const View view = make_view(d, resolve(d));
     for (int column = 0; column < 160; column += 9) {
         const PixelRays<double> pixel = pixel_rays<double>(view, column, 50);
-        const V axis = place(d, view, pixel, 0.0, 0.0);
+        const Point3 axis = place(d, view, pixel, 0.0, 0.0);
         EXPECT_NEAR(std::int32_t(pixel.base.column) + pixel.base.column_rest, (axis[0] + 20) / 0.25, 1e-10);
         EXPECT_NEAR(std::int32_t(pixel.base.row) + pixel.base.row_rest, (14 - axis[1]) / 0.25, 1e-10);
     }

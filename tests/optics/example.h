@@ -2,17 +2,15 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <vector>
 
 #include "engine/scene.h"
 #include "model/geometry.h"
+#include "model/numbers.h"
 #include "optics/trace.h"
 
 namespace lfdsim {
-
-inline constexpr double degree = std::numbers::pi / 180;
 
 /// 10 x 7 plano-convex lenses of pitch 4 mm before a panel of 160 x 112 pixels, seen from 400 mm.
 inline Display example() {

@@ -14,7 +14,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::string displays = LFDSIM_SOURCE_DIR "/displays";
+const std::string ready_displays = LFDSIM_SOURCE_DIR "/displays";
 
 // A served folder with all kinds of things in it, and a secret beside it.
 class LibraryTest : public testing::Test {
@@ -41,7 +41,7 @@ class LibraryTest : public testing::Test {
     void TearDown() override { fs::remove_all(root); }
 
     static Start start(std::vector<std::string> set = {}) {
-        return {displays + "/desktop-asphere.toml", std::move(set), "", "", ""};
+        return {ready_displays + "/desktop-asphere.toml", std::move(set), "", "", ""};
     }
     Library library() const { return Library(start(), folder); }
 

@@ -20,7 +20,7 @@ using testing::HasSubstr;
 
 class PainterTest : public testing::Test {
   protected:
-    PainterTest() { lfdsim::test::save(folder / "small.toml", small_display); }
+    PainterTest() { lfdsim::test::save(folder / "small.toml", tiny_display); }
 
     Start start() const { return {folder / "small.toml", {}, "", "", ""}; }
     /// What `lfdsim render` makes of the state, by its own way.

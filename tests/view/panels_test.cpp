@@ -14,7 +14,7 @@ using namespace test;
 
 class PanelsTest : public testing::Test {
   protected:
-    PanelsTest() { lfdsim::test::save(folder / "small.toml", small_display); }
+    PanelsTest() { lfdsim::test::save(folder / "small.toml", tiny_display); }
     std::shared_ptr<const ShownPanel> get(const Display& d, const Source& source = {Shown::Kind::model, "built-in:spheres"}) {
         Job job;
         return panels.get(panel_key(source, d, resolve(d)), d, resolve(d), 2, job);

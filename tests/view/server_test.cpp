@@ -81,11 +81,11 @@ class Browser {
         return hear().value_or("nothing");
     }
     websocket::close_code reason() const { return websocket::close_code(socket_.reason().code); }
-    websocket::stream<tcp::socket>& socket() { return socket_; }
+    websocket::stream<tcp::socket, false>& socket() { return socket_; }
 
   private:
     net::io_context context_;
-    websocket::stream<tcp::socket> socket_;
+    websocket::stream<tcp::socket, false> socket_;
 };
 
 http::response<http::string_body> request(const Fixture& f, http::verb verb, const std::string& target,

@@ -22,7 +22,7 @@ namespace lfdsim::view::test {
 
 using lfdsim::test::TemporaryFolder;
 
-inline constexpr const char* small_display = R"(
+inline constexpr const char* tiny_display = R"(
 schema = 1
 [panel]
 pixels = [480, 270]
