@@ -74,47 +74,39 @@ EyeRays::EyeRays(const Display& d, const Geometry& g)
     : scene_(make_scene<double>(d, g)),
       vertex_plane_(g.vertex_plane_mm),
       start_z_(make_view(d, g).start_z),
-      cos_(std::cos(d.array.rotation_deg * degree)),
-      sin_(std::sin(d.array.rotation_deg * degree)),
       stop_first_(scene_.has_stop && g.stop_z_mm >= g.top_z_mm - 1e-9),
-      offset_(d.array.offset_mm) {
-    for (std::size_t k = 0; k < 2; ++k) {  // lenses are told from one in the middle
-        count_[k] = double(d.array.count[k]);
-        cells_before_[k] = double(d.array.count[k] / 2);
-        base_axis_[k] = (cells_before_[k] + 0.5 - count_[k] / 2) * scene_.pitch;
-    }
-}
+      base_{double(d.array.count[0] / 2), double(d.array.count[1] / 2)} {}
 
 Vec3d EyeRays::point(double x, double y) const {
-    return {cos_ * x - sin_ * y + offset_[0], sin_ * x + cos_ * y + offset_[1], vertex_plane_};
+    const Place at = optics::in_display(scene_.lattice, Place{x, y});
+    return {at.x, at.y, vertex_plane_};
 }
-
-std::array<double, 2> EyeRays::to_array(double x, double y) const { return {cos_ * x + sin_ * y, cos_ * y - sin_ * x}; }
 
 Sight EyeRays::look(const Vec3d& eye, const Choice& choice) const {
     return look_through(eye, aim(eye, choice), choice[2], choice[3]);
 }
 
 Vec3d EyeRays::aim(const Vec3d& eye, const Choice& choice) const {
-    std::array<double, 2> axis, moved{};
-    for (std::size_t k = 0; k < 2; ++k) {
-        const double lens = std::min(std::floor((0.5 + 0.5 * choice[4 + k]) * count_[k]), count_[k] - 1);
-        axis[k] = (lens + 0.5 - count_[k] / 2) * scene_.pitch;
-    }
+    const Lattice<double>& lattice = scene_.lattice;
+    const auto number = [&](std::size_t k) {
+        return std::min(std::floor((0.5 + 0.5 * choice[4 + k]) * lattice.count[k]), lattice.count[k] - 1);
+    };
+    const Place axis = optics::axis_in_array(lattice, optics::Cell<double>{number(0), number(1)});
+    Place moved{0, 0};
     if (scene_.has_diffuser) {  // how far the diffuser carries the line through the lens's axis
-        const Vec3d centre = point(axis[0], axis[1]), to = unit_vector(eye, centre);
+        const Vec3d centre = point(axis.x, axis.y), to = unit_vector(eye, centre);
         const optics::Vec3<double> turned =
             optics::scatter(scene_, optics::Vec3<double>{to[0], to[1], to[2]}, choice[2], choice[3]);
         const double down = vertex_plane_ - start_z_;
         if (turned.z < -1e-3)
-            moved = to_array(down * (turned.x / turned.z - to[0] / to[2]), down * (turned.y / turned.z - to[1] / to[2]));
+            moved = optics::to_array(lattice, down * (turned.x / turned.z - to[0] / to[2]),
+                                     down * (turned.y / turned.z - to[1] / to[2]));
     }
-    std::array<double, 2> place;
-    for (std::size_t k = 0; k < 2; ++k) {
-        place[k] = 0.5 * choice[k] - moved[k] / scene_.pitch;
-        place[k] = axis[k] + scene_.pitch * (place[k] - std::floor(place[k] + 0.5));
-    }
-    return point(place[0], place[1]);
+    const auto in_cell = [&](std::size_t k, double by) {
+        const double place = 0.5 * choice[k] - by / lattice.pitch[k];
+        return lattice.pitch[k] * (place - std::floor(place + 0.5));
+    };
+    return point(axis.x + in_cell(0, moved.x), axis.y + in_cell(1, moved.y));
 }
 
 Sight EyeRays::look_through(const Vec3d& eye, const Vec3d& at, double a, double b) const {
@@ -132,16 +124,17 @@ int EyeRays::more_for(const Vec3d& eye) const {
 Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) const {
     // Where the line crosses the first plane, in the array's frame
     const double up = (start_z_ - at[2]) / to[2];
-    const auto [x0, y0] = to_array(at[0] + up * to[0] - offset_[0], at[1] + up * to[1] - offset_[1]);
-    optics::Ray<double> ray{{x0 - base_axis_[0], y0 - base_axis_[1], 0}, {to[0], to[1], to[2]}};
+    const Lattice<double>& lattice = scene_.lattice;
+    const auto [x0, y0] = optics::to_array(lattice, at[0] + up * to[0] - lattice.offset[0], at[1] + up * to[1] - lattice.offset[1]);
+    const Place base_axis = optics::axis_in_array(lattice, base_);
+    optics::Ray<double> ray{{x0 - base_axis.x, y0 - base_axis.y, 0}, {to[0], to[1], to[2]}};
     if (scene_.has_diffuser) ray.to = optics::scatter(scene_, ray.to, a, b);
     if (!(ray.to.z < 0)) return {};
-    const optics::Extent<double> extent{-cells_before_[0], count_[0] - 1 - cells_before_[0], -cells_before_[1],
-                                        count_[1] - 1 - cells_before_[1]};
+    const optics::Extent<double> extent{-base_.i, lattice.count[0] - 1 - base_.i, -base_.j, lattice.count[1] - 1 - base_.j};
     // The point where the line would come down to a height, from the base lens in the array's frame
     const auto come_down_to = [&](double z) {
         const double fall = (z - start_z_) / ray.to.z;
-        const auto [dx, dy] = to_array(fall * ray.to.x, fall * ray.to.y);
+        const auto [dx, dy] = optics::to_array(lattice, fall * ray.to.x, fall * ray.to.y);
         return std::array{ray.at.x + dx, ray.at.y + dy};
     };
     if (stop_first_) {  // most lines end there
@@ -151,7 +144,7 @@ Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) 
     const optics::PanelPoint<double> end = trace(scene_, extent, ray);
     if (!end.alive || !(end.weight > 0)) return {};
 
-    const Vec3d base = point(base_axis_[0], base_axis_[1]);
+    const Vec3d base = point(base_axis.x, base_axis.y);
     const double x = base[0] + end.column / scene_.pixels_per_mm, y = base[1] - end.row / scene_.pixels_per_mm;
     const bool beside =
         std::abs(x) * scene_.pixels_per_mm > 0.5 * scene_.columns || std::abs(y) * scene_.pixels_per_mm > 0.5 * scene_.rows;
@@ -159,16 +152,12 @@ Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) 
     bool by_lens = true;
     if (optics::way_through(scene_) == optics::Way::glass) {  // light finds its own way: its lens is the first that it meets
         const auto [leaves_x, leaves_y] = come_down_to(vertex_plane_);
-        cell = {optics::nearest_cell(scene_, leaves_x), optics::nearest_cell(scene_, leaves_y)};
-        const auto [to_x, to_y] = to_array(ray.to.x, ray.to.y);
+        cell = optics::cell_at(lattice, leaves_x, leaves_y);
+        const auto [to_x, to_y] = optics::to_array(lattice, ray.to.x, ray.to.y);
         by_lens = first_lens(scene_, extent, {{ray.at.x, ray.at.y, start_z_}, {to_x, to_y, ray.to.z}}, cell);
     }
-    return {beside ? 0 : end.weight,
-            true,
-            by_lens,
-            x,
-            y,
-            point(base_axis_[0] + cell.i * scene_.pitch, base_axis_[1] + cell.j * scene_.pitch)};
+    const Place from_base = optics::axis_of(lattice, cell);
+    return {beside ? 0 : end.weight, true, by_lens, x, y, point(base_axis.x + from_base.x, base_axis.y + from_base.y)};
 }
 
 double nearest_eye_mm(const Geometry& g) {

@@ -1,6 +1,7 @@
 // Lines of sight from an eye through points of the screen to the panel, one by one and in double precision. Floor 3.
 #pragma once
 #include "analysis/subject.h"
+#include "optics/lattice.h"
 #include "optics/scene.h"
 
 #include <array>
@@ -54,12 +55,12 @@ class EyeRays {
     int more_for(const Vec3d& eye) const;
 
   private:
-    std::array<double, 2> to_array(double x, double y) const;  // turns a vector into the array's axes
+    using Place = optics::Place<double>;
 
     optics::Scene<double> scene_;
-    double vertex_plane_, start_z_, cos_, sin_;
-    bool stop_first_;  // light comes to the stop before all surfaces
-    std::array<double, 2> offset_, base_axis_, cells_before_, count_;
+    double vertex_plane_, start_z_;
+    bool stop_first_;            // light comes to the stop before all surfaces
+    optics::Cell<double> base_;  // lenses are told from one in the middle
 };
 
 /// Eyes are farther from the panel than this, mm: before the diffuser, the lenses and their principal plane.

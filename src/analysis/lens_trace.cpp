@@ -46,14 +46,14 @@ LensTrace::LensTrace(const Display& display, const Geometry& geometry)
 double LensTrace::outside(double x, double y, double radius) const {
     double reach = std::hypot(x, y) / radius;
     if (scene_.aperture == Aperture::square)
-        reach = std::max({reach, std::abs(x) / scene_.half_pitch, std::abs(y) / scene_.half_pitch});
+        reach = std::max({reach, std::abs(x) / scene_.lattice.half_pitch[0], std::abs(y) / scene_.lattice.half_pitch[1]});
     return reach - 1;
 }
 
 /// Whether a ray passes the sheet of stops, by any hole.
 bool LensTrace::passes_stop(double x, double y) const {
-    const auto from_axis = [&](double at) { return at - scene_.pitch * std::floor(at / scene_.pitch + 0.5); };
-    const double fx = from_axis(x), fy = from_axis(y);
+    const optics::Place<double> axis = optics::axis_of(scene_.lattice, optics::cell_at(scene_.lattice, x, y));
+    const double fx = x - axis.x, fy = y - axis.y;
     return fx * fx + fy * fy <= scene_.stop_radius2;
 }
 

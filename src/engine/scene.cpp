@@ -127,13 +127,10 @@ optics::Scene<S> make_scene(const Display& display, const Geometry& geometry) {
     add_lens(scene, display, geometry);
 
     scene.surround = array.surround;
-    scene.pitch = S(array.pitch_mm);
-    scene.per_pitch = S(1 / array.pitch_mm);
-    scene.half_pitch = S(array.pitch_mm / 2);
-    scene.pitch_pixels = S(array.pitch_mm / display.panel.pixel_pitch_mm);
+    scene.lattice = make_lattice<S>(array);
+    const Lattice<double> lattice = make_lattice<double>(array);
+    for (int k = 0; k < 2; ++k) scene.pitch_pixels[k] = S(lattice.pitch[k] / display.panel.pixel_pitch_mm);
     scene.rotated = array.rotation_deg != 0;
-    scene.cos_rotation = S(std::cos(array.rotation_deg * degree));
-    scene.sin_rotation = S(std::sin(array.rotation_deg * degree));
 
     scene.fresnel = display.render.fresnel;
     scene.has_diffuser = display.diffuser.has_value();
@@ -191,13 +188,7 @@ optics::View make_view(const Display& display, const Geometry& geometry) {
     view.frame_per_focus = view.distance / geometry.focus_distance_mm;
     const double first = geometry.surfaces.empty() ? geometry.vertex_plane_mm : geometry.surfaces.back().z_mm;
     view.start_z = geometry.diffuser_z_mm.value_or(first);
-    view.pitch = display.array.pitch_mm;
-    for (int k = 0; k < 2; ++k) {
-        view.count[k] = double(display.array.count[k]);
-        view.offset[k] = display.array.offset_mm[k];
-    }
-    view.cos_rotation = std::cos(display.array.rotation_deg * degree);
-    view.sin_rotation = std::sin(display.array.rotation_deg * degree);
+    view.lattice = make_lattice<double>(display.array);
     view.panel_width = geometry.panel_width_mm;
     view.panel_height = geometry.panel_height_mm;
     view.pixels_per_mm = 1 / display.panel.pixel_pitch_mm;
@@ -228,7 +219,7 @@ int block_side(const optics::Scene<float>& scene, const optics::View& view, int 
     // The picture's grid on the diffuser, along the line of sight, against a lens and what a diffused ray spans in the plane of the
     // holes
     const double pixel = view.pixel_mm * std::abs((view.position[2] - view.start_z) / (view.forward[2] * view.distance));
-    double seen = scene.pitch;
+    double seen = std::min(scene.lattice.pitch[0], scene.lattice.pitch[1]);
     bool moving = false;  // the strata move with the pixels: the lenses' edges, at which blocks break, are sharp in the picture
     for (const float angle : scene.half_angle) {
         const double span = 2 * double(scene.holes_below) * std::tan(std::min(double(angle), 1.5));

@@ -3,6 +3,7 @@
 #include "model/error.h"
 #include "model/geometry.h"
 #include "model/keys.h"
+#include "model/numbers.h"
 #include "model/prescription.h"
 
 #include <fmt/format.h>
@@ -13,7 +14,6 @@
 namespace lfdsim {
 namespace {
 
-const double degree = std::acos(-1.0) / 180;
 
 /// Lengths are written to a nanometre: what lens makers never reach, and near enough for a central depth plane far away.
 double to_nanometre(double mm) { return std::round(mm * 1e6) / 1e6; }

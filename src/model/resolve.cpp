@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "model/geometry.h"
+#include "model/numbers.h"
 #include "model/prescription.h"
 
 namespace lfdsim {
@@ -61,7 +62,7 @@ Geometry resolve_unchecked(const Display& d) {
     g.array_width_mm = double(d.array.count[0]) * d.array.pitch_mm;
     g.array_height_mm = double(d.array.count[1]) * d.array.pitch_mm;
 
-    const double target_mm = distance_mm(d.camera.position_mm, d.camera.target_mm), degree = std::acos(-1.0) / 180;
+    const double target_mm = distance_mm(d.camera.position_mm, d.camera.target_mm);
     // the panel with a margin, also where it is narrower than the usual 16:9 frame
     g.frame_width_mm = 1.03 * std::max(g.panel_width_mm, g.panel_height_mm * 16 / 9);
     if (d.camera.frame_width_mm) g.frame_width_mm = *d.camera.frame_width_mm;

@@ -10,7 +10,6 @@ namespace lfdsim {
 
 // First-order formulas of integral imaging; docs/model.md, "Theory". Symbols as there.
 Theory theory(const Display& d, const Geometry& g) {
-    const double degree = std::acos(-1.0) / 180;
     const double a = d.panel.pixel_pitch_mm, p = d.array.pitch_mm, D = g.clear_aperture_mm, gap = g.gap_mm, f = g.focal_length_mm;
     const double inverse_L = gap == f ? 0 : 1 / f - 1 / gap, L = inverse_L == 0 ? infinity : 1 / inverse_L;
 

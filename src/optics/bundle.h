@@ -93,7 +93,7 @@ LFDSIM_FN PixelBlock<S> pixel_block(const Scene<S>& scene, const View& view, int
         const Sweep<S>* s = block.sweep[a];
         const S bend = s[1].at + s[2].at + s[3].at - S(3) * s[0].at,
                 turn = s[1].slope + s[2].slope + s[3].slope - S(3) * s[0].slope;
-        block.alive = abs(bend) + abs(turn * scene.holes_below) < S(1e-3) * scene.pitch;
+        block.alive = abs(bend) + abs(turn * scene.holes_below) < S(1e-3) * scene.lattice.pitch[a];
     }
     block.alive = block.alive && all_go_down(scene, block) && axes_part(scene, block, most_misjudged);
     return block;

@@ -40,9 +40,11 @@ LFDSIM_FN void follow_to_first_plane(const View& view, double column, double row
     for (int a = 0; a < 3; ++a) d[a] = view.forward[a] * view.distance + view.right[a] * sx + view.up[a] * sy;
     const double down = d[2] < -1e-9 * view.distance ? d[2] : -view.distance;
     const double t = (view.start_z - view.position[2]) / down;
-    const double px = view.position[0] + d[0] * t - view.offset[0], py = view.position[1] + d[1] * t - view.offset[1];
-    x = view.cos_rotation * px + view.sin_rotation * py;
-    y = view.cos_rotation * py - view.sin_rotation * px;
+    const Lattice<double>& lattice = view.lattice;
+    const Place<double> at =
+        to_array(lattice, view.position[0] + d[0] * t - lattice.offset[0], view.position[1] + d[1] * t - lattice.offset[1]);
+    x = at.x;
+    y = at.y;
 }
 
 /// The lens that rays near the point (column, row) of the frame are told from: its axis in the array's frame, what cells hold a
@@ -57,19 +59,18 @@ template <class S>
 LFDSIM_FN BaseLens<S> base_lens(const View& view, double column, double row) {
     double d[3], x0, y0;
     follow_to_first_plane(view, column, row, d, x0, y0);
-    auto nearest = [&](double place, double count) {
-        const double i = __builtin_floor(place / view.pitch + 0.5 * count);
-        return i > 0 ? i < count - 1 ? i : count - 1 : 0;
-    };
-    const double nx = view.count[0], ny = view.count[1], i = nearest(x0, nx), j = nearest(y0, ny);
-    const double cx = (i + 0.5 - 0.5 * nx) * view.pitch, cy = (j + 0.5 - 0.5 * ny) * view.pitch;  // the base lens's axis
-    const double u =
-        (view.cos_rotation * cx - view.sin_rotation * cy + view.offset[0] + 0.5 * view.panel_width) * view.pixels_per_mm;
-    const double v =
-        (0.5 * view.panel_height - (view.sin_rotation * cx + view.cos_rotation * cy + view.offset[1])) * view.pixels_per_mm;
+    const double nx = view.lattice.count[0], ny = view.lattice.count[1];
+    const auto within = [](double i, double count) { return i > 0 ? i < count - 1 ? i : count - 1 : 0; };
+    const Cell<double> nearest = lens_at(view.lattice, x0, y0);
+    const double i = within(nearest.i, nx), j = within(nearest.j, ny);
+    const Place<double> axis = axis_in_array(view.lattice, Cell<double>{i, j}), at = in_display(view.lattice, axis);
+    const double u = (at.x + 0.5 * view.panel_width) * view.pixels_per_mm,
+                 v = (0.5 * view.panel_height - at.y) * view.pixels_per_mm;
     const double whole_u = __builtin_floor(u), whole_v = __builtin_floor(v);
-    return {
-        cx, cy, {S(-i), S(nx - 1 - i), S(-j), S(ny - 1 - j)}, {to_int(whole_u), to_int(whole_v), S(u - whole_u), S(v - whole_v)}};
+    return {axis.x,
+            axis.y,
+            {S(-i), S(nx - 1 - i), S(-j), S(ny - 1 - j)},
+            {to_int(whole_u), to_int(whole_v), S(u - whole_u), S(v - whole_v)}};
 }
 
 /// The rays of the block whose first pixel is (column, row), multiples of the block's size.
@@ -139,7 +140,7 @@ LFDSIM_RARE Ray<F> displaced(const View& view, const PixelRays<F>& pixels, F jit
     const F per_z = F(1) / moved.z, m = F(1) / to.z;
     const F shift_x = o.x + (h * (e.x - to.x * m * e.z) - o.z * moved.x) * per_z;
     const F shift_y = o.y + (h * (e.y - to.y * m * e.z) - o.z * moved.y) * per_z;
-    const F c = F(S(view.cos_rotation)), s = F(S(view.sin_rotation));
+    const F c = F(S(view.lattice.cos_turn)), s = F(S(view.lattice.sin_turn));
     const F per = F(1) / sqrt(dot(moved, moved));
     return {{pixels.x + (c * shift_x + s * shift_y), pixels.y + (c * shift_y - s * shift_x), F(0)},
             {moved.x * per, moved.y * per, moved.z * per}};

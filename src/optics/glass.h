@@ -113,13 +113,14 @@ template <class F>
 LFDSIM_FN void cross_face(const Scene<Scalar<F>>& scene, bool top, Vec3<F> at, Vec3<F> to, bool inwards, Cell<F> cell,
                           Mask<F> active, Crossing<F>& best) {
     const auto& surface = scene.surface[top ? 0 : scene.surface_count - 1];
-    const Vec3<F> local{at.x - cell.i * F(scene.pitch), at.y - cell.j * F(scene.pitch), at.z - F(surface.z)};
+    const Place<F> axis = axis_of(scene.lattice, cell);
+    const Vec3<F> local{at.x - axis.x, at.y - axis.y, at.z - F(surface.z)};
     Vec3<F> up;
     Mask<F> valid;
     const F t = cross_surface(surface, local, to, inwards == top, up, valid);
     if (scene.aperture == Aperture::square) {
-        const F half = F(scene.half_pitch) + slack<F>();
-        valid = valid && (abs(local.x + to.x * t) <= half) && (abs(local.y + to.y * t) <= half);
+        const F half_x = F(scene.lattice.half_pitch[0]) + slack<F>(), half_y = F(scene.lattice.half_pitch[1]) + slack<F>();
+        valid = valid && (abs(local.x + to.x * t) <= half_x) && (abs(local.y + to.y * t) <= half_y);
     }
     const F sense = F(Scalar<F>(top ? 1 : -1));
     best.take(active && valid, t, {sense * up.x, sense * up.y, sense * up.z}, cell);
@@ -145,7 +146,8 @@ LFDSIM_FN Mask<F> between_faces(const Scene<Scalar<F>>& scene, Vec3<F> local, bo
 template <class F>
 LFDSIM_FN void cross_walls(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, Vec3<F> at, Vec3<F> to, bool inwards,
                            Cell<F> cell, Mask<F> active, bool caps_only, Crossing<F>& best) {
-    const F x = at.x - cell.i * F(scene.pitch), y = at.y - cell.j * F(scene.pitch), zero = F(0);
+    const Place<F> from = axis_of(scene.lattice, cell);
+    const F x = at.x - from.x, y = at.y - from.y, zero = F(0);
     if (scene.aperture == Aperture::circle) {
         const F r = F(scene.surface[0].semi_aperture), per = F(1) / r;
         Mask<F> real;
@@ -157,15 +159,17 @@ LFDSIM_FN void cross_walls(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>
         best.take(active && real && ahead(t) && high, t, {p.x * per, p.y * per, zero}, cell);
         return;
     }
-    const F half = F(scene.half_pitch), one = F(1);
+    const F one = F(1);
     for (int axis = 0; axis < 2; ++axis) {
+        const F half = F(scene.lattice.half_pitch[axis]),
+                along = F(scene.lattice.half_pitch[1 - axis]);  // the wall's place and length
         const F place = axis == 0 ? x : y, slope = axis == 0 ? to.x : to.y;
         const F sign = select(slope < zero, -one, one);  // of the way along the axis
         const F side = inwards ? -sign : sign;           // of the wall that it crosses
         const F t = (side * half - place) / slope;
         const Vec3<F> p{axis == 0 ? side * half : x + to.x * t, axis == 0 ? y + to.y * t : side * half, at.z + to.z * t};
         Mask<F> valid = active && (abs(slope) > F(Scalar<F>(1e-20))) && ahead(t) &&
-                        (abs(axis == 0 ? p.y : p.x) <= half + slack<F>()) && between_faces(scene, p, caps_only);
+                        (abs(axis == 0 ? p.y : p.x) <= along + slack<F>()) && between_faces(scene, p, caps_only);
         if (caps_only) {
             const Cell<F> beyond{axis == 0 ? cell.i + side : cell.i, axis == 0 ? cell.j : cell.j + side};
             valid = valid && !extent.holds(beyond);
@@ -223,10 +227,11 @@ LFDSIM_FN void next_on_face(const Scene<Scalar<F>>& scene, const Extent<Scalar<F
     const F flat = (F(surface.z + surface.rim) - rays.at.z) / rays.to.z;
     const Mask<F> right_way = inwards ? sense * rays.to.z < F(0) : sense * rays.to.z > F(0);
     const F x = rays.at.x + rays.to.x * flat, y = rays.at.y + rays.to.y * flat;
-    const Cell<F> under{nearest_cell(scene, x), nearest_cell(scene, y)};
+    const Cell<F> under = cell_at(scene.lattice, x, y);
     Mask<F> in_cap = extent.holds(under);
     if (scene.aperture == Aperture::circle) {
-        const F lx = x - under.i * F(scene.pitch), ly = y - under.j * F(scene.pitch), r = F(surface.semi_aperture);
+        const Place<F> axis = axis_of(scene.lattice, under);
+        const F lx = x - axis.x, ly = y - axis.y, r = F(surface.semi_aperture);
         in_cap = in_cap && (lx * lx + ly * ly < r * r);
     }
     if (surface.shape == Shape::plane) in_cap = in_cap && (F(0) > F(1));

@@ -10,8 +10,9 @@ LFDSIM_FN PanelPoint<F> trace_ideal(const Scene<Scalar<F>>& scene, const Extent<
                                     const PanelBase<Scalar<F>>& base, Passage<F> way) {
     using S = Scalar<F>;
     const Vec3<F> at = way.ray.at;
-    way.cell = {nearest_cell(scene, at.x), nearest_cell(scene, at.y)};
-    const F qx = at.x - way.cell.i * F(scene.pitch), qy = at.y - way.cell.j * F(scene.pitch), r = F(scene.aperture_radius);
+    way.cell = cell_at(scene.lattice, at.x, at.y);
+    const Place<F> axis = axis_of(scene.lattice, way.cell);
+    const F qx = at.x - axis.x, qy = at.y - axis.y, r = F(scene.aperture_radius);
     const F q2 = qx * qx + qy * qy;
     way.alive = way.alive && extent.holds(way.cell);
     if (scene.aperture == Aperture::circle) way.alive = way.alive && (q2 <= r * r);

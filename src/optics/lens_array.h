@@ -1,18 +1,14 @@
 // Which lens? The lattice, its stops, and the lens that a slanting ray meets first. Floor 1.
 //
-// Positions are in the frame of the array (turned with it), relative to the axis of a base lens near the rays of a packet:
-// single precision then never sees a number much larger than a lens. Cells are whole numbers relative to the base lens.
+// Positions are in the frame of the array (turned with it), from the axis of a base lens near the rays of a packet, and cells are
+// told from that lens.
 #pragma once
 #include "optics/lane.h"
+#include "optics/lattice.h"
 #include "optics/scene.h"
 #include "optics/surface.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
-
-template <class F>
-struct Cell {
-    F i, j;
-};
 
 /// The cells that hold a lens, relative to the base lens: low .. high inclusive.
 template <class S>
@@ -24,16 +20,12 @@ struct Extent {
     }
 };
 
-template <class F>
-LFDSIM_FN F nearest_cell(const Scene<Scalar<F>>& scene, F x) {
-    return floor(x * F(scene.per_pitch) + F(Scalar<F>(0.5)));
-}
-
 /// A ray that crosses the plane of the stops at (x, y): does it pass a hole?
 template <class F>
 LFDSIM_FN Mask<F> passes_stop(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, F x, F y) {
-    const Cell<F> cell{nearest_cell(scene, x), nearest_cell(scene, y)};
-    const F lx = x - cell.i * F(scene.pitch), ly = y - cell.j * F(scene.pitch);
+    const Cell<F> cell = cell_at(scene.lattice, x, y);
+    const Place<F> axis = axis_of(scene.lattice, cell);
+    const F lx = x - axis.x, ly = y - axis.y;
     return (lx * lx + ly * ly <= F(scene.stop_radius2)) && extent.holds(cell);
 }
 
@@ -43,9 +35,12 @@ LFDSIM_FN Mask<F> passes_stop(const Scene<Scalar<F>>& scene, const Extent<Scalar
 template <class F, class Try>
 LFDSIM_FN void walk_cells(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, F x, F y, F mx, F my, F from, F depth,
                           Mask<F> active, Try try_cell) {
-    const F huge = F(Scalar<F>(1e30)), zero = F(0), one = F(1), p = F(scene.pitch), half = F(scene.half_pitch);
+    const F huge = F(Scalar<F>(1e30)), zero = F(0), one = F(1);
+    const auto& lattice = scene.lattice;
+    const F px = F(lattice.pitch[0]), py = F(lattice.pitch[1]), half_x = F(lattice.half_pitch[0]),
+            half_y = F(lattice.half_pitch[1]);
     // Ways to the array's border, so that a ray from outside starts where it enters.
-    auto axis = [&](F at, F m, F low, F high, F& in, F& out) {
+    auto axis = [&](F at, F m, F p, F half, F low, F high, F& in, F& out) {
         const F a = (low * p - half - at) / m, b = (high * p + half - at) / m;
         const Mask<F> still = abs(m) < F(Scalar<F>(1e-20));
         const Mask<F> within = (at >= low * p - half) && (at <= high * p + half);
@@ -53,19 +48,19 @@ LFDSIM_FN void walk_cells(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>
         out = select(still, select(within, huge, -huge), max(a, b));
     };
     F in_x, out_x, in_y, out_y;
-    axis(x, mx, F(extent.low_i), F(extent.high_i), in_x, out_x);
-    axis(y, my, F(extent.low_j), F(extent.high_j), in_y, out_y);
+    axis(x, mx, px, half_x, F(extent.low_i), F(extent.high_i), in_x, out_x);
+    axis(y, my, py, half_y, F(extent.low_j), F(extent.high_j), in_y, out_y);
     const F begin = max(max(in_x, in_y), from), end = min(min(out_x, out_y), depth);
     active = active && (begin <= end);
 
     const F step_i = select(mx < zero, -one, one), step_j = select(my < zero, -one, one);
-    Cell<F> cell{min(max(nearest_cell(scene, x + mx * begin), F(extent.low_i)), F(extent.high_i)),
-                 min(max(nearest_cell(scene, y + my * begin), F(extent.low_j)), F(extent.high_j))};
+    Cell<F> cell{min(max(cell_along(lattice, 0, x + mx * begin), F(extent.low_i)), F(extent.high_i)),
+                 min(max(cell_along(lattice, 1, y + my * begin), F(extent.low_j)), F(extent.high_j))};
     while (any(active)) {
         active = active && !try_cell(cell, active);
         // Where the line leaves this cell: through the nearer of its two borders ahead.
-        const F sx = select(abs(mx) < F(Scalar<F>(1e-20)), huge, (cell.i * p + step_i * half - x) / mx);
-        const F sy = select(abs(my) < F(Scalar<F>(1e-20)), huge, (cell.j * p + step_j * half - y) / my);
+        const F sx = select(abs(mx) < F(Scalar<F>(1e-20)), huge, (cell.i * px + step_i * half_x - x) / mx);
+        const F sy = select(abs(my) < F(Scalar<F>(1e-20)), huge, (cell.j * py + step_j * half_y - y) / my);
         const Mask<F> along_x = sx < sy;
         cell.i = select(along_x, cell.i + step_i, cell.i);
         cell.j = select(along_x, cell.j, cell.j + step_j);

@@ -36,14 +36,10 @@ struct PanelHit {
 template <class F>
 LFDSIM_FN PanelPoint<F> panel_point(const Scene<Scalar<F>>& scene, const PanelBase<Scalar<F>>& base, Cell<F> cell, F x, F y,
                                     F weight, Mask<F> alive) {
-    const F k = F(scene.pixels_per_mm), p = F(scene.pitch_pixels);
-    F u = x * k + cell.i * p, v = y * k + cell.j * p;
-    if (scene.rotated) {
-        const F cosine = F(scene.cos_rotation), sine = F(scene.sin_rotation), turned = cosine * u - sine * v;
-        v = sine * u + cosine * v;
-        u = turned;
-    }
-    return {F(base.column_rest) + u, F(base.row_rest) - v, weight, alive, cell};
+    const F k = F(scene.pixels_per_mm);
+    Place<F> at{x * k + cell.i * F(scene.pitch_pixels[0]), y * k + cell.j * F(scene.pitch_pixels[1])};
+    if (scene.rotated) at = to_display(scene.lattice, at.x, at.y);
+    return {F(base.column_rest) + at.x, F(base.row_rest) - at.y, weight, alive, cell};
 }
 
 /// The pixel under a point.

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "model/kinds.h"
+#include "model/lattice.h"
 
 namespace lfdsim::optics {
 
@@ -58,10 +59,9 @@ struct Scene {
 
     // array; the tracer works in the frame of the array, turned by the rotation about z
     Surround surround;
-    S pitch, per_pitch, half_pitch;
-    S pitch_pixels;  // pitch in panel pixels
+    Lattice<S> lattice;
+    S pitch_pixels[2];  // the pitch in panel pixels
     bool rotated;
-    S cos_rotation, sin_rotation;
     S start_above;            // height of the first plane above the first vertex (ideal: above the lens)
     S zone_top, zone_bottom;  // where an entering ray may meet the first surface: highest and lowest z of its caps
     S body_top, body_bottom;  // highest and lowest z of a lens
@@ -94,7 +94,7 @@ struct View {
     double pupil_radius, frame_per_focus;             // thin lens: radius; distance of the frame / distance of focus
     std::int32_t width, height;                       // of the whole frame
     double start_z;                                   // the first plane
-    double pitch, count[2], offset[2], cos_rotation, sin_rotation;
+    Lattice<double> lattice;
     double panel_width, panel_height, pixels_per_mm;
     std::uint64_t seed;
 };

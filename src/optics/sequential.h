@@ -51,7 +51,7 @@ LFDSIM_FN Hit<F> meet(const Scene<Scalar<F>>& scene, int k, Ray<F> in_vertex_pla
 template <class F>
 LFDSIM_FN Mask<F> inside_cell(const Scene<Scalar<F>>& scene, Vec3<F> at, Mask<F> ok) {
     if (scene.aperture == Aperture::circle) return ok;
-    return ok && (abs(at.x) <= F(scene.half_pitch)) && (abs(at.y) <= F(scene.half_pitch));
+    return ok && in_cell(scene.lattice, at.x, at.y);
 }
 
 /// Refracts a ray that comes down from the viewer's side (Snell's law as vectors; total internal reflection ends it).
@@ -80,8 +80,9 @@ LFDSIM_FN void refract_down(const Scene<Scalar<F>>& scene, Shape shape, const Su
 /// The first surface of the lens in `cell`, met by a ray in the plane of its vertex.
 template <Shapes shapes, class F>
 LFDSIM_FN Hit<F> meet_first(const Scene<Scalar<F>>& scene, Ray<F> ray, Cell<F> cell) {
-    ray.at.x = ray.at.x - cell.i * F(scene.pitch);
-    ray.at.y = ray.at.y - cell.j * F(scene.pitch);
+    const Place<F> axis = axis_of(scene.lattice, cell);
+    ray.at.x = ray.at.x - axis.x;
+    ray.at.y = ray.at.y - axis.y;
     Hit<F> hit = meet<shapes>(scene, 0, ray);
     hit.ok = inside_cell(scene, hit.at, hit.ok);
     return hit;
@@ -104,7 +105,7 @@ LFDSIM_RARE void meet_neighbours(const Scene<Scalar<F>>& scene, const Extent<Sca
         return met;
     };
     const F depth = F(scene.zone_top - scene.zone_bottom);
-    const Cell<F> last{nearest_cell(scene, x + mx * depth), nearest_cell(scene, y + my * depth)};
+    const Cell<F> last = cell_at(scene.lattice, x + mx * depth, y + my * depth);
     const F steps = abs(last.i - cell.i) + abs(last.j - cell.j);
     if (none(astray && (steps > F(Scalar<F>(1.5))))) {  // one border on the way: the last cell is the only other one
         try_cell(last, astray && extent.holds(last));
@@ -118,7 +119,7 @@ LFDSIM_RARE void meet_neighbours(const Scene<Scalar<F>>& scene, const Extent<Sca
 template <Shapes shapes, class F>
 LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, Passage<F>& way) {
     const auto& first = scene.surface[0];
-    const F p = F(scene.pitch), fall = F(1) / ray.to.z;  // dx/dz = to.x fall
+    const F fall = F(1) / ray.to.z;  // dx/dz = to.x fall
     // The cell is taken where the ray comes to the zone of the caps (the plane of the rims, if they are the highest).
     F x = ray.at.x, y = ray.at.y;
     if (shapes != Shapes::plano_convex && scene.zone_top != first.z) {
@@ -126,21 +127,24 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<
         x = x + ray.to.x * up;
         y = y + ray.to.y * up;
     }
-    way.cell = {nearest_cell(scene, x), nearest_cell(scene, y)};
+    way.cell = cell_at(scene.lattice, x, y);
     Hit<F> hit = meet_first<shapes>(scene, ray, way.cell);
     if (shapes != Shapes::plano_convex && scene.dimple) {  // the entrance is the rim's circle or cell
-        const F lx = x - way.cell.i * p, ly = y - way.cell.j * p, r = F(first.semi_aperture);
+        const Place<F> axis = axis_of(scene.lattice, way.cell);
+        const F lx = x - axis.x, ly = y - axis.y, r = F(first.semi_aperture);
         hit.ok = hit.ok && (lx * lx + ly * ly <= r * r);
     } else if (shapes == Shapes::plano_convex || scene.zone_top > scene.zone_bottom) {
         // Can a ray that missed meet another lens before it is down at the rims? Not if its way there, (ex, ey) long, ends in the
         // same cell, nor if it ends in the cell beside that and far from its lens's axis: had it been within the semi aperture r of
         // it, it would end within sqrt(r^2 + ex^2 + ey^2).
         const F kd = F(scene.zone_bottom - scene.zone_top) * fall, ex = ray.to.x * kd, ey = ray.to.y * kd;
-        const F ux = abs(x - way.cell.i * p + ex), uy = abs(y - way.cell.j * p + ey);
-        const F wide = max(ux, uy), half = F(scene.half_pitch), r = F(first.semi_aperture);
-        const F ax = min(ux, p - ux), ay = min(uy, p - uy);
-        const Mask<F> near = (ax * ax + ay * ay <= r * r + (ex * ex + ey * ey)) || (min(ux, uy) > half) || (wide > p);
-        const Mask<F> astray = way.alive && !hit.ok && (wide > half) && near;
+        const Place<F> axis = axis_of(scene.lattice, way.cell);
+        const F ux = abs(x - axis.x + ex), uy = abs(y - axis.y + ey), r = F(first.semi_aperture);
+        const F px = F(scene.lattice.pitch[0]), py = F(scene.lattice.pitch[1]);
+        const Mask<F> out_x = ux > F(scene.lattice.half_pitch[0]), out_y = uy > F(scene.lattice.half_pitch[1]);
+        const F ax = min(ux, px - ux), ay = min(uy, py - uy);
+        const Mask<F> near = (ax * ax + ay * ay <= r * r + (ex * ex + ey * ey)) || (out_x && out_y) || (ux > px) || (uy > py);
+        const Mask<F> astray = way.alive && !hit.ok && (out_x || out_y) && near;
         if (any(astray)) {
             Hit<F> found = hit;
             Cell<F> cell = way.cell;
@@ -164,8 +168,8 @@ LFDSIM_FN PanelPoint<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent
     auto stop_between = [&](F from_z, F to_z, Vec3<F> at, Vec3<F> to, F at_z) {  // z from the panel
         const Mask<F> crosses = stop_ahead && (from_z >= F(scene.stop_z)) && (to_z <= F(scene.stop_z));
         const F t = (F(scene.stop_z) - at_z) / to.z;
-        const Mask<F> through = passes_stop(scene, extent, at.x + to.x * t + way.cell.i * F(scene.pitch),
-                                            at.y + to.y * t + way.cell.j * F(scene.pitch));
+        const Place<F> axis = axis_of(scene.lattice, way.cell);
+        const Mask<F> through = passes_stop(scene, extent, at.x + to.x * t + axis.x, at.y + to.y * t + axis.y);
         way.alive = way.alive && (through || !crosses);
         stop_ahead = stop_ahead && !crosses;
     };
@@ -175,8 +179,8 @@ LFDSIM_FN PanelPoint<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent
     const Ray<F> entering = way.ray;
     Hit<F> hit = enter_array<shapes>(scene, extent, entering, way);
     if (has_stop) {
-        const F shift_x = way.cell.i * F(scene.pitch), shift_y = way.cell.j * F(scene.pitch);
-        stop_between(F(S(1e30)), hit.at.z + F(scene.surface[0].z), {entering.at.x - shift_x, entering.at.y - shift_y, F(0)},
+        const Place<F> axis = axis_of(scene.lattice, way.cell);
+        stop_between(F(S(1e30)), hit.at.z + F(scene.surface[0].z), {entering.at.x - axis.x, entering.at.y - axis.y, F(0)},
                      entering.to, F(scene.surface[0].z));
     }
     refract_down(scene, shape_of<shapes>(scene, 0), scene.surface[0], hit, way);

@@ -31,9 +31,9 @@ LFDSIM_FN void to_first_vertex(const Scene<Scalar<F>>& scene, Passage<F>& way) {
     Vec3<F>&at = way.ray.at, &to = way.ray.to;
     way.alive = way.alive && (to.z < F(S(-1e-9)));
     if (scene.rotated) {
-        const F c = F(scene.cos_rotation), s = F(scene.sin_rotation), x = c * to.x + s * to.y;
-        to.y = c * to.y - s * to.x;
-        to.x = x;
+        const Place<F> turned = to_array(scene.lattice, to.x, to.y);
+        to.x = turned.x;
+        to.y = turned.y;
     }
     if (scene.start_above != S(0)) {
         const F t = F(-scene.start_above) / to.z;

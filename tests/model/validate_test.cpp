@@ -8,12 +8,13 @@
 
 #include "example.h"
 #include "model/geometry.h"
+#include "model/numbers.h"
 
 namespace lfdsim {
 namespace {
 
 using testing::HasSubstr;
-constexpr double nan = NAN, inf = INFINITY;
+constexpr double inf = infinity;
 constexpr std::int64_t big = 1 << 20;
 
 TEST(Validate, Examples) {

@@ -65,7 +65,9 @@ struct EvenCuts {
 /// Room for even.strata + kMoreStrata strata is taken for granted.
 LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>* sweep, bool alive, int axis, const EvenCuts& even,
                           Axis& a) {
-    const S pitch = scene.pitch, half = scene.half_pitch, step = S(1) / S(even.strata);
+    const Lattice<S>& lattice = scene.lattice;
+    const S pitch = lattice.pitch[axis], per_pitch = lattice.per_pitch[axis], half = lattice.half_pitch[axis],
+            step = S(1) / S(even.strata);
     auto place_of = [&](int even_cut) {
         const S tangent = even.tangent[axis][even_cut];
         return Gradient::of(sweep[0].place(tangent), sweep[1].place(tangent), sweep[2].place(tangent));
@@ -81,8 +83,7 @@ LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>*
 
     // Borders that some pixel of the block sees, the first and the last, in pitches
     const S low = optics::min(start.middle, end.middle) - reach, high = optics::max(start.middle, end.middle) + reach;
-    const S first = optics::floor(low * scene.per_pitch + S(0.5)) + S(0.5),
-            last = optics::floor(high * scene.per_pitch - S(0.5)) + S(0.5);
+    const S first = optics::floor(low * per_pitch + S(0.5)) + S(0.5), last = optics::floor(high * per_pitch - S(0.5)) + S(0.5);
     const S borders = last - first + S(1);
     // One or two borders more than there are cuts are worth a cut each: a block near a lens's border may see the next one too.
     const bool at_borders =
@@ -97,7 +98,7 @@ LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>*
         a.cut[j] = {{even.number[j], 0, 0}, place_of(j)};
         if (a.moving) continue;
         const S even_place = a.cut[j].place.middle;
-        cut_at(j, (optics::floor(even_place * scene.per_pitch) + S(0.5)) * pitch);  // the nearest border
+        cut_at(j, (optics::floor(even_place * per_pitch) + S(0.5)) * pitch);  // the nearest border
         // The outermost cuts also take borders that only some pixels of the block see.
         const Gradient& number = a.cut[j].number;
         const S spread = number.reach();
@@ -111,7 +112,7 @@ LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>*
         // The outermost strata reach as far as any pixel of the block sees.
         if (j == 0 && !a.moving) from = optics::min(from, to) - reach;
         if (j == a.strata - 1 && !a.moving) to = optics::max(from, to) + reach;
-        const S cell = optics::nearest_cell(scene, S(0.5) * (from + to) * along), axis_at = cell * pitch;
+        const S cell = optics::cell_along(lattice, axis, S(0.5) * (from + to) * along), axis_at = cell * pitch;
         const S low_end = optics::min(from * along, to * along) - axis_at,
                 high_end = optics::max(from * along, to * along) - axis_at;
         a.stratum[j] = {cell, optics::max(low_end, -half), optics::min(high_end, half),
@@ -119,8 +120,9 @@ LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>*
     }
 }
 
-/// The strata of an axis as a packet's pixels have them, at dx and dy in the block, from -1 to 1.
-LFDSIM_BOTH void spans_of(const optics::Scene<S>& scene, const Axis& axis, F dx, F dy, Span<F>* spans) {
+/// The strata of an axis, along x' (0) or y' (1), as a packet's pixels have them, at dx and dy in the block, from -1 to 1.
+LFDSIM_BOTH void spans_of(const optics::Scene<S>& scene, const Axis& axis, int along, F dx, F dy, Span<F>* spans) {
+    const Lattice<S>& lattice = scene.lattice;
     const int strata = axis.strata;
     const F start = axis.cut[0].place.at(dx, dy), end = axis.cut[strata].place.at(dx, dy);
     const F least = optics::min(start, end), most = optics::max(start, end);
@@ -136,9 +138,9 @@ LFDSIM_BOTH void spans_of(const optics::Scene<S>& scene, const Axis& axis, F dx,
         span.share = F(0.5f) * (next_number - number);
         if (scene.hole_radius > 0) {
             // A moving stratum may have left the lens that it has in the middle of the block.
-            const F at = F(scene.pitch) *
-                         (axis.moving ? optics::nearest_cell(scene, F(0.5f) * (place + next_place)) : F(axis.stratum[j].cell));
-            const F half = F(scene.half_pitch), per = F(1 / scene.hole_radius);
+            const F at = F(lattice.pitch[along]) * (axis.moving ? optics::cell_along(lattice, along, F(0.5f) * (place + next_place))
+                                                                : F(axis.stratum[j].cell));
+            const F half = F(lattice.half_pitch[along]), per = F(1 / scene.hole_radius);
             span.from = optics::max(optics::min(place, next_place) - at, -half) * per;
             span.to = optics::min(optics::max(place, next_place) - at, half) * per;
             span.part_from = optics::circle_part(span.from);

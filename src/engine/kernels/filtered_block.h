@@ -253,7 +253,7 @@ class BlockWork {
     template <int most, class Do>
     LFDSIM_BOTH void for_strata(F dx, F dy, Do f) const {
         Span<F> spans[2][most];
-        for (int a = 0; a < 2; ++a) spans_of(scene, at.axis[a], dx, dy, spans[a]);
+        for (int a = 0; a < 2; ++a) spans_of(scene, at.axis[a], a, dx, dy, spans[a]);
         for (int j = 0; j < at.axis[1].strata; ++j)
             for (int i = 0; i < at.axis[0].strata; ++i)
                 f(at.bundles[j * at.axis[0].strata + i], spans[0][i], spans[1][j], std::uint32_t(j * kMostStrata + i));

@@ -108,12 +108,13 @@ class BundleMaker {
 
     /// Traces the probes of a part of a stratum.
     LFDSIM_BOTH void trace(int i, Range x, int j, Range y, bool inside) {
-        const S lens_x = axis[0].stratum[i].cell * scene.pitch, lens_y = axis[1].stratum[j].cell * scene.pitch;
+        const optics::Place<S> lens =
+            optics::axis_of(scene.lattice, optics::Cell<S>{axis[0].stratum[i].cell, axis[1].stratum[j].cell});
         const S limit = scene.hole_radius > 0 ? scene.hole_radius * scene.hole_radius : S(1e30);
         for (int p = 0; p < optics::kMostProbes; ++p) {
             const S px = x.from + grid_x[p] * (x.to - x.from), py = y.from + grid_y[p] * (y.to - y.from);
-            probes.x[p] = lens_x + px;
-            probes.y[p] = lens_y + py;
+            probes.x[p] = lens.x + px;
+            probes.y[p] = lens.y + py;
             probes.in[p] = (px * px + py * py <= limit) == inside ? counts[p] : S(0);
         }
         optics::trace_probes<through, F>(scene, block, probes, per_axis * per_axis);
@@ -188,7 +189,7 @@ class BundleMaker {
     LFDSIM_BOTH Range seen_of(int a, int stratum, Range r, S dx, S dy) const {
         const Gradient &first = axis[a].cut[0].place, &last = axis[a].cut[axis[a].strata].place;
         const S start = first.middle + first.right * dx + first.down * dy, end = last.middle + last.right * dx + last.down * dy,
-                at = axis[a].stratum[stratum].cell * scene.pitch, low = optics::min(start, end) - at,
+                at = axis[a].stratum[stratum].cell * scene.lattice.pitch[a], low = optics::min(start, end) - at,
                 high = optics::max(start, end) - at;
         return {optics::min(optics::max(r.from, low), r.to), optics::max(optics::min(r.to, high), r.from)};
     }
@@ -226,7 +227,7 @@ class BundleMaker {
     LFDSIM_BOTH void narrow(int a, int stratum, Range r, const S* grid, S dx, S dy, S* seen) const {
         const Gradient &first = axis[a].cut[0].place, &last = axis[a].cut[axis[a].strata].place;
         const S start = first.middle + first.right * dx + first.down * dy, end = last.middle + last.right * dx + last.down * dy,
-                at = axis[a].stratum[stratum].cell * scene.pitch, low = optics::min(start, end) - at,
+                at = axis[a].stratum[stratum].cell * scene.lattice.pitch[a], low = optics::min(start, end) - at,
                 high = optics::max(start, end) - at;
         const S range = r.to - r.from, half = S(0.5) * range / S(per_axis);
         if (!(half > 0)) return;

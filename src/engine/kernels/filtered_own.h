@@ -74,9 +74,9 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
         const auto across = trace_own<through>(scene, pixels, a + step_a, b);
         const auto along = trace_own<through>(scene, pixels, a, b + step_b);
         auto near = [&](const optics::PanelPoint<F>& p) {
-            const F far = F(0.25f * scene.pitch_pixels);
-            return p.alive && (p.cell.i == one.cell.i) && (p.cell.j == one.cell.j) && (optics::abs(p.column - one.column) < far) &&
-                   (optics::abs(p.row - one.row) < far);
+            const F far_x = F(0.25f * scene.pitch_pixels[0]), far_y = F(0.25f * scene.pitch_pixels[1]);
+            return p.alive && (p.cell.i == one.cell.i) && (p.cell.j == one.cell.j) &&
+                   (optics::abs(p.column - one.column) < far_x) && (optics::abs(p.row - one.row) < far_y);
         };
         const optics::Mask<F> together = one.alive && near(across) && near(along);
         const F across_c = across.column - one.column, across_r = across.row - one.row, along_c = along.column - one.column,

@@ -1,0 +1,23 @@
+// Where the lenses of an array stand. Floor 0: plain data; what asks it is optics/lattice.h, which each instruction set compiles
+// anew.
+#pragma once
+
+namespace lfdsim {
+
+struct LensArray;
+
+/// Lengths in mm. The array's frame has x' along its rows and y' along its columns. Lens (i, j), counted from 0 to the right and
+/// upwards, has its axis at ((i + 1/2 - nx/2) px, (j + 1/2 - ny/2) py) from the array's middle; its cell is the rectangle about it.
+template <class S>
+struct Lattice {
+    S pitch[2], per_pitch[2], half_pitch[2];  // along x' and y'; the second its inverse
+    S count[2];                               // lenses along x' and y'
+    S offset[2];                              // of the array's middle in the display's frame
+    S cos_turn, sin_turn;                     // of the array's frame against the display's, counter-clockwise to the viewer
+};
+
+/// Rounded to S from double precision.
+template <class S>
+Lattice<S> make_lattice(const LensArray&);
+
+}  // namespace lfdsim
