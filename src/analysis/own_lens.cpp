@@ -30,29 +30,27 @@ OwnLens::OwnLens(Display display, bool with_diffuser)
       geometry_(resolve(display_)),
       rays_(display_, geometry_),
       pickup_(display_, geometry_),
-      half_image_mm_(0.5 * display_.array.pitch_mm * pickup_.scale) {}
+      half_image_mm_{pickup_.lattice().half_pitch[0] * pickup_.scale, pickup_.lattice().half_pitch[1] * pickup_.scale} {}
 
 bool OwnLens::is_whole(double x, double y) const {
-    const double turn = display_.array.rotation_deg * degree,
-                 reach = half_image_mm_ * (std::abs(std::cos(turn)) + std::abs(std::sin(turn))), slack = 1e-9 * half_image_mm_;
-    return std::abs(x) + reach <= 0.5 * geometry_.panel_width_mm + slack &&
-           std::abs(y) + reach <= 0.5 * geometry_.panel_height_mm + slack;
+    const double c = std::abs(pickup_.lattice().cos_turn), s = std::abs(pickup_.lattice().sin_turn);
+    const auto [half_x, half_y] = half_image_mm_;
+    return std::abs(x) + half_x * c + half_y * s <= 0.5 * geometry_.panel_width_mm + 1e-9 * half_x &&
+           std::abs(y) + half_x * s + half_y * c <= 0.5 * geometry_.panel_height_mm + 1e-9 * half_y;
 }
 
 std::int64_t OwnLens::whole_images() const {
     std::int64_t whole = 0;
-    const auto [nx, ny] = display_.array.count;
-    for (std::int64_t j = 0; j < ny; ++j)
-        for (std::int64_t i = 0; i < nx; ++i) {
-            const Vec3d lens = rays_.point((double(i) + 0.5 - 0.5 * double(nx)) * display_.array.pitch_mm,
-                                           (double(j) + 0.5 - 0.5 * double(ny)) * display_.array.pitch_mm);
-            whole += is_whole(lens[0] * pickup_.scale, lens[1] * pickup_.scale);
+    const Lattice<double>& lattice = pickup_.lattice();
+    for (double j = 0; j < lattice.count[1]; ++j)
+        for (double i = 0; i < lattice.count[0]; ++i) {
+            const auto lens = optics::in_display(lattice, optics::axis_in_array(lattice, optics::Cell<double>{i, j}));
+            whole += is_whole(lens.x * pickup_.scale, lens.y * pickup_.scale);
         }
     return whole;
 }
 
 double OwnLens::share(const Vec3d& eye, std::span<const Choice> choices) const {
-    const double turn = display_.array.rotation_deg * degree, c = std::cos(turn), s = std::sin(turn);
     double own = 0, all = 0;
     for (const Choice& choice : choices) {
         const Sight sight = rays_.look(eye, choice);
@@ -60,8 +58,8 @@ double OwnLens::share(const Vec3d& eye, std::span<const Choice> choices) const {
         const double x = sight.lens[0] * pickup_.scale, y = sight.lens[1] * pickup_.scale;
         if (!is_whole(x, y)) continue;
         all += sight.light;
-        const double dx = sight.x - x, dy = sight.y - y;
-        if (std::max(std::abs(c * dx + s * dy), std::abs(c * dy - s * dx)) <= half_image_mm_) own += sight.light;
+        const auto off = optics::to_array(pickup_.lattice(), sight.x - x, sight.y - y);
+        if (std::abs(off.x) <= half_image_mm_[0] && std::abs(off.y) <= half_image_mm_[1]) own += sight.light;
     }
     return all > 0 ? own / all : nan;
 }

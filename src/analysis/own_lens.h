@@ -33,7 +33,7 @@ class OwnLens {
     Geometry geometry_;
     EyeRays rays_;
     Pickup pickup_;
-    double half_image_mm_;
+    std::array<double, 2> half_image_mm_;  // along x' and y'
     bool is_whole(double centre_x, double centre_y) const;
 };
 

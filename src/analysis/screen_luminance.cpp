@@ -94,13 +94,12 @@ Estimate ScreenLuminance::uniformity_percent(bool inside) const {
 
 PitchLuminance pitch_luminance(const EyeRays& rays, const Display& d, const Vec3d& eye, Parts& parts) {
     constexpr int side = PitchLuminance::side;
-    const double pitch = d.array.pitch_mm;
+    const Lattice<double> lattice = make_lattice<double>(d.array);
     const int rays_each = rays_a_part * rays.more_for(eye);
-    // From the array's centre to the axis of one of the lenses of its middle half
-    const auto axis = [&](std::int64_t lenses, double number) {
-        const std::int64_t first = lenses / 4, count = lenses - 2 * first;
-        const std::int64_t lens = first + std::min(std::int64_t((0.5 + 0.5 * number) * double(count)), count - 1);
-        return (double(lens) + 0.5 - 0.5 * double(lenses)) * pitch;
+    // One of the columns or rows of the array's middle half
+    const auto in_middle = [&](std::size_t k, double choice) {
+        const std::int64_t first = d.array.count[k] / 4, count = d.array.count[k] - 2 * first;
+        return double(first + std::min(std::int64_t((0.5 + 0.5 * choice) * double(count)), count - 1));
     };
     const auto cell = [](double number) { return std::size_t(std::min(int((0.5 + 0.5 * number) * side), side - 1)); };
     std::vector<std::vector<double>> sums(pitch_luminance_parts);  // part k is of set k modulo their number
@@ -108,8 +107,8 @@ PitchLuminance pitch_luminance(const EyeRays& rays, const Display& d, const Vec3
         std::vector<double>& sum = sums[std::size_t(part)];
         sum.resize(side * side);
         for (const Choice& c : even_choices(rays_each, set_number(d.render.seed, part))) {
-            const Vec3d at =
-                rays.point(axis(d.array.count[0], c[4]) + 0.5 * pitch * c[0], axis(d.array.count[1], c[5]) + 0.5 * pitch * c[1]);
+            const auto axis = optics::axis_in_array(lattice, optics::Cell<double>{in_middle(0, c[4]), in_middle(1, c[5])});
+            const Vec3d at = rays.point(axis.x + lattice.half_pitch[0] * c[0], axis.y + lattice.half_pitch[1] * c[1]);
             sum[(side - 1 - cell(c[1])) * side + cell(c[0])] += rays.look_through(eye, at, c[2], c[3]).light;
         }
     });

@@ -3,6 +3,7 @@
 #include "analysis/side_rays.h"
 #include "analysis/subject.h"
 #include "analysis/svg_drawing.h"
+#include "optics/lattice.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -36,11 +37,13 @@ struct SideLens {
     double y_mm;
 };
 inline SideLens lens_at(const Display& d, std::int64_t row) {
-    return {row, d.array.offset_mm[1] + (double(row) - 0.5 * double(d.array.count[1] - 1)) * d.array.pitch_mm};
+    const Lattice<double> lattice = make_lattice<double>(d.array);
+    return {row, lattice.offset[1] + optics::axis_in_array(lattice, optics::Cell<double>{0, double(row)}).y};
 }
 inline SideLens lens_near(const Display& d, double y) {
-    const double row = std::round((y - d.array.offset_mm[1]) / d.array.pitch_mm + 0.5 * double(d.array.count[1] - 1));
-    return lens_at(d, std::int64_t(std::clamp(row, 0., double(d.array.count[1] - 1))));
+    const Lattice<double> lattice = make_lattice<double>(d.array);
+    const double row = optics::lens_at(lattice, 0., y - lattice.offset[1]).j;
+    return lens_at(d, std::int64_t(std::clamp(row, 0., lattice.count[1] - 1)));
 }
 
 /// The way through the lens in whose cell the ray comes to the lenses. Points in the display's frame.

@@ -2,7 +2,7 @@
 #pragma once
 #include "model/display.h"
 #include "model/geometry.h"
-#include "model/numbers.h"
+#include "optics/lattice.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,15 +20,8 @@ struct NodalLine {
 class Pickup {
   public:
     Pickup(const Display& d, const Geometry& g)
-        : nx_(double(d.array.count[0])),
-          ny_(double(d.array.count[1])),
-          pitch_(d.array.pitch_mm),
-          cos_(std::cos(d.array.rotation_deg * degree)),
-          sin_(std::sin(d.array.rotation_deg * degree)),
-          offset_x_(d.array.offset_mm[0]),
-          offset_y_(d.array.offset_mm[1]),
+        : lattice_(make_lattice<double>(d.array)),
           inverse_gap_(1 / g.gap_mm),
-          inverse_pitch_(1 / pitch_),
           pixel_(d.panel.pixel_pitch_mm),
           left_(-0.5 * double(d.panel.pixels[0])),
           top_(0.5 * double(d.panel.pixels[1])),
@@ -44,13 +37,14 @@ class Pickup {
     /// the panel at C scale, scale = 1 + g / (D - z_rear): the centre of its elemental image. The nearest centre is found in the
     /// array's own axes, where lens (i, j) covers the unit square from (i, j).
     NodalLine line(double x, double y) const {
-        const double ax = x * inverse_scale_ - offset_x_, ay = y * inverse_scale_ - offset_y_;
-        const double i = cell((cos_ * ax + sin_ * ay) * inverse_pitch_ + nx_ / 2, nx_),
-                     j = cell((cos_ * ay - sin_ * ax) * inverse_pitch_ + ny_ / 2, ny_);
-        const double u = (i + 0.5 - nx_ / 2) * pitch_, v = (j + 0.5 - ny_ / 2) * pitch_;
-        const double cx = cos_ * u - sin_ * v + offset_x_, cy = sin_ * u + cos_ * v + offset_y_;
-        return {cx, cy, (cx - x) * inverse_gap_, (cy - y) * inverse_gap_, i >= 0 && i < nx_ && j >= 0 && j < ny_};
+        const auto at =
+            optics::to_array(lattice_, x * inverse_scale_ - lattice_.offset[0], y * inverse_scale_ - lattice_.offset[1]);
+        const optics::Cell<double> lens{number(at.x, 0), number(at.y, 1)};
+        const auto c = optics::in_display(lattice_, optics::axis_in_array(lattice_, lens));
+        return {c.x, c.y, (c.x - x) * inverse_gap_, (c.y - y) * inverse_gap_, optics::holds(lattice_, lens)};
     }
+
+    const Lattice<double>& lattice() const { return lattice_; }
 
     /// Where the panel point (x, y) lies in its elemental image: in the array's axes, units of the elemental pitch, 0 at the
     /// centre, -0.5 .. 0.5.
@@ -60,18 +54,21 @@ class Pickup {
     };
     Place place(double x, double y) const {
         const NodalLine l = line(x, y);
-        const double dx = x - l.x * scale, dy = y - l.y * scale, unit = pitch_ * scale;
-        return {(cos_ * dx + sin_ * dy) / unit, (cos_ * dy - sin_ * dx) / unit, l.owned};
+        const auto off = optics::to_array(lattice_, x - l.x * scale, y - l.y * scale);
+        return {off.x / (lattice_.pitch[0] * scale), off.y / (lattice_.pitch[1] * scale), l.owned};
     }
 
   private:
-    // floor(x) where 0 <= x < count, else something outside: without a call to the library's floor, twice as fast.
-    static double cell(double x, double count) {
+    // Of the column or row of lenses at a place, from the array's middle; something outside where there is none. Without a call to
+    // the library's floor, twice as fast.
+    double number(double place, int axis) const {
+        const double count = lattice_.count[axis], x = place * lattice_.per_pitch[axis] + count / 2;
         const double near = std::min(std::max(x, -1.), count), whole = double(std::int64_t(near));
         return whole > near ? whole - 1 : whole;
     }
 
-    double nx_, ny_, pitch_, cos_, sin_, offset_x_, offset_y_, inverse_gap_, inverse_pitch_, pixel_, left_, top_;
+    Lattice<double> lattice_;
+    double inverse_gap_, pixel_, left_, top_;
 
   public:
     double z_rear;

@@ -19,7 +19,7 @@ def arguments():
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
 
 
-# read_ply.py
+# shared.py
 
 
 class Nodes:
@@ -143,9 +143,8 @@ def patches(name, parts):
 
 def place_array(array):
     """Cells stand on the vertices of a parent: one mesh for all."""
-    (columns, rows), pitch = array["count"], array["pitch_mm"]
-    x, y = np.meshgrid((np.arange(columns) + 0.5 - columns / 2) * pitch, (np.arange(rows) + 0.5 - rows / 2) * pitch)
-    lattice = thing("lattice", np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1), np.zeros((0, 3)), [])
+    axes = lens_axes(array)
+    lattice = thing("lattice", np.pad(axes, ((0, 0), (0, 1))), np.zeros((0, 3)), [])
     lattice.matrix_world = Matrix.Translation((*array["offset_mm"], array["base_z_mm"])) @ Matrix.Rotation(math.radians(array["rotation_deg"]), 4, "Z")
     lattice.instance_type = "VERTS"
     patches("cell", SCENE["cell"]).parent = lattice

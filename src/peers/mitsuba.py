@@ -83,7 +83,7 @@ def plugins():
     mi.register_bsdf("lfd_diffuser", Diffuser)
 
 
-# read_ply.py
+# shared.py
 
 
 def patch(part, axes):
@@ -111,11 +111,10 @@ def patch(part, axes):
 
 def world():
     array, panel = SCENE["array"], SCENE["panel"]
-    (columns, rows), pitch = array["count"], array["pitch_mm"]
-    x, y = np.meshgrid((np.arange(columns) + 0.5 - columns / 2) * pitch, (np.arange(rows) + 0.5 - rows / 2) * pitch)
+    axes = lens_axes(array)
     scene = {"type": "scene"}
     for k, part in enumerate(SCENE["cell"]):
-        scene[f"cell{k}"] = patch(part, np.stack([x.ravel(), y.ravel()], axis=1))
+        scene[f"cell{k}"] = patch(part, axes)
     for k, part in enumerate(SCENE["sheet"]):
         scene[f"sheet{k}"] = patch(part, np.zeros((1, 2)))
     shown = np.array(mi.Bitmap(os.path.join(HERE, panel["file"])).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False))

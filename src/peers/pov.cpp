@@ -29,7 +29,12 @@ std::string medium(double index) { return fmt::format("texture {{ Clear }} inter
 class Writer {
   public:
     Writer(const Display& d, const Geometry& g, const PeerOptions& o)
-        : d_(d), g_(g), half_(d.array.pitch_mm / 2), gap_mm_(gap_pitches * d.array.pitch_mm), options_(o) {}
+        : d_(d),
+          g_(g),
+          lattice_(make_lattice<double>(d.array)),
+          half_(d.array.pitch_mm / 2),
+          gap_mm_(gap_pitches * d.array.pitch_mm),
+          options_(o) {}
 
     std::string scene(const std::vector<std::string>& head, const std::string& panel_file) const {
         const bool one_sheet = d_.array.surround == Surround::plate;
@@ -43,9 +48,9 @@ class Writer {
             "#declare Clear = texture {{ pigment {{ rgbt 1 }} finish {{ ambient 0 diffuse 0{} }} }}\n",
             fresnel() ? " reflection { 0, 1 fresnel on } conserve_energy" : "");
         // POV-Ray's rows and columns of a matrix: images of the axes, then the shift
-        const double turn = d_.array.rotation_deg * std::acos(-1.0) / 180, c = std::cos(turn), s = std::sin(turn);
-        all += fmt::format("#declare Place = transform {{ matrix <{},{},0,{},{},0,0,0,1,{},{},0> scale {} }}\n", text(c), text(s),
-                           text(-s), text(c), text(d_.array.offset_mm[0]), text(d_.array.offset_mm[1]), text(units_per_mm()));
+        all += fmt::format("#declare Place = transform {{ matrix <{},{},0,{},{},0,0,0,1,{},{},0> scale {} }}\n",
+                           text(lattice_.cos_turn), text(lattice_.sin_turn), text(-lattice_.sin_turn), text(lattice_.cos_turn),
+                           text(lattice_.offset[0]), text(lattice_.offset[1]), text(units_per_mm()));
         all += panel(panel_file) + "\n// One lens, about the z axis\n";
         all += "#declare Lens = " + (options_.triangles ? meshed_lens() : lens()) + "\n";
         all += one_sheet ? sheet() : lenses();
@@ -206,11 +211,11 @@ class Writer {
     std::string lenses() const {
         const std::string flag = fresnel() ? " no_reflection" : "";
         std::string all = fmt::format(
-            "#for (J, 0, {1}) #for (I, 0, {0})\n  object {{ Lens translate <(I - {2}) * {4}, (J - {3}) * {4}, 0> transform {{ "
+            "#for (J, 0, {1}) #for (I, 0, {0})\n  object {{ Lens translate <(I - {2}) * {4}, (J - {3}) * {6}, 0> transform {{ "
             "Place "
             "}}{5} }}\n#end #end\n",
             d_.array.count[0] - 1, d_.array.count[1] - 1, text(0.5 * double(d_.array.count[0] - 1)),
-            text(0.5 * double(d_.array.count[1] - 1)), text(d_.array.pitch_mm), flag);
+            text(0.5 * double(d_.array.count[1] - 1)), text(lattice_.pitch[0]), flag, text(lattice_.pitch[1]));
         const std::vector<Ring> rings = black_rings(d_, g_);
         std::vector<double> heights;
         if (!rings.empty()) heights = {rings.front().z_mm, rings.back().z_mm};
@@ -265,6 +270,7 @@ class Writer {
 
     const Display& d_;
     const Geometry& g_;
+    Lattice<double> lattice_;
     const double half_, gap_mm_;
     const PeerOptions& options_;
 };

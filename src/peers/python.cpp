@@ -84,7 +84,7 @@ void write_python(Peer peer, const Display& display, const Geometry& geometry, c
           {"emission_exponent", display.panel.emission_exponent}}},
         {"array",
          {{"count", array.count},
-          {"pitch_mm", array.pitch_mm},
+          {"pitch_mm", make_lattice<double>(array).pitch},
           {"base_z_mm", geometry.base_z_mm},
           {"rotation_deg", array.rotation_deg},
           {"offset_mm", array.offset_mm}}},

@@ -29,19 +29,16 @@ Vec3d direction(const optics::View& view, Place at) {
     return d;
 }
 
-/// A vector from the array's centre in the array's own axes.
-Place in_array(const Display& d, double x, double y) {
-    const double c = std::cos(d.array.rotation_deg * degree), s = std::sin(d.array.rotation_deg * degree);
-    x -= d.array.offset_mm[0], y -= d.array.offset_mm[1];
-    return {c * x + s * y, c * y - s * x};
+/// A point in the array's own axes, from its middle.
+optics::Place<double> in_array(const Lattice<double>& lattice, double x, double y) {
+    return optics::to_array(lattice, x - lattice.offset[0], y - lattice.offset[1]);
 }
 
-Number lens_of(const Display& d, const Vec3d& axis) {
-    const Place at = in_array(d, axis[0], axis[1]);
-    const auto place = [&](double x, std::size_t k) {
-        return std::int64_t(std::llround(x / d.array.pitch_mm + 0.5 * double(d.array.count[k] - 1)));
-    };
-    return {place(at[0], 0), place(-at[1], 1)};
+/// Column, and row from the top, of the lens whose axis is there.
+Number lens_of(const Lattice<double>& lattice, const Vec3d& axis) {
+    const auto at = in_array(lattice, axis[0], axis[1]);
+    const auto lens = optics::lens_at(lattice, at.x, at.y);
+    return {std::int64_t(lens.i), std::int64_t(lattice.count[1] - 1 - lens.j)};
 }
 
 /// The pixel at a place of the panel's plane; none beside the panel.
@@ -126,7 +123,7 @@ Probe probe(const Display& d, Place at) {
         probe.says = "No lens lets this line of sight through.";
         return probe;
     }
-    probe.lens = lens_of(d, sight.lens);
+    probe.lens = lens_of(make_lattice<double>(d.array), sight.lens);
     probe.panel_mm = {sight.x, sight.y};
     probe.panel_pixel = pixel_of(d.panel, sight.x, sight.y);
     const std::string lens = fmt::format("Lens {}, {}", (*probe.lens)[0], (*probe.lens)[1]);

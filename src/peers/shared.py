@@ -7,3 +7,9 @@ def read_ply(name):
                 counts.append(int(line.split()[2]))
         vertices = np.fromfile(file, "<f4", 6 * counts[0]).reshape(-1, 6)
         return vertices, np.fromfile(file, np.dtype([("three", "u1"), ("v", "<i4", 3)]), counts[1])["v"]
+
+
+def lens_axes(array):
+    """(n, 2) axes of all lenses in the array's frame, from its middle, row after row."""
+    x, y = ((np.arange(n) + 0.5 - n / 2) * p for n, p in zip(array["count"], array["pitch_mm"]))
+    return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
