@@ -1,3 +1,7 @@
+set(kernel_level -O3)
+if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  set(kernel_level -O1)
+endif()
 # One object a kernel: the same source for each instruction set. No errno and no traps from mathematics; contraction is off everywhere.
 function(lfdsim_kernel name isa lanes)
   add_library(lfdsim_kernel_${name} OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/engine/kernels/${name}.cpp)
@@ -5,7 +9,7 @@ function(lfdsim_kernel name isa lanes)
   target_include_directories(lfdsim_kernel_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_compile_definitions(lfdsim_kernel_${name} PRIVATE LFDSIM_ISA=${name} LFDSIM_LANES=${lanes} LFDSIM_KERNEL=render_tile_${name})
   # GCC 12 takes the undefined vectors of its own AVX-512 headers for a mistake.
-  target_compile_options(lfdsim_kernel_${name} PRIVATE -O3 -fno-math-errno -fno-trapping-math ${isa}
+  target_compile_options(lfdsim_kernel_${name} PRIVATE ${kernel_level} -fno-math-errno -fno-trapping-math ${isa}
     "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-uninitialized>")
   target_sources(lfdsim_engine PRIVATE $<TARGET_OBJECTS:lfdsim_kernel_${name}>)
 endfunction()

@@ -2,7 +2,8 @@
 
 The kernel's source is compiled once per instruction set, and the linker keeps one copy of each weak symbol: were a function shared, an
 old machine could meet AVX-512 code in it. So each weak symbol of kernel ISA must sit in a namespace called ISA. Looked at are the
-objects of the build and, since optimisation inlines most such functions away, the same compiled without it.
+objects of the build and, since optimisation inlines most such functions away, the scalar one compiled without it: the source is the
+same for all.
 
 Usage: symbols.py BUILD_DIRECTORY
 """
@@ -31,8 +32,11 @@ for command in json.loads((build / "compile_commands.json").read_text()):
         continue
     built, isa = build / found[1], found[2]
     with tempfile.NamedTemporaryFile(suffix=".o") as unoptimised:
-        subprocess.run(shlex.split(command["command"]) + ["-O0", "-o", unoptimised.name], cwd=command["directory"], check=True)
-        for kernel in built, unoptimised.name:
+        kernels = [built]
+        if isa == "scalar":
+            subprocess.run(shlex.split(command["command"]) + ["-O0", "-o", unoptimised.name], cwd=command["directory"], check=True)
+            kernels.append(unoptimised.name)
+        for kernel in kernels:
             checked += 1
             for name in foreign(kernel, isa):
                 bad += 1
