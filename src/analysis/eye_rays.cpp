@@ -14,18 +14,9 @@ namespace {
 
 optics::PanelPoint<double> trace(const optics::Scene<double>& scene, const optics::Extent<double>& extent,
                                  const optics::Ray<double>& ray) {
-    using optics::Way;
     const optics::PanelBase<double> base{};  // the point then counts from where the base lens's axis meets the panel
-    switch (optics::way_through(scene)) {
-        case Way::plano_convex:
-            return optics::trace_array<Way::plano_convex>(scene, extent, base, ray, true);
-        case Way::opaque:
-            return optics::trace_array<Way::opaque>(scene, extent, base, ray, true);
-        case Way::ideal:
-            return optics::trace_array<Way::ideal>(scene, extent, base, ray, true);
-        default:
-            return optics::trace_array<Way::glass>(scene, extent, base, ray, true);
-    }
+    return optics::with_way(scene,
+                            [&]<optics::Way through>() { return optics::trace_array<through>(scene, extent, base, ray, true); });
 }
 
 /// Whether a line among glass meets a lens at all, and the first that it meets. In `clear` all glass is lenses; in `plate` it is

@@ -9,6 +9,7 @@
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
 /// The ways through an array, one of which a display takes: chosen outside the loop over samples, so that none pays for another.
+/// A new one is a word here, its line in the three functions below, and what traces it.
 enum class Way { plano_convex, opaque, ideal, glass };
 
 template <class S>
@@ -18,6 +19,31 @@ LFDSIM_FN Way way_through(const Scene<S>& scene) {
     const bool plain =
         scene.surface_count == 2 && scene.surface[0].shape == Shape::sphere && scene.surface[1].shape == Shape::plane;
     return plain && !scene.has_stop && !scene.dimple ? Way::plano_convex : Way::opaque;
+}
+
+/// do_it.operator()<way>() for the way through a display.
+template <class S, class Do>
+inline decltype(auto) with_way(const Scene<S>& scene, const Do& do_it) {
+    switch (way_through(scene)) {
+        case Way::plano_convex:
+            return do_it.template operator()<Way::plano_convex>();
+        case Way::opaque:
+            return do_it.template operator()<Way::opaque>();
+        case Way::ideal:
+            return do_it.template operator()<Way::ideal>();
+        case Way::glass:
+            break;
+    }
+    return do_it.template operator()<Way::glass>();
+}
+
+/// The same for all ways, one after the other.
+template <class Do>
+inline void for_all_ways(const Do& do_it) {
+    do_it.template operator()<Way::plano_convex>();
+    do_it.template operator()<Way::opaque>();
+    do_it.template operator()<Way::ideal>();
+    do_it.template operator()<Way::glass>();
 }
 
 // What these two make is given back through their last argument: GCC 12 would take a result through memory, in half as many

@@ -154,17 +154,13 @@ class CudaQueue : public wide::Queue {
             check(cudaFuncGetAttributes(&attributes, step_kernel<s, way, simple>), "reading a kernel's needs");
             most = std::max(most, attributes.localSizeBytes);
         };
-        auto look_at_way = [&]<optics::Way way>() {
+        optics::for_all_ways([&]<optics::Way way>() {
             look.template operator()<Step::points, way, true>();
             look.template operator()<Step::points, way, false>();
             look.template operator()<Step::bundles, way, true>();
             look.template operator()<Step::pixels, way, true>();
             look.template operator()<Step::pixels, way, false>();
-        };
-        look_at_way.template operator()<optics::Way::plano_convex>();
-        look_at_way.template operator()<optics::Way::opaque>();
-        look_at_way.template operator()<optics::Way::ideal>();
-        look_at_way.template operator()<optics::Way::glass>();
+        });
         return most;
     }
 

@@ -54,16 +54,7 @@ void render_tile(const Tile& tile) {
 }  // namespace
 
 void LFDSIM_KERNEL(const Tile& tile) {
-    switch (optics::way_through(*tile.scene)) {
-        case optics::Way::plano_convex:
-            return render_tile<optics::Way::plano_convex>(tile);
-        case optics::Way::opaque:
-            return render_tile<optics::Way::opaque>(tile);
-        case optics::Way::ideal:
-            return render_tile<optics::Way::ideal>(tile);
-        case optics::Way::glass:
-            return render_tile<optics::Way::glass>(tile);
-    }
+    optics::with_way(*tile.scene, [&]<optics::Way through>() { render_tile<through>(tile); });
 }
 
 }  // namespace lfdsim

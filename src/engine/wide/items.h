@@ -175,18 +175,8 @@ LFDSIM_FN void item(const Frame& frame, std::int64_t i) {
 /// do_it.template run<step, way, simple>() for the step and the frame at hand: what differs is compiled apart.
 template <class Do>
 void choose_item(Step step, const Frame& frame, Do do_it) {
-    const optics::Way way = optics::way_through(frame.scene);
     auto by_way = [&]<Step s, bool simple>() {
-        switch (way) {
-            case optics::Way::plano_convex:
-                return do_it.template operator()<s, optics::Way::plano_convex, simple>();
-            case optics::Way::opaque:
-                return do_it.template operator()<s, optics::Way::opaque, simple>();
-            case optics::Way::ideal:
-                return do_it.template operator()<s, optics::Way::ideal, simple>();
-            case optics::Way::glass:
-                return do_it.template operator()<s, optics::Way::glass, simple>();
-        }
+        optics::with_way(frame.scene, [&]<optics::Way way>() { do_it.template operator()<s, way, simple>(); });
     };
     switch (step) {
         case Step::points:
