@@ -14,7 +14,6 @@
 namespace lfdsim {
 namespace {
 
-
 /// Lengths are written to a nanometre: what lens makers never reach, and near enough for a central depth plane far away.
 double to_nanometre(double mm) { return std::round(mm * 1e6) / 1e6; }
 /// Lengths that nothing follows from, to three digits.
