@@ -13,7 +13,6 @@
 #include "view/save.h"
 
 #include <cmath>
-#include <mutex>
 #include <new>
 #include <stdexcept>
 
@@ -93,24 +92,6 @@ std::string model_file(const Library& library, const Wanted& wanted, const Displ
     return library.model(display);
 }
 
-/// Keeps the one that was asked for last: reading one takes a second.
-std::shared_ptr<const Model> model(const std::string& file) {
-    if (file == built_in_spheres) return built_in_model();
-    static std::mutex mutex;
-    static std::string kept_file;
-    static std::filesystem::file_time_type kept_time;
-    static std::shared_ptr<const Model> kept;
-    const std::lock_guard lock(mutex);
-    std::error_code missing;  // load_model() will say so
-    const auto time = std::filesystem::last_write_time(file, missing);
-    if (!kept || file != kept_file || time != kept_time) {
-        kept = load_model(file);
-        kept_file = file;
-        kept_time = time;
-    }
-    return kept;
-}
-
 class Cancellable : public Job {
   public:
     explicit Cancellable(const std::function<bool()>& cancelled) : cancelled_(cancelled) {}
@@ -135,7 +116,8 @@ std::string toml(const Library& library, const Wanted& wanted, const std::filesy
     return write_display(display);
 }
 
-Json answer_to(const Library& library, const Wanted& wanted, const Ask& ask, const std::function<bool()>& cancelled) {
+Json answer_to(const Library& library, Panels& panels, const Wanted& wanted, const Ask& ask,
+               const std::function<bool()>& cancelled) {
     switch (ask.what) {
         case Ask::What::probe:
             return json_of(probe(library.display(wanted), ask.at));
@@ -143,10 +125,10 @@ Json answer_to(const Library& library, const Wanted& wanted, const Ask& ask, con
             return side(library.display(wanted), ask.name);
         case Ask::What::plot: {
             const Display display = library.display(wanted);
-            const Plot plot = ask.name == "spot"
-                                  ? spot_plot(display)
-                                  : fov_plot(display, model(model_file(library, wanted, display)), Cancellable(cancelled));
-            return {{"svg", svg(plot)}};
+            if (ask.name == "spot") return {{"svg", svg(spot_plot(display))}};
+            Cancellable job(cancelled);
+            const std::shared_ptr<const Model> model = panels.model(model_source(model_file(library, wanted, display)), job);
+            return {{"svg", svg(fov_plot(display, model, job))}};
         }
         case Ask::What::files: {
             const Library::Files files = library.files();
@@ -185,7 +167,7 @@ Json resolved(const Library& library, const Wanted& wanted) {
     }
 }
 
-Json answer(const Library& library, const Wanted& wanted, const Ask& ask, const std::function<bool()>& cancelled) {
+Json answer(const Library& library, Panels& panels, const Wanted& wanted, const Ask& ask, const std::function<bool()>& cancelled) {
     constexpr const char* whats[] = {"probe", "side", "plot", "files", "toml", "save", "exr"};
     const std::string what = whats[std::size_t(ask.what)];
     Json answer{{"type", "answer"}, {"id", ask.id}, {"what", what}, {"problems", Json::array()}};
@@ -193,7 +175,7 @@ Json answer(const Library& library, const Wanted& wanted, const Ask& ask, const 
         answer["problems"] = json_of({{where, wrong}});
     };
     try {
-        answer.update(answer_to(library, wanted, ask, cancelled));
+        answer.update(answer_to(library, panels, wanted, ask, cancelled));
     } catch (const InputError& error) {
         answer["problems"] = json_of(error.problems);
     } catch (const Stopped&) {

@@ -2,6 +2,7 @@
 #pragma once
 #include "view/library.h"
 #include "view/messages.h"
+#include "view/panels.h"
 
 #include <nlohmann/json.hpp>
 
@@ -16,6 +17,6 @@ Json resolved(const Library&, const Wanted&);
 
 /// The message "answer". Takes milliseconds but for plots, which may take seconds and stop when `cancelled` says so.
 /// What is wrong with the question is told in the answer's "problems"; never throws InputError.
-Json answer(const Library&, const Wanted&, const Ask&, const std::function<bool()>& cancelled);
+Json answer(const Library&, Panels&, const Wanted&, const Ask&, const std::function<bool()>& cancelled);
 
 }  // namespace lfdsim::view

@@ -133,7 +133,7 @@ Scene Panels::scene(const Source& source, const Display& display, const Geometry
         const auto is = [&](const Posed& p) { return p.source == source && p.pose == pose; };
         if (const Posed* const posed = used(scenes_, is)) return posed->scene.before(geometry);
     }
-    const Scene made(source.name == built_in_spheres ? built_in_model() : model(source, job), display, geometry);
+    const Scene made(model(source, job), display, geometry);
     const std::lock_guard lock(mutex_);
     scenes_.push_front({source, pose, made});
     if (scenes_.size() > most_scenes) scenes_.pop_back();
@@ -141,6 +141,7 @@ Scene Panels::scene(const Source& source, const Display& display, const Geometry
 }
 
 std::shared_ptr<const Model> Panels::model(const Source& source, Job& job) {
+    if (source.name == built_in_spheres) return built_in_model();
     const ModelFuture future = reading(source);
     job.stage("model", 1);
     while (future.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {

@@ -56,6 +56,9 @@ class Panels {
     /// The model of a source in its place before the display. Throws like get().
     Scene scene(const Source&, const Display&, const Geometry&, Job&);
 
+    /// The model itself, read once whoever asks, while others go on. Throws like get().
+    std::shared_ptr<const Model> model(const Source&, Job&);
+
     /// What is kept now; at most 3 panels, and 2 GiB unless a single one takes more.
     struct Kept {
         std::size_t panels, scenes, models;
@@ -65,7 +68,6 @@ class Panels {
 
   private:
     using ModelFuture = std::shared_future<std::shared_ptr<const Model>>;
-    std::shared_ptr<const Model> model(const Source&, Job&);
     ModelFuture reading(const Source&);
 
     struct Made {

@@ -31,7 +31,8 @@ Json hello(const Library& library, const std::string& version) {
 
 }  // namespace
 
-Answerer::Answerer(const Library& library, Outbox& outbox) : library_(library), outbox_(outbox), thread_([this] { work(); }) {}
+Answerer::Answerer(const Library& library, Panels& panels, Outbox& outbox)
+    : library_(library), panels_(panels), outbox_(outbox), thread_([this] { work(); }) {}
 
 Answerer::~Answerer() {
     {
@@ -56,7 +57,7 @@ void Answerer::work() {
         if (end_) return;
         const auto [wanted, question] = *std::exchange(next_, std::nullopt);
         lock.unlock();
-        const Json told = answer(library_, wanted, question, [this] {
+        const Json told = answer(library_, panels_, wanted, question, [this] {
             const std::lock_guard here(mutex_);
             return end_ || next_.has_value();
         });
@@ -66,7 +67,11 @@ void Answerer::work() {
 }
 
 Visit::Visit(const Library& library, Panels& panels, Outbox& outbox, int threads, const std::string& version)
-    : library_(library), outbox_(outbox), painter_(library, panels, outbox, threads), plots_(library, outbox) {
+    : library_(library),
+      panels_(panels),
+      outbox_(outbox),
+      painter_(library, panels, outbox, threads),
+      plots_(library, panels, outbox) {
     outbox.text(hello(library, version).dump());
 }
 
@@ -80,7 +85,7 @@ void Visit::message(std::string_view text) {
     else if (question.what == Ask::What::plot)
         plots_.ask(*wanted_, question);
     else
-        outbox_.text(answer(library_, wanted_.value_or(Wanted{}), question, [] { return false; }).dump());
+        outbox_.text(answer(library_, panels_, wanted_.value_or(Wanted{}), question, [] { return false; }).dump());
 }
 
 void Visit::want(const Wanted& wanted) {

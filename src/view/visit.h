@@ -15,7 +15,7 @@ namespace lfdsim::view {
 /// A thread that answers one question at a time, of which only the newest is worth its while: plots take seconds.
 class Answerer {
   public:
-    Answerer(const Library&, Outbox&);
+    Answerer(const Library&, Panels&, Outbox&);
     ~Answerer();  // stops at once
     void ask(const Wanted&, const Ask&);
 
@@ -23,6 +23,7 @@ class Answerer {
     void work();
 
     const Library& library_;
+    Panels& panels_;
     Outbox& outbox_;
     std::mutex mutex_;
     std::condition_variable changed_;
@@ -41,6 +42,7 @@ class Visit : public Visitor {
     void want(const Wanted&);
 
     const Library& library_;
+    Panels& panels_;
     Outbox& outbox_;
     std::optional<Wanted> wanted_, told_;  // told_: what "resolved" was last about
     Painter painter_;

@@ -31,6 +31,7 @@ void expect_finite(const Json& json) {
 
 class AnswersTest : public FolderTest {
   protected:
+    inline static Panels panels;
     Library library(std::vector<std::string> set = {}) const {
         return Library({folder / "small.toml", std::move(set), "", "", ""}, folder);
     }
@@ -43,7 +44,7 @@ class AnswersTest : public FolderTest {
         return w;
     }
     static Json ask(const Library& all, const Wanted& w, Ask::What what, const std::string& name = "", bool overwrite = false) {
-        const Json json = answer(all, w, {3, what, {0.4, 0.6}, name, overwrite}, nullptr);
+        const Json json = answer(all, panels, w, {3, what, {0.4, 0.6}, name, overwrite}, nullptr);
         EXPECT_EQ(json["type"], "answer");
         EXPECT_EQ(json["id"], 3);
         expect_finite(json);
@@ -226,7 +227,7 @@ TEST_F(AnswersTest, PlotsAreDrawnAndStop) {
     EXPECT_THAT(spot, HasSubstr("central depth plane"));
     EXPECT_THAT(spot, HasSubstr("with the diffuser"));
     int asked = 0;
-    const Json stopped = answer(all, aside, {3, Ask::What::plot, {}, "fov", false}, [&] { return ++asked > 3; });
+    const Json stopped = answer(all, panels, aside, {3, Ask::What::plot, {}, "fov", false}, [&] { return ++asked > 3; });
     EXPECT_EQ(stopped["problems"][0]["what"], "was stopped");
     EXPECT_FALSE(stopped.contains("svg"));
     EXPECT_THAT(ask(all, wanted({"panel.pixels=[30000, 20000]"}), Ask::What::plot, "fov")["problems"][0]["key"].get<std::string>(),
