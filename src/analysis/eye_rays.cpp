@@ -151,10 +151,6 @@ Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) 
     return {beside ? 0 : end.weight, true, by_lens, x, y, point(base_axis.x + from_base.x, base_axis.y + from_base.y)};
 }
 
-double nearest_eye_mm(const Geometry& g) {
-    return std::max({g.top_z_mm, g.vertex_plane_mm, g.rear_principal_mm, g.diffuser_z_mm.value_or(0)});
-}
-
 double checked_viewing_distance_mm(const Subject& s) {
     const double distance = s.viewing_distance_mm(), nearest = nearest_eye_mm(s.geometry());
     if (!(distance > nearest))

@@ -63,9 +63,6 @@ class EyeRays {
     optics::Cell<double> base_;  // lenses are told from one in the middle
 };
 
-/// Eyes are farther from the panel than this, mm: before the diffuser, the lenses and their principal plane.
-double nearest_eye_mm(const Geometry&);
-
 /// Distance of eyes from the panel. Throws InputError where that lies inside the display.
 double checked_viewing_distance_mm(const Subject&);
 

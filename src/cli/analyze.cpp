@@ -1,8 +1,4 @@
-#include "analysis/folder.h"
 #include "analysis/measure.h"
-#include "analysis/memory.h"
-#include "analysis/report.h"
-#include "analysis/side_by_side.h"
 #include "analysis/views.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
@@ -14,8 +10,12 @@
 #include "cli/output.h"
 #include "cli/panel_source.h"
 #include "cli/work_options.h"
+#include "engine/memory.h"
 #include "files/display_file.h"
 #include "image/file.h"
+#include "report/folder.h"
+#include "report/report.h"
+#include "report/side_by_side.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

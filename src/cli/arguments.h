@@ -1,4 +1,4 @@
-// Option values, read strictly: the whole text must be the value, numbers finite. Floor 4.
+// Option values, read strictly: the whole text must be the value, numbers finite. Floor 5.
 #pragma once
 #include "image/compare.h"
 #include "model/error.h"

@@ -1,12 +1,12 @@
 #include "cli/bench.h"
 
-#include "analysis/memory.h"
 #include "cli/arguments.h"
 #include "cli/bench_cases.h"
 #include "cli/commands.h"
 #include "cli/machine.h"
 #include "cli/work_options.h"
 #include "engine/devices.h"
+#include "engine/memory.h"
 
 #include <fmt/format.h>
 #include <tbb/info.h>

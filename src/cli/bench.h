@@ -1,4 +1,4 @@
-// lfdsim bench: runs that are timed turn by turn, and the groups they come in. Floor 4.
+// lfdsim bench: runs that are timed turn by turn, and the groups they come in. Floor 5.
 #pragma once
 #include "cli/output.h"
 #include "cli/progress.h"

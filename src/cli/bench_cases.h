@@ -1,4 +1,4 @@
-// What `lfdsim bench` renders: one display, and what each duty of the renderer changes in it. Floor 4.
+// What `lfdsim bench` renders: one display, and what each duty of the renderer changes in it. Floor 5.
 #pragma once
 #include "image/compare.h"
 #include "image/texels.h"

@@ -1,8 +1,8 @@
-#include "analysis/memory.h"
 #include "cli/arguments.h"
 #include "cli/bench.h"
 #include "cli/bench_cases.h"
 #include "cli/panel_source.h"
+#include "engine/memory.h"
 #include "engine/render.h"
 #include "files/display_file.h"
 

@@ -1,9 +1,9 @@
-#include "analysis/advice.h"
-#include "analysis/description.h"
 #include "cli/commands.h"
 #include "cli/display_options.h"
 #include "cli/output.h"
 #include "content/content.h"
+#include "model/advice.h"
+#include "report/description.h"
 
 #include <fmt/format.h>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Commands and their options: the part of CLI11 that is used here, behind handles, since its headers take seconds to compile.
-// Floor 4.
+// Floor 5.
 #pragma once
 #include <functional>
 #include <memory>

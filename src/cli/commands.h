@@ -1,4 +1,4 @@
-// The commands of lfdsim. Floor 4.
+// The commands of lfdsim. Floor 5.
 #pragma once
 #include "cli/command.h"
 

@@ -1,10 +1,10 @@
 #include "cli/compare_photo.h"
 
-#include "analysis/memory.h"
 #include "cli/arguments.h"
 #include "cli/interrupt.h"
 #include "cli/output.h"
 #include "cli/overlay_picture.h"
+#include "engine/memory.h"
 #include "engine/screen.h"
 #include "files/display_file.h"
 #include "image/encoding.h"

@@ -1,4 +1,4 @@
-// lfdsim compare with --corners: a photograph of a real display laid over a simulated view. Floor 4.
+// lfdsim compare with --corners: a photograph of a real display laid over a simulated view. Floor 5.
 #pragma once
 #include "cli/command.h"
 

@@ -1,4 +1,4 @@
-// The description file and the options that override its keys. Floor 4.
+// The description file and the options that override its keys. Floor 5.
 #pragma once
 #include "cli/arguments.h"
 #include "cli/command.h"

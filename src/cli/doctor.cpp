@@ -1,10 +1,10 @@
-#include "analysis/memory.h"
 #include "cli/commands.h"
 #include "cli/machine.h"
 #include "cli/output.h"
 #include "content/reader_path.h"
 #include "engine/devices.h"
 #include "engine/gpu.h"
+#include "engine/memory.h"
 #include "engine/render.h"
 
 #include <fmt/format.h>

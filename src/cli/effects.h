@@ -1,4 +1,4 @@
-// Options that have no effect: beside another one, or without one. Floor 4.
+// Options that have no effect: beside another one, or without one. Floor 5.
 #pragma once
 #include "cli/command.h"
 

@@ -1,4 +1,3 @@
-#include "analysis/memory.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/display_options.h"
@@ -6,6 +5,7 @@
 #include "cli/made_for.h"
 #include "cli/panel_source.h"
 #include "cli/work_options.h"
+#include "engine/memory.h"
 
 #include <fmt/format.h>
 

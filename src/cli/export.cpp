@@ -1,4 +1,3 @@
-#include "analysis/memory.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/display_options.h"
@@ -7,6 +6,7 @@
 #include "cli/interrupt.h"
 #include "cli/shown_panel.h"
 #include "cli/work_options.h"
+#include "engine/memory.h"
 #include "files/display_file.h"
 #include "files/shell.h"
 #include "image/file.h"

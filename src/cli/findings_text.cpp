@@ -1,7 +1,7 @@
 #include "cli/findings_text.h"
 
 #include "analysis/measure.h"
-#include "analysis/report_parts.h"
+#include "report/report_parts.h"
 
 #include <fmt/format.h>
 #include <algorithm>

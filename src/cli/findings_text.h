@@ -1,4 +1,4 @@
-// What measures found, as text for a terminal. Floor 4.
+// What measures found, as text for a terminal. Floor 5.
 #pragma once
 #include "cli/output.h"
 

@@ -1,4 +1,4 @@
-// A folder of results that one run at a time writes to. Floor 4.
+// A folder of results that one run at a time writes to. Floor 5.
 #pragma once
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-// The files that a command reads, so that it writes over none of them. Floor 4.
+// The files that a command reads, so that it writes over none of them. Floor 5.
 #pragma once
 #include <filesystem>
 #include <string>

@@ -1,4 +1,4 @@
-// Ctrl-C, SIGTERM and SIGHUP. Floor 4.
+// Ctrl-C, SIGTERM and SIGHUP. Floor 5.
 #pragma once
 #include <filesystem>
 

@@ -1,7 +1,7 @@
 #include "cli/lens_mesh_options.h"
 
-#include "analysis/memory.h"
 #include "cli/arguments.h"
+#include "engine/memory.h"
 #include "meshed/lens_mesh.h"
 
 #include <fmt/format.h>

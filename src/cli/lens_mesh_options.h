@@ -1,4 +1,4 @@
-// lfdsim render --lens-mesh: lenses of triangles in place of true surfaces. Floor 4.
+// lfdsim render --lens-mesh: lenses of triangles in place of true surfaces. Floor 5.
 #pragma once
 #include "cli/command.h"
 #include "cli/output.h"

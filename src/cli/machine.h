@@ -1,4 +1,4 @@
-// What this machine is, and how this program was built: what any measured figure has to come with. Floor 4.
+// What this machine is, and how this program was built: what any measured figure has to come with. Floor 5.
 #pragma once
 #include <string>
 

@@ -1,4 +1,4 @@
-// What a picture says that it was made for, against what it is used for. Floor 4.
+// What a picture says that it was made for, against what it is used for. Floor 5.
 #pragma once
 #include "image/image_file.h"
 #include "model/display.h"

@@ -1,4 +1,4 @@
-// Results: text on standard output, pictures with what made them. Floor 4.
+// Results: text on standard output, pictures with what made them. Floor 5.
 #pragma once
 #include "cli/command.h"
 #include "cli/progress.h"

@@ -1,4 +1,4 @@
-// Photograph and simulation for the eye. Floor 4.
+// Photograph and simulation for the eye. Floor 5.
 #pragma once
 #include "image/overlay.h"
 

@@ -1,4 +1,4 @@
-// What the panel shows: an image file, elemental images of a model, or a test pattern. Floor 4.
+// What the panel shows: an image file, elemental images of a model, or a test pattern. Floor 5.
 #pragma once
 #include "cli/command.h"
 #include "cli/output.h"

@@ -1,7 +1,7 @@
 # The program lfdsim: one file per command.
 file(GLOB cli_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/*.cpp)
 add_executable(lfdsim ${cli_sources})
-target_link_libraries(lfdsim PRIVATE lfdsim_view lfdsim_peers lfdsim_analysis lfdsim_meshed lfdsim_files CLI11::CLI11 fmt::fmt
+target_link_libraries(lfdsim PRIVATE lfdsim_view lfdsim_peers lfdsim_report lfdsim_meshed lfdsim_files CLI11::CLI11 fmt::fmt
   spdlog::spdlog nlohmann_json::nlohmann_json TBB::tbb)
 target_compile_definitions(lfdsim PRIVATE LFDSIM_VERSION="${PROJECT_VERSION}")
 # `lfdsim doctor` and `lfdsim bench` name what the program was built with, and how.

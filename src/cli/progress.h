@@ -1,4 +1,4 @@
-// Progress of long work, on standard error. Floor 4.
+// Progress of long work, on standard error. Floor 5.
 #pragma once
 #include "cli/interrupt.h"
 #include "model/job.h"

@@ -1,6 +1,5 @@
 #include "engine/render.h"
 
-#include "analysis/memory.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/display_options.h"
@@ -12,6 +11,7 @@
 #include "cli/shown_panel.h"
 #include "cli/work_options.h"
 #include "engine/devices.h"
+#include "engine/memory.h"
 #include "engine/scene.h"
 #include "model/keys.h"
 

@@ -1,4 +1,4 @@
-// lfdsim render --path: one picture for each frame of a camera path. Floor 4.
+// lfdsim render --path: one picture for each frame of a camera path. Floor 5.
 #pragma once
 #include "cli/command.h"
 #include "cli/output.h"

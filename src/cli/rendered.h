@@ -1,4 +1,4 @@
-// What a rendering says of itself, in its file and on standard output. Floor 4.
+// What a rendering says of itself, in its file and on standard output. Floor 5.
 #pragma once
 #include "cli/output.h"
 #include "engine/render.h"

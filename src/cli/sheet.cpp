@@ -1,8 +1,8 @@
 #include "image/sheet.h"
-#include "analysis/memory.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/output.h"
+#include "engine/memory.h"
 #include "image/image_file.h"
 #include "image/scaled.h"
 

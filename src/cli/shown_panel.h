@@ -1,4 +1,4 @@
-// The panel's light, from what the command line says that it shows. Floor 4.
+// The panel's light, from what the command line says that it shows. Floor 5.
 #pragma once
 #include "cli/panel_source.h"
 

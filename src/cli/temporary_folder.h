@@ -1,4 +1,4 @@
-// Files that must not outlive the program. Floor 4.
+// Files that must not outlive the program. Floor 5.
 #pragma once
 #include <sys/types.h>
 #include <filesystem>

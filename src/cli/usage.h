@@ -1,4 +1,4 @@
-// What is wrong with a command line, in words. Floor 4.
+// What is wrong with a command line, in words. Floor 5.
 #pragma once
 #include "model/error.h"
 

@@ -1,8 +1,8 @@
 #include "cli/work_options.h"
 
-#include "analysis/memory.h"
 #include "cli/arguments.h"
 #include "engine/devices.h"
+#include "engine/memory.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// The options of every command that makes a picture, and what it tells when it is done. Floor 4.
+// The options of every command that makes a picture, and what it tells when it is done. Floor 5.
 #pragma once
 #include "cli/command.h"
 #include "cli/output.h"

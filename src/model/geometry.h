@@ -88,4 +88,7 @@ bool is_sharp(const Theory&, double z_mm);
 /// Sag z - z_vertex in mm of a surface at distance s from its axis: c s^2/(1 + sqrt(1 - (1+k) c^2 s^2)) + a4 s^4 + ...
 double sag_mm(double curvature, double conic, const std::vector<double>& even_asphere, double s);
 
+/// Eyes are farther from the panel than this, mm: before the diffuser, the lenses and their principal plane.
+double nearest_eye_mm(const Geometry&);
+
 }  // namespace lfdsim

@@ -83,4 +83,8 @@ Geometry resolve(const Display& d) {
     return resolve_unchecked(d);
 }
 
+double nearest_eye_mm(const Geometry& g) {
+    return std::max({g.top_z_mm, g.vertex_plane_mm, g.rear_principal_mm, g.diffuser_z_mm.value_or(0)});
+}
+
 }  // namespace lfdsim

@@ -1,4 +1,4 @@
-// Who may talk to the viewer: token, Host and Origin. Floor 4.
+// Who may talk to the viewer: token, Host and Origin. Floor 5.
 #pragma once
 #include <string>
 #include <string_view>

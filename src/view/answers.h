@@ -1,4 +1,4 @@
-// What a page shows beside the pictures: figures, controls, drawings, plots, files. Floor 4.
+// What a page shows beside the pictures: figures, controls, drawings, plots, files. Floor 5.
 #pragma once
 #include "view/library.h"
 #include "view/messages.h"

@@ -1,4 +1,4 @@
-// The command that gives the same picture without a browser. Floor 4.
+// The command that gives the same picture without a browser. Floor 5.
 #pragma once
 #include "view/library.h"
 #include "view/messages.h"

@@ -1,11 +1,11 @@
 #include "view/controls.h"
 
-#include "analysis/description.h"
 #include "engine/scene.h"
 #include "model/bands.h"
 #include "model/geometry.h"
 #include "model/keys.h"
 #include "model/numbers.h"
+#include "report/description.h"
 #include "view/slider.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What of a display a page may change: its keys, with their values and how far they may go. Floor 4.
+// What of a display a page may change: its keys, with their values and how far they may go. Floor 5.
 #pragma once
 #include "analysis/result.h"
 #include "model/display.h"

@@ -1,4 +1,4 @@
-// One state's pictures, drawn and encoded. Floor 4. Of one visitor, on one thread.
+// One state's pictures, drawn and encoded. Floor 5. Of one visitor, on one thread.
 #pragma once
 #include "view/frame.h"
 #include "view/likeness.h"

@@ -1,4 +1,4 @@
-// A picture as it is sent to the page. Floor 4. docs/view-protocol.md has its form.
+// A picture as it is sent to the page. Floor 5. docs/view-protocol.md has its form.
 #pragma once
 #include "image/image.h"
 #include "model/job.h"

@@ -1,4 +1,4 @@
-// What the server answers to one HTTP request. Floor 4.
+// What the server answers to one HTTP request. Floor 5.
 #pragma once
 #include "view/access.h"
 

@@ -1,4 +1,4 @@
-// Displays, models and pictures of the served folder, by name. Floor 4. Shared by all visitors; all calls from any thread.
+// Displays, models and pictures of the served folder, by name. Floor 5. Shared by all visitors; all calls from any thread.
 #pragma once
 #include "model/display.h"
 #include "view/messages.h"

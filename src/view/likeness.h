@@ -1,4 +1,4 @@
-// How like the view of an eye is to the photograph of the scene from there. Floor 4.
+// How like the view of an eye is to the photograph of the scene from there. Floor 5.
 #pragma once
 #include "content/content.h"
 #include "model/job.h"

@@ -1,4 +1,4 @@
-// What waits for one browser. Floor 4. All calls from any thread.
+// What waits for one browser. Floor 5. All calls from any thread.
 #pragma once
 #include <cstddef>
 #include <deque>

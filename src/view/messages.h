@@ -1,4 +1,4 @@
-// What a browser says to the viewer, checked. Floor 4. docs/view-protocol.md has the messages.
+// What a browser says to the viewer, checked. Floor 5. docs/view-protocol.md has the messages.
 #pragma once
 #include "model/display.h"
 

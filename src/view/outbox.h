@@ -1,4 +1,4 @@
-// Where what a browser is to be told waits until its connection takes it. Floor 4.
+// Where what a browser is to be told waits until its connection takes it. Floor 5.
 #pragma once
 #include <string>
 

@@ -1,4 +1,4 @@
-// How long a picture takes, and which size of it takes a short time. Floor 4.
+// How long a picture takes, and which size of it takes a short time. Floor 5.
 #pragma once
 #include "model/display.h"
 #include "model/geometry.h"

@@ -1,4 +1,4 @@
-// The page that `lfdsim view` serves: one HTML text that asks for nothing else. Floor 4.
+// The page that `lfdsim view` serves: one HTML text that asks for nothing else. Floor 5.
 #pragma once
 #include <string>
 

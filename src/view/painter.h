@@ -1,4 +1,4 @@
-// Pictures for one visitor: coarse at once, sharp at rest. Floor 4.
+// Pictures for one visitor: coarse at once, sharp at rest. Floor 5.
 #pragma once
 #include "view/library.h"
 #include "view/messages.h"

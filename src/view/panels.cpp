@@ -1,6 +1,6 @@
 #include "view/panels.h"
 
-#include "analysis/memory.h"
+#include "engine/memory.h"
 #include "image/image_file.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Light of panels: elemental images, patterns, files. Floor 4. Shared by all visitors; all calls from any thread.
+// Light of panels: elemental images, patterns, files. Floor 5. Shared by all visitors; all calls from any thread.
 #pragma once
 #include "analysis/subject.h"
 #include "view/library.h"

@@ -1,4 +1,4 @@
-// The two plots that a page may ask for: small measurements, in seconds. Floor 4.
+// The two plots that a page may ask for: small measurements, in seconds. Floor 5.
 #pragma once
 #include "analysis/result.h"
 #include "analysis/subject.h"

@@ -1,10 +1,10 @@
 #include "view/probe.h"
 
 #include "analysis/eye_rays.h"
-#include "analysis/side_scale.h"
 #include "engine/scene.h"
 #include "model/geometry.h"
 #include "model/numbers.h"
+#include "report/side_scale.h"
 
 #include <fmt/format.h>
 #include <algorithm>

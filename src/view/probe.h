@@ -1,4 +1,4 @@
-// Which lens and panel pixel a place of the picture shows. Floor 4.
+// Which lens and panel pixel a place of the picture shows. Floor 5.
 #pragma once
 #include "analysis/result.h"
 #include "model/display.h"

@@ -1,4 +1,4 @@
-// A text into a file, whole or not at all. Floor 4.
+// A text into a file, whole or not at all. Floor 5.
 #pragma once
 #include <filesystem>
 #include <string>

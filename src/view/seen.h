@@ -1,4 +1,4 @@
-// What each eye of a visitor looks at, and coarser stand-ins for it. Floor 4.
+// What each eye of a visitor looks at, and coarser stand-ins for it. Floor 5.
 #pragma once
 #include "view/panels.h"
 

@@ -1,4 +1,4 @@
-// HTTP and WebSocket on one port, by Boost.Beast. Floor 4. Knows nothing of displays.
+// HTTP and WebSocket on one port, by Boost.Beast. Floor 5. Knows nothing of displays.
 #pragma once
 #include "view/access.h"
 #include "view/outbox.h"

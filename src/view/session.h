@@ -1,4 +1,4 @@
-// One WebSocket: messages in, mail out. Floor 4.
+// One WebSocket: messages in, mail out. Floor 5.
 #pragma once
 #include "view/http.h"
 #include "view/mailbox.h"

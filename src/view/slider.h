@@ -1,4 +1,4 @@
-// How far a slider of one key goes. Floor 4.
+// How far a slider of one key goes. Floor 5.
 #pragma once
 #include "model/display.h"
 #include "model/geometry.h"

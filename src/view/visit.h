@@ -1,4 +1,4 @@
-// One browser's visit: hands what it says to the painter and to the answers. Floor 4.
+// One browser's visit: hands what it says to the painter and to the answers. Floor 5.
 #pragma once
 #include "view/library.h"
 #include "view/painter.h"

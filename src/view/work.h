@@ -1,4 +1,4 @@
-// What a painter's long work reports to: progress to the page, an end when something newer is wanted. Floor 4.
+// What a painter's long work reports to: progress to the page, an end when something newer is wanted. Floor 5.
 #pragma once
 #include "analysis/subject.h"
 

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
-#include "analysis/advice.h"
 #include "files/display_file.h"
+#include "model/advice.h"
 
 namespace lfdsim {
 namespace {

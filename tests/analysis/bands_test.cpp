@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
-#include "analysis/advice.h"
 #include "analysis/eye_rays.h"
 #include "analysis/uniformity.h"
+#include "model/advice.h"
 #include "model/bands.h"
 #include "model/numbers.h"
 

@@ -5,10 +5,10 @@
 #include <rapidcheck/gtest.h>
 #include <cmath>
 
-#include "analysis/svg_drawing.h"
 #include "content/content.h"
 #include "files/display_file.h"
 #include "folder.h"
+#include "report/svg_drawing.h"
 #include "view/messages.h"
 
 namespace lfdsim::view {

@@ -1,0 +1,54 @@
+#include "model/advice.h"
+
+#include "model/advice_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+
+std::vector<std::string> advice(const Display& d, const Geometry& g, const Theory& t,
+                                const std::optional<Vec3d>& model_half_size_mm) {
+    Advised advised{d, g, t, model_half_size_mm};
+    advise_on_lenses(advised);
+    advise_on_layout(advised);
+    advise_on_diffuser(advised);
+    advise_on_eye(advised);
+    advise_on_scene(advised);
+    return std::move(advised.sentences);
+}
+
+void advise_on_lenses(Advised& a) {
+    const Display& d = a.display;
+    const Geometry& g = a.geometry;
+    const Theory& t = a.theory;
+
+    // With ten times the gap the image of the panel is a virtual one a tenth farther than the panel itself, and hardly larger.
+    if (!(std::abs(g.focal_length_mm) < 10 * g.gap_mm))
+        a.say(
+            "the lenses have hardly any power (focal length {:.5g} mm, the panel {:.5g} mm behind them): the panel itself is "
+            "seen through them, and no views. Glass of an index well above 1 (--set lens.index=1.4918), or surfaces that are "
+            "more curved",
+            g.focal_length_mm, g.gap_mm);
+    // Beyond a hundred panels' heights an image plane is as good as at infinity: meant so only where the scene is far away too.
+    else if (!(std::abs(t.central_depth_mm) < 100 * g.panel_height_mm) &&
+             !is_sharp(t, g.content_depth_mm + g.vertex_plane_mm - g.rear_principal_mm))
+        a.say("the gap is about the focal length ({:.6g} and {:.6g} mm): the central depth plane is at infinity", g.gap_mm,
+              g.focal_length_mm);
+    if (g.focal_length_mm < 0) a.say("the lens is a diverging one: it has no real image of the panel at any gap");
+
+    // Lens k begins k N pixels from the first; a fraction of a pixel in N moves the views of the last lens against those of the
+    // first.
+    const double drift = std::abs(t.views - std::round(t.views)) * double(std::max(d.array.count[0], d.array.count[1]));
+    if (t.views < 2)
+        a.say(
+            "the lenses are {} ({:.4g} of {:.4g} mm): one view is all they can show. Wider lenses (--set array.pitch_mm), or a "
+            "panel of finer pixels (--set panel.pixel_pitch_mm)",
+            t.views < 1 ? "smaller than a panel pixel" : "less than two panel pixels wide", d.array.pitch_mm,
+            d.panel.pixel_pitch_mm);
+    else if (drift > 0.5)
+        a.say("a lens covers {:.4f} panel pixels, not a whole number: across the array this adds up to {:.2g} pixels", t.views,
+              drift);
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,47 @@
+#include "model/advice_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lfdsim {
+
+void advise_on_eye(Advised& a) {
+    const Display& d = a.display;
+    const Geometry& g = a.geometry;
+    const double eye = eye_distance_mm(d), made_for = d.content.viewing_distance_mm, nearest = nearest_eye_mm(g);
+    if (!(eye > nearest))
+        a.say(
+            "the camera, {:.5g} mm from the panel, stands inside the display, whose lenses and diffuser reach to {:.5g} mm: "
+            "farther away (--set 'camera.position_mm=[0, 0, {:.5g}]')",
+            eye, nearest, 20 * nearest);
+    if (!(made_for > nearest))
+        a.say(
+            "content.viewing_distance_mm = {:.5g} puts the eye that the elemental images are made for inside the display, whose "
+            "lenses and diffuser reach to {:.5g} mm. The camera's distance is usual (--set content.viewing_distance_mm={:.5g})",
+            made_for, nearest, eye);
+    if (!(eye > nearest && made_for > nearest)) return;
+
+    // Beyond the elemental image's edge a lens shows that of its neighbour: the picture repeats.
+    const auto [x, y, z] = d.camera.position_mm;
+    const double off_axis = std::atan(std::max(std::abs(x), std::abs(y)) / z) * 180 / std::numbers::pi;
+    if (off_axis > a.theory.fov_elemental_deg / 2)
+        a.say(
+            "the camera stands {:.1f} degrees off axis, outside the field of view of +-{:.1f} degrees: it sees neighbouring images",
+            off_axis, a.theory.fov_elemental_deg / 2);
+
+    Display matched = d;
+    matched.content.viewing_distance_mm = eye;
+    const double zone = a.theory.viewing_zone_deg, best = theory(matched, g).viewing_zone_deg;
+    if (zone < 0.8 * best)
+        a.say(
+            "the elemental images are made for an eye {} (content.viewing_distance_mm = {:.5g}), but the camera stands "
+            "{:.5g} mm from the panel: {}, with images made for it within +-{:.1f} degrees "
+            "(--set content.viewing_distance_mm={:.5g})",
+            std::isinf(made_for) ? "at infinity" : fmt::format("{:.5g} mm from the panel", made_for), made_for, eye,
+            zone > 0 ? fmt::format("from there the whole screen is right only within +-{:.1f} degrees", zone / 2)
+                     : "from there the whole screen is right at no angle",
+            best / 2, eye);
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,79 @@
+#include "model/advice_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+// Depths z count from the vertex plane here, positive towards the viewer; so does the eye's distance.
+namespace lfdsim {
+namespace {
+
+constexpr double nearest_focus_mm = 100;  // of young eyes
+
+/// Whether the scene is where no eye can be shown it.
+bool advise_behind_eye(Advised& a, double eye) {
+    const double z = a.geometry.content_depth_mm, front = z + (a.model_half_size_mm ? (*a.model_half_size_mm)[2] : 0);
+    if (front < eye) return false;
+    a.say(
+        "the scene{}, {:.5g} mm before the lenses, is behind the eye, which is {:.5g} mm before them. Nearer to the lenses "
+        "(--set content.depth_mm={:.5g}), or smaller (--set content.height_mm)",
+        z < eye ? "'s front" : "", z < eye ? front : z, eye, std::min(z, eye) / 4);
+    return true;
+}
+
+/// A depth to show a scene at instead: well before the eye, or for a near-eye display a metre and a half behind the lenses, or as
+/// near to that as the depth of field has it.
+double better_depth_mm(const Advised& a, double eye) {
+    if (eye > 2 * nearest_focus_mm) return eye / 4;
+    const double sharp = std::clamp(-1 / 1500., a.theory.depth_far_per_mm, a.theory.depth_near_per_mm);
+    return sharp < 0 ? 1 / sharp + a.geometry.rear_principal_mm - a.geometry.vertex_plane_mm : -1500;
+}
+
+/// Whether the scene is too near to the eye, as that of a near-eye display at the lenses, where it is for want of a better depth.
+bool advise_near_eye(Advised& a, double eye) {
+    const double to_eye = eye - a.geometry.content_depth_mm, depth = better_depth_mm(a, eye);
+    if (to_eye > nearest_focus_mm) return false;
+    // Half of what the eye sees through the screen, or through one lens if that is less.
+    const double seen = std::min(std::min(a.geometry.array_height_mm, a.geometry.panel_height_mm) / eye,
+                                 2 * std::tan(a.theory.fov_elemental_deg * std::numbers::pi / 360));
+    a.say(
+        "the scene stands {:.4g} mm before the lenses and {:.4g} mm before the eye, nearer than eyes can focus. "
+        "Say how far away it is and how large (--set content.depth_mm={:.0f} --set content.height_mm={:.0f})",
+        a.geometry.content_depth_mm, to_eye, depth, 0.5 * seen * (eye - depth));
+    return true;
+}
+
+void advise_on_size(Advised& a, double eye) {
+    const Geometry& g = a.geometry;
+    // Seen from the eye, the scene's middle plane covers this much of the vertex plane.
+    const double projected = eye / (eye - g.content_depth_mm), height = g.content_height_mm * projected,
+                 width = a.model_half_size_mm ? 2 * (*a.model_half_size_mm)[0] * projected : 0;
+    const double screen_width = std::min(g.array_width_mm, g.panel_width_mm),
+                 screen_height = std::min(g.array_height_mm, g.panel_height_mm);
+    const double excess = std::max(width / screen_width, height / screen_height);
+    if (excess > 1)
+        a.say(
+            "the scene is larger than the display: from the eye it covers {}{:.5g} mm of the screen's {:.5g} x {:.5g} mm. "
+            "A smaller one (--set content.height_mm={:.3g}), or farther behind (--set content.depth_mm)",
+            width > 0 ? fmt::format("{:.5g} x ", width) : "a height of ", height, screen_width, screen_height,
+            0.9 * g.content_height_mm / excess);
+}
+
+}  // namespace
+
+void advise_on_scene(Advised& a) {
+    const Geometry& g = a.geometry;
+    const double eye = eye_distance_mm(a.display) - g.vertex_plane_mm;
+    if (!(eye > 0) || advise_behind_eye(a, eye) || advise_near_eye(a, eye)) return;
+    advise_on_size(a, eye);
+
+    // Depths count from the vertex plane, the theory's from the rear principal plane.
+    const double from_lens = g.content_depth_mm + g.vertex_plane_mm - g.rear_principal_mm;
+    if (!is_sharp(a.theory, from_lens))
+        a.say(
+            "the content's centre, {:.4g} mm from the lenses, is outside the depth of field, whose ends are at "
+            "{:.4g} and {:.4g} mm",
+            from_lens, depth_mm(a.theory.depth_near_per_mm), depth_mm(a.theory.depth_far_per_mm));
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,40 @@
+// A resolved display as JSON and as rows of a table: every key, every length, the theory. Floor 4.
+#pragma once
+#include "analysis/result.h"
+#include "model/display.h"
+#include "model/geometry.h"
+
+#include <string>
+#include <vector>
+
+namespace lfdsim {
+
+/// A key of the description with its value.
+struct Setting {
+    std::string table, key;
+    Json value;          // null: absent
+    bool is_default;     // the value is the one that holds without the key
+    std::string absent;  // what holds without it, in words, where the value does not say it
+};
+std::vector<Setting> settings(const Display&);
+
+/// A number that follows from the description; its name ends in its unit.
+struct Figure {
+    const char* name;
+    double value;  // infinite where there is no finite one; NaN where it is undefined
+    const char* meaning;
+    const char* formula = "";    // by which it follows; symbols as in docs/model.md
+    const char* undefined = "";  // why there is none, where the value is NaN
+};
+std::vector<Figure> figures(const Geometry&);
+std::vector<Figure> figures(const Theory&);
+
+Json to_json(const std::vector<Setting>&);  // {"panel": {"pixels": ...}, ...}
+Json to_json(const std::vector<Figure>&);   // {"fov_deg": ...}; "infinite" and "-infinite" as words, null where undefined
+/// Adds to `notes`, an object, why figures are undefined: {"PART.NAME": "..."}.
+void add_notes(const std::vector<Figure>&, const std::string& part, Json& notes);
+
+/// The unit that a name ends in: "mm", "degrees", "1/mm" or nothing.
+std::string unit_of(const std::string& name);
+
+}  // namespace lfdsim

@@ -1,0 +1,28 @@
+// The report: one HTML file of all that lies in a folder of results. Floor 4.
+#pragma once
+#include "analysis/subject.h"
+#include "report/folder.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lfdsim {
+
+struct ReportAbout {
+    std::string command;                                              // the command line
+    std::string description;                                          // the display's, TOML
+    std::vector<const Measure*> wanted;                               // of this run
+    std::vector<std::pair<const Measure*, std::string>> failed = {};  // and why
+    bool interrupted = false;
+};
+
+/// Whether a measure of the folder's settings is there to be shown.
+bool has_results(const ResultFolder&);
+
+/// UTF-8, without script or reference to another file: plots inline, pictures within, about 1000 pixels wide. Shows every measure
+/// that the folder holds with its settings; where some of those wanted are missing it says so at its top. The same folder and
+/// arguments give the same text. A picture that cannot be read is named in its place.
+std::string report_html(const Subject&, const ResultFolder&, const ReportAbout&);
+
+}  // namespace lfdsim

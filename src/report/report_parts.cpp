@@ -1,0 +1,199 @@
+#include "report/report_parts.h"
+
+#include "image/encoding.h"
+#include "image/image_file.h"
+#include "image/png_memory.h"
+#include "image/scaled.h"
+#include "report/base64.h"
+#include "report/side_view.h"
+#include "report/svg_drawing.h"
+
+#include <fmt/format.h>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+namespace lfdsim {
+namespace {
+
+constexpr int most_columns = 1000;  // of a picture in the report
+
+std::string text_of(const Json& json, const char* key) { return escaped(json.at(key).get<std::string>()); }
+
+std::string bytes_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    if (!file) throw InputError(path.string(), "cannot be read");
+    return bytes;
+}
+
+/// Columns of a PNG, from its header; 0: it is none.
+int columns_of(const std::string& png) {
+    if (png.size() < 24 || png.compare(1, 3, "PNG") != 0) return 0;
+    int columns = 0;
+    for (std::size_t k = 16; k < 20; ++k) columns = columns << 8 | std::uint8_t(png[k]);
+    return columns;
+}
+
+std::string figure(const std::string& inside, const std::string& caption) {
+    return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", inside, caption);
+}
+
+std::string inline_svg(const std::string& svg) { return fmt::format("<div class=\"drawing\">{}</div>", svg); }
+
+/// What `make` gives for the file that an entry names; a file that cannot be shown is named.
+template <class Make>
+std::string shown(const ResultFolder& folder, const Json& entry, Make make) {
+    const std::string name = entry.at("file");
+    try {
+        return make(folder.path() / name);
+    } catch (const InputError& e) {
+        return fmt::format("<p class=\"warning\">{} cannot be shown: {}</p>\n", escaped(name), escaped(e.what()));
+    }
+}
+
+std::string plots(const ResultFolder& folder, const Json& list) {
+    std::string html;
+    for (const Json& entry : list)
+        html += shown(folder, entry, [&](const auto& path) {
+            const std::string svg = bytes_of(path);
+            if (svg.rfind("<svg ", 0) != 0) throw InputError(path.string(), "is no SVG of a measure");
+            return fmt::format("<figure>{}</figure>\n", inline_svg(svg));
+        });
+    return html;
+}
+
+std::string pictures(const ResultFolder& folder, const Json& list, bool as_they_are) {
+    std::string html;
+    for (const Json& entry : list)
+        html += shown(folder, entry, [&](const auto& path) {
+            std::string png = bytes_of(path);
+            if (columns_of(png) == 0) throw InputError(path.string(), "is no PNG");
+            if (!as_they_are && columns_of(png) > most_columns) {
+                const Image small = reduced(read_image(path, Encoding::srgb), most_columns);
+                png = png_bytes(small.width, small.height, 3, encode8(small, Encoding::srgb));
+            }
+            const std::string caption = text_of(entry, "caption");
+            return figure(fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", caption, base64(png)), caption);
+        });
+    return html;
+}
+
+/// Sentences of theory, name beside number.
+std::string theory_rows(const Subject& s) {
+    const Display& d = s.display();
+    const Geometry& g = s.geometry();
+    const Theory& t = s.theory();
+    const auto number = [](double x, const char* unit) {
+        return std::isfinite(x) ? fmt::format("{}{:.4g}{}", x < 0 ? "−" : "", std::abs(x), unit) : std::string("infinite");
+    };
+    const std::pair<const char*, std::string> rows[] = {
+        {"Panel", fmt::format("{} × {} pixels of {:.4g} mm, {:.4g} × {:.4g} mm", d.panel.pixels[0], d.panel.pixels[1],
+                              d.panel.pixel_pitch_mm, g.panel_width_mm, g.panel_height_mm)},
+        {"Lenses", fmt::format("{} × {}, pitch p {:.4g} mm, aperture D {:.4g} mm", d.array.count[0], d.array.count[1],
+                               d.array.pitch_mm, g.clear_aperture_mm)},
+        {"Gap g, focal length f", fmt::format("{}, {}", number(g.gap_mm, " mm"), number(g.focal_length_mm, " mm"))},
+        {"Diffuser", d.diffuser ? fmt::format("{:.4g}° × {:.4g}°, {:.4g} mm before the lenses", d.diffuser->angle_deg[0],
+                                              d.diffuser->angle_deg[1], d.diffuser->distance_mm)
+                                : std::string("none")},
+        {"Field of view, 2 atan(p / 2g)", number(t.fov_deg, "°")},
+        {"Field of view of whole elemental images", number(t.fov_elemental_deg, "°")},
+        {"Views across, and between them", fmt::format("{}, {}", number(t.views, ""), number(t.view_step_deg, "°"))},
+        {"Central depth plane L, from the lenses", number(t.central_depth_mm, " mm")},
+        {"Depth of field, from the lenses: ends",
+         fmt::format("{}, {}", number(depth_mm(t.depth_near_per_mm), " mm"), number(depth_mm(t.depth_far_per_mm), " mm"))},
+        {"Image of a pixel at L", number(t.pixel_image_mm, " mm")},
+        {"Whole screen seen from within", number(t.viewing_zone_deg, "°")},
+        {"Sampling by lenses, by pixels",
+         fmt::format("{}, {}", number(t.lens_sampling_limit_per_mm, "/mm"), number(t.pixel_image_limit_per_mm, "/mm at L"))},
+    };
+    std::string html;
+    for (const auto& [name, value] : rows) html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", name, value);
+    return html;
+}
+
+}  // namespace
+
+const char* const findings_table =
+    "<div class=\"wide\"><table class=\"findings\">\n<thead><tr><th scope=\"col\">Figure</th><th scope=\"col\">Measured</th>"
+    "<th scope=\"col\">Theory</th><th scope=\"col\">Remark</th></tr></thead>\n";
+
+std::string value_html(const Json& values, const std::string& unit) {
+    if (values.empty()) return "–";
+    std::string text;
+    bool number = false;
+    for (const Json& x : values) {
+        number = number || x.is_number();
+        text += text.empty() ? "" : " to ";
+        text += x.is_number() ? fmt::format("{:.4g}", x.get<double>()) : x.is_string() ? x.get<std::string>() : "not found";
+    }
+    if (!number) return values.front().is_string() ? text : "not found";
+    for (std::size_t at = text.find('-'); at != text.npos; at = text.find('-', at + 1))
+        if (at == 0 || text[at - 1] == ' ') text.replace(at, 1, "−");
+    return text + (unit == "deg" ? "°" : unit.empty() ? "" : " " + escaped(unit));
+}
+
+std::string error_text(const Json& errors) {
+    double most = 0;
+    for (const Json& x : errors)
+        if (x.is_number()) most = std::max(most, x.get<double>());
+    return most > 0 ? fmt::format(" ± {:.2g}", most) : "";
+}
+
+std::string finding_rows(const Json& report) {
+    std::string html;
+    for (const Json& f : report.at("findings")) {
+        const std::string unit = f.at("unit");
+        html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td class=\"remark\">{}</td></tr>\n",
+                            text_of(f, "what"), value_html(f.at("measured"), unit) + error_text(f.at("error")),
+                            value_html(f.at("theory"), unit), text_of(f, "remark"));
+    }
+    return html;
+}
+
+std::vector<std::string> figures_of(const ResultFolder& folder, const Json& measured) {
+    const Json& report = measured.at("report");
+    std::vector<std::string> all;
+    for (const char* list : {"plots", "maps", "pictures", "animations"})
+        for (const Json& entry : report.at(list)) {
+            const bool drawn = entry.at("file").get<std::string>().ends_with(".svg");
+            const Json one = Json::array({entry});
+            all.push_back(drawn ? plots(folder, one) : pictures(folder, one, list == std::string_view("animations")));
+        }
+    return all;
+}
+
+std::string measure_section(const ResultFolder& folder, const Json& measured) {
+    const Json& report = measured.at("report");
+    std::string html =
+        fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n<p class=\"says\">{}</p>\n<p class=\"source\">Source: {}</p>\n",
+                    text_of(report, "measure"), text_of(report, "title"), text_of(report, "says"), text_of(report, "source"));
+    if (!report.at("findings").empty()) html += findings_table + finding_rows(report) + "</table></div>\n";
+    for (const Json& remark : report.at("remarks")) html += fmt::format("<p>{}</p>\n", escaped(remark.get<std::string>()));
+    html += plots(folder, report.at("plots")) + plots(folder, report.at("maps"));
+    html += pictures(folder, report.at("pictures"), false) + pictures(folder, report.at("animations"), true);
+    std::string files;
+    for (const Json& file : report.at("files")) files += ", " + escaped(file.get<std::string>());
+    Json figures = measured;
+    figures.erase("report");
+    figures.erase("settings");
+    html += fmt::format(
+        "<details><summary>All figures, as in {0}.json</summary>\n<pre>{1}</pre>\n</details>\n"
+        "<p class=\"files\">Files: {0}.json{2}; measured in {3:.1f} s</p>\n</section>\n",
+        text_of(report, "measure"), escaped(figures.dump(2)), files, report.at("seconds").get<double>());
+    return html;
+}
+
+std::string display_section(const Subject& s) {
+    return "<section id=\"display\">\n<h2>The display</h2>\n" +
+           figure(inline_svg(side_view_svg(s)),
+                  "From the panel to the eye. Orange: rays from the eye, through the diffuser's middle and "
+                  "edges, back to the panel. Blue: the light of one pixel.") +
+           figure(inline_svg(lens_view_svg(s)),
+                  "Lenses about the middle, with rays traced through their surfaces; a faint ray ends at "
+                  "a rim or a stop.") +
+           "<div class=\"wide\"><table>\n<caption>What its description gives, by paraxial theory</caption>\n" + theory_rows(s) +
+           "</table></div>\n</section>\n";
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,32 @@
+// Pieces of the report. Floor 4.
+#pragma once
+#include "analysis/subject.h"
+#include "report/folder.h"
+
+#include <string>
+#include <vector>
+
+namespace lfdsim {
+
+/// "-20.1 to 19.9°", "12.3 mm", "–" for none; null: "not found".
+std::string value_html(const Json& values, const std::string& unit);
+
+/// " ± 0.02", the largest of a finding's errors; nothing if none is stated.
+std::string error_text(const Json& errors);
+
+/// Rows of the table of theory beside measurement.
+std::string finding_rows(const Json& report);
+
+/// Title, meaning, source, findings, remarks, plots, pictures and all figures of one measure, from what its NAME.json holds.
+std::string measure_section(const ResultFolder&, const Json& measured);
+
+/// Plots, maps, pictures and animations of one measure, in this order, each by itself.
+std::vector<std::string> figures_of(const ResultFolder&, const Json& measured);
+
+/// Sizes and paraxial theory of the display as a table, and its views from the side.
+std::string display_section(const Subject&);
+
+/// Opening tag and rows' header of a table of findings.
+extern const char* const findings_table;
+
+}  // namespace lfdsim

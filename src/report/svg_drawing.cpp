@@ -1,0 +1,124 @@
+#include "report/svg_drawing.h"
+
+#include "analysis/result.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+
+std::string escaped(std::string_view text) {
+    // What JSON's writer cannot read as UTF-8 it replaces.
+    const std::string quoted = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+    const std::string valid = Json::parse(quoted).get<std::string>();
+    std::string safe;
+    for (const char c : valid) {
+        if (c == '&')
+            safe += "&amp;";
+        else if (c == '<')
+            safe += "&lt;";
+        else if (c == '>')
+            safe += "&gt;";
+        else if (c == '"')
+            safe += "&quot;";
+        else if ((unsigned(c) >= 0x20 && c != 0x7f) || c == '\n' || c == '\t')
+            safe += c;
+    }
+    return safe;
+}
+
+std::string px(double x) {
+    if (!std::isfinite(x)) return "0";
+    std::string text = fmt::format("{:.2f}", x);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text == "-0" ? "0" : text;
+}
+
+double text_width(std::string_view text, double size) {
+    const auto letters = std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; });
+    return 0.56 * size * double(letters);
+}
+
+std::vector<std::string> wrapped(std::string_view text, double size, double width) {
+    std::vector<std::string> lines;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find(' '), text.size());
+        const std::string word(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+        if (!lines.empty() && text_width(lines.back() + " " + word, size) <= width)
+            lines.back() += " " + word;
+        else
+            lines.push_back(word);
+    }
+    return lines;
+}
+
+// From the right, each as low as it ends before the labels and the lines that are there already.
+std::vector<LabelPlace> place_labels(std::span<const double> lines, std::span<const std::string> labels, double size,
+                                     double width) {
+    std::vector<LabelPlace> places(lines.size());
+    std::vector<double> free;  // of each row, up to where
+    for (std::size_t k = lines.size(); k-- > 0;) {
+        const double wide = text_width(labels[k], size), x = std::max(0., std::min(lines[k] + 3, width - wide));
+        std::size_t row = 0;
+        while (row < free.size() && x + wide > free[row] - 8) ++row;
+        if (row == free.size()) free.push_back(width);
+        for (std::size_t r = 0; r <= row; ++r) free[r] = std::min({free[r], x, lines[k]});  // its line rises through them
+        places[k] = {x, int(row)};
+    }
+    return places;
+}
+
+Drawing::Drawing(double width, double height, std::string_view title) {
+    const std::string name = escaped(title);
+    head_ = fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" role=\"img\" "
+        "aria-label=\"{2}\" font-family=\"system-ui, 'DejaVu Sans', sans-serif\" font-size=\"13\" fill=\"none\" "
+        "stroke-linejoin=\"round\" style=\"color:#1c1c1c;background:#fff\">\n<title>{2}</title>\n",
+        px(width), px(height), name);
+}
+
+void Drawing::line(Point from, Point to, std::string_view style) { path(std::array{from, to}, style); }
+
+void Drawing::path(std::span<const Point> points, std::string_view style, bool closed) {
+    if (points.empty()) return;
+    std::string d;
+    for (const auto& [x, y] : points) d += fmt::format("{}{} {}", d.empty() ? "M" : " ", px(x), px(y));
+    const bool coloured = style.find("stroke=") != style.npos;
+    body_ += fmt::format("<path d=\"{}{}\" {}{}/>\n", d, closed ? "z" : "", coloured ? "" : "stroke=\"currentColor\" ", style);
+}
+
+void Drawing::rectangle(Point corner, double width, double height, std::string_view style) {
+    body_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" {}/>\n", px(corner[0]), px(corner[1]), px(width),
+                         px(height), style);
+}
+
+void Drawing::text(Point at, std::string_view text, std::string_view style) {
+    const bool coloured = style.find("fill=") != style.npos;
+    body_ += fmt::format("<text x=\"{}\" y=\"{}\" {}{}>{}</text>\n", px(at[0]), px(at[1]), coloured ? "" : "fill=\"currentColor\" ",
+                         style, escaped(text));
+}
+
+void Drawing::dimension(Point from, Point to, std::string_view label) {
+    const double dx = to[0] - from[0], dy = to[1] - from[1], length = std::hypot(dx, dy);
+    const bool upright = std::abs(dy) > std::abs(dx);
+    line(from, to, "stroke-width=\"0.8\"");
+    if (length > 0) {
+        const double reach = std::min(7., 0.4 * length), ux = dx / length * reach, uy = dy / length * reach;
+        for (const int end : {0, 1}) {
+            const Point& tip = end ? to : from;
+            const double s = end ? -1 : 1, bx = tip[0] + s * ux, by = tip[1] + s * uy;
+            path(std::array<Point, 3>{{tip, {bx - 0.4 * uy, by + 0.4 * ux}, {bx + 0.4 * uy, by - 0.4 * ux}}},
+                 "stroke=\"none\" fill=\"currentColor\"", true);
+        }
+    }
+    const double x = 0.5 * (from[0] + to[0]), y = 0.5 * (from[1] + to[1]);
+    if (upright)
+        text({x + 6, y + 4}, label, "font-size=\"12\"");
+    else
+        text({x, y - 5}, label, "font-size=\"12\" text-anchor=\"middle\"");
+}
+
+}  // namespace lfdsim
