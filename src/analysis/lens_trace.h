@@ -47,7 +47,7 @@ class LensTrace {
 
     // The display mirrored in z, for the tracer's rays come down: the panel stays in z = 0, the lens stands below it.
     optics::Scene<double> scene_;
-    double semi_aperture_mm_[optics::kMaxSurfaces];
+    double semi_aperture_mm_[max_surfaces];
     double rear_principal_mm_, gap_mm_;
 };
 

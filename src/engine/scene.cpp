@@ -15,8 +15,6 @@ namespace lfdsim {
 
 namespace {
 
-using optics::kMaxAsphereTerms;
-using optics::kMaxSurfaces;
 using optics::Shape;
 
 template <class S>
@@ -32,10 +30,8 @@ optics::SurfaceData<S> surface_data(const PlacedSurface& from) {
                        std::all_of(from.even_asphere.begin(), from.even_asphere.end(), [](double a) { return a == 0; });
     to.shape = !plain ? Shape::asphere : from.curvature_per_mm == 0 ? Shape::plane : from.conic == 0 ? Shape::sphere : Shape::conic;
     to.terms = plain ? 0 : std::int32_t(from.even_asphere.size());
-    if (to.terms > kMaxAsphereTerms) {
-        throw InputError("lens.surface.even_asphere",
-                         std::to_string(to.terms) + " terms; at most " + std::to_string(kMaxAsphereTerms));
-    }
+    if (from.even_asphere.size() > max_asphere_terms)
+        throw InputError("lens.surface.even_asphere", "has more terms than the " + std::to_string(max_asphere_terms) + " allowed");
     for (int i = 0; i < to.terms; ++i) to.asphere[i] = S(from.even_asphere[i]);
     to.z = S(from.z_mm);
     to.curvature = S(from.curvature_per_mm);
@@ -61,9 +57,8 @@ void add_lens(optics::Scene<S>& scene, const Display& display, const Geometry& g
         scene.zone_top = scene.zone_bottom = scene.ideal_z;
         return;
     }
-    if (surfaces.size() > kMaxSurfaces) {
-        throw InputError("lens.surface", std::to_string(surfaces.size()) + " surfaces; at most " + std::to_string(kMaxSurfaces));
-    }
+    if (surfaces.size() > max_surfaces)
+        throw InputError("lens.surface", "has more than the " + std::to_string(max_surfaces) + " surfaces allowed");
     scene.surface_count = std::int32_t(surfaces.size());
     double wall_top = -INFINITY, wall_bottom = INFINITY;
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
@@ -97,8 +92,7 @@ void add_holes(optics::Scene<S>& scene, const Display& display, const Geometry& 
             sag_mm(first.curvature_per_mm, first.conic, first.even_asphere, radius > 0 ? radius : display.array.pitch_mm / 2);
     }
     scene.leaky = display.array.surround != Surround::opaque;
-    const bool before = geometry.surfaces.empty() || std::abs(geometry.stop_z_mm - geometry.surfaces.back().z_mm) < 1e-9;
-    if (display.lens.stop_radius_mm && before && (radius == 0 || *display.lens.stop_radius_mm < radius)) {
+    if (stop_at_entrance(display, geometry) && (radius == 0 || *display.lens.stop_radius_mm < radius)) {
         radius = *display.lens.stop_radius_mm;
         z = geometry.stop_z_mm;
         scene.leaky = false;
@@ -134,7 +128,7 @@ optics::Scene<S> make_scene(const Display& display, const Geometry& geometry) {
 
     scene.fresnel = display.render.fresnel;
     scene.has_diffuser = display.diffuser.has_value();
-    const double first = geometry.surfaces.empty() ? geometry.vertex_plane_mm : geometry.surfaces.back().z_mm;
+    const double first = geometry.entrance_z_mm;
     if (display.diffuser) {
         scene.diffuser_profile = display.diffuser->profile;
         scene.start_above = S(*geometry.diffuser_z_mm - first);
@@ -186,8 +180,7 @@ optics::View make_view(const Display& display, const Geometry& geometry) {
     view.pixel_mm = geometry.frame_width_mm / double(camera.resolution[0]);
     view.pupil_radius = camera.pupil_diameter_mm.value_or(0) / 2;
     view.frame_per_focus = view.distance / geometry.focus_distance_mm;
-    const double first = geometry.surfaces.empty() ? geometry.vertex_plane_mm : geometry.surfaces.back().z_mm;
-    view.start_z = geometry.diffuser_z_mm.value_or(first);
+    view.start_z = geometry.diffuser_z_mm.value_or(geometry.entrance_z_mm);
     view.lattice = make_lattice<double>(display.array);
     view.panel_width = geometry.panel_width_mm;
     view.panel_height = geometry.panel_height_mm;

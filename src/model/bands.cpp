@@ -12,10 +12,6 @@
 namespace lfdsim {
 namespace {
 
-bool stop_before_lens(const Display& d, const Geometry& g) {
-    return d.lens.stop_radius_mm && (g.surfaces.empty() || std::abs(g.stop_z_mm - g.surfaces.back().z_mm) < 1e-9);
-}
-
 /// Radius of what an upright line of sight may hit of a lens, without the walls of its cell: the narrowest of all apertures, each
 /// as the viewer sees it, divided by the height at which a paraxial ray passes it that comes down at height 1.
 double pupil_radius_mm(const Display& d, const Geometry& g) {
@@ -77,7 +73,7 @@ double michelson_of(const std::vector<double>& waves) {
 }  // namespace
 
 double aperture_plane_mm(const Display& d, const Geometry& g) {
-    if (g.surfaces.empty() || stop_before_lens(d, g)) return g.surfaces.empty() ? g.vertex_plane_mm : g.stop_z_mm;
+    if (d.lens.type == LensType::ideal || stop_at_entrance(d, g)) return g.entrance_z_mm;
     const PlacedSurface& last = g.surfaces.back();
     const bool square = d.array.aperture == Aperture::square;
     return last.z_mm + sag_mm(last.curvature_per_mm, last.conic, last.even_asphere,

@@ -24,6 +24,7 @@ struct Geometry {
     std::vector<PlacedSurface> surfaces;  // panel side first; plano-convex gives two, ideal none
     double base_z_mm;                     // lowest z of a lens, rims and sags included
     double top_z_mm;                      // highest z of a lens, rims and sags included
+    double entrance_z_mm;                 // vertex of the surface that an eye's rays meet first; of an ideal lens its plane
     double vertex_plane_mm;               // viewer-side vertex plane: highest z of a lens on its axis
     double front_principal_mm;            // panel-side principal (= nodal) point
     double rear_principal_mm;             // viewer-side one
@@ -65,9 +66,6 @@ struct Theory {
     double gap_closing_here_deg;        // 2 atan(p / 2d), d the diffuser's own height above the apertures (bands.h)
 };
 
-// What any lens maker's prescription needs, and what the kernels hold.
-inline constexpr std::size_t max_surfaces = 16, max_asphere_terms = 8;
-
 /// All that is wrong with a description, each with its TOML key ("lens.index") as `where`. Empty: valid.
 std::vector<Problem> validate(const Display&);
 
@@ -75,6 +73,9 @@ std::vector<Problem> validate(const Display&);
 Geometry resolve(const Display&);
 
 Theory theory(const Display&, const Geometry&);
+
+/// Whether a stop lies in the entrance plane: light then passes it before it meets the lens.
+bool stop_at_entrance(const Display&, const Geometry&);
 
 /// Distance from the panel of the eyes that theory and measures reckon with: the camera's from the panel's centre.
 double eye_distance_mm(const Display&);

@@ -3,6 +3,9 @@
 
 namespace lfdsim {
 
+// What any lens maker's prescription needs, and what the kernels hold.
+inline constexpr decltype(sizeof 0) max_surfaces = 16, max_asphere_terms = 8;
+
 enum class Encoding { srgb, linear };  // of the panel image's code values
 enum class LensType { plano_convex, surfaces, ideal };
 enum class Facing { viewer, panel };           // where the convex side of a plano-convex lens looks

@@ -13,7 +13,8 @@ void place_lens(const Lens& lens, const LensArray& array, Geometry& g) {
     g.surfaces = prescription(lens, array);
     if (g.surfaces.empty()) {  // ideal: all in its plane
         const double z = array.base_z_mm.value_or(array.gap_mm.value_or(0));
-        g.base_z_mm = g.top_z_mm = g.vertex_plane_mm = g.front_principal_mm = g.rear_principal_mm = g.stop_z_mm = z;
+        g.base_z_mm = g.top_z_mm = g.entrance_z_mm = g.vertex_plane_mm = g.front_principal_mm = g.rear_principal_mm = g.stop_z_mm =
+            z;
         g.focal_length_mm = lens.focal_length_mm;
         g.glass_radius_mm = glass_radius_mm(lens, array);
         g.clear_aperture_mm = 2 * lens.aperture_radius_mm.value_or(0);
@@ -34,6 +35,7 @@ void place_lens(const Lens& lens, const LensArray& array, Geometry& g) {
         g.base_z_mm = array.base_z_mm ? *array.base_z_mm : first + lowest;
         g.top_z_mm = first + highest;
         g.vertex_plane_mm = first + vertex;
+        g.entrance_z_mm = g.surfaces.back().z_mm;
         g.front_principal_mm = first + paraxial.front_principal_mm;
         g.rear_principal_mm = first + paraxial.rear_principal_mm;
         g.focal_length_mm = paraxial.focal_length_mm;
@@ -81,6 +83,10 @@ Geometry resolve_unchecked(const Display& d) {
 Geometry resolve(const Display& d) {
     if (std::vector<Problem> problems = validate(d); !problems.empty()) throw InputError(std::move(problems));
     return resolve_unchecked(d);
+}
+
+bool stop_at_entrance(const Display& d, const Geometry& g) {
+    return d.lens.stop_radius_mm && std::abs(g.stop_z_mm - g.entrance_z_mm) < 1e-9;
 }
 
 double nearest_eye_mm(const Geometry& g) {

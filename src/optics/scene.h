@@ -11,9 +11,6 @@
 
 namespace lfdsim::optics {
 
-constexpr int kMaxSurfaces = 32;
-constexpr int kMaxAsphereTerms = 16;
-
 enum class Shape : std::int32_t { plane, sphere, conic, asphere };
 
 /// Weight of one passage: what Fresnel's equations need of the two media.
@@ -28,11 +25,11 @@ struct Interface {
 template <class S>
 struct SurfaceData {
     Shape shape;
-    std::int32_t terms;           // of the even asphere
-    S z;                          // vertex
-    S curvature;                  // 1/mm
-    S conic;                      // k
-    S asphere[kMaxAsphereTerms];  // a4, a6, ...
+    std::int32_t terms;            // of the even asphere
+    S z;                           // vertex
+    S curvature;                   // 1/mm
+    S conic;                       // k
+    S asphere[max_asphere_terms];  // a4, a6, ...
     S semi_aperture;
     S rim;        // sag at the semi aperture
     S low, high;  // of the sag within the aperture
@@ -50,7 +47,7 @@ struct Scene {
     // lens
     LensType lens;
     std::int32_t surface_count;
-    SurfaceData<S> surface[kMaxSurfaces];
+    SurfaceData<S> surface[max_surfaces];
     S ideal_z, ideal_power;  // 1/f
     S aperture_radius;       // circle; of the ideal lens and of walls
     Aperture aperture;
