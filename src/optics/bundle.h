@@ -110,9 +110,11 @@ struct Probes {
     S in[kMostProbes];                                             // 1: belongs to the part in question, else 0
     S has_right[kMostProbes], has_left[kMostProbes], has_above[kMostProbes], has_below[kMostProbes];  // 1: there is a next one
 
-    /// per_axis x per_axis probes, row after row.
+    /// per_axis x per_axis probes, row after row. Those beyond have seen nothing: a narrow packet never traces them, and sums take
+    /// all.
     LFDSIM_FN void lay_out(int per_axis) {
         for (int p = 0; p < kMostProbes; ++p) {
+            column[p] = row[p] = weight[p] = cell_i[p] = cell_j[p] = in[p] = S(0);
             const int i = p % per_axis, j = p / per_axis;
             has_right[p] = i + 1 < per_axis ? S(1) : S(0);
             has_left[p] = i > 0 ? S(1) : S(0);
