@@ -10,6 +10,7 @@ import functools
 import json
 import multiprocessing
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -126,6 +127,23 @@ def display_cases(harness, only, index):
     return found, refused, failed
 
 
+def stop(*_):
+    raise KeyboardInterrupt
+
+
+def measured(harness, options):
+    """Cases, refusals and failures of each display; where a signal ends the run, of those that are done."""
+    parts = []
+    with multiprocessing.Pool(initializer=signal.signal, initargs=(signal.SIGINT, signal.SIG_IGN)) as pool:
+        signal.signal(signal.SIGTERM, stop)  # after the workers' start: they end at once
+        try:
+            for part in pool.imap(functools.partial(display_cases, harness, options.only), range(options.first, options.first + options.displays)):
+                parts.append(part)
+        except KeyboardInterrupt:
+            pool.terminate()
+    return parts
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=pathlib.Path)
@@ -141,17 +159,17 @@ def main():
         folder.mkdir(parents=True, exist_ok=True)
         contents.write(folder)
         harness = Harness(options.program.resolve(), folder.resolve(), options.quick)
-        with multiprocessing.Pool() as pool:
-            numbers = range(options.first, options.first + options.displays)
-            parts = list(pool.imap(functools.partial(display_cases, harness, options.only), numbers))
+        parts = measured(harness, options)
     found = table.rows([case for cases, _, _ in parts for case in cases])
     if options.wrong:
         for row in found:
             for case in row.wrong + [c for c in row.cases if c.null]:
                 print(f"{row.measure}: display {case.display}: measured {case.measured} +- {case.error}, form {case.form}")
     failed = [message for _, _, failures in parts for message in failures]
+    if len(parts) < options.displays:
+        failed.append(f"stopped after {len(parts)} displays")
     print(*failed, sep="\n")
-    print(f"{options.displays} displays; {sum(refused for _, refused, _ in parts)} drawings refused by check; {len(failed)} measures failed\n")
+    print(f"{len(parts)} displays; {sum(refused for _, refused, _ in parts)} drawings refused by check; {len(failed)} measures failed\n")
     print(table.text(found))
     faults = [row for row in found if row.faults]
     print(f"\n{len(found) - len(faults)} figures hold, {len(faults)} do not")
