@@ -70,10 +70,10 @@ TEST(Cardinal, ReversalOfAnyLens) {
     EXPECT_TRUE(rc::check([] {
         const auto number = [](int low, int high) { return *rc::gen::inRange(low, high) / 1000.0; };
         std::vector<PlacedSurface> lens, turned;
-        const int count = *rc::gen::inRange(1, 6);
+        const int count = *rc::gen::inRange(2, 6);
         double z = 0, below = 1;
         for (int i = 0; i < count; ++i) {
-            const double above = i + 1 < count ? number(1000, 2000) : 1;
+            const double above = i + 1 < count ? number(1100, 2000) : 1;  // few are afocal: rapidcheck gives up where many are
             lens.push_back({z, number(-100, 101), 0, {}, 1, below, above});
             z += number(0, 5000);
             below = above;
