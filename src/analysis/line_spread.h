@@ -42,8 +42,8 @@ class SeenThroughLenses {
   public:
     SeenThroughLenses(const Subject&, const Vec3d& eye_mm);
 
-    /// Where the panel's pixels lie: as described, or shifted by parts of a pixel that are all as likely, as in displays that are
-    /// put together. On a screen of many lenses that does not matter; else what it changes is part of the figure's error.
+    /// Where the panel's pixels lie: as described, or shifted at random by up to a pixel, as assembly leaves them. On a screen of
+    /// many lenses the two agree; elsewhere their difference is part of the figure's stated error.
     enum class Pixels { as_described, anywhere };
 
     /// In a plane at a height above the panel, below the eye; along x or, not horizontal, along y.
