@@ -27,9 +27,9 @@ TRIES = 20  # drawings for one display, where `check` refuses some
 
 
 class Harness:
-    def __init__(self, program, folder, quick):
+    def __init__(self, program, folder, quick, most_pixels):
         self.program, self.folder, self.quick = program, folder, quick
-        self.most_pixels = 4e5 if quick else 4e6  # of a panel
+        self.most_pixels = most_pixels  # of a panel
 
     def lfdsim(self, *arguments):
         return subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, timeout=600, cwd=self.folder)
@@ -47,11 +47,10 @@ class Harness:
                 raise RuntimeError(f"lfdsim check {path}: {done.stderr}")
         raise RuntimeError(f"display {number}: {TRIES} drawings refused, the last: {done.stderr}")
 
-    def measured(self, path, measure, forms):
-        name = measure.replace("likeness", "fov")
-        done = self.lfdsim("analyze", name, path, *few_pictures(measure, forms), "--threads", 1, "--progress", "none", "--json", "-o", f"{path.stem}-{measure}")
+    def measured(self, path, command, forms):
+        done = self.lfdsim("analyze", command, path, *few_pictures(command, forms), "--threads", 1, "--progress", "none", "--json", "-o", f"{path.stem}-{command}")
         if done.returncode:
-            raise RuntimeError(f"lfdsim analyze {measure} {path}: {done.stderr}")
+            raise RuntimeError(f"lfdsim analyze {command} {path}: {done.stderr}")
         return json.loads(done.stdout)
 
     def takes(self, index, measure):
@@ -116,10 +115,11 @@ def display_cases(harness, only, index):
     description, path, checked, refused = harness.drawn(index)
     forms = Forms(oracle.resolve(description), description, index)
     found, failed = list(cases_of("check", index, checked, forms.check(checked))) if only in "check" else [], []
+    measured = functools.cache(lambda command: harness.measured(path, command, forms))
     for measure in EVERY:
         if only in measure and harness.takes(index, measure):
             try:
-                result = harness.measured(path, measure, forms)
+                result = measured(measure.replace("likeness", "fov"))
             except (RuntimeError, subprocess.TimeoutExpired) as failure:
                 failed.append(str(failure))
                 continue
@@ -149,7 +149,8 @@ def main():
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("--displays", type=int, default=200)
     parser.add_argument("--first", type=int, default=0, help="number of the first display")
-    parser.add_argument("--quick", action="store_true", help="small panels, and the measures by turns: each display has a few of them")
+    parser.add_argument("--quick", action="store_true", help="the measures by turns: each display has a few of them")
+    parser.add_argument("--panel-pixels", type=float, default=4e5, help="most pixels of a panel")
     parser.add_argument("--only", default="", help="measures whose names contain this")
     parser.add_argument("--wrong", action="store_true", help="print every figure that does not agree")
     parser.add_argument("--keep", type=pathlib.Path, help="folder for descriptions and results")
@@ -158,7 +159,7 @@ def main():
         folder = options.keep or pathlib.Path(folder)
         folder.mkdir(parents=True, exist_ok=True)
         contents.write(folder)
-        harness = Harness(options.program.resolve(), folder.resolve(), options.quick)
+        harness = Harness(options.program.resolve(), folder.resolve(), options.quick, options.panel_pixels)
         parts = measured(harness, options)
     found = table.rows([case for cases, _, _ in parts for case in cases])
     if options.wrong:
