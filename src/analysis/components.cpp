@@ -66,7 +66,8 @@ Result measure_components(Subject& s, Job& job) {
         job.advance(1);
     };
     const Display& d = s.display();
-    const int lens_pixels = std::max(1, int(std::lround(d.array.pitch_mm / d.panel.pixel_pitch_mm)));
+    const auto pixels_of_lens = [&](int axis) { return std::max(1, int(std::lround(s.theory(axis).views))); };
+    const int lens_pixels = pixels_of_lens(0);
     const auto board = [&](int cell) {
         PatternOptions options;
         options.cell_pixels = cell;
@@ -92,11 +93,11 @@ Result measure_components(Subject& s, Job& job) {
         const Picture elemental = elemental_images(d, s.geometry(), s.scene(), s.threads(), quiet);
         if (!elemental.complete) throw Stopped{};
         add("elemental", "The elemental images on the panel", reduced(elemental.image, 1920));
-        const Rect middle_lenses = middle(elemental.image.width, elemental.image.height, 6 * lens_pixels, 4 * lens_pixels);
+        const Rect middle_lenses = middle(elemental.image.width, elemental.image.height, 6 * lens_pixels, 4 * pixels_of_lens(1));
         close = cut(elemental.image, middle_lenses);
         add("elemental-close", "The elemental images of the middle 6 x 4 lenses", enlarged(close, std::max(1, 960 / close.width)));
     }
-    result.figures["pixels_per_lens"] = d.array.pitch_mm / d.panel.pixel_pitch_mm;
+    result.figures["pixels_per_lens"] = axes_json(d.array, s.theory(0).views, s.theory(1).views);
     return result;
 }
 

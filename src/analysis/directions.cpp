@@ -16,7 +16,7 @@ constexpr int sheet_width = 480, strip_width = 400;  // pixels of one picture
 constexpr int views = 7, frames = 32;
 
 /// The farthest views: 30 degrees, or somewhat beyond the field of view where that is wider.
-double most_deg(const Subject& s) { return std::clamp(std::ceil(0.5 * s.theory().fov_deg) + 5, 30., 75.); }
+double most_deg(const Subject& s) { return std::clamp(std::ceil(0.5 * s.theory(0).fov_deg) + 5, 30., 75.); }
 
 Display sized(Display d, int width) {
     const double per = double(width) / double(d.camera.resolution[0]);

@@ -25,8 +25,10 @@ EdgePlane::EdgePlane(const Subject& s, double depth_mm, bool horizontal, const P
 
 Eye EdgePlane::eye(double angle_deg) const { return {angle_deg, s_.viewing_distance_mm()}; }
 
-/// The lenses' pitch as seen in the edges' plane.
-double EdgePlane::pitch_mm() const { return s_.display().array.pitch_mm * scale_to_bars(s_.geometry(), bars_, eye(0)); }
+/// The lenses' pitch across the edges as seen in their plane.
+double EdgePlane::pitch_mm() const {
+    return s_.display().array.pitch_mm[bars_.upright ? 0 : 1] * scale_to_bars(s_.geometry(), bars_, eye(0));
+}
 
 /// Makes bars wide enough to hold twice the blur, such that neighbouring edges meet the lenses in ever other phases, or as wide as
 /// fit on the screen.

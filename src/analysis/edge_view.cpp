@@ -28,15 +28,15 @@ Box screen_middle(const Display& d, const Geometry& g) {
     const double c = std::abs(std::cos(d.array.rotation_deg * degree)), s = std::abs(std::sin(d.array.rotation_deg * degree));
     const double w = 0.5 * g.array_width_mm, h = 0.5 * g.array_height_mm;
     const double share = std::min(w / (w * c + h * s), h / (w * s + h * c));
-    const auto along = [&](double offset, double array_half, double panel_half, double& centre, double& half) {
+    const auto along = [&](double offset, double array_half, double panel_half, double pitch, double& centre, double& half) {
         const double low = std::max(offset - array_half, -panel_half), high = std::min(offset + array_half, panel_half);
         centre = 0.5 * (low + high);
         half = 0.5 * (high - low);
-        if (half > 2 * d.array.pitch_mm) half -= d.array.pitch_mm;
+        if (half > 2 * pitch) half -= pitch;
     };
     Box box{};
-    along(d.array.offset_mm[0], share * w, 0.5 * g.panel_width_mm, box.a, box.half_a);
-    along(d.array.offset_mm[1], share * h, 0.5 * g.panel_height_mm, box.b, box.half_b);
+    along(d.array.offset_mm[0], share * w, 0.5 * g.panel_width_mm, d.array.pitch_mm[0], box.a, box.half_a);
+    along(d.array.offset_mm[1], share * h, 0.5 * g.panel_height_mm, d.array.pitch_mm[1], box.b, box.half_b);
     return box;
 }
 
@@ -103,8 +103,8 @@ EdgeView edge_view(const Display& display, const Geometry& geometry, const Bars&
     box.half_b = 0.5 * bars.length_mm;
     const double margin =
         box.half_b * slant_tangent + 0.5 * bars.width_mm / slant_cosine;  // from an edge's middle to its farthest pixel
-    const int per_edge =
-        std::max(1, int(2 * box.half_b / (slant_cosine * scale_to_bars(geometry, bars, eye) * display.array.pitch_mm)));
+    const double pitch = display.array.pitch_mm[bars.upright ? 1 : 0];    // along the edges
+    const int per_edge = std::max(1, int(2 * box.half_b / (slant_cosine * scale_to_bars(geometry, bars, eye) * pitch)));
     // Edge k has its middle at this a.
     const auto middle = [&](double k) { return (bars.offset_mm + k * bars.width_mm - box.b * slant_sine) / slant_cosine; };
     const double nearest = std::round((box.a * slant_cosine + box.b * slant_sine - bars.offset_mm) / bars.width_mm);

@@ -38,7 +38,8 @@ std::array<LightBudget, independent_sets> light_budgets(const Display& display, 
     // black there but for that light, it is counted.
     const bool black = display.array.surround == Surround::opaque;
     const double margin = black ? 8 * (geometry.vertex_plane_mm - geometry.base_z_mm) : 0;
-    const double m = display.panel.emission_exponent, fov_slope = display.array.pitch_mm / (2 * geometry.gap_mm);
+    const double m = display.panel.emission_exponent, fov_slope[] = {display.array.pitch_mm[0] / (2 * geometry.gap_mm),
+                                                                     display.array.pitch_mm[1] / (2 * geometry.gap_mm)};
     const double c = std::cos(display.array.rotation_deg * degree), s = std::sin(display.array.rotation_deg * degree);
     const bool ideal = display.lens.type == LensType::ideal;
     const int rays = budget_rays_a_part * lenses.more_for({0, 0, geometry.vertex_plane_mm + 1e6});
@@ -60,7 +61,7 @@ std::array<LightBudget, independent_sets> light_budgets(const Display& display, 
             const double light = sight.light * (ideal ? flux_per_radiance(at, to, sight) : 1);
             sum.leaves += light;
             const double along = c * to[0] + s * to[1], across = c * to[1] - s * to[0];
-            if (std::max(std::abs(along), std::abs(across)) <= -to[2] * fov_slope) sum.leaves_in_fov += light;
+            if (std::abs(along) <= -to[2] * fov_slope[0] && std::abs(across) <= -to[2] * fov_slope[1]) sum.leaves_in_fov += light;
         }
     });
     const double flux = pi * independent_sets / (double(rays) * light_budget_parts), per_ray = flux * width * height,

@@ -19,7 +19,8 @@ namespace {
 constexpr double least_view_ssim = 0.85, most_slope_per_deg = 0.005;  // the 2019 paper's
 constexpr double wanted_error_deg = 0.05;
 
-double theory_edge_deg(const Subject& s) { return arc_edge_deg(s.geometry(), s.theory(), s.viewing_distance_mm()); }
+double theory_edge_deg(const Subject& s, int axis) { return arc_edge_deg(s.geometry(), s.theory(), s.viewing_distance_mm(), axis); }
+double widest_edge_deg(const Subject& s) { return std::max(theory_edge_deg(s, 0), theory_edge_deg(s, 1)); }
 
 /// What all views share: the scene, its elemental images, the white field.
 struct ShownEdge {
@@ -55,7 +56,7 @@ AngleCurves measure(const Subject& subject, const ShownEdge& shown, int axis, co
     make_ahead(
         angles.size(), renders_on_gpu({}), [&](std::size_t k) { return expected_at(angles[k]); }, compare);
     // The noise where it counts: about the edges that theory expects, and between; root mean square.
-    const double edge = std::min(theory_edge_deg(subject), angles.back());
+    const double edge = std::min(theory_edge_deg(subject, axis), angles.back());
     const double places[] = {-edge, -0.5 * edge, 0.5 * edge, edge};
     for (const double angle : places) {
         const ExpectedView expected = expected_at(angle);
@@ -86,10 +87,11 @@ Interval interval(const OwnRange& r) { return {{r.at[0], r.error[0], r.missing[0
 
 /// How far on either side of its edge the field of view fades, degrees: by the lens aperture and the diffuser, and where images are
 /// made for another distance by the lenses across.
-double fades_over_deg(const Subject& s) {
+double fades_over_deg(const Subject& s, int axis) {
     const double rear = s.geometry().rear_principal_mm, eye = s.viewing_distance_mm() - rear;
-    const double across = s.geometry().array_width_mm * std::abs(1 / eye - 1 / (s.display().content.viewing_distance_mm - rear));
-    return std::atan(0.5 * (SlopeSpread(s, eye).width() + across)) / degree;
+    const double size = axis == 0 ? s.geometry().array_width_mm : s.geometry().array_height_mm;
+    const double across = size * std::abs(1 / eye - 1 / (s.display().content.viewing_distance_mm - rear));
+    return std::atan(0.5 * (SlopeSpread(s, eye, axis).width() + across)) / degree;
 }
 
 void add_rules(Result& result, Json& json, const std::string& path, const Curve& c, const Falls& expected) {
@@ -155,8 +157,10 @@ double most_aside_deg(const Json& figures) {
 
 /// Where an eye may be in the plane at its distance: the width and the height.
 void add_eyebox(Result& result, const Subject& s, const std::array<OwnRange, 2>& ranges) {
-    const double theory =
-        (s.viewing_distance_mm() - s.geometry().rear_principal_mm) * s.theory().elemental_pitch_mm / s.theory().gap_mm;
+    const auto theory = [&](std::size_t axis) {
+        return (s.viewing_distance_mm() - s.geometry().rear_principal_mm) * s.theory().along[axis].elemental_pitch_mm /
+               s.theory().gap_mm;
+    };
     std::vector<double> size, error;
     std::string missing;
     for (const std::size_t axis : {0u, 1u}) {
@@ -168,7 +172,7 @@ void add_eyebox(Result& result, const Subject& s, const std::array<OwnRange, 2>&
             {axis == 0 ? "Eyebox, width" : "Eyebox, height",
              "mm",
              {size.back()},
-             {theory},
+             {theory(axis)},
              why.empty() ? fmt::format("where an eye {:.4g} mm from the panel sees lenses' own images", s.viewing_distance_mm())
                          : why,
              {error.back()}});
@@ -176,7 +180,7 @@ void add_eyebox(Result& result, const Subject& s, const std::array<OwnRange, 2>&
     }
     result.figures["eyebox_mm"] = numbers_json(size);
     result.figures["eyebox_mm_error"] = numbers_json(error);
-    result.figures["theory_eyebox_mm"] = theory;
+    result.figures["theory_eyebox_mm"] = axes_json(s.display().array, theory(0), theory(1));
     if (!missing.empty()) result.note("eyebox_mm", missing);
 }
 
@@ -217,7 +221,7 @@ double fov_scene_depth_mm(const Subject& s, const std::vector<double>& angles) {
 
 std::vector<double> fov_angles_deg(const Subject& s) {
     if (!s.options().angles_deg.empty()) return s.options().angles_deg;
-    const double half = theory_edge_deg(s);
+    const double half = widest_edge_deg(s);
     const double most = std::min({80., arc(s.display(), s.geometry(), s.viewing_distance_mm(), 0).most,
                                   half <= 20.5 ? std::min(1.5 * half, 30.) : std::ceil(half) + 10});
     const int side = std::max(30, int(most));
@@ -229,7 +233,7 @@ std::vector<double> fov_angles_deg(const Subject& s) {
 double fov_depth_mm(const Subject& s) {
     const Geometry& g = s.geometry();
     const double distance = s.viewing_distance_mm(), described = g.content_depth_mm;
-    const double edge = std::min(theory_edge_deg(s) + 2, 80.) * degree;
+    const double edge = std::min(widest_edge_deg(s) + 2, 80.) * degree;
     const double half_screen = 0.5 * std::min(g.array_width_mm, g.array_height_mm);
     // What stands behind the lenses is seen through the screen at X d/(d + E), X how far the eye has gone aside.
     const double aside = distance * std::sin(edge), ahead = distance * std::cos(edge) - g.vertex_plane_mm;
@@ -254,11 +258,12 @@ Result measure_fov(Subject& subject, Job& job) {
                                      "display; give less",
                                      most, distance));
     Result result;
-    const double edge = theory_edge_deg(subject);
+    const double edge[] = {theory_edge_deg(subject, 0), theory_edge_deg(subject, 1)};
+    const std::array<AxisTheory, 2>& along = subject.theory().along;
     result.figures["viewing_distance_mm"] = distance;
-    result.figures["theory_fov_deg"] = subject.theory().fov_deg;
-    result.figures["theory_fov_elemental_deg"] = subject.theory().fov_elemental_deg;
-    result.figures["theory_edge_deg"] = edge;
+    result.figures["theory_fov_deg"] = axes_json(display.array, along[0].fov_deg, along[1].fov_deg);
+    result.figures["theory_fov_elemental_deg"] = axes_json(display.array, along[0].fov_elemental_deg, along[1].fov_elemental_deg);
+    result.figures["theory_edge_deg"] = axes_json(display.array, edge[0], edge[1]);
     const std::array<Geometric, 2> geometric = measure_geometry(result, subject, job);
 
     const double depth = fov_scene_depth_mm(subject, angles), described = subject.geometry().content_depth_mm;
@@ -274,8 +279,8 @@ Result measure_fov(Subject& subject, Job& job) {
         const Geometric& edges = geometric[std::size_t(axis)];
         const AngleCurves curves = measure(subject, shown, axis, angles, job);
         Json json = Json::object();
-        add_geometry(result, json, name, edges, edge);
-        add_likeness(result, json, name, curves, edges, edge, fades_over_deg(subject));
+        add_geometry(result, json, name, edges, edge[axis]);
+        add_likeness(result, json, name, curves, edges, edge[axis], fades_over_deg(subject, axis));
         result.figures[name] = std::move(json);
         table.columns.push_back({name + "_ssim", curves.screen.value});
         table.columns.push_back({name + "_content_ssim", curves.content.value});

@@ -35,13 +35,13 @@ std::vector<Weighted> diffuser_angles(const Display& d, int axis) {
 bool is_round(const Display& d) { return d.array.aperture == Aperture::circle || d.lens.stop_radius_mm; }
 
 /// Places across the clear aperture: chords of a disk, or evenly.
-std::vector<Weighted> aperture_places(const Display& d, const Geometry& g) {
+std::vector<Weighted> aperture_places(const Display& d, const Geometry& g, std::size_t axis) {
     constexpr int steps = 64;
     std::vector<Weighted> places;
     double all = 0;
     for (int k = 0; k < steps; ++k) {
         const double u = (2 * k + 1.) / steps - 1;
-        places.push_back({0.5 * g.clear_aperture_mm * u, is_round(d) ? std::sqrt(1 - u * u) : 1});
+        places.push_back({0.5 * g.clear_aperture_mm[axis] * u, is_round(d) ? std::sqrt(1 - u * u) : 1});
         all += places.back().share;
     }
     for (Weighted& p : places) p.share /= all;
@@ -56,7 +56,7 @@ struct AxisLight {
           gap(g.gap_mm),
           focal_length(g.focal_length_mm),
           diffuser(d.diffuser ? d.diffuser->distance_mm : 0),
-          pitch(d.array.pitch_mm),
+          pitch(d.array.pitch_mm[k]),
           offset(d.array.offset_mm[k]),
           lenses(double(d.array.count[k])),
           panel_half(0.5 * (k == 0 ? g.panel_width_mm : g.panel_height_mm)) {}
@@ -89,7 +89,8 @@ double seen_share(const Display& d, const Geometry& g, double eye_mm, int axis) 
     const AxisLight along(d, g, eye_mm, std::size_t(axis));
     double share = 0;
     for (const Weighted& angle : diffuser_angles(d, axis))
-        for (const Weighted& q : aperture_places(d, g)) share += angle.share * q.share * along.seen(angle.at, q.at);
+        for (const Weighted& q : aperture_places(d, g, std::size_t(axis)))
+            share += angle.share * q.share * along.seen(angle.at, q.at);
     return share;
 }
 
@@ -103,7 +104,8 @@ double transmission(const Display& d, const Geometry& g) {
 
 /// What lenses pass on of the light of a panel behind all of the array.
 double passed(const Display& d, const Geometry& g) {
-    const double r = 0.5 * g.clear_aperture_mm / d.array.pitch_mm, fill = is_round(d) ? pi * r * r : 1, t = transmission(d, g);
+    const auto r = [&](std::size_t k) { return 0.5 * g.clear_aperture_mm[k] / d.array.pitch_mm[k]; };
+    const double fill = is_round(d) ? pi * r(0) * r(1) : 1, t = transmission(d, g);
     if (d.lens.type == LensType::ideal || d.array.surround == Surround::opaque || d.lens.stop_radius_mm) return fill * t;
     return d.array.surround == Surround::plate ? t : fill * t + 1 - fill;
 }

@@ -222,7 +222,8 @@ void check(const Subject& s, const std::vector<double>& depths, const std::vecto
 }  // namespace
 
 std::vector<double> mtf_angles_deg(const Subject& s) {
-    return {0, std::min(30., 0.25 * s.theory().fov_deg), std::min(45., 0.4 * s.theory().fov_deg)};
+    const double fov_deg = s.theory(0).fov_deg;
+    return {0, std::min(30., 0.25 * fov_deg), std::min(45., 0.4 * fov_deg)};
 }
 
 std::vector<double> mtf_depths_mm(const Subject& s) {
@@ -267,7 +268,8 @@ Result measure_mtf(Subject& s, Job& job) {
 
     Result result;
     result.figures["slant_deg"] = slant_deg;
-    result.figures["lens_sampling_limit_per_mm"] = s.theory().lens_sampling_limit_per_mm;
+    result.figures["lens_sampling_limit_per_mm"] =
+        axes_json(s.display().array, s.theory(0).lens_sampling_limit_per_mm, s.theory(1).lens_sampling_limit_per_mm);
     result.figures["pixel_image_limit_per_mm"] = number_json(s.theory().pixel_image_limit_per_mm);
     result.figures["measurements"] = Json::array();
     for (std::size_t n = 0; n < all.size(); ++n) {

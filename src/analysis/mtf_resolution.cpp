@@ -11,12 +11,13 @@ Resolution resolution(const Subject& s, const MtfCurves& m) {
     const Geometry& g = s.geometry();
     const Bars plane{m.horizontal, g.vertex_plane_mm + m.depth_mm, 1, 1, 0};
     const double pixel = pixel_image_mm(s.display(), g, plane.z_mm), theory = m.theory_below(0.5);
-    Resolution r{s.theory().lens_sampling_limit_per_mm / scale_to_bars(g, plane, {m.angle_deg, s.viewing_distance_mm()}),
-                 pixel > 0 ? 0.5 / pixel : infinity,
-                 {nan, nan},
-                 "",
-                 "",
-                 nan};
+    Resolution r{
+        s.theory(m.horizontal ? 0 : 1).lens_sampling_limit_per_mm / scale_to_bars(g, plane, {m.angle_deg, s.viewing_distance_mm()}),
+        pixel > 0 ? 0.5 / pixel : infinity,
+        {nan, nan},
+        "",
+        "",
+        nan};
     const double limit = std::min(r.lens_limit_per_mm, r.pixel_limit_per_mm);
     if (m.has_theory()) r.theory_per_mm = std::isnan(theory) ? limit : std::min(theory, limit);
     if (!m.missing.empty()) {

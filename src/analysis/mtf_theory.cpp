@@ -21,12 +21,13 @@ double pixel_image_mm(const Display& d, const Geometry& g, double z_mm) {
 }
 
 bool at_the_lenses(const Display& d, const Geometry& g, double z_mm) {
-    return pixel_image_mm(d, g, z_mm) < 1e-6 * d.array.pitch_mm;
+    return pixel_image_mm(d, g, z_mm) < 1e-6 * d.array.pitch_mm.least();
 }
 
 Blur blur(const Display& d, const Geometry& g, const Theory& t, double z_mm, double angle_deg) {
+    const double defocus = std::abs(1 - (z_mm - g.rear_principal_mm) / t.central_depth_mm);
     Blur b{pixel_image_mm(d, g, z_mm),
-           g.clear_aperture_mm * std::abs(1 - (z_mm - g.rear_principal_mm) / t.central_depth_mm),
+           {g.clear_aperture_mm[0] * defocus, g.clear_aperture_mm[1] * defocus},
            d.array.aperture == Aperture::circle || d.lens.stop_radius_mm,
            d.array.rotation_deg * degree,
            {0, 0},
@@ -44,22 +45,24 @@ Blur blur(const Display& d, const Geometry& g, const Theory& t, double z_mm, dou
 
 double light_astray(const Subject& s, double angle_deg, double distance_mm) {
     const double eye = distance_mm * std::cos(angle_deg * degree) - s.geometry().rear_principal_mm;
-    const double half = 0.5 * s.theory().elemental_pitch_mm / s.geometry().gap_mm;
+    const auto half = [&](int axis) { return 0.5 * s.theory(axis).elemental_pitch_mm / s.geometry().gap_mm; };
     if (!(eye > 0)) return 1;
-    return 1 - SlopeSpread(s, eye, 0).within(distance_mm * std::sin(angle_deg * degree), -half, half) *
-                   SlopeSpread(s, eye, 1).within(0, -half, half);
+    return 1 - SlopeSpread(s, eye, 0).within(distance_mm * std::sin(angle_deg * degree), -half(0), half(0)) *
+                   SlopeSpread(s, eye, 1).within(0, -half(1), half(1));
 }
 
 double Blur::mtf(double f, bool horizontal) const {
+    // Along y the array's own y turns to it as its x does along x, the other way round.
+    const std::size_t near = horizontal ? 0 : 1;
     const double c = std::cos(array_rad), s = std::sin(array_rad), w = f * diffuser_mm[horizontal ? 0 : 1];
     const double sigma = pi / fwhm_per_sigma;
-    const double spot = round ? disk(f * spot_mm) : sinc(f * spot_mm * c) * sinc(f * spot_mm * s);
+    const double spot = round ? disk(f * spot_mm[0]) : sinc(f * spot_mm[near] * c) * sinc(f * spot_mm[1 - near] * s);
     return std::abs(sinc(f * pixel_mm) * spot * (gaussian ? std::exp(-2 * sigma * sigma * w * w) : sinc(w)));
 }
 
 double Blur::width_mm(bool horizontal) const {
     // A gaussian's tails reach two half widths farther.
-    return pixel_mm + spot_mm + (gaussian ? 2 : 1) * diffuser_mm[horizontal ? 0 : 1];
+    return pixel_mm + spot_mm[horizontal ? 0 : 1] + (gaussian ? 2 : 1) * diffuser_mm[horizontal ? 0 : 1];
 }
 
 }  // namespace lfdsim

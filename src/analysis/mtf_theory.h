@@ -16,10 +16,10 @@ bool at_the_lenses(const Display&, const Geometry&, double z_mm);
 /// What each line of sight's crossing of a plane and that of the panel pixel's nodal line, which it sees, differ by: the sum of
 /// independent parts.
 struct Blur {
-    double pixel_mm;  // a square, evenly
-    double spot_mm;   // the lens's spot, evenly: across a disk, or a square with the array's axes
+    double pixel_mm;                // a square, evenly
+    std::array<double, 2> spot_mm;  // the lens's spot, evenly: across a disk, or a rectangle with the array's axes
     bool round;
-    double array_rad;                   // by which that square is turned
+    double array_rad;                   // by which that rectangle is turned
     std::array<double, 2> diffuser_mm;  // along x and y: full widths, at half maximum if gaussian
     bool gaussian;
 

@@ -148,7 +148,11 @@ std::array<double, 2> array_axis(const Display& d, int axis) {
     return axis == 0 ? std::array{c, s} : std::array{-s, c};
 }
 
-double half_field(const Geometry& g, const Theory& t) { return std::atan(0.5 * t.elemental_pitch_mm / g.gap_mm); }
+double half_slope(const Geometry& g, const Theory& t, int axis) {
+    return 0.5 * t.along[std::size_t(axis)].elemental_pitch_mm / g.gap_mm;
+}
+
+double half_field(const Display& d, const Geometry& g, int axis) { return std::atan(half_slope(g, theory(d, g), axis)); }
 
 }  // namespace
 
@@ -159,11 +163,11 @@ EyePath arc(const Display& d, const Geometry& g, double distance, int axis) {
         return Vec3d{aside * x, aside * y, distance * std::cos(angle * degree)};
     };
     const double before = std::acos(std::min(1.001 * nearest_eye_mm(g) / distance, 1.)) / degree;
-    return {eye, std::min(85., before), std::min(0.1 * half_field(g, theory(d, g)) / degree, 1.), axis};
+    return {eye, std::min(85., before), std::min(0.1 * half_field(d, g, axis) / degree, 1.), axis};
 }
 
-double arc_edge_deg(const Geometry& g, const Theory& t, double distance) {
-    const double slope = 0.5 * t.elemental_pitch_mm / g.gap_mm;
+double arc_edge_deg(const Geometry& g, const Theory& t, double distance, int axis) {
+    const double slope = half_slope(g, t, axis);
     return (std::atan(slope) - std::asin(slope * g.rear_principal_mm / (distance * std::hypot(1, slope)))) / degree;
 }
 
@@ -171,7 +175,7 @@ EyePath across(const Display& d, const Geometry& g, double distance, int axis) {
     const auto [x, y] = array_axis(d, axis);
     const auto eye = [=, x = x, y = y](double aside) { return Vec3d{aside * x, aside * y, distance}; };
     const double away = distance - g.rear_principal_mm;
-    return {eye, away * std::tan(85 * degree), 0.1 * away * std::tan(half_field(g, theory(d, g))), axis};
+    return {eye, away * std::tan(85 * degree), 0.1 * away * std::tan(half_field(d, g, axis)), axis};
 }
 
 }  // namespace lfdsim

@@ -62,7 +62,7 @@ constexpr int own_range_parts = 2;
 EyePath arc(const Display&, const Geometry&, double distance_mm, int axis);
 /// Where theory has the edge on that arc: X/E = p'/2g with X = R sin a aside of the axis and E = R cos a - z_r from the rear
 /// principal plane.
-double arc_edge_deg(const Geometry&, const Theory&, double distance_mm);
+double arc_edge_deg(const Geometry&, const Theory&, double distance_mm, int axis);
 /// In the plane at the eye's distance from the panel, mm from the middle.
 EyePath across(const Display&, const Geometry&, double distance_mm, int axis);
 

@@ -1,6 +1,7 @@
 // What a measure finds: figures, curves, pictures. Floor 3: plain data.
 #pragma once
 #include "image/image.h"
+#include "model/lattice.h"
 
 #include <nlohmann/json.hpp>
 
@@ -21,6 +22,11 @@ inline Json numbers_json(const std::vector<double>& all) {
     Json json = Json::array();
     for (const double x : all) json.push_back(number_json(x));
     return json;
+}
+
+/// A figure along the array's own x and y; one number where they do not differ by the lattice.
+inline Json axes_json(const LensArray& array, double along_x, double along_y) {
+    return differs_by_axis(array) ? numbers_json({along_x, along_y}) : number_json(along_x);
 }
 
 /// A line of the report's table: a figure as measured, and what theory says. Each is one number or an interval of two; empty: there

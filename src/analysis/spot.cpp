@@ -25,11 +25,12 @@ struct Field {
 };
 
 std::vector<Field> trace_fields(const Subject& s, const LensTrace& lens) {
-    const double edge = s.display().array.pitch_mm / 2;
+    const Pitch& p = s.display().array.pitch_mm;
+    const double edge = p[0] / 2;
     std::vector<Field> fields{{"axis", "on the axis", {0, 0}, {}, {}},
                               {"half", "half way to the edge", {edge / 2, 0}, {}, {}},
                               {"edge", "edge of the field", {edge, 0}, {}, {}},
-                              {"corner", "corner", {edge, edge}, {}, {}}};
+                              {"corner", "corner", {edge, p[1] / 2}, {}, {}}};
     for (Field& f : fields) {
         f.light = bundle(lens, f.panel, bundle_rays);
         f.rims = fans(lens, f.panel, fan_rays);
@@ -155,7 +156,7 @@ void tell_focus(const Subject& s, const std::vector<Field>& fields, const std::v
     Plot rms{"spot_through_focus", "Spot size through focus", "depth before the lenses, mm", "RMS radius, mm", {}};
     Plot width{"spot_width", "Width of the spot on the axis", "depth before the lenses, mm", "full width, mm", {}};
     std::vector<double> theory;
-    const double L = s.theory().central_depth_mm, D = s.geometry().clear_aperture_mm;
+    const double L = s.theory().central_depth_mm, D = s.geometry().clear_aperture_mm[0];
     for (const double z : places) theory.push_back(D * std::abs(std::isinf(L) ? 1 : z / L - 1));
     width.series.push_back({"paraxial", at, theory});
     for (const Field& f : fields) {
@@ -209,10 +210,10 @@ void tell_distortion(const Subject& s, const Distortion& d, Result& result) {
             result.note(fmt::format("distortion.{}", name), "images of pixels are at infinity: see pixel_images");
     result.tables.push_back(std::move(table));
     if (open > 0) {
-        const double half = s.display().array.pitch_mm / 2;
+        const Pitch& p = s.display().array.pitch_mm;
         result.maps.push_back({"spot_distortion", "Distortion of the elemental image", "x on the panel from the lens's axis, mm",
-                               "y on the panel, mm", "distance from the nodal line, images of a panel pixel", -half, half, -half,
-                               half, d.across, d.across, d.pixel_images, 0, std::max(most, 1e-3)});
+                               "y on the panel, mm", "distance from the nodal line, images of a panel pixel", -p[0] / 2, p[0] / 2,
+                               -p[1] / 2, p[1] / 2, d.columns, d.rows, d.pixel_images, 0, std::max(most, 1e-3)});
     }
     result.findings.push_back({"Distortion of the elemental image: largest",
                                "pixel images",
@@ -249,8 +250,14 @@ Centroid centroid_at(const Bundle& light, double z) {
 
 Distortion distortion(const Display& display, const Geometry& g, const Theory& t, int threads, const Job& job) {
     const LensTrace lens(display, g);
-    const int n = int(std::clamp(std::round(t.views), 1., double(most_places))), quarter = (n + 1) / 2;
-    const double step = t.views > most_places ? display.array.pitch_mm / n : display.panel.pixel_pitch_mm;
+    std::array<int, 2> places;
+    std::array<double, 2> step;
+    for (const std::size_t k : {0u, 1u}) {
+        const double views = t.along[k].views;
+        places[k] = int(std::clamp(std::round(views), 1., double(most_places)));
+        step[k] = views > most_places ? display.array.pitch_mm[k] / places[k] : display.panel.pixel_pitch_mm;
+    }
+    const auto [columns, rows] = places;
     const double L = t.central_depth_mm, gap = g.gap_mm;
     const auto miss = [&](Point panel) {
         const Bundle light = bundle(lens, panel, pixel_rays);
@@ -265,17 +272,17 @@ Distortion distortion(const Display& display, const Geometry& g, const Theory& t
         const double images = std::hypot(x / rays + panel[0] / gap, y / rays + panel[1] / gap) * gap / display.panel.pixel_pitch_mm;
         return images < 1e-9 ? 0 : images;  // as far as double precision tells
     };
-    Distortion result{n, std::vector<double>(std::size_t(n) * std::size_t(n), nan)};
+    Distortion result{columns, rows, std::vector<double>(std::size_t(columns) * std::size_t(rows), nan)};
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
                                       std::size_t(std::max(threads, tbb::info::default_concurrency())));
     tbb::task_arena arena(threads > 0 ? threads : tbb::info::default_concurrency());
     arena.execute([&] {
-        tbb::parallel_for(0, quarter, [&](int j) {
-            for (int i = 0; i < quarter && !job.cancelled(); ++i) {
-                const double value = miss({(i + 0.5 - n / 2.) * step, (n / 2. - j - 0.5) * step});
-                for (const int row : {j, n - 1 - j})
-                    for (const int column : {i, n - 1 - i})
-                        result.pixel_images[std::size_t(row) * std::size_t(n) + std::size_t(column)] = value;
+        tbb::parallel_for(0, (places[1] + 1) / 2, [&](int j) {
+            for (int i = 0; i < (places[0] + 1) / 2 && !job.cancelled(); ++i) {
+                const double value = miss({(i + 0.5 - places[0] / 2.) * step[0], (places[1] / 2. - j - 0.5) * step[1]});
+                for (const int row : {j, places[1] - 1 - j})
+                    for (const int column : {i, places[0] - 1 - i})
+                        result.pixel_images[std::size_t(row) * std::size_t(places[0]) + std::size_t(column)] = value;
             }
         });
     });
@@ -301,7 +308,7 @@ Result measure_spot(Subject& s, Job& job) {
     if (job.cancelled()) throw Stopped{};
     job.advance(1);
 
-    const double L = s.theory().central_depth_mm, D = s.geometry().clear_aperture_mm;
+    const double L = s.theory().central_depth_mm, D = s.geometry().clear_aperture_mm[0];
     for (const std::size_t k : {std::size_t(0), depths.size() / 2, depths.size() - 1}) {
         const double z = depths[k];
         result.findings.push_back({fmt::format("Full width of the spot on the axis, {:.4g} mm before the lenses", z + from_vertex),

@@ -19,11 +19,11 @@ struct Centroid {
 Centroid centroid_at(const Bundle&, double z);
 
 /// How far the centroid of the light of each panel pixel under a lens lands from where the nodal line of content/pickup.h goes, at
-/// the central depth plane, in images of a panel pixel. Pixels are symmetric about the axis; of more than 96 across, 96 places
-/// evenly spread. NaN where no light gets through.
+/// the central depth plane, in images of a panel pixel. Pixels are symmetric about the axis; of more than 96 across or up, 96
+/// places evenly spread. NaN where no light gets through.
 struct Distortion {
-    int across;
-    std::vector<double> pixel_images;  // across x across, row 0 at the top
+    int columns, rows;
+    std::vector<double> pixel_images;  // columns x rows, row 0 at the top
 };
 /// Throws Stopped.
 Distortion distortion(const Display&, const Geometry&, const Theory&, int threads, const Job&);

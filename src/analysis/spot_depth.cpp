@@ -135,8 +135,10 @@ std::array<double, 2> quarter_wave_per_mm(double L, double D, double wavelength_
 SharpDepths add_spot_depths(const Subject& s, Result& result) {
     const Theory& t = s.theory();
     const Geometry& g = s.geometry();
-    const double D = g.clear_aperture_mm, wavelength_mm = s.options().wavelength_nm * 1e-6;
-    const Fan fan(fans(LensTrace(s.display(), g), {0, 0}, depth_fan_rays).meridional);
+    const double D = widest_aperture_mm(g), wavelength_mm = s.options().wavelength_nm * 1e-6;
+    const bool along_x = D == g.clear_aperture_mm[0];  // of the widest fan
+    const Fans both = fans(LensTrace(s.display(), g), {0, 0}, depth_fan_rays);
+    const Fan fan(along_x ? both.meridional : both.sagittal);
     Teller tell(s, result);
     const SharpDepths traced = where_sharp(fan.all, tell.pixel_slope());
     tell("spot", "spot no wider than a pixel's image, traced", fan, 0,
@@ -146,7 +148,8 @@ SharpDepths add_spot_depths(const Subject& s, Result& result) {
     if (fan.all.empty())
         for (const char* name : {"spot_best_mm", "spot_least_pixel_images"}) result.note(name, "no light gets through the lens");
     if (s.display().diffuser) {
-        const double z = *g.diffuser_z_mm - g.rear_principal_mm, angle = diffuser_angle(s.display(), {1, 0});
+        const double z = *g.diffuser_z_mm - g.rear_principal_mm,
+                     angle = diffuser_angle(s.display(), along_x ? Point{1, 0} : Point{0, 1});
         tell("spot_with_diffuser", "the same with the diffuser's widening", fan.diffused_at(z, angle), 0,
              "the diffuser widens a spot by its angle times the distance from it");
     }

@@ -56,6 +56,8 @@ class Subject {
     const Geometry& geometry() const { return geometry_; }
     const Theory& theory() const { return theory_; }
     const AnalysisOptions& options() const { return options_; }
+    /// What theory says of one axis of the array.
+    const AxisTheory& theory(int axis) const { return theory_.along[std::size_t(axis)]; }
     int threads() const { return options_.threads; }
     double viewing_distance_mm() const;
     bool has_scene() const { return scene_.has_value(); }

@@ -71,15 +71,14 @@ void add_screen(Result& result, const ScreenLuminance& screen, const Subject& s,
 
 void add_bands(Result& result, const PitchLuminance& pitch, const Subject& s) {
     constexpr int side = PitchLuminance::side;
-    const double half = s.display().array.pitch_mm / 2;
-    std::vector<double> places;
-    for (int k = 0; k < side; ++k) places.push_back(half * ((2 * k + 1.) / side - 1));
+    const Pitch& p = s.display().array.pitch_mm;
+    const double half[] = {p[0] / 2, p[1] / 2};
     Plot plot{"uniformity_bands",
               "Luminance across one lens pitch, seen on axis",
               "place from the lens's axis, mm",
               "of the panel's",
               {}};
-    DataTable table{"uniformity_bands", {{"place_mm", places}}};
+    DataTable table{"uniformity_bands", {}};
     const std::array<double, 2> foreseen = band_contrast(s.display(), s.geometry());
     Json& json = result.figures["bands"];
     for (const int axis : {0, 1}) {
@@ -95,6 +94,9 @@ void add_bands(Result& result, const PitchLuminance& pitch, const Subject& s) {
                                    {theory},
                                    "across one pitch, averaged along the other axis",
                                    {contrast.error}});
+        std::vector<double> places;
+        for (int k = 0; k < side; ++k) places.push_back(half[axis] * ((2 * k + 1.) / side - 1));
+        if (axis == 0 || !p.is_one()) table.columns.push_back({axis == 0 ? "place_mm" : "vertical_place_mm", places});
         plot.series.push_back({name, places, means(profile)});
         table.columns.push_back({name + "_luminance", means(profile)});
     }
@@ -102,7 +104,7 @@ void add_bands(Result& result, const PitchLuminance& pitch, const Subject& s) {
     const std::vector<double> values = pitch.values();
     const double greatest = std::ranges::max(values);
     result.maps.push_back({"uniformity_pitch", "Luminance within one lens pitch, seen on axis", "x, mm", "y, mm", "of the panel's",
-                           -half, half, -half, half, side, side, values, 0, greatest > 0 ? greatest : 1});
+                           -half[0], half[0], -half[1], half[1], side, side, values, 0, greatest > 0 ? greatest : 1});
     result.plots.push_back(std::move(plot));
     result.tables.push_back(std::move(table));
 }

@@ -75,14 +75,17 @@ struct ParaxialZone {
     double half_slope(double eye_mm) const {
         return std::max(half_fov - fault_per_mm * std::abs(1 / eye_mm - 1 / made_for_mm), 0.);
     }
+    double reach_per_mm() const { return half_fov / fault_per_mm; }
     double distance_mm(int side) const {  // -1: the nearest, 1: the farthest
-        const double inverse = 1 / made_for_mm - side * half_fov / fault_per_mm;
+        const double inverse = 1 / made_for_mm - side * reach_per_mm();
         return inverse > 0 ? 1 / inverse : infinity;
     }
 };
 
-ParaxialZone paraxial(const Subject& s, std::int64_t lenses) {
-    return {s.theory().elemental_pitch_mm / (2 * s.geometry().gap_mm), double(lenses - 1) * s.display().array.pitch_mm / 2,
+ParaxialZone paraxial(const Subject& s, std::size_t axis) {
+    const LensArray& array = s.display().array;
+    return {s.theory().along[axis].elemental_pitch_mm / (2 * s.geometry().gap_mm),
+            double(array.count[axis] - 1) * array.pitch_mm[axis] / 2,
             s.display().content.viewing_distance_mm - s.geometry().rear_principal_mm};
 }
 
@@ -91,7 +94,7 @@ ParaxialZone paraxial(const Subject& s, std::int64_t lenses) {
 std::vector<double> inverse_distances(const Subject& s, double eye, const ParaxialZone& theory) {
     const double nearest = 1 / (1.001 * nearest_eye_mm(s.geometry()) - s.geometry().rear_principal_mm);
     const double made_for = 1 / theory.made_for_mm, middle = made_for > 1e-7 && made_for < nearest ? made_for : 1 / eye;
-    const double reach = 2 * theory.half_fov / theory.fault_per_mm;
+    const double reach = 2 * theory.reach_per_mm();
     const double low = std::min(std::max(middle - reach, 1e-7), middle), high = std::max(std::min(middle + reach, nearest), middle);
     std::vector<double> places = even_places(low, middle, distance_points / 2 + 1);
     const std::vector<double> upper = even_places(middle, high, distance_points / 2 + 1);
@@ -165,9 +168,10 @@ Interval mapped(const Interval& from, Map map) {
     return map(1.) > map(0.5) ? to : Interval{to.high, to.low};
 }
 
-void add_map(Result& result, Search& search, double half, double distance) {
-    ColourMap wrong{"zone", missing, "viewer's place x, mm", "y, mm", "share", -half, half, -half, half, map_side, map_side, {},
-                    0,      1};
+void add_map(Result& result, Search& search, const std::array<double, 2>& half, double distance) {
+    ColourMap wrong{
+        "zone", missing, "viewer's place x, mm", "y, mm", "share", -half[0], half[0], -half[1], half[1], map_side, map_side, {},
+        0,      1};
     wrong.values.resize(std::size_t(map_side) * map_side);
     ColourMap dark = wrong;
     dark.name = "zone_dark";
@@ -176,19 +180,19 @@ void add_map(Result& result, Search& search, double half, double distance) {
     mixed.name = "zone_mixed";
     mixed.title = "Rays that show another neighbour's image than most";
     DataTable table{"zone_map", {{"x_mm", {}}, {"y_mm", {}}, {"wrong_share", {}}, {"mixed_share", {}}, {"dark_share", {}}}};
-    const auto place = [&](int k) { return half * ((2 * k + 1.) / map_side - 1); };
+    const auto place = [&](int k, std::size_t axis) { return half[axis] * ((2 * k + 1.) / map_side - 1); };
     search.parts.run(map_side, [&](int row) {
         for (int column = 0; column < map_side; ++column) {
             const std::size_t k = std::size_t(row) * map_side + std::size_t(column);
-            const SightShares shares = search.at({place(column), -place(row), distance}, map_rays);
+            const SightShares shares = search.at({place(column, 0), -place(row, 1), distance}, map_rays);
             wrong.values[k] = shares.wrong;
             mixed.values[k] = shares.mixed;
             dark.values[k] = shares.dark;
         }
     });
     for (int k = 0; k < map_side * map_side; ++k) {
-        table.columns[0].values.push_back(place(k % map_side));
-        table.columns[1].values.push_back(-place(k / map_side));
+        table.columns[0].values.push_back(place(k % map_side, 0));
+        table.columns[1].values.push_back(-place(k / map_side, 1));
     }
     table.columns[2].values = wrong.values;
     table.columns[3].values = mixed.values;
@@ -200,20 +204,19 @@ void add_map(Result& result, Search& search, double half, double distance) {
 }
 
 /// Horizontally and vertically, as far as `half` mm.
-void add_sideways(Result& result, Search& search, const Subject& s, double half, double distance) {
+void add_sideways(Result& result, Search& search, const Subject& s, const std::array<double, 2>& half, double distance) {
     const double eye = distance - s.geometry().rear_principal_mm;
-    const std::array<std::int64_t, 2>& lenses = s.display().array.count;
     Plot plot{"zone", missing, "viewer's place, degrees", "share of rays", {}};
     DataTable table{"zone", {}};
     const auto degrees = [&](double mm) { return std::atan(mm / eye) / degree; };
-    for (const int axis : {0, 1}) {
+    for (const std::size_t axis : {0u, 1u}) {
         const std::string name = axis == 0 ? "horizontal" : "vertical";
-        const Zone zone = search.along(even_places(-half, half, curve_points), [&](double place) {
+        const Zone zone = search.along(even_places(-half[axis], half[axis], curve_points), [&](double place) {
             return axis == 0 ? Vec3d{place, 0, distance} : Vec3d{0, place, distance};
         });
         std::vector<double> angles;
         for (const double mm : zone.places) angles.push_back(degrees(mm));
-        const ParaxialZone zone_of = paraxial(s, lenses[std::size_t(axis)]);
+        const ParaxialZone zone_of = paraxial(s, axis);
         const double theory = degrees(eye * zone_of.half_slope(eye)), half_fov = degrees(eye * zone_of.half_fov);
         Json json = Json::object();
         json["theory_deg"] = {0 - theory, theory};
@@ -233,6 +236,10 @@ void add_sideways(Result& result, Search& search, const Subject& s, double half,
             table.columns = {{"place_mm", zone.places}, {"place_deg", angles}};
             plot.marks = {{"theory, horizontal", 0 - theory}, {"theory, horizontal", theory}, {"1 %", 0.01, false}};
         }
+        if (axis == 1 && half[1] != half[0]) {
+            table.columns.push_back({"vertical_place_mm", zone.places});
+            table.columns.push_back({"vertical_place_deg", angles});
+        }
         table.columns.push_back({name + "_wrong_share", zone.wrong});
         table.columns.push_back({name + "_mixed_share", zone.mixed});
         table.columns.push_back({name + "_dark_share", zone.dark});
@@ -246,8 +253,8 @@ void add_sideways(Result& result, Search& search, const Subject& s, double half,
 
 void add_axis(Result& result, Search& search, const Subject& s, double distance) {
     const double rear = s.geometry().rear_principal_mm;
-    const std::array<std::int64_t, 2>& lenses = s.display().array.count;
-    const ParaxialZone theory = paraxial(s, std::max(lenses[0], lenses[1]));
+    const ParaxialZone across = paraxial(s, 0), up = paraxial(s, 1);  // the shorter of the two is the display's
+    const ParaxialZone theory = across.reach_per_mm() <= up.reach_per_mm() ? across : up;
     const auto from_panel = [&](double inverse) { return rear + 1 / inverse; };
     Zone zone = search.along(inverse_distances(s, distance - rear, theory), [&](double inverse) {
         return Vec3d{0, 0, from_panel(inverse)};
@@ -292,9 +299,9 @@ std::string aside_remark(const Json& figures) {
 
 SightShares sight_shares(const EyeRays& rays, const Pickup& pickup, const Display& d, const Vec3d& eye,
                          std::span<const Choice> choices) {
-    const double pixel = d.panel.pixel_pitch_mm, pitch = d.array.pitch_mm;
+    const double pixel = d.panel.pixel_pitch_mm;
     std::int64_t through = 0, dark = 0, wrong = 0;
-    std::map<std::pair<long, long>, std::int64_t> towards;  // lines by the way from their lens to their pixel's, quarter pitches
+    std::map<std::pair<long, long>, std::int64_t> towards;  // lines by the way from their lens to their pixel's, columns and rows
     for (const Choice& choice : choices) {
         const Sight s = rays.look(eye, choice);
         if (!s.through) {
@@ -307,9 +314,10 @@ SightShares sight_shares(const EyeRays& rays, const Pickup& pickup, const Displa
                      row = std::floor(0.5 * double(d.panel.pixels[1]) - s.y / pixel);
         const NodalLine owner = pickup.line(pickup.x_mm(column), pickup.y_mm(row));
         if (s.light > 0 && owner.owned) {
-            const double x = owner.x - s.lens[0], y = owner.y - s.lens[1];
-            wrong += std::hypot(x, y) > 0.5 * pitch;
-            ++towards[{std::lround(4 * x / pitch), std::lround(4 * y / pitch)}];
+            const auto off = optics::to_array(pickup.lattice(), owner.x - s.lens[0], owner.y - s.lens[1]);
+            const std::pair way{std::lround(off.x / d.array.pitch_mm[0]), std::lround(off.y / d.array.pitch_mm[1])};
+            wrong += way != std::pair{0L, 0L};
+            ++towards[way];
         } else {
             ++wrong;
             ++dark;
@@ -326,14 +334,15 @@ std::int64_t zone_steps(const Subject& s) { return pictures_worth(s, 12'000'000)
 
 Result measure_zone(Subject& s, Job& job) {
     const double distance = checked_viewing_distance_mm(s), eye = distance - s.geometry().rear_principal_mm;
-    const double half = eye * std::min(3 * paraxial(s, 1).half_fov, std::tan(80 * degree));
+    std::array<double, 2> half;
+    for (const std::size_t axis : {0u, 1u}) half[axis] = eye * std::min(3 * paraxial(s, axis).half_fov, std::tan(80 * degree));
     Search search(s, job);
     Result result;
     result.figures["viewing_distance_mm"] = distance;
     add_sideways(result, search, s, half, distance);
     add_map(result, search, half, distance);
     add_axis(result, search, s, distance);
-    const double spread = SlopeSpread(s, eye).width() * s.geometry().gap_mm, image = s.theory().elemental_pitch_mm;
+    const double spread = SlopeSpread(s, eye).width() * s.geometry().gap_mm, image = s.theory(0).elemental_pitch_mm;
     if (const std::string aside = aside_remark(result.figures); !aside.empty()) result.remarks.push_back(aside);
     result.remarks.push_back(fmt::format(
         "A ray is wrong if it comes through a lens and ends elsewhere than on that lens's elemental image: on another's, so that "
@@ -343,7 +352,7 @@ Result measure_zone(Subject& s, Job& job) {
         "An eye gathers light from {:.3g} mm of the panel through one lens (its aperture and the diffuser, paraxially), so the "
         "limit at 1 % lies nearer to the middle, that at 50 % does not; images {:.4g} mm wide, {:.3f} p, put both farther out. "
         "Whole pixels and the lenses' aberrations do the rest.",
-        spread, image, image / s.display().array.pitch_mm));
+        spread, image, image / s.display().array.pitch_mm[0]));
     return result;
 }
 

@@ -30,7 +30,7 @@ void make_ideal(Display& d) {
 void make_tiny_lenses(Display& d) {
     const double shrink = 384.0 / 1000 / 8.8;
     d.array.count = {1000, 1000};
-    d.array.pitch_mm *= shrink;
+    d.array.pitch_mm = shrink * d.array.pitch_mm[0];
     *d.array.base_z_mm *= shrink;
     d.lens.sphere_radius_mm *= shrink;
     *d.lens.aperture_radius_mm *= shrink;

@@ -6,6 +6,8 @@
 #include "report/description.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
 #include <cmath>
 
 // lfdsim check: what a description says, key by key, and what follows from it. Theory names in --json are fixed: scripts use them.
@@ -40,9 +42,11 @@ std::string table_of(const Setting& s) {
 
 // Seven digits: more than any length is made to, fewer than double arithmetic carries.
 std::string table_of(const Figure& f) {
-    std::string value = fmt::format("{:.7g} {}", f.value, unit_of(f.name));
-    if (std::isinf(f.value)) value = f.value > 0 ? "infinite" : "-infinite";
-    if (std::isnan(f.value)) value = "none";
+    std::vector<std::string> numbers;
+    for (const double x : f.values)
+        numbers.push_back(std::isfinite(x) ? fmt::format("{:.7g}", x) : std::isnan(x) ? "none" : x > 0 ? "infinite" : "-infinite");
+    std::string value = fmt::format("{}", fmt::join(numbers, " x "));
+    if (std::ranges::all_of(f.values, [](double x) { return std::isfinite(x); })) value += " " + unit_of(f.name);
     return fmt::format("  {:<28} {:<22} {}", f.name, value, f.meaning);
 }
 
@@ -73,11 +77,11 @@ void run(const CheckArguments& args) {
     const std::vector<std::string> warnings = all_advice(display, geometry, paraxial);
     if (args.json) {
         Json notes = Json::object();
-        add_notes(figures(geometry), "geometry", notes);
-        add_notes(figures(paraxial), "theory", notes);
+        add_notes(figures(display, geometry), "geometry", notes);
+        add_notes(figures(display, paraxial), "theory", notes);
         return print_json(Json{{"display", to_json(keys)},
-                               {"geometry", to_json(figures(geometry))},
-                               {"theory", to_json(figures(paraxial))},
+                               {"geometry", to_json(figures(display, geometry))},
+                               {"theory", to_json(figures(display, paraxial))},
                                {"notes", notes},
                                {"warnings", warnings}});
     }
@@ -89,9 +93,9 @@ void run(const CheckArguments& args) {
         add_line(text, table_of(s));
     }
     text += "\nPlaces and sizes (z from the panel)\n";
-    for (const Figure& f : figures(geometry)) add_line(text, table_of(f));
+    for (const Figure& f : figures(display, geometry)) add_line(text, table_of(f));
     text += "\nParaxial theory\n";
-    for (const Figure& f : figures(paraxial)) add_line(text, table_of(f));
+    for (const Figure& f : figures(display, paraxial)) add_line(text, table_of(f));
     if (!warnings.empty()) text += "\nWorth knowing\n";
     for (const std::string& warning : warnings) text += "  - " + warning + "\n";
     print(text);

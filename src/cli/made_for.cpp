@@ -43,7 +43,7 @@ std::vector<Said> pickup_of(const MadeFor& made) {
     const auto& [d, g] = made;
     return {{"panel.pixel_pitch_mm", {d.panel.pixel_pitch_mm}},
             {"array.count", {double(d.array.count[0]), double(d.array.count[1])}},
-            {"array.pitch_mm", {d.array.pitch_mm}},
+            {"array.pitch_mm", {d.array.pitch_mm.begin(), d.array.pitch_mm.end()}},
             {"array.gap_mm", {g.gap_mm}},
             {"array.offset_mm", {d.array.offset_mm[0], d.array.offset_mm[1]}},
             {"array.rotation_deg", {d.array.rotation_deg}},

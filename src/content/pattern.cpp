@@ -40,10 +40,12 @@ void check(const PatternOptions& o) {
 // two by two where it is a corner, with room for rounding in both cases.
 Image view(const Display& display, const Geometry& geometry, const PatternOptions& o) {
     const Pickup pickup(display, geometry);
-    const double reach = 0.75 * display.panel.pixel_pitch_mm / (display.array.pitch_mm * pickup.scale);
+    const auto reach = [&](int axis) {
+        return 0.75 * display.panel.pixel_pitch_mm / (pickup.lattice().pitch[axis] * pickup.scale);
+    };
     return fill(display, [&](int column, int row, float* rgb) {
         const Pickup::Place p = pickup.place(pickup.x_mm(column), pickup.y_mm(row));
-        grey(p.owned && std::abs(p.u - o.view_x) <= reach && std::abs(p.v - o.view_y) <= reach, rgb);
+        grey(p.owned && std::abs(p.u - o.view_x) <= reach(0) && std::abs(p.v - o.view_y) <= reach(1), rgb);
     });
 }
 

@@ -89,7 +89,7 @@ void add_holes(optics::Scene<S>& scene, const Display& display, const Geometry& 
         const PlacedSurface& first = geometry.surfaces.back();
         if (radius > 0) radius = first.semi_aperture_mm;
         z = first.z_mm +
-            sag_mm(first.curvature_per_mm, first.conic, first.even_asphere, radius > 0 ? radius : display.array.pitch_mm / 2);
+            sag_mm(first.curvature_per_mm, first.conic, first.even_asphere, radius > 0 ? radius : inner_radius_mm(display.array));
     }
     scene.leaky = display.array.surround != Surround::opaque;
     if (stop_at_entrance(display, geometry) && (radius == 0 || *display.lens.stop_radius_mm < radius)) {

@@ -20,6 +20,8 @@ constexpr Form form = std::is_arithmetic_v<Value> ? Form::number : Form::list;
 template <class T>
 constexpr Form form<std::optional<T>> = form<T>;
 template <>
+constexpr Form form<Pitch> = Form::number;
+template <>
 constexpr Form form<std::string> = Form::other;
 
 Form form_of(std::string_view path) {

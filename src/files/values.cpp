@@ -62,6 +62,13 @@ std::string read_value(const toml::node& node, std::vector<double>& values) {
     return {};
 }
 
+std::string read_value(const toml::node& node, Pitch& value) {
+    double both = 0;
+    std::string fault = read_value(node, both);
+    value = both;
+    return fault;
+}
+
 std::string read_word(const toml::node& node, std::span<const std::string_view> words, std::size_t& index) {
     if (!node.is_string()) return wrong_type(node, fmt::format("one of \"{}\"", fmt::join(words, "\", \"")));
     const std::string& given = node.as_string()->get();
@@ -76,6 +83,10 @@ std::string read_word(const toml::node& node, std::span<const std::string_view> 
 // reader of numbers takes.
 std::string toml_text(double value) { return fmt::format("{}", value); }
 std::string toml_text(std::int64_t value) { return fmt::format("{}", value); }
+
+std::string toml_text(const Pitch& value) {
+    return value.is_one() ? toml_text(value[0]) : toml_text(static_cast<const std::array<double, 2>&>(value));
+}
 
 // A basic string. TOML allows any UTF-8 in it but quotes, backslashes and control characters.
 std::string toml_text(const std::string& value) {

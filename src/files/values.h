@@ -18,6 +18,7 @@ std::string read_value(const toml::node&, double&);
 std::string read_value(const toml::node&, std::int64_t&);
 std::string read_value(const toml::node&, std::string&);
 std::string read_value(const toml::node&, std::vector<double>&);
+std::string read_value(const toml::node&, Pitch&);
 std::string read_word(const toml::node&, std::span<const std::string_view> words, std::size_t& index);
 
 template <class E>
@@ -49,6 +50,7 @@ std::string read_value(const toml::node& node, std::array<T, n>& values) {
 std::string toml_text(double);
 std::string toml_text(std::int64_t);
 std::string toml_text(const std::string&);
+std::string toml_text(const Pitch&);
 
 template <class E>
 requires std::is_enum_v<E> std::string toml_text(E value) { return toml_text(std::string(word(value))); }

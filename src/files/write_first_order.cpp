@@ -70,12 +70,12 @@ void write_lens(const FirstOrder& o, Text& text) {
         text.note("r = p/2: the lens fills its cell, as its spherical aberration is no wider than a panel pixel.");
     if (o.aperture_rule == ApertureRule::sphere)
         text.note("r = 0.9 R, {:.3g} of p/2: a wider cap would come too near to half a ball. What lies between lenses is black.",
-                  2 * *lens.aperture_radius_mm / o.display.array.pitch_mm);
+                  2 * *lens.aperture_radius_mm / o.display.array.pitch_mm[0]);
     if (o.aperture_rule == ApertureRule::aberration)
         text.note(
             "r is {:.3g} of p/2: a wider lens would blur a panel pixel (a/g = {:.3g} milliradians) by its spherical aberration, K "
             "(2r/f)^3 with K = {:.4f} for n = {}. What lies between lenses is black; an asphere (type \"surfaces\") could fill it.",
-            2 * *lens.aperture_radius_mm / o.display.array.pitch_mm, 1000 * o.display.panel.pixel_pitch_mm / g, spherical_blur,
+            2 * *lens.aperture_radius_mm / o.display.array.pitch_mm[0], 1000 * o.display.panel.pixel_pitch_mm / g, spherical_blur,
             pmma_index);
     text.key("aperture_radius_mm", *lens.aperture_radius_mm);
     text.note("The wall under the cap, a quarter of the pitch or of the gap.");
@@ -94,7 +94,7 @@ std::string pitch_reason(const FirstOrder& o) {
                 "so that lenses and pixels limit resolution about equally: wider lenses would give more views and a finer picture "
                 "at that "
                 "depth, but a coarser one at the lenses and less depth of field.",
-                3437.75 * o.display.array.pitch_mm / eye, 3437.75 * o.theory.pixel_image_mm / (eye - L));
+                3437.75 * o.display.array.pitch_mm[0] / eye, 3437.75 * o.theory.pixel_image_mm / (eye - L));
         case PitchRule::pupil:
             return fmt::format("It is about half of a pupil of {:g} mm, so that light of several lenses enters the eye together.",
                                pupil_mm);
@@ -119,7 +119,7 @@ void write_array(const FirstOrder& o, Text& text) {
     text.note(
         "Elemental images are p' = p (1 + g/E) = {:.6g} mm wide, E = {:.6g} mm from the lenses to the eye; as many as are whole on "
         "the panel.",
-        o.theory.elemental_pitch_mm, o.eye_mm);
+        o.theory.along[0].elemental_pitch_mm, o.eye_mm);
     text.key("count", array.count);
     text.note(
         "From the panel to the lens's panel-side principal plane: g = 1 / (2 tan(FOV/2) / p - 1/E), so that the field of view, 2 "

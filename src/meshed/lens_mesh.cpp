@@ -31,22 +31,31 @@ std::array<double, 2> normal(const PlacedSurface& s, double distance) {
 class Outline {
   public:
     Outline(const PlacedSurface& s, const LensArray& array)
-        : radius_(s.semi_aperture_mm), half_(array.aperture == Aperture::square ? array.pitch_mm / 2 : 0) {}
-    // After this share of the way round, counter-clockwise. A square's begins in a corner, so that quarters end in corners.
+        : radius_(s.semi_aperture_mm),
+          round_(array.aperture == Aperture::circle),
+          half_{array.pitch_mm[0] / 2, array.pitch_mm[1] / 2} {}
+    // After this share of the way round, counter-clockwise. A cell's begins in a corner, so that quarters end in corners.
     std::array<double, 2> point(double share) const {
-        if (half_ == 0) {
+        if (round_) {
             const double angle = 2 * std::numbers::pi * share;
             return {radius_ * std::cos(angle), radius_ * std::sin(angle)};
         }
         const int side = std::min(int(4 * share), 3);
-        const double along = half_ * (2 * (4 * share - side) - 1), scale = std::min(1.0, radius_ / std::hypot(half_, along));
-        const double x = scale * half_, y = scale * along;
+        const std::size_t out = side % 2, up = 1 - out;  // the axis that the side looks along, and that it lies along
+        const double along = half_[up] * (2 * (4 * share - side) - 1),
+                     scale = std::min(1.0, radius_ / std::hypot(half_[out], along));
+        const double x = scale * half_[out], y = scale * along;
         return side == 0 ? std::array{x, y} : side == 1 ? std::array{-y, x} : side == 2 ? std::array{-x, -y} : std::array{y, -x};
     }
-    double reach() const { return half_ == 0 ? radius_ : std::min(radius_, half_ * std::numbers::sqrt2); }
+    double reach() const {
+        const double q = half_[1] / half_[0];
+        return round_ ? radius_ : std::min(radius_, half_[0] * std::sqrt(1 + q * q));
+    }
 
   private:
-    double radius_, half_;
+    double radius_;
+    bool round_;
+    double half_[2];
 };
 
 // Ring k of a curved surface has sectors x k vertices, the last one is the rim.

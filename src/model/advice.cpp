@@ -37,18 +37,22 @@ void advise_on_lenses(Advised& a) {
               g.focal_length_mm);
     if (g.focal_length_mm < 0) a.say("the lens is a diverging one: it has no real image of the panel at any gap");
 
+    const std::size_t few = t.along[0].views <= t.along[1].views ? 0 : 1;
     // Lens k begins k N pixels from the first; a fraction of a pixel in N moves the views of the last lens against those of the
     // first.
-    const double drift = std::abs(t.views - std::round(t.views)) * double(std::max(d.array.count[0], d.array.count[1]));
-    if (t.views < 2)
+    const auto drift = [&](std::size_t k) {
+        return std::abs(t.along[k].views - std::round(t.along[k].views)) * double(d.array.count[k]);
+    };
+    const std::size_t drifts = drift(0) >= drift(1) ? 0 : 1;
+    if (t.along[few].views < 2)
         a.say(
             "the lenses are {} ({:.4g} of {:.4g} mm): one view is all they can show. Wider lenses (--set array.pitch_mm), or a "
             "panel of finer pixels (--set panel.pixel_pitch_mm)",
-            t.views < 1 ? "smaller than a panel pixel" : "less than two panel pixels wide", d.array.pitch_mm,
+            t.along[few].views < 1 ? "smaller than a panel pixel" : "less than two panel pixels wide", d.array.pitch_mm[few],
             d.panel.pixel_pitch_mm);
-    else if (drift > 0.5)
-        a.say("a lens covers {:.4f} panel pixels, not a whole number: across the array this adds up to {:.2g} pixels", t.views,
-              drift);
+    else if (drift(drifts) > 0.5)
+        a.say("a lens covers {:.4f} panel pixels, not a whole number: across the array this adds up to {:.2g} pixels",
+              t.along[drifts].views, drift(drifts));
 }
 
 }  // namespace lfdsim

@@ -1,8 +1,8 @@
 #include "model/advice_parts.h"
+#include "model/numbers.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace lfdsim {
 
@@ -24,15 +24,17 @@ void advise_on_eye(Advised& a) {
 
     // Beyond the elemental image's edge a lens shows that of its neighbour: the picture repeats.
     const auto [x, y, z] = d.camera.position_mm;
-    const double off_axis = std::atan(std::max(std::abs(x), std::abs(y)) / z) * 180 / std::numbers::pi;
-    if (off_axis > a.theory.fov_elemental_deg / 2)
+    const auto half_fov = [&](std::size_t k) { return a.theory.along[k].fov_elemental_deg / 2; };
+    const double off_axis[] = {std::atan(std::abs(x) / z) / degree, std::atan(std::abs(y) / z) / degree};
+    const std::size_t far = off_axis[0] / half_fov(0) >= off_axis[1] / half_fov(1) ? 0 : 1;
+    if (off_axis[far] > half_fov(far))
         a.say(
             "the camera stands {:.1f} degrees off axis, outside the field of view of +-{:.1f} degrees: it sees neighbouring images",
-            off_axis, a.theory.fov_elemental_deg / 2);
+            off_axis[far], half_fov(far));
 
     Display matched = d;
     matched.content.viewing_distance_mm = eye;
-    const double zone = a.theory.viewing_zone_deg, best = theory(matched, g).viewing_zone_deg;
+    const double zone = a.theory.along[0].viewing_zone_deg, best = theory(matched, g).along[0].viewing_zone_deg;
     if (zone < 0.8 * best)
         a.say(
             "the elemental images are made for an eye {} (content.viewing_distance_mm = {:.5g}), but the camera stands "

@@ -30,7 +30,7 @@ void advise_on_layout(Advised& a) {
     const Display& d = a.display;
     const Geometry& g = a.geometry;
     if (!(d.content.viewing_distance_mm > g.rear_principal_mm)) return;  // there are no such elemental images
-    const double scale = a.theory.elemental_pitch_mm / d.array.pitch_mm;
+    const double scale = a.theory.along[0].elemental_pitch_mm / d.array.pitch_mm[0];
     LensArray straight = d.array;
     straight.offset_mm = {};
     straight.rotation_deg = 0;
@@ -49,21 +49,20 @@ void advise_on_layout(Advised& a) {
             "missing images",
             g.array_width_mm, g.array_height_mm, g.panel_width_mm, g.panel_height_mm);
     } else if (beside_straight > 0.02) {
-        const auto fitting = [&](double size, std::int64_t count) {
-            return std::clamp<std::int64_t>(std::int64_t(size / a.theory.elemental_pitch_mm), 1, count);
+        const auto fitting = [&](double size, std::size_t k) {
+            return std::clamp<std::int64_t>(std::int64_t(size / a.theory.along[k].elemental_pitch_mm), 1, d.array.count[k]);
         };
         a.say(
             "the elemental images for a viewer at {:.5g} mm are {:.4f} times as wide as the lenses, {:.5g} x {:.5g} mm together, "
             "wider than the panel ({:.5g} x {:.5g} mm): {:.3g} % of the lenses have theirs beside it. Fewer lenses "
             "(--set 'array.count=[{}, {}]') or a greater content.viewing_distance_mm",
             d.content.viewing_distance_mm, scale, scale * g.array_width_mm, scale * g.array_height_mm, g.panel_width_mm,
-            g.panel_height_mm, 100 * beside_straight, fitting(g.panel_width_mm, d.array.count[0]),
-            fitting(g.panel_height_mm, d.array.count[1]));
+            g.panel_height_mm, 100 * beside_straight, fitting(g.panel_width_mm, 0), fitting(g.panel_height_mm, 1));
     }
-    const auto unused = [&](double array_mm, double panel_mm) {  // more than a tenth, and room for another lens
-        return panel_mm - scale * array_mm > std::max(0.1 * panel_mm, a.theory.elemental_pitch_mm);
+    const auto unused = [&](double array_mm, double panel_mm, std::size_t k) {  // more than a tenth, and room for another lens
+        return panel_mm - scale * array_mm > std::max(0.1 * panel_mm, a.theory.along[k].elemental_pitch_mm);
     };
-    if (unused(g.array_width_mm, g.panel_width_mm) || unused(g.array_height_mm, g.panel_height_mm))
+    if (unused(g.array_width_mm, g.panel_width_mm, 0) || unused(g.array_height_mm, g.panel_height_mm, 1))
         a.say("the lens array ({:.5g} x {:.5g} mm) leaves more than a tenth of the panel ({:.5g} x {:.5g} mm) unused",
               g.array_width_mm, g.array_height_mm, g.panel_width_mm, g.panel_height_mm);
 }

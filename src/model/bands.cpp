@@ -36,13 +36,13 @@ double pupil_radius_mm(const Display& d, const Geometry& g) {
 constexpr int bins = 32, places = 32 * bins, harmonics = places / 4;
 
 /// Amplitudes of the waves cos(2 pi k x / p), x from a joint, of the share that is lit of a line across lenses of that radius in
-/// square cells.
-std::vector<double> lit_waves(double pitch, double radius) {
+/// cells `pitch` wide and `other_pitch` high.
+std::vector<double> lit_waves(double pitch, double other_pitch, double radius) {
     std::vector<double> amplitudes(harmonics), wave(2 * places);
     for (std::size_t m = 0; m < wave.size(); ++m) wave[m] = std::cos(pi * double(m) / places);
     for (std::size_t n = 0; n < places; ++n) {
         const double x = pitch * ((double(n) + 0.5) / places - 0.5);
-        const double lit = std::abs(x) < radius ? std::min(2 * std::sqrt(radius * radius - x * x) / pitch, 1.) : 0;
+        const double lit = std::abs(x) < radius ? std::min(2 * std::sqrt(radius * radius - x * x) / other_pitch, 1.) : 0;
         for (std::size_t k = 0; k < harmonics; ++k)
             amplitudes[k] += (k == 0 ? 1. : 2.) / places * lit * wave[k * (2 * n + 1) % wave.size()];
     }
@@ -72,12 +72,12 @@ double michelson_of(const std::vector<double>& waves) {
 
 }  // namespace
 
-double aperture_plane_mm(const Display& d, const Geometry& g) {
+double aperture_plane_mm(const Display& d, const Geometry& g, std::size_t axis) {
     if (d.lens.type == LensType::ideal || stop_at_entrance(d, g)) return g.entrance_z_mm;
     const PlacedSurface& last = g.surfaces.back();
     const bool square = d.array.aperture == Aperture::square;
     return last.z_mm + sag_mm(last.curvature_per_mm, last.conic, last.even_asphere,
-                              square ? std::min(d.array.pitch_mm / 2, last.semi_aperture_mm) : last.semi_aperture_mm);
+                              square ? std::min(d.array.pitch_mm[axis] / 2, last.semi_aperture_mm) : last.semi_aperture_mm);
 }
 
 double gap_closing_angle_deg(double pitch_mm, double height_mm) { return 2 * std::atan(pitch_mm / (2 * height_mm)) / degree; }
@@ -85,20 +85,19 @@ double gap_closing_angle_deg(double pitch_mm, double height_mm) { return 2 * std
 std::array<double, 2> band_contrast(const Display& d, const Geometry& g) {
     // Between lenses that are not set in black light passes too; a sheet of stops is black in any case.
     if (d.array.surround != Surround::opaque && !d.lens.stop_radius_mm) return {0, 0};
-    const double height = d.diffuser ? *g.diffuser_z_mm - aperture_plane_mm(d, g) : 0;
-    const double turn = d.array.rotation_deg * degree;
-    const std::vector<double> lit = lit_waves(d.array.pitch_mm, pupil_radius_mm(d, g));
+    const double turn = d.array.rotation_deg * degree, radius = pupil_radius_mm(d, g);
     std::array<double, 2> contrast{};
-    for (const int axis : {0, 1}) {
+    for (const std::size_t axis : {0u, 1u}) {
+        const double height = d.diffuser ? *g.diffuser_z_mm - aperture_plane_mm(d, g, axis) : 0, pitch = d.array.pitch_mm[axis];
         // The waves run along the array's axis, the diffuser spreads along the display's.
         const double across = axis == 0 ? std::cos(turn) : -std::sin(turn), up = axis == 0 ? std::sin(turn) : std::cos(turn);
-        std::vector<double> seen = lit;
+        std::vector<double> seen = lit_waves(pitch, d.array.pitch_mm[1 - axis], radius);
         for (std::size_t k = 0; d.diffuser && k < seen.size(); ++k) {
-            const double frequency = double(k) / d.array.pitch_mm;
+            const double frequency = double(k) / pitch;
             seen[k] *= spread_transform(*d.diffuser, 0, height, frequency * across) *
                        spread_transform(*d.diffuser, 1, height, frequency * up);
         }
-        contrast[std::size_t(axis)] = michelson_of(seen);
+        contrast[axis] = michelson_of(seen);
     }
     return contrast;
 }

@@ -10,8 +10,9 @@ namespace lfdsim {
 /// Bands of less contrast (Michelson's) go unnoticed beside the picture's own steps from lens to lens.
 inline constexpr double visible_band_contrast = 0.1;
 
-/// z, mm from the panel, of the plane that cuts off light on the viewer's side: the stop before the lens, else the lens's rim.
-double aperture_plane_mm(const Display&, const Geometry&);
+/// z, mm from the panel, of the plane that cuts off light on the viewer's side: the stop before the lens, else the lens's rim; of
+/// a lens that fills its cell, in the middle of the sides across the array's own x (axis 0) or y (1).
+double aperture_plane_mm(const Display&, const Geometry&, std::size_t axis);
 
 /// The diffuser's full angle (full width at half maximum, if gaussian) that joins the lenses from `height_mm` above that plane:
 /// 2 atan(p / 2 height). Lines of sight are then spread over just one lens pitch.

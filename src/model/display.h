@@ -2,6 +2,7 @@
 // Lengths in millimetres, angles in degrees (fields that end in _deg). Keys, ranges and defaults: docs/format.md.
 // Frame: the panel lies in z = 0 centred on the origin and faces +z; +x is the viewer's right, +y is up.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -46,9 +47,18 @@ struct Lens {
     bool operator==(const Lens&) const = default;
 };
 
+/// From lens to lens along the array's own x (0) and y (1). A description has one number where both are the same.
+struct Pitch : std::array<double, 2> {
+    Pitch() : array{} {}
+    Pitch(double both) : array{both, both} {}
+    Pitch(double along_x, double along_y) : array{along_x, along_y} {}
+    bool is_one() const { return !(at(0) < at(1) || at(0) > at(1)); }  // NaN, which both then are, too
+    double least() const { return std::min(at(0), at(1)); }
+};
+
 struct LensArray {
     std::array<std::int64_t, 2> count{};  // nx, ny
-    double pitch_mm = 0;                  // p
+    Pitch pitch_mm;                       // px, py
     std::optional<double> gap_mm;         // panel to the lens's panel-side principal plane; exactly one of the two
     std::optional<double> base_z_mm;      // panel to the lens's lowest z
     Surround surround = Surround::opaque;

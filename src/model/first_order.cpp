@@ -76,7 +76,7 @@ void place_lenses(FirstOrder& o, double L) {
     const DesignRequest& r = o.request;
     Lens& lens = o.display.lens;
     LensArray& array = o.display.array;
-    const double p = array.pitch_mm, slope = std::tan(r.fov_deg * degree / 2);
+    const double p = array.pitch_mm[0], slope = std::tan(r.fov_deg * degree / 2);
     double apart = 0, gap = 0;  // of the principal planes; g
     lens.type = r.lens;
     for (int round = 0; round < 60; ++round) {
@@ -125,7 +125,7 @@ std::optional<Problem> design(FirstOrder& o) {
     d.array.pitch_mm = to_nanometre(o.views * a);
     place_lenses(o, L);
 
-    const double p = d.array.pitch_mm, g = *d.array.gap_mm, z_r = D - o.eye_mm;
+    const double p = d.array.pitch_mm[0], g = *d.array.gap_mm, z_r = D - o.eye_mm;
     if (!(g > 0 && g <= D / 4))
         return Problem{"--fov-deg",
                        fmt::format("is {:g}, for which lenses of {:.4g} mm, seen from {:g} mm, would have to stand more "

@@ -30,30 +30,21 @@ struct Geometry {
     double rear_principal_mm;             // viewer-side one
     double gap_mm;                        // g, panel to front_principal
     double focal_length_mm;               // f, paraxial; infinite for an afocal lens
-    double glass_radius_mm;    // plano_convex: r of the cap in glass (a square aperture makes it >= p/sqrt 2); else semi aperture
-    double clear_aperture_mm;  // D: 2r, p for a square, twice the stop radius
-    double stop_z_mm;          // plane of the curved vertex (last vertex for surfaces, lens for ideal)
+    double glass_radius_mm;  // plano_convex: r of the cap in glass (a square aperture makes it >= p/sqrt 2); else semi aperture
+    std::array<double, 2> clear_aperture_mm;  // D along the array's own x and y: 2r, a cell's width, twice the stop radius
+    double stop_z_mm;                         // plane of the curved vertex (last vertex for surfaces, lens for ideal)
     std::optional<double> diffuser_z_mm;
     double panel_width_mm, panel_height_mm;
-    double array_width_mm, array_height_mm;  // nx p, ny p
+    double array_width_mm, array_height_mm;  // nx px, ny py
     double frame_width_mm;                   // of the camera, resolved from frame_width_mm | fov_deg | default
     double focus_distance_mm;                // of the camera
     double content_depth_mm, content_height_mm;
 };
 
-/// Paraxial theory, docs/model.md section "Theory". Infinite where a figure has no finite value, NaN where it is undefined.
-struct Theory {
-    double fov_deg;            // 2 atan(p / 2g)
-    double fov_elemental_deg;  // 2 atan(p' / 2g), p' the elemental images' pitch: what is seen through their whole width
-    double focal_length_mm;
-    double gap_mm;
-    double central_depth_mm;   // L, from the rear principal plane; negative: virtual
-    double pixel_image_mm;     // P_I = a |L| / g
-    double depth_of_field_mm;  // 2 |L| P_I / D, as published
-    // Depths z from the rear principal plane at which a lens's spot is no wider than a panel pixel's image, D |1 - z/L| <= a |z|/g:
-    // |1/z - 1/L| <= a/(g D). One interval of 1/z, whatever L; where it holds 0, infinity is sharp.
-    double depth_near_per_mm;           // 1/L + a/(g D)
-    double depth_far_per_mm;            // 1/L - a/(g D)
+/// Along one of the array's own axes, p its pitch there.
+struct AxisTheory {
+    double fov_deg;                     // 2 atan(p / 2g)
+    double fov_elemental_deg;           // 2 atan(p' / 2g), p' the elemental images' pitch: what is seen through their whole width
     double views;                       // N = p / a
     double view_step_deg;               // FOV / N
     double viewing_zone_parallel_deg;   // whole screen, elemental-image pitch p
@@ -61,9 +52,23 @@ struct Theory {
     double eyebox_mm;                   // width of the place from where an eye sees the middle lens's own image: E p' / g
     double elemental_pitch_mm;          // p' = p (1 + g / (D - z_r))
     double lens_sampling_limit_per_mm;  // 1 / 2p
-    double pixel_image_limit_per_mm;    // 1 / 2 P_I
     double gap_closing_diffuser_deg;    // 2 atan(p / 2L), as published: of a diffuser at L
     double gap_closing_here_deg;        // 2 atan(p / 2d), d the diffuser's own height above the apertures (bands.h)
+};
+
+/// Paraxial theory, docs/model.md section "Theory". Infinite where a figure has no finite value, NaN where it is undefined.
+struct Theory {
+    std::array<AxisTheory, 2> along;  // the array's own x and y
+    double focal_length_mm;
+    double gap_mm;
+    double central_depth_mm;   // L, from the rear principal plane; negative: virtual
+    double pixel_image_mm;     // P_I = a |L| / g
+    double depth_of_field_mm;  // 2 |L| P_I / D, as published; D the lens's wider clear aperture, here and below
+    // Depths z from the rear principal plane at which a lens's spot is no wider than a panel pixel's image, D |1 - z/L| <= a |z|/g:
+    // |1/z - 1/L| <= a/(g D). One interval of 1/z, whatever L; where it holds 0, infinity is sharp.
+    double depth_near_per_mm;         // 1/L + a/(g D)
+    double depth_far_per_mm;          // 1/L - a/(g D)
+    double pixel_image_limit_per_mm;  // 1 / 2 P_I
 };
 
 /// All that is wrong with a description, each with its TOML key ("lens.index") as `where`. Empty: valid.
@@ -76,6 +81,9 @@ Theory theory(const Display&, const Geometry&);
 
 /// Whether a stop lies in the entrance plane: light then passes it before it meets the lens.
 bool stop_at_entrance(const Display&, const Geometry&);
+
+/// D across the wider side of a lens.
+double widest_aperture_mm(const Geometry&);
 
 /// Distance from the panel of the eyes that theory and measures reckon with: the camera's from the panel's centre.
 double eye_distance_mm(const Display&);

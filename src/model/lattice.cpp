@@ -7,11 +7,21 @@
 
 namespace lfdsim {
 
+bool differs_by_axis(const LensArray& array) { return !array.pitch_mm.is_one(); }
+
+double inner_radius_mm(const LensArray& array) { return array.pitch_mm.least() / 2; }
+
+// Half the diagonal, so that of a square is p / sqrt(2) to the last bit.
+double outer_radius_mm(const LensArray& array) {
+    const double q = array.pitch_mm[1] / array.pitch_mm[0];
+    return array.pitch_mm[0] / std::sqrt(4 / (1 + q * q));
+}
+
 template <class S>
 Lattice<S> make_lattice(const LensArray& array) {
     Lattice<S> l{};
     for (std::size_t k = 0; k < 2; ++k) {
-        const double pitch = array.pitch_mm;
+        const double pitch = array.pitch_mm[k];
         l.pitch[k] = S(pitch);
         l.per_pitch[k] = S(1 / pitch);
         l.half_pitch[k] = S(pitch / 2);

@@ -16,6 +16,13 @@ struct Lattice {
     S cos_turn, sin_turn;                     // of the array's frame against the display's, counter-clockwise to the viewer
 };
 
+/// Whether what depends on the pitch differs between the array's own x and y, and is told for each.
+bool differs_by_axis(const LensArray&);
+
+/// Radii of the largest disk within a cell and of the smallest that holds it, mm.
+double inner_radius_mm(const LensArray&);
+double outer_radius_mm(const LensArray&);
+
 /// Rounded to S from double precision.
 template <class S>
 Lattice<S> make_lattice(const LensArray&);

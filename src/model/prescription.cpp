@@ -1,5 +1,7 @@
 #include "model/prescription.h"
 
+#include "model/lattice.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -72,7 +74,7 @@ Cardinal cardinal_points(const std::vector<PlacedSurface>& surfaces) {
 
 double glass_radius_mm(const Lens& lens, const LensArray& array) {
     const double given = lens.aperture_radius_mm.value_or(0);
-    return array.aperture == Aperture::square ? std::max(given, array.pitch_mm / std::sqrt(2.0)) : given;
+    return array.aperture == Aperture::square ? std::max(given, outer_radius_mm(array)) : given;
 }
 
 std::vector<PlacedSurface> prescription(const Lens& lens, const LensArray& array) {

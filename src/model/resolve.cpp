@@ -17,7 +17,7 @@ void place_lens(const Lens& lens, const LensArray& array, Geometry& g) {
             z;
         g.focal_length_mm = lens.focal_length_mm;
         g.glass_radius_mm = glass_radius_mm(lens, array);
-        g.clear_aperture_mm = 2 * lens.aperture_radius_mm.value_or(0);
+        g.clear_aperture_mm.fill(2 * lens.aperture_radius_mm.value_or(0));
     } else {
         const Cardinal paraxial = cardinal_points(g.surfaces);
         double lowest = 0, highest = 0, vertex = 0, widest = 0, narrowest = g.surfaces.front().semi_aperture_mm;
@@ -40,7 +40,7 @@ void place_lens(const Lens& lens, const LensArray& array, Geometry& g) {
         g.rear_principal_mm = first + paraxial.rear_principal_mm;
         g.focal_length_mm = paraxial.focal_length_mm;
         g.glass_radius_mm = widest;
-        g.clear_aperture_mm = 2 * narrowest;
+        g.clear_aperture_mm.fill(2 * narrowest);
         // the curved vertex is the first one only for a plano-convex lens that faces the panel
         const bool first_curved = lens.type == LensType::plano_convex && lens.facing == Facing::panel;
         g.stop_z_mm = (first_curved ? g.surfaces.front() : g.surfaces.back()).z_mm;
@@ -48,7 +48,7 @@ void place_lens(const Lens& lens, const LensArray& array, Geometry& g) {
     // as given, to the last bit: g = f must stay exactly so
     g.gap_mm = array.gap_mm.value_or(g.front_principal_mm);
     if (array.aperture == Aperture::square) g.clear_aperture_mm = array.pitch_mm;
-    if (lens.stop_radius_mm) g.clear_aperture_mm = 2 * *lens.stop_radius_mm;
+    if (lens.stop_radius_mm) g.clear_aperture_mm.fill(2 * *lens.stop_radius_mm);
 }
 
 double distance_mm(const Vec3d& a, const Vec3d& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
@@ -61,8 +61,8 @@ Geometry resolve_unchecked(const Display& d) {
     if (d.diffuser) g.diffuser_z_mm = g.vertex_plane_mm + d.diffuser->distance_mm;
     g.panel_width_mm = double(d.panel.pixels[0]) * d.panel.pixel_pitch_mm;
     g.panel_height_mm = double(d.panel.pixels[1]) * d.panel.pixel_pitch_mm;
-    g.array_width_mm = double(d.array.count[0]) * d.array.pitch_mm;
-    g.array_height_mm = double(d.array.count[1]) * d.array.pitch_mm;
+    g.array_width_mm = double(d.array.count[0]) * d.array.pitch_mm[0];
+    g.array_height_mm = double(d.array.count[1]) * d.array.pitch_mm[1];
 
     const double target_mm = distance_mm(d.camera.position_mm, d.camera.target_mm);
     // the panel with a margin, also where it is narrower than the usual 16:9 frame
@@ -88,6 +88,8 @@ Geometry resolve(const Display& d) {
 bool stop_at_entrance(const Display& d, const Geometry& g) {
     return d.lens.stop_radius_mm && std::abs(g.stop_z_mm - g.entrance_z_mm) < 1e-9;
 }
+
+double widest_aperture_mm(const Geometry& g) { return std::max(g.clear_aperture_mm[0], g.clear_aperture_mm[1]); }
 
 double nearest_eye_mm(const Geometry& g) {
     return std::max({g.top_z_mm, g.vertex_plane_mm, g.rear_principal_mm, g.diffuser_z_mm.value_or(0)});

@@ -8,21 +8,12 @@
 
 namespace lfdsim {
 
-// First-order formulas of integral imaging; docs/model.md, "Theory". Symbols as there.
-Theory theory(const Display& d, const Geometry& g) {
-    const double a = d.panel.pixel_pitch_mm, p = d.array.pitch_mm, D = g.clear_aperture_mm, gap = g.gap_mm, f = g.focal_length_mm;
-    const double inverse_L = gap == f ? 0 : 1 / f - 1 / gap, L = inverse_L == 0 ? infinity : 1 / inverse_L;
+namespace {
 
-    Theory t{};
+AxisTheory theory_along(const Display& d, const Geometry& g, double L, std::size_t axis) {
+    const double a = d.panel.pixel_pitch_mm, p = d.array.pitch_mm[axis], gap = g.gap_mm;
+    AxisTheory t{};
     t.fov_deg = 2 * std::atan(p / (2 * gap)) / degree;
-    t.focal_length_mm = f;
-    t.gap_mm = gap;
-    t.central_depth_mm = L;
-    t.pixel_image_mm = a * std::abs(L) / gap;
-    t.depth_of_field_mm = 2 * std::abs(L) * t.pixel_image_mm / D;
-    const double half_depth_per_mm = a / (gap * D);
-    t.depth_near_per_mm = inverse_L + half_depth_per_mm;
-    t.depth_far_per_mm = inverse_L - half_depth_per_mm;
     t.views = p / a;
     t.view_step_deg = t.fov_deg / t.views;
 
@@ -36,15 +27,37 @@ Theory theory(const Display& d, const Geometry& g) {
     t.eyebox_mm = before ? eye * t.elemental_pitch_mm / gap : std::nan("");
     const auto zone_deg = [&](double e) {
         if (!before) return std::nan("");
-        const double m = double(d.array.count[0]), slope = p * (1 + e) / (2 * gap) - (m - 1) * p / 2 * std::abs(1 / eye - e / gap);
+        const double m = double(d.array.count[axis]),
+                     slope = p * (1 + e) / (2 * gap) - (m - 1) * p / 2 * std::abs(1 / eye - e / gap);
         return 2 * std::atan(std::max(slope, 0.0)) / degree;
     };
     t.viewing_zone_parallel_deg = zone_deg(0);
     t.viewing_zone_deg = zone_deg(gap / made_for);
     t.lens_sampling_limit_per_mm = 1 / (2 * p);
-    t.pixel_image_limit_per_mm = 1 / (2 * t.pixel_image_mm);
     t.gap_closing_diffuser_deg = gap_closing_angle_deg(p, std::abs(L));
-    t.gap_closing_here_deg = g.diffuser_z_mm ? gap_closing_angle_deg(p, *g.diffuser_z_mm - aperture_plane_mm(d, g)) : std::nan("");
+    t.gap_closing_here_deg =
+        g.diffuser_z_mm ? gap_closing_angle_deg(p, *g.diffuser_z_mm - aperture_plane_mm(d, g, axis)) : std::nan("");
+    return t;
+}
+
+}  // namespace
+
+// First-order formulas of integral imaging; docs/model.md, "Theory". Symbols as there.
+Theory theory(const Display& d, const Geometry& g) {
+    const double a = d.panel.pixel_pitch_mm, D = widest_aperture_mm(g), gap = g.gap_mm, f = g.focal_length_mm;
+    const double inverse_L = gap == f ? 0 : 1 / f - 1 / gap, L = inverse_L == 0 ? infinity : 1 / inverse_L;
+
+    Theory t{};
+    t.focal_length_mm = f;
+    t.gap_mm = gap;
+    t.central_depth_mm = L;
+    t.pixel_image_mm = a * std::abs(L) / gap;
+    t.pixel_image_limit_per_mm = 1 / (2 * t.pixel_image_mm);
+    t.depth_of_field_mm = 2 * std::abs(L) * t.pixel_image_mm / D;
+    const double half_depth_per_mm = a / (gap * D);
+    t.depth_near_per_mm = inverse_L + half_depth_per_mm;
+    t.depth_far_per_mm = inverse_L - half_depth_per_mm;
+    for (const std::size_t axis : {0u, 1u}) t.along[axis] = theory_along(d, g, L, axis);
     return t;
 }
 

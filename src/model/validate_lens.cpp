@@ -2,6 +2,7 @@
 
 #include "model/findings.h"
 #include "model/keys.h"
+#include "model/lattice.h"
 #include "model/prescription.h"
 
 namespace lfdsim {
@@ -27,17 +28,17 @@ class LensCheck {
   private:
     // Round lenses must not overlap; what is round in a square cell is cut by its borders.
     void check_width(const std::string& where, double radius) {
-        if (array.aperture == Aperture::circle && radius > array.pitch_mm / 2)
+        if (array.aperture == Aperture::circle && radius > inner_radius_mm(array))
             findings.add(where, "{} mm makes the lens wider than array.pitch_mm = {} mm; at most {} mm, or a larger pitch", radius,
-                         array.pitch_mm, array.pitch_mm / 2);
+                         array.pitch_mm.least(), inner_radius_mm(array));
     }
 
     // The stops of neighbours are holes in one sheet; they must not run into one another.
     void check_stop() {
-        if (lens.stop_radius_mm && findings.sound("lens.stop_radius_mm") && *lens.stop_radius_mm > array.pitch_mm / 2)
+        if (lens.stop_radius_mm && findings.sound("lens.stop_radius_mm") && *lens.stop_radius_mm > inner_radius_mm(array))
             findings.add("lens.stop_radius_mm",
                          "{} mm makes the holes of neighbours overlap at array.pitch_mm = {} mm; at most {} mm, or none",
-                         *lens.stop_radius_mm, array.pitch_mm, array.pitch_mm / 2);
+                         *lens.stop_radius_mm, array.pitch_mm.least(), inner_radius_mm(array));
     }
 
     // Of a plano-convex lens: its cap is part of a ball, which must reach over the aperture and stay off the flat face.
@@ -48,7 +49,7 @@ class LensCheck {
         if (R < r)
             findings.add("lens.sphere_radius_mm",
                          "R = {} mm is smaller than {} = {} mm, so the ball does not cover the aperture; at least that", R,
-                         corner ? "half the square cell's diagonal" : "the aperture radius r", r);
+                         corner ? "half the cell's diagonal" : "the aperture radius r", r);
         else if (findings.sound("lens.cylinder_height_mm") && h > highest)
             findings.add("lens.cylinder_height_mm",
                          "h = {} mm, but the ball of R = {} mm would cut the flat face; at most 2 sqrt(R^2 - r^2) = {} mm", h, R,

@@ -55,6 +55,10 @@ class RangeCheck {
     void check(const std::string& where, const Range& range, const std::array<Value, n>& values) {
         for (std::size_t i = 0; i < n; ++i) check(fmt::format("{}[{}]", where, i), range, values[i]);
     }
+    void check(const std::string& where, const Range& range, const Pitch& pitch) {
+        if (pitch.is_one()) return check(where, range, pitch[0]);
+        check<double, 2>(where, range, pitch);
+    }
     void check(const std::string& where, const Range& range, const std::vector<double>& values) {
         if (values.size() > max_asphere_terms)
             return findings_.add(where, "has {} coefficients, allowed are {}", values.size(), max_asphere_terms);

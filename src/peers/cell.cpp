@@ -64,28 +64,30 @@ std::vector<Point> circle(double radius, std::size_t count) {
     return points;
 }
 
-// From a polygon about the axis to the square of the cell, all at one height; nothing where the polygon lies on its border.
-void add_ring(Patch& patch, const std::vector<Point>& inner, double z, double half, double reach) {
+// From a polygon about the axis to the cell's border and `wider` beyond, all at one height; nothing where the polygon lies on it.
+void add_ring(Patch& patch, const std::vector<Point>& inner, double z, const std::array<double, 2>& half, double wider) {
+    const double reach[] = {half[0] + wider, half[1] + wider};
     struct Pair {
         Point in, out;
     };
     std::vector<Pair> pairs;
-    const auto on_square = [&](const Point& p) {
-        const bool beside = std::abs(p[0]) >= std::abs(p[1]);
-        const double scale = reach / std::abs(beside ? p[0] : p[1]);
-        return beside ? Point{std::copysign(reach, p[0]), p[1] * scale, z} : Point{p[0] * scale, std::copysign(reach, p[1]), z};
+    const auto on_border = [&](const Point& p) {
+        const bool beside = std::abs(p[0]) * reach[1] >= std::abs(p[1]) * reach[0];
+        const double scale = beside ? reach[0] / std::abs(p[0]) : reach[1] / std::abs(p[1]);
+        return beside ? Point{std::copysign(reach[0], p[0]), p[1] * scale, z}
+                      : Point{p[0] * scale, std::copysign(reach[1], p[1]), z};
     };
-    for (const Point& p : inner) pairs.push_back({{p[0], p[1], z}, on_square(p)});
+    for (const Point& p : inner) pairs.push_back({{p[0], p[1], z}, on_border(p)});
     const std::size_t count = pairs.size();
     for (std::size_t i = 0; i < count; ++i) {
         const Pair &a = pairs[i], &b = pairs[(i + 1) % count];
-        const auto border = [&](const Point& p) { return std::max(std::abs(p[0]), std::abs(p[1])) >= half - 1e-6; };
+        const auto border = [&](const Point& p) { return std::abs(p[0]) >= half[0] - 1e-6 || std::abs(p[1]) >= half[1] - 1e-6; };
         if (border(a.in) && border(b.in)) continue;
         add_triangle(patch, a.in, a.out, b.in, up);
         add_triangle(patch, b.in, a.out, b.out, up);
-        if (std::abs(a.out[0]) == reach && std::abs(b.out[1]) == reach && std::abs(a.out[1]) != reach)
+        if (std::abs(a.out[0]) == reach[0] && std::abs(b.out[1]) == reach[1] && std::abs(a.out[1]) != reach[1])
             add_triangle(patch, a.out, {a.out[0], b.out[1], z}, b.out, up);  // the corner between two sides
-        else if (std::abs(a.out[1]) == reach && std::abs(b.out[0]) == reach && std::abs(a.out[0]) != reach)
+        else if (std::abs(a.out[1]) == reach[1] && std::abs(b.out[0]) == reach[0] && std::abs(a.out[0]) != reach[0])
             add_triangle(patch, a.out, {b.out[0], a.out[1], z}, b.out, up);
     }
 }
@@ -112,7 +114,7 @@ void add_face(Patch& patch, double z, double half) {
 class ArrayBuilder {
   public:
     ArrayBuilder(const Display& d, const Geometry& g, std::int64_t triangles)
-        : display_(d), geometry_(g), mesh_(mesh_lens(d, g, triangles)), half_(d.array.pitch_mm / 2) {}
+        : display_(d), geometry_(g), mesh_(mesh_lens(d, g, triangles)), half_{d.array.pitch_mm[0] / 2, d.array.pitch_mm[1] / 2} {}
 
     MeshedArray build() {
         const Surround surround = display_.array.surround;
@@ -167,7 +169,7 @@ class ArrayBuilder {
         take(made_.cell, std::move(cap));
         if (display_.array.surround != Surround::plate) return;
         Patch flat{fmt::format("flat-{}", k + 1), false, s.index_above, s.index_below, {}, {}, {}};
-        add_ring(flat, rims_[k], local(rim_z(s)), half_, half_);
+        add_ring(flat, rims_[k], local(rim_z(s)), half_, 0);
         take(made_.cell, std::move(flat));
         Patch beside{fmt::format("beside-{}", k + 1), false, s.index_above, s.index_below, {}, {}, {}};
         add_frame(beside, array_half(geometry_), local(rim_z(s)), sheet_half(display_, geometry_));
@@ -191,7 +193,7 @@ class ArrayBuilder {
                                                [&](const PlacedSurface& s) { return s.semi_aperture_mm == ring.radius_mm; });
                 const bool of_surface = same != surfaces.end() && !all_beside;
                 add_ring(black, of_surface ? rims_[std::size_t(same - surfaces.begin())] : circle(ring.radius_mm, 512), z, half_,
-                         half_ + solid_overlap_mm);
+                         solid_overlap_mm);
                 if (all_beside || &ring == &rings.front() || &ring == &rings.back())
                     add_frame(beside, array_half(geometry_), z, 100 * sheet_half(display_, geometry_));
             }
@@ -230,7 +232,7 @@ class ArrayBuilder {
     const Display& display_;
     const Geometry& geometry_;
     const LensMesh mesh_;
-    const double half_;
+    const std::array<double, 2> half_;
     std::vector<std::vector<Point>> rims_;
     MeshedArray made_{};
 };

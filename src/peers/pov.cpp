@@ -32,8 +32,8 @@ class Writer {
         : d_(d),
           g_(g),
           lattice_(make_lattice<double>(d.array)),
-          half_(d.array.pitch_mm / 2),
-          gap_mm_(gap_pitches * d.array.pitch_mm),
+          half_{d.array.pitch_mm[0] / 2, d.array.pitch_mm[1] / 2},
+          gap_mm_(gap_pitches * d.array.pitch_mm.least()),
           options_(o) {}
 
     std::string scene(const std::vector<std::string>& head, const std::string& panel_file) const {
@@ -68,7 +68,7 @@ class Writer {
   private:
     double units_per_mm() const {
         const auto& p = d_.camera.position_mm;
-        return std::min(120 / d_.array.pitch_mm, longest_units / (std::hypot(p[0], p[1], p[2]) + sheet_half(d_, g_)));
+        return std::min(120 / d_.array.pitch_mm.least(), longest_units / (std::hypot(p[0], p[1], p[2]) + sheet_half(d_, g_)));
     }
 
     std::string camera() const {
@@ -93,8 +93,8 @@ class Writer {
     }
 
     std::string cell_box(double low, double high, double wider) const {
-        const double h = half_ + wider;
-        return fmt::format("box {{ {}, {} }}", vector(-h, -h, low), vector(h, h, high));
+        const double x = half_[0] + wider, y = half_[1] + wider;
+        return fmt::format("box {{ {}, {} }}", vector(-x, -y, low), vector(x, y, high));
     }
     // In a union of all lenses each needs a box; lenses that stand alone get one from POV-Ray.
     std::string cell_bounds() const {
@@ -104,13 +104,15 @@ class Writer {
         return fmt::format("  bounded_by {{ {} }}\n", cell_box(low - 0.01, high + 0.01, 0.01));
     }
 
+    double widest_half() const { return std::max(half_[0], half_[1]); }
+
     // Whether a cell has room beside a hole of this radius.
-    bool beside_hole(double radius) const { return radius < half_ * std::sqrt(2.0); }
+    bool beside_hole(double radius) const { return radius < outer_radius_mm(d_.array); }
 
     // A flat part of the cell beside what is round.
     std::string ring(double z, double radius, const std::string& matter) const {
-        return fmt::format("  disc {{ {}, z, {}, {} clipped_by {{ {} }} {} }}\n", vector(0, 0, z), text(1.5 * half_), text(radius),
-                           cell_box(z - 1, z + 1, overlap_mm), matter);
+        return fmt::format("  disc {{ {}, z, {}, {} clipped_by {{ {} }} {} }}\n", vector(0, 0, z),
+                           text(1.06 * outer_radius_mm(d_.array)), text(radius), cell_box(z - 1, z + 1, overlap_mm), matter);
     }
     // A flat part beside the array.
     std::string beside(double z, const std::string& matter) const {
@@ -170,7 +172,7 @@ class Writer {
         if (high > low + 1e-6)
             parts += fmt::format("  difference {{ {} {} {} }}\n", cell_box(low, high, overlap_mm),
                                  cell_box(low - 1, high + 1, -gap_mm_), black());
-        const double z0 = g_.base_z_mm - 1, z1 = g_.top_z_mm + 1, reach = half_ + 2 * gap_mm_;
+        const double z0 = g_.base_z_mm - 1, z1 = g_.top_z_mm + 1, reach = widest_half() + 2 * gap_mm_;
         parts += fmt::format("  intersection {{ {} {} {} {} {} }}\n", cell_box(z0, z1, overlap_mm),
                              "object { " + cell_box(z0 - 1, z1 + 1, -gap_mm_) + " inverse }",
                              pov_space(g_.surfaces.front(), true, reach, z0 - 1, z1 + 1),
@@ -184,9 +186,9 @@ class Writer {
         const bool square = d_.array.aperture == Aperture::square;
         const double low = g_.base_z_mm - 0.01, high = g_.top_z_mm + 0.01, r = upper.semi_aperture_mm;
         const std::string round = fmt::format("cylinder {{ {}, {}, {} }}", vector(0, 0, low), vector(0, 0, high), text(r));
-        const double reach = (square ? half_ : r) + 0.01;
+        const double reach = (square ? widest_half() : r) + 0.01;
         std::string sides = square ? cell_box(low, high, -gap_mm_) : round;
-        if (square && r < half_ * std::sqrt(2.0)) sides += " " + round;
+        if (square && beside_hole(r)) sides += " " + round;
         return fmt::format("  intersection {{ {}\n    {}\n    {}\n    {} }}\n", sides,
                            pov_space(lower, true, reach, low - 1, high + 1), pov_space(upper, false, reach, low - 1, high + 1),
                            medium(lower.index_above));
@@ -227,41 +229,44 @@ class Writer {
         return all;
     }
 
-    // Of a plate with square cells: the walls in which caps end at the array's border, here on the cell's right side.
-    std::string border_wall() const {
+    // Of a plate whose lenses fill their cells: the walls in which caps end at the array's border, here on the cell's right (axis
+    // 0) or upper side.
+    std::string border_wall(int axis) const {
         std::string walls;
         for (const PlacedSurface& s : g_.surfaces) {
             if (is_plane(s)) continue;
             const bool upper = &s == &g_.surfaces.back();
             const double z0 = upper ? rim_z(s) : g_.base_z_mm, z1 = upper ? g_.top_z_mm : rim_z(s);
-            const auto corner = [&](double y, double z) { return vector(half_, y, z); };
-            walls += fmt::format("  polygon {{ 5, {}, {}, {}, {}, {} clipped_by {{ {} }} }}\n", corner(-half_, z0),
-                                 corner(half_, z0), corner(half_, z1), corner(-half_, z1), corner(-half_, z0),
-                                 pov_space(s, !upper, half_ + 0.01, g_.base_z_mm - 1, g_.top_z_mm + 1));
+            const auto corner = [&](int side, double z) {
+                return axis == 0 ? vector(half_[0], side * half_[1], z) : vector(side * half_[0], half_[1], z);
+            };
+            walls += fmt::format("  polygon {{ 5, {}, {}, {}, {}, {} clipped_by {{ {} }} }}\n", corner(-1, z0), corner(1, z0),
+                                 corner(1, z1), corner(-1, z1), corner(-1, z0),
+                                 pov_space(s, !upper, widest_half() + 0.01, g_.base_z_mm - 1, g_.top_z_mm + 1));
         }
-        return fmt::format("#declare Wall = union {{\n{}  {}\n}}\n", walls, cell_bounds());
+        return fmt::format("#declare Wall{} = union {{\n{}  {}\n}}\n", axis, walls, cell_bounds());
     }
 
     // The plate: all of it one union, so that its faces share their medium; rows of lenses within boxes, so that a ray asks few.
     std::string sheet() const {
-        const double index = g_.surfaces.front().index_above, p = d_.array.pitch_mm;
+        const double index = g_.surfaces.front().index_above;
         const auto [x, y] = array_half(g_);
         const std::int64_t right = d_.array.count[0] - 1, top = d_.array.count[1] - 1;
         std::string walls, all;
         if (d_.array.aperture == Aperture::square) {
-            all = border_wall();
-            const std::pair<std::string, int> sides[] = {
-                {fmt::format("I = {}", right), 0}, {fmt::format("J = {}", top), 90}, {"I = 0", 180}, {"J = 0", 270}};
-            for (const auto& [where, turn] : sides)
-                walls += fmt::format("    #if ({}) object {{ Wall rotate {} * z translate At }} #end\n", where, turn);
+            all = border_wall(0) + border_wall(1);
+            const std::tuple<std::string, int, int> sides[] = {
+                {fmt::format("I = {}", right), 0, 0}, {fmt::format("J = {}", top), 1, 0}, {"I = 0", 0, 180}, {"J = 0", 1, 180}};
+            for (const auto& [where, wall, turn] : sides)
+                walls += fmt::format("    #if ({}) object {{ Wall{} rotate {} * z translate At }} #end\n", where, wall, turn);
         }
         all += fmt::format("union {{\n#for (J, 0, {})\n  #declare Y = (J - {}) * {};\n  union {{\n", top, text(0.5 * double(top)),
-                           text(p));
+                           text(lattice_.pitch[1]));
         all += fmt::format(
             "  #for (I, 0, {})\n    #declare At = <(I - {}) * {}, Y, 0>;\n    object {{ Lens translate At }}\n{}  #end\n", right,
-            text(0.5 * double(right)), text(p), walls);
+            text(0.5 * double(right)), text(lattice_.pitch[0]), walls);
         all += fmt::format("    bounded_by {{ box {{ <{0}, Y - {2}, {3}>, <{1}, Y + {2}, {4}> }} }}\n  }}\n#end\n", text(-x - 0.02),
-                           text(x + 0.02), text(0.51 * p), text(g_.base_z_mm - 0.02), text(g_.top_z_mm + 0.02));
+                           text(x + 0.02), text(0.51 * lattice_.pitch[1]), text(g_.base_z_mm - 0.02), text(g_.top_z_mm + 0.02));
         for (const PlacedSurface& s : g_.surfaces) all += "  " + (is_plane(s) ? face(s) : beside(rim_z(s), "")) + " }\n";
         all += fmt::format("  {} transform {{ Place }}\n}}\n", medium(index));
         for (const Ring& r : stop_rings(d_, g_)) all += beside(before_faces(r.z_mm), black()) + " transform { Place } }\n";
@@ -271,7 +276,7 @@ class Writer {
     const Display& d_;
     const Geometry& g_;
     Lattice<double> lattice_;
-    const double half_, gap_mm_;
+    const double half_[2], gap_mm_;
     const PeerOptions& options_;
 };
 
@@ -297,7 +302,7 @@ void write_pov(const Display& display, const Geometry& geometry, const PeerOptio
         deviations.push_back(fmt::format(
             "array.aperture: {} pitches of air are between square bodies of glass, which touch in lfdsim", 2 * gap_pitches));
     const Writer writer(scene.shown, geometry, options);
-    if (writer.least_way_mm() > 1e-4 * display.array.pitch_mm)
+    if (writer.least_way_mm() > 1e-4 * display.array.pitch_mm.least())
         deviations.push_back(
             fmt::format("camera.position_mm: so far away that POV-Ray may miss surfaces that are within {:.3g} mm of each other",
                         writer.least_way_mm()));

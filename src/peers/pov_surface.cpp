@@ -64,12 +64,13 @@ std::string quadric(const PlacedSurface& s) {
 
 std::string pov_skin(const PlacedSurface& s, const LensArray& array) {
     const auto [low, high] = sag_range_mm(s);
-    const double half = array.pitch_mm / 2, z0 = s.z_mm + low - margin_mm, z1 = s.z_mm + high + margin_mm;
+    const double half_x = array.pitch_mm[0] / 2, half_y = array.pitch_mm[1] / 2, z0 = s.z_mm + low - margin_mm,
+                 z1 = s.z_mm + high + margin_mm;
     std::string clip =
         fmt::format(" clipped_by {{ cylinder {{ {}, {}, {} }} }}", vector(0, 0, z0), vector(0, 0, z1), text(s.semi_aperture_mm));
     if (array.aperture == Aperture::square)
         clip = fmt::format(" clipped_by {{ cylinder {{ {}, {}, {} }} box {{ {}, {} }} }}", vector(0, 0, z0), vector(0, 0, z1),
-                           text(s.semi_aperture_mm), vector(-half, -half, z0), vector(half, half, z1));
+                           text(s.semi_aperture_mm), vector(-half_x, -half_y, z0), vector(half_x, half_y, z1));
     if (is_plane(s)) return fmt::format("disc {{ {}, z, {}", vector(0, 0, s.z_mm), text(s.semi_aperture_mm)) + clip;
     if (!is_conic(s)) return isosurface(s, false, s.semi_aperture_mm + margin_mm, z0, z1) + " open" + clip;
     return (s.conic == 0 ? sphere(s) : quadric(s)) + clip;

@@ -1,6 +1,7 @@
 #include "report/description.h"
 
 #include "model/keys.h"
+#include "model/lattice.h"
 
 #include <fmt/format.h>
 #include <cmath>
@@ -17,6 +18,7 @@ Json json_of(const T& value) {
     else
         return value;
 }
+Json json_of(const Pitch& value) { return value.is_one() ? json_of(value[0]) : Json(value); }
 template <class T>
 Json json_of(const std::optional<T>& value) {
     return value ? json_of(*value) : Json();
@@ -54,29 +56,35 @@ std::vector<Setting> settings(const Display& display) {
     return all;
 }
 
-std::vector<Figure> figures(const Geometry& g) {
+std::vector<Figure> figures(const Display& d, const Geometry& g) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    return {{"gap_mm", g.gap_mm, "g, panel to the front principal plane"},
-            {"base_z_mm", g.base_z_mm, "lowest point of a lens"},
-            {"front_principal_mm", g.front_principal_mm, "panel-side principal plane"},
-            {"rear_principal_mm", g.rear_principal_mm, "viewer-side principal plane"},
-            {"vertex_plane_mm", g.vertex_plane_mm, "viewer-side vertex plane: depths count from here"},
-            {"top_z_mm", g.top_z_mm, "highest point of a lens"},
-            {"stop_z_mm", g.stop_z_mm, "plane of the aperture stop, if there is one"},
-            {"diffuser_z_mm", g.diffuser_z_mm.value_or(none), "diffuser", "", "there is no diffuser"},
-            {"glass_radius_mm", g.glass_radius_mm, "radius of a lens"},
-            {"clear_aperture_mm", g.clear_aperture_mm, "D, clear aperture of a lens"},
-            {"panel_width_mm", g.panel_width_mm, "panel, width"},
-            {"panel_height_mm", g.panel_height_mm, "panel, height"},
-            {"array_width_mm", g.array_width_mm, "lens array, width"},
-            {"array_height_mm", g.array_height_mm, "lens array, height"},
-            {"frame_width_mm", g.frame_width_mm, "camera's frame in the plane through its target, width"},
-            {"focus_distance_mm", g.focus_distance_mm, "camera's focus along the line of sight"},
-            {"content_depth_mm", g.content_depth_mm, "depth of the model's centre"},
-            {"content_height_mm", g.content_height_mm, "height of the model"}};
+    std::vector<double> aperture(g.clear_aperture_mm.begin(), g.clear_aperture_mm.begin() + (differs_by_axis(d.array) ? 2 : 1));
+    return {{"gap_mm", {g.gap_mm}, "g, panel to the front principal plane"},
+            {"base_z_mm", {g.base_z_mm}, "lowest point of a lens"},
+            {"front_principal_mm", {g.front_principal_mm}, "panel-side principal plane"},
+            {"rear_principal_mm", {g.rear_principal_mm}, "viewer-side principal plane"},
+            {"vertex_plane_mm", {g.vertex_plane_mm}, "viewer-side vertex plane: depths count from here"},
+            {"top_z_mm", {g.top_z_mm}, "highest point of a lens"},
+            {"stop_z_mm", {g.stop_z_mm}, "plane of the aperture stop, if there is one"},
+            {"diffuser_z_mm", {g.diffuser_z_mm.value_or(none)}, "diffuser", "", "there is no diffuser"},
+            {"glass_radius_mm", {g.glass_radius_mm}, "radius of a lens"},
+            {"clear_aperture_mm", aperture, "D, clear aperture of a lens"},
+            {"panel_width_mm", {g.panel_width_mm}, "panel, width"},
+            {"panel_height_mm", {g.panel_height_mm}, "panel, height"},
+            {"array_width_mm", {g.array_width_mm}, "lens array, width"},
+            {"array_height_mm", {g.array_height_mm}, "lens array, height"},
+            {"frame_width_mm", {g.frame_width_mm}, "camera's frame in the plane through its target, width"},
+            {"focus_distance_mm", {g.focus_distance_mm}, "camera's focus along the line of sight"},
+            {"content_depth_mm", {g.content_depth_mm}, "depth of the model's centre"},
+            {"content_height_mm", {g.content_height_mm}, "height of the model"}};
 }
 
-std::vector<Figure> figures(const Theory& t) {
+std::vector<Figure> figures(const Display& d, const Theory& t) {
+    const bool by_axis = differs_by_axis(d.array);
+    const auto along = [&](double AxisTheory::*figure) {
+        const double x = t.along[0].*figure, y = t.along[1].*figure;
+        return by_axis ? std::vector{x, y} : std::vector{x};
+    };
     constexpr const char* inside = "the camera stands inside the display or behind it";
     // Seen from the lenses, depths are sharp from the near end's 1/z down to the far end's: towards the viewer from the one,
     // through infinity where the signs differ, and behind the lenses where 1/z is negative.
@@ -85,33 +93,35 @@ std::vector<Figure> figures(const Theory& t) {
         if (per_mm < 0) return near ? "where it ends far behind the lenses" : "where it begins, behind the lenses";
         return near ? "its end, at infinity" : "its other end, at infinity";
     };
-    return {{"fov_deg", t.fov_deg, "field of view", "2 atan(p / 2g)"},
-            {"fov_elemental_deg", t.fov_elemental_deg, "field of view of whole elemental images", "2 atan(p' / 2g)"},
-            {"focal_length_mm", t.focal_length_mm, "f, focal length of a lens", "paraxial, of the lens's surfaces in air"},
-            {"gap_mm", t.gap_mm, "g, gap", "panel to the front principal plane"},
-            {"central_depth_mm", t.central_depth_mm, "L, central depth plane, from the rear principal plane", "1/L = 1/f - 1/g"},
-            {"pixel_image_mm", t.pixel_image_mm, "P_I, image of a panel pixel on it", "a |L| / g"},
-            {"depth_of_field_mm", t.depth_of_field_mm, "depth of field, as published", "2 |L| P_I / D"},
-            {"depth_near_mm", depth_mm(t.depth_near_per_mm), end_of(t.depth_near_per_mm, true), "1 / (1/L + a / (g D))"},
-            {"depth_far_mm", depth_mm(t.depth_far_per_mm), end_of(t.depth_far_per_mm, false), "1 / (1/L - a / (g D))"},
-            {"depth_near_diopters", 1000 * t.depth_near_per_mm, "the same end as 1/z", "1/L + a / (g D)"},
-            {"depth_far_diopters", 1000 * t.depth_far_per_mm, "the same end as 1/z", "1/L - a / (g D)"},
-            {"views", t.views, "N, views across", "p / a"},
-            {"view_step_deg", t.view_step_deg, "angle from view to view", "field of view / N"},
-            {"viewing_zone_parallel_deg", t.viewing_zone_parallel_deg,
-             "zone that sees the whole screen, elemental images at lens pitch",
-             "2 atan(p / 2g - (m - 1) p / 2E), m lenses across, the eye at E", inside},
-            {"viewing_zone_deg", t.viewing_zone_deg, "zone that sees the whole screen from the camera's distance",
-             "2 atan(p' / 2g - (m - 1) p/2 |1/E - 1/D'|), made for D'", inside},
-            {"eyebox_mm", t.eyebox_mm, "its width for one lens, at the camera's distance", "E p' / g", inside},
-            {"elemental_pitch_mm", t.elemental_pitch_mm, "p', pitch of the elemental images for the viewing distance",
-             "p (1 + g / D')"},
-            {"lens_sampling_limit_per_mm", t.lens_sampling_limit_per_mm, "resolution limit of the lens pitch", "1 / 2p"},
-            {"pixel_image_limit_per_mm", t.pixel_image_limit_per_mm, "resolution limit of the panel pixels", "1 / 2 P_I"},
-            {"gap_closing_diffuser_deg", t.gap_closing_diffuser_deg, "diffuser at L that closes the gaps between lenses",
-             "2 atan(p / 2 |L|)"},
-            {"gap_closing_here_deg", t.gap_closing_here_deg, "angle that closes them from where the diffuser stands",
-             "2 atan(p / 2d), d its height above the lenses' rims", "there is no diffuser"}};
+    return {
+        {"fov_deg", along(&AxisTheory::fov_deg), "field of view", "2 atan(p / 2g)"},
+        {"fov_elemental_deg", along(&AxisTheory::fov_elemental_deg), "field of view of whole elemental images", "2 atan(p' / 2g)"},
+        {"focal_length_mm", {t.focal_length_mm}, "f, focal length of a lens", "paraxial, of the lens's surfaces in air"},
+        {"gap_mm", {t.gap_mm}, "g, gap", "panel to the front principal plane"},
+        {"central_depth_mm", {t.central_depth_mm}, "L, central depth plane, from the rear principal plane", "1/L = 1/f - 1/g"},
+        {"pixel_image_mm", {t.pixel_image_mm}, "P_I, image of a panel pixel on it", "a |L| / g"},
+        {"depth_of_field_mm", {t.depth_of_field_mm}, "depth of field, as published", "2 |L| P_I / D"},
+        {"depth_near_mm", {depth_mm(t.depth_near_per_mm)}, end_of(t.depth_near_per_mm, true), "1 / (1/L + a / (g D))"},
+        {"depth_far_mm", {depth_mm(t.depth_far_per_mm)}, end_of(t.depth_far_per_mm, false), "1 / (1/L - a / (g D))"},
+        {"depth_near_diopters", {1000 * t.depth_near_per_mm}, "the same end as 1/z", "1/L + a / (g D)"},
+        {"depth_far_diopters", {1000 * t.depth_far_per_mm}, "the same end as 1/z", "1/L - a / (g D)"},
+        {"views", along(&AxisTheory::views), "N, views across", "p / a"},
+        {"view_step_deg", along(&AxisTheory::view_step_deg), "angle from view to view", "field of view / N"},
+        {"viewing_zone_parallel_deg", along(&AxisTheory::viewing_zone_parallel_deg),
+         "zone that sees the whole screen, elemental images at lens pitch",
+         "2 atan(p / 2g - (m - 1) p / 2E), m lenses across, the eye at E", inside},
+        {"viewing_zone_deg", along(&AxisTheory::viewing_zone_deg), "zone that sees the whole screen from the camera's distance",
+         "2 atan(p' / 2g - (m - 1) p/2 |1/E - 1/D'|), made for D'", inside},
+        {"eyebox_mm", along(&AxisTheory::eyebox_mm), "its width for one lens, at the camera's distance", "E p' / g", inside},
+        {"elemental_pitch_mm", along(&AxisTheory::elemental_pitch_mm), "p', pitch of the elemental images for the viewing distance",
+         "p (1 + g / D')"},
+        {"lens_sampling_limit_per_mm", along(&AxisTheory::lens_sampling_limit_per_mm), "resolution limit of the lens pitch",
+         "1 / 2p"},
+        {"pixel_image_limit_per_mm", {t.pixel_image_limit_per_mm}, "resolution limit of the panel pixels", "1 / 2 P_I"},
+        {"gap_closing_diffuser_deg", along(&AxisTheory::gap_closing_diffuser_deg),
+         "diffuser at L that closes the gaps between lenses", "2 atan(p / 2 |L|)"},
+        {"gap_closing_here_deg", along(&AxisTheory::gap_closing_here_deg), "angle that closes them from where the diffuser stands",
+         "2 atan(p / 2d), d its height above the lenses' rims", "there is no diffuser"}};
 }
 
 Json to_json(const std::vector<Setting>& all) {
@@ -130,13 +140,13 @@ Json to_json(const std::vector<Setting>& all) {
 
 Json to_json(const std::vector<Figure>& all) {
     Json json = Json::object();
-    for (const Figure& f : all) json[f.name] = number_json(f.value);
+    for (const Figure& f : all) json[f.name] = f.values.size() == 1 ? number_json(f.values[0]) : numbers_json(f.values);
     return json;
 }
 
 void add_notes(const std::vector<Figure>& all, const std::string& part, Json& notes) {
     for (const Figure& f : all)
-        if (std::isnan(f.value)) notes[part + "." + f.name] = f.undefined;
+        if (std::isnan(f.values[0])) notes[part + "." + f.name] = f.undefined;
 }
 
 std::string unit_of(const std::string& name) {

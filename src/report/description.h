@@ -21,13 +21,13 @@ std::vector<Setting> settings(const Display&);
 /// A number that follows from the description; its name ends in its unit.
 struct Figure {
     const char* name;
-    double value;  // infinite where there is no finite one; NaN where it is undefined
+    std::vector<double> values;  // infinite where there is no finite one; NaN where it is undefined; two: along the array's x and y
     const char* meaning;
     const char* formula = "";    // by which it follows; symbols as in docs/model.md
     const char* undefined = "";  // why there is none, where the value is NaN
 };
-std::vector<Figure> figures(const Geometry&);
-std::vector<Figure> figures(const Theory&);
+std::vector<Figure> figures(const Display&, const Geometry&);
+std::vector<Figure> figures(const Display&, const Theory&);
 
 Json to_json(const std::vector<Setting>&);  // {"panel": {"pixels": ...}, ...}
 Json to_json(const std::vector<Figure>&);   // {"fov_deg": ...}; "infinite" and "-infinite" as words, null where undefined

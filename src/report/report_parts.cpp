@@ -87,25 +87,34 @@ std::string theory_rows(const Subject& s) {
     const auto number = [](double x, const char* unit) {
         return std::isfinite(x) ? fmt::format("{}{:.4g}{}", x < 0 ? "−" : "", std::abs(x), unit) : std::string("infinite");
     };
+    const bool by_axis = differs_by_axis(d.array);
+    const auto along = [&](double x, double y, const char* unit) {
+        return by_axis ? number(x, unit) + " × " + number(y, unit) : number(x, unit);
+    };
+    const auto theory = [&](double AxisTheory::*figure, const char* unit) {
+        return along(t.along[0].*figure, t.along[1].*figure, unit);
+    };
     const std::pair<const char*, std::string> rows[] = {
         {"Panel", fmt::format("{} × {} pixels of {:.4g} mm, {:.4g} × {:.4g} mm", d.panel.pixels[0], d.panel.pixels[1],
                               d.panel.pixel_pitch_mm, g.panel_width_mm, g.panel_height_mm)},
-        {"Lenses", fmt::format("{} × {}, pitch p {:.4g} mm, aperture D {:.4g} mm", d.array.count[0], d.array.count[1],
-                               d.array.pitch_mm, g.clear_aperture_mm)},
+        {"Lenses", fmt::format("{} × {}, pitch p {}, aperture D {}", d.array.count[0], d.array.count[1],
+                               along(d.array.pitch_mm[0], d.array.pitch_mm[1], " mm"),
+                               along(g.clear_aperture_mm[0], g.clear_aperture_mm[1], " mm"))},
         {"Gap g, focal length f", fmt::format("{}, {}", number(g.gap_mm, " mm"), number(g.focal_length_mm, " mm"))},
         {"Diffuser", d.diffuser ? fmt::format("{:.4g}° × {:.4g}°, {:.4g} mm before the lenses", d.diffuser->angle_deg[0],
                                               d.diffuser->angle_deg[1], d.diffuser->distance_mm)
                                 : std::string("none")},
-        {"Field of view, 2 atan(p / 2g)", number(t.fov_deg, "°")},
-        {"Field of view of whole elemental images", number(t.fov_elemental_deg, "°")},
-        {"Views across, and between them", fmt::format("{}, {}", number(t.views, ""), number(t.view_step_deg, "°"))},
+        {"Field of view, 2 atan(p / 2g)", theory(&AxisTheory::fov_deg, "°")},
+        {"Field of view of whole elemental images", theory(&AxisTheory::fov_elemental_deg, "°")},
+        {"Views across, and between them",
+         fmt::format("{}, {}", theory(&AxisTheory::views, ""), theory(&AxisTheory::view_step_deg, "°"))},
         {"Central depth plane L, from the lenses", number(t.central_depth_mm, " mm")},
         {"Depth of field, from the lenses: ends",
          fmt::format("{}, {}", number(depth_mm(t.depth_near_per_mm), " mm"), number(depth_mm(t.depth_far_per_mm), " mm"))},
         {"Image of a pixel at L", number(t.pixel_image_mm, " mm")},
-        {"Whole screen seen from within", number(t.viewing_zone_deg, "°")},
-        {"Sampling by lenses, by pixels",
-         fmt::format("{}, {}", number(t.lens_sampling_limit_per_mm, "/mm"), number(t.pixel_image_limit_per_mm, "/mm at L"))},
+        {"Whole screen seen from within", theory(&AxisTheory::viewing_zone_deg, "°")},
+        {"Sampling by lenses, by pixels", fmt::format("{}, {}", theory(&AxisTheory::lens_sampling_limit_per_mm, "/mm"),
+                                                      number(t.pixel_image_limit_per_mm, "/mm at L"))},
     };
     std::string html;
     for (const auto& [name, value] : rows) html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", name, value);

@@ -57,7 +57,7 @@ SidePath through_lens(const Display& d, const Geometry& g, const SideRay& start)
     SidePath path{{{start.y, start.z}}, start, true};
     SideRay& ray = path.last;
     const bool up = start.dz > 0;
-    const double cell = d.array.aperture == Aperture::square ? d.array.pitch_mm / 2 : INFINITY;
+    const double cell = d.array.aperture == Aperture::square ? d.array.pitch_mm[1] / 2 : INFINITY;
     const auto end = [&] {
         path.through = false;
         return path;
@@ -75,7 +75,7 @@ SidePath through_lens(const Display& d, const Geometry& g, const SideRay& start)
         const double after = incline + (up ? -1 : 1) * y / g.focal_length_mm, sense = up ? 1 : -1;
         path.points.push_back({y, g.vertex_plane_mm});
         ray = {y, g.vertex_plane_mm, sense * after / std::hypot(1, after), sense / std::hypot(1, after)};
-        path.through = std::abs(y) <= 0.5 * g.clear_aperture_mm;
+        path.through = std::abs(y) <= 0.5 * g.clear_aperture_mm[1];
         return path;
     }
     for (std::size_t k = 0; k < g.surfaces.size(); ++k) {

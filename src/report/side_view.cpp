@@ -73,7 +73,7 @@ void draw_backward(Drawing& drawing, const SideScale& scale, const Subject& s) {
 void draw_pixel(Drawing& drawing, const SideScale& scale, const Subject& s, const Planes& planes) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();
-    const double y = lens_near(d, 0).y_mm, half = 0.45 * g.clear_aperture_mm;
+    const double y = lens_near(d, 0).y_mm, half = 0.45 * g.clear_aperture_mm[1];
     const bool real = planes.central > g.top_z_mm;
     const double end = real ? planes.central : g.top_z_mm + 0.4 * (d.camera.position_mm[2] - g.top_z_mm);
     for (const double share : {-1., -0.5, 0., 0.5, 1.}) {

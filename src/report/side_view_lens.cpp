@@ -22,7 +22,7 @@ struct Window {
 Window window_of(const Display& d, const Geometry& g) {
     const SideLens middle = lens_near(d, 0);
     Window w{std::max<std::int64_t>(middle.row - 1, 0), std::min(middle.row + 1, d.array.count[1] - 1), 0, 0, 0, 0};
-    const double p = d.array.pitch_mm, depth = g.top_z_mm - std::min(0., g.base_z_mm);
+    const double p = d.array.pitch_mm[1], depth = g.top_z_mm - std::min(0., g.base_z_mm);
     w.low = lens_at(d, w.first).y_mm - 0.6 * p;
     w.high = lens_at(d, w.last).y_mm + 0.6 * p;
     w.from = std::min(0., g.base_z_mm) - 0.05 * depth;
@@ -34,7 +34,7 @@ Window window_of(const Display& d, const Geometry& g) {
 
 /// Half the height of a lens in the plane of its axis.
 double rim_of(const Display& d, const PlacedSurface& f) {
-    return d.array.aperture == Aperture::square ? 0.5 * d.array.pitch_mm : f.semi_aperture_mm;
+    return d.array.aperture == Aperture::square ? 0.5 * d.array.pitch_mm[1] : f.semi_aperture_mm;
 }
 
 void add_surface(std::vector<Point>& outline, const SideScale& scale, const Display& d, const PlacedSurface& f, double y, bool up) {
@@ -47,7 +47,7 @@ void add_surface(std::vector<Point>& outline, const SideScale& scale, const Disp
 
 void draw_lens(Drawing& drawing, const SideScale& scale, const Display& d, const Geometry& g, double y) {
     if (g.surfaces.empty()) {
-        const double half = 0.5 * g.clear_aperture_mm;
+        const double half = 0.5 * g.clear_aperture_mm[1];
         drawing.line(scale.at(y - half, g.vertex_plane_mm), scale.at(y + half, g.vertex_plane_mm), glass_style);
         for (const int sense : {-1, 1}) {
             const auto [x, tip] = scale.at(y + sense * half, g.vertex_plane_mm);
@@ -65,13 +65,13 @@ void draw_lens(Drawing& drawing, const SideScale& scale, const Display& d, const
     if (!d.lens.stop_radius_mm) return;
     for (const double sense : {-1., 1.})
         drawing.line(scale.at(y + sense * *d.lens.stop_radius_mm, g.stop_z_mm),
-                     scale.at(y + sense * 0.5 * d.array.pitch_mm, g.stop_z_mm), "stroke-width=\"3\"");
+                     scale.at(y + sense * 0.5 * d.array.pitch_mm[1], g.stop_z_mm), "stroke-width=\"3\"");
 }
 
 /// What stands between two lenses, y the border of their cells: black walls, or the glass of a plate.
 void draw_between(Drawing& drawing, const SideScale& scale, const Display& d, const Geometry& g, double y, bool upper, bool lower) {
-    const double half = 0.5 * d.array.pitch_mm;
-    double rim = g.surfaces.empty() ? 0.5 * g.clear_aperture_mm : g.glass_radius_mm, low = g.vertex_plane_mm, high = low;
+    const double half = 0.5 * d.array.pitch_mm[1];
+    double rim = g.surfaces.empty() ? 0.5 * g.clear_aperture_mm[1] : g.glass_radius_mm, low = g.vertex_plane_mm, high = low;
     if (d.array.aperture == Aperture::square) rim = half;
     for (const PlacedSurface& f : g.surfaces) {
         const double z = rim_z(f, std::min(rim, rim_of(d, f)));
@@ -92,8 +92,8 @@ void draw_rays(Drawing& drawing, const SideScale& scale, const Subject& s, const
     const Vec3d& eye = d.camera.position_mm;
     // The field of view that theory expects, at the upper lens: by its elemental image's edges and its principal points.
     for (const double sense : {-1., 1.}) {
-        const double edge = upper.y_mm + sense * 0.5 * d.array.pitch_mm;
-        const double far = upper.y_mm - sense * 0.5 * d.array.pitch_mm / g.gap_mm * (w.to - g.rear_principal_mm);
+        const double edge = upper.y_mm + sense * 0.5 * d.array.pitch_mm[1];
+        const double far = upper.y_mm - sense * 0.5 * d.array.pitch_mm[1] / g.gap_mm * (w.to - g.rear_principal_mm);
         drawing.path(std::array{scale.at(edge, 0), scale.at(upper.y_mm, g.front_principal_mm),
                                 scale.at(upper.y_mm, g.rear_principal_mm), scale.at(far, w.to)},
                      "stroke-opacity=\"0.5\" stroke-dasharray=\"5 4\"");
@@ -109,14 +109,14 @@ void draw_rays(Drawing& drawing, const SideScale& scale, const Subject& s, const
         for (const double share : {-0.8, -0.4, 0., 0.4, 0.8})
             draw_path(
                 drawing, scale,
-                through_array(d, g, side_ray(eye[1], eye[2], lower.y_mm + share * 0.5 * g.clear_aperture_mm, g.vertex_plane_mm)), 0,
-                backward_style);
+                through_array(d, g, side_ray(eye[1], eye[2], lower.y_mm + share * 0.5 * g.clear_aperture_mm[1], g.vertex_plane_mm)),
+                0, backward_style);
     }
     // The pixel nearest to a fifth of a pitch above the middle lens's axis
     const double a = d.panel.pixel_pitch_mm, phase = d.panel.pixels[1] % 2 ? 0 : 0.5;
-    const double y = a * (std::round((middle.y_mm + 0.2 * d.array.pitch_mm) / a - phase) + phase);
+    const double y = a * (std::round((middle.y_mm + 0.2 * d.array.pitch_mm[1]) / a - phase) + phase);
     for (int k = -3; k <= 3; ++k) {
-        const SideRay ray = side_ray(y - middle.y_mm, 0, 0.16 * k * g.clear_aperture_mm, g.front_principal_mm);
+        const SideRay ray = side_ray(y - middle.y_mm, 0, 0.16 * k * g.clear_aperture_mm[1], g.front_principal_mm);
         SidePath path = through_lens(d, g, ray);
         for (auto& point : path.points) point[0] += middle.y_mm;
         path.last.y += middle.y_mm;
@@ -129,14 +129,14 @@ std::vector<std::string> notes_of(const Subject& s) {
     const Geometry& g = s.geometry();
     const Theory& t = s.theory();
     std::vector<std::string> lines{
-        fmt::format("p = {}: lens pitch", mm(d.array.pitch_mm)),
+        fmt::format("p = {}: lens pitch", mm(d.array.pitch_mm[1])),
         fmt::format("g = {}: gap", mm(g.gap_mm)),
         std::isfinite(g.focal_length_mm) ? fmt::format("f = {}: focal length", mm(g.focal_length_mm)) : std::string("f: infinite"),
-        fmt::format("D = {}: aperture", mm(g.clear_aperture_mm)),
+        fmt::format("D = {}: aperture", mm(g.clear_aperture_mm[1])),
         fmt::format("a = {}: pixel", mm(d.panel.pixel_pitch_mm)),
         std::isfinite(t.central_depth_mm) ? fmt::format("L = {}: central depth", mm(t.central_depth_mm))
                                           : std::string("L: at infinity"),
-        fmt::format("{:.4g}\u00b0: field of view, dashed", t.fov_deg)};
+        fmt::format("{:.4g}\u00b0: field of view, dashed", t.along[1].fov_deg)};
     if (d.diffuser) lines.push_back(fmt::format("\u03c9 = {:.4g}\u00b0: diffuser, vertical", d.diffuser->angle_deg[1]));
     if (d.array.rotation_deg != 0) lines.push_back("in the frame of the turned array");
     return lines;
@@ -158,7 +158,7 @@ std::string lens_view_svg(const Subject& s, SideFrame* frame) {
                             px(left), px(top), px(lens_drawn), px(high)));
     for (std::int64_t row = w.first; row <= w.last; ++row) draw_lens(drawing, scale, d, g, lens_at(d, row).y_mm);
     for (std::int64_t row = w.first; row <= w.last + 1; ++row)
-        draw_between(drawing, scale, d, g, lens_at(d, row).y_mm - 0.5 * d.array.pitch_mm, row<d.array.count[1], row> 0);
+        draw_between(drawing, scale, d, g, lens_at(d, row).y_mm - 0.5 * d.array.pitch_mm[1], row<d.array.count[1], row> 0);
     draw_rays(drawing, scale, s, w);
     if (g.diffuser_z_mm && *g.diffuser_z_mm < w.to)
         drawing.line(scale.at(w.low, *g.diffuser_z_mm), scale.at(w.high, *g.diffuser_z_mm), diffuser_style);
@@ -185,7 +185,7 @@ std::string lens_view_svg(const Subject& s, SideFrame* frame) {
             drawing.line({x - 6, at(y, 0)[1]}, {x + 12, at(y, 0)[1]}, "stroke-opacity=\"0.5\"");
         drawing.dimension({x, at(lower.y_mm, 0)[1]}, {x, at(next, 0)[1]}, "");
         const double middle = 0.5 * (at(lower.y_mm, 0)[1] + at(next, 0)[1]);
-        drawing.text({x - 8, middle}, "p = " + mm(d.array.pitch_mm),
+        drawing.text({x - 8, middle}, "p = " + mm(d.array.pitch_mm[1]),
                      fmt::format("font-size=\"12\" text-anchor=\"middle\" transform=\"rotate(-90 {} {})\"", px(x - 8), px(middle)));
     }
     for (const double z : {0., g.front_principal_mm})
@@ -193,11 +193,11 @@ std::string lens_view_svg(const Subject& s, SideFrame* frame) {
     drawing.dimension({at(0, 0)[0], below}, {at(0, g.front_principal_mm)[0], below}, "");
     drawing.text({0.5 * (at(0, 0)[0] + at(0, g.front_principal_mm)[0]), below + 17}, "g = " + mm(g.gap_mm),
                  "font-size=\"12\" text-anchor=\"middle\"");
-    const double upper = lens_at(d, w.last).y_mm, half = 0.5 * g.clear_aperture_mm;
+    const double upper = lens_at(d, w.last).y_mm, half = 0.5 * g.clear_aperture_mm[1];
     const double beside = g.top_z_mm + 0.06 * (w.to - g.top_z_mm);
     for (const double y : {upper - half, upper + half})
         drawing.line(at(y, g.stop_z_mm), {at(y, beside)[0] + 6, at(y, beside)[1]}, "stroke-opacity=\"0.5\"");
-    drawing.dimension(at(upper - half, beside), at(upper + half, beside), "D = " + mm(g.clear_aperture_mm));
+    drawing.dimension(at(upper - half, beside), at(upper + half, beside), "D = " + mm(g.clear_aperture_mm[1]));
     double row = top + 16;
     for (const std::string& line : notes_of(s)) {
         drawing.text({lens_page_width - notes + 18, row}, line, "font-size=\"12\"");

@@ -19,17 +19,12 @@
 namespace lfdsim::view {
 namespace {
 
-Json json_of(double x) {
-    if (std::isnan(x)) return nullptr;
-    if (std::isinf(x)) return x > 0 ? "infinite" : "-infinite";
-    return x;
-}
-
 Json json_of(const std::vector<Figure>& figures) {
     Json all = Json::array();
+    const Json values = to_json(figures);
     for (const Figure& f : figures)
         all.push_back(
-            {{"name", f.name}, {"label", f.meaning}, {"unit", unit_of(f.name)}, {"value", json_of(f.value)}, {"doc", f.formula}});
+            {{"name", f.name}, {"label", f.meaning}, {"unit", unit_of(f.name)}, {"value", values[f.name]}, {"doc", f.formula}});
     return all;
 }
 
@@ -158,8 +153,8 @@ Json resolved(const Library& library, const Wanted& wanted) {
                         {"id", wanted.id},
                         {"name", display.name.empty() ? library.description(wanted).file.stem().string() : display.name},
                         {"controls", controls(display, described(library, wanted, display))},
-                        {"theory", json_of(figures(paraxial))},
-                        {"geometry", json_of(figures(geometry))},
+                        {"theory", json_of(figures(display, paraxial))},
+                        {"geometry", json_of(figures(display, geometry))},
                         {"warnings", advice(display, geometry, paraxial)},
                         {"command", command(library, wanted)}});
     } catch (const InputError& error) {

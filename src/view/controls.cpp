@@ -41,16 +41,18 @@ Json control_json(const List& list) {
 /// A diffuser that could be put before a display that has none: it joins the lenses from there.
 Diffuser new_diffuser(const Display& d, const Geometry& g) {
     const double distance = rounded(g.top_z_mm - g.vertex_plane_mm + 10 * std::max(g.gap_mm, 1.), 2);
-    const double joining = gap_closing_angle_deg(d.array.pitch_mm, g.vertex_plane_mm + distance - aperture_plane_mm(d, g));
-    const double angle = rounded(std::clamp(joining, 0.1, 20.), 2);
-    return {distance, {angle, angle}, Profile::box};
+    const auto joining = [&](std::size_t axis) {
+        const double height = g.vertex_plane_mm + distance - aperture_plane_mm(d, g, axis);
+        return rounded(std::clamp(gap_closing_angle_deg(d.array.pitch_mm[axis], height), 0.1, 20.), 2);
+    };
+    return {distance, {joining(0), joining(1)}, Profile::box};
 }
 
 /// Of keys that are absent: what holds without them, or else a start.
 double suggested(std::string_view path, const Display& d, const Geometry& g) {
     const std::pair<std::string_view, double> all[] = {
         {"lens.aperture_radius_mm", g.glass_radius_mm},
-        {"lens.stop_radius_mm", 0.5 * g.clear_aperture_mm},
+        {"lens.stop_radius_mm", 0.5 * std::min(g.clear_aperture_mm[0], g.clear_aperture_mm[1])},
         {"array.gap_mm", g.gap_mm},
         {"array.base_z_mm", std::max(g.base_z_mm, 0.)},
         {"camera.frame_width_mm", g.frame_width_mm},
@@ -170,19 +172,29 @@ class Lister {
         constexpr bool whole = std::is_integral_v<Number>;
         const Number value = field;
         control["value"] = control_json(value);
-        const bool limits = path == "array.pitch_mm";
-        const Slider s = slider(path, range, double(value), double(described ? *described : value), whole, [&](double x) {
-            field = to<Number>(x);
-            if (limits) lower_limited();
-        });
+        const Slider s = slider(path, range, double(value), double(described ? *described : value), whole,
+                                [&](double x) { field = to<Number>(x); });
         field = value;
-        if (limits) {
-            trial_.lens = lens_;
-            control["limits"] = Json::object();
-            visit_limited(trial_, [&](const std::string& key, double&) { control["limits"][key] = most_of_pitch; });
-        }
         set_slider(control, s, whole);
         control["form"] = whole ? "integer" : "number";
+    }
+
+    // One slider where both pitches are one; radii follow it.
+    void add(Json& control, const std::string& path, const Range& range, Pitch& field, const Pitch* described) {
+        using Both = std::array<double, 2>;
+        if (!field.is_one()) return add(control, path, range, static_cast<Both&>(field), static_cast<const Both*>(described));
+        const Pitch value = field;
+        control["value"] = control_json(value[0]);
+        const Slider s = slider(path, range, value[0], described ? (*described)[0] : value[0], false, [&](double x) {
+            field = x;
+            lower_limited();
+        });
+        field = value;
+        trial_.lens = lens_;
+        control["limits"] = Json::object();
+        visit_limited(trial_, [&](const std::string& key, double&) { control["limits"][key] = most_of_pitch; });
+        set_slider(control, s, false);
+        control["form"] = "number";
     }
 
     template <class Number>
@@ -258,8 +270,9 @@ class Lister {
 
     void lower_limited() {
         trial_.lens = lens_;
-        visit_limited(
-            trial_, [&](const std::string&, double& radius) { radius = std::min(radius, most_of_pitch * trial_.array.pitch_mm); });
+        visit_limited(trial_, [&](const std::string&, double& radius) {
+            radius = std::min(radius, most_of_pitch * trial_.array.pitch_mm.least());
+        });
     }
 
     const Lens lens_;

@@ -44,7 +44,7 @@ Plot fov_plot(const Display& display, std::shared_ptr<const Model> model, const 
     const Display d = small(display);
     const Geometry g = resolve(d);
     Subject subject(d, Scene(std::move(model), d, g), {});
-    const double edge = 0.5 * subject.theory().fov_elemental_deg, depth = fov_depth_mm(subject);
+    const double edge = 0.5 * subject.theory(0).fov_elemental_deg, depth = fov_depth_mm(subject);
     const double highest =
         std::acos(std::min(1.2 * nearest_eye_mm(g) / d.camera.position_mm[2], 1.)) / degree;  // before the display
     const double most = std::min({80., highest, 1.35 * edge + 2});

@@ -17,12 +17,12 @@ Slider ends_of(std::string_view path, const Range& range, double described, cons
     if (path.ends_with("index")) return {1, 2.5, 0};
     if (path == "panel.emission_exponent") return {0, 10, 0};
     if (path == "render.seed") return {0, 100, 0};
-    if (path == "array.offset_mm") return about(described, d.array.pitch_mm);
+    if (path == "array.offset_mm") return about(described, d.array.pitch_mm[0]);
     if (path == "content.depth_mm") return about(described, g.panel_height_mm);
-    if (path.ends_with("curvature_per_mm")) return about(described, std::max(std::abs(described), 0.25 / g.clear_aperture_mm));
+    if (path.ends_with("curvature_per_mm")) return about(described, std::max(std::abs(described), 0.25 / g.clear_aperture_mm[0]));
     if (path.ends_with("conic")) return about(described, 3);
     if (range.low > 0 || range.low_open) return {described / 4, described * 4, 0};
-    return {0, 4 * (described > 0 ? described : angle ? 1 : 0.25 * d.array.pitch_mm), 0};
+    return {0, 4 * (described > 0 ? described : angle ? 1 : 0.25 * d.array.pitch_mm[0]), 0};
 }
 
 /// 1, 2 or 5 times a power of ten, the nearest by ratio.

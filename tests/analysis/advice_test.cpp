@@ -76,7 +76,8 @@ Display sane(std::mt19937& random) {
     Display d;
     d.array.count = {std::int64_t(even(20, 200)), 0};
     d.array.count[1] = std::int64_t(double(d.array.count[0]) * even(0.5, 0.7));
-    const double p = d.array.pitch_mm = width / double(d.array.count[0]), gap = p * even(1.2, 5), views = std::floor(even(8, 80));
+    const double p = width / double(d.array.count[0]), gap = p * even(1.2, 5), views = std::floor(even(8, 80));
+    d.array.pitch_mm = p;
     d.array.gap_mm = gap;
     d.lens.type = LensType::ideal;
     d.lens.focal_length_mm = 1 / (1 / gap + 1 / central);

@@ -68,12 +68,12 @@ std::array<double, 2> seen_contrast(const Display& d, const Geometry& g) {
     const EyeRays rays(d, g);
     const auto bin = [](double number) { return std::min(std::size_t((0.5 + 0.5 * number) * 32), std::size_t(31)); };
     const auto axis = [&](double number, std::int64_t lenses) {  // of a lens
-        return (std::floor(0.5 * number * 0.5 * double(lenses)) + 0.5) * d.array.pitch_mm;
+        return (std::floor(0.5 * number * 0.5 * double(lenses)) + 0.5) * d.array.pitch_mm[0];
     };
     std::array<std::vector<double>, 2> light{std::vector<double>(32), std::vector<double>(32)};
     for (const Choice& c : even_choices((1 << 16) * rays.more_for(d.camera.position_mm))) {
-        const Vec3d at = rays.point(axis(c[4], d.array.count[0]) + 0.5 * d.array.pitch_mm * c[0],
-                                    axis(c[5], d.array.count[1]) + 0.5 * d.array.pitch_mm * c[1]);
+        const Vec3d at = rays.point(axis(c[4], d.array.count[0]) + 0.5 * d.array.pitch_mm[0] * c[0],
+                                    axis(c[5], d.array.count[1]) + 0.5 * d.array.pitch_mm[0] * c[1]);
         const double seen = rays.look_through(d.camera.position_mm, at, c[2], c[3]).light;
         for (const std::size_t k : {0u, 1u}) light[k][bin(c[k])] += seen;
     }
@@ -118,10 +118,10 @@ TEST(Bands, OnePitchOfSpreadClosesThem) {
     for (int n = 0; n < 40; ++n) {
         Display d = draw.display();
         if (!d.diffuser) d.diffuser.emplace();
-        d.diffuser->distance_mm = d.array.pitch_mm * (2 + n);
+        d.diffuser->distance_mm = d.array.pitch_mm[0] * (2 + n);
         d.camera.position_mm = {0, 0, 1e5};
         const Geometry g = resolve(d);
-        const double angle = gap_closing_angle_deg(d.array.pitch_mm, *g.diffuser_z_mm - aperture_plane_mm(d, g));
+        const double angle = gap_closing_angle_deg(d.array.pitch_mm[0], *g.diffuser_z_mm - aperture_plane_mm(d, g, 0));
         d.array.rotation_deg = 0;
         d.diffuser->angle_deg = {angle, angle};
         for (const double contrast : band_contrast(d, resolve(d))) EXPECT_LT(contrast, 0.06) << n;

@@ -33,7 +33,7 @@ class PlanoConvexArray {
         r_ = *d.lens.aperture_radius_mm;
         sphere_ = d.lens.sphere_radius_mm;
         index_ = d.lens.index;
-        pitch_ = d.array.pitch_mm;
+        pitch_ = d.array.pitch_mm[0];
         const double root = std::sqrt(sphere_ * sphere_ - r_ * r_);
         const double thickness = d.lens.cylinder_height_mm + sphere_ - root;
         flat_ = *d.array.gap_mm - thickness / index_;  // g counts to the principal plane T/n inside... from the flat face

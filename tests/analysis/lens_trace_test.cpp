@@ -64,7 +64,7 @@ TEST(LensTrace, RaysGoBackTheWayTheyCame) {
         std::uniform_real_distribution<double> within(0, 1);
         int through = 0, returned = 0;
         for (int n = 0; n < 40; ++n) {
-            const Point panel{(within(random) - 0.5) * d.array.pitch_mm, (within(random) - 0.5) * d.array.pitch_mm};
+            const Point panel{(within(random) - 0.5) * d.array.pitch_mm[0], (within(random) - 0.5) * d.array.pitch_mm[0]};
             const auto box = lens.directions(panel);
             ASSERT_TRUE(box) << name;
             for (int k = 0; k < 100; ++k) {
@@ -97,7 +97,7 @@ TEST(LensTrace, WhatComesDownGoesUp) {
         const LensTrace lens(d, g);
         const Backward backward(d, g), from_higher(raised, resolve(raised));
         std::mt19937_64 random(8);
-        std::uniform_real_distribution<double> place(-0.5 * d.array.pitch_mm, 0.5 * d.array.pitch_mm), slope(-0.3, 0.3);
+        std::uniform_real_distribution<double> place(-0.5 * d.array.pitch_mm[0], 0.5 * d.array.pitch_mm[0]), slope(-0.3, 0.3);
         int down = 0, up = 0;
         for (int n = 0; n < 4000; ++n) {
             const LensRay ray{place(random), place(random), slope(random), slope(random)};
@@ -138,7 +138,7 @@ TEST(LensTrace, IdealLensHasTheParaxialSpot) {
     for (const Display& d : {ideal(12, 16.485, 15.7, 88), ideal(1, 2, 2.5, 40), ideal(30, 40, 40, 30)}) {
         const Geometry g = resolve(d);
         const LensTrace lens(d, g);
-        const double p = d.array.pitch_mm, L = theory(d, g).central_depth_mm;
+        const double p = d.array.pitch_mm[0], L = theory(d, g).central_depth_mm;
         for (const Point panel : {Point{0, 0}, Point{0.25 * p, 0}, Point{0, 0.5 * p}}) {
             const Fans f = fans(lens, panel, 101);
             for (const double z : {-50., 10., 0.5 * std::min(L, 1e3), 300.}) {

@@ -34,7 +34,7 @@ struct Difference {
 Difference differences(const Display& d, double depth, double angle_deg, double share) {
     std::mt19937_64 engine(1);
     const auto uniform = [&](double low, double high) { return low + (high - low) * double(engine() >> 11) * 0x1p-53; };
-    const double gap = *d.array.gap_mm, p = d.array.pitch_mm, a = d.panel.pixel_pitch_mm, f = d.lens.focal_length_mm;
+    const double gap = *d.array.gap_mm, p = d.array.pitch_mm[0], a = d.panel.pixel_pitch_mm, f = d.lens.focal_length_mm;
     const double eye_x = 1500 * std::sin(angle_deg * degree), eye_z = 1500 * std::cos(angle_deg * degree) - gap;  // from the lenses
     Difference all;
     while (all.x.size() < 100000) {

@@ -36,7 +36,7 @@ TEST(SpotDepth, OfIdealLensesIsTheParaxialOne) {
                 if (pitch == 12) d.lens.stop_radius_mm = 2;
                 const Geometry g = resolve(d);
                 const Theory t = theory(d, g);
-                ASSERT_NEAR(t.fov_deg, fov, 1e-9);
+                ASSERT_NEAR(t.along[0].fov_deg, fov, 1e-9);
                 const Json figures = sharp_depths(d).figures, ends = figures.at("spot_diopters"),
                            errors = figures.at("spot_diopters_error");
                 const double tolerance = 1e-6 * 1000 * (t.depth_near_per_mm - t.depth_far_per_mm);

@@ -78,7 +78,8 @@ TEST(Spot, DistortionThroughAPinhole) {
     };
     Job job;
     const Distortion map = distortion(d, g, t, 0, job);
-    ASSERT_EQ(map.across, 22);
+    ASSERT_EQ(map.columns, 22);
+    ASSERT_EQ(map.rows, 22);
     for (const auto& [column, row] : {std::pair(0, 10), std::pair(21, 0), std::pair(15, 17), std::pair(11, 11)}) {
         const double a = d.panel.pixel_pitch_mm, x = (column + 0.5 - 11) * a, y = (11 - row - 0.5) * a, r = std::hypot(x, y);
         const double mm = t.central_depth_mm * std::abs(slope_from(r) - r / g.gap_mm);
@@ -128,7 +129,7 @@ void expect_finite(const Json& json, const std::string& name) {
 
 TEST(Spot, EveryKindOfDisplay) {
     auto displays = all_lenses();
-    for (auto& [name, d] : displays) d.panel.pixel_pitch_mm = d.array.pitch_mm / 6;
+    for (auto& [name, d] : displays) d.panel.pixel_pitch_mm = d.array.pitch_mm[0] / 6;
     displays.emplace_back("infinite depth", ideal(12, 15.7, 15.7, 10));
     displays.emplace_back("virtual depth", ideal(12, 10, 15.7, 10));
     displays.emplace_back("nearly infinite depth", ideal(12, 15.70001, 15.7, 10));

@@ -85,7 +85,7 @@ TEST(Uniformity, IdealLensesLetAllLightPass) {
     }
     d.lens.focal_length_mm = 1e6;
     d.panel.pixels = {4000, 4000};
-    const double t = d.array.pitch_mm / (2 * resolve(d).gap_mm), s = t / std::sqrt(1 + t * t);
+    const double t = d.array.pitch_mm[0] / (2 * resolve(d).gap_mm), s = t / std::sqrt(1 + t * t);
     const LightBudget light = budget(d);
     EXPECT_NEAR(light.leaves_in_fov / light.leaves, 4 / std::numbers::pi * s * std::atan(s), 0.001);
 }
@@ -95,7 +95,7 @@ TEST(Uniformity, DarkBandsOfRoundLenses) {
     Display d = wide_panel(ideal_example());
     d.array.aperture = Aperture::circle;
     d.lens.aperture_radius_mm = 1.5;
-    const double p = d.array.pitch_mm, r = 1.5;
+    const double p = d.array.pitch_mm[0], r = 1.5;
     const auto chord = [&](double x) {
         x -= p * std::round(x / p);
         return std::abs(x) < r ? 2 * std::sqrt(r * r - x * x) / p : 0.;
@@ -129,7 +129,7 @@ TEST(Uniformity, DarkBandsOfRoundLenses) {
 TEST(Uniformity, MeanLuminanceIsTheory) {
     Display d = wide_panel(ideal_example());
     d.array.count = {35, 19};
-    const double p = d.array.pitch_mm;
+    const double p = d.array.pitch_mm[0];
     struct Case {
         Aperture aperture;
         double stop;
@@ -154,7 +154,7 @@ TEST(Uniformity, MeanLuminanceIsTheory) {
 
 TEST(Uniformity, TheoryOfRealLensesIsFillTimesFresnel) {
     Display d = wide_panel(example());
-    d.lens.stop_radius_mm = 0.2 * d.array.pitch_mm;
+    d.lens.stop_radius_mm = 0.2 * d.array.pitch_mm[0];
     const double n = d.lens.index, passed = 4 * n / ((n + 1) * (n + 1)), fill = std::numbers::pi * 0.04;
     const TheoryFigure theory = luminance_over_panel(d, resolve(d), 1e5);
     EXPECT_NEAR(theory.value, fill * passed * passed, 1e-3 * theory.value);

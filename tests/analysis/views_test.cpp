@@ -45,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(Degrees, Fields, testing::Values(24., 40., 60.),
 TEST_P(Fields, EdgesStandWhereTheoryHasThem) {
     Display d = display(GetParam(), 150);
     Subject s(d, Scene(built_in_model(), d, resolve(d)), {});
-    ASSERT_NEAR(s.theory().fov_deg, GetParam(), 1e-6);
+    ASSERT_NEAR(s.theory().along[0].fov_deg, GetParam(), 1e-6);
     Job job;
     const Result r = measure_fov(s, job);
     for (const char* axis : {"horizontal", "vertical"})

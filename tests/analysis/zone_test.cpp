@@ -41,7 +41,7 @@ std::array<double, 2> both(const Json& json) {
 
 /// Share of wrong rays for an eye at (x, z), lens by lens: the ideal lens's own equation.
 double counted(const Display& d, double x, double z) {
-    const double p = d.array.pitch_mm, g = *d.array.gap_mm, n = double(d.array.count[0]), f = d.lens.focal_length_mm,
+    const double p = d.array.pitch_mm[0], g = *d.array.gap_mm, n = double(d.array.count[0]), f = d.lens.focal_length_mm,
                  scale = 1 + g / (d.content.viewing_distance_mm - g);
     int wrong = 0, all = 0;
     for (double i = 0; i < n; ++i) {
@@ -122,7 +122,7 @@ TEST(Zone, IsNarrowerForImagesMadeForInfinity) {
     d.content.viewing_distance_mm = INFINITY;
     Subject subject(d, {}, {});
     const Json figures = zone_of(d).figures;
-    const double expected = 0.5 * subject.theory().viewing_zone_deg;
+    const double expected = 0.5 * subject.theory().along[0].viewing_zone_deg;
     EXPECT_NEAR(both(figures.at("horizontal").at("wrong_1_percent_deg"))[1], expected, 0.15);
     EXPECT_NEAR(double(figures.at("horizontal").at("theory_deg").at(1)), expected, 1e-6);
     EXPECT_GT(both(figures.at("vertical").at("wrong_1_percent_deg"))[1], expected + 3);  // fewer lenses up than across

@@ -24,8 +24,8 @@ class PickupTest : public testing::TestWithParam<Case> {
     }
     // Axis of lens (i, j), from the definition: the lattice, turned, then moved.
     static std::array<double, 2> axis(const Display& d, int i, int j) {
-        const double u = (i + 0.5 - 0.5 * double(d.array.count[0])) * d.array.pitch_mm,
-                     v = (j + 0.5 - 0.5 * double(d.array.count[1])) * d.array.pitch_mm;
+        const double u = (i + 0.5 - 0.5 * double(d.array.count[0])) * d.array.pitch_mm[0],
+                     v = (j + 0.5 - 0.5 * double(d.array.count[1])) * d.array.pitch_mm[1];
         const double a = d.array.rotation_deg * 3.14159265358979323846 / 180;
         return {u * std::cos(a) - v * std::sin(a) + d.array.offset_mm[0], u * std::sin(a) + v * std::cos(a) + d.array.offset_mm[1]};
     }

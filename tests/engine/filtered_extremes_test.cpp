@@ -97,7 +97,7 @@ class Extremes {
 std::string about(int number, const Display& d) {
     auto text = [](double x) { return std::to_string(x) + " "; };
     return std::to_string(number) + ": lens " + std::to_string(int(d.lens.type)) + ", surround " +
-           std::to_string(int(d.array.surround)) + ", pitch " + text(d.array.pitch_mm) + ", diffuser " +
+           std::to_string(int(d.array.surround)) + ", pitch " + text(d.array.pitch_mm[0]) + ", diffuser " +
            text(d.diffuser->distance_mm) + text(d.diffuser->angle_deg[0]) + text(d.diffuser->angle_deg[1]) +
            (d.diffuser->profile == Profile::box ? "box" : "gaussian") + ", from " + text(d.camera.position_mm[0]) +
            text(d.camera.position_mm[1]) + text(d.camera.position_mm[2]) + ", frame " + text(*d.camera.frame_width_mm) +

@@ -12,7 +12,7 @@ double dot(const V& a, const V& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b
 /// Panel pixel of a ray through plano-convex lenses facing the viewer in an opaque surround, or -1: the cap that it meets first is
 /// found by trying every lens whose circle comes near the ray's shadow, as the docs define the solid.
 std::int64_t search(const Display& d, const Geometry& g, const V& o, const V& i) {
-    const double R = d.lens.sphere_radius_mm, r = g.glass_radius_mm, n = d.lens.index, p = d.array.pitch_mm;
+    const double R = d.lens.sphere_radius_mm, r = g.glass_radius_mm, n = d.lens.index, p = d.array.pitch_mm[0];
     const bool square = d.array.aperture == Aperture::square;
     auto within = [&](const V& q) {
         return square ? std::max(std::abs(q[0]), std::abs(q[1])) <= p / 2 : q[0] * q[0] + q[1] * q[1] <= r * r;

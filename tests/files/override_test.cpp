@@ -25,7 +25,7 @@ std::string fault_of(std::vector<std::string> overrides) {
 }
 
 TEST(Override, ValuesOfEveryKind) {
-    EXPECT_EQ(set({"array.pitch_mm=13"}).array.pitch_mm, 13);
+    EXPECT_EQ(set({"array.pitch_mm=13"}).array.pitch_mm[0], 13);
     EXPECT_EQ(set({"array.count=[3, 4]"}).array.count[1], 4);
     EXPECT_EQ(set({"array.count.0=5"}).array.count[0], 5);
     EXPECT_EQ(set({"lens.facing=panel"}).lens.facing, Facing::panel);

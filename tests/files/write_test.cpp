@@ -43,6 +43,7 @@ template <class T, std::size_t n>
 void fill(std::array<T, n>& x, const Range& range) {
     for (T& a : x) fill(a, range);
 }
+void fill(Pitch& x, const Range& range) { x = any_number(range); }
 template <class E>
 requires std::is_enum_v<E>
 void fill(E& x, const Range&) { x = E(*rc::gen::inRange<std::size_t>(0, words<E>().size())); }

@@ -44,18 +44,19 @@ TEST(FirstOrder, TheoryGivesBackWhatWasAskedFor) {
         const double rounding = 1.1e-6, L = *o.request.depth_mm;
         if (r.depth_mm) RC_ASSERT(L == *r.depth_mm);
         RC_ASSERT(std::abs(t.central_depth_mm - L) <= L * L * rounding / (t.gap_mm * t.gap_mm) * 4 + 1e-9 * std::abs(L));
-        RC_ASSERT(std::abs(t.fov_elemental_deg - r.fov_deg) <= 1e-3 + 60 * rounding / t.gap_mm);
+        RC_ASSERT(std::abs(t.along[0].fov_elemental_deg - r.fov_deg) <= 1e-3 + 60 * rounding / t.gap_mm);
         // Whole pixels behind each lens, whole elemental images on the panel, and no room for more of them.
-        RC_ASSERT(std::abs(t.views - o.views) < 1e-3);
+        RC_ASSERT(std::abs(t.along[0].views - o.views) < 1e-3);
         const double across[] = {g.panel_width_mm, g.panel_height_mm};
         for (std::size_t k = 0; k < 2; ++k) {
-            RC_ASSERT(double(o.display.array.count[k]) * t.elemental_pitch_mm <= across[k] * (1 + 1e-5));
-            RC_ASSERT(double(o.display.array.count[k] + 1) * t.elemental_pitch_mm > across[k] * (1 - 1e-5));
+            RC_ASSERT(double(o.display.array.count[k]) * t.along[0].elemental_pitch_mm <= across[k] * (1 + 1e-5));
+            RC_ASSERT(double(o.display.array.count[k] + 1) * t.along[0].elemental_pitch_mm > across[k] * (1 - 1e-5));
         }
         // The diffuser's own distance spreads light over a lens pitch.
         if (const std::optional<Diffuser>& d = o.display.diffuser)
-            RC_ASSERT(std::abs(2 * d->distance_mm * std::tan(d->angle_deg[0] * std::acos(-1.0) / 360) / o.display.array.pitch_mm -
-                               1) < 0.01);
+            RC_ASSERT(
+                std::abs(2 * d->distance_mm * std::tan(d->angle_deg[0] * std::acos(-1.0) / 360) / o.display.array.pitch_mm[0] - 1) <
+                0.01);
     });
     EXPECT_GT(made, 20);
 }
@@ -63,7 +64,7 @@ TEST(FirstOrder, TheoryGivesBackWhatWasAskedFor) {
 TEST(FirstOrder, ResolutionOfLensesAndPixelsIsBalanced) {
     const FirstOrder o = first_order({8, {2560, 1600}, 30, 500, 50, LensType::ideal});
     EXPECT_EQ(o.pitch_rule, PitchRule::balanced);
-    const double lens = o.display.array.pitch_mm / o.eye_mm, pixel = o.theory.pixel_image_mm / (o.eye_mm - 50);
+    const double lens = o.display.array.pitch_mm[0] / o.eye_mm, pixel = o.theory.pixel_image_mm / (o.eye_mm - 50);
     EXPECT_NEAR(lens / pixel, 1, 0.05);  // half a pixel of 21 is a fortieth
 }
 

@@ -21,7 +21,7 @@ TEST(Resolve, PlanoConvexAtItsGap) {
     EXPECT_NEAR(g.front_principal_mm, gap, 1e-12);
     EXPECT_NEAR(g.rear_principal_mm, g.top_z_mm, 1e-12);
     EXPECT_EQ(g.gap_mm, gap);
-    EXPECT_EQ(g.clear_aperture_mm, 12);
+    EXPECT_EQ(g.clear_aperture_mm[0], 12);
     EXPECT_EQ(g.glass_radius_mm, 6);
     ASSERT_EQ(g.surfaces.size(), 2u);
     EXPECT_EQ(g.surfaces[0].curvature_per_mm, 0);
@@ -43,7 +43,7 @@ TEST(Resolve, PlanoConvexTurnedRoundIsMirrored) {
     EXPECT_NEAR(g.top_z_mm, 10 + T, 1e-12);
     EXPECT_NEAR(g.gap_mm, 10, 1e-12);  // the principal plane is in the convex vertex
     EXPECT_NEAR(g.stop_z_mm, 10, 1e-12);
-    EXPECT_EQ(g.clear_aperture_mm, 2);
+    EXPECT_EQ(g.clear_aperture_mm[0], 2);
     EXPECT_NEAR(g.surfaces[0].curvature_per_mm, 1 / R, 1e-15);
 }
 
@@ -65,7 +65,7 @@ TEST(Resolve, SquareCellsMeetAtTheirCorners) {
     d.lens.sphere_radius_mm = 9;
     const Geometry g = resolve(d);
     EXPECT_NEAR(g.glass_radius_mm, 6 * std::sqrt(2.0), 1e-12);
-    EXPECT_EQ(g.clear_aperture_mm, 12);
+    EXPECT_EQ(g.clear_aperture_mm[0], 12);
     EXPECT_NEAR(g.top_z_mm - g.base_z_mm, 1 + 9 - std::sqrt(81.0 - 72.0), 1e-12);  // h + R - sqrt(R^2 - r^2)
 }
 

@@ -28,20 +28,20 @@ TEST(Theory, DesktopDisplays) {
          {Figures{"stopped", stopped, 14.803, 145.1, 1.200, 70, 220}, Figures{"ideal", ideal, 15.700, 329.7, 2.727, 254.8, 404.6},
           Figures{"asphere", example_surfaces(), 15.699, 329.5, 2.725, 254.6, 404.3}}) {
         const Theory t = theory_of(want.display);
-        EXPECT_NEAR(t.fov_deg, 40.0, 0.05) << want.name;
+        EXPECT_NEAR(t.along[0].fov_deg, 40.0, 0.05) << want.name;
         EXPECT_NEAR(t.focal_length_mm, want.f, 5e-4) << want.name;
         EXPECT_NEAR(t.central_depth_mm, want.central_depth, 0.05) << want.name;
         EXPECT_NEAR(t.pixel_image_mm, want.pixel_image, 5e-4) << want.name;
         EXPECT_NEAR(t.central_depth_mm - 0.5 * t.depth_of_field_mm, want.near, 0.2) << want.name;
         EXPECT_NEAR(t.depth_of_field_mm, want.far - want.near, 0.2) << want.name;
-        EXPECT_NEAR(t.views, 88, 0.01) << want.name;
-        EXPECT_NEAR(t.view_step_deg, 40.0 / 88, 1e-3) << want.name;
+        EXPECT_NEAR(t.along[0].views, 88, 0.01) << want.name;
+        EXPECT_NEAR(t.along[0].view_step_deg, 40.0 / 88, 1e-3) << want.name;
     }
-    EXPECT_NEAR(theory_of(stopped).gap_closing_diffuser_deg, 4.74, 5e-3);
-    EXPECT_NEAR(theory_of(ideal).gap_closing_diffuser_deg, 2.085, 5e-4);
-    EXPECT_TRUE(std::isnan(theory_of(ideal).gap_closing_here_deg));
+    EXPECT_NEAR(theory_of(stopped).along[0].gap_closing_diffuser_deg, 4.74, 5e-3);
+    EXPECT_NEAR(theory_of(ideal).along[0].gap_closing_diffuser_deg, 2.085, 5e-4);
+    EXPECT_TRUE(std::isnan(theory_of(ideal).along[0].gap_closing_here_deg));
     ideal.diffuser = Diffuser{100, {1, 1}, Profile::box};
-    EXPECT_NEAR(theory_of(ideal).gap_closing_here_deg, 2 * std::atan(0.06) / degree, 1e-9);
+    EXPECT_NEAR(theory_of(ideal).along[0].gap_closing_here_deg, 2 * std::atan(0.06) / degree, 1e-9);
 }
 
 // Both forms of the depth of field, and both resolution limits.
@@ -49,10 +49,10 @@ TEST(Theory, FormsAgree) {
     const Display d = example_ideal();
     const Theory t = theory_of(d);
     const double L = t.central_depth_mm;
-    EXPECT_NEAR(t.depth_of_field_mm, 4 * std::tan(t.fov_deg * degree / 2) * L * L / (t.views * 12), 1e-9);
-    EXPECT_NEAR(t.lens_sampling_limit_per_mm, 1.0 / 24, 1e-15);
+    EXPECT_NEAR(t.depth_of_field_mm, 4 * std::tan(t.along[0].fov_deg * degree / 2) * L * L / (t.along[0].views * 12), 1e-9);
+    EXPECT_NEAR(t.along[0].lens_sampling_limit_per_mm, 1.0 / 24, 1e-15);
     EXPECT_NEAR(t.pixel_image_limit_per_mm, 16.485 / (2 * 0.13636 * L), 1e-12);
-    EXPECT_NEAR(t.elemental_pitch_mm, 12 * (1 + 16.485 / (2000 - 16.485)), 1e-12);
+    EXPECT_NEAR(t.along[0].elemental_pitch_mm, 12 * (1 + 16.485 / (2000 - 16.485)), 1e-12);
 }
 
 TEST(Theory, CollimatedLens) {
@@ -62,7 +62,7 @@ TEST(Theory, CollimatedLens) {
     EXPECT_TRUE(std::isinf(t.central_depth_mm) && std::isinf(t.pixel_image_mm) && std::isinf(t.depth_of_field_mm));
     EXPECT_NEAR(depth_mm(t.depth_near_per_mm), 12 * 15.7 / 0.13636, 1e-9);  // where a pixel's image a z/g has grown to D
     EXPECT_EQ(t.depth_far_per_mm, -t.depth_near_per_mm);                    // and as far behind the lenses
-    EXPECT_EQ(t.gap_closing_diffuser_deg, 0);
+    EXPECT_EQ(t.along[0].gap_closing_diffuser_deg, 0);
     EXPECT_EQ(t.pixel_image_limit_per_mm, 0);
 }
 
@@ -74,7 +74,7 @@ TEST(Theory, VirtualCentralDepthPlane) {
     EXPECT_LT(t.central_depth_mm, 0);
     EXPECT_NEAR(t.central_depth_mm, L, 1e-9);
     EXPECT_NEAR(t.pixel_image_mm, 0.13636 * -L / 15, 1e-9);
-    EXPECT_NEAR(t.depth_near_per_mm, 1 / L + 0.13636 / (15 * t.gap_mm / 15 * resolve(d).clear_aperture_mm), 1e-15);
+    EXPECT_NEAR(t.depth_near_per_mm, 1 / L + 0.13636 / (15 * t.gap_mm / 15 * resolve(d).clear_aperture_mm[0]), 1e-15);
     EXPECT_NEAR(t.depth_far_per_mm, 2 / L - t.depth_near_per_mm, 1e-15);
 }
 
@@ -103,15 +103,15 @@ TEST(Theory, FieldOfViewOfWholeElementalImages) {
     Display d = example_ideal();
     d.camera.position_mm = {0, 0, 600};
     const Theory t = theory_of(d);
-    EXPECT_NEAR(t.fov_elemental_deg, 2 * std::atan(12 * (1 + 16.485 / (2000 - 16.485)) / (2 * 16.485)) / degree, 1e-12);
-    EXPECT_NEAR(t.eyebox_mm, 2 * (600 - 16.485) * std::tan(t.fov_elemental_deg / 2 * degree), 1e-9);
+    EXPECT_NEAR(t.along[0].fov_elemental_deg, 2 * std::atan(12 * (1 + 16.485 / (2000 - 16.485)) / (2 * 16.485)) / degree, 1e-12);
+    EXPECT_NEAR(t.along[0].eyebox_mm, 2 * (600 - 16.485) * std::tan(t.along[0].fov_elemental_deg / 2 * degree), 1e-9);
     d.content.viewing_distance_mm = INFINITY;
-    EXPECT_EQ(theory_of(d).fov_elemental_deg, theory_of(d).fov_deg);
+    EXPECT_EQ(theory_of(d).along[0].fov_elemental_deg, theory_of(d).along[0].fov_deg);
 }
 
 // The widest angle from which every lens of a row shows its own elemental image, by following lines through lens centres.
 double counted_zone_deg(const Display& d, const Geometry& g, double elemental_pitch, double eye_z) {
-    const double p = d.array.pitch_mm, above = eye_z - g.rear_principal_mm;
+    const double p = d.array.pitch_mm[0], above = eye_z - g.rear_principal_mm;
     const auto all_show_their_own = [&](double X) {
         for (std::int64_t i = 0; i < d.array.count[0]; ++i) {
             const double k = double(i) + 0.5 - double(d.array.count[0]) / 2, lens = k * p;
@@ -130,21 +130,21 @@ TEST(Theory, ViewingZonesByCountingLenses) {
     Display d = example_ideal();
     Geometry g = resolve(d);
     Theory t = theory(d, g);
-    EXPECT_NEAR(t.viewing_zone_deg, t.fov_elemental_deg, 1e-9);
-    EXPECT_NEAR(t.viewing_zone_deg, counted_zone_deg(d, g, t.elemental_pitch_mm, 2000), 1e-6);
-    EXPECT_NEAR(t.viewing_zone_parallel_deg, counted_zone_deg(d, g, 12, 2000), 1e-6);
-    EXPECT_GT(t.viewing_zone_parallel_deg, 20);
+    EXPECT_NEAR(t.along[0].viewing_zone_deg, t.along[0].fov_elemental_deg, 1e-9);
+    EXPECT_NEAR(t.along[0].viewing_zone_deg, counted_zone_deg(d, g, t.along[0].elemental_pitch_mm, 2000), 1e-6);
+    EXPECT_NEAR(t.along[0].viewing_zone_parallel_deg, counted_zone_deg(d, g, 12, 2000), 1e-6);
+    EXPECT_GT(t.along[0].viewing_zone_parallel_deg, 20);
 
     // made for infinity, seen by the camera
     d.content.viewing_distance_mm = INFINITY;
     d.camera.position_mm = {0, 0, 1500};
     t = theory(d, g = resolve(d));
-    EXPECT_EQ(t.elemental_pitch_mm, 12);
-    EXPECT_NEAR(t.viewing_zone_deg, counted_zone_deg(d, g, 12, 1500), 1e-6);
+    EXPECT_EQ(t.along[0].elemental_pitch_mm, 12);
+    EXPECT_NEAR(t.along[0].viewing_zone_deg, counted_zone_deg(d, g, 12, 1500), 1e-6);
 
     d.array.count = {400, 24};  // too wide to be seen as a whole
     d.content.viewing_distance_mm = 2000;
-    EXPECT_EQ(theory_of(d).viewing_zone_parallel_deg, 0);
+    EXPECT_EQ(theory_of(d).along[0].viewing_zone_parallel_deg, 0);
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(Lens, Fault, testing::Values(
     Case{"lens.aperture_radius_mm", "wider than array.pitch_mm = 12", [](Display& d) { d.lens.aperture_radius_mm = 6.01; }},
     Case{"lens.aperture_radius_mm", "wider than array.pitch_mm = 12", [](Display& d) { d.lens.aperture_radius_mm = 6.01; }, example_ideal},
     Case{"lens.sphere_radius_mm", "R = 5 mm is smaller than the aperture radius r = 6", [](Display& d) { d.lens.sphere_radius_mm = 5; }},
-    Case{"lens.sphere_radius_mm", "half the square cell's diagonal = 8.48", [](Display& d) { d.array.aperture = Aperture::square; }},
+    Case{"lens.sphere_radius_mm", "half the cell's diagonal = 8.48", [](Display& d) { d.array.aperture = Aperture::square; }},
     Case{"lens.cylinder_height_mm", "2 sqrt(R^2 - r^2) = 8.24", [](Display& d) { d.lens.cylinder_height_mm = 8.3; }},
     Case{"lens.stop_radius_mm", "holes of neighbours overlap", [](Display& d) { d.lens.stop_radius_mm = 6.5; }},
     Case{"lens.stop_radius_mm", "holes of neighbours overlap", [](Display& d) { d.lens.stop_radius_mm = 7; }, example_surfaces},
@@ -157,11 +157,10 @@ TEST(Validate, WhatPassesIsFinite) {
             return *rc::gen::element(0.0, -0.0, 1e-300, 1e-6, 0.3, 1.0, 1.5, 5.9, 6.0, 12.0, 16.485, 100.0, 1e5, 1e6, 1e300, -1.0,
                                      nan, inf, -inf);
         };
-        std::vector<double*> numbers{&d.panel.pixel_pitch_mm,    &d.lens.sphere_radius_mm,
-                                     &d.lens.cylinder_height_mm, &d.lens.index,
-                                     &d.lens.focal_length_mm,    &d.array.pitch_mm,
-                                     &*d.array.gap_mm,           &d.camera.position_mm[2],
-                                     &d.camera.target_mm[0],     &d.content.viewing_distance_mm};
+        std::vector<double*> numbers{
+            &d.panel.pixel_pitch_mm, &d.lens.sphere_radius_mm,      &d.lens.cylinder_height_mm, &d.lens.index,
+            &d.lens.focal_length_mm, &d.array.pitch_mm[0],          &*d.array.gap_mm,           &d.camera.position_mm[2],
+            &d.camera.target_mm[0],  &d.content.viewing_distance_mm};
         for (Surface& s : d.lens.surfaces) {
             numbers.insert(numbers.end(), {&s.curvature_per_mm, &s.conic, &s.semi_aperture_mm, &s.distance_mm, &s.index});
             for (double& a : s.even_asphere) numbers.push_back(&a);
@@ -175,14 +174,14 @@ TEST(Validate, WhatPassesIsFinite) {
         const Geometry g = resolve(d);
         for (const double z :
              {g.base_z_mm, g.top_z_mm, g.vertex_plane_mm, g.front_principal_mm, g.rear_principal_mm, g.gap_mm, g.stop_z_mm,
-              g.glass_radius_mm, g.clear_aperture_mm, g.frame_width_mm, g.focus_distance_mm, g.content_depth_mm})
+              g.glass_radius_mm, g.clear_aperture_mm[0], g.frame_width_mm, g.focus_distance_mm, g.content_depth_mm})
             RC_ASSERT(std::isfinite(z));
-        RC_ASSERT(g.base_z_mm > -1e-6 && g.top_z_mm >= g.base_z_mm && g.gap_mm > 0 && g.clear_aperture_mm > 0);
+        RC_ASSERT(g.base_z_mm > -1e-6 && g.top_z_mm >= g.base_z_mm && g.gap_mm > 0 && g.clear_aperture_mm[0] > 0);
         const Theory t = theory(d, g);
-        for (const double x : {t.fov_deg, t.central_depth_mm, t.pixel_image_mm, t.depth_of_field_mm, t.depth_near_per_mm,
-                               t.depth_far_per_mm, t.elemental_pitch_mm, t.fov_elemental_deg})
+        for (const double x : {t.along[0].fov_deg, t.central_depth_mm, t.pixel_image_mm, t.depth_of_field_mm, t.depth_near_per_mm,
+                               t.depth_far_per_mm, t.along[0].elemental_pitch_mm, t.along[0].fov_elemental_deg})
             RC_ASSERT(!std::isnan(x));
-        RC_ASSERT(std::isnan(t.viewing_zone_deg) == !(eye_distance_mm(d) > g.rear_principal_mm));
+        RC_ASSERT(std::isnan(t.along[0].viewing_zone_deg) == !(eye_distance_mm(d) > g.rear_principal_mm));
     }));
 }
 

@@ -26,8 +26,8 @@ Display oblique() {
 template <class F>
 Point3 place(const Display& d, const View& view, const PixelRays<F>& pixel, F x, F y) {
     const double i = -double(pixel.extent.low_i), j = -double(pixel.extent.low_j);  // the base lens
-    const double ax = double(x) + (i + 0.5 - 0.5 * view.lattice.count[0]) * d.array.pitch_mm;
-    const double ay = double(y) + (j + 0.5 - 0.5 * view.lattice.count[1]) * d.array.pitch_mm;
+    const double ax = double(x) + (i + 0.5 - 0.5 * view.lattice.count[0]) * d.array.pitch_mm[0];
+    const double ay = double(y) + (j + 0.5 - 0.5 * view.lattice.count[1]) * d.array.pitch_mm[1];
     const double c = std::cos(d.array.rotation_deg * degree), s = std::sin(d.array.rotation_deg * degree);
     return {c * ax - s * ay + d.array.offset_mm[0], s * ax + c * ay + d.array.offset_mm[1], view.start_z};
 }

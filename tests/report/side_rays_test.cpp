@@ -39,7 +39,7 @@ TEST(SideRays, MeetThePanelWhereTheTracerDoes) {
         int through = 0;
         for (int at = -20; at <= 20; ++at)
             for (int tilt = -6; tilt <= 6; ++tilt) {
-                const double y = 0.0503 * at * d.array.pitch_mm / 2, z = g.top_z_mm + 5;
+                const double y = 0.0503 * at * d.array.pitch_mm[0] / 2, z = g.top_z_mm + 5;
                 const SideRay ray = side_ray(y + 0.41 * tilt, z, y, g.vertex_plane_mm);
                 const SidePath path = through_lens(d, g, ray);
                 const double wanted = traced(d, ray);
@@ -58,7 +58,7 @@ TEST(SideRays, GoBackTheWayTheyCame) {
         const Geometry g = resolve(d);
         int through = 0;
         for (int at = -8; at <= 8; ++at) {
-            const SidePath up = through_lens(d, g, side_ray(0.7, 0, 0.05 * at * g.clear_aperture_mm, g.front_principal_mm));
+            const SidePath up = through_lens(d, g, side_ray(0.7, 0, 0.05 * at * g.clear_aperture_mm[0], g.front_principal_mm));
             if (!up.through) continue;
             SideRay back = up.last;
             back.y = up.last.y_at(g.top_z_mm + 10);

@@ -162,7 +162,7 @@ TEST_F(AnswersTest, FiguresAreThoseOfTheory) {
     for (const Json& figure : message["theory"])
         if (figure["name"] == "fov_deg") {
             found = true;
-            EXPECT_EQ(figure["value"], theory(display, resolve(display)).fov_deg);
+            EXPECT_EQ(figure["value"], theory(display, resolve(display)).along[0].fov_deg);
             EXPECT_EQ(figure["label"], "field of view");
             EXPECT_EQ(figure["unit"], "degrees");
             EXPECT_EQ(figure["doc"], "2 atan(p / 2g)");

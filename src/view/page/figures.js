@@ -9,7 +9,8 @@ function list(place, figures) {
   place.told = all;
   place.replaceChildren(...figures.flatMap((f) => {
     const unit = unit_text[f.unit] ?? (f.unit ? "\u202f" + f.unit : "");
-    const value = f.value === null ? "none" : typeof f.value === "number" ? short(f.value, 5) + unit : String(f.value);
+    const one = (value) => (value === null ? "none" : typeof value === "number" ? short(value, 5) + unit : String(value));
+    const value = [f.value].flat().map(one).join(" × ");
     return [make("dt", { textContent: f.label, title: `${f.name}: ${f.doc || ""}` }), make("dd", { textContent: value.replace(/^-/, "\u2212") })];
   }));
 }
