@@ -80,25 +80,27 @@ void add_lens(optics::Scene<S>& scene, const Display& display, const Geometry& g
     scene.hollow_back = surfaces.front().z_mm + sag_range_mm(surfaces.front())[1] > wall_bottom + 1e-9;
 }
 
-// Seen from above, up to the slope of its cap at the rim, a round lens is its rim's circle, and a square one is its cell at the
-// height of its edges' middles. A stop before the lens may be narrower.
+// Seen from above, up to the slope of its cap at the rim, a round lens is its rim's circle, and one that fills its cell is that,
+// its edges at the heights of their middles. A stop before the lens may be narrower.
 template <class S>
 void add_holes(optics::Scene<S>& scene, const Display& display, const Geometry& geometry, double start_z) {
-    double z = geometry.vertex_plane_mm, radius = display.array.aperture == Aperture::circle ? double(scene.aperture_radius) : 0;
+    std::array<double, 2> z{geometry.vertex_plane_mm, geometry.vertex_plane_mm};
+    double radius = display.array.aperture == Aperture::circle ? double(scene.aperture_radius) : 0;
     if (!geometry.surfaces.empty()) {
         const PlacedSurface& first = geometry.surfaces.back();
         if (radius > 0) radius = first.semi_aperture_mm;
-        z = first.z_mm +
-            sag_mm(first.curvature_per_mm, first.conic, first.even_asphere, radius > 0 ? radius : inner_radius_mm(display.array));
+        for (std::size_t k = 0; k < 2; ++k)
+            z[k] = first.z_mm + sag_mm(first.curvature_per_mm, first.conic, first.even_asphere,
+                                       radius > 0 ? radius : display.array.pitch_mm[k] / 2);
     }
     scene.leaky = display.array.surround != Surround::opaque;
     if (stop_at_entrance(display, geometry) && (radius == 0 || *display.lens.stop_radius_mm < radius)) {
         radius = *display.lens.stop_radius_mm;
-        z = geometry.stop_z_mm;
+        z.fill(geometry.stop_z_mm);
         scene.leaky = false;
     }
     scene.hole_radius = S(radius);
-    scene.holes_below = S(start_z - z);
+    for (std::size_t k = 0; k < 2; ++k) scene.holes_below[k] = S(start_z - z[k]);
 }
 
 }  // namespace
@@ -214,8 +216,8 @@ int block_side(const optics::Scene<float>& scene, const optics::View& view, int 
     const double pixel = view.pixel_mm * std::abs((view.position[2] - view.start_z) / (view.forward[2] * view.distance));
     double seen = std::min(scene.lattice.pitch[0], scene.lattice.pitch[1]);
     bool moving = false;  // the strata move with the pixels: the lenses' edges, at which blocks break, are sharp in the picture
-    for (const float angle : scene.half_angle) {
-        const double span = 2 * double(scene.holes_below) * std::tan(std::min(double(angle), 1.5));
+    for (int k = 0; k < 2; ++k) {
+        const double span = 2 * double(scene.holes_below[k]) * std::tan(std::min(double(scene.half_angle[k]), 1.5));
         span > 4 * pixel ? seen = std::min(seen, span) : moving = true;
     }
     // Many strata: a fine picture is asked for, in which what bends over a block would show.

@@ -63,10 +63,15 @@ std::string read_value(const toml::node& node, std::vector<double>& values) {
 }
 
 std::string read_value(const toml::node& node, Pitch& value) {
-    double both = 0;
-    std::string fault = read_value(node, both);
-    value = both;
-    return fault;
+    if (const toml::array* both = node.as_array(); both && both->size() == 2) {
+        std::array<double, 2> two{};
+        std::string fault = read_value(node, two);
+        value = {two[0], two[1]};
+        return fault;
+    }
+    if (!node.is_number()) return wrong_type(node, "a number, or a list of 2 numbers");
+    value = *node.value<double>();
+    return {};
 }
 
 std::string read_word(const toml::node& node, std::span<const std::string_view> words, std::size_t& index) {

@@ -85,21 +85,21 @@ LFDSIM_FN PixelBlock<S> pixel_block(const Scene<S>& scene, const View& view, int
         const double inverse = 1 / __builtin_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         const double z = d[2] * inverse;
         block.to[k] = {S(d[0] * inverse), S(d[1] * inverse), S(z)};
-        block.sweep[0][k] = {S(x - block.lens.x), S(-d[0] / d[2]), scene.holes_below, S(sense(0))};
-        block.sweep[1][k] = {S(y - block.lens.y), S(-d[1] / d[2]), scene.holes_below, S(sense(1))};
+        block.sweep[0][k] = {S(x - block.lens.x), S(-d[0] / d[2]), scene.holes_below[0], S(sense(0))};
+        block.sweep[1][k] = {S(y - block.lens.y), S(-d[1] / d[2]), scene.holes_below[1], S(sense(1))};
         block.alive = block.alive && z < -1e-6;
     }
     for (int a = 0; a < 2 && block.alive; ++a) {
         const Sweep<S>* s = block.sweep[a];
         const S bend = s[1].at + s[2].at + s[3].at - S(3) * s[0].at,
                 turn = s[1].slope + s[2].slope + s[3].slope - S(3) * s[0].slope;
-        block.alive = abs(bend) + abs(turn * scene.holes_below) < S(1e-3) * scene.lattice.pitch[a];
+        block.alive = abs(bend) + abs(turn * scene.holes_below[a]) < S(1e-3) * scene.lattice.pitch[a];
     }
     block.alive = block.alive && all_go_down(scene, block) && axes_part(scene, block, most_misjudged);
     return block;
 }
 
-/// Rays from places in the plane of the diffuser to places in the plane of the holes, mm from the base lens's axis; and where on
+/// Rays from places in the plane of the diffuser to places in the planes of the holes, mm from the base lens's axis; and where on
 /// the panel they end. Arrays of a fixed length, which compilers make SIMD code of; the sums over them have a fixed order.
 constexpr int kMostProbes = 16;
 template <class S>
@@ -136,9 +136,11 @@ LFDSIM_FN S sum_of(const S (&a)[kMostProbes]) {
 template <Way through, class F>
 LFDSIM_LARGE void trace_probes(const Scene<Scalar<F>>& scene, const PixelBlock<Scalar<F>>& block, Probes<Scalar<F>>& probes,
                                int count) {
+    // The way up is told in the plane of x', 1 where there is but one plane.
+    const F down = F(scene.holes_below[0]), to_plane_x = F(scene.holes_below[0] / scene.holes_below[1]);
     for (int p = 0; p < count; p += LaneTraits<F>::width) {
         const F x = load<F>(probes.at_x + p), y = load<F>(probes.at_y + p);
-        const F across = load<F>(probes.x + p) - x, up = load<F>(probes.y + p) - y, down = F(scene.holes_below);
+        const F across = load<F>(probes.x + p) - x, up = (load<F>(probes.y + p) - y) * to_plane_x;
         const F per = F(1) / sqrt(across * across + up * up + down * down);
         const PanelPoint<F> point = trace_array<through>(
             scene, block.lens.extent, block.lens.panel, Ray<F>{{x, y, F(0)}, {across * per, up * per, -(down * per)}}, F(0) < F(1));

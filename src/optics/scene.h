@@ -67,9 +67,9 @@ struct Scene {
     bool hollow_back;         // the last surface lies above the lowest rim (concave to the panel)
 
     // the holes through which light enters the lenses, for the filtered estimator (strata.h)
-    S holes_below;  // height of the first plane of the display above the plane of the holes
-    S hole_radius;  // of round ones; 0: the cells themselves
-    bool leaky;     // light goes on between them too
+    S holes_below[2];  // height of the first plane of the display above the holes' edges across x' and y'
+    S hole_radius;     // of round ones; 0: the cells themselves
+    bool leaky;        // light goes on between them too
 
     // light
     Fresnel fresnel;

@@ -4,6 +4,7 @@
 #include "model/bands.h"
 #include "model/geometry.h"
 #include "model/keys.h"
+#include "model/lattice.h"
 #include "model/numbers.h"
 #include "report/description.h"
 #include "view/slider.h"
@@ -182,7 +183,8 @@ class Lister {
     // One slider where both pitches are one; radii follow it.
     void add(Json& control, const std::string& path, const Range& range, Pitch& field, const Pitch* described) {
         using Both = std::array<double, 2>;
-        if (!field.is_one()) return add(control, path, range, static_cast<Both&>(field), static_cast<const Both*>(described));
+        if (differs_by_axis(trial_.array))
+            return add(control, path, range, static_cast<Both&>(field), static_cast<const Both*>(described));
         const Pitch value = field;
         control["value"] = control_json(value[0]);
         const Slider s = slider(path, range, value[0], described ? (*described)[0] : value[0], false, [&](double x) {
