@@ -57,6 +57,7 @@ struct Pitch : std::array<double, 2> {
 };
 
 struct LensArray {
+    LatticeKind lattice = LatticeKind::square;
     std::array<std::int64_t, 2> count{};  // nx, ny
     Pitch pitch_mm;                       // px, py
     std::optional<double> gap_mm;         // panel to the lens's panel-side principal plane; exactly one of the two

@@ -39,9 +39,10 @@ constexpr Key<Lens> lens_keys[] = {
      for_plano_convex,
      for_plano_convex},
     {"aperture_radius_mm", &Lens::aperture_radius_mm, positive_length, true,
-     "r, the lens's radius; 2 r is at most the lens pitch for circular apertures. With square apertures it may be absent: the cap "
-     "then reaches the cell's corners, r = pitch/sqrt(2).",
-     "pitch/sqrt(2) with square apertures; required with circular ones", for_plano_convex | for_ideal, 0},
+     "r, the lens's radius; 2 r is at most the least lens pitch for circular apertures. With square apertures it may be absent: "
+     "the "
+     "cap then reaches the cell's corners, r = pitch/sqrt(2) in square cells.",
+     "half the cell's diagonal with square apertures; required with circular ones", for_plano_convex | for_ideal, 0},
     {"cylinder_height_mm",
      &Lens::cylinder_height_mm,
      length_or_zero,
@@ -71,15 +72,18 @@ constexpr Key<Surface> surface_keys[] = {
 };
 
 constexpr Key<LensArray> array_keys[] = {
+    {"lattice", &LensArray::lattice, no_range, false, "Shape of the cells in which the lenses stand."},
     {"count", &LensArray::count, count_range, true, "Lenses across and up. Their product is below 2^31."},
-    {"pitch_mm", &LensArray::pitch_mm, positive_length, true, "From lens to lens, the same in both directions."},
+    {"pitch_mm", &LensArray::pitch_mm, positive_length, true,
+     "From lens to lens: one number, or for rectangular cells that along the array's rows and that along its columns."},
     {"gap_mm", &LensArray::gap_mm, positive_length, false, "From the panel to the lens's panel-side principal plane.",
      "given by base_z_mm; exactly one of the two is required"},
     {"base_z_mm", &LensArray::base_z_mm, length_or_zero, false, "From the panel to the lens's lowest point.",
      "given by gap_mm; exactly one of the two is required"},
     {"surround", &LensArray::surround, no_range, false,
      "Between the lenses: black walls, air and polished walls, or one moulded sheet. The last two take a single glass body."},
-    {"aperture", &LensArray::aperture, no_range, false, "Round lenses, or lenses that fill their square cells."},
+    {"aperture", &LensArray::aperture, no_range, false,
+     "Round lenses, or lenses that fill their cells (\"square\", rectangular ones too)."},
     {"offset_mm", &LensArray::offset_mm, any_length, false, "Of the array's centre from the panel's, after the rotation."},
     {"rotation_deg", &LensArray::rotation_deg, turn, false, "Counter-clockwise as the viewer sees it, about the array's centre."},
 };
@@ -170,6 +174,7 @@ template <> std::span<const std::string_view> words<Encoding>() { static constex
 template <> std::span<const std::string_view> words<LensType>() { static constexpr std::string_view w[] = {"plano_convex", "surfaces", "ideal"}; return w; }
 template <> std::span<const std::string_view> words<Facing>() { static constexpr std::string_view w[] = {"viewer", "panel"}; return w; }
 template <> std::span<const std::string_view> words<Surround>() { static constexpr std::string_view w[] = {"opaque", "clear", "plate"}; return w; }
+template <> std::span<const std::string_view> words<LatticeKind>() { static constexpr std::string_view w[] = {"square", "rectangle"}; return w; }
 template <> std::span<const std::string_view> words<Aperture>() { static constexpr std::string_view w[] = {"circle", "square"}; return w; }
 template <> std::span<const std::string_view> words<Profile>() { static constexpr std::string_view w[] = {"box", "gaussian"}; return w; }
 template <> std::span<const std::string_view> words<PixelFilter>() { static constexpr std::string_view w[] = {"center", "box"}; return w; }

@@ -28,10 +28,11 @@ inline constexpr Range any_length{-longest_mm, longest_mm}, positive_length{shor
 inline constexpr double two_to_31 = 2147483648.0;
 
 template <class T>
-using Member = std::variant<double T::*, std::optional<double> T::*, std::int64_t T::*, std::optional<std::int64_t> T::*,
-                            std::string T::*, std::array<double, 2> T::*, Vec3d T::*, std::array<std::int64_t, 2> T::*,
-                            std::vector<double> T::*, Pitch T::*, Encoding T::*, LensType T::*, Facing T::*, Surround T::*,
-                            Aperture T::*, Profile T::*, PixelFilter T::*, Estimator T::*, Sampling T::*, Fresnel T::*>;
+using Member =
+    std::variant<double T::*, std::optional<double> T::*, std::int64_t T::*, std::optional<std::int64_t> T::*, std::string T::*,
+                 std::array<double, 2> T::*, Vec3d T::*, std::array<std::int64_t, 2> T::*, std::vector<double> T::*, Pitch T::*,
+                 Encoding T::*, LensType T::*, Facing T::*, Surround T::*, LatticeKind T::*, Aperture T::*, Profile T::*,
+                 PixelFilter T::*, Estimator T::*, Sampling T::*, Fresnel T::*>;
 
 // The types of lens that a key belongs to.
 inline constexpr unsigned for_plano_convex = 1u << unsigned(LensType::plano_convex),

@@ -10,8 +10,9 @@ enum class Encoding { srgb, linear };  // of the panel image's code values
 enum class LensType { plano_convex, surfaces, ideal };
 enum class Facing { viewer, panel };           // where the convex side of a plano-convex lens looks
 enum class Surround { opaque, clear, plate };  // what is between the lenses
-enum class Aperture { circle, square };
-enum class Profile { box, gaussian };  // of the diffuser, per axis
+enum class LatticeKind { square, rectangle };  // of the cells in which lenses stand
+enum class Aperture { circle, square };        // square: the lens fills its cell
+enum class Profile { box, gaussian };          // of the diffuser, per axis
 enum class PixelFilter { center, box };
 enum class Estimator { filtered, point };
 enum class Sampling { sobol, random };

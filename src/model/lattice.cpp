@@ -7,7 +7,7 @@
 
 namespace lfdsim {
 
-bool differs_by_axis(const LensArray& array) { return !array.pitch_mm.is_one(); }
+bool differs_by_axis(const LensArray& array) { return array.lattice == LatticeKind::rectangle; }
 
 double inner_radius_mm(const LensArray& array) { return array.pitch_mm.least() / 2; }
 

@@ -116,8 +116,10 @@ void check_view(const Camera& camera, Findings& findings) {
 
 // Keys that exclude one another or need one another.
 void check_choices(const Display& d, Findings& findings) {
-    if (const Pitch& p = d.array.pitch_mm; !p.is_one() && findings.sound("array.pitch_mm"))
-        findings.add("array.pitch_mm", "is [{}, {}], but cells are square; give one number", p[0], p[1]);
+    if (const Pitch& p = d.array.pitch_mm;
+        d.array.lattice == LatticeKind::square && !p.is_one() && findings.sound("array.pitch_mm"))
+        findings.add("array.pitch_mm", "is [{}, {}], but array.lattice is \"square\"; take \"rectangle\", or give one number", p[0],
+                     p[1]);
     if (d.array.gap_mm && d.array.base_z_mm && findings.sound("array.base_z_mm"))
         findings.add("array.base_z_mm", "both array.gap_mm and array.base_z_mm given; leave one out");
     if (!d.array.gap_mm && !d.array.base_z_mm && findings.sound("array.gap_mm") && findings.sound("array.base_z_mm"))

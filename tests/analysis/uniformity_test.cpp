@@ -186,8 +186,8 @@ TEST(Uniformity, MeanIsThatOfTheCamerasPicture) {
         d.camera.position_mm = {0, 0, 400};
         d.camera.target_mm = {0, 0, resolve(d).vertex_plane_mm};
         d.camera.frame_width_mm = resolve(d).array_width_mm;
-        d.camera.resolution = {100, 70};
-        d.render.samples = 128;
+        d.camera.resolution = {80, std::llround(80 * resolve(d).array_height_mm / resolve(d).array_width_mm)};
+        d.render.samples = 196;
         double sum = 0;
         const Image seen = picture(d, uniform_panel(d, 1));
         for (const float light : seen.rgb) sum += light;

@@ -10,7 +10,7 @@ namespace {
 using namespace small_world;
 
 struct Case {
-    double viewing_distance_mm, rotation_deg, offset_x, offset_y;
+    double viewing_distance_mm, rotation_deg, offset_x, offset_y, height_of_cell = 1;
 };
 
 class PickupTest : public testing::TestWithParam<Case> {
@@ -19,6 +19,9 @@ class PickupTest : public testing::TestWithParam<Case> {
         Display d = display();
         d.content.viewing_distance_mm = GetParam().viewing_distance_mm;
         d.array.rotation_deg = GetParam().rotation_deg;
+        d.array.lattice = LatticeKind::rectangle;
+        d.array.pitch_mm[1] *= GetParam().height_of_cell;
+        *d.lens.aperture_radius_mm *= std::min(1., GetParam().height_of_cell);
         d.array.offset_mm = {GetParam().offset_x, GetParam().offset_y};
         return d;
     }
@@ -108,7 +111,7 @@ TEST_P(PickupTest, APointIsImagedWhereTheNodalRayMeetsThePanel) {
 
 INSTANTIATE_TEST_SUITE_P(Displays, PickupTest,
                          testing::Values(Case{std::numeric_limits<double>::infinity(), 0, 0, 0}, Case{600, 0, 0, 0},
-                                         Case{600, 0, 0.7, -1.3}, Case{300, 12.5, 0.7, -1.3},
+                                         Case{600, 0, 0.7, -1.3}, Case{300, 12.5, 0.7, -1.3}, Case{450, -31, 0.2, 0.4, 0.7},
                                          Case{std::numeric_limits<double>::infinity(), -45, 2, 1}));
 
 // With elemental images of exactly 20 x 20 pixels each lens owns just those.

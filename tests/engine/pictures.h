@@ -38,6 +38,14 @@ inline Display ideal_example() {
     return d;
 }
 
+/// Lenses that fill cells a quarter less high than wide.
+inline Display in_rectangles(Display d) {
+    d.array.lattice = LatticeKind::rectangle;
+    d.array.pitch_mm = {d.array.pitch_mm[0], 0.75 * d.array.pitch_mm[0]};
+    d.array.aperture = Aperture::square;
+    return d;
+}
+
 /// One display for every way through an array, and for every option of camera and diffuser.
 inline std::vector<std::pair<std::string, Display>> every_kind() {
     std::vector<std::pair<std::string, Display>> all;
@@ -73,6 +81,10 @@ inline std::vector<std::pair<std::string, Display>> every_kind() {
     all.back().second.array.surround = Surround::plate;
     all.back().second.diffuser = Diffuser{40, {4, 4}, Profile::gaussian};
     all.back().second.lens.stop_radius_mm = 1.2;
+    all.emplace_back("rectangular cells, clear, turned", in_rectangles(example()));
+    all.back().second.array.surround = Surround::clear;
+    all.back().second.array.rotation_deg = -5;
+    all.back().second.diffuser = Diffuser{40, {4, 4}, Profile::box};
     for (auto& [name, d] : all) {
         look_from(d, 20, 400);
         d.camera.position_mm[1] = 60;
@@ -106,6 +118,7 @@ inline std::vector<std::pair<std::string, Display>> diffused() {
     all.back().second.array.surround = Surround::clear;
     add("plate", example(), closing);
     all.back().second.array.surround = Surround::plate;
+    add("rectangular cells", in_rectangles(example()), closing);
     return all;
 }
 

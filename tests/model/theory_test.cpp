@@ -18,6 +18,36 @@ struct Figures {
     double f, central_depth, pixel_image, near, far;  // marginal planes as published: L -/+ |L| P_I / D
 };
 
+// Along its own x a rectangular lattice is a square one of that pitch, as far as theory goes by the pitch; the depth of field is
+// that of the wider aperture.
+TEST(Theory, RectanglesAreSquaresOfEachPitch) {
+    Display d = example_ideal();
+    d.array.aperture = Aperture::square;
+    d.array.count = {32, 20};
+    d.diffuser = Diffuser{100, {1, 1}, Profile::box};
+    const auto of_square = [&](double pitch, std::size_t axis) {
+        Display square = d;
+        square.array.pitch_mm = pitch;
+        square.array.count.fill(d.array.count[axis]);
+        return theory_of(square);
+    };
+    const Theory across = of_square(12, 0), up = of_square(9, 1);
+    d.array.lattice = LatticeKind::rectangle;
+    d.array.pitch_mm = {12, 9};
+    const Theory t = theory_of(d);
+    for (double AxisTheory::*figure :
+         {&AxisTheory::fov_deg, &AxisTheory::fov_elemental_deg, &AxisTheory::views, &AxisTheory::view_step_deg,
+          &AxisTheory::viewing_zone_deg, &AxisTheory::viewing_zone_parallel_deg, &AxisTheory::eyebox_mm,
+          &AxisTheory::elemental_pitch_mm, &AxisTheory::lens_sampling_limit_per_mm, &AxisTheory::gap_closing_diffuser_deg,
+          &AxisTheory::gap_closing_here_deg}) {
+        EXPECT_EQ(t.along[0].*figure, across.along[0].*figure);
+        EXPECT_EQ(t.along[1].*figure, up.along[1].*figure);
+    }
+    EXPECT_EQ(t.depth_of_field_mm, across.depth_of_field_mm);
+    EXPECT_EQ(t.depth_near_per_mm, across.depth_near_per_mm);
+    EXPECT_EQ(resolve(d).clear_aperture_mm, (std::array{12., 9.}));
+}
+
 // Half a unit in the last place that is given.
 TEST(Theory, DesktopDisplays) {
     Display stopped = example();
