@@ -2,6 +2,7 @@
 
 #include "model/numbers.h"
 #include "optics/directions.h"
+#include "optics/filtered_limits.h"
 
 #include "engine/kernel.h"
 #include "model/prescription.h"
@@ -218,11 +219,17 @@ int block_side(const optics::Scene<float>& scene, const optics::View& view, int 
     bool moving = false;  // the strata move with the pixels: the lenses' edges, at which blocks break, are sharp in the picture
     for (int k = 0; k < 2; ++k) {
         const double span = 2 * double(scene.holes_below[k]) * std::tan(std::min(double(scene.half_angle[k]), 1.5));
-        span > 4 * pixel ? seen = std::min(seen, span) : moving = true;
+        span > FilteredLimits::moving_span* pixel ? seen = std::min(seen, span) : moving = true;
     }
     // Many strata: a fine picture is asked for, in which what bends over a block would show.
-    const double wide = strata > 2 * kFewStrata ? 0.05 : moving ? 0.1 : strata > kFewStrata ? 0.2 : rough ? 0.95 : 0.7;
-    return 16 * pixel < wide * seen ? 16 : 8 * pixel < std::min(2 * wide, rough ? 0.8 : 0.4) * seen ? 8 : 4;
+    using L = FilteredLimits;
+    const double wide = strata > 2 * kFewStrata ? L::block_finest
+                        : moving                ? L::block_moving
+                        : strata > kFewStrata   ? L::block_fine
+                        : rough                 ? L::block_rough
+                                                : L::block_usual;
+    const double half_as_wide = std::min(2 * wide, rough ? L::half_block_rough : L::half_block_usual);
+    return 16 * pixel < wide * seen ? 16 : 8 * pixel < half_as_wide * seen ? 8 : 4;
 }
 
 const optics::Directions& sobol_directions() {

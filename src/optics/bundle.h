@@ -6,6 +6,7 @@
 // to pixel, and whether it does so evenly. Where rays are lost on the way, or end under different lenses, the bundle is broken, and
 // each pixel traces a ray of its own.
 #pragma once
+#include "optics/filtered_limits.h"
 #include "optics/footprint.h"
 #include "optics/strata.h"
 #include "optics/trace.h"
@@ -17,8 +18,8 @@ constexpr int kBlockRays = 4;
 LFDSIM_FN int block_right(int ray) { return ray == 1 ? 1 : ray == 3 ? -1 : 0; }
 LFDSIM_FN int block_down(int ray) { return ray == 2 ? 1 : ray == 3 ? -1 : 0; }
 
-/// A soft bundle's light is told at the corners of squares of so many pixels: at most 3 x 3 places.
-constexpr int kNodes = 3, kMostNodeStep = 8;
+/// A soft bundle's light is told at the corners of squares of FilteredLimits::node_step pixels: at most 3 x 3 places.
+constexpr int kNodes = 3;
 
 template <class S>
 struct PixelBlock {
@@ -26,7 +27,7 @@ struct PixelBlock {
     BaseLens<S> lens;
     Vec3<S> to[kBlockRays];
     Sweep<S> sweep[2][kBlockRays];
-    LFDSIM_FN int nodes() const { return 2 * reach > kMostNodeStep ? 2 * reach / kMostNodeStep + 1 : 2; }
+    LFDSIM_FN int nodes() const { return 2 * reach > FilteredLimits::node_step ? 2 * reach / FilteredLimits::node_step + 1 : 2; }
     bool alive;  // all rays look at the display, evenly spaced on it, and the diffuser's two turns move them as strata take them to
 };
 
@@ -38,7 +39,7 @@ LFDSIM_FN bool all_go_down(const Scene<S>& scene, const PixelBlock<S>& block) {
         S sine, cosine;
         sincos(diffuser_angle(scene, a, S(1)), scene.small_angles, sine, cosine);
         for (const Sweep<S>& sweep : block.sweep[a])
-            if (!(cosine - abs(sweep.slope) * sine > S(0.2))) return false;
+            if (!(cosine - abs(sweep.slope) * sine > S(FilteredLimits::steepest))) return false;
     }
     return true;
 }
@@ -93,7 +94,7 @@ LFDSIM_FN PixelBlock<S> pixel_block(const Scene<S>& scene, const View& view, int
         const Sweep<S>* s = block.sweep[a];
         const S bend = s[1].at + s[2].at + s[3].at - S(3) * s[0].at,
                 turn = s[1].slope + s[2].slope + s[3].slope - S(3) * s[0].slope;
-        block.alive = abs(bend) + abs(turn * scene.holes_below[a]) < S(1e-3) * scene.lattice.pitch[a];
+        block.alive = abs(bend) + abs(turn * scene.holes_below[a]) < S(FilteredLimits::bend) * scene.lattice.pitch[a];
     }
     block.alive = block.alive && all_go_down(scene, block) && axes_part(scene, block, most_misjudged);
     return block;
@@ -243,7 +244,7 @@ struct Slopes {
 /// Is the footprint so wide that a single box tells too little of it?
 template <class S>
 LFDSIM_FN bool is_soft(const Bundle<S>& b) {
-    return max(b.width, b.height) > S(1);
+    return max(b.width, b.height) > S(FilteredLimits::soft);
 }
 
 /// The panel over small boxes about the probes of a part of a stratum, each as wide as it is to the next probes.
@@ -301,16 +302,18 @@ LFDSIM_FN void follow(Bundle<S>& b, const Probes<S>& rays, int p, int reach) {
     b.row_down = (rays.row[p + 1] - row) * per;
     const S uneven_column = abs(rays.column[p] + rays.column[p + 1] + rays.column[p + 2] - S(3) * column),
             uneven_row = abs(rays.row[p] + rays.row[p + 1] + rays.row[p + 2] - S(3) * row);
-    bool whole = uneven_column <= S(0.02) + S(0.05) * b.width && uneven_row <= S(0.02) + S(0.05) * b.height;
+    const auto even = [](S uneven, S size) { return uneven <= S(FilteredLimits::least_uneven) + S(FilteredLimits::uneven) * size; };
+    bool whole = even(uneven_column, b.width) && even(uneven_row, b.height);
     for (int k = p; k < p + 3; ++k)
         whole = whole && rays.weight[k] > S(0) && rays.cell_i[k] == rays.cell_i[p] && rays.cell_j[k] == rays.cell_j[p];
     // A footprint that is much wider than its way over the block, or so wide that rays through the same glass go many ways, is
     // taken to stand still.
     const S way_column = S(reach) * (abs(b.column_right) + abs(b.column_down)),
             way_row = S(reach) * (abs(b.row_right) + abs(b.row_down));
-    b.still = way_column <= S(0.02) + S(0.1) * b.width && way_row <= S(0.02) + S(0.1) * b.height;
+    const auto stands = [](S way, S size) { return way <= S(FilteredLimits::least_uneven) + S(FilteredLimits::still) * size; };
+    b.still = stands(way_column, b.width) && stands(way_row, b.height);
     if (whole) return;
-    b.still = max(b.width, b.height) > S(16);
+    b.still = max(b.width, b.height) > S(FilteredLimits::smeared);
     if (!b.still) b.state = Bundle<S>::State::broken;
 }
 

@@ -16,7 +16,8 @@ struct Fetch {
         : pairs(select(hit.lit, hit.pixel, Uint<F>(0u)) << 1), weight(select(hit.lit, hit.weight, F(0))) {}
 };
 
-/// A fetch under way: the places lie in memory, lane by lane.
+/// A fetch under way: the places lie in memory, lane by lane. A texel is four floats side by side (R, G, B, 0), so what is loaded
+/// has colours beside one another where F has lanes; N/4 texels fill a register, and four registers hold those of all lanes.
 template <class F>
 class Fetching {
   public:

@@ -114,8 +114,9 @@ LFDSIM_RARE void meet_neighbours(const Scene<Scalar<F>>& scene, const Extent<Sca
     walk_cells(scene, extent, x, y, mx, my, F(0), depth, astray, try_cell);
 }
 
-/// The first surface, from a ray in the plane of its vertex, from the base lens. Most rays meet the cap of the cell they point at;
-/// one that misses it and slants out of the cell before it is as low as the rims looks into the next cells.
+/// The first surface on the way down, from a ray in the plane of its vertex. Places are in the array's frame, x and y from the base
+/// lens's axis. Most rays meet the cap of the cell they point at; one that misses it and slants out of the cell before it is as low
+/// as the rims looks into the next cells.
 template <Shapes shapes, class F>
 LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, Passage<F>& way) {
     const auto& first = scene.surface[0];
@@ -134,9 +135,10 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<
         const F lx = x - axis.x, ly = y - axis.y, r = F(first.semi_aperture);
         hit.ok = hit.ok && (lx * lx + ly * ly <= r * r);
     } else if (shapes == Shapes::plano_convex || scene.zone_top > scene.zone_bottom) {
-        // Can a ray that missed meet another lens before it is down at the rims? Not if its way there, (ex, ey) long, ends in the
-        // same cell, nor if it ends in the cell beside that and far from its lens's axis: had it been within the semi aperture r of
-        // it, it would end within sqrt(r^2 + ex^2 + ey^2).
+        // Can a ray that missed meet another lens before it is down at the rims? Seen from above its way there is the vector (ex,
+        // ey). Not if it ends in the same cell. Nor if it crosses one border, ends at (ax, ay) from the nearer axis and that is
+        // far: it came from farther than the semi aperture r, so if it passed within r of the axis the foot of the perpendicular
+        // lies on its way, and it ends within the hypotenuse sqrt(r^2 + ex^2 + ey^2). All others are looked after one by one.
         const F kd = F(scene.zone_bottom - scene.zone_top) * fall, ex = ray.to.x * kd, ey = ray.to.y * kd;
         const Place<F> axis = axis_of(scene.lattice, way.cell);
         const F ux = abs(x - axis.x + ex), uy = abs(y - axis.y + ey), r = F(first.semi_aperture);

@@ -32,6 +32,9 @@ void work_off(std::int64_t items, Item item) {
     tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::int64_t(0), items, [&](std::int64_t i) { item(i); }); });
 }
 
+/// Does what the GPU would on the launch of the kernel of that mangled name, whose template arguments (step, way through the array,
+/// simple camera) stand in it: the same item<...>() of engine/wide/, for all items that the grid covers, when its stream comes to
+/// it. What a launch must not be, as the queue makes it, ends the program.
 void launch(const std::string& name, const Configuration& c, void** arguments) {
     // A grid that is too small leaves items undone.
     const std::int64_t items = std::min(*static_cast<std::int64_t*>(arguments[1]), std::int64_t(c.grid.x) * c.block.x);

@@ -3,6 +3,7 @@
 #pragma once
 #include "engine/kernel.h"
 #include "optics/bundle.h"
+#include "optics/filtered_limits.h"
 #include "optics/strata.h"
 
 namespace lfdsim {
@@ -116,7 +117,7 @@ LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>*
         const S low_end = optics::min(from * along, to * along) - axis_at,
                 high_end = optics::max(from * along, to * along) - axis_at;
         a.stratum[j] = {cell, optics::max(low_end, -half), optics::min(high_end, half),
-                        low_end < S(-1.02) * half || high_end > S(1.02) * half};
+                        low_end < S(-FilteredLimits::straddling) * half || high_end > S(FilteredLimits::straddling) * half};
     }
 }
 

@@ -46,7 +46,7 @@ struct PacketLight {
 
 /// What is even over a block is told at the corners of squares of so many pixels, at most 5 x 5 places, and interpolated between
 /// them, unless there are so many strata that a finer picture is asked for.
-constexpr int kMostSide = 16, kPlaceStep = 4, kMostPlaces = kMostSide / kPlaceStep + 1, kMostLanes = 32;
+constexpr int kMostSide = 16, kPlaceStep = FilteredLimits::place_step, kMostPlaces = kMostSide / kPlaceStep + 1, kMostLanes = 32;
 
 /// 0: none.
 LFDSIM_FN int places_per_axis(const Tile& tile) {
@@ -85,8 +85,9 @@ class BlockWork {
     LFDSIM_BOTH void begin(const EvenCuts& even, std::int32_t left, std::int32_t top) {
         at.x0 = left;
         at.y0 = top;
-        at.block =
-            optics::pixel_block<S>(scene, *tile.view, tile.block_side, tile.strata > kFewStrata ? S(0.002) : S(0.05), left, top);
+        at.block = optics::pixel_block<S>(scene, *tile.view, tile.block_side,
+                                          S(tile.strata > kFewStrata ? FilteredLimits::misjudged_fine : FilteredLimits::misjudged),
+                                          left, top);
         for (int a = 0; a < 2; ++a) cut_axis(scene, at.block.sweep[a], at.block.alive, a, even, at.axis[a]);
         at.per_axis = places_per_axis(tile);
     }

@@ -2,6 +2,7 @@
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
 #include "engine/kernels/filtered_axis.h"
+#include "optics/filtered_limits.h"
 #include "optics/footprint.h"
 
 namespace lfdsim {
@@ -138,7 +139,8 @@ class BundleMaker {
         for (int n = 0; n < b.nodes * b.nodes; ++n)
             for (int c = 0; c < 4; ++c) b.colour[n][c] = 0;
         // The wider the footprint the more probes.
-        const int parts = b.still ? optics::min(most_parts, 1 + int(optics::max(b.width, b.height) * part_per_pixel)) : 1;
+        const int parts =
+            b.still ? optics::min(FilteredLimits::most_parts, 1 + int(optics::max(b.width, b.height) * part_per_pixel)) : 1;
         for (int k = 0; k < parts * parts; ++k) {
             auto part = [parts](Range r, int n) {
                 const S step = (r.to - r.from) / S(parts);
@@ -168,7 +170,8 @@ class BundleMaker {
             if (!sees_end(a, strata[a])) continue;
             const Range all = ranges[a], here = seen_of(a, strata[a], all, 0, 0), right = seen_of(a, strata[a], all, 1, 0),
                         down = seen_of(a, strata[a], all, 0, 1);
-            if (!(here.length() > S(0.25) * all.length())) continue;  // what most pixels see of it is too unlike that
+            if (!(here.length() > S(FilteredLimits::part_seen) * all.length()))
+                continue;  // what most pixels see of it is too unlike that
             const S from_all = here.middle() - all.middle(), per = S(1) / S(block.reach),
                     moves[2] = {(right.middle() - here.middle()) * per, (down.middle() - here.middle()) * per};
             b.column = b.column + slopes.column[a] * from_all;
@@ -231,7 +234,8 @@ class BundleMaker {
                 high = optics::max(start, end) - at;
         const S range = r.to - r.from, half = S(0.5) * range / S(per_axis);
         if (!(half > 0)) return;
-        const S per = S(0.5) / half, least = S(1e-3);  // where nothing is seen, all of it tells the light for the pixels beside
+        const S per = S(0.5) / half,
+                least = S(FilteredLimits::least_seen);  // where nothing is seen, all of it tells the light for the pixels beside
         for (int p = 0; p < optics::kMostProbes; ++p) {
             const S middle = r.from + grid[p] * range, part = optics::min(high, middle + half) - optics::max(low, middle - half);
             seen[p] = seen[p] * optics::min(optics::max(part * per, least), S(1));
@@ -269,8 +273,7 @@ class BundleMaker {
         waiting = 0;
     }
 
-    static constexpr int most_parts = 2;  // of a wide stratum, along an axis
-    static constexpr S part_per_pixel = S(1) / S(24);
+    static constexpr S part_per_pixel = S(1) / S(FilteredLimits::pixels_a_part);
     static constexpr int most_waiting = optics::kMostProbes / 3;
     const Tile& tile;
     const optics::Scene<S>& scene;

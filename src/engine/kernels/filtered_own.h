@@ -2,6 +2,7 @@
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
 #include "engine/kernels/filtered_axis.h"
+#include "optics/filtered_limits.h"
 #include "optics/footprint.h"
 
 namespace lfdsim {
@@ -31,7 +32,7 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
     const F half = F(0.5f), quarter = F(0.25f);
     F a = F(0), b = F(0);
     optics::Mask<F> found = F(1) < F(0);
-    for (int attempt = 0; attempt < (part == Own::beside ? 8 : 1);
+    for (int attempt = 0; attempt < (part == Own::beside ? FilteredLimits::attempts : 1);
          ++attempt) {  // the last stands if none of them lies beside the hole
         ++sampler.sample;
         const F s = half + half * sampler(0), t = half + half * sampler(1);
@@ -54,7 +55,7 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
         const F corner_x = towards_axis(x, x.from, x.to), corner_y = towards_axis(y, y.from, y.to);
         const optics::Mask<F> corner_in = corner_x * corner_x + corner_y * corner_y < F(1);
         const F cover = optics::hole_cover(x, y);
-        const optics::Mask<F> at_edge = (cover > F(0.001f)) && (cover < F(0.999f));
+        const optics::Mask<F> at_edge = (cover > F(S(FilteredLimits::hole_edge))) && (cover < F(S(1 - FilteredLimits::hole_edge)));
         a = optics::select(at_edge, optics::select(corner_in, towards_axis(x, x.high, x.low), next_to_axis(x, x.high, x.low)), a);
         b = optics::select(at_edge, optics::select(corner_in, towards_axis(y, y.low, y.high), next_to_axis(y, y.low, y.high)), b);
         weight = optics::select(at_edge, weight * cover, weight);
@@ -74,7 +75,8 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
         const auto across = trace_own<through>(scene, pixels, a + step_a, b);
         const auto along = trace_own<through>(scene, pixels, a, b + step_b);
         auto near = [&](const optics::PanelPoint<F>& p) {
-            const F far_x = F(0.25f * scene.pitch_pixels[0]), far_y = F(0.25f * scene.pitch_pixels[1]);
+            const F far_x = F(S(FilteredLimits::together) * scene.pitch_pixels[0]),
+                    far_y = F(S(FilteredLimits::together) * scene.pitch_pixels[1]);
             return p.alive && (p.cell.i == one.cell.i) && (p.cell.j == one.cell.j) &&
                    (optics::abs(p.column - one.column) < far_x) && (optics::abs(p.row - one.row) < far_y);
         };
