@@ -24,6 +24,7 @@ MENISCUS = surfaces(surface(0.16, 3.9, 3.0, 1.53), surface(0.04, 3.9))          
 CEMENTED = surfaces(surface(0.03, 3.8, 1.5, 1.62), surface(0.12, 3.8, 3.2, 1.49), surface(-0.12, 3.8))
 SPACED = surfaces(surface(0.02, 3.8, 1.6, 1.5), surface(-0.09, 3.8, 0.8, 1.0), surface(0.05, 3.7, 2.0, 1.58, even=[2e-5]), surface(-0.06, 3.6))
 WIDE_ASPHERE = surfaces(surface(0.0, 5.61, 3.2, 1.4918), surface(-1 / 6.6, 5.61, conic=-0.5, even=[2e-5]))  # for square cells
+FLAT_CONICS = surfaces(surface(0.03, 5.6, 3.8, 1.5, conic=-1.7), surface(-0.09, 5.6, conic=-0.6))  # for cells whose corners its circle leaves out
 
 
 def merge(base, over):
@@ -61,6 +62,8 @@ def case(lens, surround="opaque", aperture="circle", view=None, **over):
 EXACT, SCHLICK = {"fresnel": "exact"}, {"fresnel": "schlick"}
 OBLIQUE = (-11, 17)
 TILTED = {"rotation_deg": 12.5, "offset_mm": [1.3, -2.1]}
+WIDE, TALL = ({"lattice": "rectangle", "pitch_mm": p, "count": n} for p, n in (([10.4, 7.2], [10, 9]), ([6.9, 9.3], [13, 8])))
+NARROW, REACHING = {**SPHERE, "aperture_radius_mm": 3.45}, {**ROUNDER, "aperture_radius_mm": 6.33}  # within WIDE and TALL cells; over their corners
 
 # Pictures of one ray per pixel: compared pixel by pixel.
 SHARP = {
@@ -125,8 +128,21 @@ SHARP = {
     "a million lenses, oblique": case({"type": "plano_convex", "sphere_radius_mm": 0.066, "aperture_radius_mm": 0.05, "cylinder_height_mm": 0.03, "index": 1.49}, view=OBLIQUE,
         array={"count": [1000, 1000], "pitch_mm": 0.108, "base_z_mm": 0.1}, panel={"pixels": [3840, 3600], "pixel_pitch_mm": 0.03}, camera={"frame_width_mm": 9.0}),
     "camera close by": case(ROUNDER, "plate", "square", camera={"position_mm": [-20.0, 10.0, 60.0], "target_mm": [5.0, 3.0, 0.0], "frame_width_mm": 90.0, "up": [0.2, 1.0, 0.1]}, render=EXACT),
+    "wide cells, opaque circle, rotated and offset, oblique": case(NARROW, view=OBLIQUE, array={**WIDE, **TILTED}, render=EXACT),
+    "tall cells, clear circle, 30 degrees": case(NARROW, "clear", view=(30,), array=TALL),
+    "wide cells filled, opaque, 45 degrees, past the border": case(REACHING, aperture="square", view=(30, 30), array=WIDE, camera={"frame_width_mm": 150.0}),
+    "tall cells filled, plate, rotated, oblique": case(REACHING, "plate", "square", view=OBLIQUE, array={**TALL, **TILTED}, render=EXACT),
+    "wide cells filled, clear, panel facing, oblique": case({**REACHING, "facing": "panel"}, "clear", "square", view=OBLIQUE, array=WIDE, render=EXACT),
+    "tall cells, ideal, filled, oblique": case(IDEAL, aperture="square", view=OBLIQUE, array=TALL),
+    "wide cells, conics cut to them, oblique": case(FLAT_CONICS, aperture="square", view=OBLIQUE, array=WIDE, render=EXACT),
+    "wide cells filled, stop, 15 degrees up": case({**REACHING, "stop_radius_mm": 2.4}, aperture="square", view=(0, 15), array=WIDE),
+    "rectangles of one number": case(SPHERE, "clear", view=(15,), array={"lattice": "rectangle"}),
     "camera close by, clear, fov_deg": case(SPHERE, "clear", camera={"position_mm": [9.0, -12.0, 45.0], "fov_deg": 70.0}),
 }
+
+# Those that are left out where time is short: others ask the same of the program.
+LONG = ("tall cells, clear circle, 30 degrees", "wide cells filled, opaque, 45 degrees, past the border", "tall cells, ideal, filled, oblique",
+        "wide cells filled, clear, panel facing, oblique", "wide cells filled, stop, 15 degrees up", "rectangles of one number")
 
 SMALL = {"resolution": [8, 5]}  # pictures whose pixels are means over many samples
 DIFFUSER = {"distance_mm": 40.0, "angle_deg": [12.0, 7.0], "profile": "box"}

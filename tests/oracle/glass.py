@@ -20,7 +20,7 @@ class Glass:
         self.index = self.lower.n_above
         self.z_min = min(self.lower.z_min, self.lower.z_rim)
         self.z_max = max(self.upper.z_max, self.upper.z_rim)
-        self.reach = lattice.pitch / 2 if lattice.square else max(self.lower.semi, self.upper.semi)
+        self.reach = lattice.pitch / 2 if lattice.fills_cell else max(self.lower.semi, self.upper.semi)
 
     def lens_hits(self, o, d, i, j, leaving):
         """Nearest boundary of one lens per ray, in its frame, crossed into glass (leaving False) or out of it: (t, outward normal)."""
@@ -42,14 +42,14 @@ class Glass:
     def walls(self, o, d, i, j):
         """(t, outward normal at p, which rays' lens has that wall) for the vertical walls of one lens per ray."""
         everywhere = np.ones(len(o), bool)
-        if self.lattice.square:
-            half, last = self.lattice.pitch / 2, (self.lattice.nx - 1, self.lattice.ny - 1)
+        if self.lattice.fills_cell:
+            last = self.lattice.nx - 1, self.lattice.ny - 1
             for axis, cell in ((0, i), (1, j)):
                 for sign, border in ((-1, 0), (1, last[axis])):
                     n = np.zeros(3)
                     n[axis] = sign
                     with np.errstate(divide="ignore", invalid="ignore"):
-                        t = (sign * half - o[:, axis]) / d[:, axis]
+                        t = (sign * self.lattice.pitch[axis] / 2 - o[:, axis]) / d[:, axis]
                     # Inside a plate the caps of neighbouring cells meet at equal heights: only the array's border has walls.
                     yield t, lambda p, n=n: np.broadcast_to(n, p.shape), (cell == border) if self.plate else everywhere
         elif not self.plate:
@@ -63,7 +63,7 @@ class Glass:
 
     def on_wall(self, p):
         s2, z = p[:, 0] ** 2 + p[:, 1] ** 2, p[:, 2]
-        inside = np.abs(p[:, :2]).max(axis=1) <= self.lattice.pitch / 2 + EPS if self.lattice.square else True
+        inside = (np.abs(p[:, :2]) <= self.lattice.pitch / 2 + EPS).all(axis=1) if self.lattice.fills_cell else True
         low, high = self.lower.height(s2), self.upper.height(s2)
         if not self.plate:
             return inside & (z >= low - EPS) & (z <= high + EPS)

@@ -5,15 +5,15 @@ from surface import EPS
 
 
 class Lattice:
-    """nx by ny lenses on a square grid, in the array's own frame (its centre on the z axis, not rotated)."""
+    """nx by ny lenses on a grid of squares or rectangles, in the array's own frame (its centre on the z axis, not rotated)."""
 
     def __init__(self, d):
         self.nx, self.ny = d.array.count
-        self.pitch, self.square = d.array.pitch_mm, d.square
+        self.pitch, self.fills_cell = d.array.pitch_mm, d.fills_cell
         turn, (ox, oy) = np.radians(d.array.rotation_deg), d.array.offset_mm
         self.turn = np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]])  # array -> display
         self.offset = np.array([ox, oy, 0.0])
-        self.radius = 0.5 * self.pitch * np.hypot(self.nx, self.ny) + self.pitch  # of a circle about all lenses
+        self.radius = 0.5 * np.hypot(*(self.pitch * d.array.count)) + max(self.pitch)  # of a circle about all lenses
 
     def enter(self, o, d):
         return (o - self.offset) @ self.turn, d @ self.turn
@@ -23,19 +23,19 @@ class Lattice:
 
     def axis(self, i, j):
         """The lens axes as (n, 3) points with z = 0."""
-        x, y = (i + 0.5 - self.nx / 2) * self.pitch, (j + 0.5 - self.ny / 2) * self.pitch
+        x, y = (i + 0.5 - self.nx / 2) * self.pitch[0], (j + 0.5 - self.ny / 2) * self.pitch[1]
         return np.stack([x, y, np.zeros_like(x)], axis=1)
 
     def cell(self, p):
         """(i, j, on the array) of the cell that holds each point."""
-        i = np.floor(p[:, 0] / self.pitch + self.nx / 2).astype(np.int64)
-        j = np.floor(p[:, 1] / self.pitch + self.ny / 2).astype(np.int64)
+        i = np.floor(p[:, 0] / self.pitch[0] + self.nx / 2).astype(np.int64)
+        j = np.floor(p[:, 1] / self.pitch[1] + self.ny / 2).astype(np.int64)
         return i, j, (i >= 0) & (i < self.nx) & (j >= 0) & (j < self.ny)
 
     def in_aperture(self, p, semi, eps=EPS):
-        """Points relative to a lens axis: inside the circle of radius semi and, for square cells, inside the cell."""
+        """Points relative to a lens axis: inside the circle of radius semi and, where lenses fill their cells, inside the cell."""
         ok = p[:, 0] ** 2 + p[:, 1] ** 2 <= (semi + eps) ** 2
-        return ok & (np.abs(p[:, :2]).max(axis=1) <= 0.5 * self.pitch + eps) if self.square else ok
+        return ok & (np.abs(p[:, :2]) <= 0.5 * self.pitch + eps).all(axis=1) if self.fills_cell else ok
 
     def in_any_aperture(self, p, semi, eps=0.0):
         """Points of the array's frame: inside the aperture of a lens. A circle lies inside its cell, so one look is enough."""
@@ -55,7 +55,7 @@ class Lattice:
         speed = np.hypot(d[:, 0], d[:, 1])
         with np.errstate(divide="ignore", invalid="ignore"):
             t1 = np.minimum(t1, np.where(speed > 0, (np.hypot(o[:, 0], o[:, 1]) + self.radius) / speed, np.inf))
-            step = np.where(speed > 0, 1.5 * self.pitch / speed, np.inf)
+            step = np.where(speed > 0, 1.5 * min(self.pitch) / speed, np.inf)
         a, active = t0.copy(), np.flatnonzero(t0 <= t1)
         while len(active):
             b = np.minimum(a[active] + step[active], t1[active])

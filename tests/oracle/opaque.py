@@ -15,7 +15,7 @@ def trace_ideal(path, display, lattice):
     p, d = path.o[rays], path.d[rays]
     i, j, on = lattice.cell(p)
     q = (p - lattice.axis(i, j))[:, :2]
-    inside = on & (display.square | (np.hypot(*q.T) <= getattr(display.lens, "aperture_radius_mm", np.inf)))
+    inside = on & (display.fills_cell | (np.hypot(*q.T) <= getattr(display.lens, "aperture_radius_mm", np.inf)))
     path.status[rays[~inside]] = BLACK
     path.meet(rays[inside], i[inside], j[inside])
     slope = d[:, :2] / d[:, 2:] + q / display.lens.focal_length_mm
@@ -45,7 +45,7 @@ def trace_opaque(path, display, lattice):
     path.status[rays[path.d[rays, 2] >= 0]] = ESCAPED
     rays = path.alive()
     o, d = path.o[rays], path.d[rays]
-    reach = lattice.pitch / 2 if lattice.square else top.semi
+    reach = lattice.pitch / 2 if lattice.fills_cell else top.semi
     t0, t1 = (max(top.z_max, ceiling) - o[:, 2]) / d[:, 2], (top.z_min - EPS - o[:, 2]) / d[:, 2]
     t, normal, i, j = lattice.first_hit(o, d, t0, t1, reach, enter)
     axis = lattice.axis(i, j)  # of the lens each ray went into

@@ -24,7 +24,7 @@ GAP = 1e-3   # mm kept between bodies that would touch
 
 
 def body(d, lower, upper, x, y):
-    """One glass body: between two conics c (x^2 + y^2 + (1 + k) z^2) - 2 z = 0 (z from the vertex), inside a cylinder or a cell.
+    """One glass body: between two conics c (x^2 + y^2 + (1 + k) z^2) - 2 z = 0 (z from the vertex), inside a cylinder and, where lenses fill them, a cell.
 
     For a plate only the caps that bulge out of the sheet (box) are made, down to the sheet's middle, so that no faces coincide.
     """
@@ -36,12 +36,12 @@ def body(d, lower, upper, x, y):
     else:
         caps = [(" ".join(faces), low, high)]
     half, out = d.array.pitch_mm / 2 - (GAP if d.array.surround == "clear" else 0), []
-    x0, x1, y0, y1 = x - half, x + half, y - half, y + half
+    (x0, y0), (x1, y1) = (x, y) - half, (x, y) + half
     if d.array.surround == "plate":  # in each cell its own cap is the highest, so caps may overlap; touching faces would be seen
-        (x1, y1), (x0, y0) = (n * half for n in d.array.count), (-n * half for n in d.array.count)
+        (x1, y1), (x0, y0) = half * d.array.count, -half * d.array.count
     for shape, a, b in caps:
-        side = f"box{{<{x0},{y0},{a}>,<{x1},{y1},{b}>}}" if d.square else f"cylinder{{<{x},{y},{a}>,<{x},{y},{b}>,{lower.semi}}}"
-        out.append(f"intersection{{{side} {shape}}}")
+        cell = f"box{{<{x0},{y0},{a}>,<{x1},{y1},{b}>}}" if d.fills_cell else ""
+        out.append(f"intersection{{cylinder{{<{x},{y},{a}>,<{x},{y},{b}>,{lower.semi}}} {cell} {shape}}}")
     return " ".join(out)
 
 
@@ -67,10 +67,10 @@ def scene(d, panel):
     if surround == "opaque":
         floor, ceiling = min(s.z_rim for s in surfaces), max(s.z_rim for s in surfaces)
         r, half = surfaces[-1].semi - GAP, d.array.pitch_mm / 2 - GAP
-        if d.square:
-            holes = [f"box{{<{x - half},{y - half},{floor - 1}>,<{x + half},{y + half},{ceiling + 1}>}}" for x, y in axes]
-        else:
-            holes = [f"cylinder{{<{x},{y},{floor - 1}>,<{x},{y},{ceiling + 1}>,{r}}}" for x, y in axes]
+        holes = [f"cylinder{{<{x},{y},{floor - 1}>,<{x},{y},{ceiling + 1}>,{r}}}" for x, y in axes]
+        if d.fills_cell:
+            cells = (f"box{{<{x - half[0]},{y - half[1]},{floor - 2}>,<{x + half[0]},{y + half[1]},{ceiling + 2}>}}" for x, y in axes)
+            holes = [f"intersection{{{hole} {cell}}}" for hole, cell in zip(holes, cells)]
         parts.append(f"difference{{box{{<-1e4,-1e4,{floor}>,<1e4,1e4,{ceiling}>}} union{{{' '.join(holes)}}} pigment{{rgb 0}} finish{{ambient 0 diffuse 0}}}}")
     m, (ox, oy) = Lattice(d).turn, d.array.offset_mm
     turn = f"matrix<{m[0, 0]},{m[1, 0]},0,{m[0, 1]},{m[1, 1]},0,0,0,1,{ox},{oy},0>"

@@ -170,8 +170,9 @@ def paraxial(harness, description):
         path = pathlib.Path(name) / "display.toml"
         path.write_text(cases.to_toml(description))
         got = json.loads(harness.lfdsim("check", path, "--json"))["theory"]
-    wrong = {k: (got[k], v) for k, v in wanted.items() if not abs(got[k] - v) <= 1e-6 * abs(v)}
-    return not wrong, f"got and wanted differ: {wrong}" if wrong else ", ".join(f"{k} {v:.4f}" for k, v in wanted.items()), {}
+    same = lambda a, b: np.shape(a) == np.shape(b) and np.allclose(a, b, rtol=1e-6, atol=0)
+    wrong = {k: (got[k], v) for k, v in wanted.items() if not same(got[k], v)}
+    return not wrong, f"got and wanted differ: {wrong}" if wrong else ", ".join(f"{k} {np.round(v, 4)}" for k, v in wanted.items()), {}
 
 
 def main():
@@ -188,6 +189,8 @@ def main():
         todo.append((f"golden {name}, this tracer", lambda name=name: own_golden(name)))
         todo.append((f"golden {name}", lambda name=name: golden(harness, name)))
     for name, description in cases.SHARP.items():
+        if options.quick and name in cases.LONG:
+            continue
         if options.quick:
             description = cases.merge(description, {"camera": {"resolution": [96, 54]}})
         off_axis = "clear" in name and "on axis" not in name

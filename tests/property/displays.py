@@ -18,21 +18,25 @@ def draw(number, most_pixels):
     kind = rng.choice([name for name, (_, (least, most)) in KINDS.items() if least <= pitch <= most])
     eye = log_uniform(rng, *KINDS[kind][0])
     lens, aperture = draw_lens(rng, pitch)
-    trial = oracle.resolve({"lens": lens, "array": {"pitch_mm": pitch, "aperture": aperture, "gap_mm": 0.0}})
+    sides = draw_sides(number, aperture)
+    if "stop_radius_mm" in lens:
+        lens["stop_radius_mm"] *= min(sides)
+    lattice = {"pitch_mm": pitch} if sides[0] == sides[1] else {"lattice": "rectangle", "pitch_mm": [pitch * side for side in sides]}
+    trial = oracle.resolve({"lens": lens, "array": {**lattice, "aperture": aperture, "gap_mm": 0.0}})
     gap = draw_gap(rng, trial.paraxial.f, eye)
-    array = {"pitch_mm": pitch, "gap_mm": gap, "aperture": aperture}
+    array = {**lattice, "gap_mm": gap, "aperture": aperture}
     if lens["type"] == "plano_convex" and rng.random() < 0.35:
         array["surround"] = str(rng.choice(["clear", "plate"]))
     height = gap + trial.vertex_plane  # of the vertex plane
     distance = eye + height  # of the eye from the panel
     per_lens = log_uniform(rng, 6, 100)
-    array["count"] = count(rng, pitch, eye, per_lens, most_pixels)
+    array["count"] = count(rng, pitch * sides[0], eye, per_lens, most_pixels, sides[1] / sides[0])
     viewing = float(rng.choice([1, 1, 1, 1, 1, 1, 1, 0.7, 1.5, math.inf])) * distance
     stretch = 1 + gap / (viewing - height)
-    pixel = pitch / per_lens
+    pixel = pitch * sides[0] / per_lens
     cover = stretch if rng.random() < 0.6 else 1.0  # wide enough for the outermost elemental images, or as wide as the array
     # A pixel whose centre lies between two elemental images belongs to either: an even number of lenses on an odd number of pixels has such.
-    columns, rows = (math.ceil(n * per_lens * cover / 2) * 2 for n in array["count"])
+    columns, rows = (math.ceil(n * per_lens * side / sides[0] * cover / 2) * 2 for n, side in zip(array["count"], sides))
     if rng.random() < 0.15:
         array["rotation_deg"] = float(rng.uniform(-45, 45))
     if rng.random() < 0.2:
@@ -48,6 +52,17 @@ def draw(number, most_pixels):
     if rng.random() < 0.5:
         description["diffuser"] = draw_diffuser(rng, pitch, eye)
     return description
+
+
+def draw_sides(number, aperture):
+    """A cell's sides against the drawn pitch, across and up: of one display in five unequal, with numbers of its own, so that the others stay as they are.
+
+    Round lenses as wide as the pitch fit into the cell; glass that covers a square's corners covers the cell's.
+    """
+    rng = np.random.default_rng([2025, number])
+    up = log_uniform(rng, 0.6, 1.6) if rng.random() < 0.2 else 1.0
+    whole = max(1.0, up) if aperture == "square" else min(1.0, up)
+    return 1.0 / whole, up / whole
 
 
 def log_uniform(rng, low, high):
@@ -99,11 +114,11 @@ def draw_gap(rng, focal, eye):
     return 1 / (1 / focal + 1 / log_uniform(rng, max(2 * focal, 0.3 * eye), 30 * max(focal, eye)))
 
 
-def count(rng, pitch, eye, per_lens, most_pixels):
-    """Lenses across and up: 5 x 5 to about 300 x 200, not wider than 1.5 times the eye's distance."""
+def count(rng, pitch, eye, per_lens, most_pixels, up):
+    """Lenses across and up, `up` times as far apart: 5 x 5 to about 300 x 200, not wider than 1.5 times the eye's distance, nor higher than wide."""
     most = min(300, 1.5 * eye / pitch, math.sqrt(1.6 * most_pixels) / per_lens)
     across = max(5, round(log_uniform(rng, 5, max(5.01, most))))
-    return [across, max(5, round(across * float(rng.uniform(0.5, 1))))]
+    return [across, max(5, round(across * float(rng.uniform(0.5, 1)) / up))]
 
 
 def draw_diffuser(rng, pitch, eye):

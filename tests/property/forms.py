@@ -1,6 +1,8 @@
 """Which figures of `lfdsim check` and `lfdsim analyze` are held against which form, and what the program is told to measure for them."""
 import math
 
+import numpy as np
+
 import crosstalk
 import field_of_view
 import one_lens
@@ -13,7 +15,7 @@ from sight import Sight, without_diffuser
 from table import UNSURE
 
 LINES = 128   # of sight in each set
-MANY = 512    # for shares of 1 % and for means
+MANY = 512    # for shares of 1 %, means and spreads
 BETWEEN_EYES_MM = 65.0
 LOOSE = 0.05  # of a frequency: a form that knows it no better does not tell
 
@@ -29,19 +31,19 @@ class Forms:
         self.stretch = stretch
         power = 1 / display.paraxial.f - 1 / display.paraxial.front
         self.central_depth = 1 / power if power else math.inf
-        self.hint = math.degrees(math.atan(stretch * display.array.pitch_mm / (2 * display.paraxial.front)))
+        self.hint = np.degrees(np.arctan(stretch * display.array.pitch_mm / (2 * display.paraxial.front)))  # along x' and y'
 
     def sight(self, lines, with_diffuser):
         return Sight(self.display, self.viewing, lines, self.seed, with_diffuser)
 
     def check(self, result):
-        return {f"theory.{path}": form for path, form in paraxial.forms(self.display, self.description).items()}
+        return paraxial.forms(self.display, self.description)
 
     def fov(self, result):
         bare, out = self.sight(LINES, False), {}
         for axis, name in enumerate(("horizontal", "vertical")):
-            out[f"{name}.own_lens_deg"] = pair(field_of_view.own_lens_deg, bare, axis, self.eye, self.hint)
-        out["eyebox_mm"] = [sure(field_of_view.eyebox_mm, bare, axis, self.eye, self.hint) for axis in (0, 1)]
+            out[f"{name}.own_lens_deg"] = pair(field_of_view.own_lens_deg, bare, axis, self.eye, self.hint[axis])
+        out["eyebox_mm"] = [sure(field_of_view.eyebox_mm, bare, axis, self.eye, self.hint[axis]) for axis in (0, 1)]
         if self.display.diffuser:
             out |= {f"{name}.own_lens_with_diffuser_deg": ends for name, ends in self.edges_as_shown().items()}
         return out
@@ -49,14 +51,14 @@ class Forms:
     def edges_as_shown(self):
         """Through the diffuser where there is one."""
         sight = self.sight(LINES, True)
-        return {name: pair(field_of_view.own_lens_deg, sight, axis, self.eye, self.hint) for axis, name in enumerate(("horizontal", "vertical"))}
+        return {name: pair(field_of_view.own_lens_deg, sight, axis, self.eye, self.hint[axis]) for axis, name in enumerate(("horizontal", "vertical"))}
 
     def likeness(self, result):
         """The scene's share of the picture is a half where that of its light is."""
         return {f"{name}.gradient_edge_deg": ends for name, ends in self.edges_as_shown().items()}
 
     def dof(self, result):
-        rays = one_lens.fan(self.display)
+        rays = one_lens.fan(self.display, np.argmax(self.display.clear_aperture))  # the wider one
         most = self.display.panel.pixel_pitch_mm / self.display.paraxial.front
         ends = one_lens.sharp_range(rays, most) if len(rays[0]) else None
         return {"spot_diopters": [None, None] if ends is None else [(1000 * u, 1e-6 * 1000 * (ends[1] - ends[0])) for u in reversed(ends)]}  # near, far
@@ -65,7 +67,7 @@ class Forms:
         lines, out = self.sight(MANY, True), {}
         for axis, name in enumerate(("horizontal", "vertical")):
             for percent in (1, 50):
-                out[f"{name}.wrong_{percent}_percent_deg"] = pair(viewing_zone.zone_deg, lines, axis, self.eye, percent / 100, self.hint)
+                out[f"{name}.wrong_{percent}_percent_deg"] = pair(viewing_zone.zone_deg, lines, axis, self.eye, percent / 100, self.hint[axis])
         return out
 
     def uniformity(self, result):
@@ -78,13 +80,13 @@ class Forms:
 
     def crosstalk(self, result):
         lines, above = self.sight(8 * MANY, True), self.eye - self.display.paraxial.rear
-        apart = 0.5 * BETWEEN_EYES_MM / above > 0.5 * self.stretch * self.display.array.pitch_mm / self.display.paraxial.front
+        apart = 0.5 * BETWEEN_EYES_MM / above > 0.5 * self.stretch * self.display.array.pitch_mm[0] / self.display.paraxial.front
         sides = {f"between_eyes.{name}_eye_percent": None if apart else crosstalk.eye_percent(lines, self.eye, side, BETWEEN_EYES_MM)
                  for name, side in (("left", -1), ("right", 1))}
         return {"between_views.woods_percent": crosstalk.middle_view_percent(lines, self.eye), **sides}
 
     def mtf(self, result):
-        lines, d, out = self.sight(LINES, True), self.display, {}
+        lines, d, out = self.sight(MANY, True), self.display, {}
         for k, m in enumerate(result["measurements"]):
             angle = math.radians(m["angle_deg"])
             z = m["depth_mm"] + d.vertex_plane - d.paraxial.rear
@@ -95,12 +97,14 @@ class Forms:
         return out
 
     def spot(self, result):
-        rays, d, out = one_lens.fan(self.display), self.display, {}
+        d, out = self.display, {}
+        fans = [("meridional", one_lens.fan(d, 0)), ("sagittal", one_lens.fan(d, 1))]
         for k, spot in enumerate(result["spots"]):
             if spot["field"] == "axis" and spot["depth_mm"] is not None:
                 z = spot["depth_mm"] + d.vertex_plane - d.paraxial.rear
-                width = one_lens.width_over_depth(rays, 1 / z) * abs(z)
-                out[f"spots.{k}.meridional_width_mm"] = width, 1e-5 * width + 1e-9
+                for name, rays in fans:
+                    width = one_lens.width_over_depth(rays, 1 / z) * abs(z)
+                    out[f"spots.{k}.{name}_width_mm"] = width, 1e-5 * width + 1e-9
         return out
 
 

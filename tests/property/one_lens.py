@@ -1,6 +1,7 @@
 """Light of a panel point through one lens by itself, forward, in the plane of the point and the lens's axis: fans of rays and their width at depths.
 
-A lens's own frame: x and y from its axis, z from the panel; depths from the rear principal plane.
+A lens's own frame: x and y from its axis, z from the panel; depths from the rear principal plane. A fan along y (axis 1) is reckoned as one along x
+that ends at the other borders of the cell: all else of a lens is round.
 """
 import numpy as np
 
@@ -9,14 +10,15 @@ from surface import EPS, refract
 FAN = 4001  # rays tried
 
 
-def through(display, x, slopes):
+def through(display, axis, x, slopes):
     """Rays from (x, 0, 0) with dx/dz = slopes: (place at the rear principal plane, slope) of each behind the lens, nan where it does not get through."""
+    border = display.array.pitch_mm[axis] / 2 if display.fills_cell else np.inf
     o = np.tile([float(x), 0.0, 0.0], (len(slopes), 1))
     d = np.column_stack([slopes, np.zeros_like(slopes), np.ones_like(slopes)])
     d /= np.linalg.norm(d, axis=1, keepdims=True)
     if display.ideal:
         q = x + slopes * display.lens_z
-        inside = np.abs(q) <= (display.array.pitch_mm / 2 if display.square else display.lens.aperture_radius_mm) + EPS
+        inside = np.abs(q) <= (border if display.fills_cell else display.lens.aperture_radius_mm) + EPS
         inside &= np.abs(q) <= (display.stop_radius or np.inf) + EPS
         return np.where(inside, q, np.nan), slopes - q / display.lens.focal_length_mm
     ok = in_stop(display, o, d) if display.stop_z < display.surfaces[-1].z else np.ones(len(o), bool)
@@ -24,7 +26,7 @@ def through(display, x, slopes):
         t, normal = forward(surface, o, d)
         ok &= np.isfinite(t)
         o = o + np.where(ok, t, 0.0)[:, None] * d
-        ok &= np.abs(o[:, 0]) <= (display.array.pitch_mm / 2 if display.square else np.inf) + EPS
+        ok &= np.abs(o[:, 0]) <= border + EPS
         bent, _, _, _, total = refract(d, normal, np.full(len(o), surface.n_below), np.full(len(o), surface.n_above))
         ok &= ~total
         d = np.where(ok[:, None], bent, d)
@@ -50,24 +52,25 @@ def forward(surface, o, d):
     return best, normal
 
 
-def fan(display, x=0.0):
+def fan(display, axis, x=0.0):
     """The rays that get through, evenly spread and to the very rims: (places, slopes); empty if none does."""
-    reach = 1.5 * display.array.pitch_mm / min(s.z_min for s in display.surfaces) if display.surfaces else display.array.pitch_mm / display.lens_z
+    pitch = display.array.pitch_mm[axis]
+    reach = 1.5 * pitch / min(s.z_min for s in display.surfaces) if display.surfaces else pitch / display.lens_z
     slopes = np.linspace(-reach, reach, FAN) - x / display.paraxial.front
-    lit = np.flatnonzero(np.isfinite(through(display, x, slopes)[0]))
+    lit = np.flatnonzero(np.isfinite(through(display, axis, x, slopes)[0]))
     if not len(lit):
         return np.array([]), np.array([])
-    ends = [rim(display, x, slopes[lit[0]], slopes[max(lit[0] - 1, 0)]), rim(display, x, slopes[lit[-1]], slopes[min(lit[-1] + 1, FAN - 1)])]
-    places, out = through(display, x, np.linspace(*ends, FAN))
+    ends = [rim(display, axis, x, slopes[lit[0]], slopes[max(lit[0] - 1, 0)]), rim(display, axis, x, slopes[lit[-1]], slopes[min(lit[-1] + 1, FAN - 1)])]
+    places, out = through(display, axis, x, np.linspace(*ends, FAN))
     lit = np.isfinite(places)
     return places[lit], out[lit]
 
 
-def rim(display, x, passes, fails):
+def rim(display, axis, x, passes, fails):
     """The last slope that gets through."""
     for _ in range(45):
         middle = 0.5 * (passes + fails)
-        if np.isfinite(through(display, x, np.array([middle]))[0][0]):
+        if np.isfinite(through(display, axis, x, np.array([middle]))[0][0]):
             passes = middle
         else:
             fails = middle

@@ -11,7 +11,7 @@ from cases import to_toml  # noqa: E402, F401
 from path import OFF_PANEL, PANEL  # noqa: E402, F401
 from surface import Surface  # noqa: E402
 
-theory, trace = _display.theory, _tracer.trace
+by_axis, trace = _display.by_axis, _tracer.trace
 
 
 class SmoothSurface(Surface):

@@ -1,22 +1,41 @@
 """The figures of `lfdsim check` by their closed forms. Exact but for rounding: what rounding of 1/f - 1/g leaves is each figure's own error."""
-import math
+import numpy as np
+
+import oracle
 
 ROUNDING = 1e-9
 
 
 def forms(display, description):
-    """Paths below `theory` with (value, error). Depths in dioptres, also those that are printed in mm."""
-    g, f, p = display.paraxial.front, display.paraxial.f, display.array.pitch_mm
-    distance = description["content"]["viewing_distance_mm"]
-    stretch = 1 + g / (distance - display.paraxial.rear)
-    central, half = 1 / f - 1 / g, display.panel.pixel_pitch_mm / (g * display.clear_aperture)
-    exact = {
-        "fov_deg": math.degrees(2 * math.atan(p / (2 * g))),
-        "fov_elemental_deg": math.degrees(2 * math.atan(p * stretch / (2 * g))),
-        "focal_length_mm": f,
-        "elemental_pitch_mm": p * stretch,
-        "views": p / display.panel.pixel_pitch_mm,
+    """Paths with (value, error), or a list of them along x' and y'. Depths in dioptres, also those that are printed in mm."""
+    g, f, p, a = display.paraxial.front, display.paraxial.f, display.array.pitch_mm, display.panel.pixel_pitch_mm
+    made_for = description["content"]["viewing_distance_mm"] - display.paraxial.rear
+    eye = description["camera"]["position_mm"][2] - display.paraxial.rear
+    central, half = 1 / f - 1 / g, a / (g * max(display.clear_aperture))
+    images = p * (1 + g / made_for)  # elemental ones: their pitch
+    outermost = (np.array(display.array.count) - 1) * p / 2  # lenses: from the middle to their axes
+
+    def seen(slope):
+        return np.degrees(2 * np.arctan(np.maximum(slope, 0)))
+
+    along = {
+        "theory.fov_deg": seen(p / (2 * g)),
+        "theory.fov_elemental_deg": seen(images / (2 * g)),
+        "theory.elemental_pitch_mm": images,
+        "theory.views": p / a,
+        "theory.view_step_deg": seen(p / (2 * g)) * a / p,
+        "theory.viewing_zone_deg": seen(images / (2 * g) - outermost * abs(1 / eye - 1 / made_for)),
+        "theory.viewing_zone_parallel_deg": seen(p / (2 * g) - outermost / eye),
+        "theory.eyebox_mm": eye * images / g,
+        "theory.lens_sampling_limit_per_mm": 1 / (2 * p),
+        "theory.gap_closing_diffuser_deg": seen(p / 2 * abs(central)),
+        "geometry.clear_aperture_mm": display.clear_aperture,
     }
-    dioptres = {"depth_near_diopters": 1000 * (central + half), "depth_far_diopters": 1000 * (central - half)}
-    dioptres |= {"depth_near_mm": dioptres["depth_near_diopters"], "depth_far_mm": dioptres["depth_far_diopters"], "central_depth_mm": 1000 * central}
-    return {path: (value, ROUNDING * abs(value)) for path, value in exact.items()} | {path: (value, ROUNDING * 1000 / f) for path, value in dioptres.items()}
+    dioptres = {"near": 1000 * (central + half), "far": 1000 * (central - half)}
+    dioptres = {f"theory.depth_{end}_{unit}": value for end, value in dioptres.items() for unit in ("diopters", "mm")} | {"theory.central_depth_mm": 1000 * central}
+
+    def told(figure):
+        return [told(v) for v in figure] if isinstance(figure, list) else (figure, ROUNDING * abs(figure) + 1e-12)
+
+    out = {path: told(oracle.by_axis(display, pair)) for path, pair in along.items()} | {"theory.focal_length_mm": told(f)}
+    return out | {path: (value, ROUNDING * 1000 / f) for path, value in dioptres.items()}

@@ -47,8 +47,8 @@ class Harness:
                 raise RuntimeError(f"lfdsim check {path}: {done.stderr}")
         raise RuntimeError(f"display {number}: {TRIES} drawings refused, the last: {done.stderr}")
 
-    def measured(self, path, command, forms):
-        done = self.lfdsim("analyze", command, path, *few_pictures(command, forms), "--threads", 1, "--progress", "none", "--json", "-o", f"{path.stem}-{command}")
+    def measured(self, path, command, options):
+        done = self.lfdsim("analyze", command, path, *options, "--threads", 1, "--progress", "none", "--json", "-o", f"{path.stem}-{command}")
         if done.returncode:
             raise RuntimeError(f"lfdsim analyze {command} {path}: {done.stderr}")
         return json.loads(done.stdout)
@@ -60,7 +60,7 @@ class Harness:
 def few_pictures(measure, forms):
     """Options that keep views and depths few."""
     if measure == "fov":
-        reach = 1.5 * forms.hint
+        reach = 1.5 * max(forms.hint)
         return "--angles-deg", f"{-reach},{reach},{reach / 6}"
     if measure == "dof":
         return "--depths-mm", f"{0.1 * forms.eye},{0.5 * forms.eye},{0.1 * forms.eye}"
@@ -115,15 +115,19 @@ def display_cases(harness, only, index):
     description, path, checked, refused = harness.drawn(index)
     forms = Forms(oracle.resolve(description), description, index)
     found, failed = list(cases_of("check", index, checked, forms.check(checked))) if only in "check" else [], []
-    measured = functools.cache(lambda command: harness.measured(path, command, forms))
-    for measure in EVERY:
-        if only in measure and harness.takes(index, measure):
-            try:
-                result = measured(measure.replace("likeness", "fov"))
-            except (RuntimeError, subprocess.TimeoutExpired) as failure:
-                failed.append(str(failure))
-                continue
-            found += cases_of(measure, index, result, getattr(forms, measure)(result))
+    measures = [measure for measure in EVERY if only in measure and harness.takes(index, measure)]
+
+    @functools.cache
+    def measured(command):
+        return harness.measured(path, command, () if command == "fov" and "likeness" in measures else few_pictures(command, forms))
+
+    for measure in measures:
+        try:
+            result = measured(measure.replace("likeness", "fov"))
+        except (RuntimeError, subprocess.TimeoutExpired) as failure:
+            failed.append(str(failure))
+            continue
+        found += cases_of(measure, index, result, getattr(forms, measure)(result))
     return found, refused, failed
 
 

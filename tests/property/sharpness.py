@@ -38,7 +38,7 @@ def mtf50(sight, eye, depth, axis, greatest):
     """(the least frequency per mm at which modulation falls below a half, its error), None if it does not up to `greatest`."""
     by, light = differences(sight, np.asarray(eye, float), depth)
     low, high = np.quantile(by[light > 0][:, axis], [0.05, 0.95]) if light.any() else (0.0, math.inf)
-    if high - low > MOST_OF_SCREEN * sight.display.array.count[axis] * sight.pitch * (1 - depth / eye[2]):
+    if high - low > MOST_OF_SCREEN * sight.display.array.count[axis] * sight.pitch[axis] * (1 - depth / eye[2]):
         raise Unsure
     by, light = (v.reshape(SETS, -1) for v in (by[:, axis], light))
 

@@ -45,7 +45,7 @@ class Sight:
 
     def whole(self, lens):
         """Whether the elemental images of these lenses lie on the panel as a whole."""
-        half = 0.5 * self.stretch * self.pitch * np.abs(self.axes).sum(axis=0)  # of the box about the turned square
+        half = 0.5 * self.stretch * self.pitch @ np.abs(self.axes)  # of the box about the turned image
         return (lens[:, 0] >= 0) & (np.abs(self.centres(lens)) + half <= self.half_panel * (1 + 1e-12)).all(axis=1)
 
     def see(self, eye):

@@ -22,11 +22,11 @@ def right_share(sight, eye):
 def zone_deg(sight, axis, distance, wrong, hint):
     """((low, error), (high, error)) in degrees from the rear principal plane for eyes in the plane z = distance; at most a share `wrong` is wrong."""
     above = distance - sight.display.paraxial.rear
-    step = above * math.tan(math.radians(hint)) / 4
+    step = above * math.tan(math.radians(hint)) / 12  # few lenses make steps and dips of the share
 
     def degrees(edge):
         return edge and (math.degrees(math.atan(edge[0] / above)), math.degrees(edge[1] * above / (above**2 + edge[0] ** 2)))
 
     towards = np.eye(3)[axis]  # the display's x or y
-    edges = both_edges(lambda x: right_share(sight, x * towards + [0.0, 0.0, distance]), 1 - wrong, step, 20 * step)
+    edges = both_edges(lambda x: right_share(sight, x * towards + [0.0, 0.0, distance]), 1 - wrong, step, 60 * step)
     return tuple(degrees(e) for e in edges)

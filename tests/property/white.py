@@ -58,7 +58,7 @@ def efficiency(display, n, seed):
     normal[:, :2] = normal[:, :2] @ axes
     start = np.column_stack([(lens + cell) @ axes + display.array.offset_mm, height])
     out = around(normal, u[:, 4:])
-    above = (display.vertex_plane + 1e-6 * pitch - height) / np.maximum(out[:, 2], 1e-9)  # past other caps and a stop before the lenses
+    above = (display.vertex_plane + 1e-6 * max(pitch) - height) / np.maximum(out[:, 2], 1e-9)  # past other caps and a stop before the lenses
     hits = oracle.trace(display, start + above[:, None] * out, -out)
     free = (np.abs((hits.lens + 0.5 - count / 2) * pitch - lens) < 0.5 * pitch).all(axis=1)
     light = np.where(rectangle | free, radiance(display, hits) * area, 0.0)
