@@ -23,35 +23,38 @@ double change(double out, double in, Predicate holds) {
     return in;
 }
 
-/// Every second ray, from the first or the second on, with the rims.
+/// Every third ray from one on, with the rims.
 std::vector<Line> thinned(const std::vector<Line>& fan, std::size_t first) {
-    std::vector<Line> half;
-    for (std::size_t k = first; k < fan.size(); k += 2) half.push_back(fan[k]);
-    if (!fan.empty()) half.insert(half.end(), {fan.front(), fan.back()});
-    return half;
+    std::vector<Line> third;
+    for (std::size_t k = first; k < fan.size(); k += 3) third.push_back(fan[k]);
+    if (!fan.empty()) third.insert(third.end(), {fan.front(), fan.back()});
+    return third;
 }
 
-/// A fan, and both halves of it: every second ray.
+/// A fan, and the three thirds of it.
 struct Fan {
-    explicit Fan(const std::vector<Line>& fan) : all(fan), halves{thinned(fan, 0), thinned(fan, 1)} {}
+    explicit Fan(const std::vector<Line>& fan) : all(fan), thirds{thinned(fan, 0), thinned(fan, 1), thinned(fan, 2)} {}
     /// Each ray turned by the diffuser.
     Fan diffused_at(double z, double angle) const {
         Fan turned(*this);
-        for (std::vector<Line>* lines : {&turned.all, &turned.halves[0], &turned.halves[1]}) *lines = diffused(*lines, z, angle);
+        for (std::vector<Line>* lines : {&turned.all, &turned.thirds[0], &turned.thirds[1], &turned.thirds[2]})
+            *lines = diffused(*lines, z, angle);
         return turned;
     }
     std::vector<Line> all;
-    std::array<std::vector<Line>, 2> halves;
+    std::array<std::vector<Line>, 3> thirds;
 };
 
-/// How far the finite number of rays may have carried the ends off. An end is told by the ray that goes farthest: it misses the
-/// true one by half a step between rays at most, the half without that ray by a whole one, which is four times as much.
+/// How far the finite number of rays may have carried the ends off. An end is told by the ray that goes farthest. It lies a part d
+/// of the step h between rays beside the true one, d <= h/2, and misses it by k d^2, k the curvature. The third whose nearest ray
+/// is the next but one misses by k (h + d)^2: from what all rays tell it differs by k (h^2 + 2 h d), at least eight times as much.
 std::array<double, 2> errors(const SharpDepths& all, const Fan& fan, double pixel_slope, double airy_slope) {
+    constexpr double margin = 0.25;  // twice an eighth
     std::array<double, 2> most{1e-9 * std::abs(all.near_per_mm), 1e-9 * std::abs(all.far_per_mm)};
-    for (const std::vector<Line>& half : fan.halves) {
-        const SharpDepths other = where_sharp(half, pixel_slope, airy_slope);
-        most[0] = std::max(most[0], std::abs(all.near_per_mm - other.near_per_mm));
-        most[1] = std::max(most[1], std::abs(all.far_per_mm - other.far_per_mm));
+    for (const std::vector<Line>& third : fan.thirds) {
+        const SharpDepths other = where_sharp(third, pixel_slope, airy_slope);
+        most[0] = std::max(most[0], margin * std::abs(all.near_per_mm - other.near_per_mm));
+        most[1] = std::max(most[1], margin * std::abs(all.far_per_mm - other.far_per_mm));
     }
     return most;
 }
