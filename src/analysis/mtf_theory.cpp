@@ -52,7 +52,7 @@ double light_astray(const Subject& s, double angle_deg, double distance_mm) {
 }
 
 double Blur::mtf(double f, bool horizontal) const {
-    // Along y the array's own y turns to it as its x does along x, the other way round.
+    // Of a turned array the axis near this direction counts with its cosine, the other with its sine.
     const std::size_t near = horizontal ? 0 : 1;
     const double c = std::cos(array_rad), s = std::sin(array_rad), w = f * diffuser_mm[horizontal ? 0 : 1];
     const double sigma = pi / fwhm_per_sigma;

@@ -96,7 +96,8 @@ void add_bands(Result& result, const PitchLuminance& pitch, const Subject& s) {
                                    {contrast.error}});
         std::vector<double> places;
         for (int k = 0; k < side; ++k) places.push_back(half[axis] * ((2 * k + 1.) / side - 1));
-        if (axis == 0 || !p.is_one()) table.columns.push_back({axis == 0 ? "place_mm" : "vertical_place_mm", places});
+        if (axis == 0 || differs_by_axis(s.display().array))
+            table.columns.push_back({axis == 0 ? "place_mm" : "vertical_place_mm", places});
         plot.series.push_back({name, places, means(profile)});
         table.columns.push_back({name + "_luminance", means(profile)});
     }

@@ -236,7 +236,7 @@ void add_sideways(Result& result, Search& search, const Subject& s, const std::a
             table.columns = {{"place_mm", zone.places}, {"place_deg", angles}};
             plot.marks = {{"theory, horizontal", 0 - theory}, {"theory, horizontal", theory}, {"1 %", 0.01, false}};
         }
-        if (axis == 1 && half[1] != half[0]) {
+        if (axis == 1 && differs_by_axis(s.display().array)) {
             table.columns.push_back({"vertical_place_mm", zone.places});
             table.columns.push_back({"vertical_place_deg", angles});
         }
