@@ -290,6 +290,7 @@ void side_by_side(const AnalyzeArguments& args, const Request& request) {
     std::vector<MeasuredDisplay> measured;
     std::vector<Problem> problems;
     Json found = Json::object();
+    const HeedSignals heed;  // between two displays, too, the report comes before the end
     bool interrupted = false;
     for (std::size_t n = 0; n < names.size() && !interrupted; ++n) {
         Outcome outcome = measure(args, request, request.displays[n], place / names[n]);
