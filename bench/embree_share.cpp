@@ -79,7 +79,7 @@ void sweep(const Display& display, const Geometry& geometry, const char* model, 
     std::vector<double> ready, one, all;
     for (int i = 0; i < runs; ++i) {
         const auto start = std::chrono::steady_clock::now();
-        const Scene scene(load_model(model), display, geometry);
+        const ContentScene scene(load_model(model), display, geometry);
         ready.push_back(seconds_since(start));
         for (int k = 0; k < depths; ++k) {
             const double depth_mm = geometry.content_depth_mm + (k + 1) / 2 * (k % 2 ? 1 : -1);  // that of the display first
@@ -104,7 +104,7 @@ int main(int count, char** words) try {
     const int runs = count > 3 ? std::max(1, std::atoi(words[3])) : 5;
     const Display display = read_display(words[1]);
     const Geometry geometry = resolve(display);
-    const Scene scene(load_model(words[2]), display, geometry);
+    const ContentScene scene(load_model(words[2]), display, geometry);
     Job job;
     std::printf("{\n");
     share("elemental_images", runs, [&] { return elemental_images(display, geometry, scene, 1, job); });

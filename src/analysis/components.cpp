@@ -23,9 +23,7 @@ Image picture(const Display& d, const Pyramid& panel, int threads, std::optional
 /// the vertex plane was.
 Display diffuser_alone(const Display& d, const Geometry& g) {
     Display bare = d;
-    bare.lens = Lens{};
-    bare.lens.type = LensType::ideal;
-    bare.lens.focal_length_mm = longest_mm;
+    bare.lens = Lens{IdealLens{{}, longest_mm}, {}};
     bare.array = LensArray{};
     bare.array.count = {1, 1};
     bare.array.pitch_mm = 1.01 * std::max({g.panel_width_mm, g.panel_height_mm, g.array_width_mm, g.array_height_mm});

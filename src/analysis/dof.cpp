@@ -44,7 +44,7 @@ struct DepthCurves {
 DepthCurves measure(Subject& s, const std::vector<double>& depths, std::size_t noisy, double white, Job& job) {
     DepthCurves curves{{depths, {}}, {depths, {}}};
     for (std::size_t k = 0; k < depths.size(); ++k) {
-        const Scene scene = s.scene().at_depth(depths[k]);
+        const ContentScene scene = s.scene().at_depth(depths[k]);
         const auto panel = elemental_panel(s.display(), s.geometry(), scene, s.threads(), job);
         const ExpectedView expected = expected_view(s.display(), s.geometry(), scene, s.threads(), job);
         const Likeness l = likeness(expected, s.display(), s.geometry(), panel->pyramid(), white, s.threads(), job);

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-// An edge seen through a lens array is a mosaic; its mean profile means something only if each distance from the edge is seen
-// through all parts of lenses and of panel pixels alike. So the edges of all pictures together lean over each other without gaps:
-// bars are so long that an edge leans by a whole number of the steps between edges, which are the bars' width over the number of
-// pictures.
+// An edge seen through a lens array is a mosaic. Its mean profile is that of the display only if each distance from the edge is
+// seen through all parts of a lens and of a panel pixel equally often. So the bars are slanted, and each picture shows them moved
+// on by a share of their width: together the edges cover the plane without gaps, since an edge leans, over the length of a bar, by
+// a whole number of these steps.
+//
+// Lengths in mm in the plane of the bars, which is parallel to the panel; `across` is the direction in which the resolution is
+// measured (the panel's x for upright bars), `along` the other. The eye stands on a circle about the middle of that plane.
 namespace lfdsim {
 namespace {
 
@@ -45,14 +48,14 @@ void EdgePlane::set_bars(double blur_mm, double angle_deg) {
 }
 
 /// Takes more pictures where too few edges fit into one.
-void EdgePlane::set_pictures(std::span<const MtfCurves> curves) {
+void EdgePlane::set_pictures(std::span<MtfCurves* const> curves) {
     double fewest = least_lenses;
     constexpr int places = 8;
-    for (const MtfCurves& m : curves) {
+    for (const MtfCurves* m : curves) {
         double lenses = 0;
         for (int k = 0; k < places; ++k) {
             bars_.offset_mm = bars_.width_mm * k / places;
-            lenses += edge_view(s_.display(), s_.geometry(), bars_, eye(m.angle_deg), bars_.width_mm / 8).lenses;
+            lenses += edge_view(s_.display(), s_.geometry(), bars_, eye(m->angle_deg), bars_.width_mm / 8).lenses;
         }
         fewest = std::min(fewest, lenses / places);
     }
@@ -87,31 +90,34 @@ bool EdgePlane::look(EdgeSpread& spread, Eye from, double pixel, MtfCurves& curv
     return true;
 }
 
-void EdgePlane::measure(std::span<MtfCurves> curves) {
-    const double farthest = curves.back().angle_deg;
-    const auto [across, along] = seen_half_mm(s_.display(), s_.geometry(), bars_, eye(farthest));
+void EdgePlane::measure(std::span<MtfCurves> all_curves) {
+    std::vector<MtfCurves*> curves;  // of the angles at which lines of sight have found the resolution
     double blur_mm = 0;
-    for (const MtfCurves& m : curves) {
-        if (!m.missing.empty()) return;
+    for (MtfCurves& m : all_curves) {
+        if (!m.missing.empty()) continue;
+        curves.push_back(&m);
         blur_mm = std::max(blur_mm, m.spread_mm);
     }
+    if (curves.empty()) return;
+    const double farthest = curves.back()->angle_deg;
+    const auto [across, along] = seen_half_mm(s_.display(), s_.geometry(), bars_, eye(farthest));
     if (!(across > 0 && along > 0)) return;
     set_bars(blur_mm, farthest);
     set_pictures(curves);
-    const double pixel = pixel_mm(curves.front().frequencies_per_mm.back());
+    const double pixel = pixel_mm(curves.front()->frequencies_per_mm.back());
     std::vector<EdgeSpread> spreads(curves.size(), EdgeSpread(0.5 * bars_.width_mm / pixel));
     bool any = true;
     for (int k = 0; k < pictures_ && any; ++k) {
         show(k);
         any = k < pictures_ / 4;  // small screens may hold an edge at some places only
         for (std::size_t n = 0; n < curves.size(); ++n) {
-            Eye from = eye(curves[n].angle_deg);
+            Eye from = eye(curves[n]->angle_deg);
             from.aside_mm = pixel * std::fmod(k * golden, 1);
-            any = look(spreads[n], from, pixel, curves[n]) || any;
+            any = look(spreads[n], from, pixel, *curves[n]) || any;
         }
     }
     for (std::size_t n = 0; n < curves.size(); ++n) {
-        MtfCurves& m = curves[n];
+        MtfCurves& m = *curves[n];
         if (m.lenses == 0) continue;
         std::vector<double> per_pixel = m.frequencies_per_mm;
         for (double& f : per_pixel) f *= pixel;

@@ -12,17 +12,18 @@ namespace lfdsim {
 
 class EdgePlane {
   public:
-    /// Edges at a depth before the vertex plane. `white`: the panel that shows white all over.
+    /// Edges at a depth in front of the vertex plane. `white`: the panel that shows white all over.
     EdgePlane(const Subject&, double depth_mm, bool horizontal, const Pyramid& white, const Job&);
 
-    /// Adds the edges to the curves of this plane and direction, from several angles. Throws Stopped.
+    /// Adds the edges to the curves of this plane and direction, from several angles; to those that have none missing. Throws
+    /// Stopped.
     void measure(std::span<MtfCurves>);
 
   private:
     Eye eye(double angle_deg) const;
     double pitch_mm() const;
     void set_bars(double blur_mm, double angle_deg);
-    void set_pictures(std::span<const MtfCurves>);
+    void set_pictures(std::span<MtfCurves* const>);
     void show(int picture);
     double pixel_mm(double most_per_mm) const;
     bool look(EdgeSpread&, Eye, double pixel, MtfCurves&) const;

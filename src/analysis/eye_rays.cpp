@@ -2,6 +2,7 @@
 
 #include "engine/scene.h"
 #include "model/numbers.h"
+#include "model/vec.h"
 #include "optics/sampler.h"
 #include "optics/trace.h"
 
@@ -42,16 +43,10 @@ bool first_lens(const optics::Scene<double>& scene, const optics::Extent<double>
     return false;
 }
 
-Vec3d unit_vector(const Vec3d& from, const Vec3d& towards) {
-    const Vec3d d{towards[0] - from[0], towards[1] - from[1], towards[2] - from[2]};
-    const double length = std::hypot(d[0], d[1], d[2]);
-    return {d[0] / length, d[1] / length, d[2] / length};
-}
-
 }  // namespace
 
 std::vector<Choice> even_choices(int count, std::uint32_t set) {
-    optics::Sampler<double> sampler(Sampling::sobol, optics::kDimensions, 0, set);
+    optics::Sampler<double> sampler(Sampling::sobol, optics::sampler_dimensions, 0, set);
     std::vector<Choice> choices;
     choices.reserve(std::size_t(count));
     for (int n = 0; n < count; ++n) {
@@ -85,7 +80,7 @@ Vec3d EyeRays::aim(const Vec3d& eye, const Choice& choice) const {
     const Place axis = optics::axis_in_array(lattice, optics::Cell<double>{number(0), number(1)});
     Place moved{0, 0};
     if (scene_.has_diffuser) {  // how far the diffuser carries the line through the lens's axis
-        const Vec3d centre = point(axis.x, axis.y), to = unit_vector(eye, centre);
+        const Vec3d centre = point(axis.x, axis.y), to = normalised(minus(centre, eye));
         const optics::Vec3<double> turned =
             optics::scatter(scene_, optics::Vec3<double>{to[0], to[1], to[2]}, choice[2], choice[3]);
         const double down = vertex_plane_ - start_z_;
@@ -101,7 +96,7 @@ Vec3d EyeRays::aim(const Vec3d& eye, const Choice& choice) const {
 }
 
 Sight EyeRays::look_through(const Vec3d& eye, const Vec3d& at, double a, double b) const {
-    return look_along(at, unit_vector(eye, at), a, b);
+    return look_along(at, normalised(minus(at, eye)), a, b);
 }
 
 int EyeRays::more_for(const Vec3d& eye) const {

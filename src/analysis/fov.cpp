@@ -6,6 +6,7 @@
 #include "analysis/views.h"
 #include "engine/ahead.h"
 #include "model/numbers.h"
+#include "model/vec.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -24,7 +25,7 @@ double widest_edge_deg(const Subject& s) { return std::max(theory_edge_deg(s, 0)
 
 /// What all views share: the scene, its elemental images, the white field.
 struct ShownEdge {
-    Scene scene;
+    ContentScene scene;
     const Pyramid& panel;
     double white;
 };
@@ -210,9 +211,8 @@ std::array<Geometric, 2> measure_geometry(Result& result, const Subject& s, Job&
 
 /// As fov_depth_mm, but no eye on its way stands in the scene or nearer to it than it is deep.
 double fov_scene_depth_mm(const Subject& s, const std::vector<double>& angles) {
-    const Vec3d half = s.scene().half_size_mm();
     const double nearest = s.viewing_distance_mm() * std::cos(std::max(-angles.front(), angles.back()) * degree);
-    const double most = nearest - s.geometry().vertex_plane_mm - 2 * std::hypot(half[0], half[1], half[2]);
+    const double most = nearest - s.geometry().vertex_plane_mm - 2 * length(s.scene().half_size_mm());
     const double depth = std::min(fov_depth_mm(s), most), below = s.geometry().base_z_mm - s.geometry().vertex_plane_mm;
     return depth >= below && depth < 0 && most < 0 ? 1.01 * below : depth;  // never inside the lenses
 }

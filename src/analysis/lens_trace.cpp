@@ -2,7 +2,8 @@
 
 #include "engine/scene.h"
 #include "model/numbers.h"
-#include "optics/sequential.h"
+#include "model/prescription.h"
+#include "optics/one_lens.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,27 +11,13 @@
 namespace lfdsim {
 namespace {
 
-/// The lens turned over: its first surface, from the panel, is then the highest.
-Geometry mirrored(Geometry g) {
-    std::reverse(g.surfaces.begin(), g.surfaces.end());
-    for (PlacedSurface& s : g.surfaces) {
-        s.z_mm = -s.z_mm;
-        s.curvature_per_mm = -s.curvature_per_mm;
-        for (double& a : s.even_asphere) a = -a;
-        std::swap(s.index_below, s.index_above);
-    }
-    g.vertex_plane_mm = -g.vertex_plane_mm;
-    g.stop_z_mm = -g.stop_z_mm;
-    return g;
-}
-
 /// How far a ray is from getting through that misses by `excess` at one of the tests, with so many more to come.
 double missed(int to_come, double excess) { return to_come + 1 + (excess >= 0 ? 1 - 1 / (1 + excess) : 1); }
 
 }  // namespace
 
 LensTrace::LensTrace(const Display& display, const Geometry& geometry)
-    : scene_(make_scene<double>(display, mirrored(geometry))),
+    : scene_(make_scene<double>(display, turned_over(geometry))),
       rear_principal_mm_(geometry.rear_principal_mm),
       gap_mm_(geometry.gap_mm) {
     scene_.fresnel = Fresnel::none;
@@ -50,24 +37,59 @@ double LensTrace::outside(double x, double y, double radius) const {
     return reach - 1;
 }
 
-/// Whether a ray passes the sheet of stops, by any hole.
-bool LensTrace::passes_stop(double x, double y) const {
-    const optics::Place<double> axis = optics::axis_of(scene_.lattice, optics::cell_at(scene_.lattice, x, y));
-    const double fx = x - axis.x, fy = y - axis.y;
-    return fx * fx + fy * fy <= scene_.stop_radius2;
-}
-
-// optics/ideal.h, the other way: the slope on the viewer's side is the panel's less q / f.
 double LensTrace::blocked_by_ideal(Point panel, Point slope, LensRay& out) const {
     const double z = -scene_.ideal_z, x = panel[0] + slope[0] * z, y = panel[1] + slope[1] * z;
     const double radius = scene_.aperture == Aperture::circle ? scene_.aperture_radius : infinity;
     const double aperture = outside(x, y, radius), stop = scene_.has_stop ? outside(x, y, std::sqrt(scene_.stop_radius2)) : 0;
     if (!(aperture <= 0 && stop <= 0)) return missed(0, std::max(aperture, stop));
-    out = {x, y, slope[0] - x * scene_.ideal_power, slope[1] - y * scene_.ideal_power};
+    const auto beyond = optics::bend<double>(scene_, {x, y}, {-slope[0], -slope[1]});  // of the lens turned over
+    out = {x, y, -beyond.x, -beyond.y};
     return 0;
 }
 
-// optics/sequential.h, for one lens and in the other direction.
+/// What pass_lens() asks of a lens on which a search aims: by how much each ray misses where it ends.
+struct LensTrace::Aim : optics::Alone<double> {
+    const LensTrace& lens;
+    const int count = scene.surface_count;
+    const bool black = scene.surround == Surround::opaque;
+    double miss = 0;       // the answer; 0: it gets through
+    double astray = 0;     // by how much it misses this lens's own stop, to which a search must find
+    double last = 0;       // by how much it misses the way out
+    bool stopped = false;  // by the sheet of stops
+
+    void end(optics::Passage<double>& way, int to_come, double excess) {
+        if (miss == 0) miss = missed(to_come, std::max(excess, astray));
+        way.alive = false;
+    }
+    bool passes_stop(bool crosses, double x, double y) {
+        if (!crosses) return true;
+        astray = std::max(std::hypot(x, y) / std::sqrt(scene.stop_radius2) - 1, 0.);
+        stopped = !Alone::passes_stop(true, x, y);
+        return true;  // it counts once the surface is reached, of which a search can tell how near it came
+    }
+    void meets(int k, const optics::Ray<double>& ray, const optics::Hit<double>& hit, double from_z, double z,
+               optics::Passage<double>& way) {
+        const int to_come = 3 * (count - k);  // to meet it, to be within its aperture, to get on
+        const double radius = lens.semi_aperture_mm_[k], excess = lens.outside(hit.at.x, hit.at.y, radius);
+        const double eta = scene.surface[k].media.eta, sine2 = eta * eta * (1 - hit.cos2);
+        if (!(ray.to.z < 0)) return end(way, to_come + 1, 1 + ray.to.z);  // turned up by the surface before
+        if (!hit.ok) return end(way, to_come, std::max(lens.outside(ray.at.x, ray.at.y, radius), 0.));
+        if (!(z <= from_z)) return end(way, to_come, z - from_z);  // it meets this surface before the last
+        if (stopped || !(excess <= 0)) return end(way, to_come - 1, excess);
+        if (!(sine2 < 1)) return end(way, to_come - 2, sine2 - 1);  // total internal reflection
+    }
+    void leaves(optics::Passage<double>& way) {
+        if (!(way.ray.to.z < 0)) return end(way, 1, 1 + way.ray.to.z);
+        if (stopped) end(way, 0, 0);
+    }
+    bool passes_back(double x, double y) {
+        const double excess = black ? lens.outside(x, y, lens.semi_aperture_mm_[count - 1]) : 0;
+        last = std::max(excess, astray);
+        return excess <= 0;
+    }
+    bool over(bool alive) const { return !alive; }
+};
+
 double LensTrace::blocked(Point panel, Point cosines, LensRay& out) const {
     const int count = scene_.surface_count;
     const double cos2 = 1 - cosines[0] * cosines[0] - cosines[1] * cosines[1];
@@ -76,57 +98,22 @@ double LensTrace::blocked(Point panel, Point cosines, LensRay& out) const {
     if (count == 0) return blocked_by_ideal(panel, {cosines[0] / cosine, cosines[1] / cosine}, out);
 
     optics::Passage<double> way{{{panel[0], panel[1], 0}, {cosines[0], cosines[1], -cosine}}, {0, 0}, 1, true};
-    const bool black = scene_.surround == Surround::opaque;
-    bool stop_ahead = scene_.has_stop, stopped = false;
-    double astray = 0;  // by how much it missed this lens's own hole in the sheet of stops, to which a search must find
-    const auto miss = [&](int to_come, double excess) { return missed(to_come, std::max(excess, astray)); };
-    double vertex = 0;  // way.ray.at.z counts from the vertex
-    const auto& at = way.ray.at;
-    const auto& to = way.ray.to;
-    const auto stand = [&](double z) {
-        const double t = (z - vertex - at.z) / to.z;
-        way.ray.at = {at.x + to.x * t, at.y + to.y * t, 0};
-        vertex = z;
+    const auto &at = way.ray.at, &to = way.ray.to;
+    const auto place = [&](double from_z, double z) {
+        const double t = (z - from_z) / to.z;
+        return optics::Vec3<double>{at.x + to.x * t, at.y + to.y * t, 0};
     };
-    const auto pass_stop = [&](double from, double down_to, const optics::Ray<double>& ray, double ray_z) {
-        if (!stop_ahead || from < scene_.stop_z || down_to > scene_.stop_z) return;
-        stop_ahead = false;
-        const double t = (scene_.stop_z - ray_z) / ray.to.z;
-        const double x = ray.at.x + ray.to.x * t, y = ray.at.y + ray.to.y * t;
-        astray = std::max(std::hypot(x, y) / std::sqrt(scene_.stop_radius2) - 1, 0.);
-        stopped = !passes_stop(x, y);
-    };
-    if (black && scene_.dimple) {  // the way in is the hole in the black part's face
-        stand(scene_.zone_top);
-        if (const double excess = outside(at.x, at.y, semi_aperture_mm_[0]); excess > 0) return miss(3 * count + 1, excess);
+    Aim aim{{scene_}, *this};
+    if (aim.black && scene_.dimple) {  // the way in is the hole in the black part's face
+        const auto hole = place(0, scene_.zone_top);
+        if (const double excess = outside(hole.x, hole.y, semi_aperture_mm_[0]); excess > 0) return missed(3 * count + 1, excess);
     }
-    for (int k = 0; k < count; ++k) {
-        const auto& surface = scene_.surface[k];
-        const double from = k == 0 ? 0 : vertex + at.z;
-        stand(surface.z);
-        const optics::Hit<double> hit = optics::meet(surface.shape, surface, way.ray);
-        const int to_come = 3 * (count - k);  // to meet it, to be within its aperture, to get on
-        if (!hit.ok) return miss(to_come, std::max(outside(at.x, at.y, semi_aperture_mm_[k]), 0.));
-        const double here = vertex + hit.at.z;
-        if (k > 0 && !(here <= from)) return miss(to_come, here - from);  // it meets this surface before the last
-        pass_stop(from, here, way.ray, vertex);
-        const double excess = outside(hit.at.x, hit.at.y, semi_aperture_mm_[k]);
-        if (stopped || !(excess <= 0)) return miss(to_come - 1, excess);
-        const double eta = surface.media.eta, sine2 = eta * eta * (1 - hit.cos2);
-        if (!(sine2 < 1)) return miss(to_come - 2, sine2 - 1);  // total internal reflection
-        optics::refract_down(scene_, surface.shape, surface, hit, way);
-        if (!(to.z < 0)) return miss(to_come - 2, 1 + to.z);  // turned up
-    }
-    const double last = vertex + at.z;
-    pass_stop(last, -infinity, way.ray, last);
-    if (stopped) return miss(0, 0);
-    if (black && scene_.hollow_back) {  // the way out
-        const double down = (scene_.wall_bottom - last) / to.z;
-        const double excess = outside(at.x + to.x * down, at.y + to.y * down, semi_aperture_mm_[count - 1]);
-        if (down > 0 && !(excess <= 0)) return miss(0, excess);
-    }
-    stand(-rear_principal_mm_);
-    out = {at.x, at.y, -to.x / to.z, -to.y / to.z};
+    const auto& first = scene_.surface[0];
+    const optics::Ray<double> entering{place(0, first.z), to};
+    optics::pass_lens<optics::Shapes::any>(scene_, aim, entering, optics::meet(first.shape, first, entering), way);
+    if (!way.alive) return aim.miss > 0 ? aim.miss : missed(0, aim.last);
+    const auto principal = place(at.z + scene_.surface[count - 1].z, -rear_principal_mm_);
+    out = {principal.x, principal.y, -to.x / to.z, -to.y / to.z};
     return 0;
 }
 

@@ -43,9 +43,9 @@ class LensTrace {
     std::optional<Directions> search(Point panel, Directions among) const;
     double blocked_by_ideal(Point panel, Point slope, LensRay& out) const;
     double outside(double x, double y, double radius) const;
-    bool passes_stop(double x, double y) const;
+    struct Aim;
 
-    // The display mirrored in z, for the tracer's rays come down: the panel stays in z = 0, the lens stands below it.
+    // Of the lens turned over, for the tracer's rays come down: the panel stays in z = 0, the lens stands below it.
     optics::Scene<double> scene_;
     double semi_aperture_mm_[max_surfaces];
     double rear_principal_mm_, gap_mm_;

@@ -54,15 +54,21 @@ MtfCurves mtf_curves(const Subject& s, const SeenThroughLenses& seen, double dep
 
     // To the first zero of a pixel's image or, where the blur is far wider, to where next to nothing is left
     const Blur by_theory = blur(s.display(), s.geometry(), s.theory(), plane.z_mm, angle_deg);
-    const double width = m.spread_mm > 0 ? m.spread_mm : by_theory.width_mm(horizontal),
-                 step = 1 / std::max(by_theory.pixel_mm, 0.25 * width) / steps;
+    const double width = m.spread_mm > 0 ? m.spread_mm : by_theory.width_mm(horizontal);
+    double step = 1 / std::max(by_theory.pixel_mm, 0.25 * width) / steps;
+    if (m.missing.empty()) {
+        // A narrow core within a wide halo keeps its modulation longer: it is followed as far as the lenses can show it.
+        const double limit = lens_limit_per_mm(s, plane, angle_deg);
+        const auto lowest = [&] { return *std::min_element(m.modulation.all.begin(), m.modulation.all.end()); };
+        m.modulation = spread.mtf(step, steps + 1);
+        for (; lowest() >= 0.5 && step * steps < std::min(limit, 1 / by_theory.pixel_mm);
+             m.modulation = spread.mtf(step, steps + 1))
+            step *= 2;
+        m.pixels_anywhere = seen.spread(plane.z_mm, horizontal, Pixels::anywhere).mtf(step, steps + 1).all;
+    }
     for (int k = 0; k <= steps; ++k) {
         m.frequencies_per_mm.push_back(step * k);
         m.theory.push_back(by_theory.mtf(step * k, horizontal));
-    }
-    if (m.missing.empty()) {
-        m.modulation = spread.mtf(step, steps + 1);
-        m.pixels_anywhere = seen.spread(plane.z_mm, horizontal, Pixels::anywhere).mtf(step, steps + 1).all;
     }
     return m;
 }

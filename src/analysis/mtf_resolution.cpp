@@ -11,13 +11,7 @@ Resolution resolution(const Subject& s, const MtfCurves& m) {
     const Geometry& g = s.geometry();
     const Bars plane{m.horizontal, g.vertex_plane_mm + m.depth_mm, 1, 1, 0};
     const double pixel = pixel_image_mm(s.display(), g, plane.z_mm), theory = m.theory_below(0.5);
-    Resolution r{
-        s.theory(m.horizontal ? 0 : 1).lens_sampling_limit_per_mm / scale_to_bars(g, plane, {m.angle_deg, s.viewing_distance_mm()}),
-        pixel > 0 ? 0.5 / pixel : infinity,
-        {nan, nan},
-        "",
-        "",
-        nan};
+    Resolution r{lens_limit_per_mm(s, plane, m.angle_deg), pixel > 0 ? 0.5 / pixel : infinity, {nan, nan}, "", "", nan};
     const double limit = std::min(r.lens_limit_per_mm, r.pixel_limit_per_mm);
     if (m.has_theory()) r.theory_per_mm = std::isnan(theory) ? limit : std::min(theory, limit);
     if (!m.missing.empty()) {
@@ -25,7 +19,8 @@ Resolution resolution(const Subject& s, const MtfCurves& m) {
         if (at_the_lenses(s.display(), g, plane.z_mm)) r.theory_per_mm = nan;
     } else {
         const Estimate mtf50 = m.below(0.5);
-        const bool limited = !(mtf50.value < limit);  // or never below one half as far as was measured
+        const bool limited =
+            !(mtf50.value < limit);  // or never below one half as far as was measured, which is up to the limit at least
         r.per_mm = limited ? Estimate{limit, 0} : mtf50;
         r.limited_by = !limited ? "mtf50" : r.lens_limit_per_mm <= r.pixel_limit_per_mm ? "lens sampling" : "pixel image";
     }

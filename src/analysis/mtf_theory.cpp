@@ -20,6 +20,11 @@ double pixel_image_mm(const Display& d, const Geometry& g, double z_mm) {
     return d.panel.pixel_pitch_mm * std::abs(z_mm - g.rear_principal_mm) / g.gap_mm;
 }
 
+double lens_limit_per_mm(const Subject& s, const Bars& plane, double angle_deg) {
+    return s.theory(plane.upright ? 0 : 1).lens_sampling_limit_per_mm /
+           scale_to_bars(s.geometry(), plane, {angle_deg, s.viewing_distance_mm()});
+}
+
 bool at_the_lenses(const Display& d, const Geometry& g, double z_mm) {
     return pixel_image_mm(d, g, z_mm) < 1e-6 * d.array.pitch_mm.least();
 }

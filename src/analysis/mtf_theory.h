@@ -13,6 +13,9 @@ double pixel_image_mm(const Display&, const Geometry&, double z_mm);
 /// Whether a plane at this height above the panel is the lenses' own, where each of them shows but one point.
 bool at_the_lenses(const Display&, const Geometry&, double z_mm);
 
+/// Half a cycle a lens pitch, as an eye at an angle projects it into the plane of bars.
+double lens_limit_per_mm(const Subject&, const Bars& plane, double angle_deg);
+
 /// What each line of sight's crossing of a plane and that of the panel pixel's nodal line, which it sees, differ by: the sum of
 /// independent parts.
 struct Blur {

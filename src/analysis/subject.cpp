@@ -7,7 +7,7 @@
 
 namespace lfdsim {
 
-Subject::Subject(Display display, std::optional<Scene> scene, AnalysisOptions options)
+Subject::Subject(Display display, std::optional<ContentScene> scene, AnalysisOptions options)
     : display_(std::move(display)),
       geometry_(resolve(display_)),
       theory_(lfdsim::theory(display_, geometry_)),
@@ -16,15 +16,15 @@ Subject::Subject(Display display, std::optional<Scene> scene, AnalysisOptions op
 
 double Subject::viewing_distance_mm() const { return options_.viewing_distance_mm.value_or(eye_distance_mm(display_)); }
 
-const Scene& Subject::scene() const {
+const ContentScene& Subject::scene() const {
     if (!scene_) throw InputError("--model", "there is nothing to show; give a mesh file or built-in:spheres");
     return *scene_;
 }
 
 ShownPanel::ShownPanel(Texels texels, int threads) : texels_(std::move(texels)), pyramid_(texels_, threads) {}
 
-std::unique_ptr<ShownPanel> elemental_panel(const Display& display, const Geometry& geometry, const Scene& scene, int threads,
-                                            const Job& job) {
+std::unique_ptr<ShownPanel> elemental_panel(const Display& display, const Geometry& geometry, const ContentScene& scene,
+                                            int threads, const Job& job) {
     Quiet quiet(job);
     const Picture picture = elemental_images(display, geometry, scene, threads, quiet);
     if (!picture.complete) throw Stopped{};

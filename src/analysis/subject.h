@@ -50,7 +50,7 @@ class ShownPanel {
 class Subject {
   public:
     /// A valid display; the scene may be absent, for measures that need none.
-    Subject(Display, std::optional<Scene>, AnalysisOptions);
+    Subject(Display, std::optional<ContentScene>, AnalysisOptions);
 
     const Display& display() const { return display_; }
     const Geometry& geometry() const { return geometry_; }
@@ -62,7 +62,7 @@ class Subject {
     double viewing_distance_mm() const;
     bool has_scene() const { return scene_.has_value(); }
     /// Throws InputError where there is none.
-    const Scene& scene() const;
+    const ContentScene& scene() const;
 
     /// The elemental images of the scene where the description puts it, as the panel shows them: made when first asked for, and
     /// kept. Throws Stopped.
@@ -76,13 +76,13 @@ class Subject {
     Display display_;
     Geometry geometry_;
     Theory theory_;
-    std::optional<Scene> scene_;
+    std::optional<ContentScene> scene_;
     AnalysisOptions options_;
     std::shared_ptr<const ShownPanel> shown_;
     std::optional<double> white_field_;
 };
 
 /// The elemental images of a scene as the display's panel shows them. Throws Stopped.
-std::unique_ptr<ShownPanel> elemental_panel(const Display&, const Geometry&, const Scene&, int threads, const Job&);
+std::unique_ptr<ShownPanel> elemental_panel(const Display&, const Geometry&, const ContentScene&, int threads, const Job&);
 
 }  // namespace lfdsim

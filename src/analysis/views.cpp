@@ -2,6 +2,7 @@
 
 #include "engine/scene.h"
 #include "engine/screen.h"
+#include "model/camera.h"
 #include "model/error.h"
 #include "model/numbers.h"
 
@@ -13,38 +14,27 @@
 namespace lfdsim {
 namespace {
 
-Vec3d minus(const Vec3d& a, const Vec3d& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vec3d& a, const Vec3d& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3d cross(const Vec3d& a, const Vec3d& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vec3d unit(const Vec3d& a) {
-    const double length = std::sqrt(dot(a, a));
-    return {a[0] / length, a[1] / length, a[2] / length};
-}
-
 /// From points before the display to the camera's frame, in pixels from its upper left corner.
 class Projection {
   public:
     Projection(const Camera& c, const Geometry& g)
-        : position_(c.position_mm), width_(double(c.resolution[0])), height_(double(c.resolution[1])) {
-        const Vec3d towards = minus(c.target_mm, c.position_mm);
-        ahead_ = unit(towards);
-        right_ = unit(cross(ahead_, c.up));
-        up_ = cross(right_, ahead_);
-        per_slope_ = width_ / g.frame_width_mm * std::sqrt(dot(towards, towards));
-    }
+        : position_(c.position_mm),
+          axes_(camera_axes(c)),
+          width_(double(c.resolution[0])),
+          height_(double(c.resolution[1])),
+          per_slope_(width_ / g.frame_width_mm * axes_.distance_mm) {}
     /// False: it is beside or behind the camera.
     bool operator()(const Vec3d& point, std::array<double, 2>& at) const {
         const Vec3d p = minus(point, position_);
-        const double depth = dot(p, ahead_);
+        const double depth = dot(p, axes_.forward);
         if (!(depth > 0)) return false;
-        at = {0.5 * width_ + dot(p, right_) / depth * per_slope_, 0.5 * height_ - dot(p, up_) / depth * per_slope_};
+        at = {0.5 * width_ + dot(p, axes_.right) / depth * per_slope_, 0.5 * height_ - dot(p, axes_.up) / depth * per_slope_};
         return true;
     }
 
   private:
-    Vec3d position_, ahead_, right_, up_;
+    Vec3d position_;
+    CameraAxes axes_;
     double width_, height_, per_slope_;
 };
 
@@ -69,7 +59,7 @@ Region screen_region(const Display& d, const Geometry& g) {
     return corners ? Region::polygon(*corners, int(d.camera.resolution[0]), int(d.camera.resolution[1])) : Region{};
 }
 
-Region content_region(const Display& d, const Geometry& g, const Scene& scene) {
+Region content_region(const Display& d, const Geometry& g, const ContentScene& scene) {
     const Vec3d centre = scene.centre_mm(), half = scene.half_size_mm();
     const Projection project(d.camera, g);
     const int width = int(d.camera.resolution[0]), height = int(d.camera.resolution[1]);
@@ -103,7 +93,7 @@ void expose(Image& image, double white) {
     for (float& light : image.rgb) light *= gain;
 }
 
-ExpectedView expected_view(const Display& seen, const Geometry& geometry, const Scene& scene, int threads, const Job& job) {
+ExpectedView expected_view(const Display& seen, const Geometry& geometry, const ContentScene& scene, int threads, const Job& job) {
     const Region screen = screen_region(seen, geometry);
     const Rect box = screen.bounds();
     if (box.x0 >= box.x1) throw InputError("camera", "no pixel of the camera sees the lens array; move it or widen its frame");

@@ -16,7 +16,7 @@ Display seen_from(const Display&, double horizontal_deg, double vertical_deg);
 Region screen_region(const Display&, const Geometry&);
 
 /// The rectangle about the pixels that may show the scene's box, where they see the screen too.
-Region content_region(const Display&, const Geometry&, const Scene&);
+Region content_region(const Display&, const Geometry&, const ContentScene&);
 
 /// Throws InputError for `where` if the scene's centre at this depth before the vertex plane would be inside the lenses.
 void refuse_depth_in_lenses(const Geometry&, double depth_mm, const std::string& where);
@@ -32,7 +32,7 @@ struct ExpectedView {
 };
 
 /// Throws Stopped; InputError if no pixel sees the screen.
-ExpectedView expected_view(const Display& seen, const Geometry&, const Scene&, int threads, const Job&);
+ExpectedView expected_view(const Display& seen, const Geometry&, const ContentScene&, int threads, const Job&);
 
 /// Renders the view and compares it. Throws Stopped.
 Likeness likeness(const ExpectedView&, const Display& seen, const Geometry&, const Pyramid& panel, double white, int threads,

@@ -30,7 +30,7 @@ namespace {
 
 struct AnalyzeArguments {
     explicit AnalyzeArguments(Command command)
-        : measures_option(command.add_option("MEASURE", measures, "One or more with commas between; left out, or all: all of them")
+        : measures_option(command.add_option("MEASURE", measures, "One or more, separated by commas; default, or all: all of them")
                               .type_name("")
                               .required()),
           display(command, {content_options, camera_options, sample_options}, false),
@@ -38,21 +38,23 @@ struct AnalyzeArguments {
           device(command),
           work(command) {
         command
-            .add_option("OTHER.toml", others, "More displays: each is measured in a folder of its own, and shown beside the first")
+            .add_option("OTHER.toml", others,
+                        "More displays: each is measured in its own folder and shown side by side with the first")
             .type_name("");
-        command.add_option("-o,--output", output, "Folder for the results and report.html; made if missing")
+        command.add_option("-o,--output", output, "Folder for the results and report.html; created if missing")
             .type_name("DIR")
             .required();
-        command.add_flag("--resume", resume, "Leave out what an earlier run with the same settings has finished there");
+        command.add_flag("--resume", resume, "Skip what an earlier run with the same settings has finished there");
         command.add_flag("--replace", replace, "Remove what an earlier run with other settings has left there");
-        command.add_option("--angles-deg", angles, "Views of the field of view; default -30,30,1 or wider, as theory expects")
+        command.add_option("--angles-deg", angles, "Views of the field of view; default: 61 or more, beyond the expected edges")
             .type_name("FROM,TO,STEP");
-        command.add_option("--depths-mm", depths, "Depths of the model for the depth of field; default 31, a centimetre apart")
+        command
+            .add_option("--depths-mm", depths, "Depths of the model for the depth of field; default: 31, evenly spaced in 1/depth")
             .type_name("FROM,TO,STEP");
-        command.add_option("--viewing-distance-mm", viewing_distance, "Of eyes from the panel; default the camera's")
+        command.add_option("--viewing-distance-mm", viewing_distance, "Distance of the eyes from the panel; default the camera's")
             .type_name("D");
-        command.add_option("--eye-distance-mm", eye_distance, "Between two eyes; default 65").type_name("E");
-        command.add_option("--wavelength-nm", wavelength, "Of diffraction; default 550").type_name("W");
+        command.add_option("--eye-distance-mm", eye_distance, "Distance between the two eyes; default 65").type_name("E");
+        command.add_option("--wavelength-nm", wavelength, "Wavelength for diffraction; default 550").type_name("W");
     }
     std::string measures;
     Option measures_option;
@@ -234,7 +236,7 @@ struct Outcome {
 Outcome measure(const AnalyzeArguments& args, const Request& request, const Display& display, const std::filesystem::path& place) {
     const std::vector<const Measure*>& wanted = request.wanted;
     const AnalysisOptions& options = request.options;
-    std::optional<Scene> scene;
+    std::optional<ContentScene> scene;
     if (std::any_of(wanted.begin(), wanted.end(), [](const Measure* m) { return m->needs_scene; })) {
         const Geometry geometry = resolve(display);
         if (display.content.depth_mm) refuse_depth_in_lenses(geometry, *display.content.depth_mm, "content.depth_mm");
@@ -300,14 +302,14 @@ void side_by_side(const AnalyzeArguments& args, const Request& request) {
         measured.push_back({names[n], request.displays[n], std::move(outcome.folder)});
     }
     Json all = differences(measured);
-    std::string missing = interrupted ? "The run was interrupted; the same command with --resume goes on." : "";
+    std::string missing = interrupted ? "The run was interrupted; the same command with --resume continues it." : "";
     for (const Problem& p : problems) missing += fmt::format("{}{}: {}.", missing.empty() ? "" : " ", p.where, p.what);
     detail::OutputFile file(place / ResultFolder::report_name);
     const std::string html = side_by_side_html(measured, all, command_line(), missing);
     file.write(html.data(), html.size());
     file.commit();
     if (interrupted) {
-        spdlog::warn("interrupted; {} holds what is finished; the same command with --resume goes on", args.output);
+        spdlog::warn("interrupted; {} holds what is finished; the same command with --resume continues it", args.output);
         throw Interrupted{};
     }
     if (!problems.empty()) throw InputError(problems);
@@ -315,7 +317,7 @@ void side_by_side(const AnalyzeArguments& args, const Request& request) {
         all["results"] = found;
         return print_json(all);
     }
-    print(fmt::format("{}\n{}: the report; of each display by itself: {}\n", table_of_differences(all),
+    print(fmt::format("{}\n{}: the report; of each display separately: {}\n", table_of_differences(all),
                       (place / ResultFolder::report_name).string(), fmt::join(names, ", ")));
 }
 
@@ -324,7 +326,7 @@ void run(const AnalyzeArguments& args) {
     if (request.displays.size() > 1) return side_by_side(args, request);
     const Outcome outcome = measure(args, request, request.displays.front(), args.output);
     if (outcome.interrupted) {
-        spdlog::warn("interrupted; {} holds {} of {} measures; the same command with --resume goes on", args.output,
+        spdlog::warn("interrupted; {} holds {} of {} measures; the same command with --resume continues it", args.output,
                      outcome.found.size(), request.wanted.size());
         throw Interrupted{};
     }
@@ -332,7 +334,7 @@ void run(const AnalyzeArguments& args) {
     if (args.work.json()) return print_json(request.wanted.size() == 1 ? outcome.found.front() : outcome.found);
     std::string text;
     for (const Json& measured : outcome.found) text += table_of(measured);
-    print(fmt::format("{}\n{}: the report; the figures lie beside it\n", text,
+    print(fmt::format("{}\n{}: the report; the figures are in the same folder\n", text,
                       (outcome.folder.path() / ResultFolder::report_name).string()));
 }
 

@@ -38,12 +38,12 @@ std::vector<std::string> group_names() {
 struct BenchArguments {
     explicit BenchArguments(Command command) : work(command) {
         command
-            .add_option("GROUP", chosen, fmt::format("What to measure; default: all. There are {}", fmt::join(group_names(), ", ")))
+            .add_option("GROUP", chosen, fmt::format("What to measure; default: all. Groups: {}", fmt::join(group_names(), ", ")))
             .type_name("");
-        command.add_option("--runs", runs, "Runs of each case, of which the median is told; default 5").type_name("N");
-        command.add_flag("--quick", quick, "One run of each case, and less work in it");
+        command.add_option("--runs", runs, "Runs of each case, whose median is printed; default 5").type_name("N");
+        command.add_flag("--quick", quick, "One run of each case, with less work");
         command
-            .add_option("--kernel", kernel, "Instruction set; default: environment variable LFDSIM_KERNEL, else the best there is")
+            .add_option("--kernel", kernel, "Instruction set; default: environment variable LFDSIM_KERNEL, else the best available")
             .type_name("scalar|baseline|avx2|avx512");
         model_option =
             command.add_option("--model", model, "Mesh file for content and estimators").type_name("FILE").capture_default_str();
@@ -51,7 +51,7 @@ struct BenchArguments {
             .type_name("FILE");
         command.add_option("--crop", crop, "Estimators: this part of the frame; default: its middle").type_name("X0,Y0,X1,Y1");
         command
-            .add_option("--angle-deg", angle, "Estimators: walk the camera so far to the right about what it looks at; default 0")
+            .add_option("--angle-deg", angle, "Estimators: move the camera by A degrees to the right around its target; default 0")
             .type_name("A");
     }
     std::vector<std::string> chosen, displays;
@@ -130,7 +130,8 @@ void run(const BenchArguments& args) {
 }  // namespace
 
 void add_bench(Command program) {
-    Command command = program.add_subcommand("bench", "How fast this machine renders, what each duty costs, error against time");
+    Command command =
+        program.add_subcommand("bench", "Measures how fast this machine renders, what each feature costs, and error against time");
     const auto args = std::make_shared<BenchArguments>(command);
     command.footer(
         "Examples:\n  lfdsim bench --quick\n  lfdsim bench rendering kernels --threads 1\n"

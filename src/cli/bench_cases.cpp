@@ -7,23 +7,18 @@ namespace {
 
 // The same lens as a prescription, its cap an asphere.
 void make_asphere(Display& d) {
-    d.lens = {};
-    d.lens.type = LensType::surfaces;
-    d.lens.surfaces.resize(2);
-    Surface &flat = d.lens.surfaces[0], &cap = d.lens.surfaces[1];
+    Surface flat, cap;
     flat.semi_aperture_mm = cap.semi_aperture_mm = 4.4;
     flat.distance_mm = 2.1489;
     flat.index = 1.49;
     cap.curvature_per_mm = -1 / 9.0;
     cap.conic = -0.36;
     cap.even_asphere = {1e-5, 1e-7};
+    d.lens = {SurfaceLens{{flat, cap}}, {}};
 }
 
 void make_ideal(Display& d) {
-    d.lens = {};
-    d.lens.type = LensType::ideal;
-    d.lens.aperture_radius_mm = 4.4;
-    d.lens.focal_length_mm = 18.4;  // R/(n - 1)
+    d.lens = {IdealLens{4.4, 18.4}, {}};  // f = R/(n - 1)
 }
 
 // A million lenses on the same panel: all lengths of lens and array shrink.
@@ -32,9 +27,10 @@ void make_tiny_lenses(Display& d) {
     d.array.count = {1000, 1000};
     d.array.pitch_mm = shrink * d.array.pitch_mm[0];
     *d.array.base_z_mm *= shrink;
-    d.lens.sphere_radius_mm *= shrink;
-    *d.lens.aperture_radius_mm *= shrink;
-    d.lens.cylinder_height_mm *= shrink;
+    auto& lens = d.lens.as<PlanoConvex>();
+    lens.sphere_radius_mm *= shrink;
+    *lens.aperture_radius_mm *= shrink;
+    lens.cylinder_height_mm *= shrink;
 }
 
 constexpr Duty duty_table[] = {
@@ -52,7 +48,7 @@ constexpr Duty duty_table[] = {
          d.array.rotation_deg = 5;
          d.array.offset_mm = {1, 2};
      }},
-    {"facing the panel", [](Display& d) { d.lens.facing = Facing::panel; }},
+    {"facing the panel", [](Display& d) { d.lens.as<PlanoConvex>().facing = Facing::panel; }},
     {"square apertures", [](Display& d) { d.array.aperture = Aperture::square; }},
     {"aperture stop", [](Display& d) { d.lens.stop_radius_mm = 2; }},
     {"a million lenses", make_tiny_lenses},
@@ -75,8 +71,9 @@ constexpr Duty glass_table[] = {
     {"sphere as surfaces, opaque",
      [](Display& d) {
          make_asphere(d);
-         d.lens.surfaces[1].conic = 0;
-         d.lens.surfaces[1].even_asphere.clear();
+         Surface& cap = d.lens.as<SurfaceLens>().surfaces[1];
+         cap.conic = 0;
+         cap.even_asphere.clear();
      }},
     {"asphere, opaque", put_asphere<Surround::opaque>},
     {"asphere, plate", put_asphere<Surround::plate>},
@@ -108,10 +105,7 @@ Display bench_display() {
     d.name = "bench";
     d.panel.pixels = {3840, 2160};
     d.panel.pixel_pitch_mm = 0.1;
-    d.lens.sphere_radius_mm = 9;
-    d.lens.aperture_radius_mm = 4.4;
-    d.lens.cylinder_height_mm = 1;
-    d.lens.index = 1.49;
+    d.lens.kind = PlanoConvex{9, 4.4, 1, 1.49, Facing::viewer};
     d.array.count = {44, 25};
     d.array.pitch_mm = 8.8;
     d.array.base_z_mm = 12;

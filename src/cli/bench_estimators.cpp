@@ -174,7 +174,7 @@ void compare_estimators(const View& view, Bench& bench) {
     const std::optional<Reference> reference = reference_of(view, bench);
     if (!reference) return;
     if (reference->samples <= 2)
-        return bench.not_measured("estimators", view.name(), "without diffuser, pixel filter and pupil one ray tells all");
+        return bench.not_measured("estimators", view.name(), "without diffuser, pixel filter and pupil one ray is exact");
     const std::vector<Spent> points = points_of(view, reference->image, bench);
     if (!points.empty()) report(view, *reference, points, bench);
 }
@@ -233,7 +233,7 @@ void bench_estimators(Bench& bench) {
             bench.not_measured("estimators", display.name + ", model", model.string() + " does not exist; give --model");
             continue;
         }
-        const Scene scene = load_scene(display, geometry);
+        const ContentScene scene = load_scene(display, geometry);
         compare_with(model.filename(), elemental_images(display, geometry, scene, bench.settings.threads, bench.job()).image);
     }
 }

@@ -30,7 +30,7 @@ void bench_content(Bench& bench) {
         return bench.not_measured("content", "elemental images", model + " does not exist; give --model");
     const Display display = bench_display();
     const Geometry geometry = resolve(display);
-    const Scene scene(load_model(model), display, geometry);
+    const ContentScene scene(load_model(model), display, geometry);
     const int threads = bench.settings.threads;
     const auto run_of = [](const Picture& p) { return Run{p.seconds, double(p.rays)}; };
     bench.rates(

@@ -12,7 +12,7 @@
 namespace lfdsim::cli {
 namespace {
 
-constexpr int kViews = 122;  // 61 angles along each axis
+constexpr int sweep_views = 122;  // 61 angles along each axis
 
 Display sweep_display(bool quick) {
     Display d = bench_display();
@@ -30,8 +30,8 @@ Display view(const Display& d, int k) { return seen_from(d, k < 61 ? k - 30 : 0,
 void bench_sweep(Bench& bench) {
     const bool quick = bench.settings.quick;
     const Display d = sweep_display(quick);
-    bench.heading(fmt::format("A field of view: {} views of {} x {}, 4 filtered samples, each with SSIM to a photograph at hand",
-                              kViews, d.camera.resolution[0], d.camera.resolution[1]));
+    bench.heading(fmt::format("A field of view: {} views of {} x {}, 4 filtered samples, each with SSIM to an existing photograph",
+                              sweep_views, d.camera.resolution[0], d.camera.resolution[1]));
     const Texels texels = noise_panel(d);
     const Pyramid panel(texels, bench.settings.threads);
     // As good as any for the time it takes: two views of the sweep, in turn, in the whole frame.
@@ -55,9 +55,9 @@ void bench_sweep(Bench& bench) {
         cases.push_back({s.name, [&](Job& job) {
                              const RenderOptions options{bench.settings.threads, "", {}, {}, s.device};
                              s.gpu_seconds = 0;
-                             s.ssim.assign(kViews, 0);
+                             s.ssim.assign(sweep_views, 0);
                              Run run;
-                             for (int k = 0; k < kViews && !job.cancelled(); k += s.each) {
+                             for (int k = 0; k < sweep_views && !job.cancelled(); k += s.each) {
                                  const Display seen = view(d, k);
                                  const ComparedView v =
                                      compare_view(seen, resolve(seen), panel, photographs[std::size_t(k % 2)], 1, options, job);
@@ -79,7 +79,7 @@ void bench_sweep(Bench& bench) {
         const Swept& s = sweeps[n];
         int differ = 0;  // from the CPU's SSIM, of the views that it rendered
         for (std::size_t k = 0; k < s.ssim.size(); k += std::size_t(sweeps[0].each)) differ += s.ssim[k] != sweeps[0].ssim[k];
-        const double whole_sweep = all[n].median() / all[n].count * kViews;
+        const double whole_sweep = all[n].median() / all[n].count * sweep_views;
         Json values = {{"name", s.name}, {"views", int(all[n].count)}, {"seconds", spread(all[n])}, {"sweep_seconds", whole_sweep}};
         std::string text = fmt::format("{:<24} {:9.3f} s a sweep, from {} views", s.name, whole_sweep, all[n].count);
         if (n > 0) {

@@ -60,7 +60,7 @@ void add_line(std::string& text, std::string line) {
 std::vector<std::string> all_advice(const Display& display, const Geometry& geometry, const Theory& paraxial) {
     const std::string& model = display.content.model;
     try {
-        const Scene scene(model.empty() ? built_in_model() : load_model(model), display, geometry);
+        const ContentScene scene(model.empty() ? built_in_model() : load_model(model), display, geometry);
         return advice(display, geometry, paraxial, scene.half_size_mm());
     } catch (const InputError& error) {
         std::vector<std::string> warnings = advice(display, geometry, paraxial);
@@ -104,8 +104,8 @@ void run(const CheckArguments& args) {
 }  // namespace
 
 void add_check(Command program) {
-    Command command =
-        program.add_subcommand("check", "Validates a description; prints all it says, what follows, and the paraxial theory");
+    Command command = program.add_subcommand(
+        "check", "Validates a description; prints its keys, the derived lengths, the paraxial theory and warnings");
     const auto args = std::make_shared<CheckArguments>(command);
     command.footer("Example:\n  lfdsim check display.toml --set array.gap_mm=17");
     command.callback([args] { run(*args); });

@@ -65,14 +65,13 @@ void run(const CompareArguments& args, const PhotoOptions& photo) {
 
 void add_compare(Command program) {
     Command command = program.add_subcommand(
-        "compare",
-        "How alike two pictures are: SSIM, PSNR, RMSE, greatest difference; or a view and a photograph of a real display");
+        "compare", "Compares two pictures, or a view and a photograph of a real display: SSIM, PSNR, RMSE, greatest difference");
     const auto args = std::make_shared<CompareArguments>(command);
     command.add_option("A", args->a, "Picture: .png .exr .npy .jpg").type_name("").required();
     command.add_option("B", args->b, "Picture of the same size; or a photograph: see --corners").type_name("").required();
     command
         .add_option("--encoding", args->encoding,
-                    "How PNG and JPEG code values decode; default srgb; with --corners B's, and A's are sRGB")
+                    "Encoding of PNG and JPEG code values; default srgb; with --corners that of B, and A is sRGB")
         .type_name("srgb|linear");
     command.add_option("--crop", args->crop, "Only this part: columns X0 to X1-1, rows Y0 to Y1-1").type_name("X0,Y0,X1,Y1");
     const auto photo = std::make_shared<PhotoOptions>(command);

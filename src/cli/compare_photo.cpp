@@ -82,7 +82,7 @@ Corners corners_from_display(const std::string& path, const Metadata& about, con
                                            "corners of the screen in it: --view-corners",
                                            view.width, view.height, display.camera.resolution[0], display.camera.resolution[1]));
     const std::optional<Corners> corners = screen_corners(display, resolve(display));
-    if (!corners) throw InputError(path, "its camera does not have the whole screen before it; give --view-corners");
+    if (!corners) throw InputError(path, "its camera does not have the whole screen in front of it; give --view-corners");
     check_corners(path, *corners);
     return *corners;
 }
@@ -102,12 +102,12 @@ PhotoOptions::PhotoOptions(Command command) {
                            "B is a photograph of the display: the outer corners of its lens array there, in pixels from the upper "
                            "left corner of the picture as viewers show it; top left, top right, bottom right, bottom left of the "
                            "screen as its viewer sees it");
-    const Option view_corners = command.add_option(
-        "--view-corners", view_corners_, "The same corners in A; default: from the display that a picture made by lfdsim carries");
+    const Option view_corners =
+        command.add_option("--view-corners", view_corners_,
+                           "The same corners in A; default: from the display description stored in a picture made by lfdsim");
     for (Option option : {corners_option_, view_corners}) option.type_name(four).expected(1, 4);
-    command.add_flag("--fit-corners", fit_corners_,
-                     "Move each corner by up to 5 pixels of the photograph to where both agree best");
-    command.add_flag("--fit-blur", fit_blur_, "Blur A by the Gaussian that makes it most like the photograph");
+    command.add_flag("--fit-corners", fit_corners_, "Move each corner by up to 5 pixels of the photograph for the best agreement");
+    command.add_flag("--fit-blur", fit_blur_, "Blur A by the Gaussian that makes it most similar to the photograph");
     overlay_option_ =
         command.add_option("-o,--overlay", overlay_, "Picture to write: both side by side, as a checkerboard and half of each");
     difference_option_ =
@@ -137,8 +137,7 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
         view = read_image(view_path, Encoding::srgb);
         const Metadata about = read_metadata(view_path);
         if (about.count(incomplete_mark))
-            spdlog::warn("{}: is marked incomplete: the run that made it was interrupted, and what it had not done is black",
-                         view_path);
+            spdlog::warn("{}: is marked incomplete: the run that made it was interrupted, and the rest is black", view_path);
         if (view_corners_.empty()) view_corners = corners_from_display(view_path, about, view);
         check_near("--view-corners", view_corners, view_path, view.width, view.height, 100);
     });
@@ -155,7 +154,7 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
     });
     faults.report();
     const double view_pixels = double(view.width) * view.height, bytes_a_pixel = 160;
-    require_memory(view_path, fmt::format("laying a photograph over {} x {} pixels", view.width, view.height),
+    require_memory(view_path, fmt::format("mapping a photograph onto {} x {} pixels", view.width, view.height),
                    view_pixels * bytes_a_pixel + picture_bytes(photo.width, photo.height));
 
     Corners stored;

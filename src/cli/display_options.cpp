@@ -21,17 +21,18 @@ constexpr KeyOption camera[] = {
 };
 constexpr KeyOption sample[] = {
     {"--estimator", "render.estimator", Form::word, "filtered|point",
-     "Means of the panel over footprints, or brute force: one panel pixel a sample"},
-    {"--samples", "render.samples", Form::count, "N", "Per pixel, where a diffuser, pixel filter or pupil spreads the light"},
+     "Averages of the panel over footprints, or brute force: one panel pixel per sample"},
+    {"--samples", "render.samples", Form::count, "N",
+     "Samples per pixel, where a diffuser, pixel filter or pupil spreads the light"},
     {"--seed", "render.seed", Form::count, "S", "Seed of the samples"},
     {"--sampling", "render.sampling", Form::word, "sobol|random", "Low-discrepancy or plain random points"},
 };
 constexpr KeyOption content[] = {
-    {"--depth-mm", "content.depth_mm", Form::number, "Z", "Depth of the model's centre before the lenses' vertex plane"},
+    {"--depth-mm", "content.depth_mm", Form::number, "Z", "Depth of the model's centre in front of the lenses' vertex plane"},
     {"--height-mm", "content.height_mm", Form::number, "H", "Height of the model"},
     {"--tilt-deg", "content.tilt_deg", Form::number, "B",
-     "Turn of the model about the horizontal, before the yaw; positive raises the front"},
-    {"--yaw-deg", "content.yaw_deg", Form::number, "A", "Turn of the model, counter-clockwise seen from above"},
+     "Tilt of the model about the horizontal axis, before the yaw; positive raises the front"},
+    {"--yaw-deg", "content.yaw_deg", Form::number, "A", "Rotation of the model, counter-clockwise seen from above"},
 };
 
 // The option's value in TOML syntax.
@@ -69,7 +70,7 @@ DisplayOptions::DisplayOptions(Command command, bool required) {
     if (required) path.required();
     command
         .add_option("--set", settings_,
-                    "Overrides a key of the description, value in TOML syntax: array.pitch_mm=8; none takes a key or table out: "
+                    "Overrides a key of the description, value in TOML syntax: array.pitch_mm=8; none removes a key or table: "
                     "diffuser=none")
         .type_name("KEY=VALUE")
         .allow_extra_args(false);

@@ -116,7 +116,7 @@ void run(bool json) {
 
 void add_doctor(Command program) {
     const auto json = std::make_shared<bool>(false);
-    Command command = program.add_subcommand("doctor", "What was found on this machine, and what was not");
+    Command command = program.add_subcommand("doctor", "Reports what was found on this machine, and what is missing");
     command.add_flag("--json", *json, "Print results as JSON");
     command.footer("Example:\n  lfdsim doctor");
     command.callback([json] { run(*json); });

@@ -36,9 +36,9 @@ const std::vector<Rule>& contradictions() {
          "--pattern",
          "a test pattern shows no model; give one of them",
          "view"},
-        {{"--camera-mm"}, "--path", "the camera stands in one place or on a path; give one of them"},
+        {{"--camera-mm"}, "--path", "the camera is in one place or on a path; give one of them"},
         {{"--target-error", "--path", "--device cuda", "--kernel", "--estimator filtered"}, "--lens-mesh", one_way},
-        {{"--samples"}, "--target-error", "as many samples are taken as the error needs; give one of them"},
+        {{"--samples"}, "--target-error", "the error determines the number of samples; give one of them"},
         {{"--kernel"}, "--device cuda", "kernels are those of the CPU; give one of them"},
     };
     return all;
@@ -46,10 +46,10 @@ const std::vector<Rule>& contradictions() {
 
 const std::vector<Rule>& belongings() {
     static const std::vector<Rule> all{
-        {{"--cell-pixels"}, "--pattern checkerboard", "is for --pattern checkerboard alone"},
-        {{"--view"}, "--pattern view", "is for --pattern view alone"},
-        {{"--edge-deg", "--edge-depth-mm"}, "--pattern edge", "is for --pattern edge alone"},
-        {{"--frames-as", "--resume", "--replace"}, "--path", "is for frames of a --path alone"},
+        {{"--cell-pixels"}, "--pattern checkerboard", "is only for --pattern checkerboard"},
+        {{"--view"}, "--pattern view", "is only for --pattern view"},
+        {{"--edge-deg", "--edge-depth-mm"}, "--pattern edge", "is only for --pattern edge"},
+        {{"--frames-as", "--resume", "--replace"}, "--path", "is only for frames of a --path"},
         {{"--lens-normals"}, "--lens-mesh", "are those of --lens-mesh, which is not given"},
         {{"--view-corners", "--fit-corners", "--fit-blur", "--overlay", "--difference"},
          "--corners",

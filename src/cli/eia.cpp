@@ -52,7 +52,7 @@ void run(const EiaArguments& args) {
     if (args.pattern.given()) {
         picture.image = pattern(args.pattern.name(), display, geometry, pattern_options);
     } else {
-        const Scene scene = load_scene(display, geometry);
+        const ContentScene scene = load_scene(display, geometry);
         picture = elemental_images(display, geometry, scene, args.work.threads(), progress);
     }
     Metadata about{{"seconds", fmt::format("{:.3f}", picture.seconds)}};
@@ -65,7 +65,8 @@ void run(const EiaArguments& args) {
 }  // namespace
 
 void add_eia(Command program) {
-    Command command = program.add_subcommand("eia", "What the panel shows: the elemental images of a model, or a test pattern");
+    Command command =
+        program.add_subcommand("eia", "Makes the panel's picture: the elemental images of a model, or a test pattern");
     const auto args = std::make_shared<EiaArguments>(command);
     command.footer(
         "Examples:\n  lfdsim eia display.toml --model monkey.blend --height-mm 120 -o eia.png\n"

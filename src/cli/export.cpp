@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 #include "cli/display_options.h"
 #include "cli/effects.h"
+#include "cli/folder_lock.h"
 #include "cli/input_files.h"
 #include "cli/interrupt.h"
 #include "cli/shown_panel.h"
@@ -9,6 +10,7 @@
 #include "engine/memory.h"
 #include "files/display_file.h"
 #include "files/shell.h"
+#include "files/text_file.h"
 #include "image/file.h"
 #include "peers/peers.h"
 
@@ -34,14 +36,13 @@ struct ExportArguments {
           model(command),
           pattern(command),
           work(command) {
-        command.add_option("-o,--output", folder, "Folder for the scene; made if missing").type_name("DIR").required();
+        command.add_option("-o,--output", folder, "Folder for the scene; created if missing").type_name("DIR").required();
         command
             .add_option("--triangles", triangles,
-                        fmt::format("Triangles of a lens, 100 or more; default: true surfaces for pov, {} for the others",
+                        fmt::format("Triangles per lens, 100 or more; default: true surfaces for pov, {} for the others",
                                     default_triangles))
             .type_name("N");
-        command
-            .add_option("--normals", normals, "Of the triangles: as they lie, or the true surface's at their corners; default flat")
+        command.add_option("--normals", normals, "The triangles' own, or the true surface's, interpolated; default flat")
             .type_name("flat|smooth");
     }
     Command command;
@@ -76,6 +77,14 @@ void check_folder(const std::string& folder) {
         throw InputError(folder, "is not a folder; give one for the scene");
 }
 
+/// Throws InputError if the folder holds another display's scene, of which files by other names would stay beside this one's.
+void keep_apart(const fs::path& folder, const std::string& description) {
+    const fs::path there = folder / "display.toml";
+    std::error_code error;
+    if (fs::exists(there, error) && read_text(there) != description)
+        throw InputError(there.string(), "is of another display; give another folder, or remove this one");
+}
+
 void write_file(const fs::path& path, std::string_view bytes) {
     guard_output(path);
     detail::OutputFile file(path);
@@ -92,9 +101,9 @@ Image picture_of(const Texels& texels) {
 
 std::string readme(const PeerScene& scene, const std::string& lfdsims) {
     std::string text = fmt::format(
-        "{} and the files beside it show a light field display to another renderer.\n"
+        "{} and the files next to it describe a light field display for another renderer.\n"
         "Made by: {}\n\nIts picture, {}, rendered in this folder:\n\n    {}\n\n"
-        "lfdsim's picture of the same, and how alike they are:\n\n    {}\n    lfdsim compare lfdsim.exr {} --encoding linear\n",
+        "lfdsim's picture of the same, and the comparison of both:\n\n    {}\n    lfdsim compare lfdsim.exr {} --encoding linear\n",
         scene.files.front().name, command_line(), scene.picture, scene.command, lfdsims, scene.picture);
     text += scene.deviations.empty() ? "\nNothing deviates.\n" : "\nWhat deviates from lfdsim's model:\n\n";
     for (const std::string& deviation : scene.deviations) text += "- " + deviation + "\n";
@@ -137,16 +146,16 @@ void run(const ExportArguments& args) {
         shown_panel(args.panel_image, args.pattern, display, geometry, pattern_options, args.work.threads(), progress);
     if (const auto deviation = panel_deviation(scene, panel.texels)) scene.deviations.push_back(*deviation);
 
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw InputError(args.folder, fmt::format("cannot be made: {}", error.message()));
+    scene.shown.content.model.clear();
+    const std::string description = write_display(scene.shown);
+    const FolderLock lock(folder);
+    keep_apart(folder, description);
     const std::string lfdsims = fmt::format("lfdsim render display.toml --panel-image {} -o lfdsim.exr", scene.panel_file);
     guard_output(folder / scene.panel_file);
     write_image(folder / scene.panel_file, picture_of(panel.texels), {16, Encoding::linear, {}, {}}, &progress);
     progress.end();
     for (const PeerFile& file : scene.files) write_file(folder / file.name, file.bytes);
-    scene.shown.content.model.clear();
-    write_file(folder / "display.toml", write_display(scene.shown));
+    write_file(folder / "display.toml", description);
     write_file(folder / "README.txt", readme(scene, lfdsims));
 
     if (args.work.json())
@@ -165,8 +174,8 @@ void run(const ExportArguments& args) {
 }  // namespace
 
 void add_export(Command program) {
-    Command command =
-        program.add_subcommand("export", "The display as a scene for another renderer, for a second opinion on what it shows");
+    Command command = program.add_subcommand(
+        "export", "Writes the display as a scene for another renderer, for a second opinion on what it shows");
     const auto args = std::make_shared<ExportArguments>(command);
     command.footer(
         "Examples:\n  lfdsim export pov display.toml --panel-image eia.png --set diffuser=none -o scene\n"

@@ -14,11 +14,11 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor_ < 0) throw InputError(folder.string(), "is not a folder and cannot be made one");
+    if (descriptor_ < 0) throw InputError(folder.string(), "is not a folder and cannot be created");
     // File systems that know no locks give other errors: there, runs are not kept apart.
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         close(descriptor_);
-        throw InputError(folder.string(), "another run is writing its results there; wait for its end, or give another folder");
+        throw InputError(folder.string(), "another run is writing its results there; wait until it ends, or give another folder");
     }
 }
 

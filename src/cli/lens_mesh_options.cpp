@@ -11,8 +11,8 @@ namespace lfdsim::cli {
 LensMeshOptions::LensMeshOptions(Command command)
     : option_(command
                   .add_option("--lens-mesh", triangles_,
-                              "Lenses of about so many triangles each in place of their true surfaces, as other renderers have "
-                              "them (docs/meshed.md); point samples, surround opaque")
+                              "Replace each lens by about so many triangles, as other renderers do (docs/meshed.md); point "
+                              "samples, surround opaque")
                   .type_name("TRIANGLES")) {
     command.add_option("--lens-normals", normals_, "The triangles' own, or the true surface's, interpolated; default flat")
         .type_name("flat|smooth");

@@ -45,7 +45,7 @@ void check_free(const NewArguments& args) {
         throw InputError("--output", fmt::format("{}: a description's name ends in .toml", args.output));
     std::error_code error;
     if (!args.force && std::filesystem::exists(std::filesystem::symlink_status(path, error)))
-        throw InputError("--output", fmt::format("{} is there already; --force replaces it", args.output));
+        throw InputError("--output", fmt::format("{} already exists; --force replaces it", args.output));
 }
 
 void run(const NewArguments& args) {
@@ -61,7 +61,7 @@ void run(const NewArguments& args) {
     try {
         parse_display(text, args.output);
     } catch (const InputError&) {  // all else of the text is ours
-        throw InputError("--output", "the name is no UTF-8, so that the description could not be read; give another one");
+        throw InputError("--output", "the name is not UTF-8, so the description could not be read; give another one");
     }
     detail::OutputFile file(args.output);
     file.write(text.data(), text.size());
@@ -79,18 +79,19 @@ void run(const NewArguments& args) {
 
 void add_new(Command program) {
     const auto args = std::make_shared<NewArguments>();
-    Command command = program.add_subcommand("new", "Writes a commented description of a first design, to go on from");
+    Command command = program.add_subcommand("new", "Writes a commented description of a first design to start from");
     command.add_option("--panel-inch", args->panel_inch, "Diagonal of the panel").type_name("I").required();
-    command.add_option("--pixels", args->pixels, "Of the panel").type_name("WxH").required();
-    command.add_option("--distance-mm", args->distance_mm, "From the panel to the eye").type_name("D").required();
-    command.add_option("--fov-deg", args->fov_deg, "Field of view, seen through whole elemental images; default 30").type_name("F");
+    command.add_option("--pixels", args->pixels, "Pixels of the panel").type_name("WxH").required();
+    command.add_option("--distance-mm", args->distance_mm, "Distance from the panel to the eye").type_name("D").required();
+    command.add_option("--fov-deg", args->fov_deg, "Field of view with whole elemental images; default 30").type_name("F");
     command
-        .add_option("--depth-mm", args->depth_mm,
-                    "Central depth plane, from the lenses towards the eye; default D/10, or -1000 for eyes nearer than 250 mm")
+        .add_option(
+            "--depth-mm", args->depth_mm,
+            "Central depth plane, measured from the lenses towards the eye; default D/10, or -1000 for eyes nearer than 250 mm")
         .type_name("L");
     command.add_option("--lens", args->lens, "Kind of lens; default plano_convex").type_name("plano_convex|ideal");
     command.add_option("-o,--output", args->output, "Description to write: .toml").type_name("FILE").required();
-    command.add_flag("--force", args->force, "Replace a file that is there");
+    command.add_flag("--force", args->force, "Replace an existing file");
     command.footer(
         "Examples:\n  lfdsim new --panel-inch 8 --pixels 2560x1600 --fov-deg 30 --distance-mm 500 -o tablet.toml\n"
         "  lfdsim new --panel-inch 0.7 --pixels 1920x1080 --fov-deg 30 --distance-mm 20 --depth-mm -1000 -o near-eye.toml\n"

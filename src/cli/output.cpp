@@ -72,7 +72,7 @@ void OutputOptions::check_bits(const std::filesystem::path& name) const {
     Faults faults;
     faults.of([&] { word("--bits", bits_, {"8", "16"}); });
     if (const std::string kind = name.extension(); kind == ".exr" || kind == ".npy")
-        faults.of([&] { throw InputError("--bits", fmt::format("is for .png alone; {} holds 32-bit floats", kind)); });
+        faults.of([&] { throw InputError("--bits", fmt::format("is only for .png; {} holds 32-bit floats", kind)); });
     faults.report();
 }
 
@@ -96,7 +96,7 @@ void OutputOptions::save(const std::filesystem::path& path, const Image& image, 
 
 void end_interrupted(const std::string& saved) {
     if (saved.empty())
-        spdlog::warn("interrupted; nothing was complete, nothing was written");
+        spdlog::warn("interrupted; nothing was complete, so nothing was written");
     else
         spdlog::warn(
             "interrupted; {} holds what was complete, the rest is black{}", saved,

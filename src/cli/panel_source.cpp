@@ -12,7 +12,8 @@
 namespace lfdsim::cli {
 
 PanelImageOption::PanelImageOption(Command command)
-    : option_(command.add_option("--panel-image", path_, "What the panel shows: .png .exr .npy of its size").type_name("FILE")) {}
+    : option_(command.add_option("--panel-image", path_, "Picture that the panel shows: .png .exr .npy of its size")
+                  .type_name("FILE")) {}
 
 void PanelImageOption::check() const {
     if (given()) check_input("--panel-image", path_);
@@ -21,8 +22,7 @@ void PanelImageOption::check() const {
 bool PanelImageOption::warn(const Display& display) const {
     const Metadata about = read_metadata(path_);
     const bool incomplete = about.count(incomplete_mark) > 0;
-    if (incomplete)
-        spdlog::warn("{}: is marked incomplete: the run that made it was interrupted, and what it had not done is black", path_);
+    if (incomplete) spdlog::warn("{}: is marked incomplete: the run that made it was interrupted, and the rest is black", path_);
     warn_if_for_another(path_, about, display);
     return incomplete;
 }
@@ -49,13 +49,13 @@ void ModelOption::apply(Display& display) const {
     display.content.model = path_;
 }
 
-Scene load_scene(const Display& display, const Geometry& geometry) {
+ContentScene load_scene(const Display& display, const Geometry& geometry) {
     const std::string name = model_of(display);
     const std::shared_ptr<const Model> model = load_model(name);
     const ModelInfo about = info(*model);
     for (const std::string& note : about.notes) spdlog::warn("{}: {}", name, note);
     for (const std::string& file : about.files) remember_input("a file of the model", file);
-    return Scene(model, display, geometry);
+    return ContentScene(model, display, geometry);
 }
 
 Json stamp(const std::string& file) {
@@ -69,10 +69,10 @@ PatternOption::PatternOption(Command command)
     : option_(command.add_option("--pattern", name_, fmt::format("Test pattern to show: {}", fmt::join(pattern_names(), ", ")))
                   .type_name("NAME")) {
     command.add_option("--cell-pixels", cell_, "Checkerboard: side of a square").type_name("N");
-    command.add_option("--view", view_, "View: which one is white, -0.5 .. 0.5 of the elemental image from its centre")
+    command.add_option("--view", view_, "View: position of the white one, -0.5 .. 0.5 of the elemental image from its centre")
         .type_name("X,Y");
     command.add_option("--edge-deg", edge_, "Edge: slant").type_name("A");
-    command.add_option("--edge-depth-mm", depth_, "Edge: where it stands before the lenses' vertex plane").type_name("Z");
+    command.add_option("--edge-depth-mm", depth_, "Edge: depth in front of the lenses' vertex plane").type_name("Z");
 }
 
 PatternOptions PatternOption::read() const {

@@ -51,7 +51,7 @@ class ModelOption {
 };
 
 /// The display's model in its place; says on standard error what was dropped or repaired. Throws InputError.
-Scene load_scene(const Display&, const Geometry&);
+ContentScene load_scene(const Display&, const Geometry&);
 
 /// What tells that a file has changed since; of a name that is no file's, the name alone.
 Json stamp(const std::string& file);

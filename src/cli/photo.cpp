@@ -49,7 +49,7 @@ void run(const PhotoArguments& args) {
     faults.report();
 
     const Geometry geometry = resolve(display);
-    const Scene scene = load_scene(display, geometry);
+    const ContentScene scene = load_scene(display, geometry);
     Progress progress(args.work.progress());
     const Picture picture = reference_photograph(display, geometry, scene, args.work.threads(), crop, progress);
     args.output.write(picture.image, Encoding::srgb, display, {{"seconds", fmt::format("{:.3f}", picture.seconds)}},
@@ -61,7 +61,7 @@ void run(const PhotoArguments& args) {
 }  // namespace
 
 void add_photo(Command program) {
-    Command command = program.add_subcommand("photo", "The reference photograph: the model itself, seen by the same camera");
+    Command command = program.add_subcommand("photo", "Makes the reference photograph: the model itself, seen by the same camera");
     const auto args = std::make_shared<PhotoArguments>(command);
     command.footer(
         "Example:\n  lfdsim photo display.toml --model monkey.blend --camera-mm 518,0,1932 -o photo.png\n"

@@ -30,7 +30,7 @@ struct RenderArguments {
           model(command),
           pattern(command),
           crop(command),
-          output(command, ".png (sRGB), or linear .exr .npy (float32, H x W x 3); with --path a folder, made if missing"),
+          output(command, ".png (sRGB), or linear .exr .npy (float32, H x W x 3); with --path a folder, created if missing"),
           path(command),
           lens_mesh(command),
           device(command),
@@ -39,10 +39,9 @@ struct RenderArguments {
             .add_option("--kernel", kernel, "Instruction set; default: environment variable LFDSIM_KERNEL, else the best there is")
             .type_name("scalar|baseline|avx2|avx512");
         command
-            .add_option(
-                "--target-error", target_error,
-                "Take as many samples as bring the estimated error of each 4 x 4 pixels below E, in linear light; an .exr then has "
-                "a layer \"error\"")
+            .add_option("--target-error", target_error,
+                        "Add samples until the estimated error of each 4 x 4 pixels is below E, in linear light; an .exr then has "
+                        "a layer \"error\"")
             .type_name("E");
     }
     Command command;
@@ -89,7 +88,7 @@ void run(const RenderArguments& args) {
         crop = args.crop.read(display.camera, texel_bytes(display));
         if (!args.panel_image.given()) require_panel_memory(display);
         if (args.command.given("--sampling") && !args.lens_mesh.given() && estimator_of(display) == Estimator::filtered)
-            throw InputError("--sampling", "is that of points; give --estimator point, too");
+            throw InputError("--sampling", "applies to points only; add --estimator point");
     });
     faults.of([&] { args.panel_image.check(); });
     faults.of([&] { pattern_options = args.pattern.read(); });
@@ -133,7 +132,7 @@ void run(const RenderArguments& args) {
         facts.more["lens_mesh"] = args.lens_mesh.json(*lens);
     }
     if (facts.pixels_above_target > 0)
-        spdlog::warn("{} pixels did not come below the target error with the most samples there are", facts.pixels_above_target);
+        spdlog::warn("{} pixels did not reach the target error with the maximum number of samples", facts.pixels_above_target);
     args.output.write(r.image, Encoding::srgb, display, std::move(facts.about), r.complete, progress, std::move(facts.layers));
 
     facts.more.update(panel.made);
@@ -144,7 +143,7 @@ void run(const RenderArguments& args) {
 }  // namespace
 
 void add_render(Command program) {
-    Command command = program.add_subcommand("render", "What a camera sees of the display");
+    Command command = program.add_subcommand("render", "Renders what a camera sees of the display");
     const auto args = std::make_shared<RenderArguments>(command);
     command.footer(
         "Examples:\n  lfdsim render display.toml --panel-image eia.png --camera-mm -300,0,1800 -o view.png\n"

@@ -100,12 +100,12 @@ void keep_apart(const PathWork& w, std::int64_t frames) {
     const std::vector<fs::path> found = others(w, frames);
     if (!found.empty() && !w.options.replace())
         throw InputError(w.output.path(),
-                         fmt::format("holds {} pictures that another command or other files have made, such as {}; give another "
+                         fmt::format("holds {} pictures made by another command or from other files, such as {}; give another "
                                      "folder, or --replace to remove them",
                                      found.size(), found.front().filename().string()));
     for (const fs::path& file : found)
         if (maker_of(file) == Maker::other)
-            throw InputError(file.string(), "is a picture that lfdsim has not made; give another folder for frames");
+            throw InputError(file.string(), "is a picture not made by lfdsim; give another folder for frames");
     for (const fs::path& file : found) fs::remove(file);
 }
 
@@ -114,9 +114,9 @@ void keep_apart(const PathWork& w, std::int64_t frames) {
 PathOptions::PathOptions(Command command)
     : option_(command.add_option("--path", path_, "Camera path (docs/path.md): a picture for each of its frames, in the folder -o")
                   .type_name("FILE")) {
-    command.add_option("--frames-as", kind_, "Kind of a path's pictures; default png").type_name("png|exr|npy");
-    command.add_flag("--resume", resume_, "Leave out frames that the same command has made there of the same files");
-    command.add_flag("--replace", replace_, "Remove frames there that another command has made, or the same of other files");
+    command.add_option("--frames-as", kind_, "File type of the frames; default png").type_name("png|exr|npy");
+    command.add_flag("--resume", resume_, "Skip frames that the same command has already made there from the same files");
+    command.add_flag("--replace", replace_, "Remove frames there that were made by another command or from other files");
 }
 
 void PathOptions::check(const OutputOptions& output) const {
@@ -131,7 +131,7 @@ void PathOptions::check(const OutputOptions& output) const {
                 throw InputError(output.path(), "is not a folder; give one for the frames of --path");
         });
         if (resume_ && kind_ == "npy")
-            faults.of([] { throw InputError("--resume", "a .npy does not say what it was made of; take png or exr"); });
+            faults.of([] { throw InputError("--resume", "a .npy does not record how it was made; use png or exr"); });
     }
     faults.report();
 }
@@ -207,13 +207,12 @@ PathMade render_path(const PathWork& w, const std::function<const Texels&()>& pa
     };
     make_ahead(left.size(), renders_on_gpu(w.rendering), make, keep);
     progress.end();
-    if (above_target > 0)
-        spdlog::warn("{} pixels did not come below the target error with the most samples there are", above_target);
+    if (above_target > 0) spdlog::warn("{} pixels did not reach the target error with the maximum number of samples", above_target);
     if (w.rendering.target_error) made.more["pixels_above_target"] = above_target;
     if (made.rendered < std::int64_t(left.size())) {
         spdlog::warn("interrupted; {} holds {} of {} frames{}", w.output.path(),
                      made.frames - std::int64_t(left.size()) + made.rendered, made.frames,
-                     keeps_metadata(w.options.file(w.output, 0, 1)) ? "; the same command with --resume goes on" : "");
+                     keeps_metadata(w.options.file(w.output, 0, 1)) ? "; the same command with --resume continues it" : "");
         throw Interrupted{};
     }
     return made;

@@ -46,7 +46,7 @@ void run(const SheetArguments& args) {
 
     double cell_pixels = 0;
     for (const Image& cell : cells) cell_pixels += double(cell.width) * cell.height;
-    require_memory("--width-px", fmt::format("{} pictures of {} pixels' width beside their sheet", cells.size(), width),
+    require_memory("--width-px", fmt::format("{} pictures {} pixels wide and their sheet", cells.size(), width),
                    2.2 * 12 * cell_pixels);
     const Image sheet = contact_sheet(cells, args.labels, int(columns));
     write_image(args.output, sheet, {8, Encoding::srgb, {{"Software", "lfdsim " LFDSIM_VERSION}}});
@@ -60,14 +60,14 @@ void run(const SheetArguments& args) {
 
 void add_sheet(Command program) {
     const auto args = std::make_shared<SheetArguments>();
-    Command command = program.add_subcommand("sheet", "A contact sheet: pictures side by side, with labels");
+    Command command = program.add_subcommand("sheet", "Makes a contact sheet: pictures side by side, with labels");
     command.add_option("IMAGE", args->images, "Pictures, row by row").type_name("").required();
     command.add_option("-o,--output", args->output, "Picture to write: .png (sRGB), or linear .exr .npy")
         .type_name("FILE")
         .required();
     command.add_option("--columns", args->columns, "Pictures in a row; default 2").type_name("N");
     command.add_option("--width-px", args->width_px, "Width of each picture on the sheet; default 640").type_name("W");
-    command.add_option("--label", args->labels, "Text over a picture; one for each, in order")
+    command.add_option("--label", args->labels, "Text above a picture; one for each, in order")
         .type_name("TEXT")
         .allow_extra_args(false);
     command.add_flag("--json", args->json, "Print results as JSON");

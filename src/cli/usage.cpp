@@ -83,9 +83,9 @@ InputError usage_error(const Misuse& misuse) {
     std::vector<Problem> problems = unknown;
     if (problems.empty() && !chosen) {
         if (superfluous.empty())
-            problems.push_back({"", fmt::format("a command is missing; there are {}", fmt::join(misuse.commands, ", "))});
+            problems.push_back({"", fmt::format("a command is missing; commands are {}", fmt::join(misuse.commands, ", "))});
         else
-            problems.push_back({superfluous.front().where, fmt::format("unknown command{}; there are {}",
+            problems.push_back({superfluous.front().where, fmt::format("unknown command{}; commands are {}",
                                                                        suggestion(superfluous.front().where, misuse.commands),
                                                                        fmt::join(misuse.commands, ", "))});
     }

@@ -29,10 +29,11 @@ struct ViewArguments {
                 .type_name("NAME");
         command.add_option("--port", port, "Port to listen on; default: a free one").type_name("P");
         command
-            .add_option("--host", host,
-                        "Address to listen on; default 127.0.0.1, this machine alone. Others can then come in who know the token")
+            .add_option(
+                "--host", host,
+                "Address to listen on; default 127.0.0.1, this machine only. With another, anyone who knows the token can connect")
             .type_name("ADDRESS");
-        command.add_option("--token", token, "What a browser has to know; default: 128 random bits").type_name("T");
+        command.add_option("--token", token, "Secret that a browser must give; default: 128 random bits").type_name("T");
         command.add_option("--folder", folder, "Displays, models and pictures that a browser may load; default: the description's")
             .type_name("DIR");
         command.add_option("--visitors", visitors, "Browsers at a time, 1 to 64; default 8").type_name("N");
@@ -124,7 +125,7 @@ void add_view(Command program) {
     command.footer(
         "Examples:\n  lfdsim view display.toml --model monkey.blend\n"
         "  lfdsim view display.toml --panel-image eia.png --port 8080\n"
-        "It prints an address for a browser. docs/view.md tells what the page can do.");
+        "It prints an address for a browser. docs/view.md describes the page.");
     command.callback([args] { run(*args); });
 }
 

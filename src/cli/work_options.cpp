@@ -40,7 +40,7 @@ std::optional<Rect> CropOption::read(const Camera& camera, double panel_bytes) c
 DeviceOption::DeviceOption(Command command) {
     command
         .add_option("--device", device_,
-                    "What renders: auto takes a GPU where one works; default: environment variable LFDSIM_DEVICE, else auto")
+                    "Device that renders: auto uses a GPU where one works; default: environment variable LFDSIM_DEVICE, else auto")
         .type_name("auto|cpu|cuda|cuda:N");
 }
 

@@ -26,7 +26,7 @@ struct Wanted {
 /// pixel comes out the same whichever way the frame is divided. Throws InputError for a crop outside the frame or a bad thread
 /// count.
 template <class Fill>
-Picture cast(const Scene::Impl& scene, const Beam& beam, const Wanted& frame, int threads, const char* stage, Job& job,
+Picture cast(const ContentScene::Impl& scene, const Beam& beam, const Wanted& frame, int threads, const char* stage, Job& job,
              const Fill& fill) {
     const int width = frame.width, height = frame.height;
     const Rect& crop = frame.crop;

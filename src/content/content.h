@@ -45,17 +45,17 @@ std::shared_ptr<const Model> load_model(const std::filesystem::path&, const Load
 ModelInfo info(const Model&);
 
 /// A model posed before the display (docs/model.md, "Pose"), with its ray-tracing structure. Copies share both.
-class Scene {
+class ContentScene {
   public:
     /// Throws InputError for a model without height (lying flat) or millions of times wider than high.
-    Scene(std::shared_ptr<const Model>, const Display&, const Geometry&);
+    ContentScene(std::shared_ptr<const Model>, const Display&, const Geometry&);
 
     /// The same at another depth (content.depth_mm) before the same display: nothing is read, posed or built again, and pictures
     /// have the bits of a scene made there. Throws InputError for a depth that a display could not have.
-    Scene at_depth(double depth_mm) const;
+    ContentScene at_depth(double depth_mm) const;
 
     /// The same before another display, resolved, that has it as high, tilted and turned.
-    Scene before(const Geometry&) const;
+    ContentScene before(const Geometry&) const;
 
     struct Impl;
     const Impl& impl() const { return *impl_; }
@@ -78,12 +78,12 @@ struct Picture {
 
 /// Elemental images by the nodal pick-up, one ray a panel pixel that a lens owns; the panel's size. threads 0: all. The same
 /// bits for any number of threads. Throws InputError for a bad thread count.
-Picture elemental_images(const Display&, const Geometry&, const Scene&, int threads, Job&);
+Picture elemental_images(const Display&, const Geometry&, const ContentScene&, int threads, Job&);
 
 /// The scene seen directly by the display's camera: one ray through each pixel's centre, or, with a pupil or a pixel filter, the
 /// display's samples (100 where it names none) spread over both as a rendering's are, whatever its estimator. A crop has the full
 /// frame's pixels, bit for bit. Throws InputError for a crop outside the frame or a bad thread count.
-Picture reference_photograph(const Display&, const Geometry&, const Scene&, int threads, std::optional<Rect> crop, Job&);
+Picture reference_photograph(const Display&, const Geometry&, const ContentScene&, int threads, std::optional<Rect> crop, Job&);
 
 /// Test patterns of the panel's size: "checkerboard", "white", "view" (one view white), "edge" (slanted edge), "address" (ramp).
 std::vector<std::string> pattern_names();

@@ -9,7 +9,7 @@ namespace {
 /// that t is the depth below the plane.
 class PickupRays {
   public:
-    PickupRays(const Display& display, const Geometry& geometry, const Scene& scene)
+    PickupRays(const Display& display, const Geometry& geometry, const ContentScene& scene)
         : pickup_(display, geometry),
           turned_(display.array.rotation_deg != 0),
           half_mm_(scene.impl().half_mm),
@@ -116,7 +116,7 @@ class PickupRays {
 
 }  // namespace
 
-Picture elemental_images(const Display& display, const Geometry& geometry, const Scene& scene, int threads, Job& job) {
+Picture elemental_images(const Display& display, const Geometry& geometry, const ContentScene& scene, int threads, Job& job) {
     const PickupRays rays(display, geometry, scene);
     const int width = int(display.panel.pixels[0]), height = int(display.panel.pixels[1]);
     return cast(scene.impl(), rays.beam(), {width, height, {0, 0, width, height}}, threads, "elemental images", job, rays);

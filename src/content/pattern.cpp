@@ -36,7 +36,7 @@ void check(const PatternOptions& o) {
     if (!problems.empty()) throw InputError(problems);
 }
 
-// The pixels nearest to one place of each elemental image. Within 3/4 of a pixel: one pixel where the place is a pixel's centre,
+// The pixels nearest to one place of each elemental image. PartKind 3/4 of a pixel: one pixel where the place is a pixel's centre,
 // two by two where it is a corner, with room for rounding in both cases.
 Image view(const Display& display, const Geometry& geometry, const PatternOptions& o) {
     const Pickup pickup(display, geometry);

@@ -1,16 +1,12 @@
 #include "content/cast.h"
+#include "model/vec.h"
 #include "optics/camera.h"
-#include "optics/directions.h"
+#include "optics/direction_numbers.h"
 
 namespace lfdsim {
 namespace {
 
-Vec3d minus(const Vec3d& a, const Vec3d& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vec3d& a, const Vec3d& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3d cross(const Vec3d& a, const Vec3d& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vec3d times(double s, const Vec3d& a) { return {s * a[0], s * a[1], s * a[2]}; }
+// As normalised() but for the rounding, on which the bits of photographs depend.
 Vec3d unit(const Vec3d& a) { return times(1 / std::sqrt(dot(a, a)), a); }
 
 /// The camera's frame: rays are axis + slopes, so that their t is the depth along the axis.
@@ -54,7 +50,7 @@ Rect pixels_of_box(const Frame& frame, const Corner& corner) {
 /// when that plane lies behind it.
 class PhotographRays {
   public:
-    PhotographRays(const Display& display, const Geometry& geometry, const Scene& scene)
+    PhotographRays(const Display& display, const Geometry& geometry, const ContentScene& scene)
         : frame_(display.camera, geometry),
           render_(display.render),
           filtered_(display.camera.pixel_filter == PixelFilter::box),
@@ -117,10 +113,10 @@ class PhotographRays {
             block.points.clear();
             for (int k = 0; k < RayBlock::lanes; ++k)
                 block.points.emplace_back(
-                    render_.sampling, optics::kDimensions, std::uint64_t(render_.seed),
+                    render_.sampling, optics::sampler_dimensions, std::uint64_t(render_.seed),
                     std::uint32_t(row + k / side) * std::uint32_t(frame_.width) + std::uint32_t(column + k % side));
         }
-        static constexpr optics::Directions directions = optics::sobol_directions();
+        static constexpr optics::DirectionNumbers directions = optics::sobol_directions();
         RTCRay16& ray = block.packet.ray;
         float* const origin[3] = {ray.org_x, ray.org_y, ray.org_z};
         float* const direction[3] = {ray.dir_x, ray.dir_y, ray.dir_z};
@@ -152,7 +148,7 @@ class PhotographRays {
 
 }  // namespace
 
-Picture reference_photograph(const Display& display, const Geometry& geometry, const Scene& scene, int threads,
+Picture reference_photograph(const Display& display, const Geometry& geometry, const ContentScene& scene, int threads,
                              std::optional<Rect> crop, Job& job) {
     const PhotographRays rays(display, geometry, scene);
     const Wanted wanted{rays.width(), rays.height(), crop.value_or(Rect{0, 0, rays.width(), rays.height()}), rays.samples()};

@@ -46,7 +46,7 @@ struct RayBlock {
 };
 
 /// Traces and shades a block: `hit` and `light`. False: no ray meets the scene, and nothing is set.
-inline bool trace(const Scene::Impl& scene, const Beam& beam, RTCIntersectContext& context, RayBlock& block) {
+inline bool trace(const ContentScene::Impl& scene, const Beam& beam, RTCIntersectContext& context, RayBlock& block) {
     if (!block.may_hit.any()) return false;
     RTCRayHit16& packet = block.packet;
     for (int k = 0; k < RayBlock::lanes; ++k) {

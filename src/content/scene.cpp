@@ -1,6 +1,7 @@
 #include "content/scene.h"
 #include "model/keys.h"
 #include "model/numbers.h"
+#include "model/vec.h"
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
@@ -40,7 +41,7 @@ struct Turn {
     }
 };
 
-void pose(Scene::Impl& scene, const Display& display, const Geometry& geometry) {
+void pose(ContentScene::Impl& scene, const Display& display, const Geometry& geometry) {
     const Model& model = *scene.model;
     const Turn turn(display.content);
     Box box;
@@ -62,13 +63,12 @@ void pose(Scene::Impl& scene, const Display& display, const Geometry& geometry) 
         const Vec3d p = turn(&model.positions[3 * v]);
         for (int k = 0; k < 3; ++k) scene.positions_mm[3 * v + k] = float(scale * (p[k] - 0.5 * (box.low[k] + box.high[k])));
     }
-    const Vec3d light = turn.inverse({0.3, 0.5, 0.81});
-    const double length = std::hypot(light[0], light[1], light[2]);
-    for (int k = 0; k < 3; ++k) scene.light[k] = float(light[k] / length);
+    const Vec3d light = normalised(turn.inverse({0.3, 0.5, 0.81}));
+    for (int k = 0; k < 3; ++k) scene.light[k] = float(light[k]);
 }
 
 // Texels along a millimetre: the square root of (area in texels / area in mm^2).
-void measure_textures(Scene::Impl& scene) {
+void measure_textures(ContentScene::Impl& scene) {
     const Model& m = *scene.model;
     for (const Texture& t : m.textures) scene.textures.emplace_back(t);
     if (m.textures.empty()) return;
@@ -77,20 +77,20 @@ void measure_textures(Scene::Impl& scene) {
         const Material& material = m.materials[m.material_of[t]];
         if (material.texture < 0) continue;
         const Texture& texture = m.textures[std::size_t(material.texture)];
-        double e[2][3], s[2][2];
+        Vec3d e[2];
+        double s[2][2];
         for (int k = 0; k < 2; ++k) {
             const std::size_t a = m.indices[3 * t], b = m.indices[3 * t + 1 + k];
             for (int c = 0; c < 3; ++c) e[k][c] = double(scene.positions_mm[3 * b + c]) - scene.positions_mm[3 * a + c];
             for (int c = 0; c < 2; ++c) s[k][c] = double(m.uvs[2 * b + c]) - m.uvs[2 * a + c];
         }
-        const double area = std::hypot(e[0][1] * e[1][2] - e[0][2] * e[1][1], e[0][2] * e[1][0] - e[0][0] * e[1][2],
-                                       e[0][0] * e[1][1] - e[0][1] * e[1][0]);
+        const double area = length(cross(e[0], e[1]));
         const double texels = std::abs(s[0][0] * s[1][1] - s[0][1] * s[1][0]) * texture.width * texture.height;
         scene.texels_per_mm[t] = area > 0 ? float(std::sqrt(texels / area)) : 0;
     }
 }
 
-void build(Scene::Impl& scene) {
+void build(ContentScene::Impl& scene) {
     const Model& m = *scene.model;
     scene.device.reset(rtcNewDevice(nullptr));
     if (!scene.device) throw std::runtime_error("Embree cannot start");
@@ -113,7 +113,7 @@ void build(Scene::Impl& scene) {
 
 }  // namespace
 
-Scene::Scene(std::shared_ptr<const Model> model, const Display& display, const Geometry& geometry)
+ContentScene::ContentScene(std::shared_ptr<const Model> model, const Display& display, const Geometry& geometry)
     : vertex_plane_mm_(geometry.vertex_plane_mm), depth_mm_(geometry.content_depth_mm) {
     const auto made = std::make_shared<Impl>();
     made->model = std::move(model);
@@ -123,19 +123,19 @@ Scene::Scene(std::shared_ptr<const Model> model, const Display& display, const G
     impl_ = made;
 }
 
-Vec3d Scene::half_size_mm() const { return impl_->half_mm; }
+Vec3d ContentScene::half_size_mm() const { return impl_->half_mm; }
 
-Scene Scene::before(const Geometry& geometry) const {
-    Scene moved = *this;
+ContentScene ContentScene::before(const Geometry& geometry) const {
+    ContentScene moved = *this;
     moved.vertex_plane_mm_ = geometry.vertex_plane_mm;
     moved.depth_mm_ = geometry.content_depth_mm;
     return moved;
 }
 
-Scene Scene::at_depth(double depth_mm) const {
+ContentScene ContentScene::at_depth(double depth_mm) const {
     if (!any_length.contains(depth_mm))
         throw InputError("content.depth_mm", fmt::format("is {}, allowed is {}", depth_mm, any_length.text()));
-    Scene moved = *this;
+    ContentScene moved = *this;
     moved.depth_mm_ = depth_mm;
     return moved;
 }

@@ -26,7 +26,7 @@ struct alignas(64) Lanes {
     float of[count];
 };
 
-struct Scene::Impl {
+struct ContentScene::Impl {
     std::shared_ptr<const Model> model;
 
     // Rays live in the frame whose origin is the centre of the posed bounding box: there float32 is at its best, and nothing here

@@ -47,7 +47,7 @@ struct Place {
 
 }  // namespace
 
-void Scene::Impl::shade(const RTCHit16& hit, const Lanes::Mask& valid, const Lanes& width_mm, Lanes* out) const {
+void ContentScene::Impl::shade(const RTCHit16& hit, const Lanes::Mask& valid, const Lanes& width_mm, Lanes* out) const {
     const Model& m = *model;
     const Place place(m, hit, valid);
     Lanes n[3], shine;

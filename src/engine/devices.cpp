@@ -16,7 +16,7 @@ bool has_avx512() {
            __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
 }
 
-constexpr KernelEntry kTable[] = {
+constexpr KernelEntry all_kernels[] = {
     // best first
     {"avx512", 16, has_avx512, render_tile_avx512},
     {"avx2", 8, has_avx2, render_tile_avx2},
@@ -28,7 +28,7 @@ constexpr KernelEntry kTable[] = {
 
 std::vector<KernelInfo> kernels() {
     std::vector<KernelInfo> all;
-    for (const KernelEntry& k : kTable) all.push_back({k.name, k.available(), k.lanes});
+    for (const KernelEntry& k : all_kernels) all.push_back({k.name, k.available(), k.lanes});
     return all;
 }
 
@@ -37,13 +37,13 @@ const KernelEntry& choose_kernel(const std::string& wanted) {
     const bool from_environment = wanted.empty() && forced && *forced;
     const std::string name = from_environment ? forced : wanted;
     std::string present;
-    for (const KernelEntry& k : kTable) {
+    for (const KernelEntry& k : all_kernels) {
         if (!k.available()) continue;
         if (name.empty() || name == k.name) return k;
         present += (present.empty() ? "" : ", ") + std::string(k.name);
     }
     bool known = false;
-    for (const KernelEntry& k : kTable) known = known || name == k.name;
+    for (const KernelEntry& k : all_kernels) known = known || name == k.name;
     throw InputError(from_environment ? "environment variable LFDSIM_KERNEL" : "--kernel",
                      (known ? "this machine cannot run kernel '" : "unknown kernel '") + name + "'; it can run: " + present);
 }

@@ -12,7 +12,7 @@ namespace lfdsim {
 namespace {
 
 // A GPU works for so many pictures at a time: while one is fetched the other is computed.
-constexpr int kAtOnce = 2;
+constexpr int pictures_at_once = 2;
 
 struct GpuInUse {
     std::mutex mutex;
@@ -44,7 +44,7 @@ class Loan {
   public:
     Loan(GpuInUse& gpu, int number) : gpu_(gpu) {
         std::unique_lock lock(gpu.mutex);
-        gpu.given_back.wait(lock, [&] { return !gpu.idle.empty() || gpu.open < kAtOnce; });
+        gpu.given_back.wait(lock, [&] { return !gpu.idle.empty() || gpu.open < pictures_at_once; });
         if (gpu.idle.empty()) {
             queue_ = cuda::open(number);
             ++gpu.open;
@@ -78,13 +78,14 @@ auto& copy_on(Copies& copies, int number, Make make) {
 }
 
 /// The panel on GPU `number`, where it fits beside so many bytes more.
-const wide::Panel& panel_on(wide::Queue& queue, int number, GpuPanels& panels, const std::vector<optics::PanelLevel>& levels,
-                            std::size_t more) {
+const wide::DevicePanel& panel_on(wide::Queue& queue, int number, GpuPanels& panels, const std::vector<optics::PanelLevel>& levels,
+                                  std::size_t more) {
     const std::lock_guard lock(panels.mutex);
-    const std::size_t needed = (panels.copies.contains(number) ? 0 : wide::Panel::bytes(levels)) + more, free = queue.free_bytes();
+    const std::size_t needed = (panels.copies.contains(number) ? 0 : wide::DevicePanel::bytes(levels)) + more,
+                      free = queue.free_bytes();
     if (needed > free)
         throw DoesNotFit(fmt::format("panel and picture need {} MB, of which {} MB are free", needed >> 20, free >> 20));
-    return copy_on(panels, number, [&] { return wide::Panel(queue, levels); });
+    return copy_on(panels, number, [&] { return wide::DevicePanel(queue, levels); });
 }
 
 /// do_it(queue) in a queue of the GPU; nothing where the CPU shall do it.
@@ -136,7 +137,7 @@ std::optional<GpuRun> render_on_gpu(const ChosenDevice& device, const Pyramid* p
                                     const std::vector<optics::PanelLevel>& levels, Work& work, Job& job) {
     return on_gpu(device, [&](wide::Queue& queue) {
         GpuPanels own, &panels = pyramid ? pyramid->on_gpus() : own;
-        const wide::Panel& panel = panel_on(queue, *device.gpu, panels, levels, wide::picture_bytes(queue, work.tile));
+        const wide::DevicePanel& panel = panel_on(queue, *device.gpu, panels, levels, wide::picture_bytes(queue, work.tile));
         const double before = queue.seconds();
         const Done done = wide::render(queue, panel, work.tile, work.target_error, work.result.error.rgb.data(), job);
         return GpuRun{queue.name(), queue.seconds() - before, done};
@@ -149,7 +150,7 @@ std::optional<GpuComparison> compare_on_gpu(const ChosenDevice& device, const Py
         const Image& image = expected.photograph();
         const double before = queue.seconds();
         const wide::Photograph* photograph = nullptr;
-        const wide::Panel* panel = nullptr;
+        const wide::DevicePanel* panel = nullptr;
         {
             GpuPhotographs& photographs = expected.on_gpus();
             const std::lock_guard lock(photographs.mutex);

@@ -50,7 +50,7 @@ struct GpuCopies {
     std::mutex mutex;
     std::map<int, Copy> copies;
 };
-class GpuPanels : public GpuCopies<wide::Panel> {};
+class GpuPanels : public GpuCopies<wide::DevicePanel> {};
 class GpuPhotographs : public GpuCopies<wide::Photograph> {};
 
 }  // namespace lfdsim

@@ -9,7 +9,7 @@ namespace lfdsim {
 struct Tile {
     const optics::Scene<float>* scene;
     const optics::View* view;
-    const optics::Directions* directions;
+    const optics::DirectionNumbers* directions;
     const float* texels;  // 4 floats a panel pixel
     const optics::PanelLevel* levels;
     int level_count;
@@ -17,14 +17,15 @@ struct Tile {
     std::int32_t crop_x, crop_y, crop_width;
     std::int32_t x0, y0, x1, y1;
     std::uint32_t samples;
-    int strata;      // filtered estimator: rows and columns of strata, 1 .. kMostStrata - kMoreStrata; 0: point samples
+    int strata;      // filtered estimator: rows and columns of strata, 1 .. max_strata - more_strata; 0: point samples
     int block_side;  // filtered estimator: pixels, a multiple of 4
+    bool weak;       // filtered estimator: the diffuser is so weak that strata move with the pixels in every block
     Sampling sampling;
     int dimensions;  // of the sampler that are in use
 };
 
 /// Errors are told of squares of the frame so many pixels wide and high (refine.h).
-constexpr int kRefinedSide = 16;
+constexpr int refined_side = 16;
 
 /// How far the work on a picture got.
 struct Done {
@@ -32,9 +33,9 @@ struct Done {
     bool complete;  // false: the job was cancelled on the way
 };
 
-constexpr int kMostStrata = 64;  // rows or columns of them, those at borders of lenses included
-constexpr int kMoreStrata = 2;   // at most, at borders of lenses
-constexpr int kFewStrata = 8;    // up to so many the filtered estimator looks for speed first, above for exactness
+constexpr int max_strata = 64;  // rows or columns of them, those at borders of lenses included
+constexpr int more_strata = 2;  // at most, at borders of lenses
+constexpr int few_strata = 8;   // up to so many the filtered estimator looks for speed first, above for exactness
 
 using Kernel = void (*)(const Tile&);
 

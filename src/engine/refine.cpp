@@ -8,17 +8,17 @@ namespace lfdsim {
 
 namespace {
 
-constexpr int kSide = kRefinedSide, kGroup = 4;
-constexpr std::int64_t kMostPoints = 1 << 20;  // a pixel
-constexpr std::uint32_t kPointsAtOnce = 16;
+constexpr int group_side = 4;
+constexpr std::int64_t most_points = 1 << 20;  // a pixel
+constexpr std::uint32_t points_at_once = 16;
 // The first step is a wide one: 1 and 2 strata, or 2 and 4, may have the same cuts, on the lenses' borders, and then show no error.
-constexpr int kStrata[] = {1, 4, 8, 16, 32, kMostStrata - kMoreStrata};
+constexpr int strata_steps[] = {1, 4, 8, 16, 32, max_strata - more_strata};
 
 /// What is known of a block so far.
 struct Block {
     RefinedBlock at;
     RefinedPicture picture{}, error{};
-    std::array<double, kSide * kSide * 3> sum{}, squares{};  // points
+    std::array<double, refined_side * refined_side * 3> sum{}, squares{};  // points
 };
 
 class Refinement {
@@ -45,10 +45,10 @@ class Refinement {
     }
 
     void refine_filtered() {
-        paint(kStrata[0], 0, 0);
+        paint(strata_steps[0], 0, 0);
         for (std::size_t k = 0; k < open_.size(); ++k) open_[k]->picture = pictures_[k];
-        for (std::size_t step = 1; step < std::size(kStrata) && !open_.empty() && !job_.cancelled(); ++step) {
-            paint(kStrata[step], 0, 0);
+        for (std::size_t step = 1; step < std::size(strata_steps) && !open_.empty() && !job_.cancelled(); ++step) {
+            paint(strata_steps[step], 0, 0);
             for (std::size_t k = 0; k < open_.size(); ++k) {
                 Block& b = *open_[k];
                 for (std::size_t i = 0; i < b.error.size(); ++i) {
@@ -66,7 +66,7 @@ class Refinement {
         for (std::int64_t wanted = 8; !open_.empty(); wanted *= 2) {
             for (; repetitions < wanted; ++repetitions) {
                 if (job_.cancelled()) return;
-                paint(0, kPointsAtOnce, std::uint64_t(repetitions));
+                paint(0, points_at_once, std::uint64_t(repetitions));
                 for (std::size_t k = 0; k < open_.size(); ++k) {
                     Block& b = *open_[k];
                     for (std::size_t i = 0; i < b.sum.size(); ++i) {
@@ -84,7 +84,7 @@ class Refinement {
                 }
             }
             close();
-            if (2 * wanted * kPointsAtOnce > kMostPoints) return;
+            if (2 * wanted * points_at_once > most_points) return;
         }
     }
 
@@ -96,14 +96,15 @@ class Refinement {
     /// Takes the squared error of each number to the root of its group's mean; the largest of all groups.
     double pool(Block& b) const {
         double worst = 0;
-        for (int y = b.at.y; y < bottom(b.at); y += kGroup) {
-            for (int x = b.at.x; x < right(b.at); x += kGroup) {
-                const int x1 = std::min(x + kGroup, right(b.at)), y1 = std::min(y + kGroup, bottom(b.at));
+        for (int y = b.at.y; y < bottom(b.at); y += group_side) {
+            for (int x = b.at.x; x < right(b.at); x += group_side) {
+                const int x1 = std::min(x + group_side, right(b.at)), y1 = std::min(y + group_side, bottom(b.at));
                 double all = 0;
                 for (int c = 0; c < 3; ++c) {
                     const auto each = [&](auto visit) {
                         for (int j = y; j < y1; ++j)
-                            for (int i = x; i < x1; ++i) visit(b.error[std::size_t(((j - b.at.y) * kSide + i - b.at.x) * 3 + c)]);
+                            for (int i = x; i < x1; ++i)
+                                visit(b.error[std::size_t(((j - b.at.y) * refined_side + i - b.at.x) * 3 + c)]);
                     };
                     double sum = 0;
                     each([&](float& v) { sum += v; });
@@ -117,8 +118,8 @@ class Refinement {
         return worst;
     }
 
-    int right(const RefinedBlock& b) const { return std::min(b.x + kSide, view_.width); }
-    int bottom(const RefinedBlock& b) const { return std::min(b.y + kSide, view_.height); }
+    int right(const RefinedBlock& b) const { return std::min(b.x + refined_side, view_.width); }
+    int bottom(const RefinedBlock& b) const { return std::min(b.y + refined_side, view_.height); }
 
     BlockPainter& painter_;
     const Tile& tile_;
@@ -137,15 +138,15 @@ class KernelPainter : public BlockPainter {
     }
     void paint(const std::vector<RefinedBlock>& blocks, int strata, std::uint32_t points, std::uint64_t seed,
                std::vector<RefinedPicture>& pictures) override {
-        tile_.crop_width = kSide;
+        tile_.crop_width = refined_side;
         tile_.strata = strata;
         tile_.samples = points;
         view_.seed = seed;
         for (std::size_t k = 0; k < blocks.size() && !job_.cancelled(); ++k) {
             tile_.crop_x = tile_.x0 = blocks[k].x;
             tile_.crop_y = tile_.y0 = blocks[k].y;
-            tile_.x1 = std::min(blocks[k].x + kSide, view_.width);
-            tile_.y1 = std::min(blocks[k].y + kSide, view_.height);
+            tile_.x1 = std::min(blocks[k].x + refined_side, view_.width);
+            tile_.y1 = std::min(blocks[k].y + refined_side, view_.height);
             tile_.out = pictures[k].data();
             kernel_(tile_);
         }
@@ -162,15 +163,15 @@ class KernelPainter : public BlockPainter {
 
 std::optional<std::int64_t> refine_tile(BlockPainter& painter, const Tile& tile, double target, float* error, const Job& job) {
     std::vector<RefinedBlock> blocks;
-    for (int y0 = tile.y0 / kSide * kSide; y0 < tile.y1; y0 += kSide)
-        for (int x0 = tile.x0 / kSide * kSide; x0 < tile.x1; x0 += kSide) blocks.push_back({x0, y0});
+    for (int y0 = tile.y0 / refined_side * refined_side; y0 < tile.y1; y0 += refined_side)
+        for (int x0 = tile.x0 / refined_side * refined_side; x0 < tile.x1; x0 += refined_side) blocks.push_back({x0, y0});
     Refinement refinement(painter, tile, target, job);
     const std::vector<Block> refined = refinement.run(blocks);
     if (job.cancelled()) return {};
     for (const Block& b : refined) {
-        for (int y = std::max(b.at.y, tile.y0); y < std::min(b.at.y + kSide, tile.y1); ++y) {
-            for (int x = std::max(b.at.x, tile.x0); x < std::min(b.at.x + kSide, tile.x1); ++x) {
-                const std::size_t from = std::size_t((y - b.at.y) * kSide + x - b.at.x) * 3,
+        for (int y = std::max(b.at.y, tile.y0); y < std::min(b.at.y + refined_side, tile.y1); ++y) {
+            for (int x = std::max(b.at.x, tile.x0); x < std::min(b.at.x + refined_side, tile.x1); ++x) {
+                const std::size_t from = std::size_t((y - b.at.y) * refined_side + x - b.at.x) * 3,
                                   to =
                                       (std::size_t(y - tile.crop_y) * std::size_t(tile.crop_width) + std::size_t(x - tile.crop_x)) *
                                       3;

@@ -9,9 +9,9 @@
 
 namespace lfdsim {
 
-using RefinedPicture = std::array<float, kRefinedSide * kRefinedSide * 3>;
+using RefinedPicture = std::array<float, refined_side * refined_side * 3>;
 struct RefinedBlock {
-    std::int32_t x, y;  // first pixel, multiples of kRefinedSide
+    std::int32_t x, y;  // first pixel, multiples of refined_side
 };
 
 /// Renders blocks of 16 x 16 pixels, whole even where a crop cuts through them, so that no pixel depends on the crop; what lies

@@ -22,8 +22,8 @@ namespace lfdsim {
 
 namespace {
 
-constexpr int kTileWidth = 64, kTileHeight = 16;  // near pixels look at near panel pixels: a tile's texels stay in the cache
-constexpr int kMostThreads = 1024;
+constexpr int tile_width = 64, tile_height = 16;  // near pixels look at near panel pixels: a tile's texels stay in the cache
+constexpr int most_threads = 1024;
 
 /// Tile by tile, on all threads.
 Done render_on_cpu(Kernel kernel, int threads, Work& work, Job& job) {
@@ -36,8 +36,8 @@ Done render_on_cpu(Kernel kernel, int threads, Work& work, Job& job) {
     tbb::task_arena arena(threads);
     arena.execute([&] {
         // Tiles lie in a grid of the whole frame, so that none cuts through a packet's block except at the crop's border.
-        const tbb::blocked_range2d<int> tiles(whole.y0 / kTileHeight, (whole.y1 - 1) / kTileHeight + 1, 1, whole.x0 / kTileWidth,
-                                              (whole.x1 - 1) / kTileWidth + 1, 1);
+        const tbb::blocked_range2d<int> tiles(whole.y0 / tile_height, (whole.y1 - 1) / tile_height + 1, 1, whole.x0 / tile_width,
+                                              (whole.x1 - 1) / tile_width + 1, 1);
         tbb::parallel_for(
             tiles,
             [&](const tbb::blocked_range2d<int>& r) {
@@ -46,10 +46,10 @@ Done render_on_cpu(Kernel kernel, int threads, Work& work, Job& job) {
                     return;
                 }
                 Tile tile = whole;
-                tile.x0 = std::max(r.cols().begin() * kTileWidth, whole.x0);
-                tile.x1 = std::min(r.cols().end() * kTileWidth, whole.x1);
-                tile.y0 = std::max(r.rows().begin() * kTileHeight, whole.y0);
-                tile.y1 = std::min(r.rows().end() * kTileHeight, whole.y1);
+                tile.x0 = std::max(r.cols().begin() * tile_width, whole.x0);
+                tile.x1 = std::min(r.cols().end() * tile_width, whole.x1);
+                tile.y0 = std::max(r.rows().begin() * tile_height, whole.y0);
+                tile.y1 = std::min(r.rows().end() * tile_height, whole.y1);
                 const std::int64_t part = std::int64_t(tile.x1 - tile.x0) * (tile.y1 - tile.y0);
                 if (work.target_error) {
                     const auto samples_taken = refine_tile(kernel, tile, *work.target_error, work.result.error.rgb.data(), job);
@@ -70,8 +70,8 @@ Done render_on_cpu(Kernel kernel, int threads, Work& work, Job& job) {
 }
 
 void check_threads(const RenderOptions& options) {
-    if (options.threads < 0 || options.threads > kMostThreads)
-        throw InputError("--threads", fmt::format("{}; allowed: 1 to {}, or 0 for all", options.threads, kMostThreads));
+    if (options.threads < 0 || options.threads > most_threads)
+        throw InputError("--threads", fmt::format("{}; allowed: 1 to {}, or 0 for all", options.threads, most_threads));
 }
 
 /// By the GPU if one is chosen, else by the kernel.

@@ -1,7 +1,8 @@
 #include "engine/scene.h"
 
+#include "model/camera.h"
 #include "model/numbers.h"
-#include "optics/directions.h"
+#include "optics/direction_numbers.h"
 #include "optics/filtered_limits.h"
 
 #include "engine/kernel.h"
@@ -51,10 +52,10 @@ optics::SurfaceData<S> surface_data(const PlacedSurface& from) {
 template <class S>
 void add_lens(optics::Scene<S>& scene, const Display& display, const Geometry& geometry) {
     const auto& surfaces = geometry.surfaces;
-    scene.lens = display.lens.type;
-    if (surfaces.empty()) {
+    scene.lens = display.lens.type();
+    if (surfaces.front().form == SurfaceForm::thin) {
         scene.ideal_z = S(geometry.vertex_plane_mm);
-        scene.ideal_power = S(1 / display.lens.focal_length_mm);
+        scene.ideal_power = S(1 / surfaces.front().focal_length_mm);
         scene.zone_top = scene.zone_bottom = scene.ideal_z;
         return;
     }
@@ -85,15 +86,12 @@ void add_lens(optics::Scene<S>& scene, const Display& display, const Geometry& g
 // its edges at the heights of their middles. A stop before the lens may be narrower.
 template <class S>
 void add_holes(optics::Scene<S>& scene, const Display& display, const Geometry& geometry, double start_z) {
-    std::array<double, 2> z{geometry.vertex_plane_mm, geometry.vertex_plane_mm};
-    double radius = display.array.aperture == Aperture::circle ? double(scene.aperture_radius) : 0;
-    if (!geometry.surfaces.empty()) {
-        const PlacedSurface& first = geometry.surfaces.back();
-        if (radius > 0) radius = first.semi_aperture_mm;
-        for (std::size_t k = 0; k < 2; ++k)
-            z[k] = first.z_mm + sag_mm(first.curvature_per_mm, first.conic, first.even_asphere,
-                                       radius > 0 ? radius : display.array.pitch_mm[k] / 2);
-    }
+    const PlacedSurface& first = geometry.surfaces.back();
+    std::array<double, 2> z{};
+    double radius = display.array.aperture == Aperture::circle ? first.semi_aperture_mm : 0;
+    for (std::size_t k = 0; k < 2; ++k)
+        z[k] = first.z_mm +
+               sag_mm(first.curvature_per_mm, first.conic, first.even_asphere, radius > 0 ? radius : display.array.pitch_mm[k] / 2);
     scene.leaky = display.array.surround != Surround::opaque;
     if (stop_at_entrance(display, geometry) && (radius == 0 || *display.lens.stop_radius_mm < radius)) {
         radius = *display.lens.stop_radius_mm;
@@ -116,7 +114,7 @@ optics::Scene<S> make_scene(const Display& display, const Geometry& geometry) {
     scene.emission_exponent = S(display.panel.emission_exponent);
 
     scene.aperture = array.aperture;
-    scene.aperture_radius = S(display.lens.aperture_radius_mm.value_or(geometry.glass_radius_mm));
+    scene.aperture_radius = S(geometry.glass_radius_mm);
     scene.has_stop = display.lens.stop_radius_mm.has_value();
     const double stop = display.lens.stop_radius_mm.value_or(0);
     scene.stop_z = S(geometry.stop_z_mm);
@@ -160,24 +158,12 @@ template optics::Scene<double> make_scene<double>(const Display&, const Geometry
 optics::View make_view(const Display& display, const Geometry& geometry) {
     optics::View view{};
     const Camera& camera = display.camera;
-    auto cross = [](const double* a, const double* b, double* c) {
-        c[0] = a[1] * b[2] - a[2] * b[1];
-        c[1] = a[2] * b[0] - a[0] * b[2];
-        c[2] = a[0] * b[1] - a[1] * b[0];
-    };
-    auto normalise = [](double* a) {
-        const double length = std::hypot(a[0], a[1], a[2]);
-        for (int k = 0; k < 3; ++k) a[k] /= length;
-        return length;
-    };
-    for (int k = 0; k < 3; ++k) {
-        view.position[k] = camera.position_mm[k];
-        view.forward[k] = camera.target_mm[k] - camera.position_mm[k];
-    }
-    view.distance = normalise(view.forward);
-    cross(view.forward, camera.up.data(), view.right);
-    normalise(view.right);
-    cross(view.right, view.forward, view.up);
+    const CameraAxes axes = camera_axes(camera);
+    std::ranges::copy(camera.position_mm, view.position);
+    std::ranges::copy(axes.forward, view.forward);
+    std::ranges::copy(axes.right, view.right);
+    std::ranges::copy(axes.up, view.up);
+    view.distance = axes.distance_mm;
     view.width = std::int32_t(camera.resolution[0]);
     view.height = std::int32_t(camera.resolution[1]);
     view.pixel_mm = geometry.frame_width_mm / double(camera.resolution[0]);
@@ -211,29 +197,34 @@ int sample_dimensions(const Display& display) {
     return display.diffuser ? 2 : 0;
 }
 
-int block_side(const optics::Scene<float>& scene, const optics::View& view, int strata, bool rough) {
+BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& view, int strata, bool rough) {
+    using L = FilteredLimits;
     // The picture's grid on the diffuser, along the line of sight, against a lens and what a diffused ray spans in the plane of the
     // holes
     const double pixel = view.pixel_mm * std::abs((view.position[2] - view.start_z) / (view.forward[2] * view.distance));
     double seen = std::min(scene.lattice.pitch[0], scene.lattice.pitch[1]);
-    bool moving = false;  // the strata move with the pixels: the lenses' edges, at which blocks break, are sharp in the picture
+    double span[2];
+    BlockShape shape{4, true};
     for (int k = 0; k < 2; ++k) {
-        const double span = 2 * double(scene.holes_below[k]) * std::tan(std::min(double(scene.half_angle[k]), 1.5));
-        span > FilteredLimits::moving_span* pixel ? seen = std::min(seen, span) : moving = true;
+        span[k] = 2 * double(scene.holes_below[k]) * std::tan(std::min(double(scene.half_angle[k]), 1.5));
+        shape.weak = shape.weak && span[k] < L::weak_span * pixel && span[k] < L::weak * double(scene.lattice.pitch[k]);
     }
-    // Many strata: a fine picture is asked for, in which what bends over a block would show.
-    using L = FilteredLimits;
-    const double wide = strata > 2 * kFewStrata ? L::block_finest
+    bool moving = shape.weak;
+    for (int k = 0; k < 2 && !shape.weak; ++k) span[k] > L::moving_span* pixel ? seen = std::min(seen, span[k]) : moving = true;
+    // Many strata: a fine picture is asked for, in which what bends over a block would show. Where strata move the lenses' edges,
+    // at which blocks break, are sharp in the picture.
+    const double wide = strata > 2 * few_strata ? L::block_finest
                         : moving                ? L::block_moving
-                        : strata > kFewStrata   ? L::block_fine
+                        : strata > few_strata   ? L::block_fine
                         : rough                 ? L::block_rough
                                                 : L::block_usual;
     const double half_as_wide = std::min(2 * wide, rough ? L::half_block_rough : L::half_block_usual);
-    return 16 * pixel < wide * seen ? 16 : 8 * pixel < half_as_wide * seen ? 8 : 4;
+    shape.side = 16 * pixel < wide * seen ? 16 : 8 * pixel < half_as_wide * seen ? 8 : 4;
+    return shape;
 }
 
-const optics::Directions& sobol_directions() {
-    static constexpr optics::Directions directions = optics::sobol_directions();
+const optics::DirectionNumbers& sobol_directions() {
+    static constexpr optics::DirectionNumbers directions = optics::sobol_directions();
     return directions;
 }
 

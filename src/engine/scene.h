@@ -25,11 +25,15 @@ std::int64_t samples_of(const Display&);
 /// Dimensions of the sampler that a display needs; 0: there is nothing to sample, one ray tells all.
 int sample_dimensions(const Display&);
 
-/// Pixels along the side of the blocks in which the filtered estimator shares its rays, if it cuts each axis into so many strata:
-/// 16, 8 or 4, less than what a pixel sees of a lens, and much less where many strata ask for a fine picture; nearly as much for a
-/// rough one.
-int block_side(const optics::Scene<float>&, const optics::View&, int strata, bool rough = false);
+/// The blocks of pixels in which the filtered estimator shares its rays.
+struct BlockShape {
+    int side;   // pixels: 16, 8 or 4
+    bool weak;  // the diffuser is: pixels see so little of a lens that strata move with them
+};
+/// If each axis is cut into so many strata: less than what a pixel sees of a lens, and much less where many strata ask for a fine
+/// picture; nearly as much for a rough one.
+BlockShape block_shape(const optics::Scene<float>&, const optics::View&, int strata, bool rough = false);
 
-const optics::Directions& sobol_directions();
+const optics::DirectionNumbers& sobol_directions();
 
 }  // namespace lfdsim

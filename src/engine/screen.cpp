@@ -1,6 +1,7 @@
 #include "engine/screen.h"
 
 #include "engine/scene.h"
+#include "model/camera.h"
 
 #include <cmath>
 #include <numbers>
@@ -9,6 +10,7 @@ namespace lfdsim {
 
 std::optional<Corners> screen_corners(const Display& display, const Geometry& geometry) {
     const optics::View view = make_view(display, geometry);
+    const CameraAxes axes = camera_axes(display.camera);
     const double quarters = std::round(display.array.rotation_deg / 90), rest = display.array.rotation_deg - 90 * quarters;
     const double c = std::cos(rest * std::numbers::pi / 180), s = std::sin(rest * std::numbers::pi / 180);
     double half_width = geometry.array_width_mm / 2, half_height = geometry.array_height_mm / 2;
@@ -18,14 +20,13 @@ std::optional<Corners> screen_corners(const Display& display, const Geometry& ge
     Corners corners;
     for (std::size_t k = 0; k < 4; ++k) {
         const double x = right[k] * half_width, y = up[k] * half_height;
-        const double to[] = {c * x - s * y + display.array.offset_mm[0] - view.position[0],
-                             s * x + c * y + display.array.offset_mm[1] - view.position[1],
-                             geometry.vertex_plane_mm - view.position[2]};
-        const auto along = [&](const double* axis) { return to[0] * axis[0] + to[1] * axis[1] + to[2] * axis[2]; };
-        const double depth = along(view.forward);
+        const Vec3d corner{c * x - s * y + display.array.offset_mm[0], s * x + c * y + display.array.offset_mm[1],
+                           geometry.vertex_plane_mm};
+        const Vec3d to = minus(corner, display.camera.position_mm);
+        const double depth = dot(to, axes.forward);
         if (depth <= 1e-9 * view.distance) return {};
         const double pixels = view.distance / depth / view.pixel_mm;  // in the frame, of a millimetre at this depth
-        corners[k] = {0.5 * view.width + along(view.right) * pixels, 0.5 * view.height - along(view.up) * pixels};
+        corners[k] = {0.5 * view.width + dot(to, axes.right) * pixels, 0.5 * view.height - dot(to, axes.up) * pixels};
     }
     return corners;
 }

@@ -40,11 +40,12 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
     result.estimator = estimator_of(display);
     const bool filtered = result.estimator == Estimator::filtered;
     const int strata = filtered ? int(std::lround(std::sqrt(double(samples)))) : 0;
-    constexpr std::int64_t most = (kMostStrata - kMoreStrata) * (kMostStrata - kMoreStrata);
+    constexpr std::int64_t most = (max_strata - more_strata) * (max_strata - more_strata);
     if (filtered && samples > most)
         throw InputError("render.samples",
                          fmt::format("{}; at most {} filtered samples, or use the estimator \"point\"", samples, most));
     if (dimensions > 0) target_error = options.target_error;
+    const BlockShape shape = block_shape(scene, view, target_error ? 2 * few_strata : strata, options.rough);
 
     tile = {&scene,
             &view,
@@ -62,7 +63,8 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
             crop.y1,
             std::uint32_t(samples),
             strata,
-            block_side(scene, view, target_error ? 2 * kFewStrata : strata, options.rough),
+            shape.side,
+            shape.weak,
             display.render.sampling,
             dimensions};
 }

@@ -30,117 +30,154 @@ class DisplayReader {
 
     Display read() {
         Display display;
-        read_top_level(display);
-        // the lens's type first: it decides which keys of [lens] have a meaning
-        if (const toml::node* type = source.root().at_path("lens.type").node())
-            lens_type_read = read_value(*type, display.lens.type).empty();
-        lens_type = display.lens.type;
-        visit_tables(display, [&](const auto& table, auto& values) { read_table(table, values); });
+        read_schema();
+        read_table(source.root(), "", display, {"schema"});
         judge(display);
         return display;
     }
 
   private:
     // A value that is missing or cannot be read: `where` is its key's dotted path, as validate() has it.
-    void add(std::string where, std::string what) { faults.push_back({std::move(where), std::move(what)}); }
+    void add(std::string where, std::string what) {
+        if (any_kind && std::any_of(faults.begin(), faults.end(), [&](const Problem& p) { return p.where == where; })) return;
+        faults.push_back({std::move(where), std::move(what)});
+    }
     // A key too many; it takes no value away from what validate() may judge.
     void add_superfluous(Place place, std::string where, std::string what) {
         superfluous.push_back({std::move(place), std::move(where) + ": " + what});
     }
 
-    void read_top_level(Display& display) {
-        std::vector<std::string_view> known{"schema", display_table.keys[0].name};
-        visit_tables(display, [&](const auto& table, const auto&) { known.push_back(table.name); });
-        for (const auto& [key, node] : source.root())
-            if (std::find(known.begin(), known.end(), key.str()) == known.end()) add_unknown(key, "", known);
-
+    void read_schema() {
+        const toml::node* node = source.root().get("schema");
+        if (!node) return add("schema", fmt::format("is missing; the first line of a description is schema = {}", known_schema));
         std::int64_t schema = 0;
-        if (const toml::node* node = source.root().get("schema")) {
-            if (std::string fault = read_value(*node, schema); !fault.empty())
-                add("schema", std::move(fault));
-            else if (schema != known_schema)
-                add("schema", fmt::format("is {}, allowed is {}; another version of the program wrote or reads this file", schema,
-                                          known_schema));
-        } else {
-            add("schema", fmt::format("is missing; the first line of a description is schema = {}", known_schema));
-        }
-        for (const Key<Display>& key : display_table.keys) read_key(key, source.root(), "", display);
+        if (std::string fault = read_value(*node, schema); !fault.empty())
+            add("schema", std::move(fault));
+        else if (schema != known_schema)
+            add("schema",
+                fmt::format("is {}, allowed is {}; another version of the program wrote or reads this file", schema, known_schema));
     }
 
-    // A table that a display always has, and one that it may lack.
+    // Of a table at `prefix` ("lens."), all keys, and that there are no others.
     template <class T>
-    void read_table(const Table<T>& table, T& values) {
-        static const toml::table nothing;  // an absent table is an empty one: required keys are missing, others have defaults
-        const std::string path(table.name);
-        if (const toml::node* node = source.root().get(path); !node)
-            read_keys(table, nothing, path, values);
-        else if (const toml::table* from = node->as_table())
-            read_keys(table, *from, path, values);
-        else
-            add(path, fmt::format("is {}, wanted is a table: [{}]", kind_of(*node), path));
-    }
-    void read_table(const Table<Diffuser>& table, std::optional<Diffuser>& values) {
-        if (source.root().contains(table.name)) read_table(table, values.emplace());
-    }
-
-    template <class T>
-    void read_keys(const Table<T>& table, const toml::table& from, const std::string& path, T& values) {
-        std::vector<std::string_view> known;
-        for (const Key<T>& key : table.keys) known.push_back(key.name);
-        if constexpr (std::is_same_v<T, Lens>) known.push_back("surface");
+    void read_table(const toml::table& from, const std::string& prefix, T& values, std::vector<std::string_view> known = {}) {
+        add_known<T>(known);
         for (const auto& [key, node] : from)
-            if (std::find(known.begin(), known.end(), key.str()) == known.end()) add_unknown(key, path, known);
-        for (const Key<T>& key : table.keys) read_key(key, from, path + ".", values);
-        if constexpr (std::is_same_v<T, Lens>)
-            if (const toml::node* node = from.get("surface")) read_surfaces(*node, values.surfaces);
+            if (std::find(known.begin(), known.end(), key.str()) == known.end()) add_unknown(key, prefix, known);
+        read_keys(from, prefix, values);
+    }
+
+    // The names of a table's keys, those of all kinds among them.
+    template <class T>
+    static void add_known(std::vector<std::string_view>& known) {
+        for (const Key<T>& key : table_of<T>().keys) {
+            known.push_back(key.name);
+            std::visit(
+                [&]<class Field>(Field T::*) {
+                    if constexpr (part_kind<Field> == PartKind::kinds)
+                        for_kinds(Field(), [&](auto kind) { add_known<decltype(kind)>(known); });
+                },
+                key.member);
+        }
+    }
+
+    // One after the other, a fresh one of each kind.
+    template <class... Kinds>
+    static void for_kinds(const std::variant<Kinds...>&, const auto& act) {
+        (act(Kinds{}), ...);
     }
 
     template <class T>
-    void read_key(const Key<T>& key, const toml::table& from, const std::string& prefix, T& values) {
+    void read_keys(const toml::table& from, const std::string& prefix, T& values) {
+        for (const Key<T>& key : table_of<T>().keys)
+            std::visit([&](auto member) { read_key(key, from, prefix, values.*member); }, key.member);
+    }
+
+    template <class T, class Field>
+    void read_key(const Key<T>& key, const toml::table& from, const std::string& prefix, Field& field) {
+        static const toml::table nothing;  // an absent table is an empty one: required keys are missing, others have defaults
         const std::string path = prefix + std::string(key.name);
         const toml::node* node = from.get(key.name);
-        // Without a lens type no key of [lens] can be called missing or meaningless.
-        if (!node) {
-            if (key.required && (key.required_for == for_all || (lens_type_read && knows(key.required_for, lens_type))))
-                add(path, "is missing");
-        } else if (lens_type_read && !knows(key.lens_types, lens_type)) {
-            add_superfluous(source.place(path), path,
-                            fmt::format("has no meaning for a lens of type \"{}\"; leave it out", word(lens_type)));
-        } else if (std::string fault = std::visit([&](auto member) { return read_value(*node, values.*member); }, key.member);
-                   !fault.empty()) {
+        constexpr PartKind is = part_kind<Field>;
+        if constexpr (is == PartKind::kinds) {
+            read_kind(key, from, prefix, field);
+        } else if constexpr (is == PartKind::list) {
+            if (node) read_list(*node, path, field);
+        } else if constexpr (is == PartKind::table || is == PartKind::optional) {
+            if (!node && is == PartKind::optional) return;
+            const toml::table* table = node ? node->as_table() : &nothing;
+            if (!table) return add(path, fmt::format("is {}, wanted is a table: [{}]", kind_of(*node), path));
+            if constexpr (is == PartKind::optional)
+                read_table(*table, path + ".", field.emplace());
+            else
+                read_table(*table, path + ".", field);
+        } else if (!node) {
+            if (key.required && !any_kind) add(path, "is missing");
+        } else if (std::string fault = read_value(*node, field); !fault.empty()) {
             add(path, std::move(fault));
         }
     }
 
-    void read_surfaces(const toml::node& node, std::vector<Surface>& surfaces) {
-        const std::string path(surface_table.name);
-        const toml::array* array = node.as_array();
-        if (lens_type_read && lens_type != LensType::surfaces)
-            return add_superfluous(
-                source.place(path), path,
-                fmt::format("has no meaning for a lens of type \"{}\"; take type = \"surfaces\", or leave it out",
-                            word(lens_type)));
-        if (!array || (!array->empty() && !array->is_array_of_tables()))
-            return add(path, fmt::format("is {}, wanted is a list of tables: [[{}]]", kind_of(node), path));
-        surfaces.resize(std::min(array->size(), max_surfaces + 1));  // validate() will refuse one too many
-        for (std::size_t i = 0; i < surfaces.size(); ++i)
-            read_keys(surface_table, *(*array)[i].as_table(), fmt::format("{}.{}", path, i), surfaces[i]);
+    // The kind decides which keys of its table have a meaning. Without it none can be called missing or meaningless, and values are
+    // read as those of any kind.
+    template <class T, class Kind>
+    void read_kind(const Key<T>& key, const toml::table& from, const std::string& prefix, Kind& field) {
+        const toml::node* node = from.get(key.name);
+        std::string fault = node ? read_value(*node, field) : "is missing";
+        if (fault.empty()) {
+            std::visit([&](auto& kind) { read_keys(from, prefix, kind); }, field);
+            return refuse_other_kinds(from, prefix, field);
+        }
+        add(prefix + std::string(key.name), std::move(fault));
+        any_kind = true;
+        for_kinds(field, [&](auto kind) { read_keys(from, prefix, kind); });
+        any_kind = false;
     }
 
-    void add_unknown(const toml::key& key, const std::string& path, const std::vector<std::string_view>& known) {
-        const std::string where = path + (path.empty() ? "" : ".") + shortened(key.str());
+    template <class Kind>
+    void refuse_other_kinds(const toml::table& from, const std::string& prefix, const Kind& field) {
+        std::vector<std::string_view> known;
+        std::visit([&]<class One>(const One&) { add_known<One>(known); }, field);
+        for_kinds(Kind(), [&]<class Other>(const Other&) {
+            for (const Key<Other>& key : table_of<Other>().keys) {
+                if (!from.contains(key.name) || std::find(known.begin(), known.end(), key.name) != known.end()) continue;
+                known.push_back(key.name);
+                const bool list =
+                    std::visit([]<class Field>(Field Other::*) { return part_kind<Field> == PartKind::list; }, key.member);
+                const std::string path = prefix + std::string(key.name);
+                add_superfluous(
+                    source.place(path), path,
+                    fmt::format("has no meaning for a {} of type \"{}\"; {}leave it out", prefix.substr(0, prefix.size() - 1),
+                                word(field), list ? fmt::format("take type = \"{}\", or ", table_of<Other>().name) : ""));
+            }
+        });
+    }
+
+    template <class Element>
+    void read_list(const toml::node& node, const std::string& path, std::vector<Element>& list) {
+        const toml::array* array = node.as_array();
+        if (!array || (!array->empty() && !array->is_array_of_tables()))
+            return add(path, fmt::format("is {}, wanted is a list of tables: [[{}]]", kind_of(node), path));
+        list.resize(std::min(array->size(), max_surfaces + 1));  // validate() will refuse one too many
+        for (std::size_t i = 0; i < list.size(); ++i) read_table(*(*array)[i].as_table(), fmt::format("{}.{}.", path, i), list[i]);
+    }
+
+    void add_unknown(const toml::key& key, const std::string& prefix, const std::vector<std::string_view>& known) {
+        const std::string where = prefix + shortened(key.str());
         const std::string_view meant = nearest(key.str(), known);
         std::string elsewhere;  // the same key, in the table where it belongs
-        Display any;
-        visit_tables(any, [&](const auto& table, const auto&) {
-            for (const auto& other : table.keys)
-                if (other.name == key.str()) elsewhere = table.name;
-        });
+        for (const FormatTable& table : format_tables())
+            if (table.is != PartKind::list && has_key(table, key.str())) elsewhere = table.path;
         add_superfluous(source.place(key, where), where,
                         elsewhere.empty()
                             ? fmt::format("is unknown; {}", meant.empty() ? fmt::format("known are {}", fmt::join(known, ", "))
                                                                           : fmt::format("did you mean {}?", meant))
                             : fmt::format("is unknown here; it belongs into [{}]", elsewhere));
+    }
+
+    static bool has_key(const FormatTable& table, std::string_view name) {
+        return std::any_of(table.values.begin(), table.values.end(),
+                           [&](const FormatTable::Value& value) { return value.key.name == name; });
     }
 
     // Adds what is wrong with the values that could be read, and throws if anything is. Places without a line, of overrides, come
@@ -171,8 +208,7 @@ class DisplayReader {
     };
 
     const Source& source;
-    LensType lens_type{};
-    bool lens_type_read = false;
+    bool any_kind = false;        // the kind at hand is not known
     std::vector<Problem> faults;  // of keys that are missing or could not be read, by dotted path
     std::vector<Located> superfluous;
 };

@@ -19,11 +19,11 @@ std::string_view type_text(const std::array<double, 2>&) { return "2 numbers"; }
 std::string_view type_text(const std::array<double, 3>&) { return "3 numbers"; }
 std::string_view type_text(const std::array<std::int64_t, 2>&) { return "2 integers"; }
 template <class E>
-requires std::is_enum_v<E> std::string_view type_text(E) { return "string"; }
+requires has_words<E> std::string_view type_text(const E&) { return "string"; }
 
 template <class Value>
 std::string allowed_text(const Range& range, const Value&) {
-    if constexpr (std::is_enum_v<Value>)
+    if constexpr (has_words<Value>)
         return fmt::format("`\"{}\"`", fmt::join(words<Value>(), "\"`, `\""));
     else if constexpr (std::is_same_v<Value, std::string>)
         return "any";
@@ -38,31 +38,17 @@ std::string_view unit(std::string_view name) {
     return name.ends_with("_deg") ? "degrees" : "";
 }
 
-std::string lens_types_text(unsigned types) {
-    std::vector<std::string_view> names;
-    for (std::size_t i = 0; i < words<LensType>().size(); ++i)
-        if (types >> i & 1u) names.push_back(words<LensType>()[i]);
-    return fmt::format("`{}`", fmt::join(names, "`, `"));
-}
-
-template <class T>
-void append_table(std::string& text, const Table<T>& table) {
-    text += "| key | type | unit | allowed | default | meaning |\n|---|---|---|---|---|---|\n";
-    const T fresh{};  // holds the defaults
-    for (const Key<T>& key : table.keys) {
+void append_values(std::string& text, const FormatTable& table) {
+    for (const auto& [key, fresh] : table.values)
         std::visit(
-            [&](auto member) {
-                const auto& value = fresh.*member;
-                const std::string fallback = key.required && key.required_for ? "required"
-                                             : !key.absent.empty()            ? std::string(key.absent)
-                                                                              : fmt::format("`{}`", toml_text(value));
-                const std::string types =
-                    key.lens_types == for_all ? "" : fmt::format(" Only for {}.", lens_types_text(key.lens_types));
-                text += fmt::format("| `{}` | {} | {} | {} | {} | {}{} |\n", key.name, type_text(value), unit(key.name),
-                                    allowed_text(key.range, value), fallback, key.doc, types);
+            [&, &key = key](const auto* value) {
+                const std::string fallback = key.required          ? "required"
+                                             : !key.absent.empty() ? std::string(key.absent)
+                                                                   : fmt::format("`{}`", toml_text(*value));
+                text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", key.name, type_text(*value), unit(key.name),
+                                    allowed_text(key.range, *value), fallback, key.doc);
             },
-            key.member);
-    }
+            fresh);
 }
 
 }  // namespace
@@ -90,18 +76,18 @@ folder. Files have at most 1 MiB and nest at most 16 levels.
 |---|---|---|---|---|---|
 | `schema` | integer |  | 1 | required | Version of this format. |
 )";
-    std::string top;
-    append_table(top, display_table);
-    text += top.substr(top.find("| `"));  // without the head, which stands above
-    const Display any;
-    visit_tables(any, [&]<class T>(const Table<T>& table, const auto&) {
-        text += fmt::format("\n## `[{}]`\n\n{}\n\n", table.name, table.doc);
-        append_table(text, table);
-        if constexpr (std::is_same_v<T, Lens>) {
-            text += fmt::format("\n### `[[{}]]`\n\n{}\n\n", surface_table.name, surface_table.doc);
-            append_table(text, surface_table);
+    for (const FormatTable& table : format_tables()) {
+        if (!table.path.empty()) {
+            if (table.is == PartKind::kinds)
+                text += fmt::format("\n### `[{}]` of `type = \"{}\"`\n\n{}\n", table.path, table.name, table.doc);
+            else if (table.is == PartKind::list)
+                text += fmt::format("\n### `[[{}]]`\n\n{}\n", table.path, table.doc);
+            else
+                text += fmt::format("\n## `[{}]`\n\n{}\n", table.path, table.doc);
+            if (!table.values.empty()) text += "\n| key | type | unit | allowed | default | meaning |\n|---|---|---|---|---|---|\n";
         }
-    });
+        append_values(text, table);
+    }
     return text;
 }
 

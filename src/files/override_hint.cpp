@@ -16,7 +16,9 @@ namespace {
 enum class Form { number, list, other };
 
 template <class Value>
-constexpr Form form = std::is_arithmetic_v<Value> ? Form::number : Form::list;
+constexpr Form form = has_words<Value>              ? Form::other
+                      : std::is_arithmetic_v<Value> ? Form::number
+                                                    : Form::list;
 template <class T>
 constexpr Form form<std::optional<T>> = form<T>;
 template <>
@@ -25,23 +27,8 @@ template <>
 constexpr Form form<std::string> = Form::other;
 
 Form form_of(std::string_view path) {
-    Form found = Form::other;
-    const auto look = [&]<class T>(const Table<T>& table, std::string_view key_name) {
-        for (const Key<T>& key : table.keys)
-            if (key.name == key_name)
-                std::visit(
-                    [&]<class Value>(Value T::*) {
-                        if constexpr (!std::is_enum_v<Value>) found = form<Value>;
-                    },
-                    key.member);
-    };
-    const std::string_view name = path.substr(path.rfind('.') + 1);
-    Display any;
-    visit_tables(any, [&](const auto& table, const auto&) {
-        if (path == fmt::format("{}.{}", table.name, name)) look(table, name);
-    });
-    if (path.starts_with(fmt::format("{}.", surface_table.name))) look(surface_table, name);
-    return found;
+    const FormatTable::Value* found = key_at(path);
+    return found ? std::visit([]<class Value>(const Value*) { return form<Value>; }, found->fresh) : Form::other;
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -55,16 +55,8 @@ toml::table parse_value(std::string_view path, std::string_view value) {
 }  // namespace
 
 bool takes_word(std::string_view path) {
-    bool found = path == "name";
-    Display any;
-    visit_tables(any, [&]<class T>(const Table<T>& table, const auto&) {
-        for (const Key<T>& key : table.keys)
-            if (path.starts_with(table.name) && path.substr(table.name.size()) == fmt::format(".{}", key.name))
-                found =
-                    std::visit([]<class Value>(Value T::*) { return std::is_enum_v<Value> || std::is_same_v<Value, std::string>; },
-                               key.member);
-    });
-    return found;
+    const FormatTable::Value* found = key_at(path);
+    return found && std::visit([]<class V>(const V*) { return has_words<V> || std::is_same_v<V, std::string>; }, found->fresh);
 }
 
 Source::Source(std::string_view text, std::string_view name, const std::vector<std::string>& overrides) : name_(name) {

@@ -22,10 +22,10 @@ std::string read_value(const toml::node&, Pitch&);
 std::string read_word(const toml::node&, std::span<const std::string_view> words, std::size_t& index);
 
 template <class E>
-requires std::is_enum_v<E> std::string read_value(const toml::node& node, E& value) {
+requires has_words<E> std::string read_value(const toml::node& node, E& value) {
     std::size_t index = 0;
     std::string fault = read_word(node, words<E>(), index);
-    if (fault.empty()) value = E(index);
+    if (fault.empty()) set_word(value, index);
     return fault;
 }
 
@@ -53,7 +53,7 @@ std::string toml_text(const std::string&);
 std::string toml_text(const Pitch&);
 
 template <class E>
-requires std::is_enum_v<E> std::string toml_text(E value) { return toml_text(std::string(word(value))); }
+requires has_words<E> std::string toml_text(const E& value) { return toml_text(std::string(word(value))); }
 template <class T>
 std::string toml_text(const std::optional<T>& value) {
     return value ? toml_text(*value) : std::string();

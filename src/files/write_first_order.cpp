@@ -53,16 +53,14 @@ void write_panel(const FirstOrder& o, Text& text) {
 }
 
 void write_lens(const FirstOrder& o, Text& text) {
-    const Lens& lens = o.display.lens;
     const double f = o.theory.focal_length_mm, g = *o.display.array.gap_mm;
     text.table("lens");
     text.note("f = 1 / (1/g + 1/L) = {:.5g} mm images the panel at the central depth plane, L = {:g} mm from the lenses{}.", f,
               *o.request.depth_mm, *o.request.depth_mm < 0 ? " (behind them)" : "");
-    text.key("type", lens.type);
-    if (lens.type == LensType::ideal) {
-        text.key("focal_length_mm", lens.focal_length_mm);
-        return;
-    }
+    text.key("type", o.display.lens.kind);
+    if (const auto* ideal = std::get_if<IdealLens>(&o.display.lens.kind))
+        return text.key("focal_length_mm", ideal->focal_length_mm);
+    const auto& lens = o.display.lens.as<PlanoConvex>();
     text.note("The flat face is towards the panel. R = (n - 1) f; f/{:.3g} at the width below.",
               f / (2 * *lens.aperture_radius_mm));
     text.key("sphere_radius_mm", lens.sphere_radius_mm);

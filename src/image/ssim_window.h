@@ -12,14 +12,14 @@ namespace lfdsim {
 constexpr int ssim_border = ssim_window / 2;
 
 /// Sums over a row are made of so many columns at a time, then of those sums: the same bits however the work is spread.
-constexpr int kColumnsAtOnce = 32;
+constexpr int columns_at_once = 32;
 
 /// Sum of value(x) over the columns x of a row of a region.
 template <class Value>
 double sum_of_row(const Region::Row& row, Value value) {
     double sum = 0;
     for (int x = row.from; x < row.to;) {
-        const int end = std::min(row.to, (x / kColumnsAtOnce + 1) * kColumnsAtOnce);
+        const int end = std::min(row.to, (x / columns_at_once + 1) * columns_at_once);
         double part = 0;
         for (; x < end; ++x) part += value(x);
         sum += part;

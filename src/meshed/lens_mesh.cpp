@@ -1,5 +1,7 @@
 #include "meshed/lens_mesh.h"
 
+#include "model/vec.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -195,13 +197,10 @@ class Builder {
             const double out = std::hypot(at[i][0], at[i][1]), rise = high[2] - low[2];
             n = {rise * at[i][0] / out, rise * at[i][1] / out, std::hypot(low[0], low[1]) - std::hypot(high[0], high[1])};
         } else {
-            Vec3d a, b;  // the diagonals: none of them vanishes where the wall ends in a point
-            for (std::size_t c = 0; c < 3; ++c) a[c] = at[2][c] - at[0][c], b[c] = at[3][c] - at[1][c];
-            n = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+            // Of its diagonals none vanishes where the wall ends in a point.
+            n = cross(minus(at[2], at[0]), minus(at[3], at[1]));
         }
-        const double length = std::hypot(n[0], n[1], n[2]);
-        for (double& p : n) p = length > 0 ? p / length : 0;
-        return n;
+        return length(n) > 0 ? normalised(n) : Vec3d{};
     }
 
     const LensArray& array_;
@@ -231,7 +230,7 @@ Grid choose_grid(const Builder& builder, bool square, double wanted) {
 }  // namespace
 
 LensMesh mesh_lens(const Display& display, const Geometry& geometry, std::int64_t triangles) {
-    if (geometry.surfaces.empty())
+    if (geometry.surfaces.front().form == SurfaceForm::thin)
         throw InputError("lens.type", "an ideal lens has no surface of which triangles could be made; give a real one");
     if (triangles < least_lens_triangles || triangles > most_lens_triangles)
         throw InputError("--lens-mesh",

@@ -1,5 +1,7 @@
 #include "meshed/mesh_surfaces.h"
 
+#include "model/vec.h"
+
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
@@ -10,10 +12,6 @@
 namespace lfdsim {
 namespace {
 
-double dot(const Vec3d& a, const Vec3d& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3d cross(const Vec3d& a, const Vec3d& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 Vec3d from_to(const float* a, const float* b) { return {double(b[0]) - a[0], double(b[1]) - a[1], double(b[2]) - a[2]}; }
 
 void check(RTCDevice device) {

@@ -17,10 +17,6 @@ namespace {
 double pupil_radius_mm(const Display& d, const Geometry& g) {
     double radius = std::numeric_limits<double>::infinity(), height = 1, slope = 0, z = g.vertex_plane_mm;
     const auto narrow = [&](double aperture) { radius = std::min(radius, aperture / std::abs(height)); };
-    if (g.surfaces.empty()) {
-        if (d.array.aperture == Aperture::circle) narrow(g.glass_radius_mm);
-        if (d.lens.stop_radius_mm) narrow(*d.lens.stop_radius_mm);
-    }
     for (std::size_t k = g.surfaces.size(); k-- > 0;) {
         const PlacedSurface& s = g.surfaces[k];
         height += slope * (z - s.z_mm);
@@ -73,7 +69,7 @@ double michelson_of(const std::vector<double>& waves) {
 }  // namespace
 
 double aperture_plane_mm(const Display& d, const Geometry& g, std::size_t axis) {
-    if (d.lens.type == LensType::ideal || stop_at_entrance(d, g)) return g.entrance_z_mm;
+    if (d.lens.type() == LensType::ideal || stop_at_entrance(d, g)) return g.entrance_z_mm;
     const PlacedSurface& last = g.surfaces.back();
     const bool square = d.array.aperture == Aperture::square;
     return last.z_mm + sag_mm(last.curvature_per_mm, last.conic, last.even_asphere,

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "model/kinds.h"
@@ -34,16 +35,41 @@ struct Surface {
     bool operator==(const Surface&) const = default;
 };
 
+struct PlanoConvex {
+    double sphere_radius_mm = 0;               // R
+    std::optional<double> aperture_radius_mm;  // r; may be absent for a square aperture
+    double cylinder_height_mm = 0;             // h
+    double index = 0;                          // n
+    Facing facing = Facing::viewer;
+    bool operator==(const PlanoConvex&) const = default;
+};
+
+struct SurfaceLens {
+    std::vector<Surface> surfaces;
+    bool operator==(const SurfaceLens&) const = default;
+};
+
+struct IdealLens {
+    std::optional<double> aperture_radius_mm;  // r; may be absent for a square aperture
+    double focal_length_mm = 0;                // f
+    bool operator==(const IdealLens&) const = default;
+};
+
+using LensKind = std::variant<PlanoConvex, SurfaceLens, IdealLens>;  // in the order of LensType
+
 struct Lens {
-    LensType type = LensType::plano_convex;
-    double sphere_radius_mm = 0;               // R (plano_convex)
-    std::optional<double> aperture_radius_mm;  // r (plano_convex, ideal); may be absent for a square aperture
-    double cylinder_height_mm = 0;             // h (plano_convex)
-    double index = 0;                          // n (plano_convex)
-    Facing facing = Facing::viewer;            // (plano_convex)
-    double focal_length_mm = 0;                // f (ideal)
-    std::vector<Surface> surfaces;             // (surfaces)
-    std::optional<double> stop_radius_mm;      // aperture stop in the plane of the curved vertex
+    LensKind kind;
+    std::optional<double> stop_radius_mm;  // aperture stop in the plane of the curved vertex
+
+    LensType type() const { return LensType(kind.index()); }
+    template <class Kind>
+    Kind& as() {  // of a lens of that kind; throws std::bad_variant_access
+        return std::get<Kind>(kind);
+    }
+    template <class Kind>
+    const Kind& as() const {
+        return std::get<Kind>(kind);
+    }
     bool operator==(const Lens&) const = default;
 };
 

@@ -74,11 +74,10 @@ std::pair<double, ApertureRule> aperture(double pitch, double R, double f, doubl
 /// principal planes, by whose distance z_r is more than g, move with the lens; a few rounds find both.
 void place_lenses(FirstOrder& o, double L) {
     const DesignRequest& r = o.request;
-    Lens& lens = o.display.lens;
+    PlanoConvex lens;
     LensArray& array = o.display.array;
     const double p = array.pitch_mm[0], slope = std::tan(r.fov_deg * degree / 2);
     double apart = 0, gap = 0;  // of the principal planes; g
-    lens.type = r.lens;
     for (int round = 0; round < 60; ++round) {
         const double before = r.distance_mm - apart;  // D - z_r = before - g
         // 1/g + 1/(before - g) = 2 tan(FOV/2)/p =: k, so that k g^2 - k before g + before = 0; the nearer to the panel of both.
@@ -100,11 +99,12 @@ void place_lenses(FirstOrder& o, double L) {
     array.gap_mm = to_nanometre(gap);
     o.eye_mm = r.distance_mm - apart - gap;
     if (r.lens == LensType::ideal) {
-        lens.focal_length_mm = to_nanometre(1 / (1 / gap + 1 / L));
+        o.display.lens.kind = IdealLens{{}, to_nanometre(1 / (1 / gap + 1 / L))};
         array.aperture = Aperture::square;
         o.aperture_rule = ApertureRule::cell;
     } else {
         lens.index = pmma_index;
+        o.display.lens.kind = lens;
     }
 }
 
@@ -132,7 +132,7 @@ std::optional<Problem> design(FirstOrder& o) {
                                    "than a quarter of the way to the eye",
                                    r.fov_deg, p, D)};
     if (std::abs(L) < 2 * g) return Problem{"--depth-mm", fmt::format("is {:g}, less than twice the gap of {:.4g} mm", L, g)};
-    if (r.lens == LensType::plano_convex && *d.lens.aperture_radius_mm < p / 6)
+    if (r.lens == LensType::plano_convex && *d.lens.as<PlanoConvex>().aperture_radius_mm < p / 6)
         return Problem{"--fov-deg",
                        fmt::format("is {:g}, for which a spherical lens of index {} would have to be less than a third as "
                                    "wide as its pitch; another lens is --lens ideal",

@@ -9,7 +9,10 @@
 
 namespace lfdsim {
 
-/// A refracting surface in place. z is the vertex on the axis; the sag s(r) is added to it (+z).
+/// What bends rays at a surface: glass of revolution about the lens's axis, or the plane of an ideal thin lens.
+enum class SurfaceForm { revolution, thin };
+
+/// A surface in place. z is the vertex on the axis; the sag s(r) is added to it (+z). A thin lens has none, and air on both sides.
 struct PlacedSurface {
     double z_mm;
     double curvature_per_mm;
@@ -17,14 +20,16 @@ struct PlacedSurface {
     std::vector<double> even_asphere;
     double semi_aperture_mm;
     double index_below, index_above;  // media on the panel's and on the viewer's side
+    SurfaceForm form = SurfaceForm::revolution;
+    double focal_length_mm = 0;  // of a thin lens
 };
 
 /// A valid display resolved to lengths on the z axis. All z in mm from the panel.
 struct Geometry {
-    std::vector<PlacedSurface> surfaces;  // panel side first; plano-convex gives two, ideal none
+    std::vector<PlacedSurface> surfaces;  // panel side first; at least one
     double base_z_mm;                     // lowest z of a lens, rims and sags included
     double top_z_mm;                      // highest z of a lens, rims and sags included
-    double entrance_z_mm;                 // vertex of the surface that an eye's rays meet first; of an ideal lens its plane
+    double entrance_z_mm;                 // vertex of the surface that an eye's rays meet first
     double vertex_plane_mm;               // viewer-side vertex plane: highest z of a lens on its axis
     double front_principal_mm;            // panel-side principal (= nodal) point
     double rear_principal_mm;             // viewer-side one

@@ -15,10 +15,6 @@ constexpr Range angle{0, 180, false, true}, open_angle{0, 180, true, true};
 // Curvatures up to a nanometre's radius, and coefficients of any size: what they make of the sag is checked, not they.
 constexpr Range curvature_range{-1 / shortest_mm, 1 / shortest_mm}, coefficient_range{-1e6, 1e6};
 
-constexpr Key<Display> display_keys[] = {
-    {"name", &Display::name, no_range, false, "What reports and image files call the display."},
-};
-
 constexpr Key<Panel> panel_keys[] = {
     {"pixels", &Panel::pixels, count_range, true, "Columns and rows. Their product is below 2^31."},
     {"pixel_pitch_mm", &Panel::pixel_pitch_mm, positive_length, true, "From pixel to pixel, the same in both directions."},
@@ -27,37 +23,37 @@ constexpr Key<Panel> panel_keys[] = {
      "m: radiance falls as cos(theta)^m from the normal. 0 is a Lambertian panel."},
 };
 
+constexpr std::string_view aperture_radius_doc =
+    "r, the lens's radius; 2 r is at most the least lens pitch for circular apertures. With square apertures it may be absent: the "
+    "lens then reaches the cell's corners, r = pitch/sqrt(2) in square cells.";
+constexpr std::string_view no_aperture_radius = "half the cell's diagonal with square apertures; required with circular ones";
+
 constexpr Key<Lens> lens_keys[] = {
-    {"type", &Lens::type, no_range, true,
+    {"type", &Lens::kind, no_range, true,
      "A spherical plano-convex lens, a prescription of surfaces, or a thin lens without aberrations."},
-    {"sphere_radius_mm",
-     &Lens::sphere_radius_mm,
-     positive_length,
-     true,
-     "R of the spherical cap. R >= r.",
-     {},
-     for_plano_convex,
-     for_plano_convex},
-    {"aperture_radius_mm", &Lens::aperture_radius_mm, positive_length, true,
-     "r, the lens's radius; 2 r is at most the least lens pitch for circular apertures. With square apertures it may be absent: "
-     "the "
-     "cap then reaches the cell's corners, r = pitch/sqrt(2) in square cells.",
-     "half the cell's diagonal with square apertures; required with circular ones", for_plano_convex | for_ideal, 0},
-    {"cylinder_height_mm",
-     &Lens::cylinder_height_mm,
-     length_or_zero,
-     false,
-     "h of the wall under the cap. h <= 2 sqrt(R^2 - r^2).",
-     {},
-     for_plano_convex},
-    {"index", &Lens::index, index_range, true, "Refractive index of the glass.", {}, for_plano_convex, for_plano_convex},
-    {"facing", &Lens::facing, no_range, false, "Where the convex side looks.", {}, for_plano_convex},
-    {"focal_length_mm", &Lens::focal_length_mm, positive_length, true, "Of the thin lens.", {}, for_ideal, for_ideal},
     {"stop_radius_mm", &Lens::stop_radius_mm, positive_length, false,
      "An aperture stop in the plane of the curved vertex (of the last surface, of the thin lens): a black sheet with a hole for "
      "each "
      "lens.",
      "none"},
+};
+
+constexpr Key<PlanoConvex> plano_convex_keys[] = {
+    {"sphere_radius_mm", &PlanoConvex::sphere_radius_mm, positive_length, true, "R of the spherical cap. R >= r."},
+    {"aperture_radius_mm", &PlanoConvex::aperture_radius_mm, positive_length, false, aperture_radius_doc, no_aperture_radius},
+    {"cylinder_height_mm", &PlanoConvex::cylinder_height_mm, length_or_zero, false,
+     "h of the wall under the cap. h <= 2 sqrt(R^2 - r^2)."},
+    {"index", &PlanoConvex::index, index_range, true, "Refractive index of the glass."},
+    {"facing", &PlanoConvex::facing, no_range, false, "Where the convex side looks."},
+};
+
+constexpr Key<SurfaceLens> surfaces_keys[] = {
+    {"surface", &SurfaceLens::surfaces, no_range, false, ""},
+};
+
+constexpr Key<IdealLens> ideal_keys[] = {
+    {"aperture_radius_mm", &IdealLens::aperture_radius_mm, positive_length, false, aperture_radius_doc, no_aperture_radius},
+    {"focal_length_mm", &IdealLens::focal_length_mm, positive_length, true, "Of the thin lens."},
 };
 
 constexpr Key<Surface> surface_keys[] = {
@@ -138,6 +134,17 @@ constexpr Key<Render> render_keys[] = {
     {"seed", &Render::seed, Range{0, two_to_63}, false, "Of the samples. The same seed, the same picture."},
 };
 
+constexpr Key<Display> display_keys[] = {
+    {"name", &Display::name, no_range, false, "What reports and image files call the display."},
+    {"panel", &Display::panel, no_range, true, ""},
+    {"lens", &Display::lens, no_range, true, ""},
+    {"array", &Display::array, no_range, true, ""},
+    {"diffuser", &Display::diffuser, no_range, false, ""},
+    {"camera", &Display::camera, no_range, false, ""},
+    {"content", &Display::content, no_range, false, ""},
+    {"render", &Display::render, no_range, false, ""},
+};
+
 // A number as a person writes it: powers of two where they are limits.
 std::string number(double x) {
     if (x == two_to_31) return "2^31";
@@ -149,20 +156,70 @@ std::string number(double x) {
 
 }  // namespace
 
-const Table<Display> display_table{"", "", display_keys};
-const Table<Panel> panel_table{"panel", "The screen behind the lenses. It lies in z = 0, centred, and faces the viewer at +z.",
-                               panel_keys};
-const Table<Lens> lens_table{"lens", "One lens of the array.", lens_keys};
-const Table<Surface> surface_table{
-    "lens.surface",
-    "The surfaces of a lens of type \"surfaces\", from the panel's side to the viewer's; one [[lens.surface]] each, at most 16.",
-    surface_keys};
-const Table<LensArray> array_table{"array", "How the lenses stand before the panel.", array_keys};
-const Table<Diffuser> diffuser_table{"diffuser", "A thin scattering sheet before the lenses. Without this table there is none.",
-                                     diffuser_keys};
-const Table<Camera> camera_table{"camera", "The eye or camera that looks at the display.", camera_keys};
-const Table<Content> content_table{"content", "What elemental images and reference photographs show.", content_keys};
-const Table<Render> render_table{"render", "How pictures are computed.", render_keys};
+template <>
+const Table<Display>& table_of<Display>() {
+    static constexpr Table<Display> table{"", "", display_keys};
+    return table;
+}
+template <>
+const Table<Panel>& table_of<Panel>() {
+    static constexpr Table<Panel> table{
+        "panel", "The screen behind the lenses. It lies in z = 0, centred, and faces the viewer at +z.", panel_keys};
+    return table;
+}
+template <>
+const Table<Lens>& table_of<Lens>() {
+    static constexpr Table<Lens> table{"lens", "One lens of the array.", lens_keys};
+    return table;
+}
+template <>
+const Table<PlanoConvex>& table_of<PlanoConvex>() {
+    static constexpr Table<PlanoConvex> table{"plano_convex", "A spherical plano-convex lens.", plano_convex_keys};
+    return table;
+}
+template <>
+const Table<SurfaceLens>& table_of<SurfaceLens>() {
+    static constexpr Table<SurfaceLens> table{"surfaces", "A prescription of surfaces.", surfaces_keys};
+    return table;
+}
+template <>
+const Table<IdealLens>& table_of<IdealLens>() {
+    static constexpr Table<IdealLens> table{"ideal", "A thin lens without aberrations.", ideal_keys};
+    return table;
+}
+template <>
+const Table<Surface>& table_of<Surface>() {
+    static constexpr Table<Surface> table{
+        "surface", "The surfaces of the lens, from the panel's side to the viewer's; one [[lens.surface]] each, at most 16.",
+        surface_keys};
+    return table;
+}
+template <>
+const Table<LensArray>& table_of<LensArray>() {
+    static constexpr Table<LensArray> table{"array", "How the lenses stand before the panel.", array_keys};
+    return table;
+}
+template <>
+const Table<Diffuser>& table_of<Diffuser>() {
+    static constexpr Table<Diffuser> table{
+        "diffuser", "A thin scattering sheet before the lenses. Without this table there is none.", diffuser_keys};
+    return table;
+}
+template <>
+const Table<Camera>& table_of<Camera>() {
+    static constexpr Table<Camera> table{"camera", "The eye or camera that looks at the display.", camera_keys};
+    return table;
+}
+template <>
+const Table<Content>& table_of<Content>() {
+    static constexpr Table<Content> table{"content", "What elemental images and reference photographs show.", content_keys};
+    return table;
+}
+template <>
+const Table<Render>& table_of<Render>() {
+    static constexpr Table<Render> table{"render", "How pictures are computed.", render_keys};
+    return table;
+}
 
 std::string Range::text() const {
     if (high == infinity) return fmt::format("{} or more, or inf", number(low));
@@ -172,6 +229,7 @@ std::string Range::text() const {
 // clang-format off
 template <> std::span<const std::string_view> words<Encoding>() { static constexpr std::string_view w[] = {"srgb", "linear"}; return w; }
 template <> std::span<const std::string_view> words<LensType>() { static constexpr std::string_view w[] = {"plano_convex", "surfaces", "ideal"}; return w; }
+template <> std::span<const std::string_view> words<LensKind>() { return words<LensType>(); }
 template <> std::span<const std::string_view> words<Facing>() { static constexpr std::string_view w[] = {"viewer", "panel"}; return w; }
 template <> std::span<const std::string_view> words<Surround>() { static constexpr std::string_view w[] = {"opaque", "clear", "plate"}; return w; }
 template <> std::span<const std::string_view> words<LatticeKind>() { static constexpr std::string_view w[] = {"square", "rectangle"}; return w; }

@@ -5,6 +5,7 @@
 #pragma once
 #include "model/display.h"
 
+#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -27,69 +28,171 @@ inline constexpr double shortest_mm = 1e-6, longest_mm = 1e6;
 inline constexpr Range any_length{-longest_mm, longest_mm}, positive_length{shortest_mm, longest_mm}, length_or_zero{0, longest_mm};
 inline constexpr double two_to_31 = 2147483648.0;
 
-template <class T>
-using Member =
-    std::variant<double T::*, std::optional<double> T::*, std::int64_t T::*, std::optional<std::int64_t> T::*, std::string T::*,
-                 std::array<double, 2> T::*, Vec3d T::*, std::array<std::int64_t, 2> T::*, std::vector<double> T::*, Pitch T::*,
-                 Encoding T::*, LensType T::*, Facing T::*, Surround T::*, LatticeKind T::*, Aperture T::*, Profile T::*,
-                 PixelFilter T::*, Estimator T::*, Sampling T::*, Fresnel T::*>;
+/// One of all that a value may be, Of<V> being a pointer to it or to a member.
+template <template <class> class Of>
+using ValuesOf =
+    std::variant<Of<double>, Of<std::optional<double>>, Of<std::int64_t>, Of<std::optional<std::int64_t>>, Of<std::string>,
+                 Of<std::array<double, 2>>, Of<Vec3d>, Of<std::array<std::int64_t, 2>>, Of<std::vector<double>>, Of<Pitch>,
+                 Of<Encoding>, Of<LensKind>, Of<Facing>, Of<Surround>, Of<LatticeKind>, Of<Aperture>, Of<Profile>, Of<PixelFilter>,
+                 Of<Estimator>, Of<Sampling>, Of<Fresnel>>;
 
-// The types of lens that a key belongs to.
-inline constexpr unsigned for_plano_convex = 1u << unsigned(LensType::plano_convex),
-                          for_surfaces = 1u << unsigned(LensType::surfaces), for_ideal = 1u << unsigned(LensType::ideal),
-                          for_all = for_plano_convex | for_surfaces | for_ideal;
+/// What a key fills. Tables within are in Display and SurfaceLens alone: one that is always there, one that may be absent, or a
+/// list; the keys of a kind stand beside its word.
+template <class T>
+struct MemberOf {
+    template <class V>
+    using Of = V T::*;
+    using Type = ValuesOf<Of>;
+};
+template <>
+struct MemberOf<Display> {
+    using Type = std::variant<std::string Display::*, Panel Display::*, Lens Display::*, LensArray Display::*,
+                              std::optional<Diffuser> Display::*, Camera Display::*, Content Display::*, Render Display::*>;
+};
+template <>
+struct MemberOf<SurfaceLens> {
+    using Type = std::variant<std::vector<Surface> SurfaceLens::*>;
+};
 
 template <class T>
 struct Key {
     std::string_view name;
-    Member<T> member;
-    Range range;  // of a number or of each in an array; unused for words
+    typename MemberOf<T>::Type member;
+    Range range;  // of a number or of each in an array; unused for words and tables
     bool required;
     std::string_view doc;
-    std::string_view absent = {};     // what holds without the key, where the field's own default does not say it
-    unsigned lens_types = for_all;    // the lens types that know the key
-    unsigned required_for = for_all;  // those that need it, if `required`
+    std::string_view absent = {};  // what holds without the key, where the field's own default does not say it
 };
 
 template <class T>
 struct Table {
-    std::string_view name;
+    std::string_view name;  // its last part; of a kind: its word
     std::string_view doc;
     std::span<const Key<T>> keys;
 };
 
-extern const Table<Display> display_table;  // the keys before the first [table]
-extern const Table<Panel> panel_table;
-extern const Table<Lens> lens_table;
-extern const Table<Surface> surface_table;  // [[lens.surface]]
-extern const Table<LensArray> array_table;
-extern const Table<Diffuser> diffuser_table;
-extern const Table<Camera> camera_table;
-extern const Table<Content> content_table;
-extern const Table<Render> render_table;
+/// The table of a struct that has one.
+template <class T>
+const Table<T>& table_of();
+// clang-format off
+template <> const Table<Display>& table_of<Display>();
+template <> const Table<Panel>& table_of<Panel>();
+template <> const Table<Lens>& table_of<Lens>();
+template <> const Table<PlanoConvex>& table_of<PlanoConvex>();
+template <> const Table<SurfaceLens>& table_of<SurfaceLens>();
+template <> const Table<IdealLens>& table_of<IdealLens>();
+template <> const Table<Surface>& table_of<Surface>();
+template <> const Table<LensArray>& table_of<LensArray>();
+template <> const Table<Diffuser>& table_of<Diffuser>();
+template <> const Table<Camera>& table_of<Camera>();
+template <> const Table<Content>& table_of<Content>();
+template <> const Table<Render>& table_of<Render>();
+// clang-format on
 
-/// Calls visit(table, its values) for the tables of a display, in the order of a description. The diffuser's values are optional.
-/// display_table and surface_table are not among them: they are the frame of the whole and a part of [lens].
-template <class Visit>
-void visit_tables(auto& display, Visit&& visit) {
-    visit(panel_table, display.panel);
-    visit(lens_table, display.lens);
-    visit(array_table, display.array);
-    visit(diffuser_table, display.diffuser);
-    visit(camera_table, display.camera);
-    visit(content_table, display.content);
-    visit(render_table, display.render);
+template <class T, class... Structs>
+inline constexpr bool is_one_of = (std::is_same_v<T, Structs> || ...);
+template <class T>
+inline constexpr bool has_table =
+    is_one_of<T, Display, Panel, Lens, PlanoConvex, SurfaceLens, IdealLens, Surface, LensArray, Diffuser, Camera, Content, Render>;
+
+/// How a field of a struct is a table within it.
+enum class PartKind { value, table, optional, list, kinds };
+
+template <class T>
+struct Part {
+    using Struct = T;
+    static constexpr PartKind is = has_table<T> ? PartKind::table : PartKind::value;
+};
+template <class T>
+struct Part<std::optional<T>> {
+    using Struct = T;
+    static constexpr PartKind is = has_table<T> ? PartKind::optional : PartKind::value;
+};
+template <class T>
+struct Part<std::vector<T>> {
+    using Struct = T;
+    static constexpr PartKind is = has_table<T> ? PartKind::list : PartKind::value;
+};
+template <class... Kinds>
+struct Part<std::variant<Kinds...>> {
+    static constexpr PartKind is = PartKind::kinds;
+};
+template <class Field>
+inline constexpr PartKind part_kind = Part<std::remove_cvref_t<Field>>::is;
+
+/// The table part of a dotted path: "lens.surface.0" of "lens.surface.0.conic", "" of "name".
+inline std::string_view table_of_path(std::string_view path) {
+    const std::size_t point = path.rfind('.');
+    return point == path.npos ? std::string_view() : path.substr(0, point);
 }
 
-/// Words of an enumeration, in the order of its values.
+/// What a key says, whatever struct it belongs to.
+struct KeyInfo {
+    std::string_view name;
+    Range range;
+    bool required;
+    std::string_view doc, absent;
+};
+
+template <class V>
+using PointerTo = V*;
+template <class V>
+using PointerToConst = const V*;
+using ValueRef = ValuesOf<PointerTo>;
+using ConstValueRef = ValuesOf<PointerToConst>;
+
+/// Calls visit for each value of a display, in the order of a description, with its path ("lens.surface.0.conic"), its key, and the
+/// value that a fresh struct has. What a display lacks is not visited. A kind is visited as the value of its word, then its own
+/// keys.
+void visit_all(const Display&,
+               const std::function<void(const std::string& path, const KeyInfo&, ConstValueRef, ConstValueRef fresh)>& visit);
+/// The same; `visit` may change values, but for a kind, whose keys follow.
+void visit_all(Display&, const std::function<void(const std::string& path, const KeyInfo&, ValueRef)>& visit);
+
+/// A table that a description may have, and its keys that are values, each with that of a fresh struct.
+struct FormatTable {
+    std::string path;  // of a kind that of the table in which its keys stand; of a list without numbers: "lens.surface"
+    std::string_view name, doc;
+    PartKind is;
+    struct Value {
+        KeyInfo key;
+        ConstValueRef fresh;
+    };
+    std::vector<Value> values;
+};
+/// All of them, of every kind, in the order of a description; the first is the top level, "".
+const std::vector<FormatTable>& format_tables();
+
+/// The key at a dotted path ("lens.surface.0.conic"), of any kind, with a fresh value; null if there is none.
+const FormatTable::Value* key_at(std::string_view path);
+
+/// Words of an enumeration in the order of its values, and of kinds.
 template <class E>
 std::span<const std::string_view> words();
 
 template <class E>
-std::string_view word(E value) {
-    return words<E>()[std::size_t(value)];
+std::string_view word(const E& value) {
+    if constexpr (std::is_enum_v<E>)
+        return words<E>()[std::size_t(value)];
+    else
+        return words<E>()[value.index()];
 }
 
-inline bool knows(unsigned lens_types, LensType type) { return lens_types >> unsigned(type) & 1u; }
+/// What is written as one of some words.
+template <class Field>
+inline constexpr bool has_words = std::is_enum_v<Field> || part_kind<Field> == PartKind::kinds;
+
+/// The value that words<E>()[index] names; of kinds a fresh one.
+template <class E>
+void set_word(E& value, std::size_t index) {
+    if constexpr (std::is_enum_v<E>) {
+        value = E(index);
+    } else {
+        [&]<class... Kinds>(std::variant<Kinds...>& kind) {
+            std::size_t k = 0;
+            ((k++ == index ? void(kind = Kinds{}) : void()), ...);
+        }(value);
+    }
+}
 
 }  // namespace lfdsim

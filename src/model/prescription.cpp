@@ -57,6 +57,8 @@ double clearance_mm(const PlacedSurface& lower, const PlacedSurface& upper) {
 }
 
 Cardinal cardinal_points(const std::vector<PlacedSurface>& surfaces) {
+    if (surfaces.front().form == SurfaceForm::thin)
+        return {surfaces.front().focal_length_mm, surfaces.front().z_mm, surfaces.front().z_mm};
     // The system matrix of (height y, optical slope n u): a surface subtracts c (n' - n) y from n u, a medium adds d/n (n u) to y.
     double a = 1, b = 0, c = 0, d = 1;
     double z = surfaces.front().z_mm;
@@ -72,21 +74,22 @@ Cardinal cardinal_points(const std::vector<PlacedSurface>& surfaces) {
     return {-1 / c, front + (d - 1) / c, z + (1 - a) / c};
 }
 
-double glass_radius_mm(const Lens& lens, const LensArray& array) {
-    const double given = lens.aperture_radius_mm.value_or(0);
+double glass_radius_mm(const std::optional<double>& aperture_radius_mm, const LensArray& array) {
+    const double given = aperture_radius_mm.value_or(0);
     return array.aperture == Aperture::square ? std::max(given, outer_radius_mm(array)) : given;
 }
 
-std::vector<PlacedSurface> prescription(const Lens& lens, const LensArray& array) {
-    if (lens.type == LensType::ideal) return {};
-    if (lens.type == LensType::plano_convex) {
-        const double R = lens.sphere_radius_mm, r = glass_radius_mm(lens, array), n = lens.index;
-        // The ball's centre lies sqrt(R^2 - r^2) below the wall's end, its apex R above the centre; (R - r)(R + r) keeps the
-        // digits.
-        const double thickness = lens.cylinder_height_mm + R - std::sqrt((R - r) * (R + r));
-        if (lens.facing == Facing::viewer) return {{0, 0, 0, {}, r, 1, n}, {thickness, -1 / R, 0, {}, r, n, 1}};
-        return {{0, 1 / R, 0, {}, r, 1, n}, {thickness, 0, 0, {}, r, n, 1}};
-    }
+namespace {
+
+std::vector<PlacedSurface> placed(const PlanoConvex& lens, const LensArray& array) {
+    const double R = lens.sphere_radius_mm, r = glass_radius_mm(lens.aperture_radius_mm, array), n = lens.index;
+    // The ball's centre lies sqrt(R^2 - r^2) below the wall's end, its apex R above the centre; (R - r)(R + r) keeps the digits.
+    const double thickness = lens.cylinder_height_mm + R - std::sqrt((R - r) * (R + r));
+    if (lens.facing == Facing::viewer) return {{0, 0, 0, {}, r, 1, n}, {thickness, -1 / R, 0, {}, r, n, 1}};
+    return {{0, 1 / R, 0, {}, r, 1, n}, {thickness, 0, 0, {}, r, n, 1}};
+}
+
+std::vector<PlacedSurface> placed(const SurfaceLens& lens, const LensArray&) {
     std::vector<PlacedSurface> placed;
     double z = 0, below = 1;
     for (const Surface& s : lens.surfaces) {
@@ -97,6 +100,32 @@ std::vector<PlacedSurface> prescription(const Lens& lens, const LensArray& array
         below = above;
     }
     return placed;
+}
+
+std::vector<PlacedSurface> placed(const IdealLens& lens, const LensArray& array) {
+    return {{0, 0, 0, {}, glass_radius_mm(lens.aperture_radius_mm, array), 1, 1, SurfaceForm::thin, lens.focal_length_mm}};
+}
+
+}  // namespace
+
+std::vector<PlacedSurface> prescription(const Lens& lens, const LensArray& array) {
+    return std::visit([&](const auto& kind) { return placed(kind, array); }, lens.kind);
+}
+
+Geometry turned_over(Geometry g) {
+    std::reverse(g.surfaces.begin(), g.surfaces.end());
+    for (PlacedSurface& s : g.surfaces) {
+        s.z_mm = -s.z_mm;
+        s.curvature_per_mm = -s.curvature_per_mm;
+        for (double& a : s.even_asphere) a = -a;
+        std::swap(s.index_below, s.index_above);
+    }
+    std::swap(g.base_z_mm, g.top_z_mm);
+    std::swap(g.front_principal_mm, g.rear_principal_mm);
+    for (double* z : {&g.base_z_mm, &g.top_z_mm, &g.vertex_plane_mm, &g.front_principal_mm, &g.rear_principal_mm, &g.stop_z_mm})
+        *z = -*z;
+    g.entrance_z_mm = g.surfaces.back().z_mm;
+    return g;
 }
 
 }  // namespace lfdsim

@@ -15,10 +15,10 @@ struct Cardinal {
 };
 Cardinal cardinal_points(const std::vector<PlacedSurface>&);
 
-/// The glass radius r of a plano-convex lens: the given one; with square apertures at least half the cell's diagonal.
-double glass_radius_mm(const Lens&, const LensArray&);
+/// The radius r of a lens that is told it: the given one; with square apertures at least half the cell's diagonal.
+double glass_radius_mm(const std::optional<double>& aperture_radius_mm, const LensArray&);
 
-/// The lens's surfaces with the first vertex in z = 0, panel side first; none for an ideal lens.
+/// The lens's surfaces with the first vertex in z = 0, panel side first.
 std::vector<PlacedSurface> prescription(const Lens&, const LensArray&);
 
 /// Lowest and highest sag within the semi-aperture. NaN where the sag is not real.
@@ -26,6 +26,10 @@ std::array<double, 2> sag_range_mm(const PlacedSurface&);
 
 /// Lowest distance from one surface up to another within both semi-apertures; negative where they cross.
 double clearance_mm(const PlacedSurface& lower, const PlacedSurface& upper);
+
+/// The lens turned over, its mirror image in the plane of the panel, for light that goes up: its first surface, from the panel, is
+/// then the highest, and all its z are negative.
+Geometry turned_over(Geometry);
 
 /// resolve() without validate(): of an invalid description some figures are NaN or wrong.
 Geometry resolve_unchecked(const Display&);

@@ -11,40 +11,32 @@ namespace {
 // Places the lens along z: its surfaces and planes, from gap or base.
 void place_lens(const Lens& lens, const LensArray& array, Geometry& g) {
     g.surfaces = prescription(lens, array);
-    if (g.surfaces.empty()) {  // ideal: all in its plane
-        const double z = array.base_z_mm.value_or(array.gap_mm.value_or(0));
-        g.base_z_mm = g.top_z_mm = g.entrance_z_mm = g.vertex_plane_mm = g.front_principal_mm = g.rear_principal_mm = g.stop_z_mm =
-            z;
-        g.focal_length_mm = lens.focal_length_mm;
-        g.glass_radius_mm = glass_radius_mm(lens, array);
-        g.clear_aperture_mm.fill(2 * lens.aperture_radius_mm.value_or(0));
-    } else {
-        const Cardinal paraxial = cardinal_points(g.surfaces);
-        double lowest = 0, highest = 0, vertex = 0, widest = 0, narrowest = g.surfaces.front().semi_aperture_mm;
-        for (const PlacedSurface& s : g.surfaces) {
-            const auto [low, high] = sag_range_mm(s);
-            lowest = std::min(lowest, s.z_mm + low);
-            highest = std::max(highest, s.z_mm + high);
-            vertex = std::max(vertex, s.z_mm);
-            widest = std::max(widest, s.semi_aperture_mm);
-            narrowest = std::min(narrowest, s.semi_aperture_mm);
-        }
-        // where the first vertex comes to stand
-        const double first = array.base_z_mm ? *array.base_z_mm - lowest : array.gap_mm.value_or(0) - paraxial.front_principal_mm;
-        for (PlacedSurface& s : g.surfaces) s.z_mm += first;
-        g.base_z_mm = array.base_z_mm ? *array.base_z_mm : first + lowest;
-        g.top_z_mm = first + highest;
-        g.vertex_plane_mm = first + vertex;
-        g.entrance_z_mm = g.surfaces.back().z_mm;
-        g.front_principal_mm = first + paraxial.front_principal_mm;
-        g.rear_principal_mm = first + paraxial.rear_principal_mm;
-        g.focal_length_mm = paraxial.focal_length_mm;
-        g.glass_radius_mm = widest;
-        g.clear_aperture_mm.fill(2 * narrowest);
-        // the curved vertex is the first one only for a plano-convex lens that faces the panel
-        const bool first_curved = lens.type == LensType::plano_convex && lens.facing == Facing::panel;
-        g.stop_z_mm = (first_curved ? g.surfaces.front() : g.surfaces.back()).z_mm;
+    const Cardinal paraxial = cardinal_points(g.surfaces);
+    double lowest = 0, highest = 0, vertex = 0, widest = 0, narrowest = g.surfaces.front().semi_aperture_mm;
+    for (const PlacedSurface& s : g.surfaces) {
+        const auto [low, high] = sag_range_mm(s);
+        lowest = std::min(lowest, s.z_mm + low);
+        highest = std::max(highest, s.z_mm + high);
+        vertex = std::max(vertex, s.z_mm);
+        widest = std::max(widest, s.semi_aperture_mm);
+        narrowest = std::min(narrowest, s.semi_aperture_mm);
     }
+    // where the first vertex comes to stand
+    const double first = array.base_z_mm ? *array.base_z_mm - lowest : array.gap_mm.value_or(0) - paraxial.front_principal_mm;
+    for (PlacedSurface& s : g.surfaces) s.z_mm += first;
+    g.base_z_mm = array.base_z_mm ? *array.base_z_mm : first + lowest;
+    g.top_z_mm = first + highest;
+    g.vertex_plane_mm = first + vertex;
+    g.entrance_z_mm = g.surfaces.back().z_mm;
+    g.front_principal_mm = first + paraxial.front_principal_mm;
+    g.rear_principal_mm = first + paraxial.rear_principal_mm;
+    g.focal_length_mm = paraxial.focal_length_mm;
+    g.glass_radius_mm = widest;
+    g.clear_aperture_mm.fill(2 * narrowest);
+    // the curved vertex is the first one only for a plano-convex lens that faces the panel
+    const auto* ball = std::get_if<PlanoConvex>(&lens.kind);
+    const bool first_curved = ball && ball->facing == Facing::panel;
+    g.stop_z_mm = (first_curved ? g.surfaces.front() : g.surfaces.back()).z_mm;
     // as given, to the last bit: g = f must stay exactly so
     g.gap_mm = array.gap_mm.value_or(g.front_principal_mm);
     if (array.aperture == Aperture::square) g.clear_aperture_mm = array.pitch_mm;

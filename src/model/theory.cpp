@@ -5,6 +5,7 @@
 #include "model/bands.h"
 #include "model/geometry.h"
 #include "model/numbers.h"
+#include "model/vec.h"
 
 namespace lfdsim {
 
@@ -61,10 +62,7 @@ Theory theory(const Display& d, const Geometry& g) {
     return t;
 }
 
-double eye_distance_mm(const Display& d) {
-    const Vec3d& p = d.camera.position_mm;
-    return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-}
+double eye_distance_mm(const Display& d) { return std::sqrt(dot(d.camera.position_mm, d.camera.position_mm)); }
 
 double depth_mm(double per_mm) { return per_mm == 0 ? std::numeric_limits<double>::infinity() : 1 / per_mm; }
 

@@ -13,19 +13,46 @@ class LensCheck {
     LensCheck(const Display& d, Findings& f) : lens(d.lens), array(d.array), findings(f) {}
 
     void check() {
-        if (lens.type == LensType::surfaces) return check_surfaces();
-        if (!findings.sound("lens.aperture_radius_mm")) return;
-        if (array.aperture == Aperture::circle) {
-            if (!lens.aperture_radius_mm)
-                return findings.add("lens.aperture_radius_mm",
-                                    "is missing; only lenses of array.aperture = \"square\" can do without");
-            check_width("lens.aperture_radius_mm", *lens.aperture_radius_mm);
-        }
-        if (lens.type == LensType::plano_convex && findings.sound("lens.sphere_radius_mm")) check_ball();
-        check_stop();
+        std::visit([&](const auto& kind) { check(kind); }, lens.kind);
     }
 
   private:
+    void check(const PlanoConvex& ball) {
+        if (!check_radius(ball.aperture_radius_mm)) return;
+        if (findings.sound("lens.sphere_radius_mm")) check_ball(ball);
+        check_stop();
+    }
+    void check(const IdealLens& ideal) {
+        if (check_radius(ideal.aperture_radius_mm)) check_stop();
+    }
+    // Widths and sags one by one, then each pair of neighbours: the medium between them must have a thickness everywhere.
+    void check(const SurfaceLens& given) {
+        const std::vector<PlacedSurface> surfaces = prescription(lens, array);
+        for (std::size_t i = 0; i < surfaces.size(); ++i) {
+            if (!findings.sound(fmt::format("lens.surface.{}.", i))) continue;
+            check_width(fmt::format("lens.surface.{}.semi_aperture_mm", i), surfaces[i].semi_aperture_mm);
+            check_sag(i, surfaces[i]);
+        }
+        check_stop();
+        if (!findings.sound("lens.")) return;
+        for (std::size_t i = 0; i + 1 < surfaces.size(); ++i)
+            if (const double clear = clearance_mm(surfaces[i], surfaces[i + 1]); !(clear >= -rounding_mm))
+                findings.add(fmt::format("lens.surface.{}.distance_mm", i),
+                             "{} mm lets the surface and the next one cross within the aperture; at least {:.6g} mm",
+                             given.surfaces[i].distance_mm, given.surfaces[i].distance_mm - clear);
+    }
+
+    // False: it is missing, or not known.
+    bool check_radius(const std::optional<double>& radius) {
+        if (!findings.sound("lens.aperture_radius_mm")) return false;
+        if (array.aperture == Aperture::square) return true;
+        if (radius)
+            check_width("lens.aperture_radius_mm", *radius);
+        else
+            findings.add("lens.aperture_radius_mm", "is missing; only lenses of array.aperture = \"square\" can do without");
+        return radius.has_value();
+    }
+
     // Round lenses must not overlap; what is round in a square cell is cut by its borders.
     void check_width(const std::string& where, double radius) {
         if (array.aperture == Aperture::circle && radius > inner_radius_mm(array))
@@ -42,9 +69,9 @@ class LensCheck {
     }
 
     // Of a plano-convex lens: its cap is part of a ball, which must reach over the aperture and stay off the flat face.
-    void check_ball() {
-        const double R = lens.sphere_radius_mm, r = glass_radius_mm(lens, array), h = lens.cylinder_height_mm;
-        const bool corner = r > lens.aperture_radius_mm.value_or(0);
+    void check_ball(const PlanoConvex& ball) {
+        const double R = ball.sphere_radius_mm, r = glass_radius_mm(ball.aperture_radius_mm, array), h = ball.cylinder_height_mm;
+        const bool corner = r > ball.aperture_radius_mm.value_or(0);
         const double highest = 2 * std::sqrt((R - r) * (R + r));
         if (R < r)
             findings.add("lens.sphere_radius_mm",
@@ -54,23 +81,6 @@ class LensCheck {
             findings.add("lens.cylinder_height_mm",
                          "h = {} mm, but the ball of R = {} mm would cut the flat face; at most 2 sqrt(R^2 - r^2) = {} mm", h, R,
                          highest);
-    }
-
-    // Widths and sags one by one, then each pair of neighbours: the medium between them must have a thickness everywhere.
-    void check_surfaces() {
-        const std::vector<PlacedSurface> surfaces = prescription(lens, array);
-        for (std::size_t i = 0; i < surfaces.size(); ++i) {
-            if (!findings.sound(fmt::format("lens.surface.{}.", i))) continue;
-            check_width(fmt::format("lens.surface.{}.semi_aperture_mm", i), surfaces[i].semi_aperture_mm);
-            check_sag(i, surfaces[i]);
-        }
-        check_stop();
-        if (!findings.sound("lens.")) return;
-        for (std::size_t i = 0; i + 1 < surfaces.size(); ++i)
-            if (const double clear = clearance_mm(surfaces[i], surfaces[i + 1]); !(clear >= -rounding_mm))
-                findings.add(fmt::format("lens.surface.{}.distance_mm", i),
-                             "{} mm lets the surface and the next one cross within the aperture; at least {:.6g} mm",
-                             lens.surfaces[i].distance_mm, lens.surfaces[i].distance_mm - clear);
     }
 
     void check_sag(std::size_t i, const PlacedSurface& s) {

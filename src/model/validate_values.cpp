@@ -3,71 +3,50 @@
 #include "model/findings.h"
 #include "model/geometry.h"
 #include "model/keys.h"
+#include "model/vec.h"
 
 namespace lfdsim {
 namespace {
 
-// The values of one table against the ranges of its keys.
+// Values against the ranges of their keys.
 class RangeCheck {
   public:
-    RangeCheck(Findings& findings, LensType type) : findings_(findings), type_(type) {}
-
-    template <class T>
-    void operator()(const Table<T>& table, const T& values) {
-        check_table(table, values, std::string(table.name) + ".");
-    }
-    void operator()(const Table<Diffuser>& table, const std::optional<Diffuser>& values) {
-        if (values) (*this)(table, *values);
-    }
-    void operator()(const Table<Lens>& table, const Lens& lens) {
-        check_table(table, lens, "lens.");
-        if (lens.type != LensType::surfaces) return;
-        if (lens.surfaces.empty() && findings_.sound("lens.surface"))
-            findings_.add("lens.surface", "a lens of type \"surfaces\" needs at least one [[lens.surface]]");
-        if (lens.surfaces.size() > max_surfaces)
-            return findings_.add("lens.surface", "has more than the {} surfaces allowed", max_surfaces);
-        for (std::size_t i = 0; i < lens.surfaces.size(); ++i)
-            check_table(surface_table, lens.surfaces[i], fmt::format("lens.surface.{}.", i));
-    }
-
-  private:
-    template <class T>
-    void check_table(const Table<T>& table, const T& values, const std::string& prefix) {
-        for (const Key<T>& key : table.keys) {
-            const std::string where = prefix + std::string(key.name);
-            if (knows(key.lens_types, type_) && findings_.sound(where))
-                std::visit([&](auto member) { check(where, key.range, values.*member); }, key.member);
-        }
-    }
+    explicit RangeCheck(Findings& findings) : findings_(findings) {}
 
     template <class Value>
-    void check(const std::string& where, const Range& range, const Value& value) {
+    void operator()(const std::string& where, const Range& range, const Value& value) {
         if constexpr (std::is_arithmetic_v<Value>)  // words and names have no range
             if (!range.contains(double(value)))
                 findings_.add(where, "is {}, allowed is {}", std::isnan(double(value)) ? "nan" : fmt::to_string(value),
                               range.text());
     }
     template <class Value>
-    void check(const std::string& where, const Range& range, const std::optional<Value>& value) {
-        if (value) check(where, range, *value);
+    void operator()(const std::string& where, const Range& range, const std::optional<Value>& value) {
+        if (value) (*this)(where, range, *value);
     }
     template <class Value, std::size_t n>
-    void check(const std::string& where, const Range& range, const std::array<Value, n>& values) {
-        for (std::size_t i = 0; i < n; ++i) check(fmt::format("{}[{}]", where, i), range, values[i]);
+    void operator()(const std::string& where, const Range& range, const std::array<Value, n>& values) {
+        for (std::size_t i = 0; i < n; ++i) (*this)(fmt::format("{}[{}]", where, i), range, values[i]);
     }
-    void check(const std::string& where, const Range& range, const Pitch& pitch) {
-        if (pitch.is_one()) return check(where, range, pitch[0]);
-        check<double, 2>(where, range, pitch);
+    void operator()(const std::string& where, const Range& range, const Pitch& pitch) {
+        if (pitch.is_one()) return (*this)(where, range, pitch[0]);
+        (*this)(where, range, static_cast<const std::array<double, 2>&>(pitch));
     }
-    void check(const std::string& where, const Range& range, const std::vector<double>& values) {
+    void operator()(const std::string& where, const Range& range, const std::vector<double>& values) {
         if (values.size() > max_asphere_terms)
             return findings_.add(where, "has {} coefficients, allowed are {}", values.size(), max_asphere_terms);
-        for (std::size_t i = 0; i < values.size(); ++i) check(fmt::format("{}[{}]", where, i), range, values[i]);
+        for (std::size_t i = 0; i < values.size(); ++i) (*this)(fmt::format("{}[{}]", where, i), range, values[i]);
     }
 
+  private:
     Findings& findings_;
-    LensType type_;
 };
+
+void check_surface_count(const SurfaceLens& lens, Findings& findings) {
+    if (lens.surfaces.empty() && findings.sound("lens.surface"))
+        findings.add("lens.surface", "a lens of type \"surfaces\" needs at least one [[lens.surface]]");
+    if (lens.surfaces.size() > max_surfaces) findings.add("lens.surface", "has more than the {} surfaces allowed", max_surfaces);
+}
 
 // Two factors within int64 may overflow it in their product: as doubles they do not, and 53 bits tell 2^31 exactly.
 void check_product(const std::string& where, const std::array<std::int64_t, 2>& n, Findings& findings) {
@@ -80,28 +59,28 @@ void check_product(const std::string& where, const std::array<std::int64_t, 2>& 
 void check_surround(const Display& d, Findings& findings) {
     if (d.array.surround == Surround::opaque || !findings.sound("array.surround")) return;
     const std::string_view surround = word(d.array.surround);
-    if (d.lens.type == LensType::ideal)
+    if (d.lens.type() == LensType::ideal)
         findings.add("array.surround", "is \"{}\", but an ideal lens has no glass; take \"opaque\"", surround);
-    if (d.lens.type == LensType::surfaces && d.lens.surfaces.size() != 2)
+    const auto* lens = std::get_if<SurfaceLens>(&d.lens.kind);
+    if (!lens) return;
+    const std::vector<Surface>& surfaces = lens->surfaces;
+    if (surfaces.size() != 2)
         findings.add("array.surround",
                      "is \"{}\", which takes one glass body of two surfaces, but the lens has {}; take \"opaque\"", surround,
-                     d.lens.surfaces.size());
-    else if (d.lens.type == LensType::surfaces && d.array.surround == Surround::clear && d.array.aperture == Aperture::circle &&
-             d.lens.surfaces[0].semi_aperture_mm != d.lens.surfaces[1].semi_aperture_mm)
+                     surfaces.size());
+    else if (d.array.surround == Surround::clear && d.array.aperture == Aperture::circle &&
+             surfaces[0].semi_aperture_mm != surfaces[1].semi_aperture_mm)
         findings.add(
             "array.surround",
             "is \"clear\", whose bodies have a cylinder for a wall, but the semi-apertures are {} and {} mm; make them equal",
-            d.lens.surfaces[0].semi_aperture_mm, d.lens.surfaces[1].semi_aperture_mm);
+            surfaces[0].semi_aperture_mm, surfaces[1].semi_aperture_mm);
 }
 
 // Where the camera is and where it looks, as far as the display's solid does not matter.
 void check_view(const Camera& camera, Findings& findings) {
     const Vec3d &eye = camera.position_mm, &target = camera.target_mm, &up = camera.up;
-    const Vec3d view{target[0] - eye[0], target[1] - eye[1], target[2] - eye[2]};
-    const double distance = std::hypot(view[0], view[1], view[2]), up_length = std::hypot(up[0], up[1], up[2]);
-    // |view x up| = |view| |up| sin(angle): below a microradian single precision cannot tell the picture's upright any more
-    const double cross =
-        std::hypot(view[1] * up[2] - view[2] * up[1], view[2] * up[0] - view[0] * up[2], view[0] * up[1] - view[1] * up[0]);
+    const Vec3d view = minus(target, eye);
+    const double distance = length(view), up_length = length(up);
     if (eye[2] <= 0)
         findings.add("camera.position_mm", "z = {} mm is {} the panel; the camera must be in front of it, at z > 0", eye[2],
                      eye[2] < 0 ? "behind" : "on");
@@ -109,7 +88,8 @@ void check_view(const Camera& camera, Findings& findings) {
         findings.add("camera.target_mm", "is where the camera is; it must look somewhere");
     else if (up_length < shortest_mm)
         findings.add("camera.up", "is no direction, its length is {}; take [0, 1, 0]", up_length);
-    else if (cross <= 1e-6 * distance * up_length)
+    // |view x up| = |view| |up| sin(angle): below a microradian single precision cannot tell the picture's upright any more
+    else if (length(cross(view, up)) <= 1e-6 * distance * up_length)
         findings.add("camera.up",
                      "lies along the line of sight from camera.position_mm to camera.target_mm; take another direction");
 }
@@ -135,9 +115,11 @@ void check_choices(const Display& d, Findings& findings) {
 
 void validate_values(const Display& d, Findings& findings) {
     const bool type_known = findings.sound("lens.type");
-    RangeCheck check(findings, d.lens.type);
-    visit_tables(d, [&]<class T>(const Table<T>& table, const auto& values) {
-        if (!std::is_same_v<T, Lens> || type_known) check(table, values);
+    RangeCheck check(findings);
+    if (const auto* lens = std::get_if<SurfaceLens>(&d.lens.kind); lens && type_known) check_surface_count(*lens, findings);
+    visit_all(d, [&](const std::string& where, const KeyInfo& key, ConstValueRef value, ConstValueRef) {
+        if (findings.sound(where) && (type_known || !where.starts_with("lens.")))
+            std::visit([&](const auto* v) { check(where, key.range, *v); }, value);
     });
     check_product("panel.pixels", d.panel.pixels, findings);
     check_product("array.count", d.array.count, findings);

@@ -14,19 +14,19 @@
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
 /// A block's rays before the diffuser: through its middle; half a block to the right of it; below; to the left and above.
-constexpr int kBlockRays = 4;
+constexpr int block_rays = 4;
 LFDSIM_FN int block_right(int ray) { return ray == 1 ? 1 : ray == 3 ? -1 : 0; }
 LFDSIM_FN int block_down(int ray) { return ray == 2 ? 1 : ray == 3 ? -1 : 0; }
 
 /// A soft bundle's light is told at the corners of squares of FilteredLimits::node_step pixels: at most 3 x 3 places.
-constexpr int kNodes = 3;
+constexpr int most_nodes = 3;
 
 template <class S>
 struct PixelBlock {
     int reach;  // pixels from the block's middle to its border
     BaseLens<S> lens;
-    Vec3<S> to[kBlockRays];
-    Sweep<S> sweep[2][kBlockRays];
+    Vec3<S> to[block_rays];
+    Sweep<S> sweep[2][block_rays];
     LFDSIM_FN int nodes() const { return 2 * reach > FilteredLimits::node_step ? 2 * reach / FilteredLimits::node_step + 1 : 2; }
     bool alive;  // all rays look at the display, evenly spaced on it, and the diffuser's two turns move them as strata take them to
 };
@@ -80,7 +80,7 @@ LFDSIM_FN PixelBlock<S> pixel_block(const Scene<S>& scene, const View& view, int
     const double middle_x = column + block.reach, middle_y = row + block.reach;
     block.lens = base_lens<S>(view, middle_x, middle_y);
     block.alive = true;
-    for (int k = 0; k < kBlockRays; ++k) {
+    for (int k = 0; k < block_rays; ++k) {
         double d[3], x, y;
         follow_to_first_plane(view, middle_x + block.reach * block_right(k), middle_y + block.reach * block_down(k), d, x, y);
         const double inverse = 1 / __builtin_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
@@ -102,19 +102,19 @@ LFDSIM_FN PixelBlock<S> pixel_block(const Scene<S>& scene, const View& view, int
 
 /// Rays from places in the plane of the diffuser to places in the planes of the holes, mm from the base lens's axis; and where on
 /// the panel they end. Arrays of a fixed length, which compilers make SIMD code of; the sums over them have a fixed order.
-constexpr int kMostProbes = 16;
+constexpr int most_probes = 16;
 template <class S>
 struct Probes {
-    S at_x[kMostProbes], at_y[kMostProbes], x[kMostProbes], y[kMostProbes];
-    S column[kMostProbes], row[kMostProbes], weight[kMostProbes];  // weight 0: lost
-    S cell_i[kMostProbes], cell_j[kMostProbes];                    // the lens
-    S in[kMostProbes];                                             // 1: belongs to the part in question, else 0
-    S has_right[kMostProbes], has_left[kMostProbes], has_above[kMostProbes], has_below[kMostProbes];  // 1: there is a next one
+    S at_x[most_probes], at_y[most_probes], x[most_probes], y[most_probes];
+    S column[most_probes], row[most_probes], weight[most_probes];  // weight 0: lost
+    S cell_i[most_probes], cell_j[most_probes];                    // the lens
+    S in[most_probes];                                             // 1: belongs to the part in question, else 0
+    S has_right[most_probes], has_left[most_probes], has_above[most_probes], has_below[most_probes];  // 1: there is a next one
 
     /// per_axis x per_axis probes, row after row. Those beyond have seen nothing: a narrow packet never traces them, and sums take
     /// all.
     LFDSIM_FN void lay_out(int per_axis) {
-        for (int p = 0; p < kMostProbes; ++p) {
+        for (int p = 0; p < most_probes; ++p) {
             column[p] = row[p] = weight[p] = cell_i[p] = cell_j[p] = in[p] = S(0);
             const int i = p % per_axis, j = p / per_axis;
             has_right[p] = i + 1 < per_axis ? S(1) : S(0);
@@ -126,8 +126,8 @@ struct Probes {
 };
 
 template <class S>
-LFDSIM_FN S sum_of(const S (&a)[kMostProbes]) {
-    static_assert(kMostProbes == 16);
+LFDSIM_FN S sum_of(const S (&a)[most_probes]) {
+    static_assert(most_probes == 16);
     S b[8], c[4];
     for (int p = 0; p < 8; ++p) b[p] = a[p] + a[p + 8];
     for (int p = 0; p < 4; ++p) c[p] = b[p] + b[p + 4];
@@ -155,7 +155,7 @@ LFDSIM_LARGE void trace_probes(const Scene<Scalar<F>>& scene, const PixelBlock<S
 
 /// What a block sees through a stratum, or through the part of it that lies inside its round hole, or beside that.
 template <class S>
-struct Bundle {
+struct SharedBundle {
     enum class State { dark, sharp, soft, broken } state;
     S column, row;  // mean place on the panel, from the block's base, seen from the block's middle
     S column_right, row_right, column_down, row_down;  // how that moves per picture pixel
@@ -166,16 +166,16 @@ struct Bundle {
     Footprint<S> footprint;                            // sharp: the box, which each pixel reads at its own place
     bool still;                                        // soft: the footprint does not move
     int nodes;                                         // soft: along an axis of the block; 1: its light is the same everywhere
-    S colour[kNodes * kNodes][4];                      // soft: the light there; interpolated between
+    S colour[most_nodes * most_nodes][4];              // soft: the light there; interpolated between
 };
 
 /// Sums up the per_axis x per_axis probes of a stratum.
 template <class S>
-LFDSIM_FN Bundle<S> sum_up(const Probes<S>& probes, int per_axis) {
-    using State = typename Bundle<S>::State;
-    S lit[kMostProbes], t[kMostProbes], c[kMostProbes], r[kMostProbes];
-    for (int p = 0; p < kMostProbes; ++p) lit[p] = probes.in[p] * probes.weight[p] > S(0) ? S(1) : S(0);
-    Bundle<S> b;
+LFDSIM_FN SharedBundle<S> sum_up(const Probes<S>& probes, int per_axis) {
+    using State = typename SharedBundle<S>::State;
+    S lit[most_probes], t[most_probes], c[most_probes], r[most_probes];
+    for (int p = 0; p < most_probes; ++p) lit[p] = probes.in[p] * probes.weight[p] > S(0) ? S(1) : S(0);
+    SharedBundle<S> b;
     const S part = sum_of(probes.in), count = sum_of(lit);
     b.state = part > S(0) ? State::dark : State::broken;
     if (count == S(0)) return b;
@@ -183,11 +183,11 @@ LFDSIM_FN Bundle<S> sum_up(const Probes<S>& probes, int per_axis) {
     while (lit[one] == S(0)) ++one;
     const S per = S(1) / count;
     auto mean = [&](auto value) {
-        for (int p = 0; p < kMostProbes; ++p) t[p] = lit[p] > S(0) ? value(p) : S(0);
+        for (int p = 0; p < most_probes; ++p) t[p] = lit[p] > S(0) ? value(p) : S(0);
         return sum_of(t) * per;
     };
     const S column = probes.column[one], row = probes.row[one], cell_i = probes.cell_i[one], cell_j = probes.cell_j[one];
-    for (int p = 0; p < kMostProbes; ++p) {  // small numbers
+    for (int p = 0; p < most_probes; ++p) {  // small numbers
         c[p] = probes.column[p] - column;
         r[p] = probes.row[p] - row;
     }
@@ -202,7 +202,7 @@ LFDSIM_FN Bundle<S> sum_up(const Probes<S>& probes, int per_axis) {
     b.height = sqrt(max(spread * (mean([&](int p) { return r[p] * r[p]; }) - mean_r * mean_r), S(0)));
     const S others = mean([&](int p) { return probes.cell_i[p] == cell_i && probes.cell_j[p] == cell_j ? S(0) : S(1); });
     S nearest = S(1e30);
-    for (int p = 0; p < kMostProbes; ++p) {
+    for (int p = 0; p < most_probes; ++p) {
         const S dx = probes.x[p] - x, dy = probes.y[p] - y;
         t[p] = lit[p] > S(0) ? dx * dx + dy * dy : S(1e30);
         nearest = min(nearest, t[p]);
@@ -222,16 +222,16 @@ template <class S>
 struct Slopes {
     S column[2], row[2];  // along x and y
 
-    LFDSIM_FN Slopes(const Probes<S>& probes, const Bundle<S>& b) {
-        S lit[kMostProbes], t[kMostProbes];
-        for (int p = 0; p < kMostProbes; ++p) lit[p] = probes.in[p] * probes.weight[p] > S(0) ? S(1) : S(0);
+    LFDSIM_FN Slopes(const Probes<S>& probes, const SharedBundle<S>& b) {
+        S lit[most_probes], t[most_probes];
+        for (int p = 0; p < most_probes; ++p) lit[p] = probes.in[p] * probes.weight[p] > S(0) ? S(1) : S(0);
         const S count = sum_of(lit);
         for (int a = 0; a < 2; ++a) {
             const S* const at = a == 0 ? probes.x : probes.y;
-            for (int p = 0; p < kMostProbes; ++p) t[p] = lit[p] * at[p];
+            for (int p = 0; p < most_probes; ++p) t[p] = lit[p] * at[p];
             const S mean = sum_of(t) / count;
             auto sum = [&](auto value) {
-                for (int p = 0; p < kMostProbes; ++p) t[p] = lit[p] > S(0) ? (at[p] - mean) * value(p) : S(0);
+                for (int p = 0; p < most_probes; ++p) t[p] = lit[p] > S(0) ? (at[p] - mean) * value(p) : S(0);
                 return sum_of(t);
             };
             const S spread = sum([&](int p) { return at[p] - mean; }), per = spread > S(0) ? S(1) / spread : S(0);
@@ -243,26 +243,26 @@ struct Slopes {
 
 /// Is the footprint so wide that a single box tells too little of it?
 template <class S>
-LFDSIM_FN bool is_soft(const Bundle<S>& b) {
+LFDSIM_FN bool is_soft(const SharedBundle<S>& b) {
     return max(b.width, b.height) > S(FilteredLimits::soft);
 }
 
 /// The panel over small boxes about the probes of a part of a stratum, each as wide as it is to the next probes.
 template <class S>
 struct ProbeBoxes {
-    S width[kMostProbes], height[kMostProbes], weight[kMostProbes];  // panel pixels; 0: lost
+    S width[most_probes], height[most_probes], weight[most_probes];  // panel pixels; 0: lost
 
     template <class F>
     LFDSIM_FN void make(const Probes<S>& probes, int per_axis) {
         constexpr int pad = 4;  // per_axis at most
-        S column[kMostProbes + 2 * pad] = {}, row[kMostProbes + 2 * pad] = {}, lit[kMostProbes + 2 * pad] = {};
-        for (int p = 0; p < kMostProbes; ++p) {
+        S column[most_probes + 2 * pad] = {}, row[most_probes + 2 * pad] = {}, lit[most_probes + 2 * pad] = {};
+        for (int p = 0; p < most_probes; ++p) {
             weight[p] = probes.in[p] * probes.weight[p];
             lit[pad + p] = weight[p] > S(0) ? S(1) : S(0);
             column[pad + p] = probes.column[p];
             row[pad + p] = probes.row[p];
         }
-        for (int p = 0; p < kMostProbes; p += LaneTraits<F>::width) {
+        for (int p = 0; p < most_probes; p += LaneTraits<F>::width) {
             const int at = pad + p;
             F wide = F(0), high = F(0);
             auto add_step = [&](const S* behind, const S* before, int step) {  // to the next probe, else from the last
@@ -284,17 +284,17 @@ struct ProbeBoxes {
     /// The light of each, moved by (column, row): R, G, B and whether the probe belongs to the part.
     template <class F>
     LFDSIM_FN void look(const Probes<S>& probes, const PanelLevel* levels, int level_count, const PanelBase<S>& base, S column,
-                        S row, S (&light)[kMostProbes][4]) const {
-        for (int p = 0; p < kMostProbes; p += LaneTraits<F>::width)
+                        S row, S (&light)[most_probes][4]) const {
+        for (int p = 0; p < most_probes; p += LaneTraits<F>::width)
             light_of_boxes(levels, level_count, base, load<F>(probes.column + p) + F(column), load<F>(probes.row + p) + F(row),
                            load<F>(width + p), load<F>(height + p), load<F>(weight + p), light + p);
-        for (int p = 0; p < kMostProbes; ++p) light[p][3] = probes.in[p];
+        for (int p = 0; p < most_probes; ++p) light[p][3] = probes.in[p];
     }
 };
 
 /// How a bundle moves, from three rays at its probe's point, p .. p + 2, seen from the block's places 1, 2 and 3.
 template <class S>
-LFDSIM_FN void follow(Bundle<S>& b, const Probes<S>& rays, int p, int reach) {
+LFDSIM_FN void follow(SharedBundle<S>& b, const Probes<S>& rays, int p, int reach) {
     const S column = b.probe_column, row = b.probe_row, per = S(1) / S(reach);
     b.column_right = (rays.column[p] - column) * per;
     b.row_right = (rays.row[p] - row) * per;
@@ -314,7 +314,7 @@ LFDSIM_FN void follow(Bundle<S>& b, const Probes<S>& rays, int p, int reach) {
     b.still = stands(way_column, b.width) && stands(way_row, b.height);
     if (whole) return;
     b.still = max(b.width, b.height) > S(FilteredLimits::smeared);
-    if (!b.still) b.state = Bundle<S>::State::broken;
+    if (!b.still) b.state = SharedBundle<S>::State::broken;
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

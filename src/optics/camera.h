@@ -31,7 +31,7 @@ struct Block {
 };
 
 /// The largest block. Its pixels share their base lens, so that this does not depend on the width of the kernel's packets.
-constexpr std::int32_t kSharedWidth = 4, kSharedHeight = 4;
+constexpr std::int32_t shared_width = 4, shared_height = 4;
 
 /// The ray through the point (column, row) of the frame, in pixels: its direction, not normalised, and where it crosses the first
 /// plane, in the array's frame. A ray that looks away crosses it nowhere; it gets some finite place.
@@ -78,8 +78,8 @@ template <class F>
 LFDSIM_FN PixelRays<F> pixel_rays(const View& view, std::int32_t column, std::int32_t row) {
     using S = Scalar<F>;
     constexpr int N = LaneTraits<F>::width;
-    const BaseLens<S> lens = base_lens<S>(view, column / kSharedWidth * kSharedWidth + kSharedWidth / 2,
-                                          row / kSharedHeight * kSharedHeight + kSharedHeight / 2);
+    const BaseLens<S> lens = base_lens<S>(view, column / shared_width * shared_width + shared_width / 2,
+                                          row / shared_height * shared_height + shared_height / 2);
     S x[N], y[N], dx[N], dy[N], dz[N], per_length[N];
     for (int k = 0; k < N; ++k) {  // compilers make SIMD code of this
         double d[3], px, py;

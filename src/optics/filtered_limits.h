@@ -15,6 +15,9 @@ struct FilteredLimits {
     static constexpr double half_block_rough = 0.8, half_block_usual = 0.4;
     // Picture pixels: where a diffused ray spans fewer of them, strata move with the pixels.
     static constexpr double moving_span = 4;
+    // So they do behind a weak diffuser, whose rays span fewer picture pixels along both axes, and less of a lens pitch, than this:
+    // only blocks of 4 x 4 pixels could share rays through the same places of a lens.
+    static constexpr double weak_span = 20, weak = 0.5;
 
     // A block as a whole (optics/bundle.h); where one of these is passed no pixel of it shares anything.
     // Lens pitches: how far the fourth ray of a block may be from where the other three have it.

@@ -77,7 +77,7 @@ struct LevelReader {
 };
 
 /// A box wider or narrower than this, in cells, is read as if it were as wide.
-constexpr float kLeastBox = 1.0f / 64, kMostBox = 1;
+constexpr float least_box = 1.0f / 64, most_box = 1;
 
 /// A box on the level that suits it, the same for all pixels of a block but for its place.
 template <class S>
@@ -90,13 +90,13 @@ struct Footprint {
     /// wide x high panel pixels.
     LFDSIM_FN Footprint(const PanelLevel* levels, int count, const PanelBase<S>& base, S wide, S high) {
         int l = 0;
-        for (S most = max(wide, high); most > S(kMostBox) && l + 1 < count; most = most * S(0.5)) ++l;
+        for (S most = max(wide, high); most > S(most_box) && l + 1 < count; most = most * S(0.5)) ++l;
         level = LevelReader<S>(levels, l, base);
-        width = min(max(wide * level.cells_per_pixel, S(kLeastBox)), S(kMostBox));
-        height = min(max(high * level.cells_per_pixel, S(kLeastBox)), S(kMostBox));
+        width = min(max(wide * level.cells_per_pixel, S(least_box)), S(most_box));
+        height = min(max(high * level.cells_per_pixel, S(least_box)), S(most_box));
         per_width = S(1) / width;
         per_height = S(1) / height;
-        point = max(wide, high) < S(kLeastBox);
+        point = max(wide, high) < S(least_box);
     }
     template <class F>
     LFDSIM_FN void add(Light<F>& light, F column, F row, F weight) const {
@@ -122,8 +122,8 @@ LFDSIM_FN void light_of_boxes(const PanelLevel* levels, int count, const PanelBa
     const F scale = bits_float<F>((Uint<F>(127u) - level) << 23);
     auto cells = [&](std::uint32_t of) { return to_int(F(0) - floor(F(0) - F(S(std::int32_t(of))) * scale)); };
     const Uint<F> columns = cells(levels[0].columns), rows = cells(levels[0].rows);
-    const F half = F(S(0.5)), width = min(max(wide * scale, F(S(kLeastBox))), F(1)),
-            height = min(max(high * scale, F(S(kLeastBox))), F(1));
+    const F half = F(S(0.5)), width = min(max(wide * scale, F(S(least_box))), F(1)),
+            height = min(max(high * scale, F(S(least_box))), F(1));
     const F c = (F(S(std::int32_t(base.column))) + column) * scale - half * width,
             r = (F(S(std::int32_t(base.row))) + row) * scale - half * height;
     const F whole_c = floor(c), whole_r = floor(r);

@@ -287,8 +287,8 @@ LFDSIM_FN void cross(const Scene<Scalar<F>>& scene, const Crossing<F>& here, Mas
     rays.inside = (rays.inside && !refracted) || (refracted && !rays.inside);
 }
 
-/// From the plane of the first vertex to the panel: at most kMostSurfaces surfaces, refracted or reflected at.
-constexpr int kMostSurfaces = 16;
+/// From the plane of the first vertex to the panel: at most most_crossings surfaces, refracted or reflected at.
+constexpr int most_crossings = 16;
 
 template <class F>
 LFDSIM_FN PanelPoint<F> trace_glass(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
@@ -303,7 +303,7 @@ LFDSIM_FN PanelPoint<F> trace_glass(const Scene<Scalar<F>>& scene, const Extent<
                       F(0) > F(1)};
     F weight = way.weight;
     Mask<F> alive = way.alive, arrived = F(0) > F(1), stop_ahead = way.alive;
-    for (int surfaces = 0; surfaces <= kMostSurfaces && any(alive); ++surfaces) {
+    for (int surfaces = 0; surfaces <= most_crossings && any(alive); ++surfaces) {
         Crossing<F> next{F(S(1e30)), {F(0), F(0), F(1)}, {F(0), F(0)}, F(0) > F(1)};
         if (scene.surround == Surround::clear)
             next_in_clear(scene, extent, rays, alive, next);
@@ -319,7 +319,7 @@ LFDSIM_FN PanelPoint<F> trace_glass(const Scene<Scalar<F>>& scene, const Extent<
         }
         arrived = arrived || (alive && leaves && !rays.inside && (rays.to.z < F(0)));
         alive = alive && next.found;
-        if (surfaces < kMostSurfaces) cross(scene, next, alive, rays, weight);
+        if (surfaces < most_crossings) cross(scene, next, alive, rays, weight);
     }
     const F t = -rays.at.z / rays.to.z;
     if (scene.emission_exponent != S(0)) weight = weight * power(abs(rays.to.z), scene.emission_exponent);

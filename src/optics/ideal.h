@@ -18,7 +18,7 @@ LFDSIM_FN PanelPoint<F> trace_ideal(const Scene<Scalar<F>>& scene, const Extent<
     if (scene.aperture == Aperture::circle) way.alive = way.alive && (q2 <= r * r);
     if (scene.has_stop) way.alive = way.alive && (q2 <= F(scene.stop_radius2));
     const F fall = F(1) / way.ray.to.z;
-    const F mx = way.ray.to.x * fall + qx * F(scene.ideal_power), my = way.ray.to.y * fall + qy * F(scene.ideal_power);
+    const auto [mx, my] = bend(scene, Place<F>{qx, qy}, Place<F>{way.ray.to.x * fall, way.ray.to.y * fall});
     if (scene.emission_exponent != S(0)) {
         way.weight = way.weight * power(F(1) / sqrt(F(1) + mx * mx + my * my), scene.emission_exponent);
     }

@@ -36,11 +36,11 @@ struct Sampler {
     Sampling sampling;
     int dimensions;  // 0 .. dimensions-1 are in use
     std::uint32_t sample = 0;
-    Uint<F> key[kDimensions];
-    std::uint32_t point[kDimensions] = {};  // of the Sobol sequence, common to all pixels
+    Uint<F> key[sampler_dimensions];
+    std::uint32_t point[sampler_dimensions] = {};  // of the Sobol sequence, common to all pixels
 
     LFDSIM_FN Sampler(Sampling kind, int used, std::uint64_t seed, Uint<F> pixel) : sampling(kind), dimensions(used) {
-        for (int d = 0; d < kDimensions; ++d)  // of a constant length, so that the keys may stay in registers
+        for (int d = 0; d < sampler_dimensions; ++d)  // of a constant length, so that the keys may stay in registers
             key[d] = d < used ? pixel_key<F>(seed, d, pixel) : Uint<F>(0u);
     }
     /// The number of dimension d, in [-1, 1].
@@ -50,13 +50,13 @@ struct Sampler {
         return from_int<F>(bits) * F(Scalar<F>(1.0 / 2147483648.0));
     }
     /// On to the next sample: in Gray-code order one direction number changes.
-    LFDSIM_FN void next(const Directions& directions) {
+    LFDSIM_FN void next(const DirectionNumbers& directions) {
         ++sample;
         const int bit = trailing_zeros(sample);
         point[0] ^= directions.v[0][bit];
         point[1] ^= directions.v[1][bit];
         if (dimensions <= 2) return;
-        for (int d = 2; d < kDimensions; ++d) point[d] ^= directions.v[d][bit];
+        for (int d = 2; d < sampler_dimensions; ++d) point[d] ^= directions.v[d][bit];
     }
 };
 

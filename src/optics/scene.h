@@ -49,7 +49,7 @@ struct Scene {
     std::int32_t surface_count;
     SurfaceData<S> surface[max_surfaces];
     S ideal_z, ideal_power;  // 1/f
-    S aperture_radius;       // circle; of the ideal lens and of walls
+    S aperture_radius;       // of an ideal lens, if it is round
     Aperture aperture;
     bool has_stop;
     S stop_z, stop_radius2;
@@ -103,11 +103,11 @@ struct PanelLevel {
 };
 
 /// Dimensions 0, 1: diffuser; 2, 3: place in the pixel; 4, 5: place in the pupil.
-constexpr int kDimensions = 6;
+constexpr int sampler_dimensions = 6;
 
 /// Direction numbers (Joe and Kuo 2008, new-joe-kuo-6), one row a dimension.
-struct Directions {
-    std::uint32_t v[kDimensions][32];
+struct DirectionNumbers {
+    std::uint32_t v[sampler_dimensions][32];
 };
 
 }  // namespace lfdsim::optics

@@ -246,7 +246,7 @@ bool is_plane(const PlacedSurface& s) {
 }
 
 std::vector<Ring> black_rings(const Display& display, const Geometry& geometry) {
-    if (display.array.surround != Surround::opaque || geometry.surfaces.empty()) return {};
+    if (display.array.surround != Surround::opaque) return {};
     std::vector<Ring> rings;
     double top = -INFINITY, bottom = INFINITY;
     for (const PlacedSurface& s : geometry.surfaces) {

@@ -15,7 +15,7 @@ class Refusals {
     Refusals(Peer peer, const Display& d, const Geometry& g, const PeerOptions& o) : peer_(peer), d_(d), g_(g), options_(o) {}
 
     std::vector<Problem> all() {
-        if (d_.lens.type == LensType::ideal) {
+        if (d_.lens.type() == LensType::ideal) {
             add("lens.type", "a scene of real matter has no ideal lenses; give the display a real lens");
             return std::move(problems_);
         }

@@ -1,6 +1,7 @@
 #include "peers/pov.h"
 
 #include "engine/scene.h"
+#include "model/vec.h"
 #include "peers/cell.h"
 #include "peers/pov_mesh.h"
 #include "peers/pov_surface.h"
@@ -67,8 +68,7 @@ class Writer {
 
   private:
     double units_per_mm() const {
-        const auto& p = d_.camera.position_mm;
-        return std::min(120 / d_.array.pitch_mm.least(), longest_units / (std::hypot(p[0], p[1], p[2]) + sheet_half(d_, g_)));
+        return std::min(120 / d_.array.pitch_mm.least(), longest_units / (length(d_.camera.position_mm) + sheet_half(d_, g_)));
     }
 
     std::string camera() const {

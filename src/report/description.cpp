@@ -11,7 +11,7 @@ namespace {
 
 template <class T>
 Json json_of(const T& value) {
-    if constexpr (std::is_enum_v<T>)
+    if constexpr (has_words<T>)
         return std::string(word(value));
     else if constexpr (std::is_floating_point_v<T>)
         return number_json(value);
@@ -24,34 +24,16 @@ Json json_of(const std::optional<T>& value) {
     return value ? json_of(*value) : Json();
 }
 
-// A key's default is that of a fresh struct; required keys have none.
-template <class T>
-void add(const Table<T>& table, const std::string& name, const T& values, LensType lens, std::vector<Setting>& all) {
-    const T fresh{};
-    for (const Key<T>& key : table.keys) {
-        if (!knows(key.lens_types, lens)) continue;
-        const auto json = [&](const T& from) { return std::visit([&](auto member) { return json_of(from.*member); }, key.member); };
-        const Json value = json(values);
-        const bool required = key.required && knows(key.required_for, lens);
-        all.push_back({name, std::string(key.name), value, !required && value == json(fresh), std::string(key.absent)});
-    }
-}
-
 }  // namespace
 
 std::vector<Setting> settings(const Display& display) {
     std::vector<Setting> all;
-    const LensType lens = display.lens.type;
-    add(display_table, "", display, lens, all);
-    visit_tables(display, [&]<class T, class Values>(const Table<T>& table, const Values& values) {
-        const std::string name(table.name);
-        if constexpr (std::is_same_v<T, Values>)
-            add(table, name, values, lens, all);
-        else if (values)
-            add(table, name, *values, lens, all);
-        if constexpr (std::is_same_v<T, Lens>)
-            for (std::size_t i = 0; i < values.surfaces.size(); ++i)
-                add(surface_table, fmt::format("lens.surface.{}", i), values.surfaces[i], lens, all);
+    visit_all(display, [&](const std::string& path, const KeyInfo& key, ConstValueRef value, ConstValueRef fresh) {
+        const auto json = [](ConstValueRef ref) { return std::visit([](const auto* v) { return json_of(*v); }, ref); };
+        const Json now = json(value);
+        // A key's default is that of a fresh struct; required keys have none.
+        all.push_back({std::string(table_of_path(path)), std::string(key.name), now, !key.required && now == json(fresh),
+                       std::string(key.absent)});
     });
     return all;
 }

@@ -1,50 +1,47 @@
 #include "report/side_rays.h"
 
+#include "engine/scene.h"
+#include "model/prescription.h"
+#include "optics/one_lens.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace lfdsim {
 namespace {
 
-/// dz/ds of a surface; the derivative of sag_mm().
-double slope(const PlacedSurface& f, double s) {
-    const double c = f.curvature_per_mm;
-    double sum = c * s / std::sqrt(1 - (1 + f.conic) * c * c * s * s), power = s * s * s;
-    for (std::size_t i = 0; i < f.even_asphere.size(); ++i) {
-        sum += double(2 * (i + 2)) * f.even_asphere[i] * power;
-        power *= s * s;
-    }
-    return sum;
-}
+/// What pass_lens() asks of a lens through which a ray is drawn: the points of its path.
+struct Pen : optics::Alone<double> {
+    SidePath& path;
+    const double sense;  // of z: -1 for the lens turned over
 
-/// Newton's method from the vertex plane; beyond the rim the surface goes on flat. False: it is not met within the rim.
-bool meet(const PlacedSurface& f, double rim, SideRay& ray) {
-    double t = (f.z_mm - ray.z) / ray.dz;
-    for (int step = 0; step < 60; ++step) {
-        const double y = ray.y + t * ray.dy, s = std::clamp(y, -rim, rim);
-        const double above = ray.z + t * ray.dz - f.z_mm - sag_mm(f.curvature_per_mm, f.conic, f.even_asphere, std::abs(s));
-        const double change = above / (ray.dz - (s == y ? slope(f, s) * ray.dy : 0));
-        if (!std::isfinite(change)) return false;
-        t -= change;
-        if (std::abs(change) > 1e-12 * (1 + std::abs(t))) continue;
-        ray.y += t * ray.dy;
-        ray.z += t * ray.dz;
-        return std::abs(ray.y) <= rim;
+    void point(double y, double z) { path.points.push_back({y, sense * z}); }
+    bool passes_stop(bool crosses, double x, double y) {
+        const bool through = !crosses || Alone::passes_stop(true, x, y);
+        if (!through) point(y, scene.stop_z);
+        return through;
     }
-    return false;
-}
-
-bool refract(const PlacedSurface& f, SideRay& ray) {
-    const double sense = ray.dz > 0 ? -1 : 1, tilt = slope(f, ray.y), per = sense / std::hypot(1, tilt);
-    const double ny = -tilt * per, nz = per;  // against the ray
-    const double eta = ray.dz > 0 ? f.index_below / f.index_above : f.index_above / f.index_below;
-    const double cosine = -(ray.dy * ny + ray.dz * nz), rest = 1 - eta * eta * (1 - cosine * cosine);
-    if (!(rest > 0) || !(cosine > 0)) return false;
-    const double m = eta * cosine - std::sqrt(rest);
-    ray.dy = eta * ray.dy + m * ny;
-    ray.dz = eta * ray.dz + m * nz;
-    return true;
-}
+    void meets(int k, const optics::Ray<double>& ray, const optics::Hit<double>& hit, double from_z, double z,
+               optics::Passage<double>& way) {
+        if (!way.alive) return;
+        const auto& surface = scene.surface[k];
+        const bool square = scene.aperture == Aperture::square;
+        const double cell = scene.lattice.half_pitch[1], rim = std::min(surface.semi_aperture, square ? cell : INFINITY);
+        way.alive = hit.ok && std::abs(hit.at.y) <= rim && z <= from_z;
+        if (way.alive) return point(hit.at.y, z);
+        // A ray beside the lens ends as high as the rim.
+        double sag = 0, slope;
+        bool real;
+        optics::sag(surface, rim * rim, sag, slope, real);
+        point(ray.at.y + ray.to.y / ray.to.z * sag, surface.z + sag);
+    }
+    void leaves(const optics::Passage<double>&) const {}
+    bool passes_back(double, double y) const {
+        const auto& last = scene.surface[scene.surface_count - 1];
+        return scene.surround != Surround::opaque || std::abs(y) <= last.semi_aperture;
+    }
+    bool over(bool alive) const { return !alive; }
+};
 
 }  // namespace
 
@@ -54,44 +51,25 @@ SideRay side_ray(double y, double z, double to_y, double to_z) {
 }
 
 SidePath through_lens(const Display& d, const Geometry& g, const SideRay& start) {
-    SidePath path{{{start.y, start.z}}, start, true};
-    SideRay& ray = path.last;
     const bool up = start.dz > 0;
-    const double cell = d.array.aperture == Aperture::square ? d.array.pitch_mm[1] / 2 : INFINITY;
-    const auto end = [&] {
-        path.through = false;
-        return path;
-    };
-    // Whether the way from where the ray stands to another height leads past the stop's hole; the path then ends there.
-    const auto stopped = [&](double to_z) {
-        if (!d.lens.stop_radius_mm || (ray.z - g.stop_z_mm) * (to_z - g.stop_z_mm) > 0) return false;
-        const double y = ray.y_at(g.stop_z_mm);
-        if (std::abs(y) <= *d.lens.stop_radius_mm) return false;
-        path.points.push_back({y, g.stop_z_mm});
-        return true;
-    };
-    if (g.surfaces.empty()) {
-        const double y = ray.y_at(g.vertex_plane_mm), incline = ray.dy / ray.dz;
-        const double after = incline + (up ? -1 : 1) * y / g.focal_length_mm, sense = up ? 1 : -1;
+    const double sense = up ? -1 : 1;
+    const auto scene = make_scene<double>(d, up ? turned_over(g) : g);
+    SidePath path{{{start.y, start.z}}, start, true};
+    const auto go_on = [&](double y, double z, double dy, double dz) { path.last = {y, sense * z, dy, sense * dz}; };
+    if (scene.lens == LensType::ideal) {
+        const double y = start.y_at(g.vertex_plane_mm);
+        const double slope = optics::bend<double>(scene, {0, y}, {0, sense * start.dy / start.dz}).y, length = std::hypot(slope, 1);
         path.points.push_back({y, g.vertex_plane_mm});
-        ray = {y, g.vertex_plane_mm, sense * after / std::hypot(1, after), sense / std::hypot(1, after)};
         path.through = std::abs(y) <= 0.5 * g.clear_aperture_mm[1];
+        go_on(y, scene.ideal_z, -slope / length, -1 / length);
         return path;
     }
-    for (std::size_t k = 0; k < g.surfaces.size(); ++k) {
-        const PlacedSurface& surface = g.surfaces[up ? k : g.surfaces.size() - 1 - k];
-        const double rim = std::min(surface.semi_aperture_mm, cell);
-        SideRay next = ray;
-        const bool met = meet(surface, rim, next);
-        // A ray beside the lens ends as high as the rim.
-        const double z = met ? next.z : surface.z_mm + sag_mm(surface.curvature_per_mm, surface.conic, surface.even_asphere, rim);
-        if (stopped(z)) return end();
-        if (!met) next = {ray.y_at(z), z, ray.dy, ray.dz};
-        ray = next;
-        path.points.push_back({ray.y, ray.z});
-        if (!met || !refract(surface, ray)) return end();
-    }
-    if (stopped(up ? INFINITY : -INFINITY)) return end();
+    const auto& first = scene.surface[0];
+    const optics::Ray<double> ray{{0, start.y_at(sense * first.z), 0}, {0, start.dy, sense * start.dz}};
+    optics::Passage<double> way{ray, {0, 0}, 1, true};
+    optics::pass_lens<optics::Shapes::any>(scene, Pen{{scene}, path, sense}, ray, optics::meet(first.shape, first, ray), way);
+    path.through = way.alive;
+    if (path.through) go_on(way.ray.at.y, way.ray.at.z + scene.surface[scene.surface_count - 1].z, way.ray.to.y, way.ray.to.z);
     return path;
 }
 

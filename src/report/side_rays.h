@@ -24,8 +24,7 @@ struct SidePath {
     bool through;                               // false: a rim, a stop or total reflection ended it at the last point
 };
 
-/// Through one lens of the display, upwards (dz > 0: from the panel) or downwards. Snell's law at the lens's own surfaces, each met
-/// once, in order; docs/model.md, "Lenses".
+/// Through one lens of the display, upwards (dz > 0: from the panel) or downwards, by the tracer's own passage (optics/one_lens.h).
 SidePath through_lens(const Display&, const Geometry&, const SideRay&);
 
 }  // namespace lfdsim

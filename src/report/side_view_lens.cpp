@@ -46,7 +46,7 @@ void add_surface(std::vector<Point>& outline, const SideScale& scale, const Disp
 }
 
 void draw_lens(Drawing& drawing, const SideScale& scale, const Display& d, const Geometry& g, double y) {
-    if (g.surfaces.empty()) {
+    if (g.surfaces.front().form == SurfaceForm::thin) {
         const double half = 0.5 * g.clear_aperture_mm[1];
         drawing.line(scale.at(y - half, g.vertex_plane_mm), scale.at(y + half, g.vertex_plane_mm), glass_style);
         for (const int sense : {-1, 1}) {
@@ -71,7 +71,7 @@ void draw_lens(Drawing& drawing, const SideScale& scale, const Display& d, const
 /// What stands between two lenses, y the border of their cells: black walls, or the glass of a plate.
 void draw_between(Drawing& drawing, const SideScale& scale, const Display& d, const Geometry& g, double y, bool upper, bool lower) {
     const double half = 0.5 * d.array.pitch_mm[1];
-    double rim = g.surfaces.empty() ? 0.5 * g.clear_aperture_mm[1] : g.glass_radius_mm, low = g.vertex_plane_mm, high = low;
+    double rim = g.glass_radius_mm, low = g.vertex_plane_mm, high = low;
     if (d.array.aperture == Aperture::square) rim = half;
     for (const PlacedSurface& f : g.surfaces) {
         const double z = rim_z(f, std::min(rim, rim_of(d, f)));

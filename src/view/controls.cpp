@@ -16,7 +16,7 @@ namespace lfdsim::view {
 namespace {
 
 // Other parts of a message decide these.
-constexpr std::string_view left_out[] = {"content.model", "camera.position_mm", "camera.resolution"};
+constexpr std::string_view left_out[] = {"name", "content.model", "camera.position_mm", "camera.resolution"};
 
 std::string label(std::string_view key) {
     for (const std::string_view unit : {"_per_mm", "_mm", "_deg"})
@@ -69,14 +69,11 @@ double suggested(std::string_view path, const Display& d, const Geometry& g) {
     return 1;
 }
 
-template <class T>
-const T* part(const Display& d) {
-    const T* found = nullptr;
-    visit_tables(d, [&]<class U, class Values>(const Table<U>&, const Values& values) {
-        if constexpr (std::is_same_v<T, Values>)
-            found = &values;
-        else if constexpr (std::is_same_v<T, U>)
-            found = values ? &*values : nullptr;
+/// The value at a path, if there is one.
+std::optional<ConstValueRef> value_at(const Display& d, std::string_view path) {
+    std::optional<ConstValueRef> found;
+    visit_all(d, [&](const std::string& here, const KeyInfo&, ConstValueRef value, ConstValueRef) {
+        if (here == path) found = value;
     });
     return found;
 }
@@ -84,56 +81,56 @@ const T* part(const Display& d) {
 class Lister {
   public:
     Lister(const Display& display, const Display& described)
-        : lens_(display.lens),
-          trial_(display),
-          described_(described),
-          geometry_(resolve(described)),
-          no_diffuser_(!display.diffuser),
-          suggested_diffuser_(new_diffuser(described, geometry_)) {}
+        : lens_(display.lens), trial_(display), described_(described), geometry_(resolve(described)) {
+        if (trial_.diffuser) return;
+        no_diffuser_ = true;
+        suggested_diffuser_ = new_diffuser(described, geometry_);
+    }
 
     Json list() {
-        visit_tables(trial_, [&]<class T, class Values>(const Table<T>& table, Values& values) {
-            const std::string name(table.name);
-            if constexpr (std::is_same_v<T, Values>) {
-                add_table(table, name, values, part<T>(described_));
-            } else {
-                if (no_diffuser_) values = suggested_diffuser_;
-                add_table(table, name, *values, described_.diffuser ? &*described_.diffuser : &suggested_diffuser_);
-                if (no_diffuser_) values.reset();
-            }
-            if constexpr (std::is_same_v<T, Lens>)
-                for (std::size_t i = 0; i < values.surfaces.size(); ++i)
-                    add_table(surface_table, fmt::format("{}.{}", surface_table.name, i), values.surfaces[i],
-                              i < described_.lens.surfaces.size() ? &described_.lens.surfaces[i] : nullptr);
-        });
+        add_all("");
+        if (no_diffuser_) add_diffuser();
         return std::move(list_);
     }
 
   private:
-    template <class T>
-    void add_table(const Table<T>& table, const std::string& name, T& values, const T* described) {
-        for (const Key<T>& key : table.keys) {
-            const std::string path = fmt::format("{}.{}", name, key.name);
-            const bool idle = name == last_surface() && (key.name == "distance_mm" || key.name == "index");  // nothing follows
-            if (idle || !knows(key.lens_types, trial_.lens.type) ||
-                std::find(std::begin(left_out), std::end(left_out), path) != std::end(left_out))
-                continue;
-            const std::string label_text = label(key.name), unit = unit_of(std::string(key.name));
-            Json control{{"key", path}, {"table", name}, {"label", label_text}, {"unit", unit}};
-            std::visit(
-                [&](auto member) { add(control, path, key.range, values.*member, described ? &(described->*member) : nullptr); },
-                key.member);
-            if (no_diffuser_ && name == diffuser_table.name) {
-                control["suggested"] = control["value"];
-                control["value"] = nullptr;
-            }
-            if (!key.absent.empty()) control["absent"] = key.absent;  // such a key may be taken away
-            control["doc"] = key.doc;
-            list_.push_back(std::move(control));
-        }
+    void add_all(std::string_view prefix) {
+        visit_all(trial_, [&](const std::string& path, const KeyInfo& key, ValueRef value) {
+            if (path.starts_with(prefix)) std::visit([&](auto* field) { add_key(path, key, *field); }, value);
+        });
     }
 
-    std::string last_surface() const { return fmt::format("{}.{}", surface_table.name, trial_.lens.surfaces.size() - 1); }
+    /// Where there is no diffuser, what could be put there is suggested, after the table before.
+    void add_diffuser() {
+        Json all = std::exchange(list_, Json::array());
+        trial_.diffuser = suggested_diffuser_;
+        add_all("diffuser.");
+        for (Json& control : list_) control["suggested"] = std::exchange(control["value"], nullptr);
+        const auto after =
+            std::find_if(all.begin(), all.end(), [](const Json& c) { return c["table"] == table_of<Camera>().name; });
+        all.insert(after, list_.begin(), list_.end());
+        list_ = std::move(all);
+    }
+
+    template <class Field>
+    void add_key(const std::string& path, const KeyInfo& key, Field& field) {
+        const std::string table(table_of_path(path));
+        const bool idle = table == last_surface() && (key.name == "distance_mm" || key.name == "index");  // nothing follows
+        if (idle || std::find(std::begin(left_out), std::end(left_out), path) != std::end(left_out)) return;
+        Json control{{"key", path}, {"table", table}, {"label", label(key.name)}, {"unit", unit_of(std::string(key.name))}};
+        auto described = value_at(described_, path);
+        if (!described && table == table_of<Diffuser>().name) described = value_at(trial_, path);
+        const Field* const* same = described ? std::get_if<const Field*>(&*described) : nullptr;
+        add(control, path, key.range, field, same ? *same : nullptr);
+        if (!key.absent.empty()) control["absent"] = key.absent;  // such a key may be taken away
+        control["doc"] = key.doc;
+        list_.push_back(std::move(control));
+    }
+
+    std::string last_surface() const {
+        const auto* lens = std::get_if<SurfaceLens>(&trial_.lens.kind);
+        return lens ? fmt::format("lens.surface.{}", lens->surfaces.size() - 1) : "";
+    }
 
     // Most of the time goes here, so not for keys that nothing but their range bounds.
     bool valid(std::string_view path) const {
@@ -243,15 +240,15 @@ class Lister {
 
     // Words that leave the display valid.
     template <class E>
-    requires std::is_enum_v<E>
+    requires has_words<E>
     void add(Json& control, const std::string& path, const Range&, E& field, const E*) {
         const E value = field;
         control["value"] = word(value);
         control["form"] = "word";
         control["words"] = Json::array();
+        const std::size_t here = std::size_t(std::find(words<E>().begin(), words<E>().end(), word(value)) - words<E>().begin());
         for (std::size_t i = 0; i < words<E>().size(); ++i) {
-            field = E(i);
-            if (field == value || valid(path)) control["words"].push_back(words<E>()[i]);
+            if (i == here || (set_word(field, i), valid(path))) control["words"].push_back(words<E>()[i]);
         }
         field = value;
     }
@@ -261,11 +258,12 @@ class Lister {
     /// Radii that are half the pitch at most. They follow a pitch that becomes smaller, or it could not.
     template <class Visit>
     static void visit_limited(Display& d, const Visit& visit) {
-        if (d.array.aperture == Aperture::circle) {
-            if (d.lens.aperture_radius_mm) visit("lens.aperture_radius_mm", *d.lens.aperture_radius_mm);
-            for (std::size_t i = 0; i < d.lens.surfaces.size(); ++i)
-                visit(fmt::format("{}.{}.semi_aperture_mm", surface_table.name, i), d.lens.surfaces[i].semi_aperture_mm);
-        }
+        if (d.array.aperture == Aperture::circle)
+            visit_all(d, [&](const std::string& path, const KeyInfo&, ValueRef value) {
+                auto* const given = std::get_if<std::optional<double>*>(&value);
+                if (path == "lens.aperture_radius_mm" && **given) visit(path, ***given);
+                if (path.ends_with(".semi_aperture_mm")) visit(path, *std::get<double*>(value));
+            });
         if (d.lens.stop_radius_mm) visit("lens.stop_radius_mm", *d.lens.stop_radius_mm);
     }
     static constexpr double most_of_pitch = 0.5;
@@ -281,8 +279,8 @@ class Lister {
     Display trial_;
     const Display& described_;
     const Geometry geometry_;
-    const bool no_diffuser_;
-    const Diffuser suggested_diffuser_;
+    bool no_diffuser_ = false;
+    Diffuser suggested_diffuser_;
     Json list_ = Json::array();
 };
 

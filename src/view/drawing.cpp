@@ -2,7 +2,7 @@
 
 #include "engine/render.h"
 #include "engine/scene.h"
-#include "view/work.h"
+#include "view/painter_job.h"
 
 #include <array>
 #include <chrono>
@@ -86,7 +86,7 @@ void Drawing::beside(const Lit& lit, const Display& display, const Geometry& geo
     } catch (const InputError&) {  // no light, no likeness
         comparable = false;
     }
-    const Scene scene = panels_.scene(lit.seen.model, lit.seen.made_for, lit.seen.made_for_geometry, job);
+    const ContentScene scene = panels_.scene(lit.seen.model, lit.seen.made_for, lit.seen.made_for_geometry, job);
     const Compared both = compared(view, white, display, geometry, scene, threads_, quiet);
     header.ssim = of_view.ssim = comparable ? both.ssim : std::numeric_limits<double>::quiet_NaN();
     header.samples = 1;

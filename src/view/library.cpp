@@ -2,13 +2,13 @@
 
 #include "content/content.h"
 #include "files/display_file.h"
+#include "model/vec.h"
 
 #include <nlohmann/json.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
-#include <cmath>
 
 namespace lfdsim::view {
 namespace fs = std::filesystem;
@@ -76,17 +76,7 @@ void check_key(std::string_view override_text) {
 }
 
 // From one eye towards the other, of unit length, horizontal as the picture is.
-Vec3d right_of(const Camera& camera) {
-    Vec3d view{}, right{};
-    for (std::size_t a = 0; a < 3; ++a) view[a] = camera.target_mm[a] - camera.position_mm[a];
-    for (std::size_t a = 0; a < 3; ++a) {
-        const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
-        right[a] = view[b] * camera.up[c] - view[c] * camera.up[b];
-    }
-    const double length = std::hypot(right[0], right[1], right[2]);
-    for (double& x : right) x /= length;
-    return right;
-}
+Vec3d right_of(const Camera& camera) { return normalised(cross(minus(camera.target_mm, camera.position_mm), camera.up)); }
 
 std::string position(const Vec3d& eye) { return fmt::format("camera.position_mm=[{}]", fmt::join(eye, ", ")); }
 

@@ -4,6 +4,7 @@
 #include "analysis/views.h"
 #include "image/encoding.h"
 #include "image/ssim.h"
+#include "model/vec.h"
 
 #include <algorithm>
 #include <array>
@@ -18,8 +19,7 @@ double WhiteField::of(const Display& seen, const Geometry& geometry, bool quick,
     d.content.model.clear();
     d.camera.fov_deg.reset();
     d.camera.frame_width_mm = geometry.frame_width_mm;
-    const Vec3d p = d.camera.position_mm;
-    d.camera.position_mm = {0, 0, std::hypot(p[0], p[1], p[2])};
+    d.camera.position_mm = {0, 0, length(d.camera.position_mm)};
     d.camera.target_mm = {0, 0, 0};
     while (d.panel.pixels[0] % 2 == 0 && d.panel.pixels[1] % 2 == 0) {
         for (std::int64_t& n : d.panel.pixels) n /= 2;
@@ -38,8 +38,8 @@ double WhiteField::of(const Display& seen, const Geometry& geometry, bool quick,
     return light_;
 }
 
-Compared compared(Image& view, double white, const Display& display, const Geometry& geometry, const Scene& scene, int threads,
-                  const Job& job) {
+Compared compared(Image& view, double white, const Display& display, const Geometry& geometry, const ContentScene& scene,
+                  int threads, const Job& job) {
     expose(view, white);
     Quiet quiet(job);
     Picture photograph = reference_photograph(display, geometry, scene, threads, {}, quiet);

@@ -26,7 +26,7 @@ struct Compared {
 };
 
 /// `view` is the camera's whole picture; it is divided by `white`. Throws Stopped.
-Compared compared(Image& view, double white, const Display&, const Geometry&, const Scene&, int threads, const Job&);
+Compared compared(Image& view, double white, const Display&, const Geometry&, const ContentScene&, int threads, const Job&);
 
 /// View less photograph in sRGB codes, which are about as far apart as they look: middle grey where both are equal, lighter where
 /// the view is, ends at 127 codes either way. A sign tells blur from ghosts and a wrong brightness, an amount alone does not.

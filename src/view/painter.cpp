@@ -1,7 +1,7 @@
 #include "view/painter.h"
 
 #include "view/drawing.h"
-#include "view/work.h"
+#include "view/painter_job.h"
 
 #include <tbb/task_arena.h>
 #include <nlohmann/json.hpp>
@@ -68,8 +68,8 @@ struct Painter::Impl {
         const std::lock_guard lock(mutex);
         return ended || (wanted && (wanted->display != now.display || !(wanted->shown == now.shown)));
     }
-    Work work(bool (Impl::*cancelled)() const) {
-        return Work(
+    PainterJob work(bool (Impl::*cancelled)() const) {
+        return PainterJob(
             [this, cancelled] { return (this->*cancelled)(); },
             [this](const std::string& what, double share) {
                 outbox.text(nlohmann::ordered_json{{"type", "progress"}, {"id", now.id}, {"what", what}, {"share", share}}.dump());
@@ -162,7 +162,7 @@ void Painter::Impl::run() {
         const std::optional<std::int64_t> file = asked();
         if (!file) continue;
         const bool done = guarded([&] {
-            Work job = work(&Impl::newer);
+            PainterJob job = work(&Impl::newer);
             Drawing::Frame frame = drawing.exr(*file, job);
             outbox.frame(frame.lane, std::move(frame.bytes));
         });
@@ -181,11 +181,11 @@ void Painter::Impl::paint() {
     drawing.begin(now);
     if (const std::string why = drawing.beside_problem(); !why.empty()) tell_problems({{"beside", why}});
     if (!shown) {
-        Work job = work(&Impl::other);
+        PainterJob job = work(&Impl::other);
         send(drawing.coarse(job));
     }
     if (!rests()) return;
-    Work job = work(&Impl::newer);
+    PainterJob job = work(&Impl::newer);
     if (drawing.wants_fine()) send(drawing.fine(job));
     send(drawing.final(job));
 }

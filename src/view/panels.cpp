@@ -110,7 +110,7 @@ std::shared_ptr<const ShownPanel> Panels::make(const Source& source, const Displ
     require_panel_memory(display);
     if (source.kind == Shown::Kind::pattern)
         return std::make_shared<ShownPanel>(shown_texels(pattern(source.name, display, geometry), panel.encoding), threads);
-    const Scene posed = scene(source, display, geometry, job);
+    const ContentScene posed = scene(source, display, geometry, job);
     const Picture images = elemental_images(display, geometry, posed, threads, job);
     if (!images.complete) throw Stopped{};
     return std::make_shared<ShownPanel>(shown_texels(images.image, panel.encoding), threads);
@@ -125,7 +125,7 @@ void Panels::prepare(const Source& source, const Display& display, const Geometr
     if (source.kind == Shown::Kind::model) scene(source, display, geometry, job);
 }
 
-Scene Panels::scene(const Source& source, const Display& display, const Geometry& geometry, Job& job) {
+ContentScene Panels::scene(const Source& source, const Display& display, const Geometry& geometry, Job& job) {
     if (source.kind != Shown::Kind::model || source.name.empty())
         throw InputError("shown", "is no model: name a mesh file, or built-in:spheres");
     const std::array<double, 3> pose = pose_of(display, geometry);
@@ -134,7 +134,7 @@ Scene Panels::scene(const Source& source, const Display& display, const Geometry
         const auto is = [&](const Posed& p) { return p.source == source && p.pose == pose; };
         if (const Posed* const posed = used(scenes_, is)) return posed->scene.before(geometry);
     }
-    const Scene made(model(source, job), display, geometry);
+    const ContentScene made(model(source, job), display, geometry);
     const std::lock_guard lock(mutex_);
     scenes_.push_front({source, pose, made});
     if (scenes_.size() > most_scenes) scenes_.pop_back();

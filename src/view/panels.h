@@ -54,7 +54,7 @@ class Panels {
     void prepare(const Source&, const Display&, const Geometry&, int threads, Job&);
 
     /// The model of a source in its place before the display. Throws like get().
-    Scene scene(const Source&, const Display&, const Geometry&, Job&);
+    ContentScene scene(const Source&, const Display&, const Geometry&, Job&);
 
     /// The model itself, read once whoever asks, while others go on. Throws like get().
     std::shared_ptr<const Model> model(const Source&, Job&);
@@ -78,7 +78,7 @@ class Panels {
     struct Posed {
         Source source;
         std::array<double, 3> pose;  // tilt, yaw, height
-        Scene scene;
+        ContentScene scene;
     };
     struct Loaded {
         Source source;

@@ -5,6 +5,7 @@
 #include "analysis/lens_trace.h"
 #include "analysis/views.h"
 #include "model/numbers.h"
+#include "model/vec.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -20,8 +21,7 @@ constexpr int angles_each_side = 12, spot_depths = 161, spot_rays = 301;
 
 /// The same display, seen from its distance on axis in small pictures that just hold the panel.
 Display small(Display d) {
-    const Camera& c = d.camera;
-    const double distance = std::hypot(c.position_mm[0], c.position_mm[1], c.position_mm[2]);
+    const double distance = length(d.camera.position_mm);
     d.camera = {};
     d.camera.position_mm = {0, 0, distance};
     d.camera.resolution = {picture_width, picture_width * 9 / 16};
@@ -43,12 +43,12 @@ Plot fov_plot(const Display& display, std::shared_ptr<const Model> model, const 
         if (job.cancelled()) throw Stopped{};
     const Display d = small(display);
     const Geometry g = resolve(d);
-    Subject subject(d, Scene(std::move(model), d, g), {});
+    Subject subject(d, ContentScene(std::move(model), d, g), {});
     const double edge = 0.5 * subject.theory(0).fov_elemental_deg, depth = fov_depth_mm(subject);
     const double highest =
         std::acos(std::min(1.2 * nearest_eye_mm(g) / d.camera.position_mm[2], 1.)) / degree;  // before the display
     const double most = std::min({80., highest, 1.35 * edge + 2});
-    const Scene scene = subject.scene().at_depth(depth);
+    const ContentScene scene = subject.scene().at_depth(depth);
     const double white = subject.white_field(job);
     const auto shown = elemental_panel(d, g, scene, 0, job);
 

@@ -4,6 +4,7 @@
 #include "engine/scene.h"
 #include "model/geometry.h"
 #include "model/numbers.h"
+#include "model/vec.h"
 #include "report/side_scale.h"
 
 #include <fmt/format.h>
@@ -24,9 +25,7 @@ Vec3d direction(const optics::View& view, Place at) {
     const double right = (at[0] - 0.5) * view.width * view.pixel_mm, up = (0.5 - at[1]) * view.height * view.pixel_mm;
     Vec3d d{};
     for (std::size_t a = 0; a < 3; ++a) d[a] = view.forward[a] * view.distance + view.right[a] * right + view.up[a] * up;
-    const double length = std::hypot(d[0], d[1], d[2]);
-    for (double& x : d) x /= length;
-    return d;
+    return normalised(d);
 }
 
 /// A point in the array's own axes, from its middle.

@@ -26,8 +26,11 @@ struct Tally {
     std::atomic<long> visitors{0}, refused{0}, malformed{0}, messages{0}, frames_sent{0}, frames_dropped{0};
 };
 
-/// The network thread does all reading and writing; a thread of the session's own makes the visitor, hands it one message after the
-/// other, and destroys it.
+/// Two threads share a session. The network thread, one for all sessions, does all reading and writing and never waits for a
+/// visitor. A thread of the session's own makes the visitor, hands it the message that was read, and destroys it; only when that
+/// message has been dealt with, and not before `due_`, is the next one read. What the visitor sends goes into the mailbox, from
+/// which the network thread writes whenever the last piece has been taken (post() is how the one thread calls the other). A session
+/// lives until the last handler that holds it is done.
 class Session : public Outbox, public std::enable_shared_from_this<Session> {
   public:
     using Connect = std::function<std::unique_ptr<Visitor>(Outbox&)>;

@@ -26,10 +26,7 @@ Display tablet() {
     Display d;
     d.panel.pixels = {3840, 2160};
     d.panel.pixel_pitch_mm = 0.08;
-    d.lens.sphere_radius_mm = 1.5;
-    d.lens.aperture_radius_mm = 0.48;
-    d.lens.cylinder_height_mm = 0.5;
-    d.lens.index = 1.4918;
+    d.lens.kind = PlanoConvex{1.5, 0.48, 0.5, 1.4918, Facing::viewer};
     d.array.count = {320, 180};
     d.array.pitch_mm = 0.96;
     d.array.gap_mm = 3.2;
@@ -44,9 +41,7 @@ Display near_eye() {
     Display d = tablet();
     d.panel.pixels = {1920, 1080};
     d.panel.pixel_pitch_mm = 0.01;
-    d.lens = {};
-    d.lens.type = LensType::ideal;
-    d.lens.focal_length_mm = 3.3;
+    d.lens = {IdealLens{{}, 3.3}, {}};
     d.array.count = {16, 9};
     d.array.pitch_mm = 1;
     d.array.gap_mm = 3.3;
@@ -79,9 +74,7 @@ Display sane(std::mt19937& random) {
     const double p = width / double(d.array.count[0]), gap = p * even(1.2, 5), views = std::floor(even(8, 80));
     d.array.pitch_mm = p;
     d.array.gap_mm = gap;
-    d.lens.type = LensType::ideal;
-    d.lens.focal_length_mm = 1 / (1 / gap + 1 / central);
-    d.lens.aperture_radius_mm = p * even(0.4, 0.5);
+    d.lens.kind = IdealLens{p * even(0.4, 0.5), 1 / (1 / gap + 1 / central)};
     d.panel.pixel_pitch_mm = p / views;
     for (const std::size_t k : {0u, 1u})
         d.panel.pixels[k] = std::int64_t(double(d.array.count[k]) * views * (1 + gap / eye) * even(1, 1.05)) + 1;
@@ -113,8 +106,8 @@ TEST(Advice, ForEachFault) {
          [](Display& d) { d.diffuser.reset(), d.content.viewing_distance_mm = d.camera.position_mm[2] = 25; }},
         {"smaller than a panel pixel", "array.pitch_mm", tablet(), [](Display& d) { d.panel.pixel_pitch_mm = 1; }},
         {"less than two panel pixels", "panel.pixel_pitch_mm", tablet(), [](Display& d) { d.panel.pixel_pitch_mm = 0.5; }},
-        {"hardly any power (focal length inf", "lens.index", tablet(), [](Display& d) { d.lens.index = 1; }},
-        {"hardly any power", "lens.index", tablet(), [](Display& d) { d.lens.index = 1.04; }},
+        {"hardly any power (focal length inf", "lens.index", tablet(), [](Display& d) { d.lens.as<PlanoConvex>().index = 1; }},
+        {"hardly any power", "lens.index", tablet(), [](Display& d) { d.lens.as<PlanoConvex>().index = 1.04; }},
         {"stronger than 30 degrees", "diffuser.distance_mm", tablet(),
          [](Display& d) {
              d.diffuser = Diffuser{0.5, {40, 40}, {}};
@@ -127,9 +120,7 @@ TEST(Advice, ForEachFault) {
         // The lenses of a meniscus lie before its principal planes.
         {"stands inside the display", "camera.position_mm", tablet(),
          [](Display& d) {
-             d.lens = {};
-             d.lens.type = LensType::surfaces;
-             d.lens.surfaces = {{-0.2, 0, {}, 0.48, 4, 1.5}, {-0.2, 0, {}, 0.48, 0, 1}};
+             d.lens = {SurfaceLens{{{-0.2, 0, {}, 0.48, 4, 1.5}, {-0.2, 0, {}, 0.48, 0, 1}}}, {}};
              d.array.gap_mm = 40;
              d.diffuser.reset();
              d.camera.position_mm = {0, 0, 40};
@@ -169,7 +160,7 @@ TEST(Advice, PupilJoinsLenses) {
     d.content.depth_mm = -1500;
     d.content.height_mm = 250;
     d.array.aperture = Aperture::circle;
-    d.lens.aperture_radius_mm = 0.25;
+    d.lens.as<IdealLens>().aperture_radius_mm = 0.25;
     const auto bands = Contains(HasSubstr("dark bands between the lenses"));
     EXPECT_THAT(advice_for(d), bands);
     d.camera.pupil_diameter_mm = 4;

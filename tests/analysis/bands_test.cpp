@@ -30,17 +30,17 @@ class Draw {
             d.panel.pixels[k] = std::int64_t(std::ceil(1.2 * double(d.array.count[k]) * p / d.panel.pixel_pitch_mm));
         d.array.gap_mm = f * even(0.97, 1.15);
         d.array.aperture = even(0, 1) < 0.25 ? Aperture::square : Aperture::circle;
+        std::optional<double> radius;
         if (even(0, 1) < 0.5) {
-            d.lens.type = LensType::ideal;
-            d.lens.focal_length_mm = f;
+            if (d.array.aperture == Aperture::circle) radius = p * even(0.3, 0.5);
+            d.lens.kind = IdealLens{radius, f};
         } else {
-            d.lens.index = 1.4918;
-            d.lens.sphere_radius_mm = std::max(f * (d.lens.index - 1), 0.72 * p);
-            d.lens.cylinder_height_mm = 0.1 * p;
+            PlanoConvex ball{std::max(f * 0.4918, 0.72 * p), {}, 0.1 * p, 1.4918, Facing::viewer};
             if (even(0, 1) < 0.3) d.array.surround = even(0, 1) < 0.5 ? Surround::clear : Surround::plate;
-            if (even(0, 1) < 0.2) d.lens.facing = Facing::panel;
+            if (even(0, 1) < 0.2) ball.facing = Facing::panel;
+            if (d.array.aperture == Aperture::circle) ball.aperture_radius_mm = p * even(0.3, 0.5);
+            d.lens.kind = ball;
         }
-        if (d.array.aperture == Aperture::circle) d.lens.aperture_radius_mm = p * even(0.3, 0.5);
         if (even(0, 1) < 0.25) d.lens.stop_radius_mm = p * even(0.05, 0.3);
         if (even(0, 1) < 0.9) {
             const double above = p * log_even(0.7, 100), spread = p * log_even(0.05, 3);

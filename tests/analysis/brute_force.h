@@ -30,14 +30,14 @@ inline double refract(Vec& d, const Vec& n, double n1, double n2) {
 class PlanoConvexArray {
   public:
     PlanoConvexArray(const Display& d, unsigned seed) : d_(d), engine_(seed) {
-        r_ = *d.lens.aperture_radius_mm;
-        sphere_ = d.lens.sphere_radius_mm;
-        index_ = d.lens.index;
+        r_ = *d.lens.as<PlanoConvex>().aperture_radius_mm;
+        sphere_ = d.lens.as<PlanoConvex>().sphere_radius_mm;
+        index_ = d.lens.as<PlanoConvex>().index;
         pitch_ = d.array.pitch_mm[0];
         const double root = std::sqrt(sphere_ * sphere_ - r_ * r_);
-        const double thickness = d.lens.cylinder_height_mm + sphere_ - root;
+        const double thickness = d.lens.as<PlanoConvex>().cylinder_height_mm + sphere_ - root;
         flat_ = *d.array.gap_mm - thickness / index_;  // g counts to the principal plane T/n inside... from the flat face
-        rim_ = flat_ + d.lens.cylinder_height_mm;
+        rim_ = flat_ + d.lens.as<PlanoConvex>().cylinder_height_mm;
         centre_ = rim_ - root;
         top_ = flat_ + thickness;
         width_ = double(d.panel.pixels[0]) * d.panel.pixel_pitch_mm;

@@ -17,8 +17,7 @@ Display display(double central_depth_mm) {
     Display d;
     d.panel.pixels = {1300, 700};
     d.panel.pixel_pitch_mm = pixel;
-    d.lens.type = LensType::ideal;
-    d.lens.focal_length_mm = 1 / (1 / gap + 1 / central_depth_mm);
+    d.lens.kind = IdealLens{{}, 1 / (1 / gap + 1 / central_depth_mm)};
     d.array.count = {61, 31};
     d.array.pitch_mm = pitch;
     d.array.gap_mm = gap;
@@ -140,7 +139,7 @@ TEST(Crosstalk, OfEyesThatDoNotShareAZoneIsUndefined) {
 TEST(SlopeSpread, IsThatOfRandomLines) {
     Display d = display(200);
     d.array.aperture = Aperture::circle;
-    d.lens.aperture_radius_mm = 1.8;
+    d.lens.as<IdealLens>().aperture_radius_mm = 1.8;
     d.content.viewing_distance_mm = 900;
     for (const Profile profile : {Profile::box, Profile::gaussian}) {
         d.diffuser = Diffuser{90, {6, 1}, profile};

@@ -18,8 +18,7 @@ inline Display display(double fov_deg, double depth_mm) {
     d.array.aperture = Aperture::square;
     const double gap = 3 / std::tan(0.5 * fov_deg * degree);
     d.array.gap_mm = gap;
-    d.lens.type = LensType::ideal;
-    d.lens.focal_length_mm = 1 / (1 / depth_mm + 1 / gap);
+    d.lens.kind = IdealLens{{}, 1 / (1 / depth_mm + 1 / gap)};
     if (depth_mm > 0) d.diffuser = Diffuser{depth_mm, {2 * std::atan(3 / depth_mm) / degree, 2 * std::atan(3 / depth_mm) / degree}};
     d.camera.resolution = {480, 288};
     d.content.height_mm = 90;

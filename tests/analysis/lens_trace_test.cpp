@@ -21,9 +21,7 @@ constexpr double from_75[] = {-75, 0, 75};
 class Backward {
   public:
     Backward(const Display& d, const Geometry& g)
-        : scene_(make_scene<double>(d, g)),
-          pixel_(d.panel.pixel_pitch_mm),
-          start_((g.surfaces.empty() ? g.vertex_plane_mm : g.surfaces.back().z_mm) - g.rear_principal_mm) {}
+        : scene_(make_scene<double>(d, g)), pixel_(d.panel.pixel_pitch_mm), start_(g.entrance_z_mm - g.rear_principal_mm) {}
 
     /// Where it brings a ray that comes back to the panel.
     std::optional<Point> panel(const LensRay& ray) const {
@@ -155,7 +153,7 @@ TEST(LensTrace, IdealLensHasTheParaxialSpot) {
 TEST(LensTrace, BundlesAreOfEqualLight) {
     Display d = ideal(12, 10, 9, 88);
     d.array.aperture = Aperture::circle;
-    d.lens.aperture_radius_mm = 6;
+    d.lens.as<IdealLens>().aperture_radius_mm = 6;
     const Bundle light = bundle(LensTrace(d, resolve(d)), {0, 0}, 300);
     const double tan2 = 0.36, sin2 = tan2 / (1 + tan2);
     EXPECT_NEAR(light.light / (pi * sin2), 1, 2e-3);
@@ -178,15 +176,15 @@ TEST(LensTrace, FindsTheLightOfSmallStops) {
 // Far, strongly bent or with holes of neighbours beside: a search that follows the wrong trail ends dark.
 TEST(LensTrace, FindsTheLightOfFarAndStrangeLenses) {
     Display facing = shipped("desktop-stopped");
-    facing.lens.facing = Facing::panel;
-    facing.lens.sphere_radius_mm = 644;
+    facing.lens.as<PlanoConvex>().facing = Facing::panel;
+    facing.lens.as<PlanoConvex>().sphere_radius_mm = 644;
     facing.lens.stop_radius_mm = 0.007;
     facing.array.gap_mm = 195;
     Display thick = facing;  // a ball that most rays miss
     thick.lens.stop_radius_mm.reset();
-    thick.lens.sphere_radius_mm = 6;
-    thick.lens.aperture_radius_mm = 2;
-    thick.lens.index = 2.7;
+    thick.lens.as<PlanoConvex>().sphere_radius_mm = 6;
+    thick.lens.as<PlanoConvex>().aperture_radius_mm = 2;
+    thick.lens.as<PlanoConvex>().index = 2.7;
     thick.array.gap_mm = 300;
     Display two = with_lens({{0.12, -2.5, {}, 1.38, 2.3, 1.28}, {-0.0043, -2.7, {}, 4.7, 0, 1}}, 490);
     two.lens.stop_radius_mm = 0.0024;

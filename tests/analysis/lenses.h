@@ -17,7 +17,7 @@ inline Display ideal(double pitch, double gap, double focal_length, double views
     d.diffuser.reset();
     d.array.pitch_mm = pitch;
     d.array.gap_mm = gap;
-    d.lens.focal_length_mm = focal_length;
+    d.lens.as<IdealLens>().focal_length_mm = focal_length;
     d.panel.pixel_pitch_mm = pitch / views;
     return d;
 }
@@ -26,7 +26,7 @@ inline Display ideal(double pitch, double gap, double focal_length, double views
 inline Display with_lens(std::vector<Surface> surfaces, double base_z) {
     Display d = shipped("desktop-asphere");
     d.diffuser.reset();
-    d.lens.surfaces = std::move(surfaces);
+    d.lens.as<SurfaceLens>().surfaces = std::move(surfaces);
     d.array.gap_mm.reset();
     d.array.base_z_mm = base_z;
     return d;
@@ -42,10 +42,10 @@ inline std::vector<std::pair<std::string, Display>> all_lenses() {
     }
     Display d = shipped("desktop-stopped");
     d.diffuser.reset();
-    d.lens.facing = Facing::panel;
+    d.lens.as<PlanoConvex>().facing = Facing::panel;
     all.emplace_back("facing the panel", d);
     d.lens.stop_radius_mm.reset();
-    d.lens.sphere_radius_mm = 12;
+    d.lens.as<PlanoConvex>().sphere_radius_mm = 12;
     d.array.aperture = Aperture::square;
     all.emplace_back("square", d);
     all.emplace_back("hollow to the panel", with_lens({{-0.02, 0, {}, 5.5, 4, 1.6}, {-0.12, -0.5, {}, 5.5, 0, 1}}, 10));
@@ -57,7 +57,7 @@ inline std::vector<std::pair<std::string, Display>> all_lenses() {
     all.emplace_back("two glasses and a stop", stopped);
     Display thin = ideal(8, 14, 13, 60);
     thin.array.aperture = Aperture::circle;
-    thin.lens.aperture_radius_mm = 3;
+    thin.lens.as<IdealLens>().aperture_radius_mm = 3;
     thin.lens.stop_radius_mm = 2;
     all.emplace_back("ideal with a stop", thin);
     return all;

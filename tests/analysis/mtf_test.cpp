@@ -1,4 +1,8 @@
 #include "analysis/mtf.h"
+#include "analysis/line_spread.h"
+#include "analysis/mtf_curves.h"
+#include "analysis/mtf_resolution.h"
+#include "model/first_order.h"
 #include "model/numbers.h"
 
 #include <fmt/format.h>
@@ -15,8 +19,7 @@ Display ideal_display() {
     Display d;
     d.panel.pixels = {800, 600};
     d.panel.pixel_pitch_mm = 0.25;
-    d.lens.type = LensType::ideal;
-    d.lens.focal_length_mm = 1 / (1 / 8. + 1 / 120.);
+    d.lens.kind = IdealLens{{}, 1 / (1 / 8. + 1 / 120.)};
     d.array.count = {40, 30};
     d.array.pitch_mm = 5;
     d.array.gap_mm = 8;
@@ -34,7 +37,8 @@ struct Difference {
 Difference differences(const Display& d, double depth, double angle_deg, double share) {
     std::mt19937_64 engine(1);
     const auto uniform = [&](double low, double high) { return low + (high - low) * double(engine() >> 11) * 0x1p-53; };
-    const double gap = *d.array.gap_mm, p = d.array.pitch_mm[0], a = d.panel.pixel_pitch_mm, f = d.lens.focal_length_mm;
+    const double gap = *d.array.gap_mm, p = d.array.pitch_mm[0], a = d.panel.pixel_pitch_mm,
+                 f = d.lens.as<IdealLens>().focal_length_mm;
     const double eye_x = 1500 * std::sin(angle_deg * degree), eye_z = 1500 * std::cos(angle_deg * degree) - gap;  // from the lenses
     Difference all;
     while (all.x.size() < 100000) {
@@ -58,7 +62,7 @@ Difference differences(const Display& d, double depth, double angle_deg, double 
             axis[k] = (std::floor(start[k] / p) + 0.5) * p;  // an even number of lenses
             q[k] = start[k] - axis[k];
         }
-        if (d.array.aperture == Aperture::circle && std::hypot(q[0], q[1]) > *d.lens.aperture_radius_mm) continue;
+        if (d.array.aperture == Aperture::circle && std::hypot(q[0], q[1]) > *d.lens.as<IdealLens>().aperture_radius_mm) continue;
         for (int k = 0; k < 2; ++k) {
             const double seen = start[k] - gap * (turned[k] + q[k] / f);
             const double pixel = (std::floor(seen / a) + 0.5) * a;
@@ -133,7 +137,7 @@ TEST(Mtf, OfSquareLensesIsThatOfTheNodalRaysDifferences) { agrees(ideal_display(
 TEST(Mtf, OfRoundLensesToo) {
     Display d = ideal_display();
     d.array.aperture = Aperture::circle;
-    d.lens.aperture_radius_mm = 2.4;
+    d.lens.as<IdealLens>().aperture_radius_mm = 2.4;
     agrees(d, {120, 170});
 }
 
@@ -172,6 +176,18 @@ TEST(Mtf, ResolutionIsTheLeastOfMtf50AndTheLimits) {
         EXPECT_NEAR(double(m["resolution_per_deg"]) / double(m["resolution_per_mm"]),
                     (eye - depth) / std::cos(angle * degree) / foreshortened * degree, 1e-9);
     }
+}
+
+// Seen from the edge of the field, fast spheres show a narrow core in a halo as wide as the screen: modulation is then followed as
+// far as the lenses' own limit, or the limit would be called the resolution of what nobody has looked at.
+TEST(Mtf, IsFollowedToOneHalfOrToTheLensesLimit) {
+    const Subject s(first_order({17, {3000, 2000}, 38, 620, {}, LensType::plano_convex}).display, {}, {});
+    const double angle = 15.12, x = 620 * std::sin(angle * degree), z = 620 * std::cos(angle * degree);
+    const MtfCurves m = mtf_curves(s, SeenThroughLenses(s, {x, 0, z}), 62, angle, true);
+    ASSERT_EQ(m.missing, "");
+    EXPECT_GT(m.spread_mm, 20);  // the halo
+    EXPECT_NEAR(m.below(0.5).value, 0.106, 0.003);
+    EXPECT_EQ(resolution(s, m).limited_by, std::string("mtf50"));
 }
 
 TEST(Mtf, WithoutALensToSeeThroughIsNull) {

@@ -15,7 +15,7 @@ struct CountedSteps : Job {
     std::int64_t done = 0;
 };
 
-Subject subject(Display d) { return Subject(d, Scene(built_in_model(), d, resolve(d)), {}); }
+Subject subject(Display d) { return Subject(d, ContentScene(built_in_model(), d, resolve(d)), {}); }
 
 const Image& named(const Result& r, const std::string& name) {
     for (const NamedPicture& p : r.pictures)

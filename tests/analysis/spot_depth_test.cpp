@@ -32,7 +32,7 @@ TEST(SpotDepth, OfIdealLensesIsTheParaxialOne) {
             for (const double f_per_gap : {0.9, 0.97, 1., 1.2}) {
                 const double gap = pitch / (2 * std::tan(fov * pi / 360));
                 Display d = ideal(pitch, gap, f_per_gap * gap, pitch > 1 ? 70 : 20);
-                if (pitch == 2) d.array.aperture = Aperture::circle, d.lens.aperture_radius_mm = 0.9;
+                if (pitch == 2) d.array.aperture = Aperture::circle, d.lens.as<IdealLens>().aperture_radius_mm = 0.9;
                 if (pitch == 12) d.lens.stop_radius_mm = 2;
                 const Geometry g = resolve(d);
                 const Theory t = theory(d, g);
@@ -50,7 +50,7 @@ TEST(SpotDepth, OfIdealLensesIsTheParaxialOne) {
 // Depths count from the vertex plane, which lies a known way before the principal plane when the flat face is there.
 TEST(SpotDepth, CountsFromTheVertexPlane) {
     Display d = shipped("desktop-stopped");
-    d.lens.facing = Facing::panel;
+    d.lens.as<PlanoConvex>().facing = Facing::panel;
     d.lens.stop_radius_mm = 0.1;  // so that aberration moves the best focus by little
     const Geometry g = resolve(d);
     const Theory t = theory(d, g);

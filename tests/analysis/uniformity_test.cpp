@@ -79,11 +79,11 @@ TEST(Uniformity, EfficiencyAgreesWithBruteForce) {
 TEST(Uniformity, IdealLensesLetAllLightPass) {
     Display d = wide_panel(ideal_example());
     for (const double f : {1e6, 6.}) {
-        d.lens.focal_length_mm = f;
+        d.lens.as<IdealLens>().focal_length_mm = f;
         const LightBudget light = budget(d);
         EXPECT_NEAR(light.leaves / light.reaches_array, 1, 0.003) << f;
     }
-    d.lens.focal_length_mm = 1e6;
+    d.lens.as<IdealLens>().focal_length_mm = 1e6;
     d.panel.pixels = {4000, 4000};
     const double t = d.array.pitch_mm[0] / (2 * resolve(d).gap_mm), s = t / std::sqrt(1 + t * t);
     const LightBudget light = budget(d);
@@ -94,7 +94,7 @@ TEST(Uniformity, IdealLensesLetAllLightPass) {
 TEST(Uniformity, DarkBandsOfRoundLenses) {
     Display d = wide_panel(ideal_example());
     d.array.aperture = Aperture::circle;
-    d.lens.aperture_radius_mm = 1.5;
+    d.lens.as<IdealLens>().aperture_radius_mm = 1.5;
     const double p = d.array.pitch_mm[0], r = 1.5;
     const auto chord = [&](double x) {
         x -= p * std::round(x / p);
@@ -139,7 +139,7 @@ TEST(Uniformity, MeanLuminanceIsTheory) {
     for (const Case& c : {Case{Aperture::square, 0, false, 0.9}, Case{Aperture::circle, 0, false, 0.9},
                           Case{Aperture::circle, 0, true, 1.1}, Case{Aperture::square, 0.3, true, 0.9}}) {
         d.array.aperture = c.aperture;
-        d.lens.aperture_radius_mm = 0.45 * p;
+        d.lens.as<IdealLens>().aperture_radius_mm = 0.45 * p;
         d.lens.stop_radius_mm.reset();
         if (c.stop > 0) d.lens.stop_radius_mm = c.stop * p;
         d.diffuser.reset();
@@ -155,7 +155,7 @@ TEST(Uniformity, MeanLuminanceIsTheory) {
 TEST(Uniformity, TheoryOfRealLensesIsFillTimesFresnel) {
     Display d = wide_panel(example());
     d.lens.stop_radius_mm = 0.2 * d.array.pitch_mm[0];
-    const double n = d.lens.index, passed = 4 * n / ((n + 1) * (n + 1)), fill = std::numbers::pi * 0.04;
+    const double n = d.lens.as<PlanoConvex>().index, passed = 4 * n / ((n + 1) * (n + 1)), fill = std::numbers::pi * 0.04;
     const TheoryFigure theory = luminance_over_panel(d, resolve(d), 1e5);
     EXPECT_NEAR(theory.value, fill * passed * passed, 1e-3 * theory.value);
     EXPECT_NEAR(on_screen(d, {0, 0, 1e5}).mean().value, theory.value, 0.005 * theory.value);

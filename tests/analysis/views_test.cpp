@@ -44,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(Degrees, Fields, testing::Values(24., 40., 60.),
 // An ideal lens: the edges stand where theory says, within a degree each, with a diffuser that closes the gaps between lenses.
 TEST_P(Fields, EdgesStandWhereTheoryHasThem) {
     Display d = display(GetParam(), 150);
-    Subject s(d, Scene(built_in_model(), d, resolve(d)), {});
+    Subject s(d, ContentScene(built_in_model(), d, resolve(d)), {});
     ASSERT_NEAR(s.theory().along[0].fov_deg, GetParam(), 1e-6);
     Job job;
     const Result r = measure_fov(s, job);
@@ -80,7 +80,7 @@ TEST(Views, DepthsOfTheDepthOfField) {
 // Collimated, twice the range goes through infinity: to the eye before the lenses, to where the scene looks too small behind them.
 TEST(Views, DepthsThroughInfinityAreCut) {
     Display d = display(40, 200);
-    d.lens.focal_length_mm = *d.array.gap_mm;
+    d.lens.as<IdealLens>().focal_length_mm = *d.array.gap_mm;
     d.diffuser.reset();
     const std::vector<DepthRun> runs = dof_depths(Subject(d, std::nullopt, {}));
     ASSERT_EQ(runs.size(), 2u);
@@ -96,7 +96,7 @@ TEST(Views, AStoppedMeasureStops) {
         bool cancelled() const override { return true; }
     } stop;
     Display d = display(40, 150);
-    Subject s(d, Scene(built_in_model(), d, resolve(d)), {});
+    Subject s(d, ContentScene(built_in_model(), d, resolve(d)), {});
     EXPECT_THROW(measure_fov(s, stop), Stopped);
     EXPECT_THROW(measure_dof(s, stop), Stopped);
 }
@@ -105,7 +105,7 @@ TEST(Views, DepthsInsideTheLensesAreRefused) {
     Display d = display(40, 150);
     AnalysisOptions options;
     options.depths_mm = {-1, 0, 1};
-    Subject s(d, Scene(built_in_model(), d, resolve(d)), options);
+    Subject s(d, ContentScene(built_in_model(), d, resolve(d)), options);
     Job job;
     EXPECT_THROW(measure_dof(s, job), InputError);
 }

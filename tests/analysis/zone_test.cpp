@@ -16,8 +16,7 @@ Display many_lenses(double focal_length_mm) {
     Display d;
     d.panel.pixels = {9000, 6000};
     d.panel.pixel_pitch_mm = 0.025;
-    d.lens.type = LensType::ideal;
-    d.lens.focal_length_mm = focal_length_mm;
+    d.lens.kind = IdealLens{{}, focal_length_mm};
     d.array.count = {41, 23};
     d.array.pitch_mm = 4;
     d.array.gap_mm = 8;
@@ -41,8 +40,8 @@ std::array<double, 2> both(const Json& json) {
 
 /// Share of wrong rays for an eye at (x, z), lens by lens: the ideal lens's own equation.
 double counted(const Display& d, double x, double z) {
-    const double p = d.array.pitch_mm[0], g = *d.array.gap_mm, n = double(d.array.count[0]), f = d.lens.focal_length_mm,
-                 scale = 1 + g / (d.content.viewing_distance_mm - g);
+    const double p = d.array.pitch_mm[0], g = *d.array.gap_mm, n = double(d.array.count[0]),
+                 f = d.lens.as<IdealLens>().focal_length_mm, scale = 1 + g / (d.content.viewing_distance_mm - g);
     int wrong = 0, all = 0;
     for (double i = 0; i < n; ++i) {
         const double axis = (i + 0.5 - n / 2) * p;

@@ -99,7 +99,7 @@ sent = time.monotonic()
 out, err = process.communicate(timeout=60)
 took = time.monotonic() - sent
 checks.that(process.returncode == 130, f"interrupted: exit code {process.returncode}: {err}")
-checks.that(out == "" and "--resume goes on" in err and "1 of 2" in err, f"interrupted: printed {out[:100]!r}, said {err[-300:]!r}")
+checks.that(out == "" and "--resume continues" in err and "1 of 2" in err, f"interrupted: printed {out[:100]!r}, said {err[-300:]!r}")
 checks.that(took < 10, f"interrupted: it ended after {took:.1f} s")  # about one, when nothing else runs
 checks.that(not (program.folder / "cut/dof.json").exists(), "interrupted: half a measure was kept")
 checks.that(not list((program.folder / "cut").glob("*partial*")), "interrupted: a partial file was left")

@@ -152,8 +152,8 @@ CASES = [  # name, arguments, words of the message
     ("samples and an error", "render tiny.toml --panel-image panel.png --samples 9 --target-error 0.1 -o out.png", "--samples, --target-error"),
     ("points' sampling of footprints", "render tiny.toml --panel-image panel.png --sampling random -o out.png", "--estimator point"),
     ("a kernel on a GPU", "render tiny.toml --panel-image panel.png --kernel scalar --device cuda -o out.png", "--kernel"),
-    ("an edge of no pattern", "render tiny.toml --edge-deg 3 -o out.png", "--pattern edge alone"),
-    ("replace without a path", "render tiny.toml --replace -o out.png", "--path alone"),
+    ("an edge of no pattern", "render tiny.toml --edge-deg 3 -o out.png", "is only for --pattern edge"),
+    ("replace without a path", "render tiny.toml --replace -o out.png", "only for frames of a --path"),
     # where the picture goes
     ("no output", "render tiny.toml --panel-image panel.png", "--output"),
     ("output folder missing", "render tiny.toml --panel-image panel.png -o none/out.png", "the folder none does not exist"),

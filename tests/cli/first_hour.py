@@ -68,6 +68,7 @@ for name, arguments, *words in [
     ("by a hard link", "render tiny.toml --panel-image hard.png -o eia.png", "eia.png: is the same file as --panel-image, hard.png"),
     ("frames of a path", "render tiny.toml --panel-image eia.png --path path.json -o frames", "frames/0001.png: is the same file as"),
     ("the description", f"export pov tiny.toml --set diffuser=none {QUIET} -o .", "display.toml: is the same file as the description, tiny.toml"),
+    ("another display's scene", f"export pov tiny.toml --set diffuser=none array.gap_mm=5.1 {QUIET} -o scene0", "scene0/display.toml: is of another display"),
     ("the report", f"analyze spot tiny.toml {QUIET} -o results", "results/report.html: is the same file as the description"),
     ("a model's texture", f"photo tiny.toml --model skin.obj {QUIET} -o skin.png", "skin.png: is the same file as a file of the model"),
     ("an overlay", f"compare view.png eia.png {CORNERS} -o view.png", "view.png: is the same file as A"),

@@ -35,8 +35,8 @@ checks.that(abs(low + 15) < 0.3 and abs(high - 15) < 0.3, f"field of view: {low}
 TABLET = DESIGNS["tablet"][0]
 (program.folder / "kept.toml").write_text("mine")
 (program.folder / "dangling.toml").symlink_to("nowhere.toml")
-checks.refused(program, "an existing file", f"new {TABLET} -o kept.toml", "--output: kept.toml is there already", "--force")
-checks.refused(program, "a dangling link", f"new {TABLET} -o dangling.toml", "is there already")
+checks.refused(program, "an existing file", f"new {TABLET} -o kept.toml", "--output: kept.toml already exists", "--force")
+checks.refused(program, "a dangling link", f"new {TABLET} -o dangling.toml", "already exists")
 program.must(f"new {TABLET} -o kept.toml --force")
 checks.that((program.folder / "kept.toml").read_text() != "mine", "--force does not replace")
 for name, arguments, *words in [

@@ -85,7 +85,7 @@ checks.refused(program, "another display", f"{SHOWN} --path path.json -o again -
 program.must(f"{SHOWN} --path short.json -o again --replace")
 checks.that(list(times("again")) == ["0000.png"], f"replaced: {times('again')}")
 Image.new("RGB", (8, 6)).save(folder / "again/0007.png")
-checks.refused(program, "somebody's picture", f"{SHOWN} --path short.json -o again --replace", "0007.png: is a picture that lfdsim has not made")
+checks.refused(program, "somebody's picture", f"{SHOWN} --path short.json -o again --replace", "0007.png: is a picture not made by lfdsim")
 
 # Ctrl-C keeps finished frames, whole; the same command goes on.
 write(path(pose(0, A), pose(25, B)), "long.json")
@@ -143,11 +143,11 @@ CASES = [  # name, arguments, words of the message
     ("folder that is a file", f"{SHOWN} --path path.json -o panel.png", "panel.png: is not a folder"),
     ("folder that cannot be made", f"{SHOWN} --path path.json -o /proc/none", "/proc/none"),
     ("two cameras", f"{SHOWN} --path path.json --camera-mm 0,0,400 -o none", "give one of them"),
-    ("frames without a path", f"{SHOWN} --frames-as exr -o none.png", "--frames-as: is for frames of a --path"),
-    ("resume without a path", f"{SHOWN} --resume -o none.png", "--resume: is for frames of a --path"),
+    ("frames without a path", f"{SHOWN} --frames-as exr -o none.png", "--frames-as: is only for frames of a --path"),
+    ("resume without a path", f"{SHOWN} --resume -o none.png", "--resume: is only for frames of a --path"),
     ("frames of another kind", f"{SHOWN} --path path.json --frames-as gif -o none", "png, exr"),
-    ("bits of an EXR", f"{SHOWN} --path path.json --frames-as exr --bits 16 -o none", "--bits: is for .png alone"),
-    ("resume of npy", f"{SHOWN} --path path.json --frames-as npy --resume -o none", "--resume: a .npy does not say"),
+    ("bits of an EXR", f"{SHOWN} --path path.json --frames-as exr --bits 16 -o none", "--bits: is only for .png"),
+    ("resume of npy", f"{SHOWN} --path path.json --frames-as npy --resume -o none", "--resume: a .npy does not record"),
 ]
 for name, arguments, words in CASES:
     checks.refused(program, name, arguments, words)

@@ -29,8 +29,10 @@ class DepthSweep : public testing::Test {
         d.content.depth_mm = depth_mm;
         return d;
     }
-    Image eia(const Display& d, const Scene& scene) { return elemental_images(d, resolve(d), scene, 2, job_).image; }
-    Image photo(const Display& d, const Scene& scene) { return reference_photograph(d, resolve(d), scene, 2, {}, job_).image; }
+    Image eia(const Display& d, const ContentScene& scene) { return elemental_images(d, resolve(d), scene, 2, job_).image; }
+    Image photo(const Display& d, const ContentScene& scene) {
+        return reference_photograph(d, resolve(d), scene, 2, {}, job_).image;
+    }
 
     Folder folder_;
     Display display_ = display();
@@ -39,12 +41,12 @@ class DepthSweep : public testing::Test {
 };
 
 TEST_F(DepthSweep, AMovedSceneHasTheBitsOfOneMadeThere) {
-    const Scene scene(model_, at(0), resolve(at(0)));
+    const ContentScene scene(model_, at(0), resolve(at(0)));
     const Image unmoved = eia(at(0), scene);
     for (const double depth : {-200., -0.1, 25., 33.3333333, 190.}) {
         SCOPED_TRACE(depth);
         const Display there = at(depth);
-        const Scene moved = scene.at_depth(depth), made(model_, there, resolve(there));
+        const ContentScene moved = scene.at_depth(depth), made(model_, there, resolve(there));
         const Image shown = eia(there, moved);
         EXPECT_EQ(shown.rgb, eia(there, made).rgb);
         EXPECT_NE(shown.rgb, unmoved.rgb);
@@ -55,20 +57,20 @@ TEST_F(DepthSweep, AMovedSceneHasTheBitsOfOneMadeThere) {
 }
 
 TEST_F(DepthSweep, NothingIsBuiltAgain) {
-    const Scene scene(model_, at(0), resolve(at(0)));
-    const Scene moved = scene.at_depth(50);
+    const ContentScene scene(model_, at(0), resolve(at(0)));
+    const ContentScene moved = scene.at_depth(50);
     EXPECT_EQ(&moved.impl(), &scene.impl());
     EXPECT_EQ(moved.centre_mm()[2], resolve(at(50)).vertex_plane_mm + 50);
 }
 
 TEST_F(DepthSweep, AMovedSceneOutlivesTheFirst) {
     const Display there = at(40);
-    const auto moved = [&] { return Scene(model_, at(0), resolve(at(0))).at_depth(40); }();
-    EXPECT_EQ(eia(there, moved).rgb, eia(there, Scene(model_, there, resolve(there))).rgb);
+    const auto moved = [&] { return ContentScene(model_, at(0), resolve(at(0))).at_depth(40); }();
+    EXPECT_EQ(eia(there, moved).rgb, eia(there, ContentScene(model_, there, resolve(there))).rgb);
 }
 
 TEST_F(DepthSweep, DepthsThatNoDisplayHasAreErrors) {
-    const Scene scene(model_, at(0), resolve(at(0)));
+    const ContentScene scene(model_, at(0), resolve(at(0)));
     for (const double depth : {1.1e6, -1.1e6, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
         EXPECT_THROW(scene.at_depth(depth), InputError) << depth;
 }

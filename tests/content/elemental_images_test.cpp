@@ -11,7 +11,7 @@ using namespace small_world;
 Picture shoot(const Display& d, const fs::path& model, int threads = 0) {
     Job job;
     const Geometry g = resolve(d);
-    return elemental_images(d, g, Scene(load_model(model), d, g), threads, job);
+    return elemental_images(d, g, ContentScene(load_model(model), d, g), threads, job);
 }
 
 // Every pixel of a patch at a depth, from the nodal line alone. Pixels within 1e-3 mm of the patch's border are left out:
@@ -134,7 +134,7 @@ TEST(ElementalImages, StopsWhenAskedAndSaysSo) {
     Folder folder;
     const Display d = display();
     const Geometry g = resolve(d);
-    const Scene scene(load_model(write_patches(folder, {{-10, 10, -10, 10, 0, "white"}})), d, g);
+    const ContentScene scene(load_model(write_patches(folder, {{-10, 10, -10, 10, 0, "white"}})), d, g);
     StopAfter stop(2), run(1000);
     const Picture stopped = elemental_images(d, g, scene, 1, stop);
     EXPECT_FALSE(stopped.complete);

@@ -15,7 +15,7 @@ Image shoot(const fs::path& model) {
     d.camera.target_mm = {0, 0, resolve(d).vertex_plane_mm};
     const Geometry g = resolve(d);
     Job job;
-    return reference_photograph(d, g, Scene(load_model(model), d, g), 0, {}, job).image;
+    return reference_photograph(d, g, ContentScene(load_model(model), d, g), 0, {}, job).image;
 }
 
 std::array<double, 3> middle(const Image& image) {

@@ -8,7 +8,7 @@ using namespace small_world;
 Picture photo_of(const Display& d, const fs::path& model, std::optional<Rect> crop = {}, int threads = 0) {
     Job job;
     const Geometry g = resolve(d);
-    return reference_photograph(d, g, Scene(load_model(model), d, g), threads, crop, job);
+    return reference_photograph(d, g, ContentScene(load_model(model), d, g), threads, crop, job);
 }
 
 // A patch through the target: the frame is 48 mm over 240 pixels there, so 16 x 20 mm are 80 x 100 pixels about the centre.
@@ -107,7 +107,7 @@ TEST(Photograph, AgreesWithTheElementalImages) {
     const Picture photo = photo_of(d, model);
     const Geometry g = resolve(d);
     Job job;
-    const Picture eia = elemental_images(d, g, Scene(load_model(model), d, g), 0, job);
+    const Picture eia = elemental_images(d, g, ContentScene(load_model(model), d, g), 0, job);
     int lit = 0;
     for (int j = 0; j < 8; ++j) {
         for (int i = 0; i < 12; ++i) {

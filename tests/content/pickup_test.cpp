@@ -21,7 +21,7 @@ class PickupTest : public testing::TestWithParam<Case> {
         d.array.rotation_deg = GetParam().rotation_deg;
         d.array.lattice = LatticeKind::rectangle;
         d.array.pitch_mm[1] *= GetParam().height_of_cell;
-        *d.lens.aperture_radius_mm *= std::min(1., GetParam().height_of_cell);
+        *d.lens.as<IdealLens>().aperture_radius_mm *= std::min(1., GetParam().height_of_cell);
         d.array.offset_mm = {GetParam().offset_x, GetParam().offset_y};
         return d;
     }
@@ -133,12 +133,7 @@ TEST(Pickup, WholePixelsAreShared) {
 // A plano-convex lens has two nodal points: the gap is measured to the front one, the line leaves from the rear one (the apex).
 TEST(Pickup, ThickLensUsesBothNodalPoints) {
     Display d = display();
-    d.lens = {};
-    d.lens.type = LensType::plano_convex;
-    d.lens.sphere_radius_mm = 5;
-    d.lens.aperture_radius_mm = 2;
-    d.lens.cylinder_height_mm = 1;
-    d.lens.index = 1.5;
+    d.lens.kind = PlanoConvex{5, 2, 1, 1.5, Facing::viewer};
     const Geometry g = resolve(d);
     EXPECT_DOUBLE_EQ(g.front_principal_mm, 10);
     // Thickness T = h + R - sqrt(R^2 - r^2); the front point lies T/n above the base, the rear one at T.

@@ -37,7 +37,7 @@ View look(const fs::path& model, double tilt_deg, double yaw_deg, const std::str
     options.up = up;
     const Geometry g = resolve(d);
     Job job;
-    const Picture p = reference_photograph(d, g, Scene(load_model(model, options), d, g), 0, {}, job);
+    const Picture p = reference_photograph(d, g, ContentScene(load_model(model, options), d, g), 0, {}, job);
     int x0 = 240, x1 = 0, y0 = 160, y1 = 0;
     for (int row = 0; row < 160; ++row) {
         for (int column = 0; column < 240; ++column) {

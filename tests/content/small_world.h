@@ -26,9 +26,7 @@ inline Display display() {
     Display d;
     d.panel.pixels = {240, 160};
     d.panel.pixel_pitch_mm = 0.2;
-    d.lens.type = LensType::ideal;
-    d.lens.focal_length_mm = 9.5;
-    d.lens.aperture_radius_mm = 2;
+    d.lens.kind = IdealLens{2, 9.5};
     d.array.count = {12, 8};
     d.array.pitch_mm = 4;
     d.array.gap_mm = 10;

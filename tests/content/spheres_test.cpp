@@ -32,7 +32,7 @@ TEST(BuiltInSpheres, TrianglesLookOutwards) {
 TEST(BuiltInSpheres, StandInAFileOfAnyFolder) {
     Display d = display();
     d.content.model = built_in_spheres;
-    EXPECT_NO_THROW(Scene(load_model(d.content.model), d, resolve(d)));
+    EXPECT_NO_THROW(ContentScene(load_model(d.content.model), d, resolve(d)));
     EXPECT_THROW(load_model("built-in:cubes"), InputError);
 }
 

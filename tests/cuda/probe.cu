@@ -6,8 +6,8 @@ using namespace lfdsim;
 using namespace lfdsim::optics;
 
 template <Way through>
-__device__ void sample(const Scene<float>& scene, const View& view, const Directions& directions, const PixelRays<float>& pixels,
-                       const float* texels, std::uint32_t count, float* out) {
+__device__ void sample(const Scene<float>& scene, const View& view, const DirectionNumbers& directions,
+                       const PixelRays<float>& pixels, const float* texels, std::uint32_t count, float* out) {
     Sampler<float> sampler(Sampling::sobol, 2, 0, threadIdx.x);
     Light<float> light;
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -17,11 +17,11 @@ __device__ void sample(const Scene<float>& scene, const View& view, const Direct
     for (int c = 0; c < 3; ++c) out[4 * threadIdx.x + c] = light(0, c);
 }
 
-#define PROBE(way)                                                                                                        \
-    extern "C" __global__ void probe_##way(const __grid_constant__ Scene<float> scene, const __grid_constant__ View view, \
-                                           const __grid_constant__ Directions directions, const PixelRays<float>* pixels, \
-                                           const float* texels, std::uint32_t count, float* out) {                        \
-        sample<Way::way>(scene, view, directions, pixels[threadIdx.x], texels, count, out);                               \
+#define PROBE(way)                                                                                                              \
+    extern "C" __global__ void probe_##way(const __grid_constant__ Scene<float> scene, const __grid_constant__ View view,       \
+                                           const __grid_constant__ DirectionNumbers directions, const PixelRays<float>* pixels, \
+                                           const float* texels, std::uint32_t count, float* out) {                              \
+        sample<Way::way>(scene, view, directions, pixels[threadIdx.x], texels, count, out);                                     \
     }
 PROBE(plano_convex)
 PROBE(opaque)

@@ -76,8 +76,8 @@ bool holds(int gpu, const void* p, std::size_t bytes) {
     return std::uintptr_t(p) + bytes <= start + piece.bytes;
 }
 
-constexpr std::size_t kAlignment = 64;  // of a piece: what lies behind its last bytes, up to so many, is not guarded
-constexpr std::size_t kRubbish = std::size_t(8) << 20;  // bytes at a piece's beginning: more would take most of the time
+constexpr std::size_t piece_alignment = 64;  // of a piece: what lies behind its last bytes, up to so many, is not guarded
+constexpr std::size_t rubbish_bytes = std::size_t(8) << 20;  // bytes at a piece's beginning: more would take most of the time
 
 struct Event {
     Stream* stream = nullptr;
@@ -184,8 +184,8 @@ cudaError_t cudaMallocAsync(void** memory, std::size_t bytes, cudaStream_t strea
     const std::size_t page = std::size_t(sysconf(_SC_PAGESIZE)), room = (bytes + page - 1) / page * page;
     void* const map = mmap(nullptr, room + page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (map == MAP_FAILED || mprotect(static_cast<char*>(map) + room, page, PROT_NONE) != 0) misused("no memory for it");
-    *memory = static_cast<char*>(map) + room - (bytes + kAlignment - 1) / kAlignment * kAlignment;
-    std::memset(*memory, 0xcd, std::min(bytes, kRubbish));
+    *memory = static_cast<char*>(map) + room - (bytes + piece_alignment - 1) / piece_alignment * piece_alignment;
+    std::memset(*memory, 0xcd, std::min(bytes, rubbish_bytes));
     m.pieces[std::uintptr_t(*memory)] = {bytes, room + page, map};
     m.used += bytes;
     m.reserved = std::max(m.reserved, m.used);

@@ -19,7 +19,7 @@ using optics::Way;
 template <class F>
 PanelHit<F> trace(const Scene<F>& scene, const View& view, int column, int row, Sampling sampling, int sample) {
     const std::uint32_t pixel = std::uint32_t(row) * std::uint32_t(view.width) + std::uint32_t(column);
-    Sampler<F> sampler(sampling, optics::kDimensions, view.seed, pixel);
+    Sampler<F> sampler(sampling, optics::sampler_dimensions, view.seed, pixel);
     for (int n = 0; n < sample; ++n) sampler.next(sobol_directions());
     const auto rays = optics::pixel_rays<F>(view, column, row);
     switch (optics::way_through(scene)) {

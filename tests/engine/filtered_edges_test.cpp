@@ -22,7 +22,7 @@ double mean(const Image& a) {
 Display round_ideal() {
     Display d = ideal_example();
     d.array.aperture = Aperture::circle;
-    d.lens.aperture_radius_mm = 2;
+    d.lens.as<IdealLens>().aperture_radius_mm = 2;
     d.render.estimator = Estimator::filtered;
     d.render.samples = 100;
     return d;
@@ -130,10 +130,7 @@ TEST(FilteredEdges, EndsOfTheDiffusersSquareMoveWithThePixels) {
     Display d;
     d.panel.pixels = {88, 48};
     d.panel.pixel_pitch_mm = 0.5;
-    d.lens.sphere_radius_mm = 2.6;
-    d.lens.aperture_radius_mm = 1.9;
-    d.lens.cylinder_height_mm = 1;
-    d.lens.index = 1.4918;
+    d.lens.kind = PlanoConvex{2.6, 1.9, 1, 1.4918, Facing::viewer};
     d.array.count = {11, 6};
     d.array.pitch_mm = 4;
     d.array.gap_mm = 5;

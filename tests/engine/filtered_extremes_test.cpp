@@ -58,15 +58,16 @@ class Extremes {
 
     void draw_lens(Display& d, double scale) {
         d.array.gap_mm = (chance(0.9) ? 7 : over_decades(2, 400)) * scale;
-        if (d.lens.type == LensType::ideal) {
-            d.lens.focal_length_mm = (chance(0.8) ? 6 : over_decades(0.01, 1e4)) * scale;
+        if (auto* ideal = std::get_if<IdealLens>(&d.lens.kind)) {
+            ideal->focal_length_mm = (chance(0.8) ? 6 : over_decades(0.01, 1e4)) * scale;
             if (d.array.aperture == Aperture::circle)
-                d.lens.aperture_radius_mm = (chance(0.8) ? random(1, 2) : random(0.01, 1)) * scale;
+                ideal->aperture_radius_mm = (chance(0.8) ? random(1, 2) : random(0.01, 1)) * scale;
         } else {
-            d.lens.sphere_radius_mm = (chance(0.5) ? 3 : random(2, 8)) * scale;
-            d.lens.aperture_radius_mm = (chance(0.8) ? random(1, 2) : over_decades(0.01, 1)) * scale;
-            d.lens.cylinder_height_mm = random(0, 1) * scale;
-            d.lens.facing = one_of({Facing::viewer, Facing::viewer, Facing::panel});
+            auto& ball = d.lens.as<PlanoConvex>();
+            ball.sphere_radius_mm = (chance(0.5) ? 3 : random(2, 8)) * scale;
+            ball.aperture_radius_mm = (chance(0.8) ? random(1, 2) : over_decades(0.01, 1)) * scale;
+            ball.cylinder_height_mm = random(0, 1) * scale;
+            ball.facing = one_of({Facing::viewer, Facing::viewer, Facing::panel});
             d.array.surround = one_of({Surround::opaque, Surround::opaque, Surround::clear, Surround::plate});
         }
         if (chance(0.15)) d.lens.stop_radius_mm = over_decades(0.2, 2) * scale;
@@ -76,7 +77,8 @@ class Extremes {
         auto angle = [&] { return one_of({0.0, 1e-3, 1.0, 5.7, 5.7, 5.7, 5.7, 20.0, 60.0, 179.0}); };
         Diffuser diffuser{0, {angle(), angle()}, one_of({Profile::box, Profile::box, Profile::gaussian})};
         const double depth = chance(0.3) ? over_decades(1e-6, 1) : over_decades(1, chance(0.8) ? 100 : 1e4);
-        const double top = 2 * d.lens.sphere_radius_mm;  // no lens reaches further above its vertex plane
+        const auto* ball = std::get_if<PlanoConvex>(&d.lens.kind);
+        const double top = ball ? 2 * ball->sphere_radius_mm : 0;  // no lens reaches further above its vertex plane
         diffuser.distance_mm = chance(0.5) ? depth * scale : one_of({1e-6, top}) + depth * scale;
         d.diffuser = diffuser;
     }
@@ -96,7 +98,7 @@ class Extremes {
 
 std::string about(int number, const Display& d) {
     auto text = [](double x) { return std::to_string(x) + " "; };
-    return std::to_string(number) + ": lens " + std::to_string(int(d.lens.type)) + ", surround " +
+    return std::to_string(number) + ": lens " + std::to_string(int(d.lens.type())) + ", surround " +
            std::to_string(int(d.array.surround)) + ", pitch " + text(d.array.pitch_mm[0]) + ", diffuser " +
            text(d.diffuser->distance_mm) + text(d.diffuser->angle_deg[0]) + text(d.diffuser->angle_deg[1]) +
            (d.diffuser->profile == Profile::box ? "box" : "gaussian") + ", from " + text(d.camera.position_mm[0]) +
@@ -111,7 +113,7 @@ double mean_of(const Image& a) {
     return sum / double(a.rgb.size());
 }
 
-constexpr int kDisplays = 300;
+constexpr int drawn_displays = 300;
 
 /// A part of the frame, about its middle, that takes about so many samples.
 Rect small_part(const Display& d, double samples) {
@@ -128,7 +130,7 @@ bool benign(const Display& d) { return std::max(d.diffuser->angle_deg[0], d.diff
 TEST(FilteredExtremes, LightStaysLight) {
     Extremes extremes(5);
     int lit = 0;
-    for (int n = 0; n < kDisplays; ++n) {
+    for (int n = 0; n < drawn_displays; ++n) {
         const Display d = extremes();
         const Texels panel = noise_panel(d);
         const Rect part = small_part(d, 5e4);
@@ -147,13 +149,13 @@ TEST(FilteredExtremes, LightStaysLight) {
                 << kernel.name << ", " << about(n, d);
         }
     }
-    EXPECT_GT(lit, kDisplays / 3);
+    EXPECT_GT(lit, drawn_displays / 3);
 }
 
 TEST(FilteredExtremes, TheMeanIsThatOfBruteForce) {
     Extremes extremes(6);
     int compared = 0;
-    for (int n = 0; n < kDisplays; ++n) {
+    for (int n = 0; n < drawn_displays; ++n) {
         Display d = extremes();
         if (!benign(d)) continue;
         d.render.samples = 1024;
@@ -168,7 +170,7 @@ TEST(FilteredExtremes, TheMeanIsThatOfBruteForce) {
         EXPECT_NEAR(mean_of(filtered), truth, 4 * standard_error + 0.02 * truth + 1e-4) << about(n, d);
         compared += truth > 0.01;
     }
-    EXPECT_GT(compared, kDisplays / 4);
+    EXPECT_GT(compared, drawn_displays / 4);
 }
 
 }  // namespace

@@ -12,13 +12,14 @@ double dot(const V& a, const V& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b
 /// Panel pixel of a ray through plano-convex lenses facing the viewer in an opaque surround, or -1: the cap that it meets first is
 /// found by trying every lens whose circle comes near the ray's shadow, as the docs define the solid.
 std::int64_t search(const Display& d, const Geometry& g, const V& o, const V& i) {
-    const double R = d.lens.sphere_radius_mm, r = g.glass_radius_mm, n = d.lens.index;
+    const double R = d.lens.as<PlanoConvex>().sphere_radius_mm, r = g.glass_radius_mm, n = d.lens.as<PlanoConvex>().index;
     const Pitch& p = d.array.pitch_mm;
     const bool square = d.array.aperture == Aperture::square;
     auto within = [&](const V& q) {
         return square ? std::abs(q[0]) <= p[0] / 2 && std::abs(q[1]) <= p[1] / 2 : q[0] * q[0] + q[1] * q[1] <= r * r;
     };
-    const double base = g.base_z_mm, rim = base + d.lens.cylinder_height_mm, centre = rim - std::sqrt(R * R - r * r);
+    const double base = g.base_z_mm, rim = base + d.lens.as<PlanoConvex>().cylinder_height_mm,
+                 centre = rim - std::sqrt(R * R - r * r);
     auto at = [&](double z) { return V{o[0] + i[0] * (z - o[2]) / i[2], o[1] + i[1] * (z - o[2]) / i[2], z}; };
     const V high = at(centre + R), low = at(rim);
     double first = 1e30;
@@ -64,7 +65,7 @@ std::int64_t search(const Display& d, const Geometry& g, const V& o, const V& i)
 
 template <class F>
 std::int64_t traced(const optics::Scene<F>& scene, const optics::View& view, int column, int row) {
-    const optics::Sampler<F> sampler(Sampling::sobol, optics::kDimensions, 0, 0);
+    const optics::Sampler<F> sampler(Sampling::sobol, optics::sampler_dimensions, 0, 0);
     const auto hit = optics::trace<optics::Way::plano_convex>(scene, view, optics::pixel_rays<F>(view, column, row), sampler);
     return hit.lit ? std::int64_t(hit.pixel) : -1;
 }
@@ -81,10 +82,10 @@ TEST_P(LensSearch, FindsTheLensThatAFullSearchFinds) {
     d.panel.pixels = {16 * side, 16 * side};
     d.array.gap_mm.reset();
     d.array.base_z_mm = 1.5;
-    d.lens.index = 1.7;
+    d.lens.as<PlanoConvex>().index = 1.7;
     d.camera.resolution = {150, 100};
     for (double radius : {2.001, 2.5, 6.0, 2.83, 3.3, 3.2}) {
-        d.lens.sphere_radius_mm = radius;
+        d.lens.as<PlanoConvex>().sphere_radius_mm = radius;
         d.array.aperture = radius == 2.83 || radius == 3.3 || radius == 3.2 ? Aperture::square : Aperture::circle;
         if (radius == 3.2) {
             d.array.lattice = LatticeKind::rectangle;
@@ -92,7 +93,7 @@ TEST_P(LensSearch, FindsTheLensThatAFullSearchFinds) {
         }
         // r: half a cell's diagonal, half its side
         const double reach = d.array.aperture == Aperture::square ? std::hypot(d.array.pitch_mm[0], d.array.pitch_mm[1]) / 2 : 2;
-        d.lens.cylinder_height_mm =
+        d.lens.as<PlanoConvex>().cylinder_height_mm =
             std::min(0.5, 1.9 * std::sqrt(radius * radius - reach * reach));  // the ball clears the flat face
         for (double angle : {0.0, 30.0, 60.0, 75.0, 85.0}) {
             const double distance = 4.0 * side + 100, turn = 25 * degree;  // beside the array, on no axis of symmetry

@@ -31,9 +31,7 @@ inline Image picture(const Display& d, const Texels& panel, const RenderOptions&
 
 inline Display ideal_example() {
     Display d = example();
-    d.lens = {};
-    d.lens.type = LensType::ideal;
-    d.lens.focal_length_mm = 6;
+    d.lens = {IdealLens{{}, 6}, {}};
     d.array.aperture = Aperture::square;
     return d;
 }
@@ -62,7 +60,7 @@ inline std::vector<std::pair<std::string, Display>> every_kind() {
     all.back().second.render.fresnel = Fresnel::schlick;
     all.back().second.camera.pixel_filter = PixelFilter::box;
     all.emplace_back("facing the panel, rotated, emission", example());
-    all.back().second.lens.facing = Facing::panel;
+    all.back().second.lens.as<PlanoConvex>().facing = Facing::panel;
     all.back().second.array.rotation_deg = 7;
     all.back().second.array.offset_mm = {0.3, -0.9};
     all.back().second.panel.emission_exponent = 1.5;
@@ -111,7 +109,7 @@ inline std::vector<std::pair<std::string, Display>> diffused() {
     add("plano-convex, gaussian", example(), {40, {4, 3}, Profile::gaussian});
     add("ideal, square", ideal_example(), closing);
     add("facing the panel", example(), closing);
-    all.back().second.lens.facing = Facing::panel;
+    all.back().second.lens.as<PlanoConvex>().facing = Facing::panel;
     add("stopped", example(), closing);
     all.back().second.lens.stop_radius_mm = 0.6;
     add("clear", example(), closing);
@@ -119,6 +117,8 @@ inline std::vector<std::pair<std::string, Display>> diffused() {
     add("plate", example(), closing);
     all.back().second.array.surround = Surround::plate;
     add("rectangular cells", in_rectangles(example()), closing);
+    add("weak", example(), {40, {1.2, 1.8}, Profile::box});
+    add("weak, rectangular cells", in_rectangles(example()), {40, {1.2, 1.2}, Profile::box});
     return all;
 }
 

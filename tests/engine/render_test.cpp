@@ -25,7 +25,8 @@ TEST(Means, OfManySamplesAreTheirAverage) {
         const Image image = picture(d, panel, {1, "", Rect{70, 50, 90, 60}});
         for (int y = 50; y < 60; ++y) {
             for (int x = 70; x < 90; ++x) {
-                optics::Sampler<float> sampler(Sampling::sobol, optics::kDimensions, view.seed, std::uint32_t(y * view.width + x));
+                optics::Sampler<float> sampler(Sampling::sobol, optics::sampler_dimensions, view.seed,
+                                               std::uint32_t(y * view.width + x));
                 double sum[3] = {};
                 for (int n = 0; n < samples; ++n, sampler.next(sobol_directions())) {
                     const auto hit =

@@ -71,7 +71,7 @@ TEST(WhitePanel, IdealSquareLensesHaveNoGaps) {
 // the panel: behind an ideal lens of huge focal length it is the camera's.)
 TEST(WhitePanel, RadianceFollowsTheExponent) {
     Display d = ideal_example();
-    d.lens.focal_length_mm = 1e5;
+    d.lens.as<IdealLens>().focal_length_mm = 1e5;
     d.camera.frame_width_mm = 1;
     d.camera.resolution = {3, 3};
     for (double angle : angles) {

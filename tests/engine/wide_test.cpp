@@ -32,7 +32,7 @@ Rendering by_host(const Display& d, const Texels& panel, const RenderOptions& op
     const Pyramid pyramid(panel);
     Work work(d, resolve(d), pyramid.levels(), options);
     work.make_pictures(options.target_error.has_value());
-    const wide::Panel there(queue, pyramid.levels());
+    const wide::DevicePanel there(queue, pyramid.levels());
     const Done done = wide::render(queue, there, work.tile, work.target_error, work.result.error.rgb.data(), job);
     EXPECT_TRUE(done.complete);
     work.result.samples = done.samples;
@@ -120,7 +120,7 @@ TEST(Wide, StopsWhenAskedAndLeavesTheRestBlack) {
     HostQueue queue;
     Work work(d, resolve(d), pyramid.levels(), {});
     work.make_pictures(false);
-    const wide::Panel there(queue, pyramid.levels());
+    const wide::DevicePanel there(queue, pyramid.levels());
     EXPECT_FALSE(wide::render(queue, there, work.tile, {}, nullptr, job).complete);
     EXPECT_GT(job.done, 0);
     EXPECT_LT(job.done, 160 * 112);
@@ -133,8 +133,8 @@ TEST(Wide, SaysWhatMemoryItWants) {
     const Texels panel = uniform_panel(d, 1);
     const Pyramid pyramid(panel);
     HostQueue small(1000);
-    EXPECT_THROW(wide::Panel(small, pyramid.levels()), wide::DeviceError);
-    EXPECT_GE(wide::Panel::bytes(pyramid.levels()), std::size_t(panel.columns() * panel.rows()) * 16);
+    EXPECT_THROW(wide::DevicePanel(small, pyramid.levels()), wide::DeviceError);
+    EXPECT_GE(wide::DevicePanel::bytes(pyramid.levels()), std::size_t(panel.columns() * panel.rows()) * 16);
 }
 
 /// A photograph that is somewhat like the view of a crop, and regions of both.
@@ -166,7 +166,7 @@ TEST(Wide, LikenessHasTheSameBits) {
         const Expected expected = expected_of(view);
         HostQueue queue;
         Job job;
-        const wide::Panel there(queue, pyramid.levels());
+        const wide::DevicePanel there(queue, pyramid.levels());
         const wide::Photograph photograph(queue, expected.photograph());
         const Work work(d, resolve(d), pyramid.levels(), options);
         const wide::Buffer<float> seen(queue, view.rgb.size());

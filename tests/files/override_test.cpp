@@ -28,8 +28,8 @@ TEST(Override, ValuesOfEveryKind) {
     EXPECT_EQ(set({"array.pitch_mm=13"}).array.pitch_mm[0], 13);
     EXPECT_EQ(set({"array.count=[3, 4]"}).array.count[1], 4);
     EXPECT_EQ(set({"array.count.0=5"}).array.count[0], 5);
-    EXPECT_EQ(set({"lens.facing=panel"}).lens.facing, Facing::panel);
-    EXPECT_EQ(set({"lens.facing=\"panel\""}).lens.facing, Facing::panel);
+    EXPECT_EQ(set({"lens.facing=panel"}).lens.as<PlanoConvex>().facing, Facing::panel);
+    EXPECT_EQ(set({"lens.facing=\"panel\""}).lens.as<PlanoConvex>().facing, Facing::panel);
     EXPECT_EQ(set({"render.fresnel=none"}).render.fresnel, Fresnel::none);
     EXPECT_EQ(set({"name=a = b"}).name, "a = b");
     EXPECT_EQ(set({"name=\\ \"\t\xc3\xa9"}).name, "\\ \"\t\xc3\xa9");
@@ -55,7 +55,7 @@ TEST(Override, Surfaces) {
         "lens={type=\"surfaces\", surface=[{semi_aperture_mm=6, distance_mm=4, index=1.5}, {semi_aperture_mm=6}]}"};
     std::vector<std::string> all = lens;
     all.push_back("lens.surface.1.curvature_per_mm=-0.1");
-    EXPECT_EQ(set(all).lens.surfaces.at(1).curvature_per_mm, -0.1);
+    EXPECT_EQ(set(all).lens.as<SurfaceLens>().surfaces.at(1).curvature_per_mm, -0.1);
     all.back() = "lens.surface.2.conic=0";
     EXPECT_THAT(fault_of(all), HasSubstr("--set lens.surface.2.conic=0: there is no element 2"));
 }

@@ -10,6 +10,7 @@
 #include "files/display_file.h"
 #include "meshed/lens_mesh.h"
 #include "model/numbers.h"
+#include "model/vec.h"
 
 namespace lfdsim {
 namespace {
@@ -30,16 +31,16 @@ Display triplet() {
 Display square_lens(double height = 0.5) {
     Display d = example();
     d.array.aperture = Aperture::square;
-    d.lens.cylinder_height_mm = height;
+    d.lens.as<PlanoConvex>().cylinder_height_mm = height;
     return d;
 }
 
 std::vector<std::pair<std::string, Display>> lenses() {
     Display facing = example();
-    facing.lens.facing = Facing::panel;
+    facing.lens.as<PlanoConvex>().facing = Facing::panel;
     Display half_ball = example();
-    half_ball.lens.sphere_radius_mm = half_ball.lens.aperture_radius_mm.value();
-    half_ball.lens.cylinder_height_mm = 0;
+    half_ball.lens.as<PlanoConvex>().sphere_radius_mm = half_ball.lens.as<PlanoConvex>().aperture_radius_mm.value();
+    half_ball.lens.as<PlanoConvex>().cylinder_height_mm = 0;
     Display cut_square = with_surfaces({{0, 0, {}, 6.5, 2, 1.5}, {-0.08, 0, {}, 7}});
     cut_square.array.aperture = Aperture::square;
     return {{"plano-convex", example()},
@@ -56,10 +57,6 @@ Vec3d vertex(const LensMesh& mesh, std::size_t corner) {
     const float* p = &mesh.vertices_mm[3 * std::size_t(mesh.triangles[corner])];
     return {p[0], p[1], p[2]};
 }
-Vec3d minus(const Vec3d& a, const Vec3d& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vec3d cross(const Vec3d& a, const Vec3d& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 /// Twice the area, along the normal.
 Vec3d area2(const LensMesh& mesh, std::size_t t) {
     return cross(minus(vertex(mesh, 3 * t + 1), vertex(mesh, 3 * t)), minus(vertex(mesh, 3 * t + 2), vertex(mesh, 3 * t)));
@@ -67,10 +64,7 @@ Vec3d area2(const LensMesh& mesh, std::size_t t) {
 double area_mm2(const LensMesh& mesh, std::int32_t surface) {
     double sum = 0;
     for (std::size_t t = 0; t < mesh.count(); ++t)
-        if (mesh.surface_of[t] == surface) {
-            const Vec3d a = area2(mesh, t);
-            sum += std::hypot(a[0], a[1], a[2]) / 2;
-        }
+        if (mesh.surface_of[t] == surface) sum += length(area2(mesh, t)) / 2;
     return sum;
 }
 
@@ -117,7 +111,7 @@ TEST(LensMesh, EveryBodyIsClosedAndLooksOutwards) {
             if (name == "triplet" && mesh.surface_of[t] == 1) continue;  // within the glass
             for (std::size_t k = 0; k < 3; ++k) ++edges[{vertex(mesh, 3 * t + k), vertex(mesh, 3 * t + (k + 1) % 3)}];
             const Vec3d a = area2(mesh, t), p = vertex(mesh, 3 * t);
-            volume6 += a[0] * p[0] + a[1] * p[1] + a[2] * p[2];
+            volume6 += dot(a, p);
             for (std::size_t k = 0; k < 3; ++k) {
                 const float* n = &mesh.normals[3 * std::size_t(mesh.triangles[3 * t + k])];
                 EXPECT_GT(a[0] * n[0] + a[1] * n[1] + a[2] * n[2], 0) << name << ", surface " << mesh.surface_of[t];
@@ -180,10 +174,10 @@ TEST(LensMesh, TrianglesAreNotSlivers) {
             double longest = 0;
             for (std::size_t k = 0; k < 3; ++k) {
                 const Vec3d e = minus(vertex(mesh, 3 * t + (k + 1) % 3), vertex(mesh, 3 * t + k));
-                longest = std::max(longest, std::hypot(e[0], e[1], e[2]));
+                longest = std::max(longest, length(e));
             }
             const Vec3d a = area2(mesh, t);
-            EXPECT_LT(longest * longest / std::hypot(a[0], a[1], a[2]), 4) << name;
+            EXPECT_LT(longest * longest / length(a), 4) << name;
         }
     }
 }

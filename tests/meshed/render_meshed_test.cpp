@@ -40,7 +40,7 @@ Comparison compare(const Display& d, std::int64_t triangles, LensNormals normals
     for (int row = 1; row < view.height; row += step) {
         for (int column = 2; column < view.width; column += step) {
             const auto pixel = optics::pixel_rays<float>(view, column, row);
-            optics::Sampler<float> sampler(d.render.sampling, optics::kDimensions, view.seed,
+            optics::Sampler<float> sampler(d.render.sampling, optics::sampler_dimensions, view.seed,
                                            std::uint32_t(row * view.width + column));
             optics::Passage<float> way{{}, {0, 0}, 1, pixel.alive};
             optics::sample_ray(scene, view, pixel, sampler, way.ray);
@@ -102,7 +102,7 @@ TEST_P(Convergence, IsOfTheOrderThatTheTriangleSizePromises) {
 // its ray meets, and few rays are so near a border of two.
 TEST(RenderMeshed, TendsToThePicture) {
     for (auto [name, d] : every_kind()) {
-        if (d.lens.type == LensType::ideal || d.array.surround != Surround::opaque) continue;
+        if (d.lens.type() == LensType::ideal || d.array.surround != Surround::opaque) continue;
         d.render.samples = 1;
         const Texels panel = noise_panel(d);
         const Image wanted = picture(d, panel), got = meshed(d, panel, 300000, LensNormals::smooth).image;
@@ -120,8 +120,8 @@ TEST(RenderMeshed, TendsToTheTrueLensFarOffTheAxis) {
     for (const double angle : {45.0, 60.0, 75.0}) {
         for (const Facing facing : {Facing::viewer, Facing::panel}) {
             Display d = example();
-            d.lens.sphere_radius_mm = 2.1;
-            d.lens.facing = facing;
+            d.lens.as<PlanoConvex>().sphere_radius_mm = 2.1;
+            d.lens.as<PlanoConvex>().facing = facing;
             d.panel.pixels = {640, 448};  // rays that slant so still meet it
             look_from(d, angle, 400);
             const std::vector<std::int64_t> n{20000, 80000, 320000};
@@ -169,7 +169,7 @@ TEST(MeshSurfaces, OnlyWaysDownCount) {
 
 TEST(RenderMeshed, WhiteIsWhiteOrBlack) {
     for (auto [name, d] : every_kind()) {
-        if (d.lens.type == LensType::ideal || d.array.surround != Surround::opaque) continue;
+        if (d.lens.type() == LensType::ideal || d.array.surround != Surround::opaque) continue;
         d.render.fresnel = Fresnel::none;
         d.panel.emission_exponent = 0;
         d.diffuser.reset();

@@ -42,7 +42,7 @@ TEST(Cardinal, PlanoConvexBothWays) {
     EXPECT_NEAR(c.focal_length_mm, R / (n - 1), 1e-12);
     EXPECT_NEAR(c.front_principal_mm, T / n, 1e-12);
     EXPECT_NEAR(c.rear_principal_mm, T, 1e-12);
-    d.lens.facing = Facing::panel;
+    d.lens.as<PlanoConvex>().facing = Facing::panel;
     c = cardinal_points(prescription(d.lens, d.array));
     EXPECT_NEAR(c.focal_length_mm, R / (n - 1), 1e-12);
     EXPECT_NEAR(c.front_principal_mm, 0, 1e-12);

@@ -117,7 +117,7 @@ TEST(Theory, DepthOfFieldIsOneIntervalOfInverseDepths) {
     for (const double gap : {3., 9., 14.9, 15.5, 15.69, 15.6999, 15.7, 15.7001, 15.71, 15.9, 16.485, 20., 60.}) {
         d.array.gap_mm = gap;
         const Theory t = theory_of(d);
-        const double f = d.lens.focal_length_mm, inverse_L = gap == f ? 0 : 1 / f - 1 / gap;
+        const double f = d.lens.as<IdealLens>().focal_length_mm, inverse_L = gap == f ? 0 : 1 / f - 1 / gap;
         const auto excess = [&](double per_mm) { return 12 * std::abs(per_mm - inverse_L) - 0.13636 / gap; };  // over |z|
         EXPECT_NEAR(excess(t.depth_near_per_mm), 0, 1e-12) << gap;
         EXPECT_NEAR(excess(t.depth_far_per_mm), 0, 1e-12) << gap;

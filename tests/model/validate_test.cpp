@@ -8,6 +8,7 @@
 
 #include "example.h"
 #include "model/geometry.h"
+#include "model/keys.h"
 #include "model/numbers.h"
 
 namespace lfdsim {
@@ -55,16 +56,16 @@ INSTANTIATE_TEST_SUITE_P(Ranges, Fault, testing::Values(
     Case{"panel.pixel_pitch_mm", "is nan", [](Display& d) { d.panel.pixel_pitch_mm = -nan; }},
     Case{"panel.pixel_pitch_mm", "is -1", [](Display& d) { d.panel.pixel_pitch_mm = -1; }},
     Case{"panel.emission_exponent", "is 101", [](Display& d) { d.panel.emission_exponent = 101; }},
-    Case{"lens.index", "is 0.9, allowed is 1 to 4", [](Display& d) { d.lens.index = 0.9; }},
-    Case{"lens.index", "is inf", [](Display& d) { d.lens.index = inf; }},
-    Case{"lens.cylinder_height_mm", "is -0.5", [](Display& d) { d.lens.cylinder_height_mm = -0.5; }},
+    Case{"lens.index", "is 0.9, allowed is 1 to 4", [](Display& d) { d.lens.as<PlanoConvex>().index = 0.9; }},
+    Case{"lens.index", "is inf", [](Display& d) { d.lens.as<PlanoConvex>().index = inf; }},
+    Case{"lens.cylinder_height_mm", "is -0.5", [](Display& d) { d.lens.as<PlanoConvex>().cylinder_height_mm = -0.5; }},
     Case{"lens.stop_radius_mm", "is 0", [](Display& d) { d.lens.stop_radius_mm = 0; }},
-    Case{"lens.focal_length_mm", "is -15", [](Display& d) { d.lens.focal_length_mm = -15; }, example_ideal},
-    Case{"lens.surface.1.conic", "is nan", [](Display& d) { d.lens.surfaces[1].conic = nan; }, example_surfaces},
-    Case{"lens.surface.1.even_asphere[1]", "is inf", [](Display& d) { d.lens.surfaces[1].even_asphere[1] = inf; }, example_surfaces},
-    Case{"lens.surface.1.even_asphere", "has 9 coefficients", [](Display& d) { d.lens.surfaces[1].even_asphere.resize(9); }, example_surfaces},
-    Case{"lens.surface", "more than the 16", [](Display& d) { d.lens.surfaces.resize(17, d.lens.surfaces[0]); }, example_surfaces},
-    Case{"lens.surface", "at least one", [](Display& d) { d.lens.surfaces.clear(); }, example_surfaces},
+    Case{"lens.focal_length_mm", "is -15", [](Display& d) { d.lens.as<IdealLens>().focal_length_mm = -15; }, example_ideal},
+    Case{"lens.surface.1.conic", "is nan", [](Display& d) { d.lens.as<SurfaceLens>().surfaces[1].conic = nan; }, example_surfaces},
+    Case{"lens.surface.1.even_asphere[1]", "is inf", [](Display& d) { d.lens.as<SurfaceLens>().surfaces[1].even_asphere[1] = inf; }, example_surfaces},
+    Case{"lens.surface.1.even_asphere", "has 9 coefficients", [](Display& d) { d.lens.as<SurfaceLens>().surfaces[1].even_asphere.resize(9); }, example_surfaces},
+    Case{"lens.surface", "more than the 16", [](Display& d) { d.lens.as<SurfaceLens>().surfaces.resize(17, d.lens.as<SurfaceLens>().surfaces[0]); }, example_surfaces},
+    Case{"lens.surface", "at least one", [](Display& d) { d.lens.as<SurfaceLens>().surfaces.clear(); }, example_surfaces},
     Case{"array.count[1]", "is -3", [](Display& d) { d.array.count[1] = -3; }},
     Case{"array.count", "= 2147483648, allowed is a product below 2^31", [](Display& d) { d.array.count = {65536, 32768}; }},
     Case{"array.count", "allowed is 1000000 mm", [](Display& d) { d.array.count = {1, big}; }},
@@ -86,35 +87,35 @@ INSTANTIATE_TEST_SUITE_P(Ranges, Fault, testing::Values(
     Case{"render.seed", "is -1, allowed is 0 to 2^63 - 1", [](Display& d) { d.render.seed = -1; }}));
 
 INSTANTIATE_TEST_SUITE_P(Lens, Fault, testing::Values(
-    Case{"lens.aperture_radius_mm", "is missing", [](Display& d) { d.lens.aperture_radius_mm.reset(); }},
-    Case{"lens.aperture_radius_mm", "wider than array.pitch_mm = 12", [](Display& d) { d.lens.aperture_radius_mm = 6.01; }},
-    Case{"lens.aperture_radius_mm", "wider than array.pitch_mm = 12", [](Display& d) { d.lens.aperture_radius_mm = 6.01; }, example_ideal},
-    Case{"lens.sphere_radius_mm", "R = 5 mm is smaller than the aperture radius r = 6", [](Display& d) { d.lens.sphere_radius_mm = 5; }},
+    Case{"lens.aperture_radius_mm", "is missing", [](Display& d) { d.lens.as<PlanoConvex>().aperture_radius_mm.reset(); }},
+    Case{"lens.aperture_radius_mm", "wider than array.pitch_mm = 12", [](Display& d) { d.lens.as<PlanoConvex>().aperture_radius_mm = 6.01; }},
+    Case{"lens.aperture_radius_mm", "wider than array.pitch_mm = 12", [](Display& d) { d.lens.as<IdealLens>().aperture_radius_mm = 6.01; }, example_ideal},
+    Case{"lens.sphere_radius_mm", "R = 5 mm is smaller than the aperture radius r = 6", [](Display& d) { d.lens.as<PlanoConvex>().sphere_radius_mm = 5; }},
     Case{"lens.sphere_radius_mm", "half the cell's diagonal = 8.48", [](Display& d) { d.array.aperture = Aperture::square; }},
-    Case{"lens.cylinder_height_mm", "2 sqrt(R^2 - r^2) = 8.24", [](Display& d) { d.lens.cylinder_height_mm = 8.3; }},
+    Case{"lens.cylinder_height_mm", "2 sqrt(R^2 - r^2) = 8.24", [](Display& d) { d.lens.as<PlanoConvex>().cylinder_height_mm = 8.3; }},
     Case{"lens.stop_radius_mm", "holes of neighbours overlap", [](Display& d) { d.lens.stop_radius_mm = 6.5; }},
     Case{"lens.stop_radius_mm", "holes of neighbours overlap", [](Display& d) { d.lens.stop_radius_mm = 7; }, example_surfaces},
-    Case{"array.surround", "make them equal", [](Display& d) { d.array.surround = Surround::clear; d.lens.surfaces[0].semi_aperture_mm = 5; }, example_surfaces},
-    Case{"lens.surface.0.semi_aperture_mm", "wider than array.pitch_mm", [](Display& d) { d.lens.surfaces[0].semi_aperture_mm = 6.5; }, example_surfaces},
+    Case{"array.surround", "make them equal", [](Display& d) { d.array.surround = Surround::clear; d.lens.as<SurfaceLens>().surfaces[0].semi_aperture_mm = 5; }, example_surfaces},
+    Case{"lens.surface.0.semi_aperture_mm", "wider than array.pitch_mm", [](Display& d) { d.lens.as<SurfaceLens>().surfaces[0].semi_aperture_mm = 6.5; }, example_surfaces},
     // conic edge: 1/(c sqrt(1 + k)) = 1/(0.25 * 1) = 4 mm
-    Case{"lens.surface.1.semi_aperture_mm", "ends 4 mm from the axis", [](Display& d) { d.lens.surfaces[1] = {-0.25, 0, {}, 6, 0, 1}; }, example_surfaces},
-    Case{"lens.surface.1.semi_aperture_mm", "sag grows to", [](Display& d) { d.lens.surfaces[1].even_asphere = {1e4}; }, example_surfaces},
-    Case{"lens.surface.0.distance_mm", "cross within the aperture; at least 2.48997", [](Display& d) { d.lens.surfaces[0].distance_mm = 1; }, example_surfaces},
+    Case{"lens.surface.1.semi_aperture_mm", "ends 4 mm from the axis", [](Display& d) { d.lens.as<SurfaceLens>().surfaces[1] = {-0.25, 0, {}, 6, 0, 1}; }, example_surfaces},
+    Case{"lens.surface.1.semi_aperture_mm", "sag grows to", [](Display& d) { d.lens.as<SurfaceLens>().surfaces[1].even_asphere = {1e4}; }, example_surfaces},
+    Case{"lens.surface.0.distance_mm", "cross within the aperture; at least 2.48997", [](Display& d) { d.lens.as<SurfaceLens>().surfaces[0].distance_mm = 1; }, example_surfaces},
     Case{"array.surround", "an ideal lens has no glass", [](Display& d) { d.array.surround = Surround::plate; }, example_ideal},
-    Case{"array.surround", "the lens has 3", [](Display& d) { d.array.surround = Surround::clear; d.lens.surfaces.insert(d.lens.surfaces.begin(), {0, 0, {}, 6, 1, 1.6}); }, example_surfaces}));
+    Case{"array.surround", "the lens has 3", [](Display& d) { d.array.surround = Surround::clear; d.lens.as<SurfaceLens>().surfaces.insert(d.lens.as<SurfaceLens>().surfaces.begin(), {0, 0, {}, 6, 1, 1.6}); }, example_surfaces}));
 
 INSTANTIATE_TEST_SUITE_P(Layout, Fault, testing::Values(
     Case{"array.gap_mm", "into the panel; at least 2.786", [](Display& d) { d.array.gap_mm = 1; }},
     // a meniscus whose principal planes lie far below it
     Case{"array.base_z_mm", "before the panel", [](Display& d) {
-        d.lens.surfaces = {{-0.08, 0, {}, 3, 5, 1.7}, {-0.1, 0, {}, 3, 0, 1}};
+        d.lens.as<SurfaceLens>().surfaces = {{-0.08, 0, {}, 3, 5, 1.7}, {-0.1, 0, {}, 3, 0, 1}};
         d.array.gap_mm.reset();
         d.array.base_z_mm = 0;
-        d.lens.surfaces[0].curvature_per_mm = 0.12, d.lens.surfaces[1].curvature_per_mm = 0.14;
+        d.lens.as<SurfaceLens>().surfaces[0].curvature_per_mm = 0.12, d.lens.as<SurfaceLens>().surfaces[1].curvature_per_mm = 0.14;
     }, example_surfaces},
     // the vertex plane is in the middle of a concave cup whose rim stands 10 - 8 = 2 mm higher
     Case{"diffuser.distance_mm", "reach 2 mm above the vertex plane", [](Display& d) {
-        d.lens.surfaces[1] = {0.1, 0, {}, 6, 0, 1};
+        d.lens.as<SurfaceLens>().surfaces[1] = {0.1, 0, {}, 6, 0, 1};
         d.diffuser = Diffuser{1.5, {2, 2}};
     }, example_surfaces},
     Case{"camera.position_mm", "on the panel", [](Display& d) { d.camera.position_mm = {1, 1, 0}; }},
@@ -139,8 +140,8 @@ INSTANTIATE_TEST_SUITE_P(Layout, Fault, testing::Values(
 TEST(Validate, FindsIndependentFaultsTogether) {
     Display d = example();
     d.panel.pixel_pitch_mm = nan;
-    d.lens.index = 9;
-    d.lens.sphere_radius_mm = 5;
+    d.lens.as<PlanoConvex>().index = 9;
+    d.lens.as<PlanoConvex>().sphere_radius_mm = 5;
     d.diffuser = Diffuser{-1, {200, 2}};
     d.camera.up = {0, 0, 1};
     d.camera.position_mm[2] = -1;
@@ -160,17 +161,17 @@ TEST(Validate, WhatPassesIsFinite) {
             return *rc::gen::element(0.0, -0.0, 1e-300, 1e-6, 0.3, 1.0, 1.5, 5.9, 6.0, 12.0, 16.485, 100.0, 1e5, 1e6, 1e300, -1.0,
                                      nan, inf, -inf);
         };
-        std::vector<double*> numbers{
-            &d.panel.pixel_pitch_mm, &d.lens.sphere_radius_mm,      &d.lens.cylinder_height_mm, &d.lens.index,
-            &d.lens.focal_length_mm, &d.array.pitch_mm[0],          &*d.array.gap_mm,           &d.camera.position_mm[2],
-            &d.camera.target_mm[0],  &d.content.viewing_distance_mm};
-        for (Surface& s : d.lens.surfaces) {
-            numbers.insert(numbers.end(), {&s.curvature_per_mm, &s.conic, &s.semi_aperture_mm, &s.distance_mm, &s.index});
-            for (double& a : s.even_asphere) numbers.push_back(&a);
-        }
+        std::vector<double*> numbers{&d.panel.pixel_pitch_mm,  &d.array.pitch_mm[0],   &*d.array.gap_mm,
+                                     &d.camera.position_mm[2], &d.camera.target_mm[0], &d.content.viewing_distance_mm};
+        visit_all(d, [&](const std::string& path, const KeyInfo&, ValueRef value) {
+            if (!path.starts_with("lens.")) return;
+            if (auto* number = std::get_if<double*>(&value)) numbers.push_back(*number);
+            if (auto* list = std::get_if<std::vector<double>*>(&value))
+                for (double& a : **list) numbers.push_back(&a);
+        });
         for (int i = *rc::gen::inRange(1, 3); i > 0; --i) *numbers[*rc::gen::inRange<std::size_t>(0, numbers.size())] = hostile();
         d.array.aperture = *rc::gen::element(Aperture::circle, Aperture::square);
-        d.lens.facing = *rc::gen::element(Facing::viewer, Facing::panel);
+        if (auto* ball = std::get_if<PlanoConvex>(&d.lens.kind)) ball->facing = *rc::gen::element(Facing::viewer, Facing::panel);
         const bool valid = validate(d).empty();
         RC_CLASSIFY(valid);
         if (!valid) return;

@@ -134,7 +134,7 @@ TEST(Camera, RaysThatLookAwayEndAtOnce) {
 
 // Shirley and Chiu's map keeps areas: equal shares in rings of equal area and in sectors.
 TEST(Camera, PupilIsEvenlyFilled) {
-    Sampler<float> sampler(Sampling::random, kDimensions, 0, 1);
+    Sampler<float> sampler(Sampling::random, sampler_dimensions, 0, 1);
     std::vector<int> counts(16 * 16);
     for (; sampler.sample < 200000; ++sampler.sample) {
         float x, y;

@@ -6,12 +6,12 @@
 namespace lfdsim::optics {
 namespace {
 
-constexpr int kSteps = 2000000;
-double step(double low, double high, int i) { return double(float(low + (high - low) * i / kSteps)); }
+constexpr int grid_steps = 2000000;
+double step(double low, double high, int i) { return double(float(low + (high - low) * i / grid_steps)); }
 
 TEST(Elementary, SineAndCosine) {
     double worst = 0;
-    for (int i = 0; i <= kSteps; ++i) {
+    for (int i = 0; i <= grid_steps; ++i) {
         const double a = step(-std::numbers::pi / 2, std::numbers::pi / 2, i);
         float sine, cosine;
         sincos(float(a), false, sine, cosine);
@@ -22,7 +22,7 @@ TEST(Elementary, SineAndCosine) {
 
 TEST(Elementary, SineAndCosineOfSmallAngles) {
     double worst = 0;
-    for (int i = 0; i <= kSteps; ++i) {
+    for (int i = 0; i <= grid_steps; ++i) {
         const double a = step(-0.05, 0.05, i);
         float sine, cosine;
         sincos(float(a), true, sine, cosine);
@@ -33,7 +33,7 @@ TEST(Elementary, SineAndCosineOfSmallAngles) {
 
 TEST(Elementary, Logarithm) {
     double worst = 0;
-    for (int i = 0; i <= kSteps; ++i) {
+    for (int i = 0; i <= grid_steps; ++i) {
         for (double a : {step(0.4, 2.5, i), std::exp2(step(-120, 120, i))}) {
             const double wanted = std::log2(double(float(a)));
             worst = std::max(worst, std::abs(log2(float(a)) - wanted) / std::max(1.0, std::abs(wanted)));
@@ -45,7 +45,7 @@ TEST(Elementary, Logarithm) {
 
 TEST(Elementary, Exponential) {
     double worst = 0;
-    for (int i = 0; i <= kSteps; ++i) {
+    for (int i = 0; i <= grid_steps; ++i) {
         const double a = step(-126, 126, i), wanted = std::exp2(a);
         worst = std::max(worst, std::abs(exp2(float(a)) - wanted) / wanted);
     }
@@ -73,7 +73,7 @@ double error_of(double y, double x) { return (std::erf(y) - x) / (2 / std::sqrt(
 
 TEST(Elementary, InverseErrorFunction) {
     double worst = 0, worst_double = 0;
-    for (int i = 1; i < kSteps; ++i) {
+    for (int i = 1; i < grid_steps; ++i) {
         const double x = step(-0.99999, 0.99999, i);
         if (x == 0) continue;
         const double y = double(erfinv(float(x)));

@@ -17,10 +17,7 @@ inline Display example() {
     Display d;
     d.panel.pixels = {160, 112};
     d.panel.pixel_pitch_mm = 0.25;
-    d.lens.sphere_radius_mm = 3;
-    d.lens.aperture_radius_mm = 2;
-    d.lens.cylinder_height_mm = 0.5;
-    d.lens.index = 1.5;
+    d.lens.kind = PlanoConvex{3, 2, 0.5, 1.5, Facing::viewer};
     d.array.count = {10, 7};
     d.array.pitch_mm = 4;
     d.array.gap_mm = 7;
@@ -35,9 +32,7 @@ inline Display example() {
 /// The example with another lens, given by its surfaces from the panel's side to the viewer's.
 inline Display with_surfaces(std::vector<Surface> surfaces) {
     Display d = example();
-    d.lens = {};
-    d.lens.type = LensType::surfaces;
-    d.lens.surfaces = std::move(surfaces);
+    d.lens = {SurfaceLens{std::move(surfaces)}, {}};
     d.array.pitch_mm = 12;
     d.array.gap_mm.reset();
     d.array.base_z_mm = 10;

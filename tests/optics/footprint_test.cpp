@@ -11,13 +11,13 @@
 namespace lfdsim::optics {
 namespace {
 
-constexpr int kColumns = 200, kRows = 90;
+constexpr int panel_columns = 200, panel_rows = 90;
 
 template <class Light>
 Texels panel(Light light) {
-    Texels texels(kColumns, kRows);
-    for (int r = 0; r < kRows; ++r)
-        for (int c = 0; c < kColumns; ++c)
+    Texels texels(panel_columns, panel_rows);
+    for (int r = 0; r < panel_rows; ++r)
+        for (int c = 0; c < panel_columns; ++c)
             for (int k = 0; k < 4; ++k) texels.row(r)[4 * c + k] = k < 3 ? float(light(c, r, k)) : 0;
     return texels;
 }
@@ -36,11 +36,12 @@ TEST(Footprint, OfASmallBoxIsTheMeanOverIt) {
     Texels texels = panel([&](int, int, int) { return random(0, 1); });
     const Pyramid pyramid(texels);
     for (int n = 0; n < 1000; ++n) {
-        const double wide = random(0.02, 1), high = random(0.02, 1), column = random(-1, kColumns + 1), row = random(-1, kRows + 1);
+        const double wide = random(0.02, 1), high = random(0.02, 1), column = random(-1, panel_columns + 1),
+                     row = random(-1, panel_rows + 1);
         double wanted = 0;
         for (int c = int(std::floor(column)) - 1; c <= int(column) + 1; ++c)
             for (int r = int(std::floor(row)) - 1; r <= int(row) + 1; ++r) {
-                if (c < 0 || r < 0 || c >= kColumns || r >= kRows) continue;
+                if (c < 0 || r < 0 || c >= panel_columns || r >= panel_rows) continue;
                 const double across = std::min(column + wide / 2, c + 1.0) - std::max(column - wide / 2, double(c)),
                              down = std::min(row + high / 2, r + 1.0) - std::max(row - high / 2, double(r));
                 wanted += std::max(across, 0.0) * std::max(down, 0.0) / (wide * high) * double(texels.row(r)[4 * c + 1]);
@@ -51,14 +52,14 @@ TEST(Footprint, OfASmallBoxIsTheMeanOverIt) {
 }
 
 TEST(Footprint, OfAnyWideBoxFollowsASlope) {
-    const Texels texels = panel([](int c, int r, int k) { return k == 2 ? (r + 0.5) / kRows : (c + 0.5) / kColumns; });
+    const Texels texels = panel([](int c, int r, int k) { return k == 2 ? (r + 0.5) / panel_rows : (c + 0.5) / panel_columns; });
     const Pyramid pyramid(texels);
     Random random(4);
     for (int n = 0; n < 1000; ++n) {
         const double size = random(2.01, 15.9), column = random(40, 150), row = random(30, 60);
         const auto light = light_of(pyramid, column, row, size, size);
-        EXPECT_NEAR(light[0], column / kColumns, 1e-5) << size;
-        EXPECT_NEAR(light[2], row / kRows, 1e-5) << size;
+        EXPECT_NEAR(light[0], column / panel_columns, 1e-5) << size;
+        EXPECT_NEAR(light[2], row / panel_rows, 1e-5) << size;
         EXPECT_EQ(light[3], 0);
     }
 }

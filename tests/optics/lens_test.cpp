@@ -83,9 +83,9 @@ double spot_width(const Display& d, double distance) {
 TEST(Lens, FocalLengthIsGaussInTheLimit) {
     for (Facing facing : {Facing::viewer, Facing::panel}) {
         Display d = example();
-        d.lens.facing = facing;
+        d.lens.as<PlanoConvex>().facing = facing;
         const Bench bench(d);
-        const double f = d.lens.sphere_radius_mm / (d.lens.index - 1);
+        const double f = d.lens.as<PlanoConvex>().sphere_radius_mm / (d.lens.as<PlanoConvex>().index - 1);
         auto error = [&](double height) {
             Ray<double> ray{{height, 0, 50}, {0, 0, -1}};
             EXPECT_TRUE(bench.follow(ray, 0));
@@ -104,13 +104,13 @@ TEST(Lens, FocalLengthIsGaussInTheLimit) {
 TEST(Lens, CapMeetsTheWall) {
     for (double R : {2.0, 2.0615528128088303, 3.0, 10.0}) {
         Display d = example();
-        d.lens.sphere_radius_mm = R;
-        d.lens.cylinder_height_mm = R == 2 ? 0 : 0.5;
+        d.lens.as<PlanoConvex>().sphere_radius_mm = R;
+        d.lens.as<PlanoConvex>().cylinder_height_mm = R == 2 ? 0 : 0.5;
         const Geometry g = resolve(d);
         const Scene<double> scene = make_scene<double>(d, g);
-        const double centre = g.base_z_mm + d.lens.cylinder_height_mm - std::sqrt(R * R - 4);
+        const double centre = g.base_z_mm + d.lens.as<PlanoConvex>().cylinder_height_mm - std::sqrt(R * R - 4);
         EXPECT_NEAR(scene.surface[0].z, centre + R, 1e-12);
-        EXPECT_NEAR(scene.surface[0].z + scene.surface[0].rim, g.base_z_mm + d.lens.cylinder_height_mm, 1e-12);
+        EXPECT_NEAR(scene.surface[0].z + scene.surface[0].rim, g.base_z_mm + d.lens.as<PlanoConvex>().cylinder_height_mm, 1e-12);
         EXPECT_NEAR(scene.surface[0].curvature, -1 / R, 1e-15);
         EXPECT_NEAR(scene.surface[1].z, g.base_z_mm, 1e-12);
         EXPECT_EQ(scene.surface[1].curvature, 0);
@@ -203,10 +203,7 @@ PanelHit<double> through_ideal(const Display& d, double x, double y, double slop
 // the principal ray goes straight on, parallel rays meet in the focal plane, those through the viewer-side focus come down upright.
 TEST(IdealLens, ClosedForm) {
     Display d = example();
-    d.lens = {};
-    d.lens.type = LensType::ideal;
-    d.lens.focal_length_mm = 9;
-    d.lens.aperture_radius_mm = 3;
+    d.lens = {IdealLens{3, 9}, {}};
     d.panel.pixels = {40000, 40000};
     d.panel.pixel_pitch_mm = 0.0005;
     d.array.count = {1, 1};

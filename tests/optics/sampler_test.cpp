@@ -8,16 +8,16 @@
 namespace lfdsim::optics {
 namespace {
 
-using Numbers = std::array<double, kDimensions>;
+using Numbers = std::array<double, sampler_dimensions>;
 
 /// Numbers of samples `from` .. `from + count - 1` of a pixel, in [0, 1].
 std::vector<Numbers> points(Sampling kind, std::uint64_t seed, std::uint32_t pixel, std::uint32_t from, std::uint32_t count) {
-    Sampler<double> sampler(kind, kDimensions, seed, pixel);
+    Sampler<double> sampler(kind, sampler_dimensions, seed, pixel);
     std::vector<Numbers> all;
     for (std::uint32_t n = 0; n < from + count; ++n, sampler.next(sobol_directions())) {
         if (n < from) continue;
         Numbers& numbers = all.emplace_back();
-        for (int d = 0; d < kDimensions; ++d) numbers[d] = (sampler(d) + 1) / 2;
+        for (int d = 0; d < sampler_dimensions; ++d) numbers[d] = (sampler(d) + 1) / 2;
     }
     return all;
 }
@@ -51,7 +51,7 @@ TEST(Sobol, PairsOfDimensionsAreNets) {
 TEST(Sobol, EachDimensionIsStratified) {
     for (int k = 0; k <= 12; ++k) {
         const auto net = points(Sampling::sobol, 9, 4242, 1u << k, 1u << k);
-        for (int d = 0; d < kDimensions; ++d) {
+        for (int d = 0; d < sampler_dimensions; ++d) {
             std::vector<int> counts(1u << k);
             for (const Numbers& p : net) ++counts[bin(p[d], 1 << k)];
             for (int n : counts) ASSERT_EQ(n, 1) << "dimension " << d << " k " << k;
@@ -59,20 +59,20 @@ TEST(Sobol, EachDimensionIsStratified) {
     }
 }
 
-constexpr int kBins = 16, kPairs = 100000;
+constexpr int bins = 16, pairs = 100000;
 
 /// Chi-square over pairs of numbers that should be independent and uniform.
 double dependence(const std::function<std::array<double, 2>(std::uint32_t)>& pair) {
-    std::vector<int> counts(kBins * kBins);
-    for (std::uint32_t n = 0; n < kPairs; ++n) {
+    std::vector<int> counts(bins * bins);
+    for (std::uint32_t n = 0; n < pairs; ++n) {
         const auto [u, v] = pair(n);
-        ++counts[bin(u, kBins) * kBins + bin(v, kBins)];
+        ++counts[bin(u, bins) * bins + bin(v, bins)];
     }
     return chi_square(counts);
 }
 
 double number(Sampling kind, std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample, int dimension) {
-    Sampler<double> sampler(kind, kDimensions, seed, pixel);
+    Sampler<double> sampler(kind, sampler_dimensions, seed, pixel);
     if (kind == Sampling::random)
         sampler.sample = sample;
     else
@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Both, Independence, testing::Values(Sampling::sobol, Sa
 
 TEST_P(Independence, OfPixelsDimensionsAndSeeds) {
     const Sampling kind = GetParam();
-    for (int d = 0; d < kDimensions; ++d) {
+    for (int d = 0; d < sampler_dimensions; ++d) {
         for (std::uint32_t apart : {1u, 2u, 64u, 3840u}) {  // neighbours in a row, in a packet, in a column
             EXPECT_LT(dependence([&](std::uint32_t n) {
                           return std::array{number(kind, 0, n, 3, d), number(kind, 0, n + apart, 3, d)};
@@ -93,7 +93,7 @@ TEST_P(Independence, OfPixelsDimensionsAndSeeds) {
                       unlikely)
                 << "pixels " << apart << " apart, dimension " << d;
         }
-        const int other = (d + 1) % kDimensions;
+        const int other = (d + 1) % sampler_dimensions;
         EXPECT_LT(dependence([&](std::uint32_t n) {
                       return std::array{number(kind, 1, n, 0, d), number(kind, 1, n, 0, other)};
                   }),
@@ -113,7 +113,7 @@ TEST_P(Independence, OfPixelsDimensionsAndSeeds) {
 }
 
 TEST(Random, SamplesAreIndependent) {
-    for (int d = 0; d < kDimensions; ++d) {
+    for (int d = 0; d < sampler_dimensions; ++d) {
         for (std::uint32_t apart : {1u, 2u, 16u, 256u}) {
             for (std::uint32_t pixel : {0u, 1u, 999983u}) {
                 EXPECT_LT(dependence([&](std::uint32_t n) {
@@ -147,7 +147,7 @@ TEST_P(Independence, MeansAreUnbiased) {
                 constexpr int pixels = 4000;
                 double sum = 0, squares = 0;
                 for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
-                    Sampler<double> sampler(GetParam(), kDimensions, 3, pixel);
+                    Sampler<double> sampler(GetParam(), sampler_dimensions, 3, pixel);
                     double mean = 0;
                     for (std::uint32_t n = 0; n < samples; ++n, sampler.next(sobol_directions())) {
                         mean += c.f((sampler(first) + 1) / 2, (sampler(first + 1) + 1) / 2) / samples;

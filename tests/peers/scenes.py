@@ -53,8 +53,8 @@ for peer, panel, scene in (("pov", "panel.png", "scene.pov"), ("cycles", "panel.
 # A name that would be code, if it could.
 (program.folder / "evil.toml").write_text(TINY.replace('"tiny"', '"a\\n*/ import os; #declare\\u2028 \\"\\"\\" \\u001b"'))
 for peer in ("pov", "cycles", "mitsuba"):
-    program.must(f"export {peer} evil.toml --pattern white {BARE} -o evil")
-    scene = next(p for p in (program.folder / "evil").iterdir() if p.name.startswith("scene")).read_text()
+    program.must(f"export {peer} evil.toml --pattern white {BARE} -o evil-{peer}")
+    scene = next(p for p in (program.folder / f"evil-{peer}").iterdir() if p.name.startswith("scene")).read_text()
     checks.that(scene.count("#declare?") == 1 and scene.splitlines()[0].startswith(("//", "#")), f"{peer}: the name gets out")
 
 for name, arguments, *words in [

@@ -20,6 +20,14 @@ BETWEEN_EYES_MM = 65.0
 LOOSE = 0.05  # of a frequency: a form that knows it no better does not tell
 
 
+def least(form, limit):
+    """The lesser of a form and a number; a form of None lies above it."""
+    if form == UNSURE or form is None:
+        return UNSURE if form == UNSURE else (limit, 1e-6 * limit)
+    value, error = form
+    return min(value, limit), error if value < limit + 4 * error else 1e-6 * limit
+
+
 class Forms:
     """All forms of a drawn display. Each method is named as its measure, takes its result, and gives {path there: form, or a list of forms}."""
 
@@ -93,7 +101,11 @@ class Forms:
             greatest = 0.8 * d.paraxial.front / (d.panel.pixel_pitch_mm * max(abs(z), 1e-3 * self.eye))  # 0.6 is the limit of a pixel's image
             eye = [self.eye * math.sin(angle), 0.0, self.eye * math.cos(angle)]
             form = sure(sharpness.mtf50, lines, eye, m["depth_mm"], int(m["direction"] == "vertical"), greatest)
-            out[f"measurements.{k}.mtf50_per_mm.green"] = UNSURE if form and form != UNSURE and form[1] > LOOSE * form[0] else form
+            form = UNSURE if form and form != UNSURE and form[1] > LOOSE * form[0] else form
+            out[f"measurements.{k}.mtf50_per_mm.green"] = form
+            lens = (eye[2] - d.vertex_plane) / (2 * d.array.pitch_mm[int(m["direction"] == "vertical")] * (eye[2] - d.vertex_plane - m["depth_mm"]))
+            pixel = d.paraxial.front / (2 * d.panel.pixel_pitch_mm * max(abs(z), 1e-300))
+            out[f"measurements.{k}.resolution_per_mm"] = least(form, min(lens, pixel))
         return out
 
     def spot(self, result):

@@ -32,7 +32,7 @@ class Harness:
         self.most_pixels = most_pixels  # of a panel
 
     def lfdsim(self, *arguments):
-        return subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, timeout=600, cwd=self.folder)
+        return subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, timeout=3600, cwd=self.folder)
 
     def drawn(self, number):
         """The first drawing of this number that check accepts: (description, its file, check's result, drawings refused)."""

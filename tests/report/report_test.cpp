@@ -179,10 +179,10 @@ TEST(SideView, DrawsAnyDisplay) {
             d.diffuser = Diffuser{30, {4, 3}};
         }),
         with([](Display& d) {
-            d.lens = {}, d.lens.type = LensType::ideal, d.lens.focal_length_mm = 6, d.lens.aperture_radius_mm = 2;
+            d.lens = {IdealLens{2, 6}, {}};
         }),
         with([](Display& d) {
-            d.lens = {}, d.lens.type = LensType::ideal, d.lens.focal_length_mm = 7, d.lens.aperture_radius_mm = 2;
+            d.lens = {IdealLens{2, 7}, {}};
         }),
         with([](Display& d) { d.array.gap_mm = 4; }),  // virtual
         with([](Display& d) {
@@ -190,9 +190,10 @@ TEST(SideView, DrawsAnyDisplay) {
         }),
         with([](Display& d) { d.array.surround = Surround::plate; }),
         with([](Display& d) {
-            d.array.surround = Surround::clear, d.array.aperture = Aperture::square, d.lens.aperture_radius_mm.reset();
+            d.array.surround = Surround::clear, d.array.aperture = Aperture::square,
+            d.lens.as<PlanoConvex>().aperture_radius_mm.reset();
         }),
-        with([](Display& d) { d.lens.facing = Facing::panel, d.lens.stop_radius_mm = 0.5; }),
+        with([](Display& d) { d.lens.as<PlanoConvex>().facing = Facing::panel, d.lens.stop_radius_mm = 0.5; }),
         with([](Display& d) {
             d.array.rotation_deg = 30, d.array.offset_mm = {3, -2}, d.array.count = {1, 1};
         }),

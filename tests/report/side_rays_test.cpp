@@ -20,12 +20,12 @@ double traced(const Display& d, const SideRay& ray) {
     alone.array.count = {1, 1};
     alone.diffuser.reset();
     const optics::Scene<double> scene = make_scene<double>(alone, g);
-    const double first = g.surfaces.empty() ? g.vertex_plane_mm : g.surfaces.back().z_mm;
+    const double first = g.entrance_z_mm;
     const PanelBase<double> base{0, 0, 0, 0};
     const Extent<double> extent{0, 0, 0, 0};
     const Ray<double> start{{0, ray.y_at(first), 0}, {0, ray.dy, ray.dz}};
     PanelPoint<double> point{};
-    if (g.surfaces.empty())
+    if (d.lens.type() == LensType::ideal)
         point = trace_array<Way::ideal>(scene, extent, base, start, true);
     else
         point = trace_array<Way::opaque>(scene, extent, base, start, true);

@@ -55,7 +55,7 @@ class CommandTest : public FolderTest {
     static Texels elemental(Display d) {
         Job job;
         const Geometry g = resolve(d);
-        return shown_texels(elemental_images(d, g, Scene(built_in_model(), d, g), 0, job).image, d.panel.encoding);
+        return shown_texels(elemental_images(d, g, ContentScene(built_in_model(), d, g), 0, job).image, d.panel.encoding);
     }
     fs::path before;
 };

@@ -37,7 +37,7 @@ class PainterTest : public testing::Test {
         else if (w.shown.kind == Shown::Kind::pattern)
             panel = shown_texels(pattern(w.shown.name, m, resolve(m)), m.panel.encoding);
         else
-            panel = shown_texels(elemental_images(m, resolve(m), Scene(built_in_model(), m, resolve(m)), 0, job).image,
+            panel = shown_texels(elemental_images(m, resolve(m), ContentScene(built_in_model(), m, resolve(m)), 0, job).image,
                                  m.panel.encoding);
         return render(d, resolve(d), panel, {}, job).image;
     }
@@ -194,7 +194,7 @@ TEST_F(PainterTest, LikenessIsThatOfTheAnalysis) {
     painter.want(w);
     const Sent photograph = outbox.wait(1, "photograph"), view = outbox.wait(1);
 
-    Subject subject(library.display(w), Scene(built_in_model(), library.display(w), resolve(library.display(w))), {});
+    Subject subject(library.display(w), ContentScene(built_in_model(), library.display(w), resolve(library.display(w))), {});
     Job job;
     const double alike = likeness(expected_view(subject.display(), subject.geometry(), subject.scene(), 0, job), subject.display(),
                                   subject.geometry(), subject.panel(job), subject.white_field(job), 0, job)

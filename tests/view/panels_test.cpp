@@ -56,7 +56,7 @@ TEST_F(PanelsTest, ScenesThatAreMovedAreThoseMadeThere) {
     const Source spheres{Shown::Kind::model, "built-in:spheres"};
     for (const std::vector<std::string>& set : {std::vector<std::string>{}, {"array.gap_mm=7.2"}, {"content.depth_mm=-30.0"}}) {
         const Display d = display(set);
-        const Scene made(built_in_model(), d, resolve(d)), kept = panels.scene(spheres, d, resolve(d), job);
+        const ContentScene made(built_in_model(), d, resolve(d)), kept = panels.scene(spheres, d, resolve(d), job);
         EXPECT_EQ(elemental_images(d, resolve(d), kept, 2, job).image.rgb, elemental_images(d, resolve(d), made, 2, job).image.rgb);
     }
     EXPECT_EQ(panels.kept().scenes, 1u);
@@ -88,44 +88,33 @@ TEST_F(PanelsTest, KeyTellsElementalImagesApart) {
         EXPECT_TRUE(!of_the_view || other == key) << name << " makes them again in vain";
     };
     Display d = before;
-    visit_tables(d, [&]<class Values>(const auto& table, Values& values) {
-        for (const auto& one : table.keys) {
-            const std::string name = std::string(table.name) + '.' + std::string(one.name);
-            std::visit(
-                [&](auto member) {
-                    const auto change = [&](auto& v) {
-                        const auto old = v;
-                        using Value = std::remove_cvref_t<decltype(v)>;
-                        if constexpr (std::is_floating_point_v<Value>)
-                            for (const double to : {v * 1.01 + 0.01, v * 0.99 - 0.01}) v = to, judge(name, d);
-                        else if constexpr (std::is_same_v<Value, std::int64_t>)
-                            for (const std::int64_t to : {v + 1, v - 1}) v = to, judge(name, d);
-                        else if constexpr (std::is_enum_v<Value>)
-                            for (std::size_t k = 0; k < words<Value>().size(); ++k) v = Value(k), judge(name, d);
-                        v = old;
-                    };
-                    const auto each = [&](auto& field) {
-                        using Field = std::remove_cvref_t<decltype(field)>;
-                        const Field old = field;
-                        if constexpr (std::is_same_v<Field, std::optional<double>>) {
-                            for (const double to : {0.5, 3., 40., 450.}) field = field.value_or(to), change(*field), field = old;
-                        } else if constexpr (std::is_same_v<Field, std::optional<std::int64_t>>) {
-                            field = field.value_or(16), judge(name, d), change(*field);
-                        } else if constexpr (requires { field.size(); } && !std::is_same_v<Field, std::string>) {
-                            for (auto& part : field) change(part);
-                        } else {
-                            change(field);
-                        }
-                        field = old;
-                    };
-                    if constexpr (requires { values.has_value(); }) {
-                        each((*values).*member);
-                    } else {
-                        each(values.*member);
-                    }
-                },
-                one.member);
+    const auto change_field = [&](const std::string& name, auto& field) {
+        const auto change = [&](auto& v) {
+            const auto old = v;
+            using Value = std::remove_cvref_t<decltype(v)>;
+            if constexpr (std::is_floating_point_v<Value>)
+                for (const double to : {v * 1.01 + 0.01, v * 0.99 - 0.01}) v = to, judge(name, d);
+            else if constexpr (std::is_same_v<Value, std::int64_t>)
+                for (const std::int64_t to : {v + 1, v - 1}) v = to, judge(name, d);
+            else if constexpr (std::is_enum_v<Value>)
+                for (std::size_t k = 0; k < words<Value>().size(); ++k) v = Value(k), judge(name, d);
+            v = old;
+        };
+        using Field = std::remove_cvref_t<decltype(field)>;
+        const Field old = field;
+        if constexpr (std::is_same_v<Field, std::optional<double>>) {
+            for (const double to : {0.5, 3., 40., 450.}) field = field.value_or(to), change(*field), field = old;
+        } else if constexpr (std::is_same_v<Field, std::optional<std::int64_t>>) {
+            field = field.value_or(16), judge(name, d), change(*field);
+        } else if constexpr (requires { field.size(); } && !std::is_same_v<Field, std::string>) {
+            for (auto& part : field) change(part);
+        } else {
+            change(field);
         }
+        field = old;
+    };
+    visit_all(d, [&](const std::string& path, const KeyInfo&, ValueRef value) {
+        std::visit([&](auto* field) { change_field(path, *field); }, value);
     });
     EXPECT_GT(changed, 40);
     EXPECT_GT(told_apart, 15);

@@ -20,21 +20,21 @@ void check(cudaError_t result, const char* doing) {
     throw wide::DeviceError(std::string("the GPU failed while ") + doing + ": " + cudaGetErrorString(result));
 }
 
-constexpr int kThreads = 128;  // a thread block's
+constexpr int threads = 128;  // a thread block's
 
 template <Step step, optics::Way through, bool simple>
-__global__ void __launch_bounds__(kThreads) step_kernel(const __grid_constant__ Frame frame, std::int64_t items) {
-    const std::int64_t i = std::int64_t(blockIdx.x) * kThreads + threadIdx.x;
+__global__ void __launch_bounds__(threads) step_kernel(const __grid_constant__ Frame frame, std::int64_t items) {
+    const std::int64_t i = std::int64_t(blockIdx.x) * threads + threadIdx.x;
     if (i < items) wide::item<step, through, simple>(frame, i);
 }
 
 template <wide::LikenessStep step>
-__global__ void __launch_bounds__(kThreads) likeness_kernel(const __grid_constant__ wide::LikenessFrame frame, std::int64_t items) {
-    const std::int64_t i = std::int64_t(blockIdx.x) * kThreads + threadIdx.x;
+__global__ void __launch_bounds__(threads) likeness_kernel(const __grid_constant__ wide::LikenessFrame frame, std::int64_t items) {
+    const std::int64_t i = std::int64_t(blockIdx.x) * threads + threadIdx.x;
     if (i < items) wide::likeness_item<step>(frame, i);
 }
 
-unsigned thread_blocks(std::int64_t items) { return unsigned((items + kThreads - 1) / kThreads); }
+unsigned thread_blocks(std::int64_t items) { return unsigned((items + threads - 1) / threads); }
 
 std::string text(int version) { return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10); }
 
@@ -110,7 +110,7 @@ class CudaQueue : public wide::Queue {
         if (items <= 0) return;
         start_clock();
         wide::choose_item(step, frame, [&]<Step s, optics::Way way, bool simple>() {
-            step_kernel<s, way, simple><<<thread_blocks(items), kThreads, 0, steps_>>>(frame, items);
+            step_kernel<s, way, simple><<<thread_blocks(items), threads, 0, steps_>>>(frame, items);
         });
         check(cudaGetLastError(), "starting work");
     }
@@ -118,7 +118,7 @@ class CudaQueue : public wide::Queue {
         if (items <= 0) return;
         start_clock();
         wide::choose_likeness_item(
-            step, [&]<wide::LikenessStep s>() { likeness_kernel<s><<<thread_blocks(items), kThreads, 0, steps_>>>(frame, items); });
+            step, [&]<wide::LikenessStep s>() { likeness_kernel<s><<<thread_blocks(items), threads, 0, steps_>>>(frame, items); });
         check(cudaGetLastError(), "starting work");
     }
     double seconds() override {

@@ -9,11 +9,11 @@ namespace {
 
 /// The arrays of a BlockState.
 struct BlockMemory {
-    S light[kMostLanes][4];
-    Sharp sharp[kMostSharps];
-    Cut cut[2][kMostStrata + 1];
-    Stratum stratum[2][kMostStrata];
-    Bundles bundles[kMostStrata * kMostStrata];
+    S light[most_lanes][4];
+    Sharp sharp[most_sharps];
+    Cut cut[2][max_strata + 1];
+    Stratum stratum[2][max_strata];
+    Bundles bundles[max_strata * max_strata];
 };
 
 template <optics::Way through>
@@ -34,7 +34,7 @@ class BlockRenderer {
 
     void render() {
         for (int k = 0; k < state.per_axis * state.per_axis; k += Packet::lanes)
-            work.template look_at_places<kFewStrata + kMoreStrata>(k);
+            work.template look_at_places<few_strata + more_strata>(k);
         if (state.any_soft)
             interpolate();
         else
@@ -48,18 +48,18 @@ class BlockRenderer {
 
     /// The light at places, to the pixels between them.
     void interpolate() {
-        const S per = S(1) / S(kPlaceStep);
+        const S per = S(1) / S(place_step);
         const int per_axis = state.per_axis;
         for (int y = 0; y < tile.block_side; ++y) {
-            const S t = (S(y % kPlaceStep) + S(0.5)) * per;
-            const S(*const upper)[4] = state.light + y / kPlaceStep * per_axis;
-            S row[kMostPlaces][4];
+            const S t = (S(y % place_step) + S(0.5)) * per;
+            const S(*const upper)[4] = state.light + y / place_step * per_axis;
+            S row[most_places][4];
             for (int i = 0; i < per_axis; ++i)
                 for (int c = 0; c < 4; ++c) row[i][c] = between_places(upper[i][c], upper[per_axis + i][c], t);
             for (int i = 0; i + 1 < per_axis; ++i)
-                for (int k = 0; k < kPlaceStep; ++k)
+                for (int k = 0; k < place_step; ++k)
                     for (int c = 0; c < 4; ++c)
-                        picture[y][i * kPlaceStep + k][c] = between_places(row[i][c], row[i + 1][c], (S(k) + S(0.5)) * per);
+                        picture[y][i * place_step + k][c] = between_places(row[i][c], row[i + 1][c], (S(k) + S(0.5)) * per);
         }
     }
 
@@ -70,7 +70,7 @@ class BlockRenderer {
             for (std::int32_t x = x0; x < x0 + tile.block_side; x += Packet::width) {
                 if (x >= tile.x1 || y >= tile.y1 || x + Packet::width <= tile.x0 || y + Packet::height <= tile.y0) continue;
                 S found[Packet::height][Packet::width * 4];
-                work.template look_from<kMostStrata>(x, y).store(found[0], state.per_axis == 0);
+                work.template look_from<max_strata>(x, y).store(found[0], state.per_axis == 0);
                 for (int row = 0; row < Packet::height; ++row) {
                     S* const to = picture[y - y0 + row][x - x0];
                     for (int k = 0; k < Packet::width * 4; ++k) to[k] = to[k] + found[row][k];
@@ -92,7 +92,7 @@ class BlockRenderer {
     const Tile& tile;
     BlockState state;
     BlockWork<through> work;
-    S picture[kMostSide][kMostSide][4];  // of the block
+    S picture[most_side][most_side][4];  // of the block
     BlockMemory memory;
 };
 

@@ -35,7 +35,7 @@ struct Stratum {
 };
 
 /// One axis of the square of angles as a block has it. Cuts stand at fixed places of the lenses, so that their numbers move from
-/// pixel to pixel; the ends have fixed numbers, and their places move. Where the block is wider than what a pixel sees of a lens,
+/// pixel to pixel; the ends have fixed numbers, and their places move. Where the block is wide against what a pixel sees of a lens,
 /// though, all cuts have fixed numbers, and the strata move with the pixels.
 struct Axis {
     int strata;
@@ -47,7 +47,7 @@ struct Axis {
 /// Numbers and tangents of the even cuts, common to all blocks.
 struct EvenCuts {
     int strata;
-    S number[kMostStrata + 1], tangent[2][kMostStrata + 1];
+    S number[max_strata + 1], tangent[2][max_strata + 1];
 
     EvenCuts() = default;
     EvenCuts(const optics::Scene<S>& scene, int count) : strata(count) {
@@ -63,8 +63,8 @@ struct EvenCuts {
     }
 };
 
-/// Room for even.strata + kMoreStrata strata is taken for granted.
-LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>* sweep, bool alive, int axis, const EvenCuts& even,
+/// Room for even.strata + more_strata strata is taken for granted. `moves`: they are to move with the pixels.
+LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>* sweep, bool moves, int axis, const EvenCuts& even,
                           Axis& a) {
     const Lattice<S>& lattice = scene.lattice;
     const S pitch = lattice.pitch[axis], per_pitch = lattice.per_pitch[axis], half = lattice.half_pitch[axis],
@@ -80,16 +80,15 @@ LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>*
     };
     const Gradient start = place_of(0), end = place_of(even.strata);
     const S reach = start.reach(), along = end.middle > start.middle ? S(1) : S(-1);
-    a.moving = !(along * (end.middle - start.middle) > reach) || !alive;
+    a.moving = moves || !(along * (end.middle - start.middle) > reach);
 
     // Borders that some pixel of the block sees, the first and the last, in pitches
     const S low = optics::min(start.middle, end.middle) - reach, high = optics::max(start.middle, end.middle) + reach;
     const S first = optics::floor(low * per_pitch + S(0.5)) + S(0.5), last = optics::floor(high * per_pitch - S(0.5)) + S(0.5);
     const S borders = last - first + S(1);
     // One or two borders more than there are cuts are worth a cut each: a block near a lens's border may see the next one too.
-    const bool at_borders =
-        !a.moving && borders >= S(even.strata) && borders <= S(even.strata + 1) && even.strata + 2 < kMostStrata;
-    a.strata = at_borders ? int(borders) + 1 : even.strata;  // at most kMoreStrata more
+    const bool at_borders = !a.moving && borders >= S(even.strata) && borders <= S(even.strata + 1) && even.strata + 2 < max_strata;
+    a.strata = at_borders ? int(borders) + 1 : even.strata;  // at most more_strata more
     a.cut[0] = {{-1, 0, 0}, start};
     for (int j = 1; j < a.strata; ++j) {
         if (at_borders) {
@@ -116,8 +115,10 @@ LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>*
         const S cell = optics::cell_along(lattice, axis, S(0.5) * (from + to) * along), axis_at = cell * pitch;
         const S low_end = optics::min(from * along, to * along) - axis_at,
                 high_end = optics::max(from * along, to * along) - axis_at;
-        a.stratum[j] = {cell, optics::max(low_end, -half), optics::min(high_end, half),
-                        low_end < S(-FilteredLimits::straddling) * half || high_end > S(FilteredLimits::straddling) * half};
+        const S beside = moves ? reach : S(0);  // as far from it other pixels of the block see theirs
+        a.stratum[j] = {
+            cell, optics::max(low_end, -half), optics::min(high_end, half),
+            low_end - beside < S(-FilteredLimits::straddling) * half || high_end + beside > S(FilteredLimits::straddling) * half};
     }
 }
 
@@ -149,6 +150,40 @@ LFDSIM_BOTH void spans_of(const optics::Scene<S>& scene, const Axis& axis, int a
         }
         number = next_number;
         place = next_place;
+    }
+}
+
+/// Does a moving stratum span less than a lens?
+LFDSIM_BOTH bool within_a_pitch(const optics::Scene<S>& scene, const Axis& axis, int along, int stratum) {
+    return optics::abs(axis.cut[stratum + 1].place.middle - axis.cut[stratum].place.middle) < scene.lattice.pitch[along];
+}
+
+/// Such a stratum as a packet's pixels have it, cut where a pixel sees the border of two lenses in it: what lies in the cell of the
+/// stratum's middle, and what lies beyond, in the next cell. Over so little of a lens places go evenly with numbers.
+LFDSIM_BOTH void cut_at_border(const optics::Scene<S>& scene, const Axis& axis, int along, int stratum, F dx, F dy,
+                               Span<F> (&parts)[2]) {
+    const Cut &first = axis.cut[stratum], &last = axis.cut[stratum + 1];
+    const F low = F(first.number.middle), high = F(last.number.middle);
+    const F start = first.place.at(dx, dy), end = last.place.at(dx, dy), way = end - start;
+    const F pitch = F(scene.lattice.pitch[along]), half = F(scene.lattice.half_pitch[along]), none = F(0), one = F(1);
+    const F lens = pitch * optics::cell_along(scene.lattice, along, F(0.5f) * (start + end));
+    const optics::Mask<F> above = optics::max(start, end) - lens > half;
+    const F border = optics::select(above, lens + half, lens - half);
+    const F share = optics::min(optics::max((border - start) / optics::select(way == none, one, way), none), one);
+    const F number = low + (high - low) * share, place = start + way * share;  // of the cut
+    const F per = F(scene.hole_radius > 0 ? 1 / scene.hole_radius : 0);
+    for (int k = 0; k < 2; ++k) {
+        const optics::Mask<F> before = k == 0 ? share > F(0.5f) : share <= F(0.5f);  // this part: before the cut
+        const F from = optics::select(before, start, place), to = optics::select(before, place, end);
+        const F at = k == 0 ? lens : optics::select(above, lens + pitch, lens - pitch);
+        Span<F>& span = parts[k];
+        span.low = optics::select(before, low, number);
+        span.high = optics::select(before, number, high);
+        span.share = F(0.5f) * (span.high - span.low);
+        span.from = (optics::min(from, to) - at) * per;
+        span.to = (optics::max(from, to) - at) * per;
+        span.part_from = optics::circle_part(span.from);
+        span.part_to = optics::circle_part(span.to);
     }
 }
 

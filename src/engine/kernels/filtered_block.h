@@ -9,13 +9,13 @@ namespace lfdsim {
 namespace {
 
 /// The light of a soft bundle, colour c, at (dx, dy), -1 .. 1 across the block: between its nodes it is linear in both.
-LFDSIM_FN F soft_light(const Bundle& b, F dx, F dy, int c) {
+LFDSIM_FN F soft_light(const SharedBundle& b, F dx, F dy, int c) {
     auto between = [](S low, S middle, S high, F at) {
         return F(middle) + F(high - middle) * optics::max(at, F(0)) + F(middle - low) * optics::min(at, F(0));
     };
     const int n = b.nodes;
     if (n == 1) return F(b.colour[0][c]);
-    F row[optics::kNodes];
+    F row[optics::most_nodes];
     auto at = [&](int j, int i) { return b.colour[j * n + i][c]; };
     if (n == 2) {
         const F half = F(S(0.5)), s = half + half * dx, t = half + half * dy;
@@ -46,19 +46,19 @@ struct PacketLight {
 
 /// What is even over a block is told at the corners of squares of so many pixels, at most 5 x 5 places, and interpolated between
 /// them, unless there are so many strata that a finer picture is asked for.
-constexpr int kMostSide = 16, kPlaceStep = FilteredLimits::place_step, kMostPlaces = kMostSide / kPlaceStep + 1, kMostLanes = 32;
+constexpr int most_side = 16, place_step = FilteredLimits::place_step, most_places = most_side / place_step + 1, most_lanes = 32;
 
 /// 0: none.
 LFDSIM_FN int places_per_axis(const Tile& tile) {
-    return tile.strata > kFewStrata || tile.block_side <= kPlaceStep ? 0 : tile.block_side / kPlaceStep + 1;
+    return tile.strata > few_strata || tile.block_side <= place_step ? 0 : tile.block_side / place_step + 1;
 }
 
 /// A sharp bundle, and how much of the light at the places comes through it.
 struct Sharp {
-    const Bundle* bundle;
-    S weight[kMostLanes];
+    const SharedBundle* bundle;
+    S weight[most_lanes];
 };
-constexpr int kMostSharps = 2 * (kFewStrata + kMoreStrata) * (kFewStrata + kMoreStrata);
+constexpr int most_sharps = 2 * (few_strata + more_strata) * (few_strata + more_strata);
 
 /// What is found out about a block. The arrays belong to whoever has the work done.
 struct BlockState {
@@ -86,9 +86,9 @@ class BlockWork {
         at.x0 = left;
         at.y0 = top;
         at.block = optics::pixel_block<S>(scene, *tile.view, tile.block_side,
-                                          S(tile.strata > kFewStrata ? FilteredLimits::misjudged_fine : FilteredLimits::misjudged),
+                                          S(tile.strata > few_strata ? FilteredLimits::misjudged_fine : FilteredLimits::misjudged),
                                           left, top);
-        for (int a = 0; a < 2; ++a) cut_axis(scene, at.block.sweep[a], at.block.alive, a, even, at.axis[a]);
+        for (int a = 0; a < 2; ++a) cut_axis(scene, at.block.sweep[a], tile.weak || !at.block.alive, a, even, at.axis[a]);
         at.per_axis = places_per_axis(tile);
     }
 
@@ -115,8 +115,8 @@ class BlockWork {
         at.sharps = 0;
         for (int k = 0; k < strata(); ++k) {
             const Bundles& b = at.bundles[k];
-            const bool broken = b.through.state == Bundle::State::broken;
-            at.any_alone = at.any_alone || broken || b.beside.state == Bundle::State::broken;
+            const bool broken = b.through.state == SharedBundle::State::broken;
+            at.any_alone = at.any_alone || broken || b.beside.state == SharedBundle::State::broken;
             if (at.per_axis == 0 || broken) continue;
             note(b.through);
             note(b.beside);
@@ -132,20 +132,20 @@ class BlockWork {
         const S per_reach = S(1) / S(reach);
         S right[lanes], down[lanes];
         for (int n = 0; n < lanes; ++n) {
-            right[n] = S((k + n) % per_axis * kPlaceStep - reach);
-            down[n] = S(optics::min((k + n) / per_axis, per_axis - 1) * kPlaceStep - reach);
+            right[n] = S((k + n) % per_axis * place_step - reach);
+            down[n] = S(optics::min((k + n) / per_axis, per_axis - 1) * place_step - reach);
         }
         F flat[3] = {F(0), F(0), F(0)};
         Sharp* next = at.sharp;
         const F dx = optics::load<F>(right) * F(per_reach), dy = optics::load<F>(down) * F(per_reach);
         for_strata<most_strata>(dx, dy, [&](const Bundles& b, const Span<F>& across, const Span<F>& up, std::uint32_t) {
-            auto weigh = [&](const Bundle& bundle, F weight) {
+            auto weigh = [&](const SharedBundle& bundle, F weight) {
                 weight = weight * F(bundle.weight);
-                if (bundle.state == Bundle::State::soft)
+                if (bundle.state == SharedBundle::State::soft)
                     for (int c = 0; c < 3; ++c) flat[c] = flat[c] + weight * soft_light(bundle, dx, dy, c);
-                if (bundle.state == Bundle::State::sharp) optics::store(weight, next++->weight + k);
+                if (bundle.state == SharedBundle::State::sharp) optics::store(weight, next++->weight + k);
             };
-            if (b.through.state == Bundle::State::broken) return;
+            if (b.through.state == SharedBundle::State::broken) return;
             const F cover = scene.hole_radius > 0 ? optics::hole_cover(across, up) : F(1), share = across.share * up.share;
             weigh(b.through, share * cover);
             weigh(b.beside, share * (F(1) - cover));
@@ -175,21 +175,27 @@ class BlockWork {
     }
 
   private:
+    /// Do pixels see so little through a stratum that they may cut it at the lenses' borders, and nothing beside the holes?
+    LFDSIM_BOTH bool cut_by_pixels(int i, int j) const {
+        return at.block.alive && !scene.leaky && at.axis[0].moving && at.axis[1].moving &&
+               within_a_pitch(scene, at.axis[0], 0, i) && within_a_pitch(scene, at.axis[1], 1, j);
+    }
+
     LFDSIM_BOTH static void make_broken(Bundles& b) {
-        b.through.state = Bundle::State::broken;
-        b.beside.state = Bundle::State::dark;
+        b.through.state = SharedBundle::State::broken;
+        b.beside.state = SharedBundle::State::dark;
         b.straddles = false;
     }
 
-    LFDSIM_BOTH void note(const Bundle& b) {
-        at.any_soft = at.any_soft || b.state == Bundle::State::soft;
-        if (b.state == Bundle::State::sharp) at.sharp[at.sharps++].bundle = &b;
+    LFDSIM_BOTH void note(const SharedBundle& b) {
+        at.any_soft = at.any_soft || b.state == SharedBundle::State::soft;
+        if (b.state == SharedBundle::State::sharp) at.sharp[at.sharps++].bundle = &b;
     }
 
     /// Sharp bundles for the packet whose first pixel is (x, y) of the block.
     LFDSIM_BOTH void add_sharp(int x, int y, F right, F down, F dx, F dy, PacketLight& to) const {
-        const int corner = y / kPlaceStep * at.per_axis + x / kPlaceStep;
-        const F per = F(S(1) / S(kPlaceStep)), s = (right + F(S(x % kPlaceStep))) * per, t = (down + F(S(y % kPlaceStep))) * per;
+        const int corner = y / place_step * at.per_axis + x / place_step;
+        const F per = F(S(1) / S(place_step)), s = (right + F(S(x % place_step))) * per, t = (down + F(S(y % place_step))) * per;
         for (const Sharp* k = at.sharp; k < at.sharp + at.sharps; ++k) {
             const S *const upper = k->weight + corner, *const lower = upper + at.per_axis;
             if (!(upper[0] + upper[1] + lower[0] + lower[1] > S(0))) continue;
@@ -198,7 +204,7 @@ class BlockWork {
         }
     }
 
-    LFDSIM_BOTH static void add_box(const Bundle& b, F dx, F dy, F weight, PacketLight& to) {
+    LFDSIM_BOTH static void add_box(const SharedBundle& b, F dx, F dy, F weight, PacketLight& to) {
         b.footprint.add(to.boxes, F(b.column) + F(b.column_right) * dx + F(b.column_down) * dy,
                         F(b.row) + F(b.row_right) * dx + F(b.row_down) * dy, weight);
     }
@@ -214,26 +220,49 @@ class BlockWork {
         dx = dx * F(per_reach);
         dy = dy * F(per_reach);
         for_strata<most_strata>(dx, dy, [&](const Bundles& b, const Span<F>& across, const Span<F>& up, std::uint32_t stratum) {
-            auto add_own = [&](Own part, F weight) {
+            auto ready = [&] {
                 if (!own_ready) pixels = optics::pixel_rays<F>(*tile.view, x, y);
                 own_ready = true;
+            };
+            auto add_own = [&](Own part, F weight) {
+                ready();
                 optics::Sampler<F> sampler(Sampling::random, 2, tile.view->seed, number + optics::Uint<F>(first));
                 sampler.sample = stratum * 8;
                 add_own_rays<through>(tile, pixels, across, up, part, weight, sampler, to.boxes);
             };
-            const bool own_beside = b.beside.state == Bundle::State::broken, own = b.through.state == Bundle::State::broken;
+            const bool own_beside = b.beside.state == SharedBundle::State::broken,
+                       own = b.through.state == SharedBundle::State::broken;
             if (at.per_axis > 0 && !own && !own_beside) return;
             const F share = across.share * up.share;
             if (optics::none(share > F(0))) return;  // a border that only other pixels of the block see
+            const int i = int(stratum % max_strata), j = int(stratum / max_strata);
+            if (own && cut_by_pixels(i, j)) {
+                Span<F> x_parts[2], y_parts[2];
+                cut_at_border(scene, at.axis[0], 0, i, dx, dy, x_parts);
+                cut_at_border(scene, at.axis[1], 1, j, dx, dy, y_parts);
+                for (const Span<F>& part_y : y_parts) {
+                    for (const Span<F>& part_x : x_parts) {
+                        const F part = part_x.share * part_y.share;
+                        if (optics::none(part > F(0))) continue;
+                        ready();
+                        add_own_probes<through>(tile, pixels, part_x, part_y, part, to.boxes);
+                    }
+                }
+                return;
+            }
+            if (own && at.block.alive && !b.straddles && fine_alone(tile, scene)) {
+                ready();
+                return add_own_probes<through>(tile, pixels, across, up, share, to.boxes);
+            }
             if (own) {
                 const bool covered = scene.hole_radius > 0 && !scene.leaky && at.block.alive && !b.straddles;
                 return add_own(covered ? Own::covered : Own::all, share);
             }
             const F cover = scene.hole_radius > 0 ? optics::hole_cover(across, up) : F(1);
-            auto add = [&](const Bundle& bundle, F weight) {
-                if (bundle.state == Bundle::State::dark) return;
+            auto add = [&](const SharedBundle& bundle, F weight) {
+                if (bundle.state == SharedBundle::State::dark) return;
                 weight = weight * F(bundle.weight);
-                if (bundle.state == Bundle::State::soft)
+                if (bundle.state == SharedBundle::State::soft)
                     for (int c = 0; c < 3; ++c) to.flat[c] = to.flat[c] + weight * soft_light(bundle, dx, dy, c);
                 else
                     add_box(bundle, dx * F(reach), dy * F(reach), weight, to);
@@ -257,7 +286,7 @@ class BlockWork {
         for (int a = 0; a < 2; ++a) spans_of(scene, at.axis[a], a, dx, dy, spans[a]);
         for (int j = 0; j < at.axis[1].strata; ++j)
             for (int i = 0; i < at.axis[0].strata; ++i)
-                f(at.bundles[j * at.axis[0].strata + i], spans[0][i], spans[1][j], std::uint32_t(j * kMostStrata + i));
+                f(at.bundles[j * at.axis[0].strata + i], spans[0][i], spans[1][j], std::uint32_t(j * max_strata + i));
     }
 
     const Tile& tile;

@@ -9,13 +9,19 @@ namespace lfdsim {
 
 namespace {
 
-using Bundle = optics::Bundle<S>;
+using SharedBundle = optics::SharedBundle<S>;
 
 /// What a block sees through each stratum: through its hole, and beside that where light passes there too.
 struct Bundles {
-    Bundle through, beside;
+    SharedBundle through, beside;
     bool straddles;  // the stratum sees other lenses too
 };
+
+/// Does each pixel look through wide footprints by itself? With many strata, for light that is interpolated over even the smallest
+/// block blurs what is sharp in the picture, and there rays of the pixels' own cost no more.
+LFDSIM_BOTH bool fine_alone(const Tile& tile, const optics::Scene<S>& scene) {
+    return tile.strata > 2 * few_strata && tile.block_side <= FilteredLimits::place_step && !scene.leaky;
+}
 
 /// A range of a stratum along one axis, mm from the axis of its lens.
 struct Range {
@@ -47,7 +53,7 @@ class BundleMaker {
                    : t.strata <= 8 ? 3
                                    : 2) {
         probes.lay_out(per_axis);
-        for (int p = 0; p < optics::kMostProbes; ++p) {  // the last lanes of a packet trace something, too
+        for (int p = 0; p < optics::most_probes; ++p) {  // the last lanes of a packet trace something, too
             probes.at_x[p] = block.sweep[0][0].at;
             probes.at_y[p] = block.sweep[1][0].at;
             rays.at_x[p] = rays.at_y[p] = rays.x[p] = rays.y[p] = 0;
@@ -75,7 +81,7 @@ class BundleMaker {
   private:
     /// Where a hole is broken, rays of the pixels' own tell what lies beside it, too.
     LFDSIM_BOTH static void settle(Bundles& b) {
-        if (b.through.state == Bundle::State::broken) b.beside.state = Bundle::State::dark;
+        if (b.through.state == SharedBundle::State::broken) b.beside.state = SharedBundle::State::dark;
     }
 
     LFDSIM_BOTH void start(Bundles& b, int i, int j) {
@@ -83,19 +89,19 @@ class BundleMaker {
         const Stratum &across = axis[0].stratum[i], &up = axis[1].stratum[j];
         const Range x{across.from, across.to}, y{up.from, up.to};
         Range hole_x = x, hole_y = y;
-        b.through.state = b.beside.state = Bundle::State::dark;
+        b.through.state = b.beside.state = SharedBundle::State::dark;
         b.straddles = across.straddles || up.straddles;
         if (b.straddles || (r > 0 && hole_edge_near(x, y))) {
-            b.through.state = Bundle::State::broken;
+            b.through.state = SharedBundle::State::broken;
             return;
         }
         if (r == 0 || clip_to_hole(r, hole_x, hole_y)) b.through = probe(i, hole_x, j, hole_y, true);
         // Where a stop hides the panel from the middle of a block, other pixels may see through it.
-        if (b.through.state == Bundle::State::dark && scene.has_stop && (axis[0].moving || axis[1].moving))
-            b.through.state = Bundle::State::broken;
+        if (b.through.state == SharedBundle::State::dark && scene.has_stop && (axis[0].moving || axis[1].moving))
+            b.through.state = SharedBundle::State::broken;
         if (scene.leaky && r > 0) b.beside = probe(i, x, j, y, false);
-        if (b.through.state == Bundle::State::sharp) follow(b.through);
-        if (b.beside.state == Bundle::State::sharp) follow(b.beside);
+        if (b.through.state == SharedBundle::State::sharp) follow(b.through);
+        if (b.beside.state == SharedBundle::State::sharp) follow(b.beside);
     }
 
     /// Do some pixels see a moving stratum inside the hole and others outside?
@@ -112,7 +118,7 @@ class BundleMaker {
         const optics::Place<S> lens =
             optics::axis_of(scene.lattice, optics::Cell<S>{axis[0].stratum[i].cell, axis[1].stratum[j].cell});
         const S limit = scene.hole_radius > 0 ? scene.hole_radius * scene.hole_radius : S(1e30);
-        for (int p = 0; p < optics::kMostProbes; ++p) {
+        for (int p = 0; p < optics::most_probes; ++p) {
             const S px = x.from + grid_x[p] * (x.to - x.from), py = y.from + grid_y[p] * (y.to - y.from);
             probes.x[p] = lens.x + px;
             probes.y[p] = lens.y + py;
@@ -121,18 +127,22 @@ class BundleMaker {
         optics::trace_probes<through, F>(scene, block, probes, per_axis * per_axis);
     }
 
-    LFDSIM_BOTH Bundle probe(int i, Range x, int j, Range y, bool inside) {
+    LFDSIM_BOTH SharedBundle probe(int i, Range x, int j, Range y, bool inside) {
         trace(i, x, j, y, inside);
-        Bundle b = optics::sum_up(probes, per_axis);
-        if (b.state != Bundle::State::sharp) return b;
+        SharedBundle b = optics::sum_up(probes, per_axis);
+        if (b.state != SharedBundle::State::sharp) return b;
         if (!optics::is_soft(b)) {
             lean(b, i, x, j, y);
             return b;
         }
+        if (fine_alone(tile, scene)) {
+            b.state = SharedBundle::State::broken;
+            return b;
+        }
         follow(b);
         finish();
-        if (b.state == Bundle::State::broken) return b;
-        b.state = Bundle::State::soft;
+        if (b.state == SharedBundle::State::broken) return b;
+        b.state = SharedBundle::State::soft;
         // What a pixel sees of the outermost strata changes over the block.
         const bool ends = sees_end(0, i) || sees_end(1, j);
         b.nodes = !b.still ? block.nodes() : ends ? 2 : 1;
@@ -153,14 +163,15 @@ class BundleMaker {
         b.weight = 1;
         for (int n = 0; n < b.nodes * b.nodes; ++n) {
             const S in = b.colour[n][3];
-            if (in == S(0)) b.state = Bundle::State::broken;  // all that the first probes met of the part were points at its edge
+            if (in == S(0))
+                b.state = SharedBundle::State::broken;  // all that the first probes met of the part were points at its edge
             for (int c = 0; c < 3; ++c) b.colour[n][c] = b.colour[n][c] / in;
         }
         return b;
     }
 
     /// Pixels see parts of the outermost strata: their footprints are smaller than that of all of it, and move with these parts.
-    LFDSIM_BOTH void lean(Bundle& b, int i, Range x, int j, Range y) const {
+    LFDSIM_BOTH void lean(SharedBundle& b, int i, Range x, int j, Range y) const {
         if (!sees_end(0, i) && !sees_end(1, j)) return;
         const optics::Slopes<S> slopes(probes, b);
         const Range ranges[2] = {x, y};
@@ -202,10 +213,10 @@ class BundleMaker {
     }
 
     /// Adds the probes' light at the nodes, each probe as far as a pixel there sees its part of the range.
-    LFDSIM_BOTH void add_nodes(Bundle& b, int i, Range x, int j, Range y) {
+    LFDSIM_BOTH void add_nodes(SharedBundle& b, int i, Range x, int j, Range y) {
         optics::ProbeBoxes<S> boxes;
         boxes.make<F>(probes, per_axis);
-        S light[optics::kMostProbes][4];
+        S light[optics::most_probes][4];
         const S step = b.nodes == 1 ? S(0) : S(2) / S(b.nodes - 1), first = b.nodes == 1 ? S(0) : S(-1), reach = S(block.reach);
         for (int n = 0; n < b.nodes * b.nodes; ++n) {
             const S right = first + S(n % b.nodes) * step, down = first + S(n / b.nodes) * step;  // -1 .. 1
@@ -215,12 +226,12 @@ class BundleMaker {
                               (b.column_right * right + b.column_down * down) * move,
                               (b.row_right * right + b.row_down * down) * move, light);
             }
-            S seen[optics::kMostProbes];
-            for (int p = 0; p < optics::kMostProbes; ++p) seen[p] = counts[p];
+            S seen[optics::most_probes];
+            for (int p = 0; p < optics::most_probes; ++p) seen[p] = counts[p];
             if (sees_end(0, i)) narrow(0, i, x, grid_x, right, down, seen);
             if (sees_end(1, j)) narrow(1, j, y, grid_y, right, down, seen);
             S sum[4][4] = {};
-            for (int p = 0; p < optics::kMostProbes; ++p)
+            for (int p = 0; p < optics::most_probes; ++p)
                 for (int c = 0; c < 4; ++c) sum[p % 4][c] = sum[p % 4][c] + seen[p] * light[p][c];
             for (int c = 0; c < 4; ++c) b.colour[n][c] = b.colour[n][c] + ((sum[0][c] + sum[2][c]) + (sum[1][c] + sum[3][c]));
         }
@@ -236,15 +247,15 @@ class BundleMaker {
         if (!(half > 0)) return;
         const S per = S(0.5) / half,
                 least = S(FilteredLimits::least_seen);  // where nothing is seen, all of it tells the light for the pixels beside
-        for (int p = 0; p < optics::kMostProbes; ++p) {
+        for (int p = 0; p < optics::most_probes; ++p) {
             const S middle = r.from + grid[p] * range, part = optics::min(high, middle + half) - optics::max(low, middle - half);
             seen[p] = seen[p] * optics::min(optics::max(part * per, least), S(1));
         }
     }
 
     /// Queues the rays that tell how a bundle moves.
-    LFDSIM_BOTH void follow(Bundle& b) {
-        for (int from = 1; from < optics::kBlockRays; ++from) {
+    LFDSIM_BOTH void follow(SharedBundle& b) {
+        for (int from = 1; from < optics::block_rays; ++from) {
             const int p = 3 * waiting + from - 1;
             auto shift = [&](const Axis& a) {
                 const Gradient& g = a.cut[0].place;
@@ -261,9 +272,9 @@ class BundleMaker {
     LFDSIM_BOTH void finish() {
         if (waiting > 0) optics::trace_probes<through, F>(scene, block, rays, 3 * waiting);
         for (int k = 0; k < waiting; ++k) {
-            Bundle& b = *followed[k];
+            SharedBundle& b = *followed[k];
             optics::follow(b, rays, 3 * k, block.reach);
-            if (b.state != Bundle::State::sharp) continue;
+            if (b.state != SharedBundle::State::sharp) continue;
             b.column_right = b.column_right + b.lean_column[0];
             b.row_right = b.row_right + b.lean_row[0];
             b.column_down = b.column_down + b.lean_column[1];
@@ -274,16 +285,16 @@ class BundleMaker {
     }
 
     static constexpr S part_per_pixel = S(1) / S(FilteredLimits::pixels_a_part);
-    static constexpr int most_waiting = optics::kMostProbes / 3;
+    static constexpr int most_waiting = optics::most_probes / 3;
     const Tile& tile;
     const optics::Scene<S>& scene;
     const optics::PixelBlock<S>& block;
     const Axis* axis;
     int per_axis;  // probes: the coarser the strata the more, as they have to find what is dark in them
-    S grid_x[optics::kMostProbes], grid_y[optics::kMostProbes],
-        counts[optics::kMostProbes];  // places in a stratum; 1 of those in use
+    S grid_x[optics::most_probes], grid_y[optics::most_probes],
+        counts[optics::most_probes];  // places in a stratum; 1 of those in use
     optics::Probes<S> probes, rays;
-    Bundle* followed[most_waiting];
+    SharedBundle* followed[most_waiting];
     int waiting = 0;
 };
 

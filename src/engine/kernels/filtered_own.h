@@ -98,6 +98,71 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
     light.add(tile.texels, optics::Fetch<F>(hit));
 }
 
+/// A pixel's own probes: 2 x 2 rays through what its hole covers of a part of a stratum that looks through one lens. The panel
+/// counts over a box about the end of each, as wide as it is to the next ones.
+template <optics::Way through>
+LFDSIM_APART void add_own_probes(const Tile& tile, const optics::PixelRays<F>& pixels, const Span<F>& x, const Span<F>& y, F weight,
+                                 optics::Light<F>& light) {
+    const optics::Scene<S>& scene = *tile.scene;
+    const F none = F(0), one = F(1), quarter = F(0.25f);
+    const bool round = scene.hole_radius > 0;
+    if (round) weight = weight * optics::hole_cover(x, y);
+    const optics::Mask<F> seen = weight > none;
+    if (optics::none(seen)) return;
+
+    // Places, in units of the hole's radius, or shares of the part where it is not round: along each axis the one nearer to the
+    // lens's axis first, which the hole always covers.
+    const Span<F>* const span[2] = {&x, &y};
+    F first[2], per[2], place[2][2];  // where the part begins; numbers a place
+    for (int k = 0; k < 2; ++k) {
+        F from = none, to = one;
+        if (round) {
+            from = span[k]->from;
+            to = span[k]->to;
+        }
+        first[k] = k == 0 ? to : from;  // along x places run against the numbers
+        per[k] = (span[k]->high - span[k]->low) / optics::max(to - from, F(1e-9f));
+        if (round) {
+            const Span<F>& other = *span[1 - k];
+            const F near = optics::min(optics::max(none, other.from), other.to);
+            const F reach = optics::sqrt(optics::max(one - near * near, none));
+            from = optics::max(from, -reach);
+            to = optics::min(to, reach);
+        }
+        const F in = quarter * (to - from), low = from + in, high = to - in;
+        const optics::Mask<F> low_first = optics::abs(low) < optics::abs(high);
+        place[k][0] = optics::select(low_first, low, high);
+        place[k][1] = optics::select(low_first, high, low);
+    }
+
+    optics::PanelPoint<F> end[4];
+    optics::Mask<F> in[4];
+    F count = none;
+    for (int p = 0; p < 4; ++p) {
+        const F px = place[0][p % 2], py = place[1][p / 2];
+        in[p] = seen;
+        if (round && p > 0) in[p] = seen && (px * px + py * py < one);
+        count = count + optics::select(in[p], one, none);
+        end[p] = trace_own<through>(scene, pixels, x.low + (first[0] - px) * per[0], y.low + (py - first[1]) * per[1]);
+    }
+    weight = weight / optics::max(count, one);
+    for (int p = 0; p < 4; ++p) {
+        F wide = none, high = none;  // squared: two spreads add up like variances
+        for (int step = 1; step <= 2; ++step) {
+            const optics::PanelPoint<F>& next = end[p ^ step];
+            const optics::Mask<F> lit =
+                in[p ^ step] && next.alive && (next.cell.i == end[p].cell.i) && (next.cell.j == end[p].cell.j);
+            const F across = next.column - end[p].column, up = next.row - end[p].row;
+            wide = wide + optics::select(lit, across * across, none);
+            high = high + optics::select(lit, up * up, none);
+        }
+        S in_box[optics::LaneTraits<F>::width][4];
+        optics::light_of_boxes(tile.levels, tile.level_count, pixels.base, end[p].column, end[p].row, optics::sqrt(wide),
+                               optics::sqrt(high), optics::select(in[p] && end[p].alive, weight * end[p].weight, none), in_box);
+        light.add(in_box);
+    }
+}
+
 }  // namespace
 
 }  // namespace lfdsim

@@ -9,7 +9,7 @@ namespace lfdsim {
 
 namespace {
 
-constexpr std::uint32_t kBlock = 256;  // samples summed in one go (even), so that rounding does not grow with their number
+constexpr std::uint32_t block_samples = 256;  // samples summed in one go (even), so that rounding does not grow with their number
 
 template <optics::Way through, bool pinhole>
 LFDSIM_APART optics::PanelHit<F> trace_one(const Tile& tile, const optics::PixelRays<F>& pixels,
@@ -33,7 +33,7 @@ LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& 
     for (std::uint32_t sample = 0; sample + 1 < tile.samples;) {
         optics::Light<F> block;
         optics::Fetch<F> first, second;  // of the last two samples
-        const std::uint32_t end = tile.samples - sample < kBlock ? tile.samples : sample + kBlock;
+        const std::uint32_t end = tile.samples - sample < block_samples ? tile.samples : sample + block_samples;
         for (; sample + 1 < end; sample += 2) {
             optics::PanelHit<F> a, b;
             if constexpr (one_lane) {

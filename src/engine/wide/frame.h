@@ -17,9 +17,8 @@ enum class Step {
     places,   // a place of a block
     pixels    // a pixel of a block
 };
-constexpr int kSteps = 7;
 
-/// A block that is picked out: its first pixel, and the square of kRefinedSide x kRefinedSide pixels of the output, one behind the
+/// A block that is picked out: its first pixel, and the square of refined_side x refined_side pixels of the output, one behind the
 /// other, that the square of the frame goes to in which the block lies.
 struct ListedBlock {
     std::int32_t x, y, square;
@@ -29,7 +28,7 @@ struct ListedBlock {
 struct Frame {
     optics::Scene<float> scene;
     optics::View view;
-    optics::Directions directions;
+    optics::DirectionNumbers directions;
     Tile tile;  // but for scene, view and directions, which each item takes from above
 
     // The blocks of the frame, tile.block_side wide and high, that a step works on: those listed, or those of the rectangle that

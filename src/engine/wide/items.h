@@ -52,7 +52,7 @@ LFDSIM_FN float* output(const Frame& frame, std::int64_t block, std::int32_t x, 
     if (!wanted) return nullptr;
     if (!frame.listed) return tile.out + (std::int64_t(y - tile.crop_y) * tile.crop_width + (x - tile.crop_x)) * 3;
     const std::int64_t square = frame.listed[frame.first_block + block].square;
-    return tile.out + ((square * kRefinedSide + y % kRefinedSide) * kRefinedSide + x % kRefinedSide) * 3;
+    return tile.out + ((square * refined_side + y % refined_side) * refined_side + x % refined_side) * 3;
 }
 
 /// The memory of a block that is cut into at most `most` strata an axis.
@@ -60,9 +60,9 @@ struct BlockLayout {
     std::size_t light, sharp, cut, stratum, bundles, end;
 
     LFDSIM_FN explicit BlockLayout(int most) {
-        const std::size_t n = std::size_t(most), sharps = most <= kFewStrata + kMoreStrata ? 2 * n * n : 0;
+        const std::size_t n = std::size_t(most), sharps = most <= few_strata + more_strata ? 2 * n * n : 0;
         light = (sizeof(BlockState) + 15) / 16 * 16;
-        sharp = light + sizeof(S[kMostLanes][4]);
+        sharp = light + sizeof(S[most_lanes][4]);
         cut = sharp + sharps * sizeof(Sharp);
         stratum = cut + 2 * (n + 1) * sizeof(Cut);
         bundles = (stratum + 2 * n * sizeof(Stratum) + 15) / 16 * 16;
@@ -70,7 +70,7 @@ struct BlockLayout {
     }
 };
 
-LFDSIM_FN int most_strata(const Tile& tile) { return tile.strata + kMoreStrata; }
+LFDSIM_FN int most_strata(const Tile& tile) { return tile.strata + more_strata; }
 
 LFDSIM_FN BlockState& state_of(const Frame& frame, std::int64_t block) {
     return *reinterpret_cast<BlockState*>(frame.memory + std::size_t(block) * frame.bytes_per_block);
@@ -131,7 +131,7 @@ template <optics::Way through>
 LFDSIM_FN void place_item(const Frame& frame, std::int64_t i) {
     const Tile tile = tile_of(frame);
     const int each = places_per_axis(tile) * places_per_axis(tile);
-    BlockWork<through>(tile, state_of(frame, i / each)).template look_at_places<kFewStrata + kMoreStrata>(int(i % each));
+    BlockWork<through>(tile, state_of(frame, i / each)).template look_at_places<few_strata + more_strata>(int(i % each));
 }
 
 template <optics::Way through, int most>
@@ -144,8 +144,8 @@ LFDSIM_FN void pixel_item(const Frame& frame, std::int64_t i) {
     if (!out) return;
     S light[4] = {};
     if (state.any_soft) {
-        const S per = S(1) / S(kPlaceStep), s = (S(in.x % kPlaceStep) + S(0.5)) * per, t = (S(in.y % kPlaceStep) + S(0.5)) * per;
-        const S(*const upper)[4] = state.light + in.y / kPlaceStep * state.per_axis + in.x / kPlaceStep;
+        const S per = S(1) / S(place_step), s = (S(in.x % place_step) + S(0.5)) * per, t = (S(in.y % place_step) + S(0.5)) * per;
+        const S(*const upper)[4] = state.light + in.y / place_step * state.per_axis + in.x / place_step;
         const S(*const lower)[4] = upper + state.per_axis;
         for (int c = 0; c < 3; ++c)
             light[c] = between_places(between_places(upper[0][c], lower[0][c], t), between_places(upper[1][c], lower[1][c], t), s);
@@ -169,7 +169,7 @@ LFDSIM_FN void item(const Frame& frame, std::int64_t i) {
     if constexpr (step == Step::bundles) bundle_item<through>(frame, i);
     if constexpr (step == Step::survey) survey_item<through>(frame, i);
     if constexpr (step == Step::places) place_item<through>(frame, i);
-    if constexpr (step == Step::pixels) pixel_item<through, simple ? kFewStrata + kMoreStrata : kMostStrata>(frame, i);
+    if constexpr (step == Step::pixels) pixel_item<through, simple ? few_strata + more_strata : max_strata>(frame, i);
 }
 
 /// do_it.template run<step, way, simple>() for the step and the frame at hand: what differs is compiled apart.
@@ -193,7 +193,7 @@ void choose_item(Step step, const Frame& frame, Do do_it) {
         case Step::places:
             return do_it.template operator()<Step::places, optics::Way::ideal, true>();
         case Step::pixels:
-            return frame.tile.strata <= kFewStrata ? by_way.template operator()<Step::pixels, true>()
+            return frame.tile.strata <= few_strata ? by_way.template operator()<Step::pixels, true>()
                                                    : by_way.template operator()<Step::pixels, false>();
     }
 }

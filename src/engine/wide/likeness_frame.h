@@ -11,13 +11,13 @@ enum class LikenessStep {
     photograph,  // a pixel of the photograph: its lumas
     view,        // a pixel of the view: its luma
     moments,     // a pixel of the rows at hand: the windows' sums down its column
-    windows,     // kColumnsAtOnce pixels of the rows at hand: sums of SSIM
-    cover,       // kColumnsAtOnce pixels: sums for the covered share
+    windows,     // columns_at_once pixels of the rows at hand: sums of SSIM
+    cover,       // columns_at_once pixels: sums for the covered share
     rows         // one of the sums, of a row
 };
 
 /// What is summed: SSIM over both regions, then for the covered share.
-constexpr int kLikenessRegions = 2, kLikenessSums = kLikenessRegions + cover_sums;
+constexpr int likeness_regions = 2, likeness_sums = likeness_regions + cover_sums;
 
 /// What every item of every step is given. Memory is the machine's.
 struct LikenessFrame {
@@ -31,7 +31,7 @@ struct LikenessFrame {
     const Region::Row* columns;
     std::int32_t first_row, row_count;  // the rows at hand
     double* moments;                    // [moments][row_count][width]
-    double *parts, *sums;               // [kLikenessSums][height][chunks of columns]; [kLikenessSums][height]
+    double *parts, *sums;               // [likeness_sums][height][chunks of columns]; [likeness_sums][height]
 };
 
 }  // namespace lfdsim::wide

@@ -5,12 +5,12 @@
 
 namespace lfdsim::wide {
 
-LFDSIM_FN std::int32_t chunks_of(const LikenessFrame& f) { return (f.width + kColumnsAtOnce - 1) / kColumnsAtOnce; }
+LFDSIM_FN std::int32_t chunks_of(const LikenessFrame& f) { return (f.width + columns_at_once - 1) / columns_at_once; }
 
 /// Sum of value(x) over one chunk of a row's columns.
 template <class Value>
 LFDSIM_FN double sum_of_chunk(Region::Row row, std::int32_t chunk, Value value) {
-    const std::int32_t begin = chunk * kColumnsAtOnce, end = begin + kColumnsAtOnce;
+    const std::int32_t begin = chunk * columns_at_once, end = begin + columns_at_once;
     double sum = 0;
     for (std::int32_t x = row.from > begin ? row.from : begin; x < row.to && x < end; ++x) sum += value(x);
     return sum;
@@ -43,7 +43,7 @@ LFDSIM_FN void window_item(const LikenessFrame& f, std::int64_t i) {
     };
     const Region::Row screen = f.columns[y], content = f.columns[f.height + y];
     double of_screen = 0, of_content = 0;
-    for (std::int32_t x = chunk * kColumnsAtOnce; x < (chunk + 1) * kColumnsAtOnce; ++x) {
+    for (std::int32_t x = chunk * columns_at_once; x < (chunk + 1) * columns_at_once; ++x) {
         const bool in_screen = x >= screen.from && x < screen.to, in_content = x >= content.from && x < content.to;
         if (!in_screen && !in_content) continue;
         const double v = value(x);
@@ -56,17 +56,17 @@ LFDSIM_FN void window_item(const LikenessFrame& f, std::int64_t i) {
 
 LFDSIM_FN void cover_item(const LikenessFrame& f, std::int64_t i) {
     const std::int32_t chunk = std::int32_t(i % chunks_of(f)), y = std::int32_t(i / chunks_of(f));
-    const Region::Row row = f.columns[std::int64_t(kLikenessRegions) * f.height + y];
+    const Region::Row row = f.columns[std::int64_t(likeness_regions) * f.height + y];
     const auto a = [&](std::int32_t x) {
         const float* const p = f.picture + (std::int64_t(y) * f.width + x) * 3;
         const float light[3] = {p[0] * f.gain, p[1] * f.gain, p[2] * f.gain};
         return double(luma(light));
     };
     const auto b = [&](std::int32_t x) { return double(f.photograph_light[std::int64_t(y) * f.width + x]); };
-    *part_of(f, kLikenessRegions + of_view, y, chunk) = sum_of_chunk(row, chunk, a);
-    *part_of(f, kLikenessRegions + of_photograph, y, chunk) = sum_of_chunk(row, chunk, b);
-    *part_of(f, kLikenessRegions + of_both, y, chunk) = sum_of_chunk(row, chunk, [&](std::int32_t x) { return a(x) * b(x); });
-    *part_of(f, kLikenessRegions + of_photograph_squared, y, chunk) =
+    *part_of(f, likeness_regions + of_view, y, chunk) = sum_of_chunk(row, chunk, a);
+    *part_of(f, likeness_regions + of_photograph, y, chunk) = sum_of_chunk(row, chunk, b);
+    *part_of(f, likeness_regions + of_both, y, chunk) = sum_of_chunk(row, chunk, [&](std::int32_t x) { return a(x) * b(x); });
+    *part_of(f, likeness_regions + of_photograph_squared, y, chunk) =
         sum_of_chunk(row, chunk, [&](std::int32_t x) { return b(x) * b(x); });
 }
 

@@ -8,16 +8,16 @@ namespace lfdsim::wide {
 
 namespace {
 
-constexpr std::int64_t kMostPoints = std::int64_t(1) << 31;  // of one step: a fraction of a second, after which Ctrl-C is heard
-constexpr int kPointSide = 16;
+constexpr std::int64_t most_points = std::int64_t(1) << 31;  // of one step: a fraction of a second, after which Ctrl-C is heard
+constexpr int point_side = 16;
 
 /// For the blocks at hand: enough of them to fill any machine, and at least one of the largest.
-std::size_t block_memory(const Queue& queue) { return std::max(queue.block_bytes(kMostStrata), std::size_t(256) << 20); }
+std::size_t block_memory(const Queue& queue) { return std::max(queue.block_bytes(max_strata), std::size_t(256) << 20); }
 
 /// Works off blocks, a part of them at a time.
 class Renderer {
   public:
-    Renderer(Queue& queue, const Panel& panel, const Tile& tile) : queue_(queue) {
+    Renderer(Queue& queue, const DevicePanel& panel, const Tile& tile) : queue_(queue) {
         frame_.scene = *tile.scene;
         frame_.view = *tile.view;
         frame_.directions = *tile.directions;
@@ -46,8 +46,8 @@ class Renderer {
         const int side = frame_.tile.block_side;
         std::vector<ListedBlock> all;
         for (std::size_t k = 0; k < squares.size(); ++k)
-            for (int y = 0; y < kRefinedSide; y += side)
-                for (int x = 0; x < kRefinedSide; x += side) all.push_back({squares[k].x + x, squares[k].y + y, std::int32_t(k)});
+            for (int y = 0; y < refined_side; y += side)
+                for (int x = 0; x < refined_side; x += side) all.push_back({squares[k].x + x, squares[k].y + y, std::int32_t(k)});
         if (all.size() > listed_room_) {
             listed_ = Buffer<ListedBlock>(queue_, all.size());
             listed_room_ = all.size();
@@ -61,10 +61,10 @@ class Renderer {
     void prepare() {
         Tile& t = frame_.tile;
         if (t.strata == 0) {
-            t.block_side = kPointSide;
+            t.block_side = point_side;
             return;
         }
-        const int most = t.strata + kMoreStrata;
+        const int most = t.strata + more_strata;
         frame_.bytes_per_block = queue_.block_bytes(most);
         if (!memory_.get()) {
             even_ = Buffer<std::byte>(queue_, queue_.even_bytes());
@@ -80,7 +80,7 @@ class Renderer {
     bool run(std::int64_t blocks, After after) {
         const Tile& t = frame_.tile;
         const std::int64_t pixels = std::int64_t(t.block_side) * t.block_side;
-        const std::int64_t at_once = t.strata == 0 ? std::max<std::int64_t>(kMostPoints / (pixels * std::max(t.samples, 1u)), 1)
+        const std::int64_t at_once = t.strata == 0 ? std::max<std::int64_t>(most_points / (pixels * std::max(t.samples, 1u)), 1)
                                                    : std::int64_t(memory_bytes_ / frame_.bytes_per_block);
         for (std::int64_t first = 0; first < blocks; first += at_once) {
             const std::int64_t count = std::min(at_once, blocks - first);
@@ -93,7 +93,7 @@ class Renderer {
 
     void run_filtered(std::int64_t blocks, std::int64_t pixels) {
         const Tile& t = frame_.tile;
-        const std::int64_t most = t.strata + kMoreStrata;
+        const std::int64_t most = t.strata + more_strata;
         queue_.run(Step::blocks, frame_, blocks);
         queue_.run(Step::bundles, frame_, blocks * most * most);
         queue_.run(Step::survey, frame_, blocks);
@@ -143,12 +143,12 @@ class Painter : public BlockPainter {
 /// Rows of squares, some thousands of squares at a time: each takes 30 KB of the caller's memory.
 Done render_refined(Queue& queue, Renderer& renderer, const Tile& tile, double target, float* error, Job& job) {
     constexpr std::int64_t at_once = 4096;
-    const std::int64_t columns = (tile.x1 - tile.x0) / kRefinedSide + 2;
-    const int rows = int(std::max<std::int64_t>(at_once / columns, 1)) * kRefinedSide;
+    const std::int64_t columns = (tile.x1 - tile.x0) / refined_side + 2;
+    const int rows = int(std::max<std::int64_t>(at_once / columns, 1)) * refined_side;
     Painter painter(queue, renderer);
     std::int64_t samples = 0;
     Tile part = tile;
-    for (int y = tile.y0 / kRefinedSide * kRefinedSide; y < tile.y1; y += rows) {
+    for (int y = tile.y0 / refined_side * refined_side; y < tile.y1; y += rows) {
         part.y0 = std::max(y, tile.y0);
         part.y1 = std::min(y + rows, tile.y1);
         const auto taken = refine_tile(painter, part, target, error, job);
@@ -161,7 +161,7 @@ Done render_refined(Queue& queue, Renderer& renderer, const Tile& tile, double t
 
 }  // namespace
 
-Panel::Panel(Queue& queue, const std::vector<optics::PanelLevel>& levels) {
+DevicePanel::DevicePanel(Queue& queue, const std::vector<optics::PanelLevel>& levels) {
     std::vector<optics::PanelLevel> there = levels;
     for (optics::PanelLevel& level : there) {
         const std::size_t count = std::size_t(level.columns) * level.rows * 4;
@@ -174,7 +174,7 @@ Panel::Panel(Queue& queue, const std::vector<optics::PanelLevel>& levels) {
     queue.upload(levels_.get(), there.data(), there.size() * sizeof there[0]);
 }
 
-std::size_t Panel::bytes(const std::vector<optics::PanelLevel>& levels) {
+std::size_t DevicePanel::bytes(const std::vector<optics::PanelLevel>& levels) {
     std::size_t all = 0;
     for (const optics::PanelLevel& level : levels) all += std::size_t(level.columns) * level.rows * 4 * sizeof(float);
     return all;
@@ -185,7 +185,7 @@ std::size_t picture_bytes(const Queue& queue, const Tile& tile) {
     return picture + (tile.strata > 0 ? block_memory(queue) : 0);
 }
 
-Done render_there(Queue& queue, const Panel& panel, const Tile& tile, float* out, Job& job) {
+Done render_there(Queue& queue, const DevicePanel& panel, const Tile& tile, float* out, Job& job) {
     Renderer renderer(queue, panel, tile);
     const std::int64_t pixels = std::int64_t(tile.x1 - tile.x0) * (tile.y1 - tile.y0);
     queue.clear(out, std::size_t(pixels) * 3 * sizeof(float));  // what is not finished is black
@@ -205,7 +205,7 @@ Done render_there(Queue& queue, const Panel& panel, const Tile& tile, float* out
     return {told * (tile.strata > 0 ? std::int64_t(tile.strata) * tile.strata : std::int64_t(tile.samples)), complete};
 }
 
-Done render(Queue& queue, const Panel& panel, const Tile& tile, std::optional<double> target_error, float* error, Job& job) {
+Done render(Queue& queue, const DevicePanel& panel, const Tile& tile, std::optional<double> target_error, float* error, Job& job) {
     if (target_error) {
         Renderer renderer(queue, panel, tile);
         return render_refined(queue, renderer, tile, *target_error, error, job);

@@ -10,10 +10,10 @@
 namespace lfdsim::wide {
 
 /// The panel's levels in a machine's memory.
-class Panel {
+class DevicePanel {
   public:
     /// Throws DeviceError.
-    Panel(Queue&, const std::vector<optics::PanelLevel>&);
+    DevicePanel(Queue&, const std::vector<optics::PanelLevel>&);
 
     const optics::PanelLevel* levels() const { return levels_.get(); }
     const float* texels() const { return texels_; }
@@ -30,10 +30,10 @@ std::size_t picture_bytes(const Queue&, const Tile&);
 
 /// Renders the tile to `out`, light of 3 floats a pixel in the machine's memory, black where it was cancelled before. Throws
 /// DeviceError.
-Done render_there(Queue&, const Panel&, const Tile&, float* out, Job&);
+Done render_there(Queue&, const DevicePanel&, const Tile&, float* out, Job&);
 
 /// Renders the tile, whose memory is the caller's but for the panel. `target_error` with `error`: as refine_tile. Throws
 /// DeviceError.
-Done render(Queue&, const Panel&, const Tile&, std::optional<double> target_error, float* error, Job&);
+Done render(Queue&, const DevicePanel&, const Tile&, std::optional<double> target_error, float* error, Job&);
 
 }  // namespace lfdsim::wide

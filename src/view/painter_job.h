@@ -9,11 +9,11 @@
 
 namespace lfdsim::view {
 
-class Work : public Job {
+class PainterJob : public Job {
   public:
     /// tell(what, share 0 .. 1) is called from any thread, one at a time, for stages that take longer than a quarter of a second.
     using Tell = std::function<void(const std::string&, double)>;
-    Work(std::function<bool()> cancelled, Tell tell) : cancelled_(std::move(cancelled)), tell_(std::move(tell)) {}
+    PainterJob(std::function<bool()> cancelled, Tell tell) : cancelled_(std::move(cancelled)), tell_(std::move(tell)) {}
 
     void stage(std::string_view name, std::int64_t units) override {
         name_ = name;

@@ -1,0 +1,113 @@
+// The tree of tables, walked.
+#include "model/keys.h"
+
+namespace lfdsim {
+namespace {
+
+template <class T>
+KeyInfo info(const Key<T>& key) {
+    return {key.name, key.range, key.required, key.doc, key.absent};
+}
+
+template <class T>
+const T& fresh_one() {
+    static const T fresh{};
+    return fresh;
+}
+
+/// Calls visit(key, member) for each key of a table.
+template <class T, class Visit>
+void each_key(const Visit& visit) {
+    for (const Key<T>& key : table_of<T>().keys) std::visit([&](auto member) { visit(key, member); }, key.member);
+}
+
+// A struct's own values come before the tables within it, as in TOML; those of its kind belong to both.
+template <class T, class Visit>
+void walk_values(T& in, const std::string& prefix, const Visit& visit) {
+    using Struct = std::remove_const_t<T>;
+    each_key<Struct>([&](const Key<Struct>& key, auto member) {
+        auto& field = in.*member;
+        constexpr PartKind is = part_kind<decltype(field)>;
+        if constexpr (is == PartKind::value || is == PartKind::kinds)
+            visit(prefix + std::string(key.name), info(key), &field, &(fresh_one<Struct>().*member));
+        if constexpr (is == PartKind::kinds) std::visit([&](auto& kind) { walk_values(kind, prefix, visit); }, field);
+    });
+}
+
+template <class T, class Visit>
+void walk(T& in, const std::string& prefix, const Visit& visit);
+
+template <class T, class Visit>
+void walk_parts(T& in, const std::string& prefix, const Visit& visit) {
+    using Struct = std::remove_const_t<T>;
+    each_key<Struct>([&](const Key<Struct>& key, auto member) {
+        auto& field = in.*member;
+        constexpr PartKind is = part_kind<decltype(field)>;
+        const std::string path = prefix + std::string(key.name);
+        if constexpr (is == PartKind::table) {
+            walk(field, path + ".", visit);
+        } else if constexpr (is == PartKind::optional) {
+            if (field) walk(*field, path + ".", visit);
+        } else if constexpr (is == PartKind::list) {
+            for (std::size_t i = 0; i < field.size(); ++i) walk(field[i], path + "." + std::to_string(i) + ".", visit);
+        } else if constexpr (is == PartKind::kinds) {
+            std::visit([&](auto& kind) { walk_parts(kind, prefix, visit); }, field);
+        }
+    });
+}
+
+template <class T, class Visit>
+void walk(T& in, const std::string& prefix, const Visit& visit) {
+    walk_values(in, prefix, visit);
+    walk_parts(in, prefix, visit);
+}
+
+template <class T>
+void add_tables(const std::string& path, PartKind is, std::vector<FormatTable>& all) {
+    all.push_back({path, table_of<T>().name, table_of<T>().doc, is, {}});
+    const std::size_t here = all.size() - 1;
+    each_key<T>([&]<class Field>(const Key<T>& key, Field T::*member) {
+        constexpr PartKind part = part_kind<Field>;
+        if constexpr (part == PartKind::value || part == PartKind::kinds)
+            all[here].values.push_back({info(key), &(fresh_one<T>().*member)});
+        if constexpr (part == PartKind::kinds)
+            [&]<class... Kinds>(const std::variant<Kinds...>&) {
+                (add_tables<Kinds>(path, PartKind::kinds, all), ...);
+            }(fresh_one<T>().*member);
+        else if constexpr (part != PartKind::value)
+            add_tables<typename Part<Field>::Struct>((path.empty() ? "" : path + ".") + std::string(key.name), part, all);
+    });
+}
+
+}  // namespace
+
+void visit_all(const Display& d,
+               const std::function<void(const std::string& path, const KeyInfo&, ConstValueRef, ConstValueRef fresh)>& visit) {
+    walk(d, "", visit);
+}
+
+void visit_all(Display& d, const std::function<void(const std::string& path, const KeyInfo&, ValueRef)>& visit) {
+    walk(d, "", [&](const std::string& path, const KeyInfo& key, auto* value, const auto*) { visit(path, key, value); });
+}
+
+const std::vector<FormatTable>& format_tables() {
+    static const std::vector<FormatTable> tables = [] {
+        std::vector<FormatTable> all;
+        add_tables<Display>("", PartKind::table, all);
+        return all;
+    }();
+    return tables;
+}
+
+const FormatTable::Value* key_at(std::string_view path) {
+    const std::string_view name = path.substr(path.rfind('.') + 1), in = table_of_path(path);
+    for (const FormatTable& table : format_tables()) {
+        const std::string_view here = table.is == PartKind::list ? in.substr(0, in.find_last_not_of("0123456789")) : in;
+        if (here != table.path) continue;
+        for (const FormatTable::Value& value : table.values)
+            if (value.key.name == name) return &value;
+    }
+    return nullptr;
+}
+
+}  // namespace lfdsim

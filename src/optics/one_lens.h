@@ -1,0 +1,159 @@
+// One lens: a ray passes each of its surfaces once, in order, with the aperture stop and the holes of the black part. Floor 1.
+//
+// Rays go down, from the viewer's side to the panel's. Light that goes up passes the lens turned over (turned_over() in
+// model/prescription.h), its mirror image in the plane of the panel, downwards.
+#pragma once
+#include "optics/lens_array.h"
+#include "optics/scene.h"
+#include "optics/surface.h"
+
+namespace lfdsim::optics::inline LFDSIM_ISA {
+
+/// A packet of rays on its way through the array.
+template <class F>
+struct Passage {
+    Ray<F> ray;  // from the lens's axis and the surface's vertex
+    Cell<F> cell;
+    F weight;
+    Mask<F> alive;
+};
+
+/// Which surfaces a display's lens has, as far as the kernel is compiled for it: the 2019 paper's lens without a stop pays for no
+/// other. Triangles in place of the surfaces are met by meet_mesh(scene, k, ray), which whoever has them gives (src/meshed).
+enum class Shapes { plano_convex, any, meshed };
+
+/// Surface k, counted from the viewer's side.
+template <Shapes shapes, class S>
+LFDSIM_FN Shape shape_of(const Scene<S>& scene, int k) {
+    if (shapes == Shapes::plano_convex) return k == 0 ? Shape::sphere : Shape::plane;
+    return scene.surface[k].shape;
+}
+
+template <class F>
+LFDSIM_FN Hit<F> meet(Shape shape, const SurfaceData<Scalar<F>>& surface, Ray<F> in_vertex_plane) {
+    if (shape == Shape::plane) {
+        const Vec3<F> p = in_vertex_plane.at;
+        const F cosine = -in_vertex_plane.to.z, r = F(surface.semi_aperture);
+        return {p, {F(0), F(0), F(1)}, cosine, cosine * cosine, p.x * p.x + p.y * p.y <= r * r};
+    }
+    return shape == Shape::sphere ? meet_sphere(surface, in_vertex_plane) : meet_asphere(surface, in_vertex_plane);
+}
+
+/// Surface k.
+template <Shapes shapes, class F>
+LFDSIM_FN Hit<F> meet(const Scene<Scalar<F>>& scene, int k, Ray<F> in_vertex_plane) {
+    if constexpr (shapes == Shapes::meshed)
+        return meet_mesh(scene, k, in_vertex_plane);
+    else
+        return meet(shape_of<shapes>(scene, k), scene.surface[k], in_vertex_plane);
+}
+
+/// The walls of a square cell; a circle's are its surfaces' semi apertures.
+template <class F>
+LFDSIM_FN Mask<F> inside_cell(const Scene<Scalar<F>>& scene, Vec3<F> at, Mask<F> ok) {
+    if (scene.aperture == Aperture::circle) return ok;
+    return ok && in_cell(scene.lattice, at.x, at.y);
+}
+
+/// Refracts a ray that comes down from the viewer's side (Snell's law as vectors; total internal reflection ends it).
+template <class F>
+LFDSIM_FN void refract_down(const Scene<Scalar<F>>& scene, Shape shape, const SurfaceData<Scalar<F>>& surface, const Hit<F>& hit,
+                            Passage<F>& way) {
+    const F eta = F(surface.media.eta);
+    const F cos2 = (F(1) - eta * eta) + (eta * eta) * hit.cos2;
+    const F cosine = sqrt(max(cos2, F(0)));
+    way.alive = way.alive && (cos2 > F(0));
+    const Vec3<F> i = way.ray.to;
+    if (shape == Shape::plane) {
+        way.ray.to = {eta * i.x, eta * i.y, -cosine};
+    } else {
+        const F m = eta * hit.cos - cosine;
+        way.ray.to = {eta * i.x + m * hit.normal.x, eta * i.y + m * hit.normal.y, eta * i.z + m * hit.normal.z};
+    }
+    way.ray.at = hit.at;
+    if (scene.fresnel != Fresnel::none) {
+        way.weight = way.weight * transmittance(scene.fresnel, F(surface.media.schlick_t0), F(surface.media.n_above),
+                                                F(surface.media.n_below), hit.cos, cosine,
+                                                surface.media.n_above < surface.media.n_below ? hit.cos : cosine);
+    }
+}
+
+/// What pass_lens() asks of a lens that is alone with its apertures, its axis at the origin, behind a sheet of stops without end.
+template <class F>
+struct Alone {
+    const Scene<Scalar<F>>& scene;
+
+    LFDSIM_FN Place<F> axis() const { return {F(0), F(0)}; }
+    LFDSIM_FN Mask<F> passes_stop(Mask<F>, F x, F y) const {
+        const Scalar<F> end = Scalar<F>(1e30);
+        return optics::passes_stop(scene, Extent<Scalar<F>>{-end, end, -end, end}, x, y);
+    }
+};
+
+/// A thin lens, of a ray that meets it at q from its axis: slopes dx/dz, dy/dz beyond = slopes before + q / f.
+template <class F>
+LFDSIM_FN Place<F> bend(const Scene<Scalar<F>>& scene, Place<F> q, Place<F> slope) {
+    const F power = F(scene.ideal_power);
+    return {slope.x + q.x * power, slope.y + q.y * power};
+}
+
+/// Through one lens. `entering` stands in the plane of the first vertex, in the frame of `rules`; `hit` is where it meets the first
+/// surface, from the lens's own axis. Afterwards way.ray stands on the last surface, from that axis and the surface's vertex. A ray
+/// that ends on the way is no longer way.alive. What depends on who traces is asked of `rules`:
+///   axis()                                  of the lens in the frame in which stops are counted;
+///   meets(k, ray, hit, from_z, z, way)      surface k is met at height z, after one at from_z, by a ray in its vertex's plane:
+///                                           clears way.alive of rays outside of the aperture;
+///   passes_stop(crosses, x, y)              rays of `crosses` cross the plane of the stops: is there a hole?
+///   leaves(way), passes_back(x, y)          behind the last surface; in the hole of the black part's lower face;
+///   over(alive)                             whether to stop here: a packet goes on, a single ray that has ended need not.
+template <Shapes shapes, class F, class Rules>
+LFDSIM_FN void pass_lens(const Scene<Scalar<F>>& scene, Rules&& rules, const Ray<F>& entering, Hit<F> hit, Passage<F>& way) {
+    using S = Scalar<F>;
+    const int count = shapes == Shapes::plano_convex ? 2 : scene.surface_count;
+    const bool has_stop = shapes != Shapes::plano_convex && scene.has_stop;
+    // The stop is tested where the ray first crosses its plane: before the first surface or after any. z from the panel.
+    Mask<F> stop_ahead = way.alive;
+    auto stop_between = [&](F from_z, F to_z, Vec3<F> at, Vec3<F> to, F at_z) {
+        const Mask<F> crosses = stop_ahead && (from_z >= F(scene.stop_z)) && (to_z <= F(scene.stop_z));
+        const F t = (F(scene.stop_z) - at_z) / to.z;
+        const Place<F> axis = rules.axis();
+        const Mask<F> through = rules.passes_stop(crosses, at.x + to.x * t + axis.x, at.y + to.y * t + axis.y);
+        way.alive = way.alive && (through || !crosses);
+        stop_ahead = stop_ahead && !crosses;
+    };
+    const F above_all = F(S(1e30));
+    if (has_stop) {
+        const Place<F> axis = rules.axis();
+        stop_between(above_all, hit.at.z + F(scene.surface[0].z), {entering.at.x - axis.x, entering.at.y - axis.y, F(0)},
+                     entering.to, F(scene.surface[0].z));
+    }
+    rules.meets(0, entering, hit, above_all, hit.at.z + F(scene.surface[0].z), way);
+    if (rules.over(way.alive)) return;
+    refract_down(scene, shape_of<shapes>(scene, 0), scene.surface[0], hit, way);
+    for (int k = 1; k < count; ++k) {
+        const SurfaceData<S>&above = scene.surface[k - 1], &surface = scene.surface[k];
+        const F t = (F(surface.z - above.z) - way.ray.at.z) / way.ray.to.z;  // to its vertex plane
+        Ray<F> ray = way.ray;
+        ray.at = {ray.at.x + ray.to.x * t, ray.at.y + ray.to.y * t, F(0)};
+        hit = meet<shapes>(scene, k, ray);
+        const F from_z = way.ray.at.z + F(above.z), z = hit.at.z + F(surface.z);
+        if (has_stop) stop_between(from_z, z, way.ray.at, way.ray.to, from_z);
+        rules.meets(k, ray, hit, from_z, z, way);
+        // Downwards throughout: a ray turned up, or meeting a surface behind itself, is absorbed.
+        way.alive = way.alive && (way.ray.to.z < F(0));
+        if (shape_of<shapes>(scene, k) != Shape::plane) way.alive = way.alive && (z <= from_z);
+        if (rules.over(way.alive)) return;
+        refract_down(scene, shape_of<shapes>(scene, k), surface, hit, way);
+    }
+    const F z = way.ray.at.z + F(scene.surface[count - 1].z);
+    if (has_stop) stop_between(z, -above_all, way.ray.at, way.ray.to, z);
+    rules.leaves(way);
+    if (shape_of<shapes>(scene, count - 1) != Shape::plane) way.alive = way.alive && (way.ray.to.z < F(0));
+    if (shapes != Shapes::plano_convex && scene.hollow_back) {  // the way out is the hole in the black part's lower face
+        const F down = (F(scene.wall_bottom) - z) / way.ray.to.z;
+        const F x = way.ray.at.x + way.ray.to.x * down, y = way.ray.at.y + way.ray.to.y * down;
+        way.alive = way.alive && (rules.passes_back(x, y) || (down < F(0)));
+    }
+}
+
+}  // namespace lfdsim::optics::inline LFDSIM_ISA
