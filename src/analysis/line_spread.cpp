@@ -2,6 +2,7 @@
 
 #include "analysis/eye_rays.h"
 #include "content/pickup.h"
+#include "model/numbers.h"
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -9,7 +10,6 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <numbers>
 
 namespace lfdsim {
 namespace {
@@ -39,7 +39,7 @@ Modulation LineSpread::mtf(double step_per_mm, int count) const {
     tbb::parallel_for(std::size_t(0), sums.size(), [&](std::size_t set) {
         sums[set].resize(std::size_t(count));
         for (const Line& line : sets_[set]) {
-            const std::complex<double> turn = std::polar(1., 2 * std::numbers::pi * step_per_mm * line.off_mm);
+            const std::complex<double> turn = std::polar(1., 2 * pi * step_per_mm * line.off_mm);
             std::complex<double> wave = line.light;
             for (std::complex<double>& sum : sums[set]) {
                 sum += wave;

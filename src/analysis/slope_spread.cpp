@@ -1,4 +1,5 @@
 #include "analysis/slope_spread.h"
+#include "model/numbers.h"
 
 #include <algorithm>
 #include <array>
@@ -32,7 +33,7 @@ SlopeSpread::SlopeSpread(const Subject& s, double eye, int axis)
     lens_slopes_per_mm_ = 1 / made_for - 1 / eye;
     const auto& diffuser = s.display().diffuser;
     if (!diffuser) return;
-    half_rad_ = std::min(diffuser->angle_deg[std::size_t(axis)] * std::numbers::pi / 360, most_rad);
+    half_rad_ = std::min(diffuser->angle_deg[std::size_t(axis)] * degree / 2, most_rad);
     box_ = diffuser->profile == Profile::box;
     above_mm_ = diffuser->distance_mm;
     diffuser_scale_ = 1 - (*g.diffuser_z_mm - g.rear_principal_mm) / made_for;
@@ -45,7 +46,7 @@ SlopeSpread::Spread SlopeSpread::aperture() const {
     if (!round_ || width <= 0) return {-0.5 * width, 0.5 * width, [width](double x) { return even_below(x, width); }};
     return {-0.5 * width, 0.5 * width, [width](double x) {  // chords of a disk
                 const double u = std::clamp(2 * x / width, -1., 1.);
-                return 0.5 + (u * std::sqrt(1 - u * u) + std::asin(u)) / std::numbers::pi;
+                return 0.5 + (u * std::sqrt(1 - u * u) + std::asin(u)) / pi;
             }};
 }
 

@@ -75,7 +75,7 @@ void tell_spots(const Subject& s, const std::vector<Field>& fields, const std::v
     for (const std::string& name : names) table.columns.push_back({name, {}});
     Json& spots = result.figures["spots"] = Json::array();
     for (const Field& f : fields) {
-        const double angle = std::atan(std::hypot(f.panel[0], f.panel[1]) / s.geometry().gap_mm) * 180 / pi;
+        const double angle = std::atan(std::hypot(f.panel[0], f.panel[1]) / s.geometry().gap_mm) / degree;
         const double share = fields.front().light.light > 0 ? f.light.light / fields.front().light.light : nan;
         for (const double z : depths) {
             const Spot spot = spot_at(s, f, z);

@@ -5,12 +5,12 @@
 #include "engine/memory.h"
 #include "engine/render.h"
 #include "files/display_file.h"
+#include "model/numbers.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <optional>
 
 // Group "estimators": error against time. A part of the picture is rendered with many samples of other seeds, the reference; then
@@ -189,7 +189,7 @@ Rect crop_of(const Display& d, const BenchSettings& settings) {
 }
 
 void walk(Camera& camera, double angle_deg) {
-    const double a = angle_deg * std::numbers::pi / 180, x = camera.position_mm[0] - camera.target_mm[0],
+    const double a = angle_deg * degree, x = camera.position_mm[0] - camera.target_mm[0],
                  z = camera.position_mm[2] - camera.target_mm[2];
     camera.position_mm[0] = camera.target_mm[0] + x * std::cos(a) + z * std::sin(a);
     camera.position_mm[2] = camera.target_mm[2] + z * std::cos(a) - x * std::sin(a);

@@ -2,10 +2,10 @@
 // depths, whose squares show where a picture is blurred or repeated.
 #include "content/content.h"
 #include "content/model.h"
+#include "model/numbers.h"
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace lfdsim {
 namespace {
@@ -41,7 +41,7 @@ void add(Model& m, const Sphere& s) {
     for (int j = 0; j <= steps_up; ++j)
         for (int i = 0; i <= steps_round; ++i) {
             const double u = double(i) / steps_round, v = double(j) / steps_up;
-            const double turn = 2 * std::numbers::pi * u, up = std::numbers::pi * (v - 0.5);
+            const double turn = 2 * pi * u, up = pi * (v - 0.5);
             const float n[3] = {float(std::cos(up) * std::sin(turn)), float(std::sin(up)), float(-std::cos(up) * std::cos(turn))};
             for (std::size_t k = 0; k < 3; ++k) {
                 m.normals.push_back(n[k]);

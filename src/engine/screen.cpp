@@ -2,9 +2,9 @@
 
 #include "engine/scene.h"
 #include "model/camera.h"
+#include "model/numbers.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace lfdsim {
 
@@ -12,7 +12,7 @@ std::optional<Corners> screen_corners(const Display& display, const Geometry& ge
     const optics::View view = make_view(display, geometry);
     const CameraAxes axes = camera_axes(display.camera);
     const double quarters = std::round(display.array.rotation_deg / 90), rest = display.array.rotation_deg - 90 * quarters;
-    const double c = std::cos(rest * std::numbers::pi / 180), s = std::sin(rest * std::numbers::pi / 180);
+    const double c = std::cos(rest * degree), s = std::sin(rest * degree);
     double half_width = geometry.array_width_mm / 2, half_height = geometry.array_height_mm / 2;
     if (std::fmod(quarters, 2) != 0) std::swap(half_width, half_height);
 

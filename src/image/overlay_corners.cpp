@@ -1,5 +1,6 @@
 #include "image/blur.h"
 #include "image/overlay.h"
+#include "model/numbers.h"
 
 #include <tbb/parallel_for.h>
 #include <algorithm>
@@ -178,7 +179,7 @@ Corners fit_corners(const Image& view, const Corners& in_view, const Aligned& ph
         Level::Sums here = level.sums(by);
         if (here.pixels == 0) break;
         // Neighbours share what noise is left after the blur: so many pixels tell as much as one.
-        const double alike = std::max(1.0, 4 * std::numbers::pi * sigma * sigma / level.pixels_per_sample());
+        const double alike = std::max(1.0, 4 * pi * sigma * sigma / level.pixels_per_sample());
         const double known = std::max(here.squares, 1e-12 * here.light) / here.pixels * alike / (click_px * click_px);
         const auto cost = [&](const Level::Sums& sums, const Vector& moved_by) {
             return sums.squares / sums.pixels + known / here.pixels * dot(moved_by, moved_by);

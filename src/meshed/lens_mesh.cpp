@@ -1,5 +1,6 @@
 #include "meshed/lens_mesh.h"
 
+#include "model/numbers.h"
 #include "model/vec.h"
 
 #include <fmt/format.h>
@@ -7,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace lfdsim {
 namespace {
@@ -39,7 +39,7 @@ class Outline {
     // After this share of the way round, counter-clockwise. A cell's begins in a corner, so that quarters end in corners.
     std::array<double, 2> point(double share) const {
         if (round_) {
-            const double angle = 2 * std::numbers::pi * share;
+            const double angle = 2 * pi * share;
             return {radius_ * std::cos(angle), radius_ * std::sin(angle)};
         }
         const int side = std::min(int(4 * share), 3);
@@ -69,7 +69,7 @@ struct Grid {
 // Distances from the axis that divide the surface's meridian evenly, the last one `reach`.
 std::vector<double> ring_distances(const PlacedSurface& s, double reach, int rings) {
     constexpr int steps = 4096;
-    const auto distance = [&](int i) { return reach * std::sin(0.5 * std::numbers::pi * i / steps); };  // dense at a steep rim
+    const auto distance = [&](int i) { return reach * std::sin(0.5 * pi * i / steps); };  // dense at a steep rim
     std::vector<double> length(steps + 1, 0.0);
     for (int i = 1; i <= steps; ++i)
         length[i] = length[i - 1] + std::hypot(distance(i) - distance(i - 1), sag(s, distance(i)) - sag(s, distance(i - 1)));

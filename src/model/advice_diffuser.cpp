@@ -1,9 +1,9 @@
 #include "model/advice_parts.h"
 #include "model/bands.h"
+#include "model/numbers.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace lfdsim {
 namespace {
@@ -58,9 +58,7 @@ void advise_on_diffuser(Advised& a) {
     const bool too_near = std::max(angle[0], angle[1]) > strongest_deg;
     const auto [wide, high] = d.diffuser->angle_deg;
     if (bands) {
-        const auto spread = [&](std::size_t k) {
-            return 2 * height[k] * std::tan(d.diffuser->angle_deg[k] * std::numbers::pi / 360) / p[k];
-        };
+        const auto spread = [&](std::size_t k) { return 2 * height[k] * std::tan(d.diffuser->angle_deg[k] * degree / 2) / p[k]; };
         const double distance = d.diffuser->distance_mm + height[0] * (1 / spread(0) - 1);  // where this diffuser joins them
         std::string remedy = too_near ? "It takes " + best
                                       : fmt::format("Where it stands it takes {} ({})", degrees_text(angle), option_text(angle));

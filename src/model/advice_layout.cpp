@@ -1,8 +1,8 @@
 #include "model/advice_parts.h"
+#include "model/numbers.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace lfdsim {
 namespace {
@@ -10,7 +10,7 @@ namespace {
 /// Share of the lenses whose elemental images have their centres beside the panel: at least half of such an image is missing. Of
 /// many lenses 256 rows and columns are looked at, spread evenly.
 double share_beside_panel(const Geometry& g, const LensArray& array, double elemental_over_lens_pitch) {
-    const double turn = array.rotation_deg * std::numbers::pi / 180, cos = std::cos(turn), sin = std::sin(turn);
+    const double turn = array.rotation_deg * degree, cos = std::cos(turn), sin = std::sin(turn);
     const std::int64_t columns = std::min<std::int64_t>(array.count[0], 256), rows = std::min<std::int64_t>(array.count[1], 256);
     std::int64_t beside = 0;
     for (std::int64_t j = 0; j < rows; ++j)

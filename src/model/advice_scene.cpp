@@ -1,8 +1,8 @@
 #include "model/advice_parts.h"
+#include "model/numbers.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 // Depths z count from the vertex plane here, positive towards the viewer; so does the eye's distance.
 namespace lfdsim {
@@ -35,7 +35,7 @@ bool advise_near_eye(Advised& a, double eye) {
     if (to_eye > nearest_focus_mm) return false;
     // Half of what the eye sees through the screen, or through one lens if that is less.
     const double seen = std::min(std::min(a.geometry.array_height_mm, a.geometry.panel_height_mm) / eye,
-                                 2 * std::tan(a.theory.along[1].fov_elemental_deg * std::numbers::pi / 360));
+                                 2 * std::tan(a.theory.along[1].fov_elemental_deg * degree / 2));
     a.say(
         "the scene stands {:.4g} mm before the lenses and {:.4g} mm before the eye, nearer than eyes can focus. "
         "Say how far away it is and how large (--set content.depth_mm={:.0f} --set content.height_mm={:.0f})",

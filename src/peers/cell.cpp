@@ -1,11 +1,11 @@
 #include "peers/cell.h"
 
 #include "meshed/lens_mesh.h"
+#include "model/numbers.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace lfdsim::peers {
 namespace {
@@ -58,7 +58,7 @@ std::vector<Point> rim(const LensMesh& mesh, std::int32_t surface) {
 std::vector<Point> circle(double radius, std::size_t count) {
     std::vector<Point> points;
     for (std::size_t i = 0; i < count; ++i) {
-        const double a = 2 * std::numbers::pi * (double(i) / double(count) - 0.5);
+        const double a = 2 * pi * (double(i) / double(count) - 0.5);
         points.push_back({radius * std::cos(a), radius * std::sin(a), 0});
     }
     return points;

@@ -1,4 +1,5 @@
 #include "image/png_memory.h"
+#include "model/numbers.h"
 #include "report/base64.h"
 #include "report/svg.h"
 #include "report/svg_axes.h"
@@ -6,7 +7,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 namespace lfdsim {
@@ -17,7 +17,7 @@ constexpr double map_width = 600, bar_width = 18;
 /// Dark blue over green to light yellow, 0 .. 1: lightness rises evenly, so that the map reads in grey and without colour vision.
 /// Oklab (Ottosson, "A perceptual color space for image processing", 2020) to sRGB.
 std::array<std::uint8_t, 3> colour(double t) {
-    const double light = 0.28 + 0.67 * t, turn = (285 - 180 * t) * std::numbers::pi / 180, chroma = 0.09 + 0.06 * t * (1.6 - t);
+    const double light = 0.28 + 0.67 * t, turn = (285 - 180 * t) * degree, chroma = 0.09 + 0.06 * t * (1.6 - t);
     const double a = chroma * std::cos(turn), b = chroma * std::sin(turn);
     const double l = std::pow(light + 0.3963377774 * a + 0.2158037573 * b, 3);
     const double m = std::pow(light - 0.1055613458 * a - 0.0638541728 * b, 3);

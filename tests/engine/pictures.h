@@ -1,5 +1,7 @@
 // Panels and displays for the tests of the renderer.
 #pragma once
+#include <cstdint>
+#include <cstring>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,6 +30,23 @@ inline Image picture(const Display& d, const Texels& panel, const RenderOptions&
     Job job;
     return render(d, resolve(d), panel, options, job).image;
 }
+
+/// FNV-1a of the bits of pictures. Kept values fix them: whatever changes one changes what the renderer computes, and has to say
+/// so.
+class Bits {
+  public:
+    void add(const Image& image) {
+        for (const float x : image.rgb) {
+            std::uint32_t bits;
+            std::memcpy(&bits, &x, sizeof bits);
+            for (int k = 0; k < 4; ++k) hash_ = (hash_ ^ (bits >> 8 * k & 255)) * 1099511628211u;
+        }
+    }
+    std::uint64_t hash() const { return hash_; }
+
+  private:
+    std::uint64_t hash_ = 14695981039346656037u;
+};
 
 inline Display ideal_example() {
     Display d = example();

@@ -1,7 +1,11 @@
 // The filtered estimator on the CPU: block after block, its pixels in packets.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
+#include "engine/kernel.h"
+#include "engine/kernels/filtered_axis.h"
 #include "engine/kernels/filtered_block.h"
+#include "optics/camera.h"
+#include "optics/trace.h"
 
 namespace lfdsim {
 

@@ -3,6 +3,7 @@
 #pragma once
 #include "engine/kernel.h"
 #include "optics/bundle.h"
+#include "optics/diffuser.h"
 #include "optics/filtered_limits.h"
 #include "optics/strata.h"
 

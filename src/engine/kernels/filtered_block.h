@@ -1,8 +1,15 @@
 // The filtered estimator: a block of pixels, in the steps that CPU and GPU take alike.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
+#include "engine/kernel.h"
+#include "engine/kernels/filtered_axis.h"
 #include "engine/kernels/filtered_bundles.h"
 #include "engine/kernels/filtered_own.h"
+#include "optics/bundle.h"
+#include "optics/camera.h"
+#include "optics/filtered_limits.h"
+#include "optics/light.h"
+#include "optics/strata.h"
 
 namespace lfdsim {
 

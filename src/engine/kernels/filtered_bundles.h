@@ -1,9 +1,13 @@
 // The filtered estimator: the bundles of a block.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
+#include "engine/kernel.h"
 #include "engine/kernels/filtered_axis.h"
+#include "optics/bundle.h"
 #include "optics/filtered_limits.h"
 #include "optics/footprint.h"
+#include "optics/strata.h"
+#include "optics/trace.h"
 
 namespace lfdsim {
 

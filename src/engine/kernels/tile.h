@@ -22,6 +22,9 @@ using F = float;
 
 #include "engine/kernels/filtered.h"
 #include "engine/kernels/points.h"
+#include "optics/camera.h"
+#include "optics/light.h"
+#include "optics/trace.h"
 
 namespace lfdsim {
 namespace {
