@@ -18,12 +18,12 @@ namespace {
 
 constexpr std::int64_t known_schema = 1;
 
-// More than a person mends in one go: a file of another kind in TOML can hold a hundred thousand unknown keys.
+// More than a person fixes at once: a file of another kind in TOML can hold a hundred thousand unknown keys.
 constexpr std::size_t most_problems_told = 50;
 
-// Fills a display from a parsed description, by the tables of keys. It goes on after a fault: a value that cannot be read keeps its
-// default, and its key is passed to validate()'s steps as known to be wrong, so that they judge all others and each fault is
-// reported once. In the end all are sorted by place.
+// Fills a display from a parsed description, by the tables of keys. It continues after a fault: a value that cannot be read keeps
+// its default, and its key is passed to validate()'s steps as known to be wrong, so that they check all others and each fault is
+// reported once. The faults are then sorted by place.
 class DisplayReader {
   public:
     explicit DisplayReader(const Source& s) : source(s) {}
@@ -42,7 +42,7 @@ class DisplayReader {
         if (any_kind && std::any_of(faults.begin(), faults.end(), [&](const Problem& p) { return p.where == where; })) return;
         faults.push_back({std::move(where), std::move(what)});
     }
-    // A key too many; it takes no value away from what validate() may judge.
+    // A key too many; it does not keep validate() from checking any value.
     void add_superfluous(Place place, std::string where, std::string what) {
         superfluous.push_back({std::move(place), std::move(where) + ": " + what});
     }
@@ -58,7 +58,7 @@ class DisplayReader {
                 fmt::format("is {}, allowed is {}; another version of the program wrote or reads this file", schema, known_schema));
     }
 
-    // Of a table at `prefix` ("lens."), all keys, and that there are no others.
+    // Reads all keys of a table at `prefix` ("lens."), and reports any others in it.
     template <class T>
     void read_table(const toml::table& from, const std::string& prefix, T& values, std::vector<std::string_view> known = {}) {
         add_known<T>(known);
@@ -81,7 +81,7 @@ class DisplayReader {
         }
     }
 
-    // One after the other, a fresh one of each kind.
+    // Calls act for each kind, with a fresh value of it.
     template <class... Kinds>
     static void for_kinds(const std::variant<Kinds...>&, const auto& act) {
         (act(Kinds{}), ...);
@@ -106,7 +106,7 @@ class DisplayReader {
         } else if constexpr (is == PartKind::table || is == PartKind::optional) {
             if (!node && is == PartKind::optional) return;
             const toml::table* table = node ? node->as_table() : &nothing;
-            if (!table) return add(path, fmt::format("is {}, wanted is a table: [{}]", kind_of(*node), path));
+            if (!table) return add(path, fmt::format("is {}; give a table: [{}]", kind_of(*node), path));
             if constexpr (is == PartKind::optional)
                 read_table(*table, path + ".", field.emplace());
             else
@@ -157,7 +157,7 @@ class DisplayReader {
     void read_list(const toml::node& node, const std::string& path, std::vector<Element>& list) {
         const toml::array* array = node.as_array();
         if (!array || (!array->empty() && !array->is_array_of_tables()))
-            return add(path, fmt::format("is {}, wanted is a list of tables: [[{}]]", kind_of(node), path));
+            return add(path, fmt::format("is {}; give a list of tables: [[{}]]", kind_of(node), path));
         list.resize(std::min(array->size(), max_surfaces + 1));  // validate() will refuse one too many
         for (std::size_t i = 0; i < list.size(); ++i) read_table(*(*array)[i].as_table(), fmt::format("{}.{}.", path, i), list[i]);
     }
@@ -172,7 +172,7 @@ class DisplayReader {
                         elsewhere.empty()
                             ? fmt::format("is unknown; {}", meant.empty() ? fmt::format("known are {}", fmt::join(known, ", "))
                                                                           : fmt::format("did you mean {}?", meant))
-                            : fmt::format("is unknown here; it belongs into [{}]", elsewhere));
+                            : fmt::format("is unknown here; it belongs in [{}]", elsewhere));
     }
 
     static bool has_key(const FormatTable& table, std::string_view name) {
@@ -180,7 +180,7 @@ class DisplayReader {
                            [&](const FormatTable::Value& value) { return value.key.name == name; });
     }
 
-    // Adds what is wrong with the values that could be read, and throws if anything is. Places without a line, of overrides, come
+    // Validates the values that could be read, and throws if any fault has been found. Places without a line, of overrides, come
     // first: whoever gives a wrong option should not have to look for it below the file's own faults.
     void judge(const Display& display) {
         Findings findings(faults);
@@ -208,7 +208,7 @@ class DisplayReader {
     };
 
     const Source& source;
-    bool any_kind = false;        // the kind at hand is not known
+    bool any_kind = false;        // the kind being read is not known
     std::vector<Problem> faults;  // of keys that are missing or could not be read, by dotted path
     std::vector<Located> superfluous;
 };

@@ -60,15 +60,15 @@ std::string format_reference_markdown() {
 
 A TOML file describes a display, the camera that looks at it and what it shows. Lengths are in millimetres and angles in degrees, as
 the keys' names say. The panel lies in z = 0, centred on the origin; +x is the viewer's right, +y is up, +z is towards the viewer.
-[model.md](model.md) has the optics. `displays/` holds ready descriptions.
+[model.md](model.md) describes the optics. `displays/` holds ready-made descriptions.
 
 A key that is unknown, stands in the wrong table or has no meaning for the lens's type is an error, as is a value of another type or
 outside what is allowed; an integer may stand for a number. All errors are reported together, each with file, line and column.
 
 On the command line `--set key=value` changes one value: the key with its table before a dot, the value as in TOML. Words need no
-quotes (`--set lens.facing=panel`), `none` takes a key or table away (`--set diffuser=none`), and surfaces are counted from 0
-(`--set lens.surface.1.conic=-0.4`). A model named so is relative to the working directory, one named in the file to the file's
-folder. Files have at most 1 MiB and nest at most 16 levels.
+quotes (`--set lens.facing=panel`), `none` removes a key or table (`--set diffuser=none`), and surfaces are counted from 0
+(`--set lens.surface.1.conic=-0.4`). A model given in this way is relative to the working directory, one named in the file to
+the file's folder. Files have at most 1 MiB and nest at most 16 levels.
 
 ## Top level
 

@@ -37,7 +37,7 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-/// A decimal as people write it (".6", "6.", "+007"), as TOML has it; the rest of the text goes to `rest`.
+/// A decimal as people write it (".6", "6.", "+007"), in TOML's form; the rest of the text goes to `rest`.
 std::optional<std::string> decimal(std::string_view text, std::string_view& rest) {
     const bool plus = text.starts_with('+');
     if (plus) text.remove_prefix(1);
@@ -48,7 +48,7 @@ std::optional<std::string> decimal(std::string_view text, std::string_view& rest
     return fmt::format("{}", value);
 }
 
-/// Of a key's name: "mm", "deg"; empty: the key has no unit.
+/// The unit in a key's name: "mm", "deg"; empty: the key has none.
 std::string_view unit_of_key(std::string_view path) {
     if (path.ends_with("_per_mm")) return "1/mm";
     if (path.ends_with("_mm")) return "mm";
@@ -57,12 +57,12 @@ std::string_view unit_of_key(std::string_view path) {
 
 std::string with_unit(std::string_view path, const std::string& number, std::string_view given) {
     const std::string_view unit = unit_of_key(path);
-    if (unit.empty()) return fmt::format("a number alone is wanted; write {}", number);
+    if (unit.empty()) return fmt::format("the value is a number alone; write {}", number);
     const bool same = given == unit || (unit == "deg" && (given == "degrees" || given == "\u00b0"));
-    return fmt::format("numbers carry no unit, that of {} is {}; write {}", path, unit, same ? number : "the number in it");
+    return fmt::format("numbers carry no unit, {} is in {}; write {}", path, unit, same ? number : "the number in it");
 }
 
-/// What "1,5" or "11, 6" was meant as, if it is decimals with commas between.
+/// The numbers of "1,5" or "11, 6", if it is decimals separated by commas.
 std::optional<std::vector<std::string>> decimals(std::string_view text) {
     std::vector<std::string> all;
     for (std::size_t start = 0;;) {
@@ -96,12 +96,12 @@ std::string number_hint(std::string_view path, std::string_view value) {
     if (const auto number = decimal(value, rest)) {
         const std::string_view unit = trimmed(rest);
         if (unit.empty())
-            return half_written(value) ? "numbers have digits on both sides of a point and no zeros before; write " + *number : "";
+            return half_written(value) ? "numbers have digits on both sides of a point and no leading zeros; write " + *number : "";
         if ((unit[0] == 'e' || unit[0] == 'E') && unit.find_first_not_of("+-", 1) == unit.npos)
             return fmt::format("the exponent is missing; write a number such as {}e3", *number);
         const std::size_t comma = value.find(',');
         if (unit[0] == ',' && unit.size() > 1 && unit.find_first_not_of("0123456789", 1) == unit.npos)
-            return fmt::format("decimals follow a point; write {}.{}", value.substr(0, comma), value.substr(comma + 1));
+            return fmt::format("the decimal sign is a point; write {}.{}", value.substr(0, comma), value.substr(comma + 1));
         if (std::isalpha(static_cast<unsigned char>(unit[0])) || unit[0] == '%' || static_cast<unsigned char>(unit[0]) >= 0x80)
             return with_unit(path, *number, unit);
     }

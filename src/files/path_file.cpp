@@ -19,7 +19,7 @@ using Json = nlohmann::json;
 constexpr double most_frames_per_second = 1000;
 constexpr std::size_t most_problems = 20;  // of a file whose every pose is wrong
 
-/// Reads values and gathers what is wrong with them.
+/// Reads values and collects their faults.
 class PathReader {
   public:
     explicit PathReader(std::string_view name) : name_(name) {}
@@ -33,7 +33,7 @@ class PathReader {
         if (!problems_.empty()) throw InputError(problems_);
     }
 
-    /// Whether it is an object of these keys, of which the first `required` must be there.
+    /// Whether it is an object of these keys; the first `required` of them must be there.
     bool object(const Json& json, const std::string& place, std::span<const std::string_view> keys, std::size_t required) {
         if (!json.is_object()) {
             refuse(place, "is {}; give an object with {}", json.type_name(), fmt::join(keys, ", "));
@@ -53,7 +53,7 @@ class PathReader {
         return complete;
     }
     double number(const Json& json, const std::string& place) {
-        if (json.is_number()) return json.get<double>();  // the parser takes no infinite ones
+        if (json.is_number()) return json.get<double>();  // the parser refuses infinite ones
         refuse(place, "is {}; give a number", json.type_name());
         return 0;
     }
@@ -74,7 +74,7 @@ class PathReader {
 constexpr std::string_view path_keys[] = {"schema", "frames_per_second", "poses"};
 constexpr std::string_view pose_keys[] = {"time_s", "position_mm", "target_mm"};
 
-// Times come out of clocks and decimal fractions: a pose a millionth of a frame before a frame's time still ends in that frame.
+// Times come from clocks and rounded decimals: a pose a millionth of a frame before a frame's time still ends in that frame.
 double frame_steps(const CameraPath& path) { return path.poses.back().time_s * path.frames_per_second + 1e-6; }
 
 Vec3d between(const Vec3d& a, const Vec3d& b, double share) {
@@ -112,7 +112,7 @@ CameraPath parse_path(std::string_view text, std::string_view name) {
     } catch (const Json::exception& error) {
         const std::string says = error.what();  // "[json.exception.parse_error.101] parse error at line 1, column 1: ..."
         const std::size_t begin = says.find("] ") + 2, end = std::min(says.find("; last read"), begin + 160);
-        throw InputError(std::string(name), "is no camera path in JSON: " + says.substr(begin, end - begin));
+        throw InputError(std::string(name), "is not a camera path in JSON: " + says.substr(begin, end - begin));
     }
     PathReader reader(name);
     CameraPath path;
@@ -139,7 +139,7 @@ CameraPath parse_path(std::string_view text, std::string_view name) {
     }
     reader.report();
     if (!(frame_steps(path) < double(most_path_frames)))
-        reader.refuse("poses", "last {} s, which are more than {} frames", path.poses.back().time_s, most_path_frames);
+        reader.refuse("poses", "last {} s, which is more than the {} frames allowed", path.poses.back().time_s, most_path_frames);
     reader.report();
     return path;
 }

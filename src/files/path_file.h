@@ -26,14 +26,14 @@ struct CameraPath {
     /// Frames k = 0, 1, ... stand at k / frames_per_second, up to the last pose.
     std::int64_t frames() const;
     double time_s(std::int64_t frame) const;
-    /// `described` where it is in that frame.
+    /// `described`, moved to its pose in that frame.
     Camera camera(std::int64_t frame, Camera described) const;
 };
 
 inline constexpr std::int64_t most_path_frames = 100'000;
 
 /// Reads a path: at most 1 MiB of JSON and most_path_frames frames. Throws InputError that names the file and the place in it
-/// ("poses[3].time_s"). Whether a display's camera can stand there is not looked at.
+/// ("poses[3].time_s"). Whether a display's camera can stand there is not checked.
 CameraPath read_path(const std::filesystem::path&);
 
 /// The same from text; `name` stands for the file in messages.

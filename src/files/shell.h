@@ -1,11 +1,11 @@
-// Commands as a shell needs them. Floor 2.
+// Quoting for a shell. Floor 2.
 #pragma once
 #include <string>
 #include <string_view>
 
 namespace lfdsim {
 
-/// The word in single quotes where it has letters that mean something to a shell.
+/// The word, in single quotes if it has characters that are special to a shell.
 inline std::string shell_word(std::string_view word) {
     const bool plain = !word.empty() && word.find_first_not_of(
                                             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"

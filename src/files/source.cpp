@@ -13,7 +13,7 @@
 namespace lfdsim {
 namespace {
 
-// The parts of a dotted path. Quoted keys with dots in them are no keys of a description, and no override can name one.
+// The parts of a dotted path. No key of a description has a dot in it, so an override cannot name one.
 std::vector<std::string_view> split(std::string_view path) {
     std::vector<std::string_view> parts;
     for (std::size_t start = 0;;) {
@@ -24,7 +24,7 @@ std::vector<std::string_view> split(std::string_view path) {
     }
 }
 
-// The index that a part of a path means in a list; none beyond its end, for an override changes elements and adds none.
+// The index that a part of a path means in a list; none beyond its end, as an override changes elements and adds none.
 std::optional<std::size_t> element(std::string_view part, const toml::array& array) {
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
@@ -42,7 +42,7 @@ Node* child(Node& node, std::string_view part) {
 
 // The value of an override as a tree of its own, under the key "value".
 toml::table parse_value(std::string_view path, std::string_view value) {
-    // Unquoted words save the user a second pair of quotes against the shell. The parser sees that they are UTF-8.
+    // Unquoted words save the user a second pair of quotes against the shell. The parser checks that they are UTF-8.
     if (takes_word(path) && !value.starts_with('"') && !value.starts_with('\''))
         return toml::parse("value = " + toml_text(std::string(value)));
     const std::string text = fmt::format("value = {}", value);
@@ -84,12 +84,12 @@ Source::Source(std::string_view text, std::string_view name, const std::vector<s
 void Source::apply(const std::string& override_text) {
     const std::size_t equals = override_text.find('=');
     const std::string_view path = std::string_view(override_text).substr(0, equals);
-    if (equals == std::string::npos || path.empty()) throw InputError("", "is no key=value, such as array.pitch_mm=8");
+    if (equals == std::string::npos || path.empty()) throw InputError("", "is not of the form key=value, such as array.pitch_mm=8");
     const std::string_view value = std::string_view(override_text).substr(equals + 1);
     const std::vector<std::string_view> parts = split(path);
     if (parts.size() > 4) throw InputError("", fmt::format("the key has {} parts, allowed are 4", parts.size()));
 
-    // Tables on the way are made where they are missing, values are not replaced by tables.
+    // Missing tables on the way are created; values are not replaced by tables.
     toml::node* node = &root_;
     const bool removes = value == "none" && !takes_word(path);
     for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
@@ -104,7 +104,7 @@ void Source::apply(const std::string& override_text) {
         if (toml::table* table = node->as_table())
             table->erase(parts.back());
         else
-            throw InputError("", "an element of a list cannot be taken away");
+            throw InputError("", "an element of a list cannot be removed");
         return;
     }
     toml::table holder = parse_value(path, value);
@@ -124,7 +124,7 @@ Place Source::at(const toml::source_region& region) const {
 }
 
 Place Source::place(std::string_view path) const {
-    // Down the path as far as it exists. An override of any part of it gave all that lies below.
+    // Down the path as far as it exists. An override of any part of it also set everything below.
     const toml::node* node = &root_;
     std::string inside;
     for (const std::string_view part : split(path)) {
@@ -136,7 +136,7 @@ Place Source::place(std::string_view path) const {
         node = next;
     }
     if (node->source().begin.line) return at(node->source());
-    // a table that stands in no file was made by an override of something in it
+    // a table that is not in the file was created by an override of something in it
     for (const auto& [key, text] : set_)
         if (key.starts_with(inside + ".")) return {"--set " + text};
     return {name_};

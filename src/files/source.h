@@ -19,7 +19,7 @@ struct Place {
 
 class Source {
   public:
-    /// Parses the text, which check_text() has passed, and puts the overrides ("dotted.key=value") in. Throws InputError.
+    /// Parses the text, which check_text() has passed, and applies the overrides ("dotted.key=value"). Throws InputError.
     Source(std::string_view text, std::string_view name, const std::vector<std::string>& overrides);
 
     const toml::table& root() const { return root_; }

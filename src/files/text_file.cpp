@@ -16,7 +16,7 @@ constexpr int deepest = 16;  // the format needs 3
     throw InputError(std::string(name), fmt::format("has {} bytes, allowed are {}; is this {}?", bytes, largest_text_bytes, kind));
 }
 
-// Where a string that starts at `i` ends: behind its closing quotes, or at the end of the line or text that it fails to close in.
+// Where a string that starts at `i` ends: behind its closing quotes or, without them, at the end of the line or text.
 std::size_t skip_string(std::string_view text, std::size_t i) {
     const char quote = text[i];
     const std::string_view fence = text.substr(i, 3);
@@ -46,7 +46,7 @@ std::string read_text(const std::filesystem::path& path, std::string_view kind) 
     if (!error && bytes > largest_text_bytes) refuse_size(name, bytes, kind);
     std::ifstream file(path, std::ios::binary);
     if (!file) throw InputError(name, "cannot be opened for reading; check its permissions");
-    std::string text(largest_text_bytes + 1, '\0');  // a file that grows meanwhile is no reason to read on
+    std::string text(largest_text_bytes + 1, '\0');  // no more is read, even if the file grows meanwhile
     file.read(text.data(), std::streamsize(text.size()));
     text.resize(std::size_t(file.gcount()));
     if (file.bad()) throw InputError(name, "cannot be read to its end");
@@ -58,8 +58,8 @@ void check_text(std::string_view text, std::string_view name) {
     if (text.find('\0') != text.npos) throw InputError(std::string(name), "is a binary file, not a display description in TOML");
     if (text.find_first_not_of(" \t\r\n") == text.npos)
         throw InputError(std::string(name), "is empty; a display description starts with schema = 1");
-    // The parser recurses into brackets, and into the tables of a dotted key when it frees them. A scan that knows only strings,
-    // comments, brackets and dots finds how deep; it holds up to the text's first fault, where the parser stops.
+    // The parser recurses into brackets, and into the tables of a dotted key when it frees them. This scan of strings, comments,
+    // brackets and dots finds how deep; it is right up to the text's first fault, where the parser stops.
     int brackets = 0, dots = 0, line = 1;
     for (std::size_t i = 0, line_start = 0; i < text.size();) {
         const char c = text[i];

@@ -12,7 +12,7 @@ inline constexpr std::size_t largest_text_bytes = std::size_t(1) << 20;
 /// be.
 std::string read_text(const std::filesystem::path&, std::string_view kind = "a display description");
 
-/// Refuses what the parser of descriptions should not see: no text at all, NUL bytes, more than 1 MiB, tables and arrays nested
+/// Refuses what the parser of descriptions must not be given: no text at all, NUL bytes, more than 1 MiB, tables and arrays nested
 /// deeper than 16. Throws InputError with `name`, line and column.
 void check_text(std::string_view text, std::string_view name);
 

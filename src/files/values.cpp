@@ -9,7 +9,7 @@ namespace lfdsim {
 namespace {
 
 std::string wrong_type(const toml::node& node, std::string_view wanted) {
-    return fmt::format("is {}, wanted is {}", kind_of(node), wanted);
+    return fmt::format("is {}; give {}", kind_of(node), wanted);
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ std::string read_value(const toml::node& node, double& value) {
 }
 
 std::string read_value(const toml::node& node, std::int64_t& value) {
-    // 3840.0 is refused too: a count with a fraction is a slip worth seeing
+    // 3840.0 is refused too: a count with a fraction is probably a mistake
     if (!node.is_integer()) return wrong_type(node, "an integer");
     value = node.as_integer()->get();
     return {};
@@ -84,8 +84,8 @@ std::string read_word(const toml::node& node, std::span<const std::string_view> 
                        meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant));
 }
 
-// The shortest decimal that reads back as the same bits. TOML has inf and nan; a whole number comes out as an integer, which a
-// reader of numbers takes.
+// The shortest decimal that reads back as the same bits. TOML has inf and nan; a whole number comes out as an integer, which
+// is accepted for a number.
 std::string toml_text(double value) { return fmt::format("{}", value); }
 std::string toml_text(std::int64_t value) { return fmt::format("{}", value); }
 

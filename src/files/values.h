@@ -12,8 +12,8 @@ namespace lfdsim {
 /// What a value is, in words: "a string", "an integer".
 std::string_view kind_of(const toml::node&);
 
-// Each stores a value of the right type and returns an empty string, or says what was given and what is wanted. Ranges are
-// validate()'s affair. Integers are taken for real numbers, never the other way round.
+// Each stores a value of the right type and returns an empty string, or a text: what was given and what to give. Ranges are
+// checked by validate(). Integers are accepted for real numbers, never the other way round.
 std::string read_value(const toml::node&, double&);
 std::string read_value(const toml::node&, std::int64_t&);
 std::string read_value(const toml::node&, std::string&);
@@ -38,8 +38,8 @@ template <class T, std::size_t n>
 std::string read_value(const toml::node& node, std::array<T, n>& values) {
     const toml::array* array = node.as_array();
     const std::string wanted = "a list of " + std::to_string(n) + (std::is_integral_v<T> ? " integers" : " numbers");
-    if (!array) return "is " + std::string(kind_of(node)) + ", wanted is " + wanted;
-    if (array->size() != n) return "has " + std::to_string(array->size()) + " elements, wanted is " + wanted;
+    if (!array) return "is " + std::string(kind_of(node)) + "; give " + wanted;
+    if (array->size() != n) return "has " + std::to_string(array->size()) + " elements; give " + wanted;
     for (std::size_t i = 0; i < n; ++i)
         if (std::string fault = read_value((*array)[i], values[i]); !fault.empty())
             return "element " + std::to_string(i) + " " + fault;

@@ -9,13 +9,13 @@
 namespace lfdsim {
 namespace {
 
-/// A description in the making: keys, and comments in lines of a hundred columns.
+/// A description being written: keys, and comments in lines of at most a hundred columns.
 class Text {
   public:
     template <class... Values>
     void note(fmt::format_string<Values...> words, Values&&... values) {
         std::string text = fmt::format(words, std::forward<Values>(values)...);
-        for (char& c : text)  // a file's name may hold a line's end
+        for (char& c : text)  // a file's name may contain a line break
             if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
         std::string line = "#";
         for (std::size_t start = 0; start < text.size();) {
@@ -38,10 +38,11 @@ class Text {
     std::string all;
 };
 
-/// A depth whose inverse is given, in words.
+/// The depth whose inverse is given, in words.
 std::string end_of_depth(double per_mm) {
     if (per_mm == 0) return "infinity";
-    return per_mm > 0 ? fmt::format("{:.4g} mm before them", 1 / per_mm) : fmt::format("{:.4g} mm behind them", -1 / per_mm);
+    return per_mm > 0 ? fmt::format("{:.4g} mm in front of the lenses", 1 / per_mm)
+                      : fmt::format("{:.4g} mm behind the lenses", -1 / per_mm);
 }
 
 void write_panel(const FirstOrder& o, Text& text) {
@@ -67,12 +68,12 @@ void write_lens(const FirstOrder& o, Text& text) {
     if (o.aperture_rule == ApertureRule::cell)
         text.note("r = p/2: the lens fills its cell, as its spherical aberration is no wider than a panel pixel.");
     if (o.aperture_rule == ApertureRule::sphere)
-        text.note("r = 0.9 R, {:.3g} of p/2: a wider cap would come too near to half a ball. What lies between lenses is black.",
+        text.note("r = 0.9 R, {:.3g} of p/2: a wider cap would come too near to half a ball. The space between lenses is black.",
                   2 * *lens.aperture_radius_mm / o.display.array.pitch_mm[0]);
     if (o.aperture_rule == ApertureRule::aberration)
         text.note(
             "r is {:.3g} of p/2: a wider lens would blur a panel pixel (a/g = {:.3g} milliradians) by its spherical aberration, K "
-            "(2r/f)^3 with K = {:.4f} for n = {}. What lies between lenses is black; an asphere (type \"surfaces\") could fill it.",
+            "(2r/f)^3 with K = {:.4f} for n = {}. The space between lenses is black; an asphere (type \"surfaces\") could fill it.",
             2 * *lens.aperture_radius_mm / o.display.array.pitch_mm[0], 1000 * o.display.panel.pixel_pitch_mm / g, spherical_blur,
             pmma_index);
     text.key("aperture_radius_mm", *lens.aperture_radius_mm);
@@ -94,7 +95,7 @@ std::string pitch_reason(const FirstOrder& o) {
                 "depth, but a coarser one at the lenses and less depth of field.",
                 3437.75 * o.display.array.pitch_mm[0] / eye, 3437.75 * o.theory.pixel_image_mm / (eye - L));
         case PitchRule::pupil:
-            return fmt::format("It is about half of a pupil of {:g} mm, so that light of several lenses enters the eye together.",
+            return fmt::format("It is about half of a pupil of {:g} mm, so that light from several lenses enters the eye together.",
                                pupil_mm);
         case PitchRule::lenses:
             return fmt::format(
@@ -104,7 +105,7 @@ std::string pitch_reason(const FirstOrder& o) {
             break;
     }
     return fmt::format(
-        "That many are needed for a picture that changes with the place of the eye; lenses and pixels would limit resolution "
+        "That many are needed for a picture that changes with the eye's position; lenses and pixels would limit resolution "
         "about equally with fewer.");
 }
 
@@ -115,8 +116,8 @@ void write_array(const FirstOrder& o, Text& text) {
     text.note("p = N a with N = {} panel pixels, and so {} x {} views. {}", o.views, o.views, o.views, pitch_reason(o));
     text.key("pitch_mm", array.pitch_mm);
     text.note(
-        "Elemental images are p' = p (1 + g/E) = {:.6g} mm wide, E = {:.6g} mm from the lenses to the eye; as many as are whole on "
-        "the panel.",
+        "Elemental images are p' = p (1 + g/E) = {:.6g} mm wide, E = {:.6g} mm from the lenses to the eye. The count is of those "
+        "that lie whole on the panel.",
         o.theory.along[0].elemental_pitch_mm, o.eye_mm);
     text.key("count", array.count);
     text.note(
@@ -139,10 +140,10 @@ void write_diffuser(const FirstOrder& o, Text& text) {
         text.note("On the central depth plane, where it does not blur the picture.");
     else
         text.note(
-            "Before the lenses, as far as the central depth plane is behind them, but not beyond a quarter of the way to the eye.");
+            "In front of the lenses, as far as the central depth plane is behind them, at most a quarter of the way to the eye.");
     text.key("distance_mm", diffuser.distance_mm);
     text.note(
-        "2 atan(p / 2d): what a lens pitch spans from the distance d of the diffuser, so that dark gaps between lenses close.");
+        "2 atan(p / 2d): the angle of a lens pitch seen from the diffuser at distance d, so that dark gaps between lenses close.");
     text.key("angle_deg", diffuser.angle_deg);
 }
 
@@ -165,7 +166,7 @@ void write_camera_and_content(const FirstOrder& o, Text& text) {
     text.key("depth_mm", *content.depth_mm);
     text.note("Half the panel's height as the eye sees it, or |L| where that is less.");
     text.key("height_mm", *content.height_mm);
-    text.note("Elemental images are made for the eye's place.");
+    text.note("Elemental images are made for the eye's position.");
     text.key("viewing_distance_mm", content.viewing_distance_mm);
 }
 
@@ -173,11 +174,10 @@ void write_camera_and_content(const FirstOrder& o, Text& text) {
 
 std::string write_first_order(const FirstOrder& o, const std::string& made_by) {
     Text text;
-    text.note("A first-order design, to go on from. Made by: {}", made_by);
+    text.note("A first-order design, as a starting point. Made by: {}", made_by);
     text.note(
-        "It follows from thin-lens arithmetic alone. `lfdsim check` tells what theory expects of it, `lfdsim analyze` measures "
-        "what "
-        "real lenses make of it; the formulas are those of docs/model.md. Lengths are in mm.");
+        "It follows from thin-lens arithmetic alone. `lfdsim check` reports what theory predicts, `lfdsim analyze` "
+        "measures what the real lenses achieve; the formulas are those of docs/model.md. Lengths are in mm.");
     text.key("schema", std::int64_t{1});
     text.key("name", o.display.name);
     write_panel(o, text);

@@ -1,4 +1,4 @@
-// A first design as a description to go on from. Floor 2.
+// Writes a first design as a description. Floor 2.
 #pragma once
 #include "model/first_order.h"
 
@@ -7,7 +7,7 @@
 namespace lfdsim {
 
 /// TOML that reads back as the design's display, with the formula and the value of every choice as comments. `made_by`: the command
-/// line, told in the first comment.
+/// line, written in the first comment.
 std::string write_first_order(const FirstOrder&, const std::string& made_by);
 
 }  // namespace lfdsim

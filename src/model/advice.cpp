@@ -27,10 +27,10 @@ void advise_on_lenses(Advised& a) {
     if (!(std::abs(g.focal_length_mm) < 10 * g.gap_mm))
         a.say(
             "the lenses have hardly any power (focal length {:.5g} mm, the panel {:.5g} mm behind them): the panel itself is "
-            "seen through them, and no views. Glass of an index well above 1 (--set lens.index=1.4918), or surfaces that are "
+            "seen through them, and no views. Use glass of an index well above 1 (--set lens.index=1.4918), or surfaces that are "
             "more curved",
             g.focal_length_mm, g.gap_mm);
-    // Beyond a hundred panels' heights an image plane is as good as at infinity: meant so only where the scene is far away too.
+    // Beyond a hundred panel heights an image plane is practically at infinity: intended only where the scene is far away too.
     else if (!(std::abs(t.central_depth_mm) < 100 * g.panel_height_mm) &&
              !is_sharp(t, g.content_depth_mm + g.vertex_plane_mm - g.rear_principal_mm))
         a.say("the gap is about the focal length ({:.6g} and {:.6g} mm): the central depth plane is at infinity", g.gap_mm,
@@ -38,7 +38,7 @@ void advise_on_lenses(Advised& a) {
     if (g.focal_length_mm < 0) a.say("the lens is a diverging one: it has no real image of the panel at any gap");
 
     const std::size_t few = t.along[0].views <= t.along[1].views ? 0 : 1;
-    // Lens k begins k N pixels from the first; a fraction of a pixel in N moves the views of the last lens against those of the
+    // Lens k begins k N pixels from the first; a fraction of a pixel in N shifts the views of the last lens against those of the
     // first.
     const auto drift = [&](std::size_t k) {
         return std::abs(t.along[k].views - std::round(t.along[k].views)) * double(d.array.count[k]);
@@ -46,7 +46,7 @@ void advise_on_lenses(Advised& a) {
     const std::size_t drifts = drift(0) >= drift(1) ? 0 : 1;
     if (t.along[few].views < 2)
         a.say(
-            "the lenses are {} ({:.4g} of {:.4g} mm): one view is all they can show. Wider lenses (--set array.pitch_mm), or a "
+            "the lenses are {} ({:.4g} of {:.4g} mm): they can show only one view. Use wider lenses (--set array.pitch_mm), or a "
             "panel of finer pixels (--set panel.pixel_pitch_mm)",
             t.along[few].views < 1 ? "smaller than a panel pixel" : "less than two panel pixels wide", d.array.pitch_mm[few],
             d.panel.pixel_pitch_mm);

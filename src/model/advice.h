@@ -1,4 +1,4 @@
-// What is possible but perhaps not meant: a valid display that may disappoint. Floor 0.
+// Advice on valid displays that may not be what was meant. Floor 0.
 #pragma once
 #include "model/display.h"
 #include "model/geometry.h"
@@ -9,8 +9,8 @@
 
 namespace lfdsim {
 
-/// A sentence for each, with what would mend it. The display must be valid. `model_half_size_mm`: half the extents of the posed
-/// model, where it has been read; without them its width and depth are not judged.
+/// One text for each doubt about a display, with its remedy. The display must be valid. `model_half_size_mm`: half the extents of
+/// the posed model, where it has been read; without them its width and depth are not checked.
 std::vector<std::string> advice(const Display&, const Geometry&, const Theory&,
                                 const std::optional<Vec3d>& model_half_size_mm = std::nullopt);
 

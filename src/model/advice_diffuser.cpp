@@ -8,16 +8,16 @@
 namespace lfdsim {
 namespace {
 
-constexpr double strongest_deg = 30;  // beyond it light of any usual field of view mixes
+constexpr double strongest_deg = 30;  // beyond it views of any usual field of view mix
 
-/// Where a diffuser may best be put that is not there yet: on the central depth plane, as long as that lies well before the eye.
+/// The best distance for a diffuser yet to be added: on the central depth plane, if that is at most halfway to the eye.
 double best_distance_mm(const Geometry& g, const Theory& t, const Pitch& pitch, double eye_mm) {
     const double central = g.rear_principal_mm + t.central_depth_mm - g.vertex_plane_mm;
     return central > g.top_z_mm - g.vertex_plane_mm && central < eye_mm / 2 ? central : std::min(20 * pitch.least(), eye_mm / 2);
 }
 
-/// Whether a pupil does what a diffuser would: out of focus at the lenses, it sees each of their places as a disk of A |1 - E/F|.
-/// One of three pitches leaves of the finest dots bands of a contrast of 0.08, twice the fourth lobe of 2 J1(x)/x.
+/// Whether the pupil's defocus does what a diffuser would: a point of the lenses' plane blurs to a disk of diameter A |1 - E/F|.
+/// Of the finest dots a disk three pitches wide leaves bands of contrast 0.08, twice the fourth lobe of 2 J1(x)/x.
 bool joined_by_pupil(const Display& d, const Geometry& g, double eye) {
     return d.camera.pupil_diameter_mm.value_or(0) * std::abs(1 - eye / g.focus_distance_mm) >=
            3 * std::max(d.array.pitch_mm[0], d.array.pitch_mm[1]);
@@ -45,14 +45,14 @@ void advise_on_diffuser(Advised& a) {
         height[k] = g.diffuser_z_mm.value_or(0) - aperture_plane_mm(d, g, k);
         angle[k] = a.theory.along[k].gap_closing_here_deg;
     }
-    const std::string best = fmt::format("{0} {1:.5g} mm before the lenses (--set diffuser.distance_mm={1:.5g} {2})",
+    const std::string best = fmt::format("{0} {1:.5g} mm in front of the lenses (--set diffuser.distance_mm={1:.5g} {2})",
                                          degrees_text(best_deg), best_distance, option_text(best_deg));
     const auto [across, up] = band_contrast(d, g);
     const bool bands = std::max(across, up) > visible_band_contrast;
     const std::string seen =
         fmt::format("dark bands between the lenses (Michelson contrast {:.2f} across, {:.2f} upwards)", across, up);
     if (bands && !d.diffuser && !joined_by_pupil(d, g, eye))
-        a.say("{}: the lenses do not fill their cells, and no diffuser joins them. One would, of {}", seen, best);
+        a.say("{}: the lenses do not fill their cells, and no diffuser joins them. Add one of {}", seen, best);
     if (!d.diffuser) return;
 
     const bool too_near = std::max(angle[0], angle[1]) > strongest_deg;
@@ -60,19 +60,19 @@ void advise_on_diffuser(Advised& a) {
     if (bands) {
         const auto spread = [&](std::size_t k) { return 2 * height[k] * std::tan(d.diffuser->angle_deg[k] * degree / 2) / p[k]; };
         const double distance = d.diffuser->distance_mm + height[0] * (1 / spread(0) - 1);  // where this diffuser joins them
-        std::string remedy = too_near ? "It takes " + best
-                                      : fmt::format("Where it stands it takes {} ({})", degrees_text(angle), option_text(angle));
+        std::string remedy =
+            too_near ? "Use " + best : fmt::format("At its distance use {} ({})", degrees_text(angle), option_text(angle));
         if (p.is_one() && wide == high && distance > g.top_z_mm - g.vertex_plane_mm && distance < eye / 2)
-            remedy += fmt::format(", or with its angle a distance of {0:.5g} mm (--set diffuser.distance_mm={0:.5g})", distance);
-        a.say("{}: the diffuser spreads lines of sight over {:.3g} x {:.3g} lens pitches, 1 x 1 join the lenses. {}", seen,
+            remedy += fmt::format(", or keep its angle at a distance of {0:.5g} mm (--set diffuser.distance_mm={0:.5g})", distance);
+        a.say("{}: the diffuser spreads lines of sight over {:.3g} x {:.3g} lens pitches; 1 x 1 would join the lenses. {}", seen,
               spread(0), spread(1), remedy);
     }
     if (std::max(wide, high) > strongest_deg)
         a.say(
-            "the diffuser ({:.4g} x {:.4g} degrees) is stronger than {:g} degrees: it mixes views far apart, of a field of view of "
-            "{:.4g} degrees. The lenses are joined by {:.4g} degrees{}",
+            "the diffuser ({:.4g} x {:.4g} degrees) is stronger than {:g} degrees: it mixes views far apart in a field of view of "
+            "{:.4g} degrees. {:.4g} degrees join the lenses{}",
             wide, high, strongest_deg, a.theory.along[0].fov_elemental_deg, angle[0],
-            too_near ? ", by less from farther before them (--set diffuser.distance_mm)" : "");
+            too_near ? ", fewer do from farther in front of them (--set diffuser.distance_mm)" : "");
 }
 
 }  // namespace lfdsim

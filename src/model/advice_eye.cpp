@@ -13,12 +13,13 @@ void advise_on_eye(Advised& a) {
     if (!(eye > nearest))
         a.say(
             "the camera, {:.5g} mm from the panel, stands inside the display, whose lenses and diffuser reach to {:.5g} mm: "
-            "farther away (--set 'camera.position_mm=[0, 0, {:.5g}]')",
+            "move it farther away (--set 'camera.position_mm=[0, 0, {:.5g}]')",
             eye, nearest, 20 * nearest);
     if (!(made_for > nearest))
         a.say(
             "content.viewing_distance_mm = {:.5g} puts the eye that the elemental images are made for inside the display, whose "
-            "lenses and diffuser reach to {:.5g} mm. The camera's distance is usual (--set content.viewing_distance_mm={:.5g})",
+            "lenses and diffuser reach to {:.5g} mm. The usual value is the camera's distance (--set "
+            "content.viewing_distance_mm={:.5g})",
             made_for, nearest, eye);
     if (!(eye > nearest && made_for > nearest)) return;
 
@@ -38,7 +39,7 @@ void advise_on_eye(Advised& a) {
     if (zone < 0.8 * best)
         a.say(
             "the elemental images are made for an eye {} (content.viewing_distance_mm = {:.5g}), but the camera stands "
-            "{:.5g} mm from the panel: {}, with images made for it within +-{:.1f} degrees "
+            "{:.5g} mm from the panel: {}; images made for that distance would be right within +-{:.1f} degrees "
             "(--set content.viewing_distance_mm={:.5g})",
             std::isinf(made_for) ? "at infinity" : fmt::format("{:.5g} mm from the panel", made_for), made_for, eye,
             zone > 0 ? fmt::format("from there the whole screen is right only within +-{:.1f} degrees", zone / 2)

@@ -7,8 +7,8 @@
 namespace lfdsim {
 namespace {
 
-/// Share of the lenses whose elemental images have their centres beside the panel: at least half of such an image is missing. Of
-/// many lenses 256 rows and columns are looked at, spread evenly.
+/// Share of the lenses whose elemental images have their centres beside the panel: at least half of such an image is missing. In
+/// large arrays 256 evenly spread rows and columns are counted.
 double share_beside_panel(const Geometry& g, const LensArray& array, double elemental_over_lens_pitch) {
     const double turn = array.rotation_deg * degree, cos = std::cos(turn), sin = std::sin(turn);
     const std::int64_t columns = std::min<std::int64_t>(array.count[0], 256), rows = std::min<std::int64_t>(array.count[1], 256);
@@ -38,7 +38,7 @@ void advise_on_layout(Advised& a) {
     if (beside > beside_straight + 0.005)
         a.say(
             "the array is moved by {:.5g}, {:.5g} mm and turned by {:.5g} degrees: the elemental images of {:.3g} % of its lenses "
-            "lie beside the panel, and those lenses stay dark. Less of both (--set 'array.offset_mm=[0, 0]' "
+            "lie beside the panel, and those lenses stay dark. Reduce both (--set 'array.offset_mm=[0, 0]' "
             "--set array.rotation_deg=0)",
             d.array.offset_mm[0], d.array.offset_mm[1], d.array.rotation_deg, 100 * beside);
 
@@ -54,7 +54,7 @@ void advise_on_layout(Advised& a) {
         };
         a.say(
             "the elemental images for a viewer at {:.5g} mm are {:.4f} times as wide as the lenses, {:.5g} x {:.5g} mm together, "
-            "wider than the panel ({:.5g} x {:.5g} mm): {:.3g} % of the lenses have theirs beside it. Fewer lenses "
+            "wider than the panel ({:.5g} x {:.5g} mm): {:.3g} % of the lenses have theirs beside it. Use fewer lenses "
             "(--set 'array.count=[{}, {}]') or a greater content.viewing_distance_mm",
             d.content.viewing_distance_mm, scale, scale * g.array_width_mm, scale * g.array_height_mm, g.panel_width_mm,
             g.panel_height_mm, 100 * beside_straight, fitting(g.panel_width_mm, 0), fitting(g.panel_height_mm, 1));

@@ -1,4 +1,4 @@
-// Who advises on what. Floor 3, internal to advice.
+// The parts of advice(). Floor 0, internal to it.
 #pragma once
 #include "model/display.h"
 #include "model/geometry.h"

@@ -10,26 +10,26 @@ namespace {
 
 constexpr double nearest_focus_mm = 100;  // of young eyes
 
-/// Whether the scene is where no eye can be shown it.
+/// Whether the scene reaches the eye or lies behind it.
 bool advise_behind_eye(Advised& a, double eye) {
     const double z = a.geometry.content_depth_mm, front = z + (a.model_half_size_mm ? (*a.model_half_size_mm)[2] : 0);
     if (front < eye) return false;
     a.say(
-        "the scene{}, {:.5g} mm before the lenses, is behind the eye, which is {:.5g} mm before them. Nearer to the lenses "
-        "(--set content.depth_mm={:.5g}), or smaller (--set content.height_mm)",
+        "the scene{}, {:.5g} mm in front of the lenses, is behind the eye, which is {:.5g} mm in front of them. Move it nearer "
+        "to the lenses (--set content.depth_mm={:.5g}), or make it smaller (--set content.height_mm)",
         z < eye ? "'s front" : "", z < eye ? front : z, eye, std::min(z, eye) / 4);
     return true;
 }
 
-/// A depth to show a scene at instead: well before the eye, or for a near-eye display a metre and a half behind the lenses, or as
-/// near to that as the depth of field has it.
+/// A better depth for the scene: a quarter of the way to the eye, or for a near-eye display 1.5 m behind the lenses, or as near to
+/// that as the depth of field allows.
 double better_depth_mm(const Advised& a, double eye) {
     if (eye > 2 * nearest_focus_mm) return eye / 4;
     const double sharp = std::clamp(-1 / 1500., a.theory.depth_far_per_mm, a.theory.depth_near_per_mm);
     return sharp < 0 ? 1 / sharp + a.geometry.rear_principal_mm - a.geometry.vertex_plane_mm : -1500;
 }
 
-/// Whether the scene is too near to the eye, as that of a near-eye display at the lenses, where it is for want of a better depth.
+/// Whether the scene is too near to the eye, as at the lenses of a near-eye display, its default depth.
 bool advise_near_eye(Advised& a, double eye) {
     const double to_eye = eye - a.geometry.content_depth_mm, depth = better_depth_mm(a, eye);
     if (to_eye > nearest_focus_mm) return false;
@@ -37,8 +37,8 @@ bool advise_near_eye(Advised& a, double eye) {
     const double seen = std::min(std::min(a.geometry.array_height_mm, a.geometry.panel_height_mm) / eye,
                                  2 * std::tan(a.theory.along[1].fov_elemental_deg * degree / 2));
     a.say(
-        "the scene stands {:.4g} mm before the lenses and {:.4g} mm before the eye, nearer than eyes can focus. "
-        "Say how far away it is and how large (--set content.depth_mm={:.0f} --set content.height_mm={:.0f})",
+        "the scene stands {:.4g} mm in front of the lenses and {:.4g} mm from the eye, nearer than eyes can focus. "
+        "Set its depth and height (--set content.depth_mm={:.0f} --set content.height_mm={:.0f})",
         a.geometry.content_depth_mm, to_eye, depth, 0.5 * seen * (eye - depth));
     return true;
 }
@@ -54,7 +54,7 @@ void advise_on_size(Advised& a, double eye) {
     if (excess > 1)
         a.say(
             "the scene is larger than the display: from the eye it covers {}{:.5g} mm of the screen's {:.5g} x {:.5g} mm. "
-            "A smaller one (--set content.height_mm={:.3g}), or farther behind (--set content.depth_mm)",
+            "Make it smaller (--set content.height_mm={:.3g}), or move it farther behind (--set content.depth_mm)",
             width > 0 ? fmt::format("{:.5g} x ", width) : "a height of ", height, screen_width, screen_height,
             0.9 * g.content_height_mm / excess);
 }

@@ -12,8 +12,8 @@
 namespace lfdsim {
 namespace {
 
-/// Radius of what an upright line of sight may hit of a lens, without the walls of its cell: the narrowest of all apertures, each
-/// as the viewer sees it, divided by the height at which a paraxial ray passes it that comes down at height 1.
+/// Radius of a lens's pupil for lines of sight parallel to its axis, without the walls of its cell: the least of all aperture
+/// radii, each divided by the height at which a paraxial ray passes it that comes from the viewer at height 1.
 double pupil_radius_mm(const Display& d, const Geometry& g) {
     double radius = std::numeric_limits<double>::infinity(), height = 1, slope = 0, z = g.vertex_plane_mm;
     const auto narrow = [&](double aperture) { radius = std::min(radius, aperture / std::abs(height)); };
@@ -31,8 +31,8 @@ double pupil_radius_mm(const Display& d, const Geometry& g) {
 
 constexpr int bins = 32, places = 32 * bins, harmonics = places / 4;
 
-/// Amplitudes of the waves cos(2 pi k x / p), x from a joint, of the share that is lit of a line across lenses of that radius in
-/// cells `pitch` wide and `other_pitch` high.
+/// Amplitudes of the waves cos(2 pi k x / p) in the share of a cell's height that is lit at x from the joint between two lenses,
+/// for lenses of that radius in cells `pitch` wide and `other_pitch` high.
 std::vector<double> lit_waves(double pitch, double other_pitch, double radius) {
     std::vector<double> amplitudes(harmonics), wave(2 * places);
     for (std::size_t m = 0; m < wave.size(); ++m) wave[m] = std::cos(pi * double(m) / places);
@@ -47,7 +47,7 @@ std::vector<double> lit_waves(double pitch, double other_pitch, double radius) {
 
 double sinc(double x) { return std::abs(x) < 1e-9 ? 1 : std::sin(x) / x; }
 
-/// What the diffuser leaves of a wave of light in its own plane's axis with `frequency` periods per mm at the lenses.
+/// The diffuser's transfer factor along one of its axes for a wave of light of `frequency` periods per mm at the lenses.
 double spread_transform(const Diffuser& diffuser, int axis, double height_mm, double frequency) {
     const double width = 2 * height_mm * std::tan(diffuser.angle_deg[std::size_t(axis)] * degree / 2), x = pi * frequency * width;
     if (diffuser.profile == Profile::gaussian) return std::exp(-x * x / (4 * std::numbers::ln2));
@@ -79,7 +79,7 @@ double aperture_plane_mm(const Display& d, const Geometry& g, std::size_t axis) 
 double gap_closing_angle_deg(double pitch_mm, double height_mm) { return 2 * std::atan(pitch_mm / (2 * height_mm)) / degree; }
 
 std::array<double, 2> band_contrast(const Display& d, const Geometry& g) {
-    // Between lenses that are not set in black light passes too; a sheet of stops is black in any case.
+    // Without an opaque surround light passes between the lenses too; a sheet of stops is black in any case.
     if (d.array.surround != Surround::opaque && !d.lens.stop_radius_mm) return {0, 0};
     const double turn = d.array.rotation_deg * degree, radius = pupil_radius_mm(d, g);
     std::array<double, 2> contrast{};

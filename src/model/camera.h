@@ -1,10 +1,10 @@
-// How a camera stands. Floor 0.
+// The axes of a camera. Floor 0.
 #pragma once
 #include "model/vec.h"
 
 namespace lfdsim {
 
-/// Of unit length and at right angles: along the line of sight, and to the right and upwards in the picture.
+/// Orthogonal unit vectors: along the line of sight, and to the right and upwards in the picture.
 struct CameraAxes {
     Vec3d forward, right, up;
     double distance_mm;  // from the camera to its target

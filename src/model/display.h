@@ -1,4 +1,4 @@
-// A light field display and the eye that looks at it, as its description file says it. Floor 0: plain data, no I/O.
+// A light field display and the eye that looks at it, as its description file gives them. Floor 0: plain data, no I/O.
 // Lengths in millimetres, angles in degrees (fields that end in _deg). Keys, ranges and defaults: docs/format.md.
 // Frame: the panel lies in z = 0 centred on the origin and faces +z; +x is the viewer's right, +y is up.
 #pragma once
@@ -63,7 +63,7 @@ struct Lens {
 
     LensType type() const { return LensType(kind.index()); }
     template <class Kind>
-    Kind& as() {  // of a lens of that kind; throws std::bad_variant_access
+    Kind& as() {  // throws std::bad_variant_access for a lens of another kind
         return std::get<Kind>(kind);
     }
     template <class Kind>
@@ -78,7 +78,7 @@ struct Pitch : std::array<double, 2> {
     Pitch() : array{} {}
     Pitch(double both) : array{both, both} {}
     Pitch(double along_x, double along_y) : array{along_x, along_y} {}
-    bool is_one() const { return !(at(0) < at(1) || at(0) > at(1)); }  // NaN, which both then are, too
+    bool is_one() const { return !(at(0) < at(1) || at(0) > at(1)); }  // also for NaN, which both then are
     double least() const { return std::min(at(0), at(1)); }
 };
 
@@ -125,7 +125,7 @@ struct Content {
     bool operator==(const Content&) const = default;
 };
 
-/// Samples of a pixel where none are asked for and single rays are cast.
+/// Default samples per pixel where single rays are cast.
 inline constexpr std::int64_t default_points = 100;
 
 struct Render {

@@ -1,4 +1,4 @@
-// Errors a user can mend. Floor 0.
+// Errors that a user can fix. Floor 0.
 #pragma once
 #include <stdexcept>
 #include <string>

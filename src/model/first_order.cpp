@@ -14,9 +14,9 @@
 namespace lfdsim {
 namespace {
 
-/// Lengths are written to a nanometre: what lens makers never reach, and near enough for a central depth plane far away.
+/// Lengths are written to a nanometre: finer than lenses are made, and fine enough for a distant central depth plane.
 double to_nanometre(double mm) { return std::round(mm * 1e6) / 1e6; }
-/// Lengths that nothing follows from, to three digits.
+/// To three digits, for lengths that need no more.
 double rounded(double x) {
     const double unit = std::pow(10, std::floor(std::log10(std::abs(x))) - 2);
     return unit < 1 ? std::round(x / unit) / std::round(1 / unit) : std::round(x / unit) * unit;
@@ -47,12 +47,11 @@ std::vector<Problem> out_of_range(const DesignRequest& r) {
     return all;
 }
 
-/// Before the lenses by a tenth of the way to a viewer who looks at them from afar; a metre behind them for an eye too near to see
-/// them sharply.
+/// In front of the lenses by a tenth of the viewing distance; for an eye too near to see the lenses sharply, a metre behind them.
 double chosen_depth_mm(const DesignRequest& r) { return r.distance_mm < nearest_sight_mm ? -1000 : rounded(r.distance_mm / 10); }
 
-/// N, the panel pixels behind a lens, and why so many. From the eye at the distance E a lens is p/E wide, the image of a pixel
-/// a|L|/g / (E - L), and g is about p/2 tan(FOV/2).
+/// N, the panel pixels behind a lens, and the rule that sets it. From an eye at distance E a lens subtends p/E, the image of a
+/// pixel a|L|/g / (E - L), and g is about p / (2 tan(FOV/2)).
 std::pair<int, PitchRule> views(const DesignRequest& r, double a, double L) {
     const double E = r.distance_mm, slope = std::tan(r.fov_deg * degree / 2), far = E / (E - L);
     const bool near_eye = E < nearest_sight_mm;
@@ -70,8 +69,8 @@ std::pair<double, ApertureRule> aperture(double pitch, double R, double f, doubl
     return sphere < sharp ? std::pair{sphere, ApertureRule::sphere} : std::pair{sharp, ApertureRule::aberration};
 }
 
-/// Lens and gap for the field of view and the central depth plane: g = 1 / (2 tan(FOV/2)/p - 1/(D - z_r)), f = 1/(1/g + 1/L). The
-/// principal planes, by whose distance z_r is more than g, move with the lens; a few rounds find both.
+/// Lens and gap for the field of view and the central depth plane: g = 1 / (2 tan(FOV/2)/p - 1/(D - z_r)), f = 1/(1/g + 1/L).
+/// z_r exceeds g by the distance between the principal planes, which depends on the lens; a few iterations find both.
 void place_lenses(FirstOrder& o, double L) {
     const DesignRequest& r = o.request;
     PlanoConvex lens;
@@ -80,7 +79,7 @@ void place_lenses(FirstOrder& o, double L) {
     double apart = 0, gap = 0;  // of the principal planes; g
     for (int round = 0; round < 60; ++round) {
         const double before = r.distance_mm - apart;  // D - z_r = before - g
-        // 1/g + 1/(before - g) = 2 tan(FOV/2)/p =: k, so that k g^2 - k before g + before = 0; the nearer to the panel of both.
+        // 1/g + 1/(before - g) = 2 tan(FOV/2)/p =: k, so that k g^2 - k before g + before = 0; the root nearer to the panel.
         const double k = 2 * slope / p, root = k * k * before * before - 4 * k * before;
         if (!(before > 0 && root >= 0)) break;
         gap = 2 * before / (k * before + std::sqrt(root));
@@ -108,7 +107,7 @@ void place_lenses(FirstOrder& o, double L) {
     }
 }
 
-/// What cannot be, of a request whose values are in range. The display is made as far as it goes.
+/// Why a request whose values are in range cannot be met. The display is filled in as far as that point.
 std::optional<Problem> design(FirstOrder& o) {
     DesignRequest& r = o.request;
     if (!r.depth_mm) r.depth_mm = chosen_depth_mm(r);
@@ -135,7 +134,7 @@ std::optional<Problem> design(FirstOrder& o) {
     if (r.lens == LensType::plano_convex && *d.lens.as<PlanoConvex>().aperture_radius_mm < p / 6)
         return Problem{"--fov-deg",
                        fmt::format("is {:g}, for which a spherical lens of index {} would have to be less than a third as "
-                                   "wide as its pitch; another lens is --lens ideal",
+                                   "wide as its pitch; --lens ideal has no such limit",
                                    r.fov_deg, pmma_index)};
 
     for (std::size_t k = 0; k < 2; ++k)
@@ -155,12 +154,12 @@ std::optional<Problem> design(FirstOrder& o) {
         diffuser.angle_deg[1] = diffuser.angle_deg[0];
     }
     d.content.depth_mm = L;
-    // As high as half the panel where it is seen through it, and as deep as high within the depth of field.
+    // To the eye as high as half the panel; no higher than |L|, as it may be as deep as high.
     d.content.height_mm = rounded(std::min(height / 2 * (o.eye_mm - L) / o.eye_mm, std::abs(L)));
     d.content.viewing_distance_mm = D;
     if (const std::vector<Problem> problems = validate(d); !problems.empty())
         return Problem{"--distance-mm",
-                       fmt::format("is {:g}, which makes no display: {} {}", D, problems[0].where, problems[0].what)};
+                       fmt::format("is {:g}, which gives no valid display: {} {}", D, problems[0].where, problems[0].what)};
     o.theory = theory(d, resolve_unchecked(d));
     return {};
 }
@@ -171,7 +170,7 @@ bool possible(DesignRequest r) {
     return out_of_range(r).empty() && !design(o);
 }
 
-/// The nearest values, to about a hundredth, that are possible if all others stay; each by its field.
+/// The nearest possible values, to about 1 %, each with all others unchanged.
 std::string nearest(const DesignRequest& request) {
     std::string text;
     const auto seek = [&](const char* name, auto value_of) {
@@ -198,8 +197,8 @@ FirstOrder first_order(const DesignRequest& request) {
     o.request = request;
     if (const std::optional<Problem> p = design(o)) {
         const std::string others = nearest(request);
-        throw InputError(p->where, p->what + (others.empty() ? "; no value of it alone makes it possible"
-                                                             : "; nearest that is possible: " + others));
+        throw InputError(p->where, p->what + (others.empty() ? "; no change of one value alone makes it possible"
+                                                             : "; nearest possible: " + others));
     }
     return o;
 }

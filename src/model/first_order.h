@@ -1,4 +1,4 @@
-// A first design of a display from what is wanted of it: thin-lens arithmetic, docs/model.md "First designs". Floor 0.
+// A first design of a display from its requirements: thin-lens arithmetic, docs/model.md "First designs". Floor 0.
 #pragma once
 #include "model/display.h"
 #include "model/geometry.h"
@@ -8,7 +8,7 @@
 
 namespace lfdsim {
 
-/// What a display is wanted for.
+/// What a display is required to do.
 struct DesignRequest {
     double panel_inch = 0;  // the panel's diagonal
     std::array<std::int64_t, 2> pixels{};
@@ -18,15 +18,15 @@ struct DesignRequest {
     LensType lens = LensType::plano_convex;
 };
 
-/// Why the lenses have their pitch.
+/// What determines the lens pitch.
 enum class PitchRule {
     balanced,  // seen from the eye, a lens is as wide as the image of a panel pixel on the central depth plane
     pupil,     // near eyes: half the pupil, so that light of several lenses enters it together
-    lenses,    // as many lenses along the panel's shorter side as a picture needs at least
-    views,     // as many pixels behind a lens as views need at least
+    lenses,    // the fewest lenses along the panel's shorter side that make a picture
+    views,     // the fewest pixels behind a lens that make views
 };
 
-/// Why a lens is as wide as it is.
+/// What limits the width of a lens.
 enum class ApertureRule {
     cell,       // it fills its cell
     sphere,     // its cap would come too near to half a ball
@@ -44,7 +44,7 @@ struct FirstOrder {
     ApertureRule aperture_rule;
 };
 
-/// Index of PMMA at 589 nm, and the nearest that an eye sees sharply.
+/// Index of PMMA at 589 nm, and the least distance at which an eye sees sharply.
 inline constexpr double pmma_index = 1.4918, nearest_sight_mm = 250;
 /// An eye's pupil in a dim room.
 inline constexpr double pupil_mm = 4;
@@ -54,8 +54,8 @@ inline constexpr double spherical_blur =
     (pmma_index * pmma_index - 2 * pmma_index + 2 / pmma_index) / (8 * (pmma_index - 1) * (pmma_index - 1));
 inline constexpr int fewest_views = 4, fewest_lenses = 10;
 
-/// A valid display that fulfils the request. Throws InputError with the option of `lfdsim new` as `where`, what is allowed, and the
-/// nearest values that are possible if all others stay.
+/// A valid display that meets the request. Throws InputError with the option of `lfdsim new` as `where`, what is allowed, and the
+/// nearest possible values, each with the others unchanged.
 FirstOrder first_order(const DesignRequest&);
 
 }  // namespace lfdsim

@@ -1,4 +1,4 @@
-// What follows from a display description: where everything stands, and the paraxial theory. Floor 0.
+// What follows from a display description: the positions of all parts, and paraxial theory. Floor 0.
 #pragma once
 #include "model/display.h"
 #include "model/error.h"
@@ -9,10 +9,10 @@
 
 namespace lfdsim {
 
-/// What bends rays at a surface: glass of revolution about the lens's axis, or the plane of an ideal thin lens.
+/// How a surface bends rays: as a glass surface of revolution about the lens's axis, or as the plane of an ideal thin lens.
 enum class SurfaceForm { revolution, thin };
 
-/// A surface in place. z is the vertex on the axis; the sag s(r) is added to it (+z). A thin lens has none, and air on both sides.
+/// A surface in place. z is that of its vertex on the axis; the sag s(r) adds to it. A thin lens has no sag, and air on both sides.
 struct PlacedSurface {
     double z_mm;
     double curvature_per_mm;
@@ -54,7 +54,7 @@ struct AxisTheory {
     double view_step_deg;               // FOV / N
     double viewing_zone_parallel_deg;   // whole screen, elemental-image pitch p
     double viewing_zone_deg;            // whole screen, elemental images for the description's viewing distance, seen by the eye
-    double eyebox_mm;                   // width of the place from where an eye sees the middle lens's own image: E p' / g
+    double eyebox_mm;                   // width of the region from which an eye sees the middle lens's own image: E p' / g
     double elemental_pitch_mm;          // p' = p (1 + g / (D - z_r))
     double lens_sampling_limit_per_mm;  // 1 / 2p
     double gap_closing_diffuser_deg;    // 2 atan(p / 2L), as published: of a diffuser at L
@@ -70,13 +70,13 @@ struct Theory {
     double pixel_image_mm;     // P_I = a |L| / g
     double depth_of_field_mm;  // 2 |L| P_I / D, as published; D the lens's wider clear aperture, here and below
     // Depths z from the rear principal plane at which a lens's spot is no wider than a panel pixel's image, D |1 - z/L| <= a |z|/g:
-    // |1/z - 1/L| <= a/(g D). One interval of 1/z, whatever L; where it holds 0, infinity is sharp.
+    // |1/z - 1/L| <= a/(g D). One interval of 1/z, whatever L; where it contains 0, infinity is sharp.
     double depth_near_per_mm;         // 1/L + a/(g D)
     double depth_far_per_mm;          // 1/L - a/(g D)
     double pixel_image_limit_per_mm;  // 1 / 2 P_I
 };
 
-/// All that is wrong with a description, each with its TOML key ("lens.index") as `where`. Empty: valid.
+/// All problems of a description, each with its TOML key ("lens.index") as `where`. Empty: valid.
 std::vector<Problem> validate(const Display&);
 
 /// Resolves a valid description. Throws InputError with validate()'s problems otherwise.
@@ -87,10 +87,10 @@ Theory theory(const Display&, const Geometry&);
 /// Whether a stop lies in the entrance plane: light then passes it before it meets the lens.
 bool stop_at_entrance(const Display&, const Geometry&);
 
-/// D across the wider side of a lens.
+/// D along a lens's wider axis.
 double widest_aperture_mm(const Geometry&);
 
-/// Distance from the panel of the eyes that theory and measures reckon with: the camera's from the panel's centre.
+/// The eye's distance from the panel that theory and measures assume: the camera's from the panel's centre.
 double eye_distance_mm(const Display&);
 
 /// The depth whose inverse is given, mm from the rear principal plane towards the viewer; infinite for 0.
@@ -102,7 +102,7 @@ bool is_sharp(const Theory&, double z_mm);
 /// Sag z - z_vertex in mm of a surface at distance s from its axis: c s^2/(1 + sqrt(1 - (1+k) c^2 s^2)) + a4 s^4 + ...
 double sag_mm(double curvature, double conic, const std::vector<double>& even_asphere, double s);
 
-/// Eyes are farther from the panel than this, mm: before the diffuser, the lenses and their principal plane.
+/// An eye must be farther from the panel than this, mm: in front of the diffuser, the lenses and their principal plane.
 double nearest_eye_mm(const Geometry&);
 
 }  // namespace lfdsim

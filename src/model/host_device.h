@@ -3,7 +3,7 @@
 
 // What runs on the host and on a CUDA device. LFDSIM_FN must be inlined for speed; LFDSIM_BOTH may be;
 // LFDSIM_LARGE must be on the CPU only; LFDSIM_APART must not, as its stack or its code is large; LFDSIM_RARE is for work that few
-// rays need, kept out of the way of the registers of the many.
+// rays need, kept out of line so that it takes no registers from the rest.
 #ifdef __CUDACC__
 #define LFDSIM_FN __host__ __device__ __forceinline__
 #define LFDSIM_BOTH __host__ __device__

@@ -1,4 +1,4 @@
-// What long work reports to and asks. Floor 0.
+// Progress and cancellation of long work. Floor 0.
 #pragma once
 #include <cstdint>
 #include <string_view>

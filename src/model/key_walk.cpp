@@ -1,4 +1,4 @@
-// The tree of tables, walked.
+// Walks the tree of tables.
 #include "model/keys.h"
 
 namespace lfdsim {

@@ -12,7 +12,7 @@ namespace {
 constexpr double two_to_63 = 9223372036854775808.0;  // what the largest 64-bit integer, 2^63 - 1, rounds to
 constexpr Range no_range{-infinity, infinity}, count_range{1, two_to_31, false, true}, index_range{1, 4}, turn{-360, 360};
 constexpr Range angle{0, 180, false, true}, open_angle{0, 180, true, true};
-// Curvatures up to a nanometre's radius, and coefficients of any size: what they make of the sag is checked, not they.
+// Curvatures up to a nanometre's radius, and coefficients of any size: the sag that they give is checked instead.
 constexpr Range curvature_range{-1 / shortest_mm, 1 / shortest_mm}, coefficient_range{-1e6, 1e6};
 
 constexpr Key<Panel> panel_keys[] = {
@@ -32,9 +32,8 @@ constexpr Key<Lens> lens_keys[] = {
     {"type", &Lens::kind, no_range, true,
      "A spherical plano-convex lens, a prescription of surfaces, or a thin lens without aberrations."},
     {"stop_radius_mm", &Lens::stop_radius_mm, positive_length, false,
-     "An aperture stop in the plane of the curved vertex (of the last surface, of the thin lens): a black sheet with a hole for "
-     "each "
-     "lens.",
+     "An aperture stop in the plane of the curved vertex (of the last surface, of the thin lens): a black sheet with a hole "
+     "for each lens.",
      "none"},
 };
 
@@ -44,7 +43,7 @@ constexpr Key<PlanoConvex> plano_convex_keys[] = {
     {"cylinder_height_mm", &PlanoConvex::cylinder_height_mm, length_or_zero, false,
      "h of the wall under the cap. h <= 2 sqrt(R^2 - r^2)."},
     {"index", &PlanoConvex::index, index_range, true, "Refractive index of the glass."},
-    {"facing", &PlanoConvex::facing, no_range, false, "Where the convex side looks."},
+    {"facing", &PlanoConvex::facing, no_range, false, "Which way the convex side faces."},
 };
 
 constexpr Key<SurfaceLens> surfaces_keys[] = {
@@ -71,13 +70,13 @@ constexpr Key<LensArray> array_keys[] = {
     {"lattice", &LensArray::lattice, no_range, false, "Shape of the cells in which the lenses stand."},
     {"count", &LensArray::count, count_range, true, "Lenses across and up. Their product is below 2^31."},
     {"pitch_mm", &LensArray::pitch_mm, positive_length, true,
-     "From lens to lens: one number, or for rectangular cells that along the array's rows and that along its columns."},
+     "From lens to lens: one number, or for rectangular cells two, along the array's rows and along its columns."},
     {"gap_mm", &LensArray::gap_mm, positive_length, false, "From the panel to the lens's panel-side principal plane.",
      "given by base_z_mm; exactly one of the two is required"},
     {"base_z_mm", &LensArray::base_z_mm, length_or_zero, false, "From the panel to the lens's lowest point.",
      "given by gap_mm; exactly one of the two is required"},
     {"surround", &LensArray::surround, no_range, false,
-     "Between the lenses: black walls, air and polished walls, or one moulded sheet. The last two take a single glass body."},
+     "Between the lenses: black walls, air and polished walls, or one moulded sheet. The last two need a lens of one glass body."},
     {"aperture", &LensArray::aperture, no_range, false,
      "Round lenses, or lenses that fill their cells (\"square\", rectangular ones too)."},
     {"offset_mm", &LensArray::offset_mm, any_length, false, "Of the array's centre from the panel's, after the rotation."},
@@ -85,17 +84,18 @@ constexpr Key<LensArray> array_keys[] = {
 };
 
 constexpr Key<Diffuser> diffuser_keys[] = {
-    {"distance_mm", &Diffuser::distance_mm, positive_length, true, "From the array's viewer-side vertex plane. Above all glass."},
+    {"distance_mm", &Diffuser::distance_mm, positive_length, true,
+     "From the array's viewer-side vertex plane. In front of all glass."},
     {"angle_deg", &Diffuser::angle_deg, angle, true, "Full angles, or full widths at half maximum: horizontal, vertical."},
-    {"profile", &Diffuser::profile, no_range, false, "Of the spread: even within the angle, or a normal distribution."},
+    {"profile", &Diffuser::profile, no_range, false, "Of the spread: uniform within the angle, or a normal distribution."},
 };
 
 constexpr Key<Camera> camera_keys[] = {
-    {"position_mm", &Camera::position_mm, any_length, false, "Above the lenses and the diffuser."},
+    {"position_mm", &Camera::position_mm, any_length, false, "In front of the lenses and the diffuser."},
     {"target_mm", &Camera::target_mm, any_length, false, "What the camera looks at."},
     {"up", &Camera::up, any_length, false, "Upwards in the picture; not along the line of sight. Of any length but 0."},
     {"frame_width_mm", &Camera::frame_width_mm, positive_length, false,
-     "Width of what the frame shows in the plane through the target across the line of sight. Not together with fov_deg.",
+     "Width that the frame shows in the plane through the target, normal to the line of sight. Not together with fov_deg.",
      "1.03 x the wider of the panel and 16/9 of its height"},
     {"fov_deg", &Camera::fov_deg, open_angle, false, "Horizontal angle of the frame.", "given by frame_width_mm"},
     {"resolution", &Camera::resolution, count_range, false, "Columns and rows of the picture. Their product is below 2^31."},
@@ -112,8 +112,8 @@ constexpr Key<Content> content_keys[] = {
      "the central depth plane, or 0 where that is further from the lenses than half the viewer's distance"},
     {"height_mm", &Content::height_mm, positive_length, false, "Of the model.", "half the panel's height"},
     {"tilt_deg", &Content::tilt_deg, turn, false,
-     "The model's turn about the horizontal, before the yaw; positive raises its front."},
-    {"yaw_deg", &Content::yaw_deg, turn, false, "The model's turn, counter-clockwise seen from above."},
+     "The model's rotation about the horizontal axis, before the yaw; positive raises its front."},
+    {"yaw_deg", &Content::yaw_deg, turn, false, "The model's rotation, counter-clockwise seen from above."},
     {"viewing_distance_mm", &Content::viewing_distance_mm, Range{shortest_mm, infinity}, false,
      "From the panel to the viewer that the elemental images are made for. inf: elemental images stand straight behind their "
      "lenses."},
@@ -121,17 +121,16 @@ constexpr Key<Content> content_keys[] = {
 
 constexpr Key<Render> render_keys[] = {
     {"estimator", &Render::estimator, no_range, false,
-     "Means of the panel over the footprints of what each lens shows of it, or brute force: one panel pixel a sample. Where there "
-     "is no "
-     "diffuser, or a pixel filter, a pupil or a turned array beside it, samples are points in any case."},
+     "Each sample averages the panel over a lens's footprint, or, by brute force, reads one panel pixel. Without a diffuser, "
+     "or with a pixel filter, a pupil or a turned array beside it, samples are points in any case."},
     {"samples", &Render::samples, Range{1, 16777216}, false,
      "Per picture pixel, where a diffuser, filter or pupil spreads the light. Filtered ones are rounded up to a square number, "
      "3844 at most.",
      "4 if filtered, else 100"},
     {"sampling", &Render::sampling, no_range, false, "Of point samples: low-discrepancy points, or plain random ones."},
     {"fresnel", &Render::fresnel, no_range, false,
-     "What each glass surface transmits: Fresnel's equations, Schlick's formula, all."},
-    {"seed", &Render::seed, Range{0, two_to_63}, false, "Of the samples. The same seed, the same picture."},
+     "What each glass surface transmits: by Fresnel's equations, by Schlick's formula, or all light."},
+    {"seed", &Render::seed, Range{0, two_to_63}, false, "Of the samples. The same seed gives the same picture."},
 };
 
 constexpr Key<Display> display_keys[] = {
@@ -196,13 +195,13 @@ const Table<Surface>& table_of<Surface>() {
 }
 template <>
 const Table<LensArray>& table_of<LensArray>() {
-    static constexpr Table<LensArray> table{"array", "How the lenses stand before the panel.", array_keys};
+    static constexpr Table<LensArray> table{"array", "How the lenses stand in front of the panel.", array_keys};
     return table;
 }
 template <>
 const Table<Diffuser>& table_of<Diffuser>() {
     static constexpr Table<Diffuser> table{
-        "diffuser", "A thin scattering sheet before the lenses. Without this table there is none.", diffuser_keys};
+        "diffuser", "A thin scattering sheet in front of the lenses. Without this table there is none.", diffuser_keys};
     return table;
 }
 template <>

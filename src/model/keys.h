@@ -28,7 +28,7 @@ inline constexpr double shortest_mm = 1e-6, longest_mm = 1e6;
 inline constexpr Range any_length{-longest_mm, longest_mm}, positive_length{shortest_mm, longest_mm}, length_or_zero{0, longest_mm};
 inline constexpr double two_to_31 = 2147483648.0;
 
-/// One of all that a value may be, Of<V> being a pointer to it or to a member.
+/// One of all the types of a value, Of<V> being a pointer to it or to a member.
 template <template <class> class Of>
 using ValuesOf =
     std::variant<Of<double>, Of<std::optional<double>>, Of<std::int64_t>, Of<std::optional<std::int64_t>>, Of<std::string>,
@@ -36,8 +36,8 @@ using ValuesOf =
                  Of<Encoding>, Of<LensKind>, Of<Facing>, Of<Surround>, Of<LatticeKind>, Of<Aperture>, Of<Profile>, Of<PixelFilter>,
                  Of<Estimator>, Of<Sampling>, Of<Fresnel>>;
 
-/// What a key fills. Tables within are in Display and SurfaceLens alone: one that is always there, one that may be absent, or a
-/// list; the keys of a kind stand beside its word.
+/// What a key fills. Only Display and SurfaceLens contain tables: one that is always there, one that may be absent, or a list;
+/// the keys of a kind stand beside its word.
 template <class T>
 struct MemberOf {
     template <class V>
@@ -126,7 +126,7 @@ inline std::string_view table_of_path(std::string_view path) {
     return point == path.npos ? std::string_view() : path.substr(0, point);
 }
 
-/// What a key says, whatever struct it belongs to.
+/// A key's entry in its table, whatever struct it belongs to.
 struct KeyInfo {
     std::string_view name;
     Range range;
@@ -142,11 +142,11 @@ using ValueRef = ValuesOf<PointerTo>;
 using ConstValueRef = ValuesOf<PointerToConst>;
 
 /// Calls visit for each value of a display, in the order of a description, with its path ("lens.surface.0.conic"), its key, and the
-/// value that a fresh struct has. What a display lacks is not visited. A kind is visited as the value of its word, then its own
-/// keys.
+/// value that a fresh struct has. Tables and fields that a display lacks are not visited. A kind is visited as the value of its
+/// word, then its own keys.
 void visit_all(const Display&,
                const std::function<void(const std::string& path, const KeyInfo&, ConstValueRef, ConstValueRef fresh)>& visit);
-/// The same; `visit` may change values, but for a kind, whose keys follow.
+/// The same; `visit` may change values, except a kind, whose keys follow.
 void visit_all(Display&, const std::function<void(const std::string& path, const KeyInfo&, ValueRef)>& visit);
 
 /// A table that a description may have, and its keys that are values, each with that of a fresh struct.
@@ -178,7 +178,7 @@ std::string_view word(const E& value) {
         return words<E>()[value.index()];
 }
 
-/// What is written as one of some words.
+/// Whether a field is written as one of a set of words.
 template <class Field>
 inline constexpr bool has_words = std::is_enum_v<Field> || part_kind<Field> == PartKind::kinds;
 

@@ -3,12 +3,12 @@
 
 namespace lfdsim {
 
-// What any lens maker's prescription needs, and what the kernels hold.
+// Enough for any lens maker's prescription, and the most that the kernels hold.
 inline constexpr decltype(sizeof 0) max_surfaces = 16, max_asphere_terms = 8;
 
 enum class Encoding { srgb, linear };  // of the panel image's code values
 enum class LensType { plano_convex, surfaces, ideal };
-enum class Facing { viewer, panel };           // where the convex side of a plano-convex lens looks
+enum class Facing { viewer, panel };           // which way the convex side of a plano-convex lens faces
 enum class Surround { opaque, clear, plate };  // what is between the lenses
 enum class LatticeKind { square, rectangle };  // of the cells in which lenses stand
 enum class Aperture { circle, square };        // square: the lens fills its cell

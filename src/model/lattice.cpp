@@ -11,7 +11,7 @@ bool differs_by_axis(const LensArray& array) { return array.lattice == LatticeKi
 
 double inner_radius_mm(const LensArray& array) { return array.pitch_mm.least() / 2; }
 
-// Half the diagonal, so that of a square is p / sqrt(2) to the last bit.
+// Half the diagonal, in a form that gives p / sqrt(2) to the last bit for a square.
 double outer_radius_mm(const LensArray& array) {
     const double q = array.pitch_mm[1] / array.pitch_mm[0];
     return array.pitch_mm[0] / std::sqrt(4 / (1 + q * q));

@@ -1,5 +1,5 @@
-// Where the lenses of an array stand. Floor 0: plain data; what asks it is optics/lattice.h, which each instruction set compiles
-// anew.
+// Where the lenses of an array stand. Floor 0: plain data; the functions on it are in optics/lattice.h, compiled once for each
+// instruction set.
 #pragma once
 
 namespace lfdsim {
@@ -16,10 +16,10 @@ struct Lattice {
     S cos_turn, sin_turn;                     // of the array's frame against the display's, counter-clockwise to the viewer
 };
 
-/// Whether what depends on the pitch differs between the array's own x and y, and is told for each.
+/// Whether figures that depend on the pitch differ between the array's own x and y, and are reported for each.
 bool differs_by_axis(const LensArray&);
 
-/// Radii of the largest disk within a cell and of the smallest that holds it, mm.
+/// Radii of the largest disk within a cell and of the smallest around it, mm.
 double inner_radius_mm(const LensArray&);
 double outer_radius_mm(const LensArray&);
 

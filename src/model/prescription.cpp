@@ -42,7 +42,7 @@ double sag_mm(double curvature, double conic, const std::vector<double>& even_as
     double polynomial = 0;
     for (std::size_t i = even_asphere.size(); i-- > 0;) polynomial = polynomial * s2 + even_asphere[i];
     double root2 = 1 - (1 + conic) * curvature * curvature * s2;
-    if (root2 < 0 && root2 > -1e-12) root2 = 0;  // the rim of a half ball, but for rounding
+    if (root2 < 0 && root2 > -1e-12) root2 = 0;  // rounding at the rim of a half ball
     return curvature * s2 / (1 + std::sqrt(root2)) + polynomial * s2 * s2;
 }
 
@@ -83,7 +83,7 @@ namespace {
 
 std::vector<PlacedSurface> placed(const PlanoConvex& lens, const LensArray& array) {
     const double R = lens.sphere_radius_mm, r = glass_radius_mm(lens.aperture_radius_mm, array), n = lens.index;
-    // The ball's centre lies sqrt(R^2 - r^2) below the wall's end, its apex R above the centre; (R - r)(R + r) keeps the digits.
+    // The ball's centre lies sqrt(R^2 - r^2) below the wall's end, its apex R above the centre; (R - r)(R + r) avoids cancellation.
     const double thickness = lens.cylinder_height_mm + R - std::sqrt((R - r) * (R + r));
     if (lens.facing == Facing::viewer) return {{0, 0, 0, {}, r, 1, n}, {thickness, -1 / R, 0, {}, r, n, 1}};
     return {{0, 1 / R, 0, {}, r, 1, n}, {thickness, 0, 0, {}, r, n, 1}};

@@ -1,4 +1,4 @@
-// A lens as a list of surfaces, and what first-order optics says of it. Floor 0.
+// A lens as a list of surfaces, and its first-order properties. Floor 0.
 #pragma once
 #include "model/geometry.h"
 
@@ -15,7 +15,7 @@ struct Cardinal {
 };
 Cardinal cardinal_points(const std::vector<PlacedSurface>&);
 
-/// The radius r of a lens that is told it: the given one; with square apertures at least half the cell's diagonal.
+/// The radius r of a plano-convex or ideal lens: as given; with square apertures at least half the cell's diagonal.
 double glass_radius_mm(const std::optional<double>& aperture_radius_mm, const LensArray&);
 
 /// The lens's surfaces with the first vertex in z = 0, panel side first.
@@ -24,14 +24,14 @@ std::vector<PlacedSurface> prescription(const Lens&, const LensArray&);
 /// Lowest and highest sag within the semi-aperture. NaN where the sag is not real.
 std::array<double, 2> sag_range_mm(const PlacedSurface&);
 
-/// Lowest distance from one surface up to another within both semi-apertures; negative where they cross.
+/// Least axial distance from one surface up to another within both semi-apertures; negative where they cross.
 double clearance_mm(const PlacedSurface& lower, const PlacedSurface& upper);
 
-/// The lens turned over, its mirror image in the plane of the panel, for light that goes up: its first surface, from the panel, is
-/// then the highest, and all its z are negative.
+/// The lens mirrored in the plane of the panel, for tracing light from the panel: its first surface, from the panel, is then the
+/// highest, and all its z are negative.
 Geometry turned_over(Geometry);
 
-/// resolve() without validate(): of an invalid description some figures are NaN or wrong.
+/// resolve() without validate(): for an invalid description some figures are NaN or wrong.
 Geometry resolve_unchecked(const Display&);
 
 }  // namespace lfdsim

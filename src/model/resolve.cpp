@@ -21,7 +21,7 @@ void place_lens(const Lens& lens, const LensArray& array, Geometry& g) {
         widest = std::max(widest, s.semi_aperture_mm);
         narrowest = std::min(narrowest, s.semi_aperture_mm);
     }
-    // where the first vertex comes to stand
+    // z of the first vertex
     const double first = array.base_z_mm ? *array.base_z_mm - lowest : array.gap_mm.value_or(0) - paraxial.front_principal_mm;
     for (PlacedSurface& s : g.surfaces) s.z_mm += first;
     g.base_z_mm = array.base_z_mm ? *array.base_z_mm : first + lowest;
@@ -37,7 +37,7 @@ void place_lens(const Lens& lens, const LensArray& array, Geometry& g) {
     const auto* ball = std::get_if<PlanoConvex>(&lens.kind);
     const bool first_curved = ball && ball->facing == Facing::panel;
     g.stop_z_mm = (first_curved ? g.surfaces.front() : g.surfaces.back()).z_mm;
-    // as given, to the last bit: g = f must stay exactly so
+    // to the last bit as given: g = f must stay exact
     g.gap_mm = array.gap_mm.value_or(g.front_principal_mm);
     if (array.aperture == Aperture::square) g.clear_aperture_mm = array.pitch_mm;
     if (lens.stop_radius_mm) g.clear_aperture_mm.fill(2 * *lens.stop_radius_mm);
@@ -63,8 +63,8 @@ Geometry resolve_unchecked(const Display& d) {
     if (d.camera.fov_deg) g.frame_width_mm = 2 * target_mm * std::tan(*d.camera.fov_deg * degree / 2);
     g.focus_distance_mm = d.camera.focus_distance_mm.value_or(target_mm);
 
-    // Content stands on the central depth plane, in front or (virtual) behind. A lens that nearly collimates has it out of any
-    // scene's reach; such a display shows depth about its lenses.
+    // By default content stands on the central depth plane, in front of the lenses or (virtual) behind them. If the lenses nearly
+    // collimate, that plane is too far away for any scene, and content stands at the lenses.
     const double central = g.rear_principal_mm + theory(d, g).central_depth_mm - g.vertex_plane_mm;
     const double viewer = std::min(d.content.viewing_distance_mm, d.camera.position_mm[2]) - g.vertex_plane_mm;
     g.content_depth_mm = d.content.depth_mm.value_or(std::abs(central) <= viewer / 2 ? central : 0);

@@ -7,11 +7,11 @@
 namespace lfdsim {
 namespace {
 
-// The lens must stand before the panel, and the planes that theory measures from must be at finite places.
+// The lens must stand in front of the panel, and the planes that theory measures from must be at finite places.
 void check_heights(const Display& d, const Geometry& g, Findings& findings) {
     const char* given = d.array.gap_mm ? "array.gap_mm" : "array.base_z_mm";
     if (!positive_length.contains(g.gap_mm))
-        findings.add(given, "puts the lens's panel-side principal plane {:.6g} mm before the panel, allowed is {}", g.gap_mm,
+        findings.add(given, "puts the lens's panel-side principal plane {:.6g} mm in front of the panel, allowed is {}", g.gap_mm,
                      positive_length.text());
     else if (!(g.base_z_mm >= -rounding_mm))
         findings.add(given, "{} mm puts the lens's lowest point {:.6g} mm into the panel; at least {:.6g} mm", g.gap_mm,
@@ -38,7 +38,7 @@ void check_camera(const Display& d, const Geometry& g, Findings& findings) {
     else if (!(rim > top))
         findings.add(
             "camera.pupil_diameter_mm",
-            "{} mm dips the pupil's rim to z = {:.6g} mm, into the display, which ends {:.6g} mm from the panel; a smaller "
+            "{} mm lowers the pupil's rim to z = {:.6g} mm, into the display, which ends {:.6g} mm from the panel; a smaller "
             "pupil, or a camera further away",
             *d.camera.pupil_diameter_mm, rim, top);
     if (findings.sound("panel.") && !positive_length.contains(g.frame_width_mm))
@@ -60,7 +60,7 @@ void validate_layout(const Display& d, Findings& findings) {
         findings.add("diffuser.distance_mm",
                      "{} mm puts the diffuser inside the lenses, which reach {:.6g} mm above the vertex plane; more than that",
                      d.diffuser->distance_mm, g.top_z_mm - g.vertex_plane_mm);
-    // a diffuser in the wrong place would put the camera below it: one fault, not two
+    // a misplaced diffuser could put the camera below it: report one fault, not two
     if (findings.sound("camera.") && findings.sound("diffuser.")) check_camera(d, g, findings);
     if (findings.sound("content.") && !(d.content.viewing_distance_mm > g.top_z_mm))
         findings.add("content.viewing_distance_mm",

@@ -53,14 +53,14 @@ class LensCheck {
         return radius.has_value();
     }
 
-    // Round lenses must not overlap; what is round in a square cell is cut by its borders.
+    // Round lenses must not overlap; with square apertures the cell's borders cut them.
     void check_width(const std::string& where, double radius) {
         if (array.aperture == Aperture::circle && radius > inner_radius_mm(array))
             findings.add(where, "{} mm makes the lens wider than array.pitch_mm = {} mm; at most {} mm, or a larger pitch", radius,
                          array.pitch_mm.least(), inner_radius_mm(array));
     }
 
-    // The stops of neighbours are holes in one sheet; they must not run into one another.
+    // The stops of neighbours are holes in one sheet; they must not overlap.
     void check_stop() {
         if (lens.stop_radius_mm && findings.sound("lens.stop_radius_mm") && *lens.stop_radius_mm > inner_radius_mm(array))
             findings.add("lens.stop_radius_mm",
@@ -68,7 +68,7 @@ class LensCheck {
                          *lens.stop_radius_mm, array.pitch_mm.least(), inner_radius_mm(array));
     }
 
-    // Of a plano-convex lens: its cap is part of a ball, which must reach over the aperture and stay off the flat face.
+    // Of a plano-convex lens: its cap is part of a ball, which must cover the aperture and not reach the flat face.
     void check_ball(const PlanoConvex& ball) {
         const double R = ball.sphere_radius_mm, r = glass_radius_mm(ball.aperture_radius_mm, array), h = ball.cylinder_height_mm;
         const bool corner = r > ball.aperture_radius_mm.value_or(0);

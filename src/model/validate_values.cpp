@@ -48,14 +48,14 @@ void check_surface_count(const SurfaceLens& lens, Findings& findings) {
     if (lens.surfaces.size() > max_surfaces) findings.add("lens.surface", "has more than the {} surfaces allowed", max_surfaces);
 }
 
-// Two factors within int64 may overflow it in their product: as doubles they do not, and 53 bits tell 2^31 exactly.
+// The product of two int64 may overflow; in double it does not, and its 53 bits are exact up to 2^31.
 void check_product(const std::string& where, const std::array<std::int64_t, 2>& n, Findings& findings) {
     const double product = double(n[0]) * double(n[1]);
     if (findings.sound(where) && product >= two_to_31)
         findings.add(where, "{} x {} = {:.0f}, allowed is a product below 2^31 = {:.0f}", n[0], n[1], product, two_to_31);
 }
 
-// A ray that wanders between bodies of glass needs bodies: a thin lens has none, a compound one more than the tracer follows.
+// Rays between lenses need one glass body per lens: a thin lens has none, a compound one more than the tracer follows.
 void check_surround(const Display& d, Findings& findings) {
     if (d.array.surround == Surround::opaque || !findings.sound("array.surround")) return;
     const std::string_view surround = word(d.array.surround);
@@ -76,7 +76,7 @@ void check_surround(const Display& d, Findings& findings) {
             surfaces[0].semi_aperture_mm, surfaces[1].semi_aperture_mm);
 }
 
-// Where the camera is and where it looks, as far as the display's solid does not matter.
+// The camera's position and direction, as far as they can be checked without the display's geometry.
 void check_view(const Camera& camera, Findings& findings) {
     const Vec3d &eye = camera.position_mm, &target = camera.target_mm, &up = camera.up;
     const Vec3d view = minus(target, eye);
@@ -88,7 +88,7 @@ void check_view(const Camera& camera, Findings& findings) {
         findings.add("camera.target_mm", "is where the camera is; it must look somewhere");
     else if (up_length < shortest_mm)
         findings.add("camera.up", "is no direction, its length is {}; take [0, 1, 0]", up_length);
-    // |view x up| = |view| |up| sin(angle): below a microradian single precision cannot tell the picture's upright any more
+    // |view x up| = |view| |up| sin(angle): below a microradian single precision cannot resolve the picture's up
     else if (length(cross(view, up)) <= 1e-6 * distance * up_length)
         findings.add("camera.up",
                      "lies along the line of sight from camera.position_mm to camera.target_mm; take another direction");

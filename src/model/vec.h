@@ -1,5 +1,4 @@
-// Points and directions in double precision, for all that is computed outside the tracer (whose Vec3 is in optics/surface.h).
-// Floor 0.
+// Points and directions in double precision, for computations outside the tracer (its Vec3 is in optics/surface.h). Floor 0.
 #pragma once
 #include <cmath>
 

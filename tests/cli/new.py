@@ -49,7 +49,7 @@ for name, arguments, *words in [
     ("no size", f"new {TABLET.replace('2560x1600', '2560')} -o x.toml", "--pixels"),
     ("too few pixels", f"new {TABLET.replace('2560x1600', '20x1600')} -o x.toml", "--pixels: is 20"),
     ("beyond the eye", f"new {TABLET} --depth-mm 600 -o x.toml", "--depth-mm: is 600, more than half of the way", "--depth-mm 2"),
-    ("within the lenses", f"new {TABLET} --depth-mm 0.1 -o x.toml", "--depth-mm: is 0.1, less than twice the gap", "nearest that is possible: --depth-mm 1.0"),
+    ("within the lenses", f"new {TABLET} --depth-mm 0.1 -o x.toml", "--depth-mm: is 0.1, less than twice the gap", "nearest possible: --depth-mm 1.0"),
     ("too narrow", f"new {DESIGNS['near-eye'][0].replace('30', '10')} -o x.toml", "--fov-deg: is 10", "--fov-deg 13"),
     ("unknown lens", f"new {TABLET} --lens fresnel -o x.toml", "--lens", "plano_convex, ideal"),
     ("all at once", "new --panel-inch x --pixels 9 --distance-mm y -o x.png", "--panel-inch", "--pixels", "--distance-mm", "ends in .toml"),

@@ -102,13 +102,13 @@ checks.that(3 <= len(kept) < 101 and sorted(kept)[-1] == f"{len(kept) - 1:04}.pn
 checks.that(not any(b"incomplete" in (folder / "long" / name).read_bytes() for name in kept), "interrupted: a frame is incomplete")
 
 BAD = [  # what, path, words of the message
-    ("empty", "", "bad.json: is no camera path in JSON"),
+    ("empty", "", "bad.json: is not a camera path in JSON"),
     ("cut off", '{"schema": 1,', "line 1"),
-    ("binary", "\x00\x01", "is no camera path in JSON"),
+    ("binary", "\x00\x01", "is not a camera path in JSON"),
     ("beyond doubles", json.dumps(path(pose(0))).replace("400", "1e999"), "number overflow"),
-    ("not finite", path(pose(0, [0, 0, float("nan")])), "is no camera path in JSON"),
+    ("not finite", path(pose(0, [0, 0, float("nan")])), "is not a camera path in JSON"),
     ("too large", " " * (1 << 20) + json.dumps(path(pose(0))), "allowed are 1048576; is this a camera path?"),
-    ("deep", "[" * 500000, "is no camera path in JSON"),
+    ("deep", "[" * 500000, "is not a camera path in JSON"),
     ("a list", [], "give an object with schema, frames_per_second, poses"),
     ("nothing", {}, "bad.json: the file: poses is missing"),
     ("another schema", path(pose(0), schema=2), "bad.json: schema: only 1"),

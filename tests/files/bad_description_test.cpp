@@ -46,18 +46,18 @@ semi_aperture_mm = 6
 
 INSTANTIATE_TEST_SUITE_P(
     Types, BadDescription,
-    testing::Values(Bad{with("7.28", "\"7.28\""), "d:8:20", "lens.sphere_radius_mm: is a string, wanted is a number"},
-                    Bad{with("7.28", "true"), "d:8:20", "is true or false, wanted is a number"},
-                    Bad{with("7.28", "1979-05-27"), "d:8:20", "is a date or time, wanted is a number"},
-                    Bad{with("7.28", "[7.28]"), "d:8:20", "is a list, wanted is a number"},
-                    Bad{with("[43, 24]", "43"), "d:12:9", "array.count: is an integer, wanted is a list of 2 integers"},
-                    Bad{with("[43, 24]", "[43]"), "d:12:9", "has 1 elements, wanted is a list of 2 integers"},
-                    Bad{with("[43, 24]", "[43, 24.0]"), "d:12:9", "element 1 is a number with a fraction, wanted is an integer"},
-                    Bad{with("[0, 0, 2000]", "[0, 'x', 2000]"), "d:16:15", "element 1 is a string, wanted is a number"},
-                    Bad{with("\"example\"", "7"), "d:2:8", "name: is an integer, wanted is a string"},
+    testing::Values(Bad{with("7.28", "\"7.28\""), "d:8:20", "lens.sphere_radius_mm: is a string; give a number"},
+                    Bad{with("7.28", "true"), "d:8:20", "is true or false; give a number"},
+                    Bad{with("7.28", "1979-05-27"), "d:8:20", "is a date or time; give a number"},
+                    Bad{with("7.28", "[7.28]"), "d:8:20", "is a list; give a number"},
+                    Bad{with("[43, 24]", "43"), "d:12:9", "array.count: is an integer; give a list of 2 integers"},
+                    Bad{with("[43, 24]", "[43]"), "d:12:9", "has 1 elements; give a list of 2 integers"},
+                    Bad{with("[43, 24]", "[43, 24.0]"), "d:12:9", "element 1 is a number with a fraction; give an integer"},
+                    Bad{with("[0, 0, 2000]", "[0, 'x', 2000]"), "d:16:15", "element 1 is a string; give a number"},
+                    Bad{with("\"example\"", "7"), "d:2:8", "name: is an integer; give a string"},
                     Bad{with("[camera]\nposition_mm = [0, 0, 2000]", "[[camera]]"), "d:15:1",
-                        "is a list of tables, wanted is a table: [camera]"},
-                    Bad{with("schema = 1", "schema = 1\ndiffuser = 3"), "d:2:12", "diffuser: is an integer, wanted is a table"}));
+                        "is a list of tables; give a table: [camera]"},
+                    Bad{with("schema = 1", "schema = 1\ndiffuser = 3"), "d:2:12", "diffuser: is an integer; give a table"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Keys, BadDescription,
@@ -72,10 +72,10 @@ INSTANTIATE_TEST_SUITE_P(
                         "lens.sphere_radius: is unknown; did you mean sphere_radius_mm?"},
                     Bad{with("[camera]", "[camera]\nfrane_width_mm = 3"), "d:16:1", "did you mean frame_width_mm?"},
                     Bad{with("[camera]", "[camera]\npitch_mm = 3"), "d:16:1",
-                        "camera.pitch_mm: is unknown here; it belongs into [array]"},
+                        "camera.pitch_mm: is unknown here; it belongs in [array]"},
                     Bad{with("pitch_mm = 12.0", "pitch_mm = [12, 9, 3]"), "d:13:12",
-                        "array.pitch_mm: is a list, wanted is a number, or a list of 2 numbers"},
-                    Bad{with("pitch_mm = 12.0", "pitch_mm = [12, \"9\"]"), "d:13:12", "element 1 is a string, wanted is a number"},
+                        "array.pitch_mm: is a list; give a number, or a list of 2 numbers"},
+                    Bad{with("pitch_mm = 12.0", "pitch_mm = [12, \"9\"]"), "d:13:12", "element 1 is a string; give a number"},
                     Bad{with("pitch_mm = 12.0", "lattice = \"hexagon\"\npitch_mm = 12"), "d:13:11",
                         R"(array.lattice: is "hexagon", allowed are "square", "rectangle")"},
                     Bad{with("[camera]", "[camera]\nqqqqqqqqqqq = 3"), "d:16:1", "is unknown; known are position_mm, target_mm"},
@@ -121,7 +121,7 @@ TEST(BadDescriptions, AllFaultsTogetherInTheOrderOfTheFile) {
         EXPECT_STREQ(error.what(),
                      "d:1:10: schema: is 3, allowed is 1; another version of the program wrote or reads this file\n"
                      "d:2:1: panel.pixel_pitch_mm: is missing\n"
-                     "d:3:10: panel.pixels: is a string, wanted is a list of 2 integers\n"
+                     "d:3:10: panel.pixels: is a string; give a list of 2 integers\n"
                      "d:4:1: lens.focal_length_mm: is missing\n"
                      "d:6:1: lens.focal_length: is unknown; did you mean focal_length_mm?\n"
                      "d:7:1: array.count: is missing\n"

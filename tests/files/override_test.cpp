@@ -66,8 +66,8 @@ TEST(Override, FaultsNameTheOption) {
     EXPECT_THAT(fault_of({"lens.facing=up"}),
                 HasSubstr("--set lens.facing=up: lens.facing: is \"up\", allowed are \"viewer\", \"panel\""));
     EXPECT_THAT(fault_of({"diffuser.distance_mm=3"}), HasSubstr("--set diffuser.distance_mm=3: diffuser.angle_deg: is missing"));
-    EXPECT_THAT(fault_of({"array.pitch_mm"}), HasSubstr("--set array.pitch_mm: is no key=value"));
-    EXPECT_THAT(fault_of({"=3"}), HasSubstr("is no key=value"));
+    EXPECT_THAT(fault_of({"array.pitch_mm"}), HasSubstr("--set array.pitch_mm: is not of the form key=value"));
+    EXPECT_THAT(fault_of({"=3"}), HasSubstr("is not of the form key=value"));
     EXPECT_THAT(fault_of({"name=a\xff"}), HasSubstr("the value is not TOML"));  // as no file may have it
     EXPECT_THAT(fault_of({"array.pitch_mm=abc"}), HasSubstr("--set array.pitch_mm=abc: the value is not TOML"));
     EXPECT_THAT(fault_of({"array.pitch_mm="}), HasSubstr("the value is not TOML"));
@@ -75,7 +75,7 @@ TEST(Override, FaultsNameTheOption) {
     EXPECT_THAT(fault_of({"array.pitch_mm.x=3"}), HasSubstr("pitch_mm is a value, and has no parts"));
     EXPECT_THAT(fault_of({"a.b.c.d.e=3"}), HasSubstr("the key has 5 parts, allowed are 4"));
     EXPECT_THAT(fault_of({"array.count.7=3"}), HasSubstr("there is no element 7"));
-    EXPECT_THAT(fault_of({"array.count.0=none"}), HasSubstr("cannot be taken away"));
+    EXPECT_THAT(fault_of({"array.count.0=none"}), HasSubstr("cannot be removed"));
     EXPECT_THAT(fault_of({"..=3"}), HasSubstr("--set ..=3: "));
     EXPECT_THAT(fault_of({"lens=" + std::string(100, '[')}), HasSubstr("nested"));
     EXPECT_THAT(fault_of({"bad", "worse"}), HasSubstr("--set worse"));
@@ -91,12 +91,12 @@ TEST(Override, HintsForNumbers) {
     hint("lens.index=-.6", "write -0.6");
     hint("lens.index=6.", "write 6");
     hint("lens.index=01.5", "write 1.5");
-    hint("array.pitch_mm=1.866mm", "numbers carry no unit, that of array.pitch_mm is mm; write 1.866");
+    hint("array.pitch_mm=1.866mm", "numbers carry no unit, array.pitch_mm is in mm; write 1.866");
     hint("array.pitch_mm=1.866 mm", "write 1.866");
-    hint("array.pitch_mm=1.866cm", "that of array.pitch_mm is mm; write the number in it");
+    hint("array.pitch_mm=1.866cm", "array.pitch_mm is in mm; write the number in it");
     hint("content.yaw_deg=90\u00b0", "write 90");
-    hint("lens.index=1.5x", "a number alone is wanted; write 1.5");
-    hint("array.pitch_mm=1,5", "decimals follow a point; write 1.5");
+    hint("lens.index=1.5x", "the value is a number alone; write 1.5");
+    hint("array.pitch_mm=1,5", "the decimal sign is a point; write 1.5");
     hint("array.pitch_mm=1e", "the exponent is missing; write a number such as 1e3");
     hint("array.pitch_mm=1e+", "the exponent is missing; write a number such as 1e3");
     hint("array.pitch_mm=\"0.5", "numbers stand without quotes; write 0.5");

@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(Lens, Fault, testing::Values(
 INSTANTIATE_TEST_SUITE_P(Layout, Fault, testing::Values(
     Case{"array.gap_mm", "into the panel; at least 2.786", [](Display& d) { d.array.gap_mm = 1; }},
     // a meniscus whose principal planes lie far below it
-    Case{"array.base_z_mm", "before the panel", [](Display& d) {
+    Case{"array.base_z_mm", "in front of the panel", [](Display& d) {
         d.lens.as<SurfaceLens>().surfaces = {{-0.08, 0, {}, 3, 5, 1.7}, {-0.1, 0, {}, 3, 0, 1}};
         d.array.gap_mm.reset();
         d.array.base_z_mm = 0;
