@@ -13,17 +13,16 @@
 
 namespace lfdsim {
 
-/// What rays of each pixel are wanted: `samples` of them, whose mean is its light, for the pixels of `crop` in a frame of width x
-/// height pixels.
+/// The rays to cast: `samples` for each pixel of `crop`, in a frame of width x height pixels. Their mean is the pixel's light.
 struct Wanted {
     int width, height;
     Rect crop;
     std::int64_t samples = 1;
 };
 
-/// Casts the rays. fill(column, row, block) sets those of the 4 x 4 pixels from there on, of the sample that the block names;
+/// Casts the rays. fill(column, row, block) sets those of the 4 x 4 pixels from there on, for the sample number in the block;
 /// samples of a block come in their order. Blocks are aligned to the frame, never to the crop or to a thread's share, so that every
-/// pixel comes out the same whichever way the frame is divided. Throws InputError for a crop outside the frame or a bad thread
+/// pixel comes out the same however the frame is divided. Throws InputError for a crop outside the frame or a bad thread
 /// count.
 template <class Fill>
 Picture cast(const ContentScene::Impl& scene, const Beam& beam, const Wanted& frame, int threads, const char* stage, Job& job,
@@ -89,7 +88,7 @@ Picture cast(const ContentScene::Impl& scene, const Beam& beam, const Wanted& fr
         cast += count;
     };
     job.stage(stage, std::int64_t(columns) * rows);
-    // More threads than processors are granted too, when asked for.
+    // More threads than processors are allowed, if asked for.
     const int workers = threads > 0 ? threads : tbb::info::default_concurrency();
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, std::size_t(workers));
     tbb::task_arena arena(workers);

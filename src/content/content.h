@@ -23,7 +23,7 @@ class Model;
 struct ModelInfo {
     std::int64_t triangles, vertices, materials, textures;
     std::vector<std::string> notes;  // what was dropped or repaired, in words
-    std::vector<std::string> files;  // that were read: the model's own, and those that it names; none of a built-in one
+    std::vector<std::string> files;  // that were read: the model's own, and those that it names; none for a built-in one
 };
 
 struct LoadOptions {
@@ -39,22 +39,23 @@ std::shared_ptr<const Model> built_in_model();
 /// The model that a display shows: content.model, or the one that is built in where the description names none.
 std::string model_of(const Display&);
 
-/// The built-in model, or that of a file. Throws InputError that names the file: missing, unreadable, unknown format, no triangles,
-/// crashed or exhausted the reader; std::runtime_error if the reader program lfdsim-model-reader is missing.
+/// The built-in model, or that of a file. Throws InputError that names the file if it is missing or unreadable, has an unknown
+/// format or no triangles, or crashes or exhausts the reader; std::runtime_error if the reader program lfdsim-model-reader is
+/// missing.
 std::shared_ptr<const Model> load_model(const std::filesystem::path&, const LoadOptions& = {});
 ModelInfo info(const Model&);
 
-/// A model posed before the display (docs/model.md, "Pose"), with its ray-tracing structure. Copies share both.
+/// A model posed in front of the display (docs/model.md, "Pose"), with its ray-tracing structure. Copies share both.
 class ContentScene {
   public:
     /// Throws InputError for a model without height (lying flat) or millions of times wider than high.
     ContentScene(std::shared_ptr<const Model>, const Display&, const Geometry&);
 
-    /// The same at another depth (content.depth_mm) before the same display: nothing is read, posed or built again, and pictures
+    /// The same at another depth (content.depth_mm) of the same display: nothing is read, posed or built again, and pictures
     /// have the bits of a scene made there. Throws InputError for a depth that a display could not have.
     ContentScene at_depth(double depth_mm) const;
 
-    /// The same before another display, resolved, that has it as high, tilted and turned.
+    /// The same in front of another display, resolved, that gives it the same height, tilt and yaw.
     ContentScene before(const Geometry&) const;
 
     struct Impl;
@@ -76,13 +77,13 @@ struct Picture {
     double seconds = 0;
 };
 
-/// Elemental images by the nodal pick-up, one ray a panel pixel that a lens owns; the panel's size. threads 0: all. The same
-/// bits for any number of threads. Throws InputError for a bad thread count.
+/// Elemental images by the nodal pick-up, one ray for each panel pixel that a lens owns; the panel's size. threads 0: all.
+/// The same bits for any number of threads. Throws InputError for a bad thread count.
 Picture elemental_images(const Display&, const Geometry&, const ContentScene&, int threads, Job&);
 
 /// The scene seen directly by the display's camera: one ray through each pixel's centre, or, with a pupil or a pixel filter, the
-/// display's samples (100 where it names none) spread over both as a rendering's are, whatever its estimator. A crop has the full
-/// frame's pixels, bit for bit. Throws InputError for a crop outside the frame or a bad thread count.
+/// display's samples (100 by default) spread over both as in a rendering, whatever its estimator. A crop has the full frame's
+/// pixels, bit for bit. Throws InputError for a crop outside the frame or a bad thread count.
 Picture reference_photograph(const Display&, const Geometry&, const ContentScene&, int threads, std::optional<Rect> crop, Job&);
 
 /// Test patterns of the panel's size: "checkerboard", "white", "view" (one view white), "edge" (slanted edge), "address" (ramp).
@@ -93,7 +94,7 @@ struct PatternOptions {
     double edge_deg = 5;            // edge: slant
     double depth_mm = 0;            // edge: where it stands, from the vertex plane
 };
-/// Code values as linear-light such that writing with the panel's encoding gives the intended codes. Throws InputError for an
+/// Linear light, such that writing it with the panel's encoding gives the intended code values. Throws InputError for an
 /// unknown name.
 Image pattern(const std::string& name, const Display&, const Geometry&, const PatternOptions& = {});
 

@@ -4,9 +4,9 @@
 namespace lfdsim {
 namespace {
 
-/// The rays of the nodal pick-up, a block at a time. The viewer's first surface along the line is wanted: rays start in the plane
-/// z = top, just above the scene on the viewer's side, and travel towards the panel and beyond it. Their direction has dz = -1, so
-/// that t is the depth below the plane.
+/// The rays of the nodal pick-up, a block at a time. They must hit the surface that the viewer sees first along the line: they
+/// start in the plane z = top, just above the scene on the viewer's side, and travel towards the panel and beyond it. Their
+/// direction has dz = -1, so that t is the depth below the plane.
 class PickupRays {
   public:
     PickupRays(const Display& display, const Geometry& geometry, const ContentScene& scene)
@@ -18,7 +18,7 @@ class PickupRays {
           rise_(centre_mm_[2] + half_depth_ - pickup_.z_rear),
           width_per_t_(float(display.panel.pixel_pitch_mm / geometry.gap_mm)) {
         if (turned_) return;
-        // The middle of the array, (x, y) here, has an owner.
+        // (x, y): the middle of the array, where a lens owns the panel.
         const double x = display.array.offset_mm[0] * pickup_.scale, y = display.array.offset_mm[1] * pickup_.scale;
         for (std::int64_t i = 0; i < display.panel.pixels[0]; ++i) {
             const NodalLine line = pickup_.line(pickup_.x_mm(double(i)), y);
@@ -44,11 +44,11 @@ class PickupRays {
     }
 
   private:
-    struct Part {  // of a ray: its x or its y
+    struct Part {  // a ray's x or its y
         float origin, direction;
-        bool may_hit;  // before its end, where the scene is over, it may come into the scene's box
+        bool may_hit;  // it may enter the scene's box before its end, behind the scene
     };
-    /// The shares of all columns, or all rows, in rays.
+    /// What all columns, or all rows, contribute to rays.
     struct Shares {
         std::vector<float> origin, direction;
         std::vector<int> exists, may_hit;  // -1 or 0

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The reader may have been damaged by the file before it wrote: nothing it sent is taken on trust.
+// The file may have corrupted the reader before it wrote: nothing that it sent is trusted.
 const char* fault(const Model& m) {
     const auto finite = [](const std::vector<float>& list) {
         return std::all_of(list.begin(), list.end(), [](float x) { return std::isfinite(x); });

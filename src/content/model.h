@@ -24,10 +24,10 @@ struct Texture {
 class Model {
   public:
     std::vector<float> positions;            // x, y, z of each vertex
-    std::vector<float> normals;              // unit vectors, one a vertex
+    std::vector<float> normals;              // unit vectors, one for each vertex
     std::vector<float> uvs;                  // u, v of each vertex
     std::vector<float> colours;              // r, g, b of each vertex, linear light; empty: white
-    std::vector<std::uint32_t> indices;      // three vertices a triangle
+    std::vector<std::uint32_t> indices;      // three vertices for each triangle
     std::vector<std::uint32_t> material_of;  // of each triangle
     std::vector<Material> materials;
     std::vector<Texture> textures;

@@ -36,8 +36,8 @@ void check(const PatternOptions& o) {
     if (!problems.empty()) throw InputError(problems);
 }
 
-// The pixels nearest to one place of each elemental image. PartKind 3/4 of a pixel: one pixel where the place is a pixel's centre,
-// two by two where it is a corner, with room for rounding in both cases.
+// The pixels nearest to one place of each elemental image. They reach 3/4 of a pixel: one pixel where the place is a pixel's
+// centre, two by two where it is a corner, with room for rounding in both cases.
 Image view(const Display& display, const Geometry& geometry, const PatternOptions& o) {
     const Pickup pickup(display, geometry);
     const auto reach = [&](int axis) {
@@ -49,7 +49,7 @@ Image view(const Display& display, const Geometry& geometry, const PatternOption
     });
 }
 
-// A half plane, white on the right, standing at a depth: its edge passes the axis and leans edge_deg from the vertical,
+// A half plane at a depth, white on the right: its edge passes through the axis and leans edge_deg from the vertical,
 // counter-clockwise.
 Image edge(const Display& display, const Geometry& geometry, const PatternOptions& o) {
     const Pickup pickup(display, geometry);
@@ -61,7 +61,7 @@ Image edge(const Display& display, const Geometry& geometry, const PatternOption
     });
 }
 
-// Every pixel tells where it is, in code values: R column / 16, G row / 16 (both modulo 256), B the two remainders.
+// Every pixel's code values give its position: R column / 16, G row / 16 (both modulo 256), B the two remainders.
 Image address(const Display& display) {
     const std::vector<float>& light = decode_table(display.panel.encoding, 8);
     return fill(display, [&](int column, int row, float* rgb) {

@@ -6,7 +6,7 @@
 namespace lfdsim {
 namespace {
 
-// As normalised() but for the rounding, on which the bits of photographs depend.
+// As normalised(), but with other rounding, on which the bits of photographs depend.
 Vec3d unit(const Vec3d& a) { return times(1 / std::sqrt(dot(a, a)), a); }
 
 /// The camera's frame: rays are axis + slopes, so that their t is the depth along the axis.
@@ -29,9 +29,9 @@ struct Frame {
     }
 };
 
-/// The pixels that may show a box, two of slack around it; all of them where some of it is behind the camera. `corner(n)` is one of
-/// its eight corners in the frame (right, up, ahead). From a place o in the pupil the pinhole's picture of a point is moved by
-/// o (1/focus - 1/depth).
+/// The pixels that may show a box, with a margin of two; all of them if part of it is behind the camera. `corner(n)` is one of
+/// its eight corners in the frame (right, up, ahead). Seen from a place o in the pupil a point's image is shifted by
+/// o (1/focus - 1/depth) against the pinhole's.
 template <class Corner>
 Rect pixels_of_box(const Frame& frame, const Corner& corner) {
     double x0 = frame.width, y0 = frame.height, x1 = 0, y1 = 0;
@@ -85,7 +85,7 @@ class PhotographRays {
     }
 
   private:
-    /// A ray is the sum of what its column and its row give.
+    /// A ray is the sum of a part from its column and one from its row.
     void through_centres(int column, int row, RayBlock& block) const {
         constexpr int side = RayBlock::side;
         const Vec3d dx = times(frame_.slope, frame_.right), dy = times(frame_.slope, frame_.up);
@@ -106,7 +106,7 @@ class PhotographRays {
         }
     }
 
-    /// Rays spread over pixel and pupil as a rendering's are (optics/camera.h), by the same sample points.
+    /// Rays spread over pixel and pupil as in a rendering (optics/camera.h), by the same sample points.
     void spread(int column, int row, RayBlock& block) const {
         constexpr int side = RayBlock::side;
         if (block.sample == 0) {

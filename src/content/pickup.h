@@ -59,8 +59,8 @@ class Pickup {
     }
 
   private:
-    // Of the column or row of lenses at a place, from the array's middle; something outside where there is none. Without a call to
-    // the library's floor, twice as fast.
+    // The column or row of the lens at a place, from the array's middle; outside the count where there is none. Rounding down
+    // without the library's floor is twice as fast.
     double number(double place, int axis) const {
         const double count = lattice_.count[axis], x = place * lattice_.per_pitch[axis] + count / 2;
         const double near = std::min(std::max(x, -1.), count), whole = double(std::int64_t(near));

@@ -15,11 +15,11 @@ struct Beam {
     float waist_t;
 };
 
-/// Sixteen rays of a 4 x 4 block of pixels, starting in a plane before the scene; origins about the scene's centre. All that is
-/// done to them is done in loops over all lanes without branches, which the compiler turns into SIMD. Masks are -1 or 0.
+/// Sixteen rays of a 4 x 4 block of pixels, starting in a plane in front of the scene; origins about the scene's centre. They are
+/// processed in loops over all lanes without branches, which the compiler turns into SIMD. Masks are -1 or 0.
 ///
-/// Neighbours under one lens make a packet, not equal pixels under neighbouring lenses, whose rays are parallel: z before the
-/// lenses, four neighbours are 4 a z / g apart, four lenses 4 p, which is more for all z < p g / a, more than a metre.
+/// Neighbours under one lens make a packet, not equal pixels under neighbouring lenses, whose rays are parallel: at z in front
+/// of the lenses four neighbours' rays are 4 a z / g apart, four lenses' 4 p, which is more for all z < p g / a, more than a metre.
 struct RayBlock {
     static constexpr int side = 4, lanes = Lanes::count;
     RTCRayHit16 packet;
@@ -28,10 +28,10 @@ struct RayBlock {
     Lanes::Mask hit;
     Lanes light[3];                              // of the rays that hit
     std::int64_t sample = 0;                     // which of its pixels' rays these are
-    std::vector<optics::Sampler<float>> points;  // of the pixels' samples, kept from one to the next by whoever needs them
+    std::vector<optics::Sampler<float>> points;  // of the pixels' samples, kept from one sample to the next where needed
 
     RayBlock() {
-        // What Embree asks for and never changes.
+        // Embree requires these and never changes them.
         for (int k = 0; k < lanes; ++k) {
             packet.ray.tnear[k] = 0;
             packet.ray.time[k] = 0;

@@ -82,7 +82,7 @@ std::size_t ReaderProcess::count(std::size_t size) {
     return n;
 }
 
-// The pipe closed early: the way the reader ended says why.
+// The pipe closed early: the reader's exit status gives the reason.
 void ReaderProcess::fail() {
     int status = 0;
     while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {

@@ -11,7 +11,7 @@ namespace lfdsim {
 /// Starts the reader on construction; an Io for transfer() that takes bytes until the time or the byte limit is spent.
 class ReaderProcess {
   public:
-    /// It crashed, ran out of time or memory, or wrote something that cannot be.
+    /// The reader crashed, ran out of time or memory, or sent something impossible.
     struct Failure : std::runtime_error {
         using std::runtime_error::runtime_error;
     };
@@ -29,7 +29,7 @@ class ReaderProcess {
     void array(Vector& v) {
         constexpr std::size_t size = sizeof(typename Vector::value_type), step = (std::size_t(4) << 20) / size;
         std::size_t left = count(size);
-        while (left > 0) {  // grows as bytes arrive: a false count allocates little
+        while (left > 0) {  // grows as bytes arrive, so that a false count allocates little
             const std::size_t old = v.size(), more = std::min(left, std::max(step, old));
             v.resize(old + more);
             get(reinterpret_cast<char*>(v.data() + old), more * size);

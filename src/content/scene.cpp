@@ -67,7 +67,7 @@ void pose(ContentScene::Impl& scene, const Display& display, const Geometry& geo
     for (int k = 0; k < 3; ++k) scene.light[k] = float(light[k]);
 }
 
-// Texels along a millimetre: the square root of (area in texels / area in mm^2).
+// Texels per millimetre: the square root of (area in texels / area in mm^2).
 void measure_textures(ContentScene::Impl& scene) {
     const Model& m = *scene.model;
     for (const Texture& t : m.textures) scene.textures.emplace_back(t);

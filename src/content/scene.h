@@ -1,4 +1,4 @@
-// A posed model ready for rays, wherever it stands. Floor 2, internal to content.
+// A posed model ready for ray tracing, independent of where it stands. Floor 2, internal to content.
 #pragma once
 #include "content/content.h"
 #include "content/model.h"
@@ -29,14 +29,14 @@ struct alignas(64) Lanes {
 struct ContentScene::Impl {
     std::shared_ptr<const Model> model;
 
-    // Rays live in the frame whose origin is the centre of the posed bounding box: there float32 is at its best, and nothing here
+    // The frame of rays has its origin at the centre of the posed bounding box: there float32 is most precise, and nothing here
     // changes when the scene moves.
     Vec3d half_mm{};                  // half the box's extents
-    std::vector<float> positions_mm;  // posed, about the centre; one float more than the vertices need, as Embree asks
+    std::vector<float> positions_mm;  // posed, about the centre; one float more than the vertices need, as Embree requires
 
     std::array<float, 3> light{};  // unit vector towards the light, in the model's own axes
     std::vector<MipMap> textures;
-    std::vector<float> texels_per_mm;  // of each triangle, the mean over directions; 0: no texture
+    std::vector<float> texels_per_mm;  // of each triangle, a mean over directions; 0: no texture
 
     struct Release {
         void operator()(RTCSceneTy* s) const { rtcReleaseScene(s); }
@@ -46,7 +46,7 @@ struct ContentScene::Impl {
     std::unique_ptr<RTCSceneTy, Release> tree;
 
     /// Linear light (red, green, blue) of the points that a packet of rays has hit, seen by rays `width_mm` wide. Depends on
-    /// nothing else: a surface looks the same from everywhere. Lanes without a hit get numbers that mean nothing.
+    /// nothing else: a surface looks the same from everywhere. Lanes without a hit get meaningless numbers.
     void shade(const RTCHit16&, const Lanes::Mask& hit, const Lanes& width_mm, Lanes* light) const;
 };
 

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
-// What a packet of rays sees. Corners of triangles are fetched lane by lane; the arithmetic is in loops over all lanes without
+// Shading of a packet of rays. Corners of triangles are fetched lane by lane; the arithmetic is in loops over all lanes without
 // branches, which the compiler turns into SIMD.
 namespace lfdsim {
 namespace {
 
 constexpr int lanes = Lanes::count;
 
-/// Where in which triangle: corner numbers and barycentric weights.
+/// The hit triangles: corner numbers and barycentric weights.
 struct Place {
     std::uint32_t triangle[lanes], corner[3][lanes];
     Lanes weight[3];
@@ -28,7 +28,7 @@ struct Place {
             for (std::size_t c = 0; c < 3; ++c) corner[c][k] = m.indices[3 * std::size_t(triangle[k]) + c];
     }
 
-    /// Values that vertices have `size` of, interpolated.
+    /// Interpolates vertex attributes of `size` components.
     template <int size>
     void interpolate(const std::vector<float>& of_vertices, Lanes* to) const {
         Lanes at[3][size];

@@ -27,7 +27,7 @@ int wrapped(int i, int size, Wrap how) {
     }
 }
 
-// Folded into a few periods first, so that huge coordinates of strange files stay exact enough and fit an int.
+// Folded into a few periods first, so that huge coordinates of odd files stay precise enough and fit an int.
 float folded(float x, Wrap how) {
     if (x >= 0 && x < 1) return x;
     if (how == Wrap::clamp) return std::max(-1.f, std::min(2.f, x));
@@ -78,8 +78,8 @@ Texel MipMap::bilinear(const Level& l, int x0, int y0, int x1, int y1, float rig
 Texel MipMap::sample(float u, float v, float level, Wrap wrap_u, Wrap wrap_v) const {
     const float l = std::clamp(level, 0.f, float(levels_.size() - 1));
     const auto below = std::size_t(l);
-    // Four numbers: across and down in the level below, across and down in the one above. Texel centres lie at half integers, row 0
-    // at the top where v = 1.
+    // Four numbers: across and down in the finer level, across and down in the coarser one. Texel centres lie at half integers, row
+    // 0 at the top where v = 1.
     const float x = folded(u, wrap_u), y = folded(1 - v, wrap_v);
     const Four size = optics::load<Four>(&sizes_[2 * below]), place = Four(Texel{x, y, x, y}) * size - Four(0.5f);
     const Four first = optics::floor(place), between = place - first;

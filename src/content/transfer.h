@@ -1,5 +1,5 @@
-// How a model travels from the reader process: one description of the bytes, walked by writer and reader alike. Same
-// machine, so native byte order. The receiving end trusts nothing it is sent, as the sender may have been damaged by its input.
+// How a model is sent from the reader process: one description of the bytes, used by writer and reader alike. Both run on the same
+// machine, so native byte order. The receiver trusts nothing that it is sent, as the sender may have been corrupted by its input.
 #pragma once
 #include "content/model.h"
 
@@ -7,10 +7,10 @@
 
 namespace lfdsim {
 
-enum class Reply : std::uint32_t { model = 0x4c6d6f31, refusal, out_of_memory };  // first; a refusal brings a text that says why
+enum class Reply : std::uint32_t { model = 0x4c6d6f31, refusal, out_of_memory };  // first; after a refusal a text says why
 
 /// Io has value(x) for plain values, array(v) for vectors and strings of them, list(v, each) for vectors of anything else. A
-/// count goes before each; the receiver refuses counts beyond its limits.
+/// count precedes each; the receiver refuses counts beyond its limits.
 template <class Io>
 void transfer(Io& io, Model& model) {
     io.array(model.positions);

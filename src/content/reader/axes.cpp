@@ -15,8 +15,8 @@ bool any_of(const std::string& format, std::initializer_list<const char*> names)
 }  // namespace
 
 Turn turn(const aiScene& scene, const std::string& format, const std::string& up) {
-    // These Assimp turns to +y up itself; those lie with +z up as their specification or their program has it. The rest is +y up:
-    // by specification (glTF, X3D, Collada after Assimp's own turn) or by custom (OBJ, PLY, OFF).
+    // Assimp turns the first list to +y up itself; the second is +z up by specification or by its program. The rest is +y up: by
+    // specification (glTF, X3D, Collada after Assimp's own turn) or by custom (OBJ, PLY, OFF).
     const bool turned =
         any_of(format, {"3D Studio", "Discreet 3DS", "ASE", "Industry Foundation", "Quake", "Doom 3", "Inter-Quake", "Unreal"});
     bool z_up = any_of(format, {"Stereolithography", "Blender", "Additive", "3mf", "Drawing Interchange", "TrueSpace", "Valve SMD",

@@ -16,9 +16,9 @@ class Folder : public Assimp::DefaultIOSystem {
     bool Exists(const char* file) const override;
     Assimp::IOStream* Open(const char* file, const char* mode) override;
 
-    /// The file that a name in the model means: inside the folder, links resolved; backslashes count as slashes, and a path that
-    /// leads out of the folder (often one of the author's own machine) stands for the file of that name beside the model. Capital
-    /// and small letters are the same where no exact match exists.
+    /// The file that a name in the model refers to: inside the folder, links resolved; backslashes count as slashes, and a path
+    /// that leads out of the folder (often one of the author's own machine) stands for the file of that name beside the model. Case
+    /// is ignored where no exact match exists.
     std::optional<std::filesystem::path> find(std::string name) const;
 
     /// Those that were opened for reading.

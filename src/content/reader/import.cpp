@@ -21,7 +21,7 @@
 namespace lfdsim::reader {
 namespace {
 
-// A fold sharper than this stays an edge when the file brings no normals.
+// A fold sharper than this stays an edge when the file has no normals.
 constexpr float crease_deg = 60;
 
 // Everything comes as triangles in one frame: node transforms applied, instances copied, points and lines dropped.
@@ -142,7 +142,7 @@ class Conversion {
         }
     }
 
-    // Some loaders find no colours; a black model before black would look like a fault of the display.
+    // Some loaders find no colours; a black model on black would look like a fault of the display.
     void show_black() {
         const auto black = [](const Material& m) {
             return m.texture < 0 && std::max({m.colour[0], m.colour[1], m.colour[2]}) < 1e-3f;
@@ -209,7 +209,7 @@ Model import(const std::filesystem::path& file, const std::string& up) {
         if (std::string(importer.GetErrorString()) == "std::bad_alloc") throw std::bad_alloc();
         throw std::runtime_error(importer.GetErrorString());
     }
-    // A face that points at no vertex is damage, not a matter of taste: Assimp would leave it out and go on.
+    // A face without a valid vertex means a damaged file: Assimp would leave it out and continue.
     for (const std::string& warning : warnings->texts)
         if (warning.find("out-of-range ind") != std::string::npos)
             throw std::runtime_error("some faces have indices of vertices that do not exist; the file is damaged, export it again");

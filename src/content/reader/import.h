@@ -1,4 +1,4 @@
-// A model file as Assimp reads it, made into ours.
+// Reads a model file by Assimp and converts it.
 #pragma once
 #include "content/model.h"
 

@@ -31,7 +31,7 @@ class Writer {
 
   private:
     static void put(const void* bytes, std::size_t count) {
-        if (std::fwrite(bytes, 1, count, stdout) != count) std::_Exit(1);  // nobody listens any more
+        if (std::fwrite(bytes, 1, count, stdout) != count) std::_Exit(1);  // the parent no longer reads
     }
 };
 
@@ -55,5 +55,5 @@ int main(int count, char** arguments) {
         out.array(std::string(refusal.what()));
     }
     std::fflush(stdout);
-    std::_Exit(0);  // no destructors: what a damaged model left behind is not worth the risk
+    std::_Exit(0);  // no destructors: a damaged model may have corrupted memory
 }

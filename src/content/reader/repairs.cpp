@@ -24,8 +24,8 @@ void place_gltf1_nodes(aiScene& scene, const std::filesystem::path& file) {
     }
 }
 
-// Blender: the normals are those of vertices, also where the faces are flat; cubes come out as pillows. Without them they are
-// made anew, with creases.
+// Blender: the normals are those of vertices, even where faces are flat, so that cubes look like pillows. Without them new ones
+// are computed, with creases.
 void drop_normals(aiScene& scene) {
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
         delete[] scene.mMeshes[m]->mNormals;

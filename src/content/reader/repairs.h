@@ -1,4 +1,4 @@
-// Known faults of Assimp 5.2's loaders, mended on the scene as loaded, before post-processing.
+// Known faults of Assimp 5.2's loaders, corrected in the scene as loaded, before post-processing.
 #pragma once
 #include <assimp/scene.h>
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstring>
 
-// One well-kept decoder for the formats that models carry; it runs in this confined process only.
+// One well-maintained decoder for the formats that models use; it runs in this confined process only.
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_MAX_DIMENSIONS 16384

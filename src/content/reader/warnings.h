@@ -1,4 +1,4 @@
-// What Assimp's loaders complain about while they go on.
+// The warnings of Assimp's loaders.
 #pragma once
 #include <assimp/DefaultLogger.hpp>
 
