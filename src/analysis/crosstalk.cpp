@@ -35,7 +35,7 @@ constexpr const char* definitions[][2] = {
 
 double percent(double share) { return 100 * std::max(1 - share, 0.) / share; }
 
-/// One eye on a level with the screen's middle, at the viewing distance.
+/// One eye level with the screen's middle, at the viewing distance.
 class Eyes {
   public:
     Eyes(Subject& s, Job& job)
@@ -131,7 +131,7 @@ void between_views(const Subject& s, Eyes& eyes, Result& result) {
     if (last < 0)
         result.note("between_views", "a view is a strip one panel pixel wide, and elemental images are narrower than a pixel");
     else if (std::isnan(middle.value))
-        result.note("between_views", "no light that is meant for any lens reaches an eye before the screen's middle");
+        result.note("between_views", "no light that is meant for any lens reaches an eye in front of the screen's middle");
     result.findings.push_back({"Crosstalk between views, the middle one: Woods, IEC 62629-22-1 and IDMS alike",
                                "%",
                                {middle.value},
@@ -186,7 +186,7 @@ std::array<std::vector<Estimate>, 2> look_with_both_eyes(Eyes& eyes, const std::
     return found;
 }
 
-/// Two eyes do not both stand in the one viewing zone: nothing of what is meant for the one reaches it.
+/// The eyes are not both in the one viewing zone, so that crosstalk between them is undefined.
 void tell_apart(const Subject& s, Eyes& eyes, double zone_mm, Result& result) {
     eyes.parts.run(heads, [](int) {});
     Json& json = result.figures["between_eyes"];
@@ -240,7 +240,7 @@ void between_eyes(const Subject& s, Eyes& eyes, Result& result) {
     json["theory_percent"] = number_json(theory);
     add_limits(result, json, "between_eyes.", "head_within_10_percent_mm", range);
     result.findings.push_back(finding("Head's places where both eyes have at most 10 % crosstalk", "mm", range, {},
-                                      "what the panel shows stays; looked at to 1.5 eye distances"));
+                                      "the panel's picture stays; searched to 1.5 eye distances"));
     result.plots.push_back(std::move(plot));
     result.tables.push_back(std::move(table));
 }
@@ -264,13 +264,13 @@ Result measure_crosstalk(Subject& s, Job& job) {
         "Crosstalk is 100 (leak - black) / (signal - black) by Woods 2012, and with the panel's black at 0 and light that adds, by "
         "IEC 62629-22-1 and by IDMS too; luminance is averaged over the screen. A view is a strip of every elemental image one "
         "panel "
-        "pixel wide, and whole views alone count; the leak is the light of all other views. For "
-        "two eyes, left and right of the middle of every elemental image are meant for the eyes on either side of a head before "
-        "the screen's middle.");
+        "pixel wide, and only whole views count; the leak is the light of all other views. For "
+        "two eyes, left and right of the middle of every elemental image are meant for the eyes on either side of a head in front "
+        "of the screen's middle.");
     result.remarks.push_back(fmt::format(
         "Paraxially an eye gathers {:.3g} views at once: lens apertures and the diffuser mix neighbouring views wherever the "
         "central depth plane is not at the eye. That is how a light field display shows depth, and what a display of two views "
-        "must avoid. Theory does not know aberration.",
+        "must avoid. Theory leaves out aberration.",
         eyes.theory.width() / eyes.view_slope));
     return result;
 }

@@ -1,4 +1,4 @@
-// Crosstalk: how much of what is meant for others an eye sees. Floor 3.
+// Crosstalk: how much light an eye sees that is meant for other views or for the other eye. Floor 3.
 #pragma once
 #include "analysis/result.h"
 #include "analysis/subject.h"

@@ -67,7 +67,7 @@ Result measure_directions(Subject& s, Job& job) {
         job.advance(3);
     }
     Animation strip{"directions",
-                    fmt::format("The camera goes to and fro between {:.3g} and {:.3g} degrees: display and scene", -most, most),
+                    fmt::format("The camera moves to and fro between {:.3g} and {:.3g} degrees: display and scene", -most, most),
                     {},
                     0.1};
     const Display tiny = sized(s.display(), strip_width);

@@ -1,4 +1,4 @@
-// What the display looks like from around, beside the scene itself. Floor 3.
+// The display seen from several directions, beside the scene itself. Floor 3.
 #pragma once
 #include "analysis/result.h"
 #include "analysis/subject.h"
@@ -7,7 +7,7 @@ namespace lfdsim {
 
 std::int64_t directions_steps(const Subject&);
 /// A contact sheet of views at seven angles, horizontally and vertically, over their reference photographs, and an animation of the
-/// camera going to and fro.
+/// camera moving to and fro.
 Result measure_directions(Subject&, Job&);
 
 }  // namespace lfdsim

@@ -19,7 +19,7 @@ constexpr double least_depth_ssim = 0.85, most_slope_per_mm = 0.02 / 10;  // the
 /// Places count from the vertex plane, theory's from the rear principal plane.
 double from_vertex_mm(const Subject& s) { return s.geometry().rear_principal_mm - s.geometry().vertex_plane_mm; }
 
-/// Of the depths looked at the one next to the central depth plane, as inverse distances; in which run.
+/// Of the depths measured, the one nearest to the central depth plane in inverse distance; and its run.
 struct Centre {
     std::size_t run = 0, place = 0;
 };
@@ -40,7 +40,7 @@ struct DepthCurves {
     Curve screen, content;
 };
 
-/// `noisy`: the place where the noise is looked at; none if it is none of the run's.
+/// `noisy`: the place where the noise is measured; none if beyond the run's.
 DepthCurves measure(Subject& s, const std::vector<double>& depths, std::size_t noisy, double white, Job& job) {
     DepthCurves curves{{depths, {}}, {depths, {}}};
     for (std::size_t k = 0; k < depths.size(); ++k) {
@@ -60,7 +60,7 @@ DepthCurves measure(Subject& s, const std::vector<double>& depths, std::size_t n
     return curves;
 }
 
-/// Where the run ends, why.
+/// Adds, to limits that were not found, why the run ends.
 Interval explained(Interval i, const DepthRun& run) {
     if (i.empty) return i;
     if (!i.low.missing.empty()) i.low.missing += ": " + run.why_low;
@@ -92,9 +92,8 @@ void add_likeness(Subject& s, Result& result, Plot& plot, Job& job) {
     const std::vector<DepthRun> runs = dof_depths(s);
     if (runs.empty()) {
         const std::string why = fmt::format(
-            "none of the depths within twice theory's depth of field can be looked at from {:.4g} mm: they are among the lenses, "
-            "at the "
-            "eye or too far behind; --depths-mm chooses others",
+            "none of the depths within twice theory's depth of field can be seen from {:.4g} mm: they are among the lenses, "
+            "at the eye or too far behind; --depths-mm chooses others",
             eye_distance_mm(s.display()));
         for (const char* name : {"ssim_rule_mm", "gradient_rule_mm", "most_alike_mm"}) {
             result.figures[name] = Json();
@@ -116,7 +115,7 @@ void add_likeness(Subject& s, Result& result, Plot& plot, Job& job) {
         const std::vector<double>* columns[] = {&depths, &curves.screen.value, &curves.content.value};
         for (std::size_t c = 0; c < 3; ++c)
             table.columns[c].values.insert(table.columns[c].values.end(), columns[c]->begin(), columns[c]->end());
-        const std::string where = runs.size() == 1 ? "" : r == 0 ? ", behind the lenses" : ", before the lenses";
+        const std::string where = runs.size() == 1 ? "" : r == 0 ? ", behind the lenses" : ", in front of the lenses";
         plot.series.push_back({"screen" + where, depths, curves.screen.value});
         plot.series.push_back({"content" + where, depths, curves.content.value});
     }
@@ -140,7 +139,7 @@ Result measure_dof(Subject& s, Job& job) {
     Result result;
     Plot plot{"dof",
               "Likeness of the simulated view to the scene",
-              "depth of the scene before the lenses, mm",
+              "depth of the scene in front of the lenses, mm",
               "SSIM",
               {},
               {{"0.85", least_depth_ssim, false}}};
@@ -166,7 +165,7 @@ Result measure_dof(Subject& s, Job& job) {
         "lenses "
         "and the central depth plane, since nearer scenes are sampled by more pixels' rays. Both are shown, neither is fitted to "
         "the "
-        "other. Depths by spot size are one interval of 1/z: where it goes through infinity, what is sharp lies beyond both ends.");
+        "other. Depths by spot size are one interval of 1/z: where it goes through infinity, sharp depths lie beyond both ends.");
     return result;
 }
 

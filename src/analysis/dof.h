@@ -6,7 +6,7 @@
 namespace lfdsim {
 
 std::int64_t dof_steps(const Subject&);
-/// Throws InputError for depths that were asked for inside the lenses, or fewer than three.
+/// Throws InputError for requested depths inside the lenses, or fewer than three of them.
 Result measure_dof(Subject&, Job&);
 
 }  // namespace lfdsim

@@ -16,7 +16,7 @@ struct DepthRange {
     double length() const { return std::max(high - low, 0.); }
 };
 
-/// Where the scene's centre can be looked at behind the lenses, and before them.
+/// Where the scene's centre can be seen behind the lenses, and in front of them.
 struct Reach {
     DepthRange behind, before;
 };
@@ -41,7 +41,7 @@ Reach reach(const Subject& s) {
 
 std::vector<DepthRun> dof_depths(const Subject& s) {
     if (!s.options().depths_mm.empty()) {
-        const std::string asked = "the depths that were asked for end there";
+        const std::string asked = "the requested depths end there";
         return {{s.options().depths_mm, asked, asked}};
     }
     const Theory& t = s.theory();

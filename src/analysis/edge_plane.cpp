@@ -15,10 +15,10 @@
 namespace lfdsim {
 namespace {
 
-constexpr int least_lenses = 400;  // that edges cross: so many phases of the lenses enter the mean
+constexpr int least_lenses = 400;  // that edges cross, so that as many phases of the lenses enter the mean
 constexpr double golden = 0.6180339887498949;
 constexpr int most_pictures = 32;                         // of one view, to reach as many
-constexpr double most_lost = 0.2;                         // of the light, farther from an edge than was looked
+constexpr double most_lost = 0.2;                         // of the light, beyond an edge's reach
 constexpr double pixels_wanted = 8e5, most_pixels = 4e6;  // of all pictures of a view
 
 }  // namespace
@@ -33,7 +33,7 @@ double EdgePlane::pitch_mm() const {
     return s_.display().array.pitch_mm[bars_.upright ? 0 : 1] * scale_to_bars(s_.geometry(), bars_, eye(0));
 }
 
-/// Makes bars wide enough to hold twice the blur, such that neighbouring edges meet the lenses in ever other phases, or as wide as
+/// Makes bars wide enough to hold twice the blur, such that neighbouring edges meet the lenses in different phases, or as wide as
 /// fit on the screen.
 void EdgePlane::set_bars(double blur_mm, double angle_deg) {
     const double pitch = pitch_mm(), tangent = std::tan(slant_deg * degree);
@@ -70,7 +70,7 @@ void EdgePlane::show(int picture) {
     panel_ = bars_panel(s_.display(), s_.geometry(), bars_, s_.threads());
 }
 
-/// Of the pictures, in the edges' plane: a quarter of the finest period at most.
+/// A pixel of the pictures, in the edges' plane: at most a quarter of the finest period.
 double EdgePlane::pixel_mm(double most_per_mm) const {
     const double across = seen_half_mm(s_.display(), s_.geometry(), bars_, eye(0))[0];
     const double area = pictures_ * bars_.length_mm * 2 * across;
@@ -109,7 +109,7 @@ void EdgePlane::measure(std::span<MtfCurves> all_curves) {
     bool any = true;
     for (int k = 0; k < pictures_ && any; ++k) {
         show(k);
-        any = k < pictures_ / 4;  // small screens may hold an edge at some places only
+        any = k < pictures_ / 4;  // small screens may show an edge at some offsets only
         for (std::size_t n = 0; n < curves.size(); ++n) {
             Eye from = eye(curves[n]->angle_deg);
             from.aside_mm = pixel * std::fmod(k * golden, 1);

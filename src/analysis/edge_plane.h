@@ -15,7 +15,7 @@ class EdgePlane {
     /// Edges at a depth in front of the vertex plane. `white`: the panel that shows white all over.
     EdgePlane(const Subject&, double depth_mm, bool horizontal, const Pyramid& white, const Job&);
 
-    /// Adds the edges to the curves of this plane and direction, from several angles; to those that have none missing. Throws
+    /// Adds the edges to the curves of this plane and direction, from several angles, except where modulation is missing. Throws
     /// Stopped.
     void measure(std::span<MtfCurves>);
 
@@ -33,7 +33,7 @@ class EdgePlane {
     const Job& job_;
     Bars bars_;
     std::unique_ptr<ShownPanel> panel_;  // that shows the bars
-    int pictures_ = 1;                   // the bars are moved by this share of their width from one to the next
+    int pictures_ = 1;                   // the bars move by 1/pictures_ of their width from one to the next
 };
 
 }  // namespace lfdsim

@@ -10,7 +10,7 @@
 #include <cmath>
 
 // Places in the bars' plane are (a, b), a rising across upright bars to the right and b down along them: (x, -y). For bars that
-// are not upright the two change their parts: (-y, x). A picture, transposed for the latter, has its columns along a, rows along b.
+// are not upright the two swap: (-y, x). A picture, transposed for the latter, has its columns along a, rows along b.
 namespace lfdsim {
 namespace {
 
@@ -23,7 +23,7 @@ struct Box {
     double a, b, half_a, half_b;  // centre and half sizes
 };
 
-/// The upright rectangle within the array, where there is a panel behind it too, less a lens at each border.
+/// The upright rectangle within the array and in front of the panel, less a lens at each border.
 Box screen_middle(const Display& d, const Geometry& g) {
     const double c = std::abs(std::cos(d.array.rotation_deg * degree)), s = std::abs(std::sin(d.array.rotation_deg * degree));
     const double w = 0.5 * g.array_width_mm, h = 0.5 * g.array_height_mm;
@@ -96,7 +96,7 @@ std::array<double, 2> seen_half_mm(const Display& d, const Geometry& g, const Ba
 
 EdgeView edge_view(const Display& display, const Geometry& geometry, const Bars& bars, const Eye& eye, double pixel_mm) {
     EdgeView view{display, {}, {}};
-    // Points: filtered samples read the panel in boxes, whose width would count as blur. Noise leaves the mean edge alone.
+    // Point samples: filtered ones average the panel over boxes, which would count as blur. Noise does not bias the mean edge.
     view.seen.render.estimator = Estimator::point;
     view.seen.render.samples = samples_a_pixel;
     Box box = seen_box(display, geometry, bars, eye);

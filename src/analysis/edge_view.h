@@ -1,4 +1,4 @@
-// Slanted edges that a display shows at a depth, and pictures of them from around it. Floor 3.
+// Slanted edges that a display shows at a depth, and pictures of them from several angles. Floor 3.
 #pragma once
 #include "analysis/slanted_edge.h"
 #include "analysis/subject.h"
@@ -7,12 +7,12 @@ namespace lfdsim {
 
 inline constexpr double slant_deg = 7;  // of the edges from the vertical or the horizontal
 
-/// Bars, white and black in turn, that stand side by side in a plane before or behind the display: each border is a slanted edge.
+/// White and black bars, side by side in a plane in front of or behind the display: each border is a slanted edge.
 struct Bars {
     bool upright;      // edges near the vertical, which show what is resolved horizontally; else near the horizontal
     double z_mm;       // of their plane, from the panel
     double width_mm;   // of a bar, across it
-    double length_mm;  // of the part that is looked at
+    double length_mm;  // of the part that is used
     double offset_mm;  // across, of one edge with white on the side that `across_mm` rises to
 };
 
@@ -23,19 +23,19 @@ double across_mm(const Bars&, double x, double y);
 /// meets, as elemental images of scenes are made: no pixel is grey at an edge. Without bars: white all over.
 std::unique_ptr<ShownPanel> bars_panel(const Display&, const Geometry&, const std::optional<Bars>&, int threads);
 
-/// How edges are looked at: a pinhole at `distance_mm` from the panel's centre, `angle_deg` to the right (within +-80).
+/// The eye that looks at edges: a pinhole at `distance_mm` from the panel's centre, `angle_deg` to the right (within +-80).
 struct Eye {
     double angle_deg, distance_mm;
-    double aside_mm = 0;  // moved to the right and up by so much, so that the pixels of several pictures look at different places
+    double aside_mm = 0;  // shift to the right and up, so that the pixels of several pictures look at different places
     double x_mm() const;
     double z_mm() const;
 };
 
-/// How wide a unit of the lenses' plane is as the eye sees it in the bars'.
+/// The length in the bars' plane onto which the eye projects a unit length of the lenses' plane.
 double scale_to_bars(const Geometry&, const Bars&, const Eye&);
 
-/// The part of the screen's middle through which an eye sees as many edges, from its centre outwards, as cross this many lenses.
-/// Its frame is parallel to the panel, so that the bars' plane appears in one scale, `pixel_mm` a pixel.
+/// A view of the edges that fit into the middle of the screen as an eye sees it. Its frame is parallel to the panel, so that the
+/// bars' plane appears at one scale, `pixel_mm` to a pixel.
 struct EdgeView {
     Display seen;
     Rect crop;
@@ -44,8 +44,8 @@ struct EdgeView {
 };
 EdgeView edge_view(const Display&, const Geometry&, const Bars&, const Eye&, double pixel_mm);
 
-/// The half sizes, in the bars' plane, of what an eye sees of it through the screen: across the bars and along them, there no
-/// longer than edges may be without leaving it sideways. Not above 0: nothing is seen.
+/// Half the width and length of the part of the bars' plane that an eye sees through the screen: across the bars, and along them,
+/// where it is limited so that slanted edges stay within it. 0 or less: nothing is seen.
 std::array<double, 2> seen_half_mm(const Display&, const Geometry&, const Bars&, const Eye&);
 
 /// The picture of a panel in that view, transposed where the edges are not upright. Throws Stopped.

@@ -13,14 +13,13 @@ namespace {
 
 constexpr int budget_rays_a_part = 1 << 12;
 
-/// Of the light that one part's rays find.
+/// The light that one part's rays find.
 struct Found {
     double reaches = 0, leaves = 0, leaves_in_fov = 0;
 };
 
-/// Real lenses keep radiance and so, with the bundle's extent in place and direction, its flux. The ideal lens keeps a bundle's
-/// extent in slopes, which is that in directions over the cosine's fourth power: this is how much less or more flux it lets out for
-/// the radiance that it shows.
+/// Real lenses conserve radiance and etendue, and so a bundle's flux. The ideal lens conserves a bundle's extent in slopes, which
+/// is that in directions over the cosine's fourth power: this is the ratio of its flux to the radiance that it shows.
 double flux_per_radiance(const Vec3d& at, const Vec3d& to, const Sight& sight) {
     const double x = (sight.x - at[0]) / at[2], y = (sight.y - at[1]) / at[2];
     const double ratio = 1 / ((1 + x * x + y * y) * to[2] * to[2]);  // of the squared cosines, before the lens over after it
@@ -34,8 +33,8 @@ std::array<LightBudget, independent_sets> light_budgets(const Display& display, 
     bare.diffuser.reset();
     const EyeRays lenses(bare, resolve(bare));
     const double width = geometry.array_width_mm, height = geometry.array_height_mm;
-    // Caps rise above their rims: what slants out of them at the border crosses the vertex plane beside the array. Where all is
-    // black there but for that light, it is counted.
+    // Caps rise above their rims: light that leaves them obliquely at the border crosses the vertex plane beside the array. Where
+    // no other light does, in black surrounds, it is counted.
     const bool black = display.array.surround == Surround::opaque;
     const double margin = black ? 8 * (geometry.vertex_plane_mm - geometry.base_z_mm) : 0;
     const double m = display.panel.emission_exponent, fov_slope[] = {display.array.pitch_mm[0] / (2 * geometry.gap_mm),
@@ -47,7 +46,7 @@ std::array<LightBudget, independent_sets> light_budgets(const Display& display, 
     parts.run(light_budget_parts, [&](int part) {
         Found& sum = sums[std::size_t(part)];
         for (const Choice& choice : even_choices(rays, set_number(display.render.seed, part))) {
-            Vec3d to;  // as dense as its cosine: evenly over the disk below the hemisphere
+            Vec3d to;  // as dense as its cosine: uniform over the disk below the hemisphere
             optics::disk(choice[2], choice[3], to[0], to[1]);
             to[2] = -std::sqrt(std::max(1 - to[0] * to[0] - to[1] * to[1], 0.));
             if (!(to[2] < -1e-9)) continue;

@@ -13,15 +13,15 @@ namespace lfdsim {
 struct LightBudget {
     double emitted;        // by the panel, into its hemisphere: its area times 2 pi / (m + 2)
     double reaches_array;  // of it, the array's rectangle at the height of its lowest point
-    double leaves;         // through the array's rectangle in the vertex plane, before the diffuser, in any direction
+    double leaves;         // through the array's rectangle in the vertex plane, without the diffuser, in any direction
     double leaves_in_fov;  // of it, with slopes within p/2g along both axes of the array
 };
 
 constexpr int light_budget_parts = 128;
 
-/// Rays traced backwards from all places before the array and in all directions, as many of each as carry equal shares of an even
-/// radiance: what they find of the panel's, times pi and the area, is the light that leaves.
-/// As each set of rays finds it.
+/// The budget by each set of rays. Rays are traced backwards from all places in front of the array and in all directions, so that
+/// each stands for an equal share of a uniform radiance: the panel's radiance that they find, times pi and the area, is the light
+/// that leaves.
 std::array<LightBudget, independent_sets> light_budgets(const Display&, const Geometry&, Parts&);
 
 /// The mean of all sets but one.

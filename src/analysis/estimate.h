@@ -15,10 +15,10 @@ namespace lfdsim {
 
 struct Estimate {
     double value = std::numeric_limits<double>::quiet_NaN();
-    double error = std::numeric_limits<double>::quiet_NaN();  // covers the truth in 95 of 100 cases
+    double error = std::numeric_limits<double>::quiet_NaN();  // covers the true value in 95 of 100 cases
 };
 
-/// Of two to eight of them: the mean, and Student's factor for 95 % times its standard error, plus what each may be off by.
+/// Of two to eight values: the mean, and Student's factor for 95 % times its standard error, plus `precision`, the error of each.
 inline Estimate estimate(std::span<const double> found, double precision = 0) {
     constexpr std::array<double, 9> student{0, 0, 12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36};
     const double n = double(found.size());
@@ -28,19 +28,19 @@ inline Estimate estimate(std::span<const double> found, double precision = 0) {
     return {sum, precision + student[std::min<std::size_t>(found.size(), 8)] * std::sqrt(squares / (n - 1) / n)};
 }
 
-/// A figure is measured with so many independent sets of random numbers.
+/// The number of independent sets of random numbers with which a figure is measured.
 inline constexpr int independent_sets = 8;
 
 /// A figure of all sets together and its error, by the jackknife: figure(k) is that of all sets but k, figure(-1) that of all of
 /// them. It may be any smooth function of sums over the sets. Where it is not finite the error is NaN.
 Estimate jackknife(const std::function<double(int without)>& figure);
 
-/// Of each set.
+/// One sum for each set.
 using Sums = std::array<double, independent_sets>;
-/// Of all sets but one.
+/// Over all sets, or all but one.
 double total(const Sums&, int without = -1);
 
-/// The number of the n-th set of random numbers: other ones for each render.seed.
+/// The number of the n-th set of random numbers, different for each render.seed.
 std::uint32_t set_number(std::int64_t seed, int n);
 
 /// Writes json[name] and json[name + "_error"].

@@ -15,13 +15,13 @@ namespace {
 
 optics::PanelPoint<double> trace(const optics::Scene<double>& scene, const optics::Extent<double>& extent,
                                  const optics::Ray<double>& ray) {
-    const optics::PanelBase<double> base{};  // the point then counts from where the base lens's axis meets the panel
+    const optics::PanelBase<double> base{};  // the point is then relative to where the base lens's axis meets the panel
     return optics::with_way(scene,
                             [&]<optics::Way through>() { return optics::trace_array<through>(scene, extent, base, ray, true); });
 }
 
-/// Whether a line among glass meets a lens at all, and the first that it meets. In `clear` all glass is lenses; in `plate` it is
-/// what is not flat. In the array's axes, from the base lens's, z from the panel.
+/// Whether a line in a glass surround meets a lens, and the first that it meets. In `clear` all glass is lenses; in `plate` what is
+/// not flat. In the array's axes, from the base lens's, z from the panel.
 bool first_lens(const optics::Scene<double>& scene, const optics::Extent<double>& extent, const optics::Ray<double>& ray,
                 optics::Cell<double>& cell) {
     optics::GlassRays<double> rays{ray.at, ray.to, {0, 0}, false, false};
@@ -79,7 +79,7 @@ Vec3d EyeRays::aim(const Vec3d& eye, const Choice& choice) const {
     };
     const Place axis = optics::axis_in_array(lattice, optics::Cell<double>{number(0), number(1)});
     Place moved{0, 0};
-    if (scene_.has_diffuser) {  // how far the diffuser carries the line through the lens's axis
+    if (scene_.has_diffuser) {  // how far the diffuser shifts the line through the lens's axis
         const Vec3d centre = point(axis.x, axis.y), to = normalised(minus(centre, eye));
         const optics::Vec3<double> turned =
             optics::scatter(scene_, optics::Vec3<double>{to[0], to[1], to[2]}, choice[2], choice[3]);
@@ -117,7 +117,7 @@ Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) 
     if (scene_.has_diffuser) ray.to = optics::scatter(scene_, ray.to, a, b);
     if (!(ray.to.z < 0)) return {};
     const optics::Extent<double> extent{-base_.i, lattice.count[0] - 1 - base_.i, -base_.j, lattice.count[1] - 1 - base_.j};
-    // The point where the line would come down to a height, from the base lens in the array's frame
+    // The point where the line would reach a height, from the base lens in the array's frame
     const auto come_down_to = [&](double z) {
         const double fall = (z - start_z_) / ray.to.z;
         const auto [dx, dy] = optics::to_array(lattice, fall * ray.to.x, fall * ray.to.y);
@@ -136,7 +136,7 @@ Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) 
         std::abs(x) * scene_.pixels_per_mm > 0.5 * scene_.columns || std::abs(y) * scene_.pixels_per_mm > 0.5 * scene_.rows;
     optics::Cell<double> cell = end.cell;
     bool by_lens = true;
-    if (optics::way_through(scene_) == optics::Way::glass) {  // light finds its own way: its lens is the first that it meets
+    if (optics::way_through(scene_) == optics::Way::glass) {  // rays may change cells: their lens is the first that they meet
         const auto [leaves_x, leaves_y] = come_down_to(vertex_plane_);
         cell = optics::cell_at(lattice, leaves_x, leaves_y);
         const auto [to_x, to_y] = optics::to_array(lattice, ray.to.x, ray.to.y);

@@ -21,7 +21,7 @@ std::vector<Choice> even_choices(int count, std::uint32_t set = 0);
 /// Where a line of sight ends.
 struct Sight {
     double light = 0;      // radiance, 1 for a white panel's along its normal; 0: it is blocked, or ends beside the panel
-    bool through = false;  // it gets through the array; else the rest means nothing
+    bool through = false;  // it gets through the array; else the rest is meaningless
     bool by_lens = false;  // it meets a lens on its way; among glass others pass between the caps
     double x = 0, y = 0;   // in the panel's plane, mm from its centre
     Vec3d lens{};          // where the axis of the cell that it came through meets the vertex plane
@@ -34,24 +34,24 @@ class EyeRays {
     /// A valid display.
     EyeRays(const Display&, const Geometry&);
 
-    /// Of an eye at `eye`, before the display. The line aims at a point of the array's rectangle in the vertex plane and is turned
-    /// where it crosses the diffuser, as camera rays are. For each choice of lens and angles its place in the cell is moved round
-    /// by as much as the diffuser turns it, which leaves all means as they are and spreads it evenly where it meets the lens.
+    /// From an eye in front of the display. The line aims at a point of the array's rectangle in the vertex plane and is turned
+    /// where it crosses the diffuser, as camera rays are. For each choice of lens and angles its place in the cell is shifted
+    /// cyclically by as much as the diffuser moves it, which keeps all means and spreads lines evenly where they meet the lens.
     Sight look(const Vec3d& eye, const Choice&) const;
 
     /// The point of the vertex plane that this line aims at.
     Vec3d aim(const Vec3d& eye, const Choice&) const;
 
-    /// Of the line from an eye through a point, turned by the diffuser's angles for the numbers a and b.
+    /// For the line from an eye through a point, turned by the diffuser's angles for the numbers a and b.
     Sight look_through(const Vec3d& eye, const Vec3d& point, double a, double b) const;
 
-    /// Of the line that comes down to `at` along the unit vector `to`.
+    /// For the line that comes down to `at` along the unit vector `to`.
     Sight look_along(const Vec3d& at, const Vec3d& to, double a, double b) const;
 
     /// The point (x, y), mm in the array's own axes from its centre, in the vertex plane.
     Vec3d point(double x, double y) const;
 
-    /// How many times as many lines of sight it takes for means to be good where most of them are blocked: 1, 2, 4 or 8.
+    /// The factor by which means need more lines of sight where most of them are blocked: 1, 2, 4 or 8.
     int more_for(const Vec3d& eye) const;
 
   private:
@@ -59,8 +59,8 @@ class EyeRays {
 
     optics::Scene<double> scene_;
     double vertex_plane_, start_z_;
-    bool stop_first_;            // light comes to the stop before all surfaces
-    optics::Cell<double> base_;  // lenses are told from one in the middle
+    bool stop_first_;            // lines of sight meet the stop before all surfaces
+    optics::Cell<double> base_;  // lenses are counted from this one in the middle
 };
 
 /// Distance of eyes from the panel. Throws InputError where that lies inside the display.

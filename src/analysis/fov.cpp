@@ -56,7 +56,7 @@ AngleCurves measure(const Subject& subject, const ShownEdge& shown, int axis, co
     // The CPU photographs the scene from the next angle while a GPU renders and compares.
     make_ahead(
         angles.size(), renders_on_gpu({}), [&](std::size_t k) { return expected_at(angles[k]); }, compare);
-    // The noise where it counts: about the edges that theory expects, and between; root mean square.
+    // The noise where it matters: at the edges that theory predicts, and between; root mean square.
     const double edge = std::min(theory_edge_deg(subject, axis), angles.back());
     const double places[] = {-edge, -0.5 * edge, 0.5 * edge, edge};
     for (const double angle : places) {
@@ -305,14 +305,13 @@ Result measure_fov(Subject& subject, Job& job) {
                         aside));
     if (depth != described)
         result.remarks.push_back(fmt::format(
-            "The scene stands at {:.4g} mm here: at {:.4g} mm, as described, it would not be seen before the screen from "
+            "The scene stands at {:.4g} mm here: at {:.4g} mm, as described, it would not be seen against the screen from "
             "all of these places, or an eye would stand in it.",
             depth, described));
     result.remarks.push_back(
-        "The field of view is that of the geometry: it depends on no content, picture or step. SSIM compares whole pictures: "
+        "The field of view is the geometric one: it depends on no content, picture or step. SSIM compares whole pictures: "
         "aberration, the diffuser's blur and the panel's pixels lower it everywhere, the repeated views beyond the edge suddenly. "
-        "So "
-        "its edge should lie where geometry says, and the published thresholds tell how good the picture is.");
+        "So its edge should lie where geometry puts it, and the published thresholds rate the picture's quality.");
     return result;
 }
 

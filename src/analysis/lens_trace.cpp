@@ -11,7 +11,7 @@
 namespace lfdsim {
 namespace {
 
-/// How far a ray is from getting through that misses by `excess` at one of the tests, with so many more to come.
+/// How far a ray that fails a test by `excess` is from getting through, with so many more tests to come.
 double missed(int to_come, double excess) { return to_come + 1 + (excess >= 0 ? 1 - 1 / (1 + excess) : 1); }
 
 }  // namespace
@@ -24,8 +24,8 @@ LensTrace::LensTrace(const Display& display, const Geometry& geometry)
     for (int k = 0; k < scene_.surface_count; ++k) {
         auto& surface = scene_.surface[k];
         semi_aperture_mm_[k] = surface.semi_aperture;
-        surface.semi_aperture = 1e30;  // the aperture is tested here, for a search wants to know by how much it is missed
-        surface.c_rim = 1;             // a ball's half
+        surface.semi_aperture = 1e30;  // the aperture is tested here, as a search needs to know by how much it is missed
+        surface.c_rim = 1;             // half a ball
     }
 }
 
@@ -47,13 +47,13 @@ double LensTrace::blocked_by_ideal(Point panel, Point slope, LensRay& out) const
     return 0;
 }
 
-/// What pass_lens() asks of a lens on which a search aims: by how much each ray misses where it ends.
+/// What pass_lens() calls for a search: records by how much each ray misses where it ends.
 struct LensTrace::Aim : optics::Alone<double> {
     const LensTrace& lens;
     const int count = scene.surface_count;
     const bool black = scene.surround == Surround::opaque;
     double miss = 0;       // the answer; 0: it gets through
-    double astray = 0;     // by how much it misses this lens's own stop, to which a search must find
+    double astray = 0;     // by how much it misses this lens's own stop, which a search must find
     double last = 0;       // by how much it misses the way out
     bool stopped = false;  // by the sheet of stops
 
@@ -65,16 +65,16 @@ struct LensTrace::Aim : optics::Alone<double> {
         if (!crosses) return true;
         astray = std::max(std::hypot(x, y) / std::sqrt(scene.stop_radius2) - 1, 0.);
         stopped = !Alone::passes_stop(true, x, y);
-        return true;  // it counts once the surface is reached, of which a search can tell how near it came
+        return true;  // it counts once the surface is reached, as a search needs the distance to that first
     }
     void meets(int k, const optics::Ray<double>& ray, const optics::Hit<double>& hit, double from_z, double z,
                optics::Passage<double>& way) {
         const int to_come = 3 * (count - k);  // to meet it, to be within its aperture, to get on
         const double radius = lens.semi_aperture_mm_[k], excess = lens.outside(hit.at.x, hit.at.y, radius);
         const double eta = scene.surface[k].media.eta, sine2 = eta * eta * (1 - hit.cos2);
-        if (!(ray.to.z < 0)) return end(way, to_come + 1, 1 + ray.to.z);  // turned up by the surface before
+        if (!(ray.to.z < 0)) return end(way, to_come + 1, 1 + ray.to.z);  // turned up by the previous surface
         if (!hit.ok) return end(way, to_come, std::max(lens.outside(ray.at.x, ray.at.y, radius), 0.));
-        if (!(z <= from_z)) return end(way, to_come, z - from_z);  // it meets this surface before the last
+        if (!(z <= from_z)) return end(way, to_come, z - from_z);  // it meets this surface before the previous one
         if (stopped || !(excess <= 0)) return end(way, to_come - 1, excess);
         if (!(sine2 < 1)) return end(way, to_come - 2, sine2 - 1);  // total internal reflection
     }
@@ -125,7 +125,7 @@ std::optional<LensRay> LensTrace::ray(Point panel, Point cosines) const {
 
 std::optional<Directions> LensTrace::directions(Point panel) const {
     if (const auto found = search(panel, {-1, 1, -1, 1})) return found;
-    // Among many surfaces, stray light may have led astray: begin closer about the nodal ray.
+    // With many surfaces, stray light may have misled the search: start closer to the nodal ray.
     const double length = std::hypot(panel[0], panel[1], gap_mm_), x = -panel[0] / length, y = -panel[1] / length;
     for (const double reach : {1 / 16., 1 / 256., 1 / 4096.})
         if (const auto found = search(panel, {x - reach, x + reach, y - reach, y + reach})) return found;
@@ -150,7 +150,7 @@ std::optional<Directions> LensTrace::search(Point panel, Directions box) const {
                 open = {std::min(open.x0, d[0]), std::max(open.x1, d[0]), std::min(open.y0, d[1]), std::max(open.y1, d[1])};
             }
         }
-        if (least > 0) {  // all miss: look closer about the one that comes nearest
+        if (least > 0) {  // all miss: search closer about the one that comes nearest
             box = {nearest[0] - 3 * dx, nearest[0] + 3 * dx, nearest[1] - 3 * dy, nearest[1] + 3 * dy};
             continue;
         }
@@ -175,7 +175,7 @@ Bundle bundle(const LensTrace& lens, Point panel, int across) {
 
 namespace {
 
-/// The rays of direction(s), s from low to high, that get through, with those at the very ends of what does.
+/// The rays of direction(s), s from low to high, that get through, with those at the very ends of each open range.
 template <class Direction>
 std::vector<double> open_places(const LensTrace& lens, Point panel, double low, double high, int rays, Direction direction) {
     const auto open = [&](double s) { return lens.ray(panel, direction(s)).has_value(); };

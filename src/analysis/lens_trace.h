@@ -1,8 +1,8 @@
 // Light from a point of the panel through one lens to the viewer's side, in double precision. Floor 3.
 //
 // Lengths in mm from the lens's axis, in the axes of the array; depths z from the lens's rear principal plane, towards the viewer.
-// The lens stands alone: its surfaces in their order, its own apertures, and the sheet of stops. In clear and plate surrounds what
-// crosses walls is therefore left out.
+// The lens stands alone: its surfaces in their order, its own apertures, and the sheet of stops. In clear and plate surrounds light
+// that crosses walls is therefore left out.
 #pragma once
 #include "model/display.h"
 #include "model/geometry.h"
@@ -45,7 +45,7 @@ class LensTrace {
     double outside(double x, double y, double radius) const;
     struct Aim;
 
-    // Of the lens turned over, for the tracer's rays come down: the panel stays in z = 0, the lens stands below it.
+    // The lens turned over, as the tracer's rays come down: the panel stays in z = 0, the lens is below it.
     optics::Scene<double> scene_;
     double semi_aperture_mm_[max_surfaces];
     double rear_principal_mm_, gap_mm_;
@@ -79,7 +79,7 @@ struct Width {
 Width width_at(const std::vector<Line>&, double z);
 
 /// Half the diffuser's full angle (gaussian: full width at half maximum) along a unit vector of the array's axes, radians; 0
-/// without.
+/// without one.
 double diffuser_angle(const Display&, Point along);
 
 /// The outermost lines after a diffuser at depth z that turns each by as much as +-angle (radians), up to 89 degrees from the axis.

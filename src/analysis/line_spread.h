@@ -1,4 +1,5 @@
-// How far what an eye sees of a plane lies from where it looks; the transform of that is the modulation transfer. Floor 3.
+// Line spread: how far the point of a plane that an eye is shown lies from the point that it looks at. Its transform is the
+// modulation transfer. Floor 3.
 //
 // A line of sight ends on a panel pixel, which shows what its lens's nodal line meets in the plane. Of an edge there, an eye that
 // looks through all the screen sees the mean over these distances: no edge needs to be drawn, and no phase of lenses against
@@ -27,7 +28,7 @@ class LineSpread {
     using Sets = std::array<std::vector<Line>, independent_sets>;
     explicit LineSpread(Sets sets) : sets_(std::move(sets)) {}
 
-    /// Of the strip about 0 that holds this share of the light; NaN where there is none.
+    /// Width of the strip about 0 that contains this share of the light; NaN where there is none.
     double width_mm(double share) const;
 
     /// The modulus of the transform at `count` frequencies from 0 on in equal steps.
@@ -42,8 +43,8 @@ class SeenThroughLenses {
   public:
     SeenThroughLenses(const Subject&, const Vec3d& eye_mm);
 
-    /// Where the panel's pixels lie: as described, or shifted at random by up to a pixel, as assembly leaves them. On a screen of
-    /// many lenses the two agree; elsewhere their difference is part of the figure's stated error.
+    /// Where the panel's pixels lie: as described, or shifted at random by up to a pixel, as assembly may leave them. On a screen
+    /// of many lenses the two agree; elsewhere their difference is part of the figure's stated error.
     enum class Pixels { as_described, anywhere };
 
     /// In a plane at a height above the panel, below the eye; along x or, not horizontal, along y.

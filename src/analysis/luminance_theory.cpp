@@ -102,7 +102,7 @@ double transmission(const Display& d, const Geometry& g) {
     return t;
 }
 
-/// What lenses pass on of the light of a panel behind all of the array.
+/// The share of light that the lenses pass on, with a panel behind all of the array.
 double passed(const Display& d, const Geometry& g) {
     const auto r = [&](std::size_t k) { return 0.5 * g.clear_aperture_mm[k] / d.array.pitch_mm[k]; };
     const double fill = is_round(d) ? pi * r(0) * r(1) : 1, t = transmission(d, g);
@@ -113,7 +113,7 @@ double passed(const Display& d, const Geometry& g) {
 }  // namespace
 
 TheoryFigure luminance_over_panel(const Display& d, const Geometry& g, double eye_mm) {
-    if (d.panel.emission_exponent != 0) return {nan, "theory holds for a panel that is as bright from all sides"};
+    if (d.panel.emission_exponent != 0) return {nan, "theory holds for a panel that is equally bright from all directions"};
     if (d.array.rotation_deg != 0) return {nan, "theory holds for arrays that are not turned"};
     return {passed(d, g) * seen_share(d, g, eye_mm, 0) * seen_share(d, g, eye_mm, 1), ""};
 }

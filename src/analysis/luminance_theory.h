@@ -1,4 +1,4 @@
-// What paraxial theory says of a white screen's luminance. Floor 3.
+// A white screen's luminance by paraxial theory. Floor 3.
 #pragma once
 #include "model/display.h"
 #include "model/geometry.h"
@@ -13,7 +13,7 @@ struct TheoryFigure {
     std::string missing;
 };
 
-/// Mean luminance over the panel's that an eye on axis sees of the array's rectangle: what lenses fill of it, times their
+/// Mean luminance over the panel's that an eye on axis sees of the array's rectangle: the lenses' fill factor, times their
 /// transmission at normal incidence, times the share of its lines of sight that end on the panel and, behind a diffuser, cross the
 /// array at all.
 TheoryFigure luminance_over_panel(const Display&, const Geometry&, double eye_mm);

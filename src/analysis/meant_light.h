@@ -1,4 +1,4 @@
-// For whom the light is meant that an eye gathers. Floor 3.
+// The light that an eye gathers, by the viewers that it is meant for. Floor 3.
 #pragma once
 #include "analysis/estimate.h"
 #include "analysis/eye_rays.h"
@@ -22,17 +22,17 @@ class LineSets {
     std::array<std::vector<Choice>, independent_sets> sets_;
 };
 
-/// The light that one eye gathers of a white panel, told by whom its panel points are meant for: the horizontal slope at which
-/// their elemental image's lens shows them, through its nodal points, to a viewer before the screen's middle. A viewer at x, E from
-/// the principal plane, is meant to see the slope x/E.
+/// The light that one eye gathers of a white panel, by the viewers that its panel points are meant for: the horizontal slope at
+/// which their elemental image's lens shows them, through its nodal points, to a viewer in front of the screen's middle. A viewer
+/// at x, E from the principal plane, is meant to see the slope x/E.
 class MeantLight {
   public:
     MeantLight(const EyeRays&, const Pickup&, const Geometry&, const Vec3d& eye, const LineSets&);
     /// Of the slopes from low to high. Light exactly at either end counts half.
     Sums between(double low, double high) const;
     Sums all() const { return between(-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()); }
-    /// Crosstalk in per cent, 100 leak / signal: infinite where there is leak alone, NaN where there is no light. The error is not
-    /// less than what three lines of sight count, for as many may be missed by chance.
+    /// Crosstalk in per cent, 100 leak / signal: infinite where there is leak alone, NaN where there is no light. The error is at
+    /// least that of three lines of sight, as so many may be missed by chance.
     Estimate crosstalk_percent(const Sums& leak, const Sums& signal) const;
 
   private:

@@ -14,9 +14,9 @@ struct Measure {
     std::string_view says;    // what it means, in a sentence
     std::string_view source;  // where its definition comes from
     bool needs_scene;
-    /// About how long it takes, in pictures of the camera's size; the job is told of as many by advance().
+    /// About how long it takes, in pictures of the camera's size; the job's advance() adds up to as many.
     std::int64_t (*steps)(const Subject&);
-    /// Throws InputError for what does not suit the display, Stopped where the job is cancelled.
+    /// Throws InputError for options that do not suit the display, Stopped where the job is cancelled.
     Result (*run)(Subject&, Job&);
 };
 

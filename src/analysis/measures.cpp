@@ -21,10 +21,10 @@ constexpr Measure all[] = {
      "pictures by ray tracing; photographs of the scene by the same camera", true, directions_steps, measure_directions},
     {"fov", "Field of view", "From which angles the display shows the scene as it is, horizontally and vertically.",
      "SSIM thresholds of the 2019 paper; Wang et al. 2004 for SSIM; theory 2 atan(p / 2g)", true, fov_steps, measure_fov},
-    {"dof", "Depth of field", "At which depths before the lenses a scene is shown sharply.",
+    {"dof", "Depth of field", "At which depths from the lenses a scene is shown sharply.",
      "SSIM thresholds of the 2019 paper; spot sizes by ray tracing; paraxial theory", true, dof_steps, measure_dof},
     {"zone", "Viewing zone", "From where all of the screen shows its own views, and not those of neighbouring lenses.",
-     "Rays traced from viewers' places; paraxial theory", false, zone_steps, measure_zone},
+     "Rays traced from viewers' positions; paraxial theory", false, zone_steps, measure_zone},
     {"crosstalk", "Crosstalk", "How much light of other views, and of what the other eye should see, an eye sees.",
      "Woods 2012, IEC 62629-22-1, IDMS: 100 (leak - black) / (signal - black)", false, crosstalk_steps, measure_crosstalk},
     {"mtf", "Resolution", "How fine a detail the display shows at which depth, seen from which angle.",
@@ -46,7 +46,7 @@ const Measure& measure_named(std::string_view name) {
         if (m.name == name) return m;
         names += fmt::format("{}{}", names.empty() ? "" : ", ", m.name);
     }
-    throw InputError("MEASURE", fmt::format("\"{}\" is none; there are: all, {}", name, names));
+    throw InputError("MEASURE", fmt::format("\"{}\" is not a measure; there are: all, {}", name, names));
 }
 
 }  // namespace lfdsim

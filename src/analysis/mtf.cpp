@@ -62,12 +62,13 @@ void add_notes(const MtfCurves& m, const Resolution& r, std::size_t n, Result& r
                                               100 * level, m.frequencies_per_mm.back());
         if (std::isnan(m.below(level).value)) result.note(fmt::format("{}.{}", path, name), never);
         if (std::isnan(m.edges_below(1, level).value))
-            result.note(fmt::format("{}.edge_{}", path, name),
-                        m.edges[1].all.empty() ? "the screen shows too little about an edge of the plane for its light" : never);
+            result.note(
+                fmt::format("{}.edge_{}", path, name),
+                m.edges[1].all.empty() ? "the screen shows too little of the plane about an edge for the edge's light" : never);
     }
 }
 
-/// The depth that the curves are plotted of: the one nearest to the central depth plane.
+/// The depth for which curves are plotted: the one nearest to the central depth plane.
 double plotted_depth_mm(const Subject& s, const std::vector<double>& depths) {
     const double middle = s.theory().central_depth_mm + s.geometry().rear_principal_mm - s.geometry().vertex_plane_mm;
     return *std::min_element(depths.begin(), depths.end(), [&](double a, double b) {
@@ -89,7 +90,7 @@ void add_findings(const MtfCurves& m, const Resolution& r, Result& result) {
         else if (mtf50 > r.per_mm.value)
             remark += fmt::format("; MTF50 by itself is {:.4g} per mm", mtf50);
         if (r.per_mm.value < 0.9 * r.theory_per_mm)
-            remark += "; aberrations and light through other lenses take more than the paraxial blur does";
+            remark += "; aberrations and light through other lenses blur more than paraxial theory predicts";
     }
     result.findings.push_back({fmt::format("Resolution at {:.4g} mm, {}", m.depth_mm, label(m.horizontal, m.angle_deg)),
                                "per mm",
@@ -131,7 +132,7 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
         if (m.depth_mm == plotted) add_findings(m, resolution(s, m), result);
     result.plots.push_back(curves(s, all, plotted));
 
-    Plot plot{"mtf50", "Resolution: MTF50, or the limit below it", "depth before the lenses, mm", "cycles per mm", {}};
+    Plot plot{"mtf50", "Resolution: MTF50, or the limit below it", "depth in front of the lenses, mm", "cycles per mm", {}};
     DataTable table{"mtf50", {{"depth_mm", depths}}};
     for (const bool horizontal : {true, false}) {
         DataTable all_curves{horizontal ? "mtf_horizontal" : "mtf_vertical",
@@ -192,13 +193,11 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
     result.plots.push_back(std::move(plot));
 
     result.remarks.push_back(
-        "Resolution is MTF50, or where they are lower half a cycle a lens pitch or an image of a panel pixel: finer detail shows "
-        "as false detail. Per degree as seen from the eye. The display is seen by a pinhole, so that neither an eye's optics nor "
-        "its "
-        "focus enters. MTF is that of lines of sight through all of the screen; edges in pictures, which are a sample of places, "
-        "stand beside it. Lenses that see a place of the plane at different places of it blur the mean edge; how the picture "
-        "breaks "
-        "up at their borders is not in it.");
+        "Resolution is MTF50 or, where lower, half a cycle per lens pitch or per image of a panel pixel: finer detail is aliased. "
+        "Per degree as seen from the eye. The display is seen by a pinhole, so that neither an eye's optics nor its focus enters. "
+        "MTF is that of lines of sight through all of the screen; edges in pictures, which are a sample of places, stand beside "
+        "it. Lenses that show a point of the plane at different places blur the mean edge; how the picture breaks up at lens "
+        "borders is not included.");
     result.remarks.push_back("Red, green and blue are alike: the model has neither dispersion nor subpixels.");
 }
 

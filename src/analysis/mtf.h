@@ -5,9 +5,9 @@
 
 namespace lfdsim {
 
-/// Depths of the edges before the vertex plane: those of the options, else nine, evenly on both sides of the central depth plane to
-/// twice as far as the depth of field reaches, but not nearer than a tenth of the central depth or farther than 3/4 of the way to
-/// the eye; where the plane itself is farther, nine from the lenses to there.
+/// Depths of the edges in front of the vertex plane: those of the options, else nine, evenly on both sides of the central depth
+/// plane to twice as far as the depth of field reaches, but not nearer than a tenth of the central depth or farther than 3/4 of the
+/// way to the eye; where the plane itself is farther, nine from the lenses to there.
 std::vector<double> mtf_depths_mm(const Subject&);
 
 /// Angles of the views, to the right: 0, a quarter and two fifths of the field of view, the last 45 at most.

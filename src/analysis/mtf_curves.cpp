@@ -39,18 +39,18 @@ MtfCurves mtf_curves(const Subject& s, const SeenThroughLenses& seen, double dep
     const Bars plane{horizontal, s.geometry().vertex_plane_mm + depth_mm, 1, 1, 0};
     using Pixels = SeenThroughLenses::Pixels;
     const LineSpread spread = seen.spread(plane.z_mm, horizontal, Pixels::as_described);
-    const double cosine = std::cos(angle_deg * degree);  // by so much the plane is foreshortened to the side
+    const double cosine = std::cos(angle_deg * degree);  // the plane's foreshortening seen from the side
     MtfCurves m{};
     m.depth_mm = depth_mm, m.angle_deg = angle_deg, m.horizontal = horizontal;
     m.mm_per_deg = (eye.z_mm() - plane.z_mm) / cosine * degree / (horizontal ? cosine : 1);
     m.astray = light_astray(s, angle_deg, eye.distance_mm);
     m.spread_mm = spread.width_mm(0.95);
     if (at_the_lenses(s.display(), s.geometry(), plane.z_mm))
-        m.missing = "in the lenses' own plane each lens shows but one point of it";
+        m.missing = "in the lenses' own plane each lens shows only one point of it";
     else if (!(m.spread_mm > 0))
         m.missing = "no light of elemental images is seen there";
     else if (spread.width_mm(1 - most_lost) > 2 * seen_half_mm(s.display(), s.geometry(), plane, eye)[0])
-        m.missing = "light is spread there farther than the screen shows of the plane";
+        m.missing = "light is spread there over more of the plane than the screen shows";
 
     // To the first zero of a pixel's image or, where the blur is far wider, to where next to nothing is left
     const Blur by_theory = blur(s.display(), s.geometry(), s.theory(), plane.z_mm, angle_deg);

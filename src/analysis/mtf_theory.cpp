@@ -40,8 +40,8 @@ Blur blur(const Display& d, const Geometry& g, const Theory& t, double z_mm, dou
     if (!d.diffuser) return b;
     const double away = std::abs(z_mm - *g.diffuser_z_mm), angle = angle_deg * degree;
     const auto half = [&](std::size_t axis) { return 0.5 * d.diffuser->angle_deg[axis] * degree; };
-    // The turn about x comes last and sees the ray from the side: its slope upwards grows by it whatever the angle of view.
-    // Past the horizontal nothing is seen: an angle near it is as good.
+    // The turn about x comes last: it adds the same upward slope at every angle of view. Past the horizontal nothing is seen:
+    // an angle near it serves as well.
     const auto slope = [](double a) { return std::tan(std::clamp(a, -1.5, 1.5)); };
     b.diffuser_mm = {away * (slope(angle + half(0)) - slope(angle - half(0))), away * 2 * slope(half(1))};
     b.gaussian = d.diffuser->profile == Profile::gaussian;

@@ -10,10 +10,10 @@
 namespace lfdsim {
 namespace {
 
-constexpr double share_error = 0.005;  // what the place has to hold for: the share is not known, nor does it matter, better
+constexpr double share_error = 0.005;  // about one half: the share is not known more exactly, nor need it be
 constexpr int sets = 4, first_rays = 1024, coarse_rays = 512, most_growth = 64;
 
-/// Lines of sight of the other side: a display that is symmetric then has the same share there to the last bit.
+/// Mirrors lines of sight for the other side: a symmetric display then has the same share there to the last bit.
 void mirror(std::vector<Choice>& choices, int axis) {
     for (Choice& c : choices)
         for (const std::size_t k : {0u, 2u, 4u}) c[k + std::size_t(axis)] = -c[k + std::size_t(axis)];
@@ -66,7 +66,7 @@ double OwnLens::share(const Vec3d& eye, std::span<const Choice> choices) const {
 
 namespace {
 
-/// Of one side: the steps between which the share falls below one half, on few lines of sight, or why there are none.
+/// For one side: the steps between which the share falls below one half, by few lines of sight, or why there are none.
 struct Bracket {
     double in = nan, out = nan;
     std::string missing;
@@ -77,7 +77,7 @@ Bracket bracket(const OwnLens& lens, const EyePath& path, int side, std::span<co
     if (std::isnan(middle)) return {nan, nan, "no light of lenses whose whole elemental image lies on the panel is seen"};
     if (middle < 0.5)
         return {nan, nan,
-                fmt::format("the share is {:.2f} in the middle already: elemental images are made for another distance than the "
+                fmt::format("the share is only {:.2f} in the middle: elemental images are made for another distance than the "
                             "eye's, or for another array",
                             middle)};
     for (double in = 0; in < path.most;) {
@@ -86,7 +86,7 @@ Bracket bracket(const OwnLens& lens, const EyePath& path, int side, std::span<co
         if (share < 0.5) return {in, out, {}};
         in = out;
     }
-    return {nan, nan, fmt::format("the share is above one half as far as {:.4g}, where the search ends", path.most)};
+    return {nan, nan, fmt::format("the share stays above one half as far as {:.4g}, where the search ends", path.most)};
 }
 
 /// The place between them where the share falls below a level, or steps farther on either side: other lines of sight may fall
@@ -125,7 +125,7 @@ OwnRange where_own(const OwnLens& lens, const EyePath& path, double wanted, std:
             for (std::uint32_t set = 0; set < sets; ++set)
                 found[set] = falls_to(0.5, lens, path, side, b, precision, choices(first_rays * growth, sets * seed + set));
             const auto [at, error] = estimate(found, precision);
-            // Where few lenses fall out one after the other the share has steps, and one of them may lie at one half.
+            // Where few lenses drop out one by one the share has steps, and one of them may lie at one half.
             const std::vector<Choice> lines = choices(first_rays * growth, sets * seed);
             const auto away = [&](double share) {
                 return std::abs(falls_to(share, lens, path, side, b, precision, lines) - found[0]);
@@ -142,7 +142,7 @@ OwnRange where_own(const OwnLens& lens, const EyePath& path, double wanted, std:
 
 namespace {
 
-/// Along an axis of the array, as a unit vector of the display.
+/// An axis of the array, as a unit vector in the display's frame.
 std::array<double, 2> array_axis(const Display& d, int axis) {
     const double turn = d.array.rotation_deg * degree, c = std::cos(turn), s = std::sin(turn);
     return axis == 0 ? std::array{c, s} : std::array{-s, c};

@@ -13,7 +13,7 @@
 namespace lfdsim {
 
 /// Of the light that an eye sees of a white, Lambertian panel through those lenses whose whole elemental image lies on it, the
-/// share that comes from the image of the very lens it passed. It knows no content, no picture and no pixels: an elemental image is
+/// share that comes from the image of the lens that it passed. It depends on no content, picture or pixels: an elemental image is
 /// the square of the pitch p' about the point where the line from the viewer that images are made for, through the lens's nodal
 /// points, meets the panel.
 class OwnLens {
@@ -46,13 +46,13 @@ struct OwnRange {
 /// The place of an eye on its way past the display, at 0 in the middle, and how far it can go on either side.
 struct EyePath {
     std::function<Vec3d(double)> eye;
-    double most;   // beyond it there is no place before the display, or the search has no sense
-    double step;   // finer than what the share falls over
+    double most;   // beyond it an eye is inside the display, or a search makes no sense
+    double step;   // finer than the width over which the share falls
     int mirrored;  // the axis along which the other side's lines of sight are the mirror images of this side's: 0 (x') or 1 (y')
 };
 
-/// Four independent sets of lines of sight each give a place. The error is what they scatter, as wide as covers the truth in 95 of
-/// 100 cases, and how far to either side the share is within 0.005 of one half. More lines are taken until the scatter is below
+/// Four independent sets of lines of sight each give a place. The error is their scatter, such that it covers the true value in 95
+/// of 100 cases, and how far to either side the share is within 0.005 of one half. More lines are taken until the scatter is below
 /// `wanted` or there are 64 times as many. Throws Stopped.
 OwnRange where_own(const OwnLens&, const EyePath&, double wanted, std::uint32_t seed, Parts&);
 constexpr int own_range_parts = 2;
@@ -60,7 +60,7 @@ constexpr int own_range_parts = 2;
 /// The arc of `analyze fov`: about the panel's centre at the eye's distance, towards the array's x' (axis 0) or y' (1); degrees
 /// from the panel's normal.
 EyePath arc(const Display&, const Geometry&, double distance_mm, int axis);
-/// Where theory has the edge on that arc: X/E = p'/2g with X = R sin a aside of the axis and E = R cos a - z_r from the rear
+/// Where theory puts the edge on that arc: X/E = p'/2g with X = R sin a aside of the axis and E = R cos a - z_r from the rear
 /// principal plane.
 double arc_edge_deg(const Geometry&, const Theory&, double distance_mm, int axis);
 /// In the plane at the eye's distance from the panel, mm from the middle.

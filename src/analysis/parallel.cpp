@@ -12,7 +12,7 @@ void Parts::run(int n, const std::function<void(int)>& part) {
         tbb::parallel_for(0, n, [&](int k) {
             if (job_.cancelled()) return;
             part(k);
-            const std::int64_t done = ++done_;  // each number once: what is handed on adds up to all steps
+            const std::int64_t done = ++done_;  // each number once, so that what is reported adds up to all steps
             job_.advance(steps_ * done / count_ - steps_ * (done - 1) / count_);
         });
     });

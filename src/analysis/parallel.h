@@ -25,7 +25,7 @@ class Parts {
     std::atomic<std::int64_t> done_{0};
 };
 
-/// What tracing so many single rays costs, in pictures of the camera's size (Measure::steps).
+/// The cost of tracing so many single rays, in pictures of the camera's size (Measure::steps).
 std::int64_t pictures_worth(const Subject&, std::int64_t rays);
 
 }  // namespace lfdsim

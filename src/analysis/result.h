@@ -54,7 +54,7 @@ struct Series {
     std::vector<double> x, y;
     bool dots = false;  // points alone, no line
 };
-/// A line across the plot: at a threshold (horizontal), or at what theory says (vertical).
+/// A line across the plot: at a threshold (horizontal), or at theory's value (vertical).
 struct PlotMark {
     std::string label;
     double at;

@@ -24,7 +24,7 @@ Limit crossing(const Curve& c, double at, double value, double next, double next
     return {at + (level - value) / slope, std::hypot(c.error / slope, 0.5 * (next - at))};
 }
 
-/// From the centre on to one side, where the curve holds the level.
+/// Where the curve first falls below the level, from the centre to one side.
 Limit first_below(const Curve& c, double centre, int side, double level) {
     double at = std::clamp(centre, c.at.front(), c.at.back()), value = value_at(c, at);
     const int count = int(c.at.size());
@@ -44,7 +44,7 @@ Limit first_below(const Curve& c, double centre, int side, double level) {
 Interval about(const Curve& c, double centre, double level) {
     if (value_at(c, std::clamp(centre, c.at.front(), c.at.back())) < level) {
         Limit none;
-        none.missing = "the rule does not hold in the middle already";
+        none.missing = "the rule does not hold even in the middle";
         return {none, none, true};
     }
     return {first_below(c, centre, -1, level), first_below(c, centre, 1, level)};

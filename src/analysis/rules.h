@@ -34,8 +34,8 @@ Interval where_at_least(const Curve&, double centre, double least);
 /// Where it rises or falls by `most` or less per unit. Slopes count in the middle between two places.
 Interval where_steady(const Curve&, double centre, double most);
 
-/// Where something else than the curve says that it should fall, low to the left and high to the right of the centre, and over
-/// which width on either side of that place the fall extends.
+/// Where a curve is expected to fall, from other sources than itself: low to the left and high to the right of the centre; and how
+/// far on either side of that place the fall extends.
 struct Falls {
     double low, high, reach;
 };
@@ -43,15 +43,15 @@ struct Falls {
 /// On each side the one sustained fall that contains the expected place: the curve crosses the middle between its medians inside
 /// and outside of the fall once, and stays on either side of it. The medians are of the places between one and three reaches (of
 /// two steps at least) from the expected one. None where the medians differ by less than 0.02 or five standard deviations, where
-/// the curve crosses more than once, or where it ends before. The error contains the noise, half a step, how far the limit lies
-/// from the expected place, which knows no content, and half of what both limits lie to one side of those.
+/// the curve crosses more than once, or where it ends before. The error contains the noise, half a step, the limit's distance from
+/// the expected place, which depends on no content, and half of the amount by which both limits lie to one side of those.
 Interval where_it_falls(const Curve&, const Falls&);
 
 /// [low, high] with null where there is none.
 Json limits_json(const Interval&);
 /// For Finding::measured.
 std::vector<double> bounds(const Interval&);
-/// With why a limit is missing, if one is, in place of the remark.
+/// If a limit is missing, the reason replaces the remark.
 Finding finding(const std::string& what, const std::string& unit, const Interval&, std::vector<double> theory,
                 const std::string& remark);
 

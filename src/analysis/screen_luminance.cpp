@@ -9,7 +9,7 @@ namespace {
 
 constexpr int most_parts_along = 16, rays_a_part = 1 << 14;
 
-/// Columns and rows: of as few lenses each, the same number along both, as make no more than most_parts_along.
+/// Columns and rows of parts. A part has as few lenses, the same number along both axes, as give no more than most_parts_along.
 std::array<int, 2> parts_along(const std::array<std::int64_t, 2>& lenses) {
     const std::int64_t together = (std::max(lenses[0], lenses[1]) + most_parts_along - 1) / most_parts_along;
     return {int(std::max<std::int64_t>(lenses[0] / together, 1)), int(std::max<std::int64_t>(lenses[1] / together, 1))};
@@ -17,7 +17,7 @@ std::array<int, 2> parts_along(const std::array<std::int64_t, 2>& lenses) {
 
 double lenses_of(int part, int parts, std::int64_t lenses) { return double((part + 1) * lenses / parts - part * lenses / parts); }
 
-/// A number in [-1, 1] that chooses a lens: made to choose one of part `k` of `parts`.
+/// Maps a number in [-1, 1] that chooses a lens to one that chooses a lens of part `k` of `parts`.
 double within_part(double number, int k, int parts, std::int64_t lenses) {
     const double first = double(k * lenses / parts), end = double((k + 1) * lenses / parts);
     return 2 * (first + (0.5 + 0.5 * number) * (end - first)) / double(lenses) - 1;
@@ -112,7 +112,7 @@ PitchLuminance pitch_luminance(const EyeRays& rays, const Display& d, const Vec3
             sum[(side - 1 - cell(c[1])) * side + cell(c[0])] += rays.look_through(eye, at, c[2], c[3]).light;
         }
     });
-    // The choices are a net: as many of them lie in each of the cells.
+    // The choices are a net: equally many of them lie in each cell.
     const double each = double(pitch_luminance_parts) / independent_sets * rays_each / (side * side);
     PitchLuminance luminance{std::vector<Sums>(side * side)};
     for (std::size_t part = 0; part < sums.size(); ++part)
@@ -145,7 +145,7 @@ Estimate michelson(const std::vector<Sums>& values) {
     }
     Estimate contrast = estimate(found);
     contrast.value = std::clamp(contrast.value, 0., 1.);
-    // Sets that miss the true places by chance tell too little, all sets together too much.
+    // Sets that miss the true places by chance give too little contrast, all sets together too much.
     contrast.error = std::hypot(contrast.error, michelson(means(values)) - contrast.value);
     return contrast;
 }

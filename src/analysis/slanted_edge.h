@@ -23,22 +23,22 @@ struct Edges {
     };
     std::vector<Line> lines;
     double slope = 0;  // columns a row
-    double reach = 0;  // how far on each side, across the edge, the picture is about this edge; at least 1
+    double reach = 0;  // how far on each side, across the edge, pixels belong to this edge; at least 1
 };
 
 /// The edge spread function: light as a share of white's against the distance to the right of the edge, in bins of a quarter pixel;
-/// the mean of all edges of all pictures that are added. Of a falling edge what it lacks of white counts, so that all blur the same
-/// way round. The upper and lower halves of pictures are taken by turns to `independent_sets` sets.
+/// the mean of all edges of all pictures that are added. A falling edge counts by its difference from white, so that all have the
+/// same direction. The upper and lower halves of pictures are assigned in turn to `independent_sets` sets.
 class EdgeSpread {
   public:
-    /// The edges' reach, which all that are added have.
+    /// The reach of all edges that are added.
     explicit EdgeSpread(double reach);
-    /// Pictures of one size. Only rows and columns of the picture count.
+    /// Pictures of one size. Parts of edges outside the picture are ignored.
     void add(const Edges&, const Image& picture, const Image& white);
 
     /// For red, green and blue, at frequencies in cycles a pixel, 0 to 1: the modulus of the Fourier transform of the spread
-    /// function's derivative. What the bins and the differences between them take away is put back. NaN where there is no light.
-    /// Of all sets but the one numbered `without`.
+    /// function's derivative, corrected for the attenuation by the bins and by the differences between them. NaN where there is no
+    /// light. Of all sets but the one numbered `without`.
     std::array<std::vector<double>, 3> mtf(std::span<const double> frequencies, int without = -1) const;
 
   private:

@@ -1,4 +1,4 @@
-// Which slopes the light has, at the lenses, that one eye gathers from a screen: for lenses without aberration. Floor 3.
+// The slopes, at the lenses, of the light that one eye gathers from a screen, for lenses without aberration. Floor 3.
 #pragma once
 #include "analysis/subject.h"
 
@@ -18,7 +18,7 @@ class SlopeSpread {
     /// eye_mm: E, more than 0. Along the array's width, or with axis 1 along its height.
     SlopeSpread(const Subject&, double eye_mm, int axis = 0);
 
-    /// Share of the light with slopes s from low to high for an eye at x, either end infinite at will.
+    /// Share of the light with slopes s from low to high for an eye at x; either end may be infinite.
     double within(double x_mm, double low, double high) const;
 
     /// The same where light on the elemental image of the k-th neighbour counts as what it is meant for: slopes less by k p'/g.

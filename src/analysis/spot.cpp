@@ -16,7 +16,7 @@ namespace {
 
 constexpr int bundle_rays = 256, pixel_rays = 64, shown_rays = 22, fan_rays = 1001, focus_steps = 121, most_places = 96;
 
-/// A point of the panel under the lens, and what comes of it.
+/// A point of the panel under the lens, and its light.
 struct Field {
     const char *name, *title;
     Point panel;
@@ -42,7 +42,7 @@ struct Spot {
     double rms, meridional, sagittal, meridional_diffused, sagittal_diffused;
 };
 
-/// A size at depth z as far as double precision tells it: rays that meet in one point leave some 1e-14 mm.
+/// A size at depth z within double precision: rays that meet in one point leave some 1e-14 mm.
 double told(double mm, double z) { return mm < 1e-9 + 1e-14 * std::abs(z) ? 0 : mm; }
 
 Spot spot_at(const Subject& s, const Field& f, double z) {
@@ -106,7 +106,7 @@ void tell_spots(const Subject& s, const std::vector<Field>& fields, const std::v
 }
 
 /// The spots of a field at the first, middle and last depth, side by side at one scale, each about its centroid, and the outline of
-/// a panel pixel's image: what theory allows a spot to be.
+/// a panel pixel's image: the spot size that theory allows.
 Plot diagram(const Subject& s, const LensTrace& lens, const Field& field, const std::vector<double>& depths, double from_vertex) {
     const Bundle light = bundle(lens, field.panel, shown_rays);
     Plot plot{fmt::format("spot_{}", field.name),
@@ -128,7 +128,7 @@ Plot diagram(const Subject& s, const LensTrace& lens, const Field& field, const 
             right = std::max(right, ray.x + ray.mx * z - middle.x);
         }
         x0 += 1.1 * left;
-        Series spot{fmt::format("{:.4g} mm before the lenses", z + from_vertex), {}, {}, true};
+        Series spot{fmt::format("{:.4g} mm in front of the lenses", z + from_vertex), {}, {}, true};
         for (const LensRay& ray : light.rays) {
             spot.x.push_back(x0 + ray.x + ray.mx * z - middle.x);
             spot.y.push_back(ray.y + ray.my * z - middle.y);
@@ -153,8 +153,8 @@ void tell_focus(const Subject& s, const std::vector<Field>& fields, const std::v
     DataTable table{"spot_through_focus", {{"depth_mm", {}}}};
     for (const double z : places) table.columns[0].values.push_back(z + from_vertex);
     const std::vector<double> at = table.columns[0].values;
-    Plot rms{"spot_through_focus", "Spot size through focus", "depth before the lenses, mm", "RMS radius, mm", {}};
-    Plot width{"spot_width", "Width of the spot on the axis", "depth before the lenses, mm", "full width, mm", {}};
+    Plot rms{"spot_through_focus", "Spot size through focus", "depth in front of the lenses, mm", "RMS radius, mm", {}};
+    Plot width{"spot_width", "Width of the spot on the axis", "depth in front of the lenses, mm", "full width, mm", {}};
     std::vector<double> theory;
     const double L = s.theory().central_depth_mm, D = s.geometry().clear_aperture_mm[0];
     for (const double z : places) theory.push_back(D * std::abs(std::isinf(L) ? 1 : z / L - 1));
@@ -219,7 +219,7 @@ void tell_distortion(const Subject& s, const Distortion& d, Result& result) {
                                "pixel images",
                                {most},
                                {0},
-                               "how far a panel pixel's light lands from where the elemental images place it; theory knows none"});
+                               "how far a panel pixel's light lands from where the elemental images place it; theory has none"});
     result.findings.push_back({"Distortion of the elemental image: RMS", "pixel images", {rms}, {0}, ""});
 }
 
@@ -270,7 +270,7 @@ Distortion distortion(const Display& display, const Geometry& g, const Theory& t
         }
         const double rays = double(light.rays.size());
         const double images = std::hypot(x / rays + panel[0] / gap, y / rays + panel[1] / gap) * gap / display.panel.pixel_pitch_mm;
-        return images < 1e-9 ? 0 : images;  // as far as double precision tells
+        return images < 1e-9 ? 0 : images;  // within double precision
     };
     Distortion result{columns, rows, std::vector<double>(std::size_t(columns) * std::size_t(rows), nan)};
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
@@ -311,16 +311,17 @@ Result measure_spot(Subject& s, Job& job) {
     const double L = s.theory().central_depth_mm, D = s.geometry().clear_aperture_mm[0];
     for (const std::size_t k : {std::size_t(0), depths.size() / 2, depths.size() - 1}) {
         const double z = depths[k];
-        result.findings.push_back({fmt::format("Full width of the spot on the axis, {:.4g} mm before the lenses", z + from_vertex),
-                                   "mm",
-                                   {spot_at(s, fields.front(), z).meridional},
-                                   {D * std::abs(std::isinf(L) ? 1 : z / L - 1)},
-                                   "theory is paraxial: what differs is aberration"});
+        result.findings.push_back(
+            {fmt::format("Full width of the spot on the axis, {:.4g} mm in front of the lenses", z + from_vertex),
+             "mm",
+             {spot_at(s, fields.front(), z).meridional},
+             {D * std::abs(std::isinf(L) ? 1 : z / L - 1)},
+             "theory is paraxial: what differs is aberration"});
     }
     const double middle = depths[depths.size() / 2];
     for (const Field& f : fields)
         result.findings.push_back(
-            {fmt::format("RMS radius of the spot, {}, {:.4g} mm before the lenses", f.title, middle + from_vertex),
+            {fmt::format("RMS radius of the spot, {}, {:.4g} mm in front of the lenses", f.title, middle + from_vertex),
              "mm",
              {spot_at(s, f, middle).rms},
              {},

@@ -10,7 +10,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr double most_per_mm = 1e6;  // a nanometre before the lens
+constexpr double most_per_mm = 1e6;  // a nanometre in front of the lens
 constexpr int depth_fan_rays = 1001;
 
 /// Where a predicate that changes once, from false at `out` to true at `in`, changes.
@@ -23,7 +23,7 @@ double change(double out, double in, Predicate holds) {
     return in;
 }
 
-/// Every third ray from one on, with the rims.
+/// Every third ray from `first` on, with the rims.
 std::vector<Line> thinned(const std::vector<Line>& fan, std::size_t first) {
     std::vector<Line> third;
     for (std::size_t k = first; k < fan.size(); k += 3) third.push_back(fan[k]);
@@ -45,9 +45,9 @@ struct Fan {
     std::array<std::vector<Line>, 3> thirds;
 };
 
-/// How far the finite number of rays may have carried the ends off. An end is told by the ray that goes farthest. It lies a part d
-/// of the step h between rays beside the true one, d <= h/2, and misses it by k d^2, k the curvature. The third whose nearest ray
-/// is the next but one misses by k (h + d)^2: from what all rays tell it differs by k (h^2 + 2 h d), at least eight times as much.
+/// The errors of the ends by the finite number of rays. An end is set by the outermost ray, which lies d <= h/2 beside the true
+/// one, h the step between rays, and misses it by k d^2, k the curvature. The third whose nearest ray is the next but one misses by
+/// k (h + d)^2: it differs from all rays together by k (h^2 + 2 h d), at least eight times as much.
 std::array<double, 2> errors(const SharpDepths& all, const Fan& fan, double pixel_slope, double airy_slope) {
     constexpr double margin = 0.25;  // twice an eighth
     std::array<double, 2> most{1e-9 * std::abs(all.near_per_mm), 1e-9 * std::abs(all.far_per_mm)};
@@ -81,7 +81,7 @@ class Teller {
                                  ? "no light of the panel's point on the axis gets through the lens"
                                  : fmt::format(
                                        "the spot is nowhere as narrow as a panel pixel's image; it comes nearest to that {} mm "
-                                       "before the lenses, where it is {:.4g} pixel images wide",
+                                       "in front of the lenses, where it is {:.4g} pixel images wide",
                                        text_mm(depths.best_per_mm), depths.least_width / pixel_slope_);
             result_.note(key + "_mm", finding.remark);
             result_.note(key + "_diopters", finding.remark);
@@ -117,8 +117,8 @@ class Teller {
 
 SharpDepths where_sharp(const std::vector<Line>& fan, double pixel_slope, double airy_slope) {
     if (fan.empty()) return {nan, nan, nan, nan};
-    // A ray at + slope z, over its depth: at/z + slope, a line over 1/z too. The width of a fan is so convex there, and is not
-    // above what is allowed in one interval about its minimum.
+    // A ray at + slope z, over its depth: at/z + slope, a line over 1/z too. The width of a fan is therefore convex there, and
+    // within the limit in one interval about its minimum.
     std::vector<Line> over_depth;
     for (const Line& l : fan) over_depth.push_back({l.slope, l.at});
     const auto width = [&](double per_mm) { return std::hypot(width_at(over_depth, per_mm).mm, airy_slope); };
@@ -166,7 +166,7 @@ SharpDepths add_spot_depths(const Subject& s, Result& result) {
                                "mm",
                                {},
                                wave,
-                               "where diffraction alone begins to tell defocus; pixels coarser than the Airy disk allow more"});
+                               "where defocus begins to show beside diffraction; pixels coarser than the Airy disk allow more"});
     return traced;
 }
 

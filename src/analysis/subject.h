@@ -1,4 +1,4 @@
-// What is measured: a display, what it shows, and how finely one looks. Floor 3.
+// What is measured: a display, what it shows, and how finely. Floor 3.
 #pragma once
 #include "content/content.h"
 #include "engine/pyramid.h"
@@ -15,7 +15,7 @@ namespace lfdsim {
 
 struct AnalysisOptions {
     std::vector<double> angles_deg;  // of the views, rising; empty: see fov.h
-    std::vector<double> depths_mm;   // of the content before the vertex plane, rising; empty: see dof_depths.h
+    std::vector<double> depths_mm;   // of the content in front of the vertex plane, rising; empty: see dof_depths.h
     std::optional<double> viewing_distance_mm =
         {};                       // of eyes from the panel; default: the camera's distance from the panel's centre
     double eye_distance_mm = 65;  // between a viewer's two eyes
@@ -23,10 +23,10 @@ struct AnalysisOptions {
     int threads = 0;  // 0: all
 };
 
-/// Thrown where the caller wants the work to end; nothing of the measure at hand is kept.
+/// Thrown where the caller cancels the work; nothing of the current measure is kept.
 struct Stopped {};
 
-/// Hands over nothing but the wish to stop. The stages of single pictures are not shown: progress is that of the whole run.
+/// Passes on cancellation alone. The stages of single pictures are not shown: progress is that of the whole run.
 class Quiet : public Job {
   public:
     explicit Quiet(const Job& whole) : whole_(whole) {}
@@ -56,7 +56,7 @@ class Subject {
     const Geometry& geometry() const { return geometry_; }
     const Theory& theory() const { return theory_; }
     const AnalysisOptions& options() const { return options_; }
-    /// What theory says of one axis of the array.
+    /// Theory along one axis of the array.
     const AxisTheory& theory(int axis) const { return theory_.along[std::size_t(axis)]; }
     int threads() const { return options_.threads; }
     double viewing_distance_mm() const;
@@ -64,12 +64,12 @@ class Subject {
     /// Throws InputError where there is none.
     const ContentScene& scene() const;
 
-    /// The elemental images of the scene where the description puts it, as the panel shows them: made when first asked for, and
+    /// The elemental images of the scene where the description puts it, as the panel shows them: computed at the first call, and
     /// kept. Throws Stopped.
     const Pyramid& panel(const Job&);
 
     /// Mean light that the camera, on axis, sees of the array's rectangle when the panel is white: simulated pictures are divided
-    /// by it, so that what lenses and gaps take of the light does not count as unlikeness. More than 0. Throws Stopped.
+    /// by it, so that light lost in lenses and gaps does not count as unlikeness. More than 0. Throws Stopped.
     double white_field(const Job&);
 
   private:

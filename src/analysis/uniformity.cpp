@@ -42,8 +42,8 @@ void add_screen(Result& result, const ScreenLuminance& screen, const Subject& s,
                                {mean.value},
                                {theory.value},
                                theory.missing.empty()
-                                   ? "mean over the screen; theory: what lenses fill, times their transmission at "
-                                     "normal incidence, times what lies before the panel and within the border"
+                                   ? "mean over the screen; theory: the lenses' fill factor, times their transmission at "
+                                     "normal incidence, times the share in front of the panel and within the border"
                                    : theory.missing,
                                {mean.error}});
     result.findings.push_back(
@@ -119,7 +119,7 @@ class LuminanceOverAngle {
         for (int k = 0; k < independent_sets; ++k)
             sets_[std::size_t(k)] = even_choices(count, set_number(s.display().render.seed, k));
     }
-    /// NaN where eyes cannot be. Each line's mirror images in both planes are seen too.
+    /// NaN where eyes cannot be. Each line's mirror images in both planes are traced too.
     Sums at(int axis, double angle_deg) const {
         const double across = distance_ * std::sin(angle_deg * degree), ahead = distance_ * std::cos(angle_deg * degree);
         Sums sums;
@@ -136,7 +136,7 @@ class LuminanceOverAngle {
         }
         return sums;
     }
-    /// Where, from a place that is brighter than half the middle to one that is darker, luminance is half of it.
+    /// The angle, between one brighter than half the middle and one darker, at which luminance is half of that in the middle.
     Estimate half_deg(int axis, double bright, double dark) const {
         const Sums middle = at(axis, 0);
         const auto excess = [&](const Sums& here, int without) { return total(here, without) - 0.5 * total(middle, without); };
@@ -251,7 +251,7 @@ Result measure_uniformity(Subject& s, Job& job) {
     add_budget(result, light_budgets(s.display(), s.geometry(), parts));
     result.remarks.push_back(
         "A lens passes on the panel's radiance: luminance falls only by reflection and where lines of sight end beside a lens or "
-        "the panel. Light efficiency is another thing: light leaves in all directions, most of it to where no viewer is.");
+        "the panel. Light efficiency is a different measure: light leaves in all directions, most of it to where no viewer is.");
     return result;
 }
 

@@ -19,7 +19,7 @@ struct ScreenLuminance {
     Estimate mean() const;
     double least() const, greatest() const;
     /// 100 least / greatest; `inside`: the least of the parts whose middle lies in the middle 8/10 of width and height. The error
-    /// contains that by chance one part of many looks darkest.
+    /// allows for one of many parts looking darkest by chance.
     Estimate uniformity_percent(bool inside) const;
 };
 /// Takes screen_luminance_parts(...) parts.
@@ -42,8 +42,8 @@ std::vector<double> means(const std::vector<Sums>&);
 
 /// Michelson contrast (max - min) / (max + min); 0 if all is dark.
 double michelson(const std::vector<double>&);
-/// The same of noisy values: where the greatest and the least are is found by seven sets and what they are by the eighth, for each
-/// in turn, so that noise by itself makes no contrast.
+/// The same of noisy values: seven sets find where the greatest and the least are, the eighth gives their values, each in turn, so
+/// that noise alone makes no contrast.
 Estimate michelson(const std::vector<Sums>&);
 
 std::int64_t uniformity_steps(const Subject&);

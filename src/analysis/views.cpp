@@ -14,7 +14,7 @@
 namespace lfdsim {
 namespace {
 
-/// From points before the display to the camera's frame, in pixels from its upper left corner.
+/// Projects points in front of the display into the camera's frame, in pixels from its upper left corner.
 class Projection {
   public:
     Projection(const Camera& c, const Geometry& g)
@@ -82,7 +82,7 @@ void refuse_depth_in_lenses(const Geometry& g, double depth_mm, const std::strin
     if (depth_mm < bottom || depth_mm > top) return;
     throw InputError(where,
                      fmt::format("{} puts the model's centre inside the lenses, which stand from {:.4g} to {:.4g} mm; give a "
-                                 "depth before or behind them",
+                                 "depth in front of or behind them",
                                  depth_mm, bottom, top));
 }
 
@@ -114,8 +114,8 @@ Likeness likeness(const ExpectedView& view, const Display& seen, const Geometry&
     return compared.likeness;
 }
 
-// Points: another rendering as good errs as much as the first one, and independently. Filtered: one of four times the strata errs
-// much less.
+// Points: another rendering with as many samples has as large an error as the first, independent of it. Filtered: one with four
+// times the strata has a much smaller error.
 Likeness likeness_error(const Likeness& first, const ExpectedView& view, const Display& seen, const Geometry& geometry,
                         const Pyramid& panel, double white, int threads, const Job& job) {
     Display again = seen;

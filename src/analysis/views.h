@@ -1,4 +1,4 @@
-// Views of a display from around it, beside photographs of the scene that it shows. Floor 3.
+// Views of a display from several directions, beside photographs of the scene that it shows. Floor 3.
 #pragma once
 #include "analysis/subject.h"
 #include "engine/compare_view.h"
@@ -8,20 +8,20 @@ namespace lfdsim {
 /// The display with its camera at `eye`, upright, looking at the panel's centre.
 Display seen_by(const Display&, const Vec3d& eye);
 
-/// The display with its camera gone round the panel's centre at its distance |position|, from on axis: first to the right by
+/// The display with its camera moved about the panel's centre at its distance |position|, from on axis: first to the right by
 /// `horizontal_deg`, then up by `vertical_deg`; it looks at the centre. Both within -80 .. 80.
 Display seen_from(const Display&, double horizontal_deg, double vertical_deg);
 
-/// The pixels of the display's camera that see the array's rectangle, in the vertex plane. Empty if the camera is not before it.
+/// The pixels of the display's camera that see the array's rectangle, in the vertex plane. Empty if the camera is not in front.
 Region screen_region(const Display&, const Geometry&);
 
 /// The rectangle about the pixels that may show the scene's box, where they see the screen too.
 Region content_region(const Display&, const Geometry&, const ContentScene&);
 
-/// Throws InputError for `where` if the scene's centre at this depth before the vertex plane would be inside the lenses.
+/// Throws InputError for `where` if the scene's centre at this depth in front of the vertex plane would be inside the lenses.
 void refuse_depth_in_lenses(const Geometry&, double depth_mm, const std::string& where);
 
-/// What multiplies light so that a white screen, which has `white`, has 1.
+/// The factor that brings a white screen's light from `white` to 1.
 float exposure(double white);
 void expose(Image&, double white);
 
@@ -38,8 +38,8 @@ ExpectedView expected_view(const Display& seen, const Geometry&, const ContentSc
 Likeness likeness(const ExpectedView&, const Display& seen, const Geometry&, const Pyramid& panel, double white, int threads,
                   const Job&);
 
-/// How far one rendering's noise carried `first`, its likeness, off: renders again with other random numbers or more of them.
-/// Standard deviation of each. Throws Stopped.
+/// The error of `first`, a likeness, by the rendering's noise: renders again with other random numbers or more of them. Standard
+/// deviation of each figure. Throws Stopped.
 Likeness likeness_error(const Likeness& first, const ExpectedView&, const Display& seen, const Geometry&, const Pyramid& panel,
                         double white, int threads, const Job&);
 

@@ -22,7 +22,7 @@ constexpr std::uint32_t zone_sets = 4;  // of lines of sight, independent of one
 constexpr double thresholds[] = {0.01, 0.5};
 constexpr const char* missing = "Rays that miss their own lens's elemental image";
 
-/// The share of wrong rays at a place that a search goes along, a lateral one in mm or a distance's inverse, by one set of lines.
+/// The share of wrong rays at a place on a search's path, lateral in mm or an inverse distance, by one set of lines.
 using Along = std::function<double(double, std::uint32_t)>;
 
 /// How far, from the middle of `places` towards their end (step 1) or start (-1), the share stays at most `most`: bisected between
@@ -34,13 +34,13 @@ Limit limit(const std::vector<double>& places, const std::vector<double>& wrong,
     const auto at = [&](int k) { return places[std::size_t(k)]; };
     Limit none;
     if (!good(wrong[std::size_t(middle)])) {
-        none.missing = "more are wrong in the middle already";
+        none.missing = "more are wrong even in the middle";
         return none;
     }
     int in = middle;
     while (in != last && good(wrong[std::size_t(in + step)])) in += step;
     if (in == last) {
-        none.missing = "no more are wrong as far as was looked";
+        none.missing = "no more are wrong as far as was searched";
         return none;
     }
     std::array<double, zone_sets> found;
@@ -89,8 +89,8 @@ ParaxialZone paraxial(const Subject& s, std::size_t axis) {
             s.display().content.viewing_distance_mm - s.geometry().rear_principal_mm};
 }
 
-/// Of the search along the axis: the distance that the images are made for (the eye's, if that is none) in the middle, and as far
-/// on either side as twice the way to the zone's ends.
+/// Places of the search along the axis: the distance that the images are made for (the eye's, if that is none) in the middle, and
+/// twice the way to the zone's ends on either side.
 std::vector<double> inverse_distances(const Subject& s, double eye, const ParaxialZone& theory) {
     const double nearest = 1 / (1.001 * nearest_eye_mm(s.geometry()) - s.geometry().rear_principal_mm);
     const double made_for = 1 / theory.made_for_mm, middle = made_for > 1e-7 && made_for < nearest ? made_for : 1 / eye;
@@ -126,7 +126,7 @@ class Search {
         return sight_shares(rays_, pickup_, display_, eye, std::span(choices_[set]).first(std::size_t(rays * more_)));
     }
 
-    /// Along the eyes that `eye_at` tells.
+    /// Along the eyes that `eye_at` gives.
     Zone along(std::vector<double> places, const std::function<Vec3d(double)>& eye_at) {
         Zone zone{std::move(places), {}, {}, {}, {}};
         zone.wrong.resize(zone.places.size());
@@ -351,7 +351,7 @@ Result measure_zone(Subject& s, Job& job) {
         "begins. Theory follows the ray through each lens's centre to a place within p/2 of the image's centre. "
         "An eye gathers light from {:.3g} mm of the panel through one lens (its aperture and the diffuser, paraxially), so the "
         "limit at 1 % lies nearer to the middle, that at 50 % does not; images {:.4g} mm wide, {:.3f} p, put both farther out. "
-        "Whole pixels and the lenses' aberrations do the rest.",
+        "Whole pixels and the lenses' aberrations account for the rest.",
         spread, image, image / s.display().array.pitch_mm[0]));
     return result;
 }
