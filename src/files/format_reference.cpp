@@ -55,7 +55,7 @@ void append_values(std::string& text, const FormatTable& table) {
 
 std::string format_reference_markdown() {
     std::string text =
-        R"(<!-- Written by format_reference_markdown() from the keys in src/model/keys.cpp, which says how to write it anew. -->
+        R"(<!-- Written by format_reference_markdown() from the keys in src/model/keys.cpp; the test FormatReference says how. -->
 # The display description
 
 A TOML file describes a display, the camera that looks at it and what it shows. Lengths are in millimetres and angles in degrees, as

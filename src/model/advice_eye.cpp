@@ -35,7 +35,10 @@ void advise_on_eye(Advised& a) {
 
     Display matched = d;
     matched.content.viewing_distance_mm = eye;
-    const double zone = a.theory.along[0].viewing_zone_deg, best = theory(matched, g).along[0].viewing_zone_deg;
+    const Theory with_it = theory(matched, g);
+    const auto zone_of = [](const Theory& t, std::size_t k) { return t.along[k].viewing_zone_deg; };
+    const std::size_t worse = zone_of(a.theory, 1) * zone_of(with_it, 0) < zone_of(a.theory, 0) * zone_of(with_it, 1) ? 1 : 0;
+    const double zone = zone_of(a.theory, worse), best = zone_of(with_it, worse);
     if (zone < 0.8 * best)
         a.say(
             "the elemental images are made for an eye {} (content.viewing_distance_mm = {:.5g}), but the camera stands "

@@ -17,7 +17,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HEADER = "optics/filtered_limits.h"
-TESTS = "*HasTheSameBitsEverywhere*:FilteredExtremes.LightStaysLight"
+TESTS = ["FilteredExtremes.LightStaysLight", "*HasTheSameBitsEverywhere*"]
 
 
 def limits(text):
@@ -44,7 +44,7 @@ class Engine:
         self.link = next(line for line in reversed(lines.stdout.splitlines()) if "-o engine_tests" in line)
 
     def failures(self, header):
-        """Names of the tests that fail with this header."""
+        """Names of the tests that fail with this header: those of the first filter of which any does."""
         with tempfile.TemporaryDirectory() as folder:
             place = pathlib.Path(folder)
             (place / "optics").mkdir()
@@ -54,14 +54,18 @@ class Engine:
             for name, entry in self.compile.items():
                 words = shlex.split(entry["command"])
                 words[words.index("-o") + 1] = str(place / name)
+                words = ["-O1" if word == "-O3" else word for word in words]  # quicker to compile, and the same bits
                 words.insert(1, f"-I{place}")
                 subprocess.run(words, cwd=entry["directory"], check=True)
                 subprocess.run(["ar", "r", archive, place / name], check=True)
             program = place / "engine_tests"
             command = self.link.replace("-o engine_tests", f"-o {program}").replace("src/liblfdsim_engine.a", str(archive))
             subprocess.run(command.split(" && ")[1], cwd=self.build, shell=True, check=True)
-            done = subprocess.run([program, f"--gtest_filter={TESTS}"], capture_output=True, text=True)
-            return sorted(set(re.findall(r"\[  FAILED  \] (\S+?)(?:, where|$| \()", done.stdout)))
+            for tests in TESTS:
+                done = subprocess.run([program, f"--gtest_filter={tests}"], capture_output=True, text=True)
+                if failed := sorted(set(re.findall(r"\[  FAILED  \] (\S+?)(?:, where|$| \()", done.stdout))):
+                    return failed
+            return []
 
 
 def main():
