@@ -1,4 +1,4 @@
-// Several pictures, one after another, of which the next is made while the last is looked at. Floor 2.
+// Several pictures, one after another: the next is made while the last is processed. Floor 2.
 #pragma once
 #include "engine/devices.h"
 #include "engine/render.h"
@@ -8,12 +8,12 @@
 
 namespace lfdsim {
 
-/// Would the GPU render, so that the CPU has time for something else?
+/// Would the GPU render, so that the CPU is free for other work?
 inline bool renders_on_gpu(const RenderOptions& options) { return choose_device(options.device, options.kernel).gpu.has_value(); }
 
-/// take(k, make(k)) for k = 0 .. count - 1 in this order, until take says false. at_once: make(k + 1), in a thread of its own,
-/// while take has k; then a GPU's steps, transfers and what the CPU does with the pictures overlap. Throws what they throw, when
-/// neither is under way any more.
+/// take(k, make(k)) for k = 0 .. count - 1 in this order, until take returns false. at_once: runs make(k + 1) in a thread of its
+/// own during take(k), so that a GPU's steps, transfers and the CPU's work on the pictures overlap. Throws what they throw, after
+/// both have ended.
 template <class Make, class Take>
 void make_ahead(std::size_t count, bool at_once, Make make, Take take) {
     using Made = decltype(make(std::size_t(0)));

@@ -16,7 +16,7 @@ class Expected {
     Expected(Image photograph, Region screen, Region content);
 
     const Image& photograph() const { return photograph_; }
-    /// The copies of it that GPUs hold, made when first asked for.
+    /// The copies of it that GPUs hold, made at first use.
     GpuPhotographs& on_gpus() const { return *on_gpus_; }
 
     const Region screen, content;
@@ -33,9 +33,9 @@ struct ComparedView {
     double gpu_seconds = 0;  // of the GPU alone, by its clock
 };
 
-/// Renders a view, whose light is multiplied by `gain`, and tells how like it is to what is expected: image/likeness.h, the same
+/// Renders a view, multiplies its light by `gain`, and measures its likeness to what is expected (image/likeness.h), with the same
 /// bits on every device. Throws what render() throws; InputError unless the photograph has the crop's size; std::invalid_argument
-/// for a target error, which is not for views that are many.
+/// for a target error, which would take too long for many views.
 ComparedView compare_view(const Display&, const Geometry&, const Pyramid& panel, const Expected&, float gain, const RenderOptions&,
                           Job&);
 

@@ -80,7 +80,7 @@ ChosenDevice choose_device(const std::string& wanted, const std::string& kernel)
     }
     const std::optional<int> n = gpu_number(word);
     if (!n) throw InputError(where, "unknown device '" + word + "'; allowed: auto, cpu, cuda, cuda:N");
-    if (!kernel.empty()) throw InputError(where + ", --kernel", "'" + kernel + "' is a kernel of the CPU; give one of both");
+    if (!kernel.empty()) throw InputError(where + ", --kernel", "'" + kernel + "' is a CPU kernel; give only one of the two");
     const cuda::Found& found = found_gpus();
     if (!found.missing.empty()) throw InputError(where, word + ": " + found.missing);
     if (std::size_t(*n) >= found.gpus.size())

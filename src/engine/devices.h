@@ -1,4 +1,4 @@
-// The table of kernels: which are compiled in, which this machine can run, which one to take. Floor 2.
+// The table of kernels: which are compiled in, which this machine can run, which one to use. Floor 2.
 #pragma once
 #include "engine/kernel.h"
 #include "engine/render.h"
@@ -15,22 +15,22 @@ struct KernelEntry {
     Kernel run;
 };
 
-/// The kernel named by `wanted`, else by the environment variable LFDSIM_KERNEL, else the best this machine has. Throws InputError
-/// that lists what there is for an unknown name or one that this machine lacks.
+/// The kernel named by `wanted`, else by the environment variable LFDSIM_KERNEL, else the best this machine can run. Throws
+/// InputError, which lists those available, for an unknown name or one that this machine cannot run.
 const KernelEntry& choose_kernel(const std::string& wanted);
 
-/// A GPU, or the CPU. `insists`: the user named a GPU, and an error is better than the CPU.
+/// A GPU, or the CPU. `insists`: the user named a GPU, so an error is reported rather than the CPU used.
 struct ChosenDevice {
     std::optional<int> gpu;
     bool insists = false;
 };
 
-/// The device named by `wanted` (RenderOptions::device). auto takes the first GPU that works, but keeps to the CPU where the user
-/// asks for one of its kernels. Throws InputError that says what is missing where there is no such GPU.
+/// The device named by `wanted` (RenderOptions::device). auto is the first GPU that works, but the CPU where the user asks for one
+/// of its kernels. Throws InputError, which says what is missing, where there is no such GPU.
 ChosenDevice choose_device(const std::string& wanted, const std::string& kernel);
 
-/// The device of renderings that name none; as long as none is set, the environment variable LFDSIM_DEVICE says it, else auto.
-/// Throws InputError as choose_device. To be called before work begins.
+/// Sets the device of renderings that name none; until then it is that of the environment variable LFDSIM_DEVICE, else auto. Throws
+/// InputError as choose_device. To be called before work begins.
 void set_default_device(const std::string&);
 
 }  // namespace lfdsim

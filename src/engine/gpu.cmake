@@ -8,8 +8,8 @@ option(LFDSIM_CUDA_FMAD "GPU: contract products and sums; faster, and not the CP
 set(LFDSIM_CUDA_STATE "none: switched off (LFDSIM_CUDA)")
 if(LFDSIM_CUDA)
   if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
-    # A program for others: -D CMAKE_CUDA_ARCHITECTURES="75-real;86-real;90". Newer ones are compiled from the last one's PTX by
-    # the driver when the program first runs, and where this machine has no GPU that is all there is.
+    # To distribute the program: -D CMAKE_CUDA_ARCHITECTURES="75-real;86-real;90". For newer GPUs the driver compiles the last one's
+    # PTX when the program first runs; where this machine has no GPU, only PTX is built.
     set(CMAKE_CUDA_ARCHITECTURES 75-virtual)
     if(EXISTS /dev/nvidiactl)
       set(CMAKE_CUDA_ARCHITECTURES native)

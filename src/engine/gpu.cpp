@@ -11,7 +11,7 @@ namespace lfdsim {
 
 namespace {
 
-// A GPU works for so many pictures at a time: while one is fetched the other is computed.
+// Pictures that a GPU works on at a time: while one is fetched the other is computed.
 constexpr int pictures_at_once = 2;
 
 struct GpuInUse {
@@ -20,10 +20,10 @@ struct GpuInUse {
     std::vector<std::unique_ptr<wide::Queue>> idle;
     int open = 0;
     std::atomic<bool> failed = false;
-    std::string given_up;  // why, when it was first done without
+    std::string given_up;  // why the CPU first did its work; empty: it did not
 };
 
-// Never destroyed: panels may outlive what main() leaves behind, and the driver frees all.
+// Never destroyed: panels may outlive static objects, and the driver frees everything.
 struct GpusInUse {
     std::mutex mutex;
     std::map<int, GpuInUse> all;
@@ -84,11 +84,11 @@ const wide::DevicePanel& panel_on(wide::Queue& queue, int number, GpuPanels& pan
     const std::size_t needed = (panels.copies.contains(number) ? 0 : wide::DevicePanel::bytes(levels)) + more,
                       free = queue.free_bytes();
     if (needed > free)
-        throw DoesNotFit(fmt::format("panel and picture need {} MB, of which {} MB are free", needed >> 20, free >> 20));
+        throw DoesNotFit(fmt::format("panel and picture need {} MB, but only {} MB are free", needed >> 20, free >> 20));
     return copy_on(panels, number, [&] { return wide::DevicePanel(queue, levels); });
 }
 
-/// do_it(queue) in a queue of the GPU; nothing where the CPU shall do it.
+/// do_it(queue) in a queue of the GPU; nothing where the CPU is to do it.
 template <class Do>
 auto on_gpu(const ChosenDevice& device, Do do_it) -> std::optional<decltype(do_it(std::declval<wide::Queue&>()))> {
     GpuInUse& gpu = gpu_in_use(*device.gpu);
@@ -103,9 +103,8 @@ auto on_gpu(const ChosenDevice& device, Do do_it) -> std::optional<decltype(do_i
         return do_it(loan.queue());
     } catch (const DoesNotFit& error) {
         if (device.insists)
-            throw InputError(
-                "--device",
-                fmt::format("{}: {}; take --device cpu, another GPU, a smaller camera.resolution or --crop", name, error.what()));
+            throw InputError("--device", fmt::format("{}: {}; use --device cpu, another GPU, a smaller camera.resolution or --crop",
+                                                     name, error.what()));
         give_up(error);
     } catch (const wide::DeviceError& error) {
         gpu.failed = true;

@@ -18,10 +18,10 @@
 
 namespace lfdsim {
 
-/// What cuda::find() said when first asked: looking takes a while.
+/// The result of the first cuda::find(), which takes a while.
 const cuda::Found& found_gpus();
 
-/// Why the CPU did what was a GPU's so far, in this process: the first reason of each GPU, with its name. Empty: it did not.
+/// Why the CPU has done a GPU's work in this process so far: the first reason for each GPU, with its name. Empty: it has not.
 std::vector<std::string> gpus_given_up();
 
 struct GpuRun {
@@ -30,14 +30,13 @@ struct GpuRun {
     Done done;
 };
 
-/// Renders on the chosen GPU; the panel stays there as long as `pyramid`, where one is given. Nothing: it failed or does not fit,
-/// and the CPU shall do it. Throws InputError where it does not fit, DeviceError where it failed, if the user insists on the GPU.
-/// May be called by several threads.
+/// Renders on the chosen GPU; the panel stays there as long as `pyramid` exists, where one is given. Returns nothing if the GPU
+/// failed or the picture does not fit, and the CPU is to render it. If the user insists on the GPU: throws InputError where it does
+/// not fit, DeviceError where the GPU failed. May be called by several threads.
 std::optional<GpuRun> render_on_gpu(const ChosenDevice&, const Pyramid* pyramid, const std::vector<optics::PanelLevel>&, Work&,
                                     Job&);
 
-/// The same, but the picture is compared where it is made and goes no farther. The work's picture is not touched; it has no target
-/// error.
+/// The same, but the picture is compared on the GPU and not transferred. The work's picture is not touched; it has no target error.
 struct GpuComparison {
     GpuRun run;
     Likeness likeness;  // where the run is complete

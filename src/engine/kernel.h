@@ -1,4 +1,4 @@
-// The work of a kernel, and the table of those compiled in. Plain data, common to all instruction sets. Floor 2.
+// A kernel's work, and the kernels compiled in. Plain data, common to all instruction sets. Floor 2.
 #pragma once
 #include "optics/scene.h"
 
@@ -21,10 +21,10 @@ struct Tile {
     int block_side;  // filtered estimator: pixels, a multiple of 4
     bool weak;       // filtered estimator: the diffuser is so weak that strata move with the pixels in every block
     Sampling sampling;
-    int dimensions;  // of the sampler that are in use
+    int dimensions;  // of the sampler, those in use
 };
 
-/// Errors are told of squares of the frame so many pixels wide and high (refine.h).
+/// Errors are estimated for squares of the frame of this many pixels a side (refine.h).
 constexpr int refined_side = 16;
 
 /// How far the work on a picture got.
@@ -35,7 +35,7 @@ struct Done {
 
 constexpr int max_strata = 64;  // rows or columns of them, those at borders of lenses included
 constexpr int more_strata = 2;  // at most, at borders of lenses
-constexpr int few_strata = 8;   // up to so many the filtered estimator looks for speed first, above for exactness
+constexpr int few_strata = 8;   // up to so many the filtered estimator prefers speed, above that accuracy
 
 using Kernel = void (*)(const Tile&);
 

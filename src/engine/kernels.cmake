@@ -2,7 +2,8 @@ set(kernel_level -O3)
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   set(kernel_level -O1)
 endif()
-# One object a kernel: the same source for each instruction set. No errno and no traps from mathematics; contraction is off everywhere.
+# One object for each kernel: the same source for each instruction set. No errno and no traps in mathematics; contraction is off
+# everywhere.
 function(lfdsim_kernel name isa lanes)
   add_library(lfdsim_kernel_${name} OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/engine/kernels/${name}.cpp)
   set_target_properties(lfdsim_kernel_${name} PROPERTIES UNITY_BUILD OFF)

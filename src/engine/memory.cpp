@@ -19,7 +19,7 @@ double memory_bytes() {
 // float32 RGB; writers keep a few rows beside it.
 double picture_bytes(std::int64_t columns, std::int64_t rows) { return double(columns) * double(rows) * 12; }
 
-// Four floats, and their pyramid.
+// Four floats a pixel; the pyramid adds a third.
 double texel_bytes(const Display& d) { return double(d.panel.pixels[0]) * double(d.panel.pixels[1]) * 16 * 4 / 3; }
 
 void require_memory(const std::string& where, const std::string& what, double bytes) {

@@ -13,7 +13,7 @@ namespace lfdsim {
 
 namespace {
 
-// One row of cells from two rows of the level below, the lower of which may lie outside.
+// One row of cells from two rows of the level below; `lower` is null where it lies outside the panel.
 void average_rows(const float* upper, const float* lower, std::int64_t columns, float* out) {
     for (std::int64_t i = 0; i < (columns + 1) / 2; ++i) {
         const bool whole = 2 * i + 1 < columns;

@@ -1,4 +1,4 @@
-// What the renderer reads of the panel: its image and, for the filtered estimator, the same at ever coarser resolution. Floor 2.
+// The panel as the renderer reads it: its image and, for the filtered estimator, the same at ever coarser resolution. Floor 2.
 #pragma once
 #include "image/texels.h"
 
@@ -13,8 +13,8 @@ namespace optics {
 struct PanelLevel;  // optics/scene.h
 }
 
-/// Level 0 is the panel image. Level k + 1 has half the columns and rows of level k, rounded up; a cell is the mean of 2 x 2, where
-/// what lies outside the panel is black. A third of the panel image's memory. The panel image must outlive it, unchanged.
+/// Level 0 is the panel image. Level k + 1 has half the columns and rows of level k, rounded up; a cell is the mean of 2 x 2, black
+/// outside the panel. Takes a third of the panel image's memory. The panel image must outlive it, unchanged.
 class Pyramid {
   public:
     /// threads 0: all. Throws std::bad_alloc.
@@ -25,7 +25,7 @@ class Pyramid {
 
     const std::vector<optics::PanelLevel>& levels() const { return levels_; }
 
-    /// The copies of it that GPUs hold, made when first asked for.
+    /// The copies of it that GPUs hold, made at first use.
     GpuPanels& on_gpus() const { return *on_gpus_; }
 
   private:

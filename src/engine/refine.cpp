@@ -11,10 +11,11 @@ namespace {
 constexpr int group_side = 4;
 constexpr std::int64_t most_points = 1 << 20;  // a pixel
 constexpr std::uint32_t points_at_once = 16;
-// The first step is a wide one: 1 and 2 strata, or 2 and 4, may have the same cuts, on the lenses' borders, and then show no error.
+// The first step is a large one: 1 and 2 strata, or 2 and 4, may have the same cuts, on the lenses' borders, and thus no
+// difference.
 constexpr int strata_steps[] = {1, 4, 8, 16, 32, max_strata - more_strata};
 
-/// What is known of a block so far.
+/// A block's results so far.
 struct Block {
     RefinedBlock at;
     RefinedPicture picture{}, error{};
@@ -88,12 +89,12 @@ class Refinement {
         }
     }
 
-    /// Takes the squared errors of the open blocks to errors; the blocks that are good enough are open no more.
+    /// Turns the squared errors of the open blocks into errors, and closes the blocks that are good enough.
     void close() {
         std::erase_if(open_, [&](Block* b) { return pool(*b) <= target_; });
     }
 
-    /// Takes the squared error of each number to the root of its group's mean; the largest of all groups.
+    /// Replaces each squared error by the root mean square over its group; returns the largest over all groups, colours pooled.
     double pool(Block& b) const {
         double worst = 0;
         for (int y = b.at.y; y < bottom(b.at); y += group_side) {

@@ -14,8 +14,8 @@ struct RefinedBlock {
     std::int32_t x, y;  // first pixel, multiples of refined_side
 };
 
-/// Renders blocks of 16 x 16 pixels, whole even where a crop cuts through them, so that no pixel depends on the crop; what lies
-/// outside of the frame is left as it is. strata 0: so many points. Once the job is cancelled it need not go on.
+/// Renders blocks of 16 x 16 pixels, whole even where a crop cuts through them, so that no pixel depends on the crop; pixels
+/// outside the frame are left as they are. With strata = 0: so many point samples. May stop once the job is cancelled.
 class BlockPainter {
   public:
     virtual ~BlockPainter() = default;
@@ -23,17 +23,17 @@ class BlockPainter {
                        std::vector<RefinedPicture>& pictures) = 0;
 };
 
-/// Renders the blocks that a tile has a part in, each with more and more samples until its estimated error, linear light, is below
-/// `target` in all groups of 4 x 4 pixels (root mean square over a group and its colours), or the samples are at their limit.
-/// `error`, laid out as the picture, takes each group's error of each colour. Returns the number of samples taken, or nothing where
-/// the job was cancelled on the way: a small target may take long. The order of the work among blocks changes no bit.
+/// Renders the blocks that overlap a tile, each with more and more samples until its estimated error, linear light, is below
+/// `target` in all groups of 4 x 4 pixels (root mean square over a group and its colours), or the samples are at their limit. Each
+/// group's error of each colour is written to `error`, laid out as the picture. Returns the number of samples taken, or nothing
+/// where the job was cancelled on the way: a small target may take long. The order in which blocks are done changes no bit.
 ///
 /// Points: independent repetitions with seeds of their own, twice as many each time; the error is the standard error of their mean.
-/// Filtered: at least twice as many rows and columns of strata each time; the error is the difference from the time before, which
-/// is that of the coarser picture.
+/// Filtered: at least twice as many rows and columns of strata each time; the error is the difference from the time before, that
+/// is, the error of the coarser picture.
 std::optional<std::int64_t> refine_tile(BlockPainter&, const Tile& tile, double target, float* error, const Job&);
 
-/// By a kernel, block after block.
+/// The same with a CPU kernel, block after block.
 std::optional<std::int64_t> refine_tile(Kernel, const Tile& tile, double target, float* error, const Job&);
 
 }  // namespace lfdsim

@@ -22,7 +22,7 @@ namespace lfdsim {
 
 namespace {
 
-constexpr int tile_width = 64, tile_height = 16;  // near pixels look at near panel pixels: a tile's texels stay in the cache
+constexpr int tile_width = 64, tile_height = 16;  // neighbouring pixels see nearby panel pixels: a tile's texels stay in the cache
 constexpr int most_threads = 1024;
 
 /// Tile by tile, on all threads.
@@ -30,12 +30,12 @@ Done render_on_cpu(Kernel kernel, int threads, Work& work, Job& job) {
     const Tile& whole = work.tile;
     std::atomic<std::int64_t> taken{0};
     std::atomic<bool> complete{true};
-    // TBB keeps to the number of processors unless told otherwise; a request for more is the user's to make.
+    // TBB uses at most as many threads as there are processors unless set otherwise; the user may ask for more.
     const tbb::global_control workers(tbb::global_control::max_allowed_parallelism,
                                       std::size_t(std::max(threads, tbb::info::default_concurrency())));
     tbb::task_arena arena(threads);
     arena.execute([&] {
-        // Tiles lie in a grid of the whole frame, so that none cuts through a packet's block except at the crop's border.
+        // Tiles lie on a grid of the whole frame, so that none cuts through a packet's block except at the crop's border.
         const tbb::blocked_range2d<int> tiles(whole.y0 / tile_height, (whole.y1 - 1) / tile_height + 1, 1, whole.x0 / tile_width,
                                               (whole.x1 - 1) / tile_width + 1, 1);
         tbb::parallel_for(
@@ -74,7 +74,7 @@ void check_threads(const RenderOptions& options) {
         throw InputError("--threads", fmt::format("{}; allowed: 1 to {}, or 0 for all", options.threads, most_threads));
 }
 
-/// By the GPU if one is chosen, else by the kernel.
+/// On the GPU if one is chosen, else with the kernel.
 Rendering render(Work& work, const char* kernel_name, Kernel kernel, const ChosenDevice& device, const Pyramid* pyramid,
                  const std::vector<optics::PanelLevel>& levels, const RenderOptions& options, Job& job) {
     work.make_pictures(options.target_error.has_value());

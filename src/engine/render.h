@@ -21,8 +21,8 @@ struct RenderOptions {
     std::optional<Rect> crop;  // of the camera's frame; the image has the crop's size and the full frame's pixels, bit for bit
     std::optional<double> target_error = {};  // > 0, linear light: take samples until the error is below it, see refine.h
     std::string device = {};  // cpu | cuda | cuda:N | auto: a GPU where there is one; empty: as set_default_device says
-    bool rough = false;       // filtered estimator: half the time where lenses span few pixels, errors as of 100 random points; for
-                              // what moves
+    bool rough = false;       // filtered estimator: half the time where lenses span few pixels, errors as with 100 random points;
+                              // for moving pictures
 };
 
 struct Rendering {
@@ -35,7 +35,7 @@ struct Rendering {
     Estimator estimator = Estimator::point;  // the one that was used
     std::int64_t samples = 0;                // all pixels together
     double prepare_seconds = 0;              // of making the panel's pyramid, where it was made on the way
-    double seconds = 0;                      // of rendering; with a GPU transfers to and from it are in it
+    double seconds = 0;                      // of rendering; with a GPU including transfers to and from it
     double gpu_seconds = 0;                  // of the GPU alone, by its clock
 };
 
@@ -47,12 +47,12 @@ struct KernelInfo {
 };
 std::vector<KernelInfo> kernels();
 
-/// The picture of a valid display showing `panel` (its size must be the panel's). Same input and seed: the same bits on any
-/// number of threads and any kernel, for any crop. Throws InputError for a bad kernel, crop, thread count, target error, number of
-/// samples or panel size.
+/// The picture of a valid display that shows `panel` (of the panel's size). The same input and seed give the same bits with any
+/// number of threads, kernel and crop. Throws InputError for a bad kernel, crop, thread count, target error, number of samples or
+/// panel size.
 Rendering render(const Display&, const Geometry&, const Texels& panel, const RenderOptions&, Job&);
 
-/// The same for a panel prepared before, as several views of one panel image want it.
+/// The same with a prepared panel, for several views of one panel image.
 Rendering render(const Display&, const Geometry&, const Pyramid& panel, const RenderOptions&, Job&);
 
 }  // namespace lfdsim

@@ -82,8 +82,9 @@ void add_lens(optics::Scene<S>& scene, const Display& display, const Geometry& g
     scene.hollow_back = surfaces.front().z_mm + sag_range_mm(surfaces.front())[1] > wall_bottom + 1e-9;
 }
 
-// Seen from above, up to the slope of its cap at the rim, a round lens is its rim's circle, and one that fills its cell is that,
-// its edges at the heights of their middles. A stop before the lens may be narrower.
+// The holes of the lenses (strata.h). Seen from above, at angles up to the slope of its cap at the rim, a round lens is the circle
+// of its rim; one that fills its cell is the cell, each edge at the height of its middle. A stop in front of the lens may be
+// narrower.
 template <class S>
 void add_holes(optics::Scene<S>& scene, const Display& display, const Geometry& geometry, double start_z) {
     const PlacedSurface& first = geometry.surfaces.back();
@@ -199,8 +200,8 @@ int sample_dimensions(const Display& display) {
 
 BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& view, int strata, bool rough) {
     using L = FilteredLimits;
-    // The picture's grid on the diffuser, along the line of sight, against a lens and what a diffused ray spans in the plane of the
-    // holes
+    // Compares the picture's pixels, projected along the line of sight onto the diffuser's plane, with a lens pitch and with what a
+    // diffused ray spans in the plane of the holes; mm.
     const double pixel = view.pixel_mm * std::abs((view.position[2] - view.start_z) / (view.forward[2] * view.distance));
     double seen = std::min(scene.lattice.pitch[0], scene.lattice.pitch[1]);
     double span[2];
@@ -211,8 +212,8 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
     }
     bool moving = shape.weak;
     for (int k = 0; k < 2 && !shape.weak; ++k) span[k] > L::moving_span* pixel ? seen = std::min(seen, span[k]) : moving = true;
-    // Many strata: a fine picture is asked for, in which what bends over a block would show. Where strata move the lenses' edges,
-    // at which blocks break, are sharp in the picture.
+    // Many strata ask for a fine picture, in which nonlinear motion over a block would show. Where strata move with the pixels, the
+    // edges of lenses, where bundles break, are sharp in the picture.
     const double wide = strata > 2 * few_strata ? L::block_finest
                         : moving                ? L::block_moving
                         : strata > few_strata   ? L::block_fine

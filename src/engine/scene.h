@@ -11,27 +11,27 @@ namespace lfdsim {
 template <class S>
 optics::Scene<S> make_scene(const Display&, const Geometry&);
 
-/// The camera, with the height of the plane where the tracer begins.
+/// The camera, with the height of the plane where the tracer starts.
 optics::View make_view(const Display&, const Geometry&);
 
-/// The estimator that a display is rendered with: what it asks for, but points where the filtered one does not apply (no diffuser;
-/// a pixel filter, a pupil or a turned array beside it).
+/// The estimator that a display is rendered with: the one it asks for, but points where the filtered one does not apply (no
+/// diffuser; a pixel filter, a pupil or a turned array).
 Estimator estimator_of(const Display&);
 
-/// Samples a pixel: what the display asks for or the default; of the filtered estimator a square number, of rows and columns of
-/// strata.
+/// Samples per pixel: what the display asks for, or the default; for the filtered estimator rounded up to a square number, rows
+/// times columns of strata.
 std::int64_t samples_of(const Display&);
 
-/// Dimensions of the sampler that a display needs; 0: there is nothing to sample, one ray tells all.
+/// Dimensions of the sampler that a display needs; 0: there is nothing to sample, one ray a pixel is exact.
 int sample_dimensions(const Display&);
 
 /// The blocks of pixels in which the filtered estimator shares its rays.
 struct BlockShape {
     int side;   // pixels: 16, 8 or 4
-    bool weak;  // the diffuser is: pixels see so little of a lens that strata move with them
+    bool weak;  // the diffuser is weak: pixels see so little of a lens that strata move with them
 };
-/// If each axis is cut into so many strata: less than what a pixel sees of a lens, and much less where many strata ask for a fine
-/// picture; nearly as much for a rough one.
+/// For so many strata an axis: a block spans less than a pixel sees of a lens, much less where many strata ask for a fine picture,
+/// nearly as much for a rough one.
 BlockShape block_shape(const optics::Scene<float>&, const optics::View&, int strata, bool rough = false);
 
 const optics::DirectionNumbers& sobol_directions();

@@ -9,8 +9,8 @@
 namespace lfdsim {
 
 /// The corners of the lens array (count times pitch, with its rotation and offset, in the viewer-side vertex plane) in the camera's
-/// picture; they may lie outside of it. Top left is the corner that is so for a viewer who stands upright before the display, the
-/// array's rotation taken to the nearest quarter turn. Nothing if the camera has a corner behind it.
+/// picture, pixels; they may lie outside it. "Top left" is meant for a viewer upright in front of the display, after the array's
+/// rotation is rounded to a quarter turn. Nothing if a corner lies behind the camera.
 std::optional<Corners> screen_corners(const Display&, const Geometry&);
 
 }  // namespace lfdsim

@@ -14,9 +14,10 @@ Rect checked_crop(const std::optional<Rect>& crop, const Camera& camera) {
     const Rect r = crop.value_or(Rect{0, 0, width, height});
     if (r.x0 < 0 || r.y0 < 0 || r.x1 > width || r.y1 > height || r.x0 >= r.x1 || r.y0 >= r.y1) {
         throw InputError(
-            "--crop", fmt::format("{},{},{},{} is no part of the frame of {} x {} pixels; give X0,Y0,X1,Y1 with 0 <= X0 < X1 <= {} "
-                                  "and 0 <= Y0 < Y1 <= {}",
-                                  r.x0, r.y0, r.x1, r.y1, width, height, width, height));
+            "--crop",
+            fmt::format("{},{},{},{} does not lie in the frame of {} x {} pixels; give X0,Y0,X1,Y1 with 0 <= X0 < X1 <= {} "
+                        "and 0 <= Y0 < Y1 <= {}",
+                        r.x0, r.y0, r.x1, r.y1, width, height, width, height));
     }
     return r;
 }

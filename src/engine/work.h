@@ -1,4 +1,4 @@
-// A picture's work, ready for any device. Floor 2.
+// A picture's work, prepared for any device. Floor 2.
 #pragma once
 #include "engine/kernel.h"
 #include "engine/render.h"
@@ -14,7 +14,7 @@ struct Work {
     Work(const Work&) = delete;
     Work& operator=(const Work&) = delete;
 
-    /// Black pictures of the crop's size, which the tile then writes to.
+    /// Makes black pictures of the crop's size, to which the tile is then rendered.
     void make_pictures(bool with_error);
 
     Rendering result;  // estimator; pictures once they are made

@@ -1,10 +1,14 @@
-// Bundles: a few rays that tell what a block of neighbouring pixels sees through a stratum. Floor 1.
+// Bundles: a few rays that determine what a block of neighbouring pixels sees through a stratum. Floor 1.
 //
 // Neighbouring pixels look through the same point of a lens at nearly the same point of the panel. So a grid of rays, the probes,
-// goes through a stratum from the middle of the block only: they tell where on the panel its light comes from, how widely it is
-// spread there, and how much of it gets through. Three rays from other places of the block tell how this footprint moves from pixel
-// to pixel, and whether it does so evenly. Where rays are lost on the way, or end under different lenses, the bundle is broken, and
-// each pixel traces a ray of its own.
+// is traced through a stratum from the block's middle only. Their ends on the panel give the footprint: its mean position, its
+// spread, and the share of light transmitted. Three rays from other points of the block show how the footprint moves from pixel to
+// pixel, and whether this motion is linear. Where rays are lost on the way, or end under different lenses, the bundle is broken,
+// and each pixel traces rays of its own.
+//
+// Positions in the planes of diffuser and holes are in mm in the array's frame, from the axis of the block's base lens; positions
+// on the panel are columns and rows, in panel pixels from where that axis meets the panel (PanelBase). The method is ray
+// differentials by finite differences (Igehy 1999); docs/model.md, "Filtered estimator", and docs/design.md explain it.
 #pragma once
 #include "optics/filtered_limits.h"
 #include "optics/footprint.h"
@@ -13,26 +17,28 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// A block's rays before the diffuser: through its middle; half a block to the right of it; below; to the left and above.
+/// The points of a block through which rays are followed to the diffuser: 0 its middle; 1 half a block to the right; 2 half a block
+/// down; 3 half a block to the left and up. For any linear motion the offsets of 1, 2 and 3 from the middle add up to 0.
 constexpr int block_rays = 4;
 LFDSIM_FN int block_right(int ray) { return ray == 1 ? 1 : ray == 3 ? -1 : 0; }
 LFDSIM_FN int block_down(int ray) { return ray == 2 ? 1 : ray == 3 ? -1 : 0; }
 
-/// A soft bundle's light is told at the corners of squares of FilteredLimits::node_step pixels: at most 3 x 3 places.
+/// The light of a soft bundle is computed at the corners of squares of FilteredLimits::node_step pixels, its nodes: at most 3 x 3.
 constexpr int most_nodes = 3;
 
+/// A block of pixels whose rays are shared, and its four rays in the first plane of the display.
 template <class S>
 struct PixelBlock {
-    int reach;  // pixels from the block's middle to its border
-    BaseLens<S> lens;
-    Vec3<S> to[block_rays];
-    Sweep<S> sweep[2][block_rays];
+    int reach;                      // pixels from the block's middle to its border
+    BaseLens<S> lens;               // the origin of x and y
+    Vec3<S> to[block_rays];         // unit directions in the display's frame, before the diffuser
+    Sweep<S> sweep[2][block_rays];  // along x' and y': where the diffuser sends the ray in the plane of the holes
     LFDSIM_FN int nodes() const { return 2 * reach > FilteredLimits::node_step ? 2 * reach / FilteredLimits::node_step + 1 : 2; }
-    bool alive;  // all rays look at the display, evenly spaced on it, and the diffuser's two turns move them as strata take them to
+    bool alive;  // all rays reach the display, evenly spaced on it, and strata may treat the diffuser's two turns as independent
 };
 
-/// Do all rays still go down, and not nearly level, when the diffuser has turned them? Beyond the horizontal they have no place
-/// among the lenses.
+/// Do all rays still go down, at no grazing angle, after the diffuser's largest turn? A ray turned past the horizontal does not
+/// meet the plane of the holes, so it has no place in a stratum.
 template <class S>
 LFDSIM_FN bool all_go_down(const Scene<S>& scene, const PixelBlock<S>& block) {
     for (int a = 0; a < 2; ++a) {
@@ -44,12 +50,15 @@ LFDSIM_FN bool all_go_down(const Scene<S>& scene, const PixelBlock<S>& block) {
     return true;
 }
 
-/// Strata take the diffuser's two turns as if each moved the ray along its own axis alone. Is that so, to a share
-/// `most` of the light that comes from a place?
+/// Strata treat the diffuser's two turns as independent, as if each moved the ray along its own axis alone. Do they misjudge the
+/// light that comes from any point by less than the share `most`? Tested at the four corners of the square of angles, seen from the
+/// block's middle.
 ///
-/// A ray in the direction t, |t| = 1, of slopes s and s' meets the solid angle |z'| da db, where z'^2 = 1 - t_x^2 - i_y^2 after the
-/// first turn of the direction i, and that is |t_z|^3 dx dy / H^2 of the plane H below. The strata take da db = dx dy / (H^2 (1 +
-/// s^2)(1 + s'^2)).
+/// The diffuser turns the unit direction i by a about y, after which its z component is z', then by b about x, to t. As the first
+/// turn keeps y and the second x, z'^2 = 1 - t_x^2 - i_y^2. The Jacobian of the two turns gives the solid angle |z'| da db; seen
+/// from the diffuser, dx dy in the plane H below spans |t_z|^3 dx dy / H^2. Equating both gives the true density of light on that
+/// plane, da db / (dx dy). With the slopes s = t_x/t_z and s' = t_y/t_z the strata take da db = dx dy / (H^2 (1 + s^2) (1 + s'^2)).
+/// `ratio` is the true density divided by that of the strata.
 template <class S>
 LFDSIM_FN bool axes_part(const Scene<S>& scene, const PixelBlock<S>& block, S most) {
     S tangent[2];
@@ -71,7 +80,7 @@ LFDSIM_FN bool axes_part(const Scene<S>& scene, const PixelBlock<S>& block, S mo
     return true;
 }
 
-/// The block of side x side pixels of which (column, row) is the first. Blocks lie in a grid of the whole frame.
+/// The block of side x side pixels whose first is (column, row). Blocks lie on a grid of the whole frame.
 template <class S>
 LFDSIM_FN PixelBlock<S> pixel_block(const Scene<S>& scene, const View& view, int side, S most_misjudged, std::int32_t column,
                                     std::int32_t row) {
@@ -100,19 +109,18 @@ LFDSIM_FN PixelBlock<S> pixel_block(const Scene<S>& scene, const View& view, int
     return block;
 }
 
-/// Rays from places in the plane of the diffuser to places in the planes of the holes, mm from the base lens's axis; and where on
-/// the panel they end. Arrays of a fixed length, which compilers make SIMD code of; the sums over them have a fixed order.
+/// Rays from points (at_x, at_y) of the diffuser's plane through points (x, y) of the plane of the holes, mm from the base lens's
+/// axis; and where on the panel they end. Arrays of fixed length, which compilers vectorize, summed in a fixed order.
 constexpr int most_probes = 16;
 template <class S>
 struct Probes {
     S at_x[most_probes], at_y[most_probes], x[most_probes], y[most_probes];
     S column[most_probes], row[most_probes], weight[most_probes];  // weight 0: lost
     S cell_i[most_probes], cell_j[most_probes];                    // the lens
-    S in[most_probes];                                             // 1: belongs to the part in question, else 0
-    S has_right[most_probes], has_left[most_probes], has_above[most_probes], has_below[most_probes];  // 1: there is a next one
+    S in[most_probes];                                             // 1: lies in the part of the stratum at hand, else 0
+    S has_right[most_probes], has_left[most_probes], has_above[most_probes], has_below[most_probes];  // 1: has that neighbour
 
-    /// per_axis x per_axis probes, row after row. Those beyond have seen nothing: a narrow packet never traces them, and sums take
-    /// all.
+    /// per_axis x per_axis probes, row after row. The rest count as lost: sums include them, but a narrow packet never traces them.
     LFDSIM_FN void lay_out(int per_axis) {
         for (int p = 0; p < most_probes; ++p) {
             column[p] = row[p] = weight[p] = cell_i[p] = cell_j[p] = in[p] = S(0);
@@ -134,10 +142,12 @@ LFDSIM_FN S sum_of(const S (&a)[most_probes]) {
     return (c[0] + c[2]) + (c[1] + c[3]);
 }
 
+/// Traces the first `count` probes (up to a full packet more) to the panel.
 template <Way through, class F>
 LFDSIM_LARGE void trace_probes(const Scene<Scalar<F>>& scene, const PixelBlock<Scalar<F>>& block, Probes<Scalar<F>>& probes,
                                int count) {
-    // The way up is told in the plane of x', 1 where there is but one plane.
+    // The holes' edges across y' may lie at another height than those across x'. The displacement in y is scaled to the plane of
+    // the latter; the factor is 1 where both are the same plane.
     const F down = F(scene.holes_below[0]), to_plane_x = F(scene.holes_below[0] / scene.holes_below[1]);
     for (int p = 0; p < count; p += LaneTraits<F>::width) {
         const F x = load<F>(probes.at_x + p), y = load<F>(probes.at_y + p);
@@ -153,23 +163,26 @@ LFDSIM_LARGE void trace_probes(const Scene<Scalar<F>>& scene, const PixelBlock<S
     }
 }
 
-/// What a block sees through a stratum, or through the part of it that lies inside its round hole, or beside that.
+/// What a block sees through a stratum, or through the part of it that lies inside its round hole, or beside that hole. Dark: no
+/// light. Sharp: each pixel reads one box of the panel. Soft: wider than a panel pixel, the mean over a box around each probe.
+/// Broken: each pixel traces rays of its own.
 template <class S>
 struct SharedBundle {
     enum class State { dark, sharp, soft, broken } state;
-    S column, row;  // mean place on the panel, from the block's base, seen from the block's middle
-    S column_right, row_right, column_down, row_down;  // how that moves per picture pixel
-    S width, height;                                   // of a box that spreads as far, panel pixels
-    S weight;                                          // mean over the part, what is lost on the way counted as 0
-    S x, y, probe_column, probe_row;                   // the probe that stands for it: mm, and its place on the panel
-    S lean_column[2], lean_row[2];                     // sharp: added to what moves it per picture pixel to the right and down
-    Footprint<S> footprint;                            // sharp: the box, which each pixel reads at its own place
+    S column, row;  // mean position on the panel, seen from the block's middle: panel pixels from the block's base
+    S column_right, row_right, column_down, row_down;  // its motion per picture pixel to the right and down
+    S width, height;                                   // of a box of the same spread, panel pixels
+    S weight;                                          // mean share of light transmitted over the part, lost rays counted as 0
+    S x, y, probe_column, probe_row;                   // the probe nearest to the middle: mm, and its end on the panel
+    S lean_column[2], lean_row[2];                     // sharp: added to the motion per picture pixel to the right and down
+    Footprint<S> footprint;                            // sharp: the box, which each pixel reads at its own position
     bool still;                                        // soft: the footprint does not move
     int nodes;                                         // soft: along an axis of the block; 1: its light is the same everywhere
     S colour[most_nodes * most_nodes][4];              // soft: the light there; interpolated between
 };
 
-/// Sums up the per_axis x per_axis probes of a stratum.
+/// The footprint of a stratum's per_axis x per_axis probes, as far as they determine it: position, spread, transmitted share. Sharp
+/// if all that reach the panel did so through one lens, dark if none reached it, else broken.
 template <class S>
 LFDSIM_FN SharedBundle<S> sum_up(const Probes<S>& probes, int per_axis) {
     using State = typename SharedBundle<S>::State;
@@ -196,7 +209,7 @@ LFDSIM_FN SharedBundle<S> sum_up(const Probes<S>& probes, int per_axis) {
     b.column = column + mean_c;
     b.row = row + mean_r;
     b.weight = mean([&](int p) { return probes.weight[p]; }) * count / part;
-    // A box of width w seen at n even places spreads by the variance w^2 / 12 (1 - 1/n^2).
+    // n evenly spaced points across a box of width w have the variance w^2 / 12 (1 - 1/n^2); here n = per_axis.
     const S all = S(per_axis * per_axis), spread = S(12) * all / (all - S(1));
     b.width = sqrt(max(spread * (mean([&](int p) { return c[p] * c[p]; }) - mean_c * mean_c), S(0)));
     b.height = sqrt(max(spread * (mean([&](int p) { return r[p] * r[p]; }) - mean_r * mean_r), S(0)));
@@ -217,7 +230,8 @@ LFDSIM_FN SharedBundle<S> sum_up(const Probes<S>& probes, int per_axis) {
     return b;
 }
 
-/// How the place on the panel changes with the place in the plane of the holes: least squares over the probes, panel pixels per mm.
+/// How the position on the panel changes with the position in the plane of the holes: least squares over the probes, panel pixels
+/// per mm.
 template <class S>
 struct Slopes {
     S column[2], row[2];  // along x and y
@@ -241,13 +255,13 @@ struct Slopes {
     }
 };
 
-/// Is the footprint so wide that a single box tells too little of it?
+/// Is the footprint too wide to be described by a single box?
 template <class S>
 LFDSIM_FN bool is_soft(const SharedBundle<S>& b) {
     return max(b.width, b.height) > S(FilteredLimits::soft);
 }
 
-/// The panel over small boxes about the probes of a part of a stratum, each as wide as it is to the next probes.
+/// The panel's light over small boxes around the probes of a part of a stratum, each as wide as the distance to the next probes.
 template <class S>
 struct ProbeBoxes {
     S width[most_probes], height[most_probes], weight[most_probes];  // panel pixels; 0: lost
@@ -281,7 +295,7 @@ struct ProbeBoxes {
         }
     }
 
-    /// The light of each, moved by (column, row): R, G, B and whether the probe belongs to the part.
+    /// The light of each box, moved by (column, row): R, G, B and whether the probe lies in the part.
     template <class F>
     LFDSIM_FN void look(const Probes<S>& probes, const PanelLevel* levels, int level_count, const PanelBase<S>& base, S column,
                         S row, S (&light)[most_probes][4]) const {
@@ -292,7 +306,9 @@ struct ProbeBoxes {
     }
 };
 
-/// How a bundle moves, from three rays at its probe's point, p .. p + 2, seen from the block's places 1, 2 and 3.
+/// Derives a bundle's motion per picture pixel from rays p .. p + 2, which go through its probe's point from the block's points 1,
+/// 2 and 3. The bundle becomes broken if the motion is not linear, or a ray is lost or ends under another lens, unless it is so
+/// wide that this does not matter.
 template <class S>
 LFDSIM_FN void follow(SharedBundle<S>& b, const Probes<S>& rays, int p, int reach) {
     const S column = b.probe_column, row = b.probe_row, per = S(1) / S(reach);
@@ -306,8 +322,7 @@ LFDSIM_FN void follow(SharedBundle<S>& b, const Probes<S>& rays, int p, int reac
     bool whole = even(uneven_column, b.width) && even(uneven_row, b.height);
     for (int k = p; k < p + 3; ++k)
         whole = whole && rays.weight[k] > S(0) && rays.cell_i[k] == rays.cell_i[p] && rays.cell_j[k] == rays.cell_j[p];
-    // A footprint that is much wider than its way over the block, or so wide that rays through the same glass go many ways, is
-    // taken to stand still.
+    // A footprint much wider than its motion over the block, or so wide that its rays scatter widely, is treated as still.
     const S way_column = S(reach) * (abs(b.column_right) + abs(b.column_down)),
             way_row = S(reach) * (abs(b.row_right) + abs(b.row_down));
     const auto stands = [](S way, S size) { return way <= S(FilteredLimits::least_uneven) + S(FilteredLimits::still) * size; };

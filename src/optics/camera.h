@@ -1,7 +1,8 @@
-// The camera: for each pixel the ray through its centre, and how a sample departs from it. Floor 1.
+// The camera: for each pixel the ray through its centre, and how a sample's ray differs from it. Floor 1.
 //
 // The ray through the pixel's centre is followed in double precision to the first plane of the display (the diffuser, or the top of
-// the lens array); the tracer starts there, from the axis of a lens near that point, so that float is enough.
+// the lens array). The tracer starts there, with coordinates relative to the axis of a lens near that point, so that single
+// precision is enough.
 #pragma once
 #include "optics/elementary.h"
 #include "optics/lens_array.h"
@@ -22,7 +23,7 @@ struct PixelRays {
     PanelBase<Scalar<F>> base;
 };
 
-/// A packet's pixels form a block of the frame, so that its rays see near panel pixels.
+/// A packet's pixels form a block of the frame, so that its rays reach panel pixels close to each other.
 template <class F>
 struct Block {
     static constexpr int lanes = LaneTraits<F>::width;
@@ -34,7 +35,7 @@ struct Block {
 constexpr std::int32_t shared_width = 4, shared_height = 4;
 
 /// The ray through the point (column, row) of the frame, in pixels: its direction, not normalised, and where it crosses the first
-/// plane, in the array's frame. A ray that looks away crosses it nowhere; it gets some finite place.
+/// plane, in the array's frame. A ray that goes away from the display does not cross it; it gets some finite point.
 LFDSIM_FN void follow_to_first_plane(const View& view, double column, double row, double d[3], double& x, double& y) {
     const double sx = (column - 0.5 * view.width) * view.pixel_mm, sy = (0.5 * view.height - row) * view.pixel_mm;
     for (int a = 0; a < 3; ++a) d[a] = view.forward[a] * view.distance + view.right[a] * sx + view.up[a] * sy;
@@ -47,8 +48,8 @@ LFDSIM_FN void follow_to_first_plane(const View& view, double column, double row
     y = at.y;
 }
 
-/// The lens that rays near the point (column, row) of the frame are told from: its axis in the array's frame, what cells hold a
-/// lens beside it, and where its axis meets the panel.
+/// The base lens of the rays near the point (column, row) of the frame, the origin of their coordinates: its axis in the array's
+/// frame, which cells around it hold a lens, and where its axis meets the panel.
 template <class S>
 struct BaseLens {
     double x, y;
@@ -81,7 +82,7 @@ LFDSIM_FN PixelRays<F> pixel_rays(const View& view, std::int32_t column, std::in
     const BaseLens<S> lens = base_lens<S>(view, column / shared_width * shared_width + shared_width / 2,
                                           row / shared_height * shared_height + shared_height / 2);
     S x[N], y[N], dx[N], dy[N], dz[N], per_length[N];
-    for (int k = 0; k < N; ++k) {  // compilers make SIMD code of this
+    for (int k = 0; k < N; ++k) {  // compilers vectorize this
         double d[3], px, py;
         follow_to_first_plane(view, column + k % Block<F>::width + 0.5, row + k / Block<F>::width + 0.5, d, px, py);
         const double inverse = 1 / __builtin_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
@@ -120,10 +121,9 @@ LFDSIM_FN void disk(F a, F b, F& x, F& y) {
     y = r * select(wide, sine, cosine);
 }
 
-/// Moves a sample from the pixel's centre to `jitter` (half pixels, right and up) and the pinhole to `lens` (half pupils): the
-/// rays' place in the first plane and their direction then. With the unit direction d through the centre, m = d_xy / d_z and H the
-/// height of the plane above the camera, the change of direction e moves the ray by H (e_xy - m e_z) / (d_z + e_z): no large
-/// numbers cancel.
+/// The rays, in the first plane, of a sample moved from the pixel's centre by `jitter` (half pixels, right and up), with the
+/// pinhole moved by `lens` (half pupils). With the unit direction d through the centre, m = d_xy / d_z and H the height of the
+/// plane above the camera, a change e of direction moves the ray by H (e_xy - m e_z) / (d_z + e_z): no large numbers cancel.
 template <class F>
 LFDSIM_RARE Ray<F> displaced(const View& view, const PixelRays<F>& pixels, F jitter_x, F jitter_y, F lens_x, F lens_y) {
     using S = Scalar<F>;

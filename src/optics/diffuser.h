@@ -1,4 +1,4 @@
-// The diffuser: a thin plane that turns a ray by two random angles and takes nothing from it. Floor 1.
+// The diffuser: a thin plane that turns a ray by two random angles, without loss. Floor 1.
 #pragma once
 #include "optics/elementary.h"
 #include "optics/scene.h"
@@ -13,15 +13,15 @@ LFDSIM_FN F diffuser_angle(const Scene<Scalar<F>>& scene, int axis, F uniform) {
     return F(scene.half_angle[axis]) * erfinv(uniform * F(scene.gaussian_tail[axis]));
 }
 
-/// The number in [-1, 1] that stands for an angle with this tangent; beyond it where the diffuser does not turn a ray so far. The
-/// inverse of diffuser_angle.
+/// The inverse of diffuser_angle: the number whose angle has this tangent; outside [-1, 1] where the diffuser does not turn a ray
+/// that far.
 template <class F>
 LFDSIM_FN F diffuser_uniform(const Scene<Scalar<F>>& scene, int axis, F tangent) {
     const F a = atan(tangent) / F(scene.half_angle[axis]);
     return scene.diffuser_profile == Profile::box ? a : erf(a) / F(scene.gaussian_tail[axis]);
 }
 
-/// t = Rx(b) Ry(a) i: about y first (spreads horizontally), then about x; right-handed. Unit length stays.
+/// t = Rx(b) Ry(a) i: about y first (spreads horizontally), then about x; right-handed. Keeps the unit length.
 template <class F>
 LFDSIM_FN Vec3<F> turn(Vec3<F> i, F sin_a, F cos_a, F sin_b, F cos_b) {
     const F x = cos_a * i.x + sin_a * i.z, z = cos_a * i.z - sin_a * i.x;

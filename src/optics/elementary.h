@@ -1,11 +1,11 @@
 // Sine, logarithm, power and the inverse error function over lanes: polynomials, so that all instruction sets agree. Floor 1.
-// The double instance serves as reference and takes the library's functions.
+// The double instance serves as reference and uses the library's functions.
 #pragma once
 #include "optics/lane.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// Sine and cosine of |a| <= pi/2; `small` promises |a| <= 0.05, where fewer terms do. Error below 1.3e-7 (1e-7).
+/// Sine and cosine of |a| <= pi/2; `small` promises |a| <= 0.05, where fewer terms suffice. Error below 1.3e-7 (1e-7).
 template <class F>
 LFDSIM_FN void sincos(F a, bool small, F& sine, F& cosine) {
     if constexpr (LaneTraits<F>::width == 1 && sizeof(F) == 8) {
@@ -96,9 +96,9 @@ LFDSIM_FN F erf(F x) {
     return select(x < F(0), -y, y);
 }
 
-/// The inverse of the error function on [-1, 1], finite at the ends (|x| is kept below 1 - 2^-24): M. Giles, "Approximating the
-/// erfinv function", GPU Computing Gems 2, 2010, single precision; error below 1e-6 relative. For double two steps of Newton's
-/// method mend it.
+/// The inverse of the error function on [-1, 1], finite at the ends (|x| is kept at most 1 - 2^-24): M. Giles, "Approximating the
+/// erfinv function", GPU Computing Gems Jade Edition, 2011, single precision; error below 1e-6 relative. For double, two steps of
+/// Newton's method refine it.
 template <class F>
 LFDSIM_FN F erfinv(F x) {
     using S = Scalar<F>;

@@ -1,14 +1,14 @@
-// The mean light of the panel over a footprint, from a pyramid of ever coarser panel images. Floor 1.
+// The mean light of the panel over a footprint, from a pyramid of panel images, each half as fine as the last. Floor 1.
 //
-// A level's cell is the mean of 2 x 2 cells of the level below; level 0 is the panel. The level is taken at which the footprint is
-// at most one cell wide and high: it then overlaps 2 x 2 cells, which count by how much of it lies in each. At level 0 that is
+// A level's cell is the mean of 2 x 2 cells of the level below; level 0 is the panel. A footprint is read at the level at which it
+// is at most one cell wide and high: it then overlaps 2 x 2 cells, weighted with how much of it lies in each. At level 0 this is
 // exact.
 #pragma once
 #include "optics/light.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-// R, G, B and an idle number
+// R, G, B and an unused number
 #ifdef __CUDACC__
 struct alignas(16) Texel {
     float v[4];
@@ -48,7 +48,7 @@ struct LevelReader {
         add_cell(light, to_int(floor(cells(rest_column, column))), to_int(floor(cells(rest_row, row))), weight);
     }
 
-    /// Adds weight x the mean over a box about there, width x height cells, at most one each; per_width = 1 / width.
+    /// Adds weight x the mean over a box centred there, width x height cells, at most one each; per_width = 1 / width.
     template <class F>
     LFDSIM_FN void add_box(Light<F>& light, F column, F row, F weight, F width, F height, F per_width, F per_height) const {
         const F half = F(S(0.5)), c = cells(rest_column, column) - half * width, r = cells(rest_row, row) - half * height;
@@ -79,7 +79,7 @@ struct LevelReader {
 /// A box wider or narrower than this, in cells, is read as if it were as wide.
 constexpr float least_box = 1.0f / 64, most_box = 1;
 
-/// A box on the level that suits it, the same for all pixels of a block but for its place.
+/// A box on the level that suits its size, the same for all pixels of a block except for its position.
 template <class S>
 struct Footprint {
     LevelReader<S> level;
@@ -108,9 +108,9 @@ struct Footprint {
 };
 
 /// The same for boxes that differ from lane to lane, each on a level of its own: weight x the light of each lane; R, G, B and an
-/// idle number. Its level is that at which it is at most two cells, of which one is read: what a coarser cell would add from beside
-/// the box does more harm than what is left out. Places count from the panel's corner in single precision: on a panel of 16384
-/// columns good to 1/1000 of a pixel.
+/// unused number. A box's level is that at which it is at most two cells wide, and one cell's width of it is read: the light that a
+/// coarser cell would add from outside the box is the larger error. Positions are measured from the panel's corner in single
+/// precision: on a panel of 16384 columns accurate to 1/1000 of a pixel.
 template <class F>
 LFDSIM_FN void light_of_boxes(const PanelLevel* levels, int count, const PanelBase<Scalar<F>>& base, F column, F row, F wide,
                               F high, F weight, Scalar<F> (*light)[4]) {

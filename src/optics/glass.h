@@ -1,14 +1,14 @@
-// Clear and plate surrounds: polished glass in air, through which a ray finds its own way. Floor 1.
+// Clear and plate surrounds: polished glass in air, whose surfaces a ray meets in no fixed order. Floor 1.
 //
-// A crossing is sought with its sense: from outside a ray can only go in, from inside only out. A ray that stands on a surface
-// after it was refracted or reflected there can thus not meet it again at once, and no distance has to be declared too small to
-// count. z is measured from the panel; x, y from the base lens's axis, in the array's frame.
+// Only crossings in the right direction count: from outside a ray can only enter glass, from inside only leave it. A ray that was
+// refracted or reflected on a surface can thus not meet it again at once, and no minimum distance is needed. z is measured from the
+// panel; x, y from the base lens's axis, in the array's frame; mm.
 #pragma once
 #include "optics/sequential.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// The nearest crossing found so far on a ray: way to it, and the normal there, towards the outside.
+/// The nearest crossing found so far on a ray: path length to it, and the normal there, towards the outside.
 template <class F>
 struct Crossing {
     F t;
@@ -25,18 +25,18 @@ struct Crossing {
     }
 };
 
-/// Edges of one solid are met by both faces that share them: within this much of them, mm.
+/// Tolerance at edges, mm: so close to an edge a ray may meet either face that shares it.
 template <class F>
 LFDSIM_FN F slack() {
     return F(Scalar<F>(sizeof(Scalar<F>) == 4 ? 2e-6 : 1e-11));
 }
-/// A crossing this little behind the ray is where the ray stands, on the wrong side of rounding, mm.
+/// Is a crossing at the path length t ahead? One slightly behind (mm) counts too: the ray stands on it, but for rounding.
 template <class F>
 LFDSIM_FN Mask<F> ahead(F t) {
     return t > F(Scalar<F>(sizeof(Scalar<F>) == 4 ? -1e-4 : -1e-9));
 }
 
-/// Root of a t^2 + 2 b t + c = 0 where the left side rises (rising) or falls, without cancellation; found where `real`.
+/// The root of a t^2 + 2 b t + c = 0 at which the left side rises (`rising`) or falls, without cancellation; `real`: it exists.
 template <class F>
 LFDSIM_FN F root(F a, F b, F c, bool rising, Mask<F>& real) {
     const F disc = b * b - a * c;
@@ -51,8 +51,9 @@ LFDSIM_FN F root(F a, F b, F c, bool rising, Mask<F>& real) {
     return select(far, w - b, -c) / select(far, a, b + w);
 }
 
-/// Where a ray crosses a surface of revolution downwards (against +z) or upwards: `at` from the lens's axis and the vertex.
-/// Aspheres: the first change of sign of z - sag on the way through the cap's zone, in steps of a 32nd, then bisected.
+/// Path length to where a ray crosses a surface of revolution downwards (against +z) or upwards, if `valid`, and the unit normal
+/// there, towards +z; `at` is relative to the lens's axis and the vertex. Aspheres: the first change of sign of z - sag on the way
+/// through the cap's zone, in 32 steps, then bisected.
 template <class F>
 LFDSIM_FN F cross_surface(const SurfaceData<Scalar<F>>& surface, Vec3<F> at, Vec3<F> to, bool downwards, Vec3<F>& up,
                           Mask<F>& valid) {
@@ -62,7 +63,7 @@ LFDSIM_FN F cross_surface(const SurfaceData<Scalar<F>>& surface, Vec3<F> at, Vec
     Mask<F> sheet;
     auto stand = [&](F way) { return Vec3<F>{at.x + to.x * way, at.y + to.y * way, at.z + to.z * way}; };
     if (surface.shape == Shape::asphere) {
-        // The way through the zone between the vertex and the rim, widened by a thousandth of the aperture for bulging aspheres
+        // The path through the zone between the lowest and the highest point of the cap, widened by the tolerance
         const F low = F(surface.low) - slack<F>(), high = F(surface.high) + slack<F>();
         const F a = (low - at.z) / to.z, b = (high - at.z) / to.z;
         const Mask<F> level = abs(to.z) < F(S(1e-7));
@@ -107,8 +108,7 @@ LFDSIM_FN F cross_surface(const SurfaceData<Scalar<F>>& surface, Vec3<F> at, Vec
     return t;
 }
 
-/// Faces and walls of the solids in one cell, crossed inwards or outwards. Walls count where `wall_x`, `wall_y` say that there is
-/// air.
+/// The top or bottom face of the solid in one cell, crossed inwards or outwards.
 template <class F>
 LFDSIM_FN void cross_face(const Scene<Scalar<F>>& scene, bool top, Vec3<F> at, Vec3<F> to, bool inwards, Cell<F> cell,
                           Mask<F> active, Crossing<F>& best) {
@@ -126,7 +126,7 @@ LFDSIM_FN void cross_face(const Scene<Scalar<F>>& scene, bool top, Vec3<F> at, V
     best.take(active && valid, t, {sense * up.x, sense * up.y, sense * up.z}, cell);
 }
 
-/// Is a point of a wall between the faces of its lens? `from` a height on, when the solids begin above a slab.
+/// Is a point of a wall between the faces of its lens? caps_only: and outside the slab, above the upper or below the lower rim.
 template <class F>
 LFDSIM_FN Mask<F> between_faces(const Scene<Scalar<F>>& scene, Vec3<F> local, bool caps_only) {
     const auto &top = scene.surface[0], &bottom = scene.surface[scene.surface_count - 1];
@@ -153,7 +153,7 @@ LFDSIM_FN void cross_walls(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>
         Mask<F> real;
         const F t = root(to.x * to.x + to.y * to.y, x * to.x + y * to.y, x * x + y * y - r * r, !inwards, real);
         const Vec3<F> p{x + to.x * t, y + to.y * t, at.z + to.z * t};
-        // On the rim itself the sag is the rim's: do not ask for it beyond.
+        // At this distance from the axis the faces are at their rims, whose sag is known.
         const auto &top = scene.surface[0], &bottom = scene.surface[scene.surface_count - 1];
         const Mask<F> high = (p.z <= F(top.z + top.rim) + slack<F>()) && (p.z >= F(bottom.z + bottom.rim) - slack<F>());
         best.take(active && real && ahead(t) && high, t, {p.x * per, p.y * per, zero}, cell);
@@ -162,7 +162,7 @@ LFDSIM_FN void cross_walls(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>
     const F one = F(1);
     for (int axis = 0; axis < 2; ++axis) {
         const F half = F(scene.lattice.half_pitch[axis]),
-                along = F(scene.lattice.half_pitch[1 - axis]);  // the wall's place and length
+                along = F(scene.lattice.half_pitch[1 - axis]);  // the wall's distance from the axis, and half its length
         const F place = axis == 0 ? x : y, slope = axis == 0 ? to.x : to.y;
         const F sign = select(slope < zero, -one, one);  // of the way along the axis
         const F side = inwards ? -sign : sign;           // of the wall that it crosses
@@ -178,7 +178,7 @@ LFDSIM_FN void cross_walls(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>
     }
 }
 
-/// The ways at which a ray enters and leaves low <= z <= high.
+/// The path lengths at which a ray enters and leaves low <= z <= high.
 template <class F>
 LFDSIM_FN void cross_slab(Vec3<F> at, Vec3<F> to, F low, F high, F& in, F& out) {
     const F huge = F(Scalar<F>(1e30)), a = (low - at.z) / to.z, b = (high - at.z) / to.z;
@@ -188,16 +188,16 @@ LFDSIM_FN void cross_slab(Vec3<F> at, Vec3<F> to, F low, F high, F& in, F& out) 
     out = select(level, select(within, huge, -huge), max(a, b));
 }
 
-/// A bundle of rays among glass.
+/// A packet of rays among glass.
 template <class F>
 struct GlassRays {
     Vec3<F> at, to;
-    Cell<F> cell;  // whose solid the ray is in
+    Cell<F> cell;  // of the solid that the ray is in
     Mask<F> inside;
     Mask<F> below;  // plate: outside on the panel's side
 };
 
-/// Separate solids: from inside to the own faces and walls, from outside to those of the cells on the way.
+/// `clear`, separate solids: rays inside one are tested against its own faces and walls, others against those of cells on the way.
 template <class F>
 LFDSIM_FN void next_in_clear(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const GlassRays<F>& rays,
                              Mask<F> alive, Crossing<F>& best) {
@@ -217,7 +217,8 @@ LFDSIM_FN void next_in_clear(const Scene<Scalar<F>>& scene, const Extent<Scalar<
                [&](Cell<F> cell, Mask<F> active) { return solid(cell, active, true) && active; });
 }
 
-/// One sheet: the flat of a face between the caps, and the caps of the cells on the way through their zone.
+/// `plate`, one sheet: the next crossing of its top or bottom face, on the flat between the caps or on a cap of the cells on the
+/// way through their zone.
 template <class F>
 LFDSIM_FN void next_on_face(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, bool top, bool inwards,
                             const GlassRays<F>& rays, Mask<F> active, Crossing<F>& best) {
@@ -287,14 +288,15 @@ LFDSIM_FN void cross(const Scene<Scalar<F>>& scene, const Crossing<F>& here, Mas
     rays.inside = (rays.inside && !refracted) || (refracted && !rays.inside);
 }
 
-/// From the plane of the first vertex to the panel: at most most_crossings surfaces, refracted or reflected at.
+/// Surfaces at which a path may be refracted or reflected; where it meets one more it is black.
 constexpr int most_crossings = 16;
 
+/// From the vertex plane of the first surfaces, in which way.ray starts, to the panel.
 template <class F>
 LFDSIM_FN PanelPoint<F> trace_glass(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
                                     const PanelBase<Scalar<F>>& base, Passage<F> way) {
     using S = Scalar<F>;
-    // Begin above everything.
+    // Start above all lenses.
     const F first = F(scene.surface[0].z), up = (F(scene.body_top) - first) / way.ray.to.z;
     GlassRays<F> rays{{way.ray.at.x + way.ray.to.x * up, way.ray.at.y + way.ray.to.y * up, F(scene.body_top)},
                       way.ray.to,

@@ -1,4 +1,4 @@
-// The ideal thin lens: no aberrations, no losses; the reference that theory speaks of. Floor 1.
+// The ideal thin lens of paraxial theory: no aberrations, no losses. Floor 1.
 #pragma once
 #include "optics/sequential.h"
 

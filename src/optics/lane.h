@@ -1,6 +1,6 @@
 // F, the number type that the optics is written over: float, double, or N float lanes of a SIMD register (simd.h). Floor 1.
 //
-// The optics never says `if` about an F. It says select(mask, a, b), and any(mask) or none(mask) to skip work that no lane needs.
+// The optics never branches on an F: it uses select(mask, a, b), and any(mask) or none(mask) to skip work that no lane needs.
 // Every operation rounds once, as IEEE 754 says, so that all instruction sets agree to the last bit.
 #pragma once
 #include <cmath>
@@ -42,7 +42,7 @@ LFDSIM_FN float floor(float a) { return __builtin_floorf(a); }
 LFDSIM_FN double floor(double a) { return __builtin_floor(a); }
 LFDSIM_FN float abs(float a) { return __builtin_fabsf(a); }
 LFDSIM_FN double abs(double a) { return __builtin_fabs(a); }
-// b if either is NaN, as the SIMD instructions have it
+// b if either is NaN, as with the SIMD instructions
 LFDSIM_FN float min(float a, float b) { return a < b ? a : b; }
 LFDSIM_FN int min(int a, int b) { return a < b ? a : b; }
 LFDSIM_FN double min(double a, double b) { return a < b ? a : b; }

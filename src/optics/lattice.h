@@ -1,8 +1,8 @@
-// What everything asks the lattice of lenses: which lens, and where its axis is. Floor 1.
+// The lattice of lenses: which lens is at a point, and where a lens's axis is. Floor 1.
 //
-// Two counts of lenses are in use. In the array, lens (i, j) counts from 0 at the lower left, and places from the array's middle.
-// Near a packet of rays cells and places count from a base lens's axis: single precision then never sees a number much larger than
-// a lens.
+// Lenses are numbered in two ways. In the array, lens (i, j) is counted from 0 at the lower left, and positions are measured from
+// the array's middle. Near a packet of rays, cells and positions are relative to a base lens's axis: single precision then never
+// sees a number much larger than a lens.
 #pragma once
 #include "model/lattice.h"
 #include "optics/lane.h"
@@ -23,7 +23,7 @@ struct Place {
 
 // From a lens's axis.
 
-/// Along x' (0) or y' (1) alone: the number of the row or column of cells that a place lies in.
+/// Along x' (axis 0) or y' (1) alone: the number of the column or row of cells that contains `place`.
 template <class F>
 LFDSIM_FN F cell_along(const Lattice<Scalar<F>>& lattice, int axis, F place) {
     return floor(place * F(lattice.per_pitch[axis]) + F(Scalar<F>(0.5)));
@@ -39,7 +39,7 @@ LFDSIM_FN Place<F> axis_of(const Lattice<Scalar<F>>& lattice, Cell<F> cell) {
     return {cell.i * F(lattice.pitch[0]), cell.j * F(lattice.pitch[1])};
 }
 
-/// Whether a place lies in its lens's cell, told from that lens's axis.
+/// Whether a point (x, y), measured from a lens's axis, lies in that lens's cell.
 template <class F>
 LFDSIM_FN Mask<F> in_cell(const Lattice<Scalar<F>>& lattice, F x, F y) {
     return (abs(x) <= F(lattice.half_pitch[0])) && (abs(y) <= F(lattice.half_pitch[1]));

@@ -1,7 +1,7 @@
-// Which lens? The lattice, its stops, and the lens that a slanting ray meets first. Floor 1.
+// Which lens a ray meets: the cells that hold a lens, their stops, and the walk of an oblique ray from cell to cell. Floor 1.
 //
-// Positions are in the frame of the array (turned with it), from the axis of a base lens near the rays of a packet, and cells are
-// told from that lens.
+// Positions are in the frame of the array (turned with it), relative to the axis of a base lens near the rays of a packet; cells
+// are counted from that lens.
 #pragma once
 #include "optics/lane.h"
 #include "optics/lattice.h"
@@ -31,7 +31,7 @@ LFDSIM_FN Mask<F> passes_stop(const Scene<Scalar<F>>& scene, const Extent<Scalar
 
 /// Walks cell by cell along the line (x + mx s, y + my s), from <= s <= depth, in the order in which the line enters them, and
 /// calls try_cell(cell, active) in each that holds a lens; it returns the lanes that are done. Exact at any slope: no cell is
-/// jumped over. s is the way in z, m the lateral way per s.
+/// skipped. s is depth in z or path length, as the caller likes; m is the lateral displacement per s.
 template <class F, class Try>
 LFDSIM_FN void walk_cells(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, F x, F y, F mx, F my, F from, F depth,
                           Mask<F> active, Try try_cell) {
@@ -39,7 +39,7 @@ LFDSIM_FN void walk_cells(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>
     const auto& lattice = scene.lattice;
     const F px = F(lattice.pitch[0]), py = F(lattice.pitch[1]), half_x = F(lattice.half_pitch[0]),
             half_y = F(lattice.half_pitch[1]);
-    // Ways to the array's border, so that a ray from outside starts where it enters.
+    // s at the array's borders, so that a ray from outside starts where it enters.
     auto axis = [&](F at, F m, F p, F half, F low, F high, F& in, F& out) {
         const F a = (low * p - half - at) / m, b = (high * p + half - at) / m;
         const Mask<F> still = abs(m) < F(Scalar<F>(1e-20));

@@ -1,14 +1,17 @@
-// The light that a packet of pixels has gathered from the panel. Floor 1.
+// The light that the pixels of a packet receive from the panel: fetched panel pixels (texels) and sums over samples. Floor 1.
+//
+// Radiance is linear light, 1 = a white panel pixel. A texel is four adjacent floats (R, G, B, 0), 16-byte aligned, so that one
+// load fetches it whole.
 #pragma once
 #include "optics/pair.h"
 #include "optics/panel.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// The texels that a packet's rays met, and what the rays carry of their light: 0 where a ray met none.
+/// The texel that each ray of a packet reaches, and the share of its light that the ray carries: 0 where it reaches none.
 template <class F>
 struct Fetch {
-    Uint<F> pairs = Uint<F>(0u);  // the texel's place, in pairs of floats: with a scale of 8 bytes the address needs no shift
+    Uint<F> pairs = Uint<F>(0u);  // the texel's offset in pairs of floats: addresses scale by 8 bytes, so they need no shift
     F weight = F(0);
 
     Fetch() = default;
@@ -16,19 +19,19 @@ struct Fetch {
         : pairs(select(hit.lit, hit.pixel, Uint<F>(0u)) << 1), weight(select(hit.lit, hit.weight, F(0))) {}
 };
 
-/// A fetch under way: the places lie in memory, lane by lane. A texel is four floats side by side (R, G, B, 0), so what is loaded
-/// has colours beside one another where F has lanes; N/4 texels fill a register, and four registers hold those of all lanes.
+/// Loads the texels of a Fetch. A register of N lanes holds N/4 whole texels, so its lanes are then colours, four to a pixel, and
+/// four registers hold the texels of all N pixels. Offsets are kept in memory, one for each pixel.
 template <class F>
 class Fetching {
   public:
     LFDSIM_FN explicit Fetching(const Fetch<F>& fetch) : weight_(fetch.weight) {
         __builtin_memcpy(index_, &fetch.pairs, sizeof index_);
 #ifndef __CUDACC__
-        // By way of memory, for compilers like to extract addresses from vectors, which is slower.
+        // Through memory: compilers tend to extract the offsets from the vector register, which is slower.
         if constexpr (N > 1) asm("" : "+m"(index_));
 #endif
     }
-    /// The texels of lanes quarter N/4 .. (quarter + 1) N/4 - 1 side by side, times their weights. One lane: colour `quarter`.
+    /// The texels of pixels quarter N/4 .. (quarter + 1) N/4 - 1, times their weights. With one lane: colour `quarter`.
     template <int quarter>
     LFDSIM_FN F light(const float* texels) const {
         if constexpr (N == 1) {
@@ -56,8 +59,8 @@ class Fetching {
     F weight_;
 };
 
-/// Sums of weight x radiance for each lane: R, G, B and an idle number, lane after lane, in four registers of F's width: a texel is
-/// then one load, whatever its depth, and one product serves its three colours.
+/// The sum of weight x radiance for each pixel of a packet: R, G, B and an unused number, pixel after pixel, in four registers of
+/// F's width. In this layout a texel is added by one load and one product for its three colours.
 template <class F>
 struct Light {
     static constexpr int N = LaneTraits<F>::width;
@@ -70,7 +73,7 @@ struct Light {
         sum[2] = sum[2] + a.template light<2>(texels);
         sum[3] = sum[3] + a.template light<3>(texels);
     }
-    /// Two samples: their light is added up first.
+    /// Two samples: their light is summed before it is added.
     LFDSIM_FN void add(const float* texels, const Fetch<F>& first, const Fetch<F>& second) {
         const Fetching<F> a(first), b(second);
         sum[0] = sum[0] + (a.template light<0>(texels) + b.template light<0>(texels));
@@ -81,16 +84,16 @@ struct Light {
     LFDSIM_FN void add(const Light& other) {
         for (int r = 0; r < 4; ++r) sum[r] = sum[r] + other.sum[r];
     }
-    /// Light of each lane: R, G, B and an idle number.
+    /// Adds the light of each pixel: R, G, B and an unused number.
     LFDSIM_FN void add(const Scalar<F> (*lanes)[4]) {
         const Scalar<F>* const first = lanes[0];
         for (int r = 0; r < 4; ++r) sum[r] = sum[r] + load<F>(first + r * N);
     }
-    /// R, G, B and an idle number of each lane.
+    /// R, G, B and an unused number of each pixel.
     LFDSIM_FN void store(Scalar<F>* to) const {
         for (int r = 0; r < 4; ++r) optics::store(sum[r], to + r * N);
     }
-    /// Colour c of lane k.
+    /// Colour c of pixel k.
     LFDSIM_FN Scalar<F> operator()(int k, int c) const {
         if constexpr (N == 1)
             return sum[c];

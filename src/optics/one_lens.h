@@ -1,7 +1,7 @@
 // One lens: a ray passes each of its surfaces once, in order, with the aperture stop and the holes of the black part. Floor 1.
 //
-// Rays go down, from the viewer's side to the panel's. Light that goes up passes the lens turned over (turned_over() in
-// model/prescription.h), its mirror image in the plane of the panel, downwards.
+// Rays go down, from the viewer's side to the panel's. Light that goes up is traced downwards through the lens turned over
+// (turned_over() in model/prescription.h), its mirror image in the plane of the panel.
 #pragma once
 #include "optics/lens_array.h"
 #include "optics/scene.h"
@@ -18,8 +18,8 @@ struct Passage {
     Mask<F> alive;
 };
 
-/// Which surfaces a display's lens has, as far as the kernel is compiled for it: the 2019 paper's lens without a stop pays for no
-/// other. Triangles in place of the surfaces are met by meet_mesh(scene, k, ray), which whoever has them gives (src/meshed).
+/// The forms of surface that a kernel is compiled for, so that the 2019 paper's lens without a stop does not pay for the others.
+/// For triangles in place of surfaces (src/meshed) the caller supplies meet_mesh(scene, k, ray).
 enum class Shapes { plano_convex, any, meshed };
 
 /// Surface k, counted from the viewer's side.
@@ -48,7 +48,7 @@ LFDSIM_FN Hit<F> meet(const Scene<Scalar<F>>& scene, int k, Ray<F> in_vertex_pla
         return meet(shape_of<shapes>(scene, k), scene.surface[k], in_vertex_plane);
 }
 
-/// The walls of a square cell; a circle's are its surfaces' semi apertures.
+/// Within the walls of a square cell? Those of a round lens are its surfaces' semi-apertures, which `ok` has tested.
 template <class F>
 LFDSIM_FN Mask<F> inside_cell(const Scene<Scalar<F>>& scene, Vec3<F> at, Mask<F> ok) {
     if (scene.aperture == Aperture::circle) return ok;
@@ -78,7 +78,7 @@ LFDSIM_FN void refract_down(const Scene<Scalar<F>>& scene, Shape shape, const Su
     }
 }
 
-/// What pass_lens() asks of a lens that is alone with its apertures, its axis at the origin, behind a sheet of stops without end.
+/// Rules of pass_lens() for a single lens: its axis at the origin, and a sheet with stops without end.
 template <class F>
 struct Alone {
     const Scene<Scalar<F>>& scene;
@@ -90,21 +90,23 @@ struct Alone {
     }
 };
 
-/// A thin lens, of a ray that meets it at q from its axis: slopes dx/dz, dy/dz beyond = slopes before + q / f.
+/// The ideal thin lens: slopes (dx/dz, dy/dz) of a ray that has passed it = slopes before + q / f, q the point where it meets the
+/// lens, mm from the lens's axis.
 template <class F>
 LFDSIM_FN Place<F> bend(const Scene<Scalar<F>>& scene, Place<F> q, Place<F> slope) {
     const F power = F(scene.ideal_power);
     return {slope.x + q.x * power, slope.y + q.y * power};
 }
 
-/// Through one lens. `entering` stands in the plane of the first vertex, in the frame of `rules`; `hit` is where it meets the first
-/// surface, from the lens's own axis. Afterwards way.ray stands on the last surface, from that axis and the surface's vertex. A ray
-/// that ends on the way is no longer way.alive. What depends on who traces is asked of `rules`:
-///   axis()                                  of the lens in the frame in which stops are counted;
-///   meets(k, ray, hit, from_z, z, way)      surface k is met at height z, after one at from_z, by a ray in its vertex's plane:
-///                                           clears way.alive of rays outside of the aperture;
+/// Traces a ray through one lens. `entering` is the ray in the vertex plane of the first surface, in the frame of `rules`; `hit` is
+/// where it meets the first surface, relative to the lens's own axis. Afterwards way.ray is on the last surface, relative to that
+/// axis and the surface's vertex. A ray that ends on the way has way.alive cleared. `rules` supplies what differs between callers:
+///   axis()                                  of the lens, in the frame in which stops are counted;
+///   meets(k, ray, hit, from_z, z, way)      `ray`, in the vertex plane of surface k, meets it at height z, after one at from_z:
+///                                           clears way.alive of rays outside the aperture;
 ///   passes_stop(crosses, x, y)              rays of `crosses` cross the plane of the stops: is there a hole?
-///   leaves(way), passes_back(x, y)          behind the last surface; in the hole of the black part's lower face;
+///   leaves(way)                             called when the last surface has been passed;
+///   passes_back(x, y)                       does a ray pass the hole in the black part's lower face?
 ///   over(alive)                             whether to stop here: a packet goes on, a single ray that has ended need not.
 template <Shapes shapes, class F, class Rules>
 LFDSIM_FN void pass_lens(const Scene<Scalar<F>>& scene, Rules&& rules, const Ray<F>& entering, Hit<F> hit, Passage<F>& way) {

@@ -1,7 +1,7 @@
-// Pair<H>: two numbers H side by side, as the tracer uses them for two samples of the same pixels. Floor 1.
+// Pair<H>: two numbers H side by side, which the tracer uses for two samples of the same pixels. Floor 1.
 //
-// A sample is one long chain of operations, each waiting for the last. Two chains side by side fill each other's waits, and share
-// what is known of their pixels (docs/performance.md).
+// A sample is one long chain of dependent operations. Two independent chains hide each other's latency, and share what their pixels
+// have in common (docs/performance.md).
 #pragma once
 #include "optics/lane.h"
 

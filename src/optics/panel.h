@@ -6,15 +6,15 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// Where the axis of a packet's base lens meets the panel: whole panel pixel and the rest in [0, 1).
+/// Where the axis of a packet's base lens meets the panel: whole panel pixel and the fraction in [0, 1).
 template <class S>
 struct PanelBase {
     std::uint32_t column, row;
     S column_rest, row_rest;
 };
 
-/// Where a ray reaches the panel's plane, in panel pixels right and down from the base's whole pixel, if it does so at all, and
-/// what it carries of the light there. `cell`: the lens that it came through, where that is a single one.
+/// Where a ray reaches the panel's plane, in panel pixels to the right of and below the base's whole pixel; `alive`: whether it
+/// does; `weight`: the share of the light there that it carries; `cell`: the lens that it came through, where that is a single one.
 template <class F>
 struct PanelPoint {
     F column, row;
@@ -23,7 +23,7 @@ struct PanelPoint {
     Cell<F> cell;
 };
 
-/// A panel pixel: its number row x columns + column where `lit`, and what the ray carries of its light.
+/// A panel pixel: its number row x columns + column where `lit`, and the share of its light that the ray carries.
 template <class F>
 struct PanelHit {
     Uint<F> pixel;
@@ -31,8 +31,8 @@ struct PanelHit {
     Mask<F> lit;
 };
 
-/// The point (x, y), mm from the axis of the lens `cell` in the array's frame. Numbers stay small, so that the place is good to a
-/// few millionths of a pixel on any panel.
+/// The point (x, y), mm from the axis of the lens `cell` in the array's frame. Numbers stay small, so that the position is accurate
+/// to a few millionths of a pixel on any panel.
 template <class F>
 LFDSIM_FN PanelPoint<F> panel_point(const Scene<Scalar<F>>& scene, const PanelBase<Scalar<F>>& base, Cell<F> cell, F x, F y,
                                     F weight, Mask<F> alive) {

@@ -20,7 +20,7 @@ LFDSIM_FN U mix(U h) {
     return h ^ (h >> 16);
 }
 
-/// Keys of a pixel's dimension: its scramble. `pixel` = row x width + column of the whole frame.
+/// The scramble key of a pixel and dimension. `pixel` = row x width + column of the whole frame.
 template <class F>
 LFDSIM_FN Uint<F> pixel_key(std::uint64_t seed, int dimension, Uint<F> pixel) {
     std::uint64_t h = (seed + 1) * 0x9e3779b97f4a7c15u + std::uint64_t(dimension) * 0xd1b54a32d192ed03u;  // splitmix64
@@ -40,7 +40,7 @@ struct Sampler {
     std::uint32_t point[sampler_dimensions] = {};  // of the Sobol sequence, common to all pixels
 
     LFDSIM_FN Sampler(Sampling kind, int used, std::uint64_t seed, Uint<F> pixel) : sampling(kind), dimensions(used) {
-        for (int d = 0; d < sampler_dimensions; ++d)  // of a constant length, so that the keys may stay in registers
+        for (int d = 0; d < sampler_dimensions; ++d)  // a constant count, so that the keys may stay in registers
             key[d] = d < used ? pixel_key<F>(seed, d, pixel) : Uint<F>(0u);
     }
     /// The number of dimension d, in [-1, 1].

@@ -1,7 +1,7 @@
-// What the tracer is given: plain data without functions, common to all instruction sets.
-// A display as the tracer sees it: plain numbers of one type S (float or double), ready for the device. Floor 1.
+// The tracer's input: a display as plain numbers of one type S (float or double), without functions, common to all instruction sets
+// and ready for another device. Floor 1.
 //
-// z in mm from the panel. Surfaces stand in the order in which backward rays meet them: the viewer's side first.
+// z is in mm from the panel. Surfaces are in the order in which backward rays meet them, from the viewer's side.
 // Filled by engine/scene.cpp from a Display and its Geometry.
 #pragma once
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace lfdsim::optics {
 
 enum class Shape : std::int32_t { plane, sphere, conic, asphere };
 
-/// Weight of one passage: what Fresnel's equations need of the two media.
+/// The two media at a surface, as Snell's law and Fresnel's equations need them.
 template <class S>
 struct Interface {
     S eta;  // index of the viewer's side / index of the panel's side: for rays going down
@@ -33,7 +33,7 @@ struct SurfaceData {
     S semi_aperture;
     S rim;        // sag at the semi aperture
     S low, high;  // of the sag within the aperture
-    S c_rim;      // curvature x rim: c z <= c_rim inside the rim, on the sheet of the vertex
+    S c_rim;      // curvature x rim: c z <= c_rim inside the rim, on the sheet that contains the vertex
     Interface<S> media;
 };
 
@@ -83,7 +83,7 @@ struct Scene {
     bool box_filter, thin_lens;
 };
 
-/// The camera and what is needed to begin at a lens, in double precision. Units: mm.
+/// The camera, and what is needed to start a ray near a lens, in double precision. Units: mm.
 struct View {
     double position[3], forward[3], right[3], up[3];  // orthonormal; forward looks into the picture
     double distance;                                  // to the frame, along forward
@@ -102,7 +102,7 @@ struct PanelLevel {
     std::uint32_t columns, rows;
 };
 
-/// Dimensions 0, 1: diffuser; 2, 3: place in the pixel; 4, 5: place in the pupil.
+/// Dimensions 0, 1: diffuser; 2, 3: position in the pixel; 4, 5: position in the pupil.
 constexpr int sampler_dimensions = 6;
 
 /// Direction numbers (Joe and Kuo 2008, new-joe-kuo-6), one row a dimension.

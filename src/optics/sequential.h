@@ -1,5 +1,8 @@
-// Opaque surround: a ray enters one lens of the array, passes its surfaces in order, and everything between the lenses is black.
-// Floor 1.
+// Opaque surround (docs/model.md, "Lens array and surround"): a ray enters one lens of the array and passes its surfaces in order;
+// everything between the lenses is black. Floor 1.
+//
+// Rays go backward, down from the viewer's side (+z) to the panel (z = 0). Positions are in mm in the array's frame; `ray` and
+// `way` hold them from the base lens's axis until the ray has met a lens, and from that lens's axis afterwards.
 #pragma once
 #include "optics/elementary.h"
 #include "optics/one_lens.h"
@@ -7,7 +10,8 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// The first surface of the lens in `cell`, met by a ray in the plane of its vertex.
+/// Where a ray in the vertex plane of the first surfaces, x and y from the base lens's axis, meets the first surface of the lens in
+/// `cell`. The hit is relative to the axis of that lens.
 template <Shapes shapes, class F>
 LFDSIM_FN Hit<F> meet_first(const Scene<Scalar<F>>& scene, Ray<F> ray, Cell<F> cell) {
     const Place<F> axis = axis_of(scene.lattice, cell);
@@ -18,7 +22,9 @@ LFDSIM_FN Hit<F> meet_first(const Scene<Scalar<F>>& scene, Ray<F> ray, Cell<F> c
     return hit;
 }
 
-/// Looks for the cap that rays astray meet before they are as low as the rims: (x, y) in the zone's top plane, m = -d(x, y)/dz.
+/// The rays of `astray` miss the cap of the cell they point at: finds the cap of another cell, if any, that they meet before they
+/// are down at the rims, and writes hit and cell of those that do. (x, y): where they enter the zone of the caps, zone_bottom <= z
+/// <= zone_top, from the base lens's axis; m = -d(x, y)/dz, the lateral displacement per mm of descent.
 template <Shapes shapes, class F>
 LFDSIM_RARE void meet_neighbours(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F x, F y, F mx,
                                  F my, Mask<F> astray, Hit<F>& hit, Cell<F>& cell) {
@@ -37,21 +43,21 @@ LFDSIM_RARE void meet_neighbours(const Scene<Scalar<F>>& scene, const Extent<Sca
     const F depth = F(scene.zone_top - scene.zone_bottom);
     const Cell<F> last = cell_at(scene.lattice, x + mx * depth, y + my * depth);
     const F steps = abs(last.i - cell.i) + abs(last.j - cell.j);
-    if (none(astray && (steps > F(Scalar<F>(1.5))))) {  // one border on the way: the last cell is the only other one
+    if (none(astray && (steps > F(Scalar<F>(1.5))))) {  // all cross one border: the last cell is the only other one
         try_cell(last, astray && extent.holds(last));
         return;
     }
     walk_cells(scene, extent, x, y, mx, my, F(0), depth, astray, try_cell);
 }
 
-/// The first surface on the way down, from a ray in the plane of its vertex. Places are in the array's frame, x and y from the base
-/// lens's axis. Most rays meet the cap of the cell they point at; one that misses it and slants out of the cell before it is as low
-/// as the rims looks into the next cells.
+/// Finds the lens through which a ray enters the array (way.cell) and where it meets that lens's first surface. `ray` starts in the
+/// vertex plane of the first surfaces; the hit is relative to the axis of the lens found. Most rays meet the cap of the cell they
+/// point at; a ray that misses it and leaves the cell before it is down at the rims is tested against the next cells.
 template <Shapes shapes, class F>
 LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, Passage<F>& way) {
     const auto& first = scene.surface[0];
     const F fall = F(1) / ray.to.z;  // dx/dz = to.x fall
-    // The cell is taken where the ray comes to the zone of the caps (the plane of the rims, if they are the highest).
+    // The cell is that at the point where the ray enters the zone of the caps (the plane of the rims, if they are the highest).
     F x = ray.at.x, y = ray.at.y;
     if (shapes != Shapes::plano_convex && scene.zone_top != first.z) {
         const F up = F(scene.zone_top - first.z) * fall;
@@ -65,10 +71,11 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<
         const F lx = x - axis.x, ly = y - axis.y, r = F(first.semi_aperture);
         hit.ok = hit.ok && (lx * lx + ly * ly <= r * r);
     } else if (shapes == Shapes::plano_convex || scene.zone_top > scene.zone_bottom) {
-        // Can a ray that missed meet another lens before it is down at the rims? Seen from above its way there is the vector (ex,
-        // ey). Not if it ends in the same cell. Nor if it crosses one border, ends at (ax, ay) from the nearer axis and that is
-        // far: it came from farther than the semi aperture r, so if it passed within r of the axis the foot of the perpendicular
-        // lies on its way, and it ends within the hypotenuse sqrt(r^2 + ex^2 + ey^2). All others are looked after one by one.
+        // Which rays that missed can meet another lens before they are down at the rims? On the way there a ray moves by (ex, ey),
+        // seen from above. None that ends in its own cell can. A ray that crosses one border and ends at (ax, ay) from the nearer
+        // axis can only if ax^2 + ay^2 <= r^2 + ex^2 + ey^2, r the semi-aperture: it starts farther than r from that axis, so if it
+        // passes within r of it and ends outside, it has passed the foot of the perpendicular from the axis, at most r away, and
+        // from there it moves less than |(ex, ey)|. All others are tested cell by cell.
         const F kd = F(scene.zone_bottom - scene.zone_top) * fall, ex = ray.to.x * kd, ey = ray.to.y * kd;
         const Place<F> axis = axis_of(scene.lattice, way.cell);
         const F ux = abs(x - axis.x + ex), uy = abs(y - axis.y + ey), r = F(first.semi_aperture);
@@ -90,7 +97,7 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<
     return hit;
 }
 
-/// What pass_lens() asks of a lens that stands in an array: apertures and cells as masks of a packet's rays.
+/// The rules of pass_lens() for a lens in an array: apertures and cells, as masks over a packet's rays.
 template <class F>
 struct InArray {
     const Scene<Scalar<F>>& scene;
@@ -99,7 +106,7 @@ struct InArray {
 
     LFDSIM_FN Place<F> axis() const { return axis_of(scene.lattice, cell); }
     LFDSIM_FN void meets(int k, const Ray<F>&, const Hit<F>& hit, F, F, Passage<F>& way) const {
-        if (k > 0) way.alive = way.alive && inside_cell(scene, hit.at, hit.ok);  // enter_array() has seen to the first
+        if (k > 0) way.alive = way.alive && inside_cell(scene, hit.at, hit.ok);  // enter_array() has tested the first
     }
     LFDSIM_FN Mask<F> passes_stop(Mask<F>, F x, F y) const { return optics::passes_stop(scene, extent, x, y); }
     LFDSIM_FN void leaves(const Passage<F>&) const {}
@@ -110,7 +117,8 @@ struct InArray {
     LFDSIM_FN bool over(Mask<F>) const { return false; }
 };
 
-/// From the plane of the first vertex to the panel. `way.ray` stands there, from the base lens.
+/// From the vertex plane of the first surfaces, in which way.ray starts (from the base lens's axis), through one lens to the panel.
+/// The radiance is multiplied by cos^m of the ray's angle at the panel, m the emission exponent.
 template <Shapes shapes, class F>
 LFDSIM_FN PanelPoint<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
                                      const PanelBase<Scalar<F>>& base, Passage<F> way) {

@@ -1,7 +1,7 @@
 // Lane<N>: N floats in a SIMD register, over the vector extensions of GCC and Clang. Floor 1.
 //
-// The extensions do arithmetic and comparison; intrinsics stand only where they lack an operation (sqrt, floor, min, max) or where
-// the compilers do not find the mask registers of AVX-512 by themselves.
+// The extensions do arithmetic and comparison; intrinsics are used only where these lack an operation (sqrt, floor, min, max) or
+// where compilers do not use the mask registers of AVX-512 by themselves.
 #pragma once
 #include <immintrin.h>
 
@@ -10,7 +10,7 @@
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
 template <int N>
-struct Vectors {  // GCC 12 wants a dependent vector_size inside a struct of its own
+struct Vectors {  // GCC 12 accepts a dependent vector_size only inside a struct of its own
     typedef float Float __attribute__((vector_size(4 * N)));
     typedef std::uint32_t Uint __attribute__((vector_size(4 * N)));
     typedef std::int32_t Int __attribute__((vector_size(4 * N)));
@@ -124,7 +124,7 @@ LFDSIM_FN bool any(LaneMask<4> m) { return _mm_movemask_ps((__m128)m.v) != 0; }
 LFDSIM_FN Lane<4> sqrt(Lane<4> a) { return (Vectors<4>::Float)_mm_sqrt_ps((__m128)a.v); }
 LFDSIM_FN Lane<4> min(Lane<4> a, Lane<4> b) { return (Vectors<4>::Float)_mm_min_ps((__m128)a.v, (__m128)b.v); }
 LFDSIM_FN Lane<4> max(Lane<4> a, Lane<4> b) { return (Vectors<4>::Float)_mm_max_ps((__m128)a.v, (__m128)b.v); }
-LFDSIM_FN Lane<4> floor(Lane<4> a) {  // SSE2 cannot round: truncate and mend; from 2^23 up every float is whole
+LFDSIM_FN Lane<4> floor(Lane<4> a) {  // SSE2 cannot round: truncate and correct; from 2^23 up every float is whole
     const Lane<4> t = from_int<Lane<4>>(to_int(a));
     return select(abs(a) < Lane<4>(8388608.0f), t - select(t > a, Lane<4>(1.0f), Lane<4>(0.0f)), a);
 }

@@ -1,8 +1,8 @@
-// Where the filtered estimator looks: the diffuser's square of angles, cut at the borders of the lenses. Floor 1.
+// Strata of the filtered estimator: the diffuser's square of angles, cut at the borders of the lenses. Floor 1.
 //
 // A pixel's light is a mean over the square [-1, 1]^2 of the diffuser's two numbers. The square is cut into columns and rows; a cut
-// near the border between two lenses is moved onto it, so that a stratum looks through one lens. What a round lens covers of a
-// stratum has a closed form. (docs/model.md, "Filtered estimator".)
+// near the border between two lenses is moved onto it, so that a stratum looks through one lens. The share of a stratum that a
+// round lens covers has a closed form. (docs/model.md, "Filtered estimator".)
 #pragma once
 #include "optics/diffuser.h"
 #include "optics/lens_array.h"
@@ -10,12 +10,12 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// How a ray moves over the plane of the holes along one axis when the diffuser turns it about the other, a second turn left out:
-/// its slope is tan(phi + a), or tan(phi - a).
+/// Where a ray meets the plane of the lenses' holes, along one axis, when the diffuser turns it by the angle a about the other axis
+/// (its second turn is neglected): its slope, lateral mm per mm of descent, is tan(phi + a) or tan(phi - a), phi before the turn.
 template <class F>
 struct Sweep {
     F at;                     // mm from the axis of the base lens: where the ray meets the diffuser
-    F slope;                  // before it is turned
+    F slope;                  // before the turn: tan(phi)
     Scalar<F> height, sense;  // mm, of the diffuser above the holes; +1 or -1: what a positive angle does to the slope
 
     LFDSIM_FN F turned(F tangent) const {
@@ -23,7 +23,7 @@ struct Sweep {
         return (slope + t) / (F(1) - slope * t);
     }
     LFDSIM_FN F place(F tangent) const { return at + F(height) * turned(tangent); }
-    /// Of the angle that sends the ray to `place`.
+    /// The tangent of the angle that sends the ray to `place`.
     LFDSIM_FN F tangent(F place) const {
         const F to = (place - at) * F(Scalar<F>(1) / height);
         return F(sense) * ((to - slope) / (F(1) + slope * to));
@@ -66,8 +66,8 @@ LFDSIM_FN F corner_in_circle(F x, F part_x, F y, F part_y) {
     return select(x * x + y * y <= F(1), x * y, signed_rest);
 }
 
-/// The share of a stratum's rectangle that a round hole covers. Of a small one, where the difference of areas would lose its
-/// digits, the hole's edge is taken for straight.
+/// The share of a stratum's rectangle that a round hole covers. For a small rectangle, where the difference of areas would lose its
+/// digits, the hole's edge is taken as straight.
 template <class F>
 LFDSIM_FN F hole_cover(const Span<F>& a, const Span<F>& b) {
     using S = Scalar<F>;
@@ -81,7 +81,7 @@ LFDSIM_FN F hole_cover(const Span<F>& a, const Span<F>& b) {
         const F x = F(S(0.5)) * (a.to + a.from), y = F(S(0.5)) * (b.to + b.from), rho = max(sqrt(x * x + y * y), F(S(1e-6)));
         const F reach = max(abs(x) * width + abs(y) * height, F(S(1e-12)));  // rho times the rectangle's extent across the edge
         cover = select(small, F(S(0.5)) + (F(1) - rho) * rho / reach, cover);
-        // Of a long and thin one, the part within the chord along it.
+        // For a long, thin rectangle: the part within the chord along it.
         auto chord = [](F along_from, F along_to, F across) {
             const F c = sqrt(max(F(1) - across * across, F(0)));
             return max(min(along_to, c) - max(along_from, -c), F(0)) / max(along_to - along_from, F(S(1e-6)));
@@ -90,7 +90,7 @@ LFDSIM_FN F hole_cover(const Span<F>& a, const Span<F>& b) {
         cover = select(small && (width > longest), chord(a.from, a.to, y), cover);
         cover = select(small && (height > longest), chord(b.from, b.to, x), cover);
     }
-    // One without width or height is seen all the same: the diffuser may not turn a ray along that axis.
+    // A rectangle without width or height counts, too: the diffuser may not turn rays along that axis.
     return select((width >= F(0)) && (height >= F(0)), min(max(cover, F(0)), F(1)), F(0));
 }
 

@@ -1,4 +1,4 @@
-// Refracting surfaces: where a ray meets one, how it goes on, and what Fresnel's equations leave of it. Floor 1.
+// Refracting surfaces: where a ray meets one, the normal there, and the share of light transmitted (Fresnel). Floor 1.
 #pragma once
 #include "optics/lane.h"
 #include "optics/scene.h"
@@ -14,14 +14,15 @@ LFDSIM_FN F dot(Vec3<F> a, Vec3<F> b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// A ray on its way: mm, position from a lens's axis and from the vertex of the surface at hand, direction of unit length.
+/// A ray: position in mm, x and y from a lens's axis, z from the vertex of the current surface; unit direction.
 template <class F>
 struct Ray {
     Vec3<F> at, to;
 };
 
-/// Where a ray meets a surface: there it stands, `normal` points to the viewer's side, `cos` = -to.normal (positive: coming from
-/// that side), cos2 its square to full accuracy.
+/// Where a ray meets a surface: the point, relative to axis and vertex; the unit normal, towards the viewer's side; `cos` =
+/// -to.normal, positive for rays from that side, and `cos2`, its square in full accuracy; `ok`: the ray does meet it, within the
+/// semi-aperture.
 template <class F>
 struct Hit {
     Vec3<F> at, normal;
@@ -29,9 +30,8 @@ struct Hit {
     Mask<F> ok;
 };
 
-/// Sag and slope of the sheet of the vertex at s2 = x^2 + y^2; `real` where there is one. d = 2 dz/d(s^2), so that the normal is
-/// along
-/// (-x d, -y d, 1).
+/// Sag z and slope at s2 = x^2 + y^2 of the sheet that contains the vertex; `real`: it extends so far. d = 2 dz/d(s^2), so that the
+/// normal is along (-x d, -y d, 1).
 template <class F>
 LFDSIM_FN void sag(const SurfaceData<Scalar<F>>& surface, F s2, F& z, F& d, Mask<F>& real) {
     const F c = surface.curvature, root2 = F(1) - c * c * (F(1) + F(surface.conic)) * s2;
@@ -48,9 +48,10 @@ LFDSIM_FN void sag(const SurfaceData<Scalar<F>>& surface, F s2, F& z, F& d, Mask
     }
 }
 
-/// A ray that stands in the vertex plane (at.z = 0) and comes from the viewer's side against a sphere. Root of
-/// c t^2/2 - (dz - c b) t + c s^2/2 = 0 next to the vertex, without cancellation and for c = 0 too (Welford, Aberrations of Optical
-/// Systems, 1986, sec. 4.5); on the sphere the cosine is the root of the discriminant.
+/// Where a ray that starts in the vertex plane (at.z = 0) and comes from the viewer's side meets a sphere. The distance t is the
+/// root next to the vertex of c t^2/2 - (d_z - c b) t + c s^2/2 = 0, b = x d_x + y d_y, s^2 = x^2 + y^2, in a form without
+/// cancellation that also holds for c = 0 (Welford, Aberrations of Optical Systems, 1986, sec. 4.5); on a sphere the cosine of
+/// incidence is the square root of the discriminant.
 template <class F>
 LFDSIM_FN Hit<F> meet_sphere(const SurfaceData<Scalar<F>>& surface, Ray<F> ray) {
     const F c = surface.curvature;
@@ -66,8 +67,8 @@ LFDSIM_FN Hit<F> meet_sphere(const SurfaceData<Scalar<F>>& surface, Ray<F> ray) 
     return hit;
 }
 
-/// The same for conics (closed form, then the normal) and even aspheres (Newton's method from the conic; lanes stop on their own,
-/// so that a lane's bits do not depend on its neighbours).
+/// The same for conics (closed form, then the normal) and even aspheres (Newton's method from the conic; each lane stops by itself,
+/// so that its bits do not depend on its neighbours).
 template <class F>
 LFDSIM_FN Hit<F> meet_asphere(const SurfaceData<Scalar<F>>& surface, Ray<F> ray) {
     const F c = surface.curvature, k1 = F(1) + F(surface.conic);
@@ -88,7 +89,7 @@ LFDSIM_FN Hit<F> meet_asphere(const SurfaceData<Scalar<F>>& surface, Ray<F> ray)
     };
     Mask<F> sheet = stand(t);
     if (surface.terms > 0) {
-        // A conic that misses is no place to start from: the vertex plane is.
+        // Where the ray misses the conic, start from the vertex plane.
         t = select(real, t, F(0));
         sheet = stand(t);
         real = sheet || !sheet;
@@ -111,11 +112,11 @@ LFDSIM_FN Hit<F> meet_asphere(const SurfaceData<Scalar<F>>& surface, Ray<F> ray)
     return hit;
 }
 
-/// The transmitted share 1 - F; c1 = cosine on the side the light of the backward ray comes from (index n1), c2 on the other,
-/// c_thin the one of both that is in the less dense medium.
+/// The transmitted share 1 - F. c1: cosine in the medium that the backward ray comes from (index n1); c2: in the other (n2);
+/// c_thin: the one of the two in the less dense medium.
 template <class F>
 LFDSIM_FN F transmittance(Fresnel fresnel, F schlick_t0, F n1, F n2, F c1, F c2, F c_thin) {
-    if (fresnel == Fresnel::schlick) {  // the cosine is the one in the less dense medium, on either passage
+    if (fresnel == Fresnel::schlick) {  // always the cosine in the less dense medium, whichever way the ray goes
         const F q = F(1) - c_thin, q2 = q * q;
         return schlick_t0 - schlick_t0 * (q2 * q2 * q);
     }

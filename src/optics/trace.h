@@ -8,8 +8,8 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// The ways through an array, one of which a display takes: chosen outside the loop over samples, so that none pays for another.
-/// A new one is a word here, its line in the three functions below, and what traces it.
+/// The ways through an array, one of which a display uses: chosen outside the loop over samples, so that none pays for another. A
+/// new one takes a name here, a line in each of the functions below, and a function that traces it.
 enum class Way { plano_convex, opaque, ideal, glass };
 
 template <class S>
@@ -46,11 +46,11 @@ inline void for_all_ways(const Do& do_it) {
     do_it.template operator()<Way::glass>();
 }
 
-// What these two make is given back through their last argument: GCC 12 would take a result through memory, in half as many
-// instructions again.
+// to_first_vertex() and sample_ray() return their result in the last argument: GCC 12 passes a returned value through memory, with
+// half as many instructions again.
 
-/// Takes a ray that stands in the first plane, with its direction after the diffuser, into the array's frame and to the plane of
-/// the first vertex.
+/// Moves a ray in the first plane, with its direction after the diffuser, to the vertex plane of the first surfaces, and turns its
+/// direction into the array's frame.
 template <class F>
 LFDSIM_FN void to_first_vertex(const Scene<Scalar<F>>& scene, Passage<F>& way) {
     using S = Scalar<F>;
@@ -68,7 +68,7 @@ LFDSIM_FN void to_first_vertex(const Scene<Scalar<F>>& scene, Passage<F>& way) {
     }
 }
 
-/// From the first plane, where a ray stands with its direction after the diffuser, to the panel.
+/// From the first plane, where the ray starts with its direction after the diffuser, to the panel.
 template <Way through, class F>
 LFDSIM_FN PanelPoint<F> trace_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
                                     const PanelBase<Scalar<F>>& base, Ray<F> ray, Mask<F> alive) {
@@ -80,8 +80,8 @@ LFDSIM_FN PanelPoint<F> trace_array(const Scene<Scalar<F>>& scene, const Extent<
     if constexpr (through == Way::glass) return trace_glass(scene, extent, base, way);
 }
 
-/// One sample of each pixel of a packet, in the first plane and after the diffuser; sampler(d) gives its number of dimension d, in
-/// [-1, 1]. `pinhole` promises a camera without pupil and pixel filter.
+/// The ray of one sample of each pixel of a packet, in the first plane and after the diffuser; sampler(d) is the sample's number of
+/// dimension d, in [-1, 1]. `pinhole` promises a camera without pupil and pixel filter.
 template <bool pinhole = false, class F, class Samples>
 LFDSIM_FN void sample_ray(const Scene<Scalar<F>>& scene, const View& view, const PixelRays<F>& pixels, const Samples& sampler,
                           Ray<F>& ray) {
@@ -99,7 +99,7 @@ LFDSIM_FN void sample_ray(const Scene<Scalar<F>>& scene, const View& view, const
     if (scene.has_diffuser) ray.to = scatter(scene, ray.to, sampler(0), sampler(1));
 }
 
-/// The same, to the panel's pixel.
+/// The panel pixel that one sample of each pixel reaches.
 template <Way through, bool pinhole = false, class F, class Samples>
 LFDSIM_FN PanelHit<F> trace(const Scene<Scalar<F>>& scene, const View& view, const PixelRays<F>& pixels, const Samples& sampler) {
     Ray<F> ray;

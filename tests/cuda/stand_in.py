@@ -60,9 +60,9 @@ for device, name in {"auto": "cuda:0, stand-in 0", "cuda": "cuda:0, stand-in 0",
 checks.refused(program, "third GPU", f"{SHOWN} --device cuda:2 -o no.npy", "there are 2 GPUs", env=there("gpus=2"))
 
 # What does not fit is told with both sizes.
-sizes = r"cuda:0, stand-in 0: panel and picture need (\d+) MB, of which (\d+) MB are free"
+sizes = r"cuda:0, stand-in 0: panel and picture need (\d+) MB, but only (\d+) MB are free"
 code, out, err = on("memory_mb=100", f"{SHOWN} --device cuda -o no.npy")
-found = re.search(sizes + "; take --device cpu, another GPU, a smaller camera.resolution or --crop", err)
+found = re.search(sizes + "; use --device cpu, another GPU, a smaller camera.resolution or --crop", err)
 checks.that(code == 2 and found and int(found[2]) <= 100 < int(found[1]), f"too small: {code} {err}")
 code, out, err = on("memory_mb=100", f"{SHOWN} --device auto --json -o auto.npy")
 checks.that(code == 0 and json.loads(out)["device"] == "cpu" and re.search(f"warning: {sizes}; the CPU went on", err), f"too small: {out} {err}")

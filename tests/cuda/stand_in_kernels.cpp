@@ -1,4 +1,8 @@
-// The stand-in's kernels: the same items, by the processor's threads.
+// Kernel launches of the stand-in (stand_in.h): a kernel's items run on the CPU's threads.
+//
+// The compiler turns kernel<<<...>>>() into calls of the runtime's functions below, from __cudaRegisterFunction, which gives the
+// mangled name of each kernel, to cudaLaunchKernel. The step and its template arguments are read from that name, and the same item
+// functions as on a GPU (engine/wide/items.h, likeness_items.h), compiled for the CPU, do the work.
 #include "engine/wide/items.h"
 #include "engine/wide/likeness_items.h"
 #include "stand_in.h"
@@ -27,14 +31,15 @@ std::map<const void*, std::string>& kernel_names() {
     return all;
 }
 
+/// item(i) for all i below `items`, in no fixed order, as on a GPU.
 template <class Item>
 void work_off(std::int64_t items, Item item) {
     tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::int64_t(0), items, [&](std::int64_t i) { item(i); }); });
 }
 
-/// Does what the GPU would on the launch of the kernel of that mangled name, whose template arguments (step, way through the array,
-/// simple camera) stand in it: the same item<...>() of engine/wide/, for all items that the grid covers, when its stream comes to
-/// it. What a launch must not be, as the queue makes it, ends the program.
+/// Does what a GPU does when the kernel of this mangled name is launched: adds to the stream item<...>() of engine/wide/, with the
+/// template arguments that the name contains (step, way through the array, whether it is the simple case), for all items that the
+/// grid covers. A launch that the queue (engine/cuda/queue.cu) must not make ends the program.
 void launch(const std::string& name, const Configuration& c, void** arguments) {
     // A grid that is too small leaves items undone.
     const std::int64_t items = std::min(*static_cast<std::int64_t*>(arguments[1]), std::int64_t(c.grid.x) * c.block.x);
@@ -106,7 +111,7 @@ cudaError_t cudaLaunchKernel(const void* kernel, dim3 grid, dim3 block, void** a
     launch(kernel_names().at(kernel), {grid, block, shared, stream}, arguments);
     return cudaSuccess;
 }
-// Since CUDA 13 the compiler has kernels launched by these two.
+// Since CUDA 13 compiled launches call these two.
 cudaError_t __cudaGetKernel(cudaKernel_t* kernel, const void* host) {
     *kernel = reinterpret_cast<cudaKernel_t>(const_cast<void*>(host));
     return cudaSuccess;

@@ -1,4 +1,4 @@
-// The GPUs of this machine, by CUDA: which there are, what is missing, and a queue to work on one. Floor 2.
+// The GPUs of this machine, through CUDA: which there are, what is missing, and a queue to work on one. Floor 2.
 #pragma once
 #include "engine/wide/queue.h"
 
@@ -15,12 +15,12 @@ struct Gpu {
     std::string why_not;  // empty: it can be used
 };
 
-/// What was found, in words where something is missing: "no CUDA toolkit when lfdsim was built", "no NVIDIA driver", ...
+/// What was found, and what is missing, as a message: no CUDA toolkit at build time, no NVIDIA driver, ...
 struct Found {
     std::vector<Gpu> gpus;
     std::string missing;  // empty: there is a GPU that can be used
-    std::string toolkit;  // that the kernels were compiled by; empty: none
-    std::string driver;   // newest CUDA that the driver knows; empty: no driver
+    std::string toolkit;  // CUDA version that the kernels were compiled with; empty: none
+    std::string driver;   // newest CUDA version that the driver supports; empty: no driver
 };
 Found find();
 

@@ -1,4 +1,4 @@
-// A GPU's queue, over the CUDA runtime, and the kernels: one for each step, way through an array and number of strata.
+// A GPU's queue, over the CUDA runtime, and the kernels: one for each step, way through an array, and simple or general case.
 #include "engine/cuda/cuda.h"
 #include "engine/wide/items.h"
 #include "engine/wide/likeness_items.h"
@@ -16,11 +16,11 @@ using wide::Step;
 
 void check(cudaError_t result, const char* doing) {
     if (result == cudaSuccess) return;
-    cudaGetLastError();  // taken note of
+    cudaGetLastError();  // clears it
     throw wide::DeviceError(std::string("the GPU failed while ") + doing + ": " + cudaGetErrorString(result));
 }
 
-constexpr int threads = 128;  // a thread block's
+constexpr int threads = 128;  // in a thread block
 
 template <Step step, optics::Way through, bool simple>
 __global__ void __launch_bounds__(threads) step_kernel(const __grid_constant__ Frame frame, std::int64_t items) {
@@ -49,7 +49,7 @@ class CudaQueue : public wide::Queue {
         name_ += ", contracted";
 #endif
         resident_threads_ = std::size_t(properties.multiProcessorCount) * std::size_t(properties.maxThreadsPerMultiProcessor);
-        // Memory that is given back stays with the process, so that a picture of the next view waits for none.
+        // Memory that is given back stays with the process, so that the next view's picture does not wait for an allocation.
         check(cudaDeviceGetDefaultMemPool(&pool_, gpu), "asking for its memory pool");
         std::uint64_t keep = ~std::uint64_t(0);
         check(cudaMemPoolSetAttribute(pool_, cudaMemPoolAttrReleaseThreshold, &keep), "asking for its memory pool");
@@ -74,7 +74,7 @@ class CudaQueue : public wide::Queue {
         check(cudaMemPoolGetAttribute(pool_, cudaMemPoolAttrReservedMemCurrent, &kept), "asking for its free memory");
         check(cudaMemPoolGetAttribute(pool_, cudaMemPoolAttrUsedMemCurrent, &used), "asking for its free memory");
         free += kept - used;
-        // Threads keep what registers do not hold in memory that is taken when a kernel first runs.
+        // Threads keep what does not fit into registers in local memory, which is allocated when a kernel first runs.
         static const std::size_t stack = largest_stack();
         const std::size_t stacks = resident_threads_ * stack;
         return free > stacks ? free - stacks : 0;
@@ -146,7 +146,7 @@ class CudaQueue : public wide::Queue {
         timing_ = true;
     }
 
-    // Bytes of local memory a thread of the greediest kernel.
+    // Bytes of local memory per thread, of the kernel that needs most.
     static std::size_t largest_stack() {
         std::size_t most = 0;
         auto look = [&]<Step s, optics::Way way, bool simple>() {
@@ -204,7 +204,7 @@ Found find() {
             continue;
         }
         Gpu gpu{p.name, p.major, p.minor, double(p.totalGlobalMem) * 1e-9, ""};
-        // Is there code in this binary that it runs?
+        // Does this binary hold code that the GPU can run?
         cudaFuncAttributes attributes;
         cudaError_t works = cudaSetDevice(k);
         if (works == cudaSuccess) works = cudaFuncGetAttributes(&attributes, step_kernel<Step::even, optics::Way::ideal, true>);

@@ -50,7 +50,7 @@ class BlockRenderer {
   private:
     using Packet = optics::Block<F>;
 
-    /// The light at places, to the pixels between them.
+    /// Interpolates the light at places for the pixels between them.
     void interpolate() {
         const S per = S(1) / S(place_step);
         const int per_axis = state.per_axis;
@@ -83,7 +83,7 @@ class BlockRenderer {
         }
     }
 
-    /// Those pixels of the block that the tile has.
+    /// Writes those pixels of the block that belong to the tile.
     void write() const {
         const std::int32_t x0 = state.x0, y0 = state.y0;
         const int from = optics::max(int(tile.x0 - x0), 0), to = optics::min(int(tile.x1 - x0), tile.block_side);
@@ -100,7 +100,7 @@ class BlockRenderer {
     BlockMemory memory;
 };
 
-/// Not inlined: its stack, some megabytes, is that of one way through the array.
+/// Not inlined, so that the stack, some megabytes, holds only one way through the array.
 template <optics::Way through>
 __attribute__((noinline)) void render_block(const Tile& tile, const EvenCuts& even, std::int32_t x, std::int32_t y) {
     BlockRenderer<through>(tile, even, x, y).render();

@@ -14,7 +14,7 @@ namespace {
 using optics::Span;
 using S = float;
 
-/// A number at the middle of a block, and how it changes to the block's right and lower border.
+/// A value at the middle of a block, and how much it changes to the block's right and lower border.
 struct Gradient {
     S middle, right, down;
 
@@ -25,19 +25,21 @@ struct Gradient {
     LFDSIM_BOTH S reach() const { return optics::abs(right) + optics::abs(down); }
 };
 
+/// A cut of the diffuser's angles along one axis.
 struct Cut {
-    Gradient number, place;  // place in mm in the plane of the holes
+    Gradient number, place;  // the diffuser's number; the position in the plane of the holes, mm from the base lens's axis
 };
 
+/// What lies between two cuts.
 struct Stratum {
-    S cell;          // its lens, from the base lens
-    S from, to;      // ends within that cell, mm from its lens's axis, from the middle of the block
+    S cell;          // its lens, counted from the base lens
+    S from, to;      // ends within that lens's cell, mm from its axis, seen from the middle of the block
     bool straddles;  // it sees other lenses too
 };
 
-/// One axis of the square of angles as a block has it. Cuts stand at fixed places of the lenses, so that their numbers move from
-/// pixel to pixel; the ends have fixed numbers, and their places move. Where the block is wide against what a pixel sees of a lens,
-/// though, all cuts have fixed numbers, and the strata move with the pixels.
+/// One axis of the square of angles as a block cuts it. Cuts have fixed positions on the lenses, so their numbers change from pixel
+/// to pixel; the ends have the fixed numbers -1 and 1, and their positions move. But where the block is wide compared with what a
+/// pixel sees of a lens, all cuts have fixed numbers, and the strata move with the pixels.
 struct Axis {
     int strata;
     bool moving;
@@ -45,7 +47,7 @@ struct Axis {
     Stratum* stratum;
 };
 
-/// Numbers and tangents of the even cuts, common to all blocks.
+/// Evenly spaced cuts, common to all blocks: their numbers, and the tangents of the diffuser's angles there.
 struct EvenCuts {
     int strata;
     S number[max_strata + 1], tangent[2][max_strata + 1];
@@ -64,7 +66,7 @@ struct EvenCuts {
     }
 };
 
-/// Room for even.strata + more_strata strata is taken for granted. `moves`: they are to move with the pixels.
+/// Cuts one axis for a block. Needs room for even.strata + more_strata strata in `a`. `moves`: strata shall move with the pixels.
 LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>* sweep, bool moves, int axis, const EvenCuts& even,
                           Axis& a) {
     const Lattice<S>& lattice = scene.lattice;
@@ -83,11 +85,11 @@ LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>*
     const S reach = start.reach(), along = end.middle > start.middle ? S(1) : S(-1);
     a.moving = moves || !(along * (end.middle - start.middle) > reach);
 
-    // Borders that some pixel of the block sees, the first and the last, in pitches
+    // The first and the last border between lenses that some pixel of the block sees, in pitches
     const S low = optics::min(start.middle, end.middle) - reach, high = optics::max(start.middle, end.middle) + reach;
     const S first = optics::floor(low * per_pitch + S(0.5)) + S(0.5), last = optics::floor(high * per_pitch - S(0.5)) + S(0.5);
     const S borders = last - first + S(1);
-    // One or two borders more than there are cuts are worth a cut each: a block near a lens's border may see the next one too.
+    // Where there are one or two borders more than cuts, each gets a cut: a block near a lens's border may see the next one too.
     const bool at_borders = !a.moving && borders >= S(even.strata) && borders <= S(even.strata + 1) && even.strata + 2 < max_strata;
     a.strata = at_borders ? int(borders) + 1 : even.strata;  // at most more_strata more
     a.cut[0] = {{-1, 0, 0}, start};
@@ -116,14 +118,14 @@ LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>*
         const S cell = optics::cell_along(lattice, axis, S(0.5) * (from + to) * along), axis_at = cell * pitch;
         const S low_end = optics::min(from * along, to * along) - axis_at,
                 high_end = optics::max(from * along, to * along) - axis_at;
-        const S beside = moves ? reach : S(0);  // as far from it other pixels of the block see theirs
+        const S beside = moves ? reach : S(0);  // how far the other pixels' strata lie from this one
         a.stratum[j] = {
             cell, optics::max(low_end, -half), optics::min(high_end, half),
             low_end - beside < S(-FilteredLimits::straddling) * half || high_end + beside > S(FilteredLimits::straddling) * half};
     }
 }
 
-/// The strata of an axis, along x' (0) or y' (1), as a packet's pixels have them, at dx and dy in the block, from -1 to 1.
+/// The strata of an axis, x' (0) or y' (1), for each pixel of a packet; dx and dy: its position in the block, -1 .. 1.
 LFDSIM_BOTH void spans_of(const optics::Scene<S>& scene, const Axis& axis, int along, F dx, F dy, Span<F>* spans) {
     const Lattice<S>& lattice = scene.lattice;
     const int strata = axis.strata;
@@ -140,7 +142,7 @@ LFDSIM_BOTH void spans_of(const optics::Scene<S>& scene, const Axis& axis, int a
         span.high = next_number;
         span.share = F(0.5f) * (next_number - number);
         if (scene.hole_radius > 0) {
-            // A moving stratum may have left the lens that it has in the middle of the block.
+            // A moving stratum may lie on another lens than for the middle of the block.
             const F at = F(lattice.pitch[along]) * (axis.moving ? optics::cell_along(lattice, along, F(0.5f) * (place + next_place))
                                                                 : F(axis.stratum[j].cell));
             const F half = F(lattice.half_pitch[along]), per = F(1 / scene.hole_radius);
@@ -159,8 +161,8 @@ LFDSIM_BOTH bool within_a_pitch(const optics::Scene<S>& scene, const Axis& axis,
     return optics::abs(axis.cut[stratum + 1].place.middle - axis.cut[stratum].place.middle) < scene.lattice.pitch[along];
 }
 
-/// Such a stratum as a packet's pixels have it, cut where a pixel sees the border of two lenses in it: what lies in the cell of the
-/// stratum's middle, and what lies beyond, in the next cell. Over so little of a lens places go evenly with numbers.
+/// Such a stratum for each pixel of a packet, cut where the pixel sees the border of two lenses in it: the part in the cell of the
+/// stratum's middle, and the part beyond, in the next cell. Over so little of a lens, position is taken as linear in the number.
 LFDSIM_BOTH void cut_at_border(const optics::Scene<S>& scene, const Axis& axis, int along, int stratum, F dx, F dy,
                                Span<F> (&parts)[2]) {
     const Cut &first = axis.cut[stratum], &last = axis.cut[stratum + 1];
@@ -174,7 +176,7 @@ LFDSIM_BOTH void cut_at_border(const optics::Scene<S>& scene, const Axis& axis, 
     const F number = low + (high - low) * share, place = start + way * share;  // of the cut
     const F per = F(scene.hole_radius > 0 ? 1 / scene.hole_radius : 0);
     for (int k = 0; k < 2; ++k) {
-        const optics::Mask<F> before = k == 0 ? share > F(0.5f) : share <= F(0.5f);  // this part: before the cut
+        const optics::Mask<F> before = k == 0 ? share > F(0.5f) : share <= F(0.5f);  // does this part end at the cut?
         const F from = optics::select(before, start, place), to = optics::select(before, place, end);
         const F at = k == 0 ? lens : optics::select(above, lens + pitch, lens - pitch);
         Span<F>& span = parts[k];

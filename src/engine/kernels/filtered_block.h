@@ -1,4 +1,4 @@
-// The filtered estimator: a block of pixels, in the steps that CPU and GPU take alike.
+// The filtered estimator: a block of pixels, in steps that CPU and GPU have in common.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
 #include "engine/kernel.h"
@@ -15,7 +15,7 @@ namespace lfdsim {
 
 namespace {
 
-/// The light of a soft bundle, colour c, at (dx, dy), -1 .. 1 across the block: between its nodes it is linear in both.
+/// The light of a soft bundle, colour c, at (dx, dy), -1 .. 1 across the block: bilinear between its nodes.
 LFDSIM_FN F soft_light(const SharedBundle& b, F dx, F dy, int c) {
     auto between = [](S low, S middle, S high, F at) {
         return F(middle) + F(high - middle) * optics::max(at, F(0)) + F(middle - low) * optics::min(at, F(0));
@@ -33,12 +33,12 @@ LFDSIM_FN F soft_light(const SharedBundle& b, F dx, F dy, int c) {
     return row[1] + (row[2] - row[1]) * optics::max(dy, F(0)) + (row[1] - row[0]) * optics::min(dy, F(0));
 }
 
-/// What a packet of pixels, or of places, sees.
+/// The light that a packet of pixels, or of places, sees.
 struct PacketLight {
-    optics::Light<F> boxes;
-    F flat[3] = {F(0), F(0), F(0)};
+    optics::Light<F> boxes;          // looked up on the panel
+    F flat[3] = {F(0), F(0), F(0)};  // of soft bundles: R, G, B
 
-    /// R, G, B and an idle number of each lane.
+    /// R, G, B and an unused number of each lane.
     LFDSIM_FN void store(S* to, bool with_flat) const {
         boxes.store(to);
         if (!with_flat) return;
@@ -51,8 +51,8 @@ struct PacketLight {
     }
 };
 
-/// What is even over a block is told at the corners of squares of so many pixels, at most 5 x 5 places, and interpolated between
-/// them, unless there are so many strata that a finer picture is asked for.
+/// Light that varies smoothly over a block is computed at its places, the corners of squares of place_step pixels, at most 5 x 5,
+/// and interpolated between them, unless many strata ask for a finer picture.
 constexpr int most_side = 16, place_step = FilteredLimits::place_step, most_places = most_side / place_step + 1, most_lanes = 32;
 
 /// 0: none.
@@ -60,14 +60,14 @@ LFDSIM_FN int places_per_axis(const Tile& tile) {
     return tile.strata > few_strata || tile.block_side <= place_step ? 0 : tile.block_side / place_step + 1;
 }
 
-/// A sharp bundle, and how much of the light at the places comes through it.
+/// A sharp bundle, and the share of the light at each place that comes through it.
 struct Sharp {
     const SharedBundle* bundle;
     S weight[most_lanes];
 };
 constexpr int most_sharps = 2 * (few_strata + more_strata) * (few_strata + more_strata);
 
-/// What is found out about a block. The arrays belong to whoever has the work done.
+/// The results of a block's steps. The arrays belong to the caller.
 struct BlockState {
     std::int32_t x0, y0;  // first pixel
     optics::PixelBlock<S> block;
@@ -75,7 +75,7 @@ struct BlockState {
     int per_axis;      // places along an axis; 0: none
     int sharps;        // sharp bundles, where there are places
     bool any_soft;     // bundles
-    bool any_alone;    // strata looked up for each pixel
+    bool any_alone;    // strata that each pixel looks up by itself
     Bundles* bundles;  // row after row
     Sharp* sharp;      // in the order of the bundles
     S (*light)[4];     // at places, of soft bundles
@@ -115,7 +115,7 @@ class BlockWork {
     }
     LFDSIM_BOTH int strata() const { return at.axis[0].strata * at.axis[1].strata; }
 
-    /// Third step: what there is among the bundles.
+    /// Third step: lists the sharp bundles, and whether there are soft ones, and strata for each pixel alone.
     LFDSIM_BOTH void survey() {
         at.any_soft = false;
         at.any_alone = at.per_axis == 0;
@@ -130,8 +130,7 @@ class BlockWork {
         }
     }
 
-    /// Fourth step: a packet of places from number k on, which lie at the corners of squares of pixels: the light of soft bundles,
-    /// and what the sharp ones count.
+    /// Fourth step: for a packet of places from number k on, the light of soft bundles and the weights of the sharp ones.
     template <int most_strata>
     LFDSIM_BOTH void look_at_places(int k) {
         constexpr int lanes = Packet::lanes;
@@ -182,7 +181,7 @@ class BlockWork {
     }
 
   private:
-    /// Do pixels see so little through a stratum that they may cut it at the lenses' borders, and nothing beside the holes?
+    /// May each pixel cut a stratum at the lenses' borders? If it sees little of a lens through it, and no light beside the holes.
     LFDSIM_BOTH bool cut_by_pixels(int i, int j) const {
         return at.block.alive && !scene.leaky && at.axis[0].moving && at.axis[1].moving &&
                within_a_pitch(scene, at.axis[0], 0, i) && within_a_pitch(scene, at.axis[1], 1, j);
@@ -199,7 +198,7 @@ class BlockWork {
         if (b.state == SharedBundle::State::sharp) at.sharp[at.sharps++].bundle = &b;
     }
 
-    /// Sharp bundles for the packet whose first pixel is (x, y) of the block.
+    /// Adds the light of sharp bundles for the packet whose first pixel is (x, y) of the block.
     LFDSIM_BOTH void add_sharp(int x, int y, F right, F down, F dx, F dy, PacketLight& to) const {
         const int corner = y / place_step * at.per_axis + x / place_step;
         const F per = F(S(1) / S(place_step)), s = (right + F(S(x % place_step))) * per, t = (down + F(S(y % place_step))) * per;
@@ -216,8 +215,8 @@ class BlockWork {
                         F(b.row) + F(b.row_right) * dx + F(b.row_down) * dy, weight);
     }
 
-    /// What each pixel of the packet at (x, y) of the frame has to look at alone: where nothing is told at places all strata, else
-    /// the broken ones.
+    /// Adds what each pixel of the packet at (x, y) of the frame computes by itself: all strata where there are no places, else the
+    /// broken ones.
     template <int most_strata>
     LFDSIM_BOTH void add_alone(std::int32_t x, std::int32_t y, optics::Uint<F> number, F dx, F dy, PacketLight& to) const {
         bool own_ready = false;
@@ -276,7 +275,7 @@ class BlockWork {
             };
             if (at.per_axis == 0) add(b.through, share * cover);
             if (own_beside) {
-                // Each pixel by itself: none depends on those that share its packet.
+                // Decided for each pixel, so that none depends on the others of its packet.
                 const optics::Mask<F> seen = cover < F(0.9999f);
                 if (optics::any(seen)) add_own(Own::beside, optics::select(seen, share * (F(1) - cover), F(0)));
             } else if (at.per_axis == 0) {
@@ -285,8 +284,8 @@ class BlockWork {
         });
     }
 
-    /// f(bundles, span, span, number) for each stratum, of which lanes (dx, dy) of the block, -1 .. 1, have these spans. An axis
-    /// has at most `most` strata.
+    /// f(bundles, span along x', span along y', number) for each stratum; the spans are those of the lanes at (dx, dy) of the
+    /// block, -1 .. 1. An axis has at most `most` strata.
     template <int most, class Do>
     LFDSIM_BOTH void for_strata(F dx, F dy, Do f) const {
         Span<F> spans[2][most];
@@ -301,7 +300,7 @@ class BlockWork {
     BlockState& at;
 };
 
-/// Between the light at two places.
+/// Interpolates the light between two places.
 LFDSIM_FN S between_places(S a, S b, S share) { return a + (b - a) * share; }
 
 }  // namespace

@@ -1,5 +1,9 @@
-// The filtered estimator: the bundles of a block.
+// The filtered estimator: makes the bundles of a block (optics/bundle.h), one or two for each stratum.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
+//
+// A stratum is a cell of the grid into which cut_axis() cuts the diffuser's two angles; what it spans is also a rectangle in the
+// plane of the lenses' holes, in mm. Its probes go from where the ray of the block's middle meets the diffuser through points of
+// that rectangle. A hole is the clear opening of a lens, or of a stop in front of it, round or the whole cell.
 #pragma once
 #include "engine/kernel.h"
 #include "engine/kernels/filtered_axis.h"
@@ -15,14 +19,14 @@ namespace {
 
 using SharedBundle = optics::SharedBundle<S>;
 
-/// What a block sees through each stratum: through its hole, and beside that where light passes there too.
+/// What a block sees through a stratum: through its hole and, where light passes there too, beside the hole.
 struct Bundles {
     SharedBundle through, beside;
     bool straddles;  // the stratum sees other lenses too
 };
 
-/// Does each pixel look through wide footprints by itself? With many strata, for light that is interpolated over even the smallest
-/// block blurs what is sharp in the picture, and there rays of the pixels' own cost no more.
+/// Do pixels trace their own rays where footprints are wide? With many strata and the smallest blocks: interpolating the light over
+/// such a block would blur details of the picture, and the pixels' own rays cost no more there.
 LFDSIM_BOTH bool fine_alone(const Tile& tile, const optics::Scene<S>& scene) {
     return tile.strata > 2 * few_strata && tile.block_side <= FilteredLimits::place_step && !scene.leaky;
 }
@@ -34,7 +38,7 @@ struct Range {
     LFDSIM_BOTH S length() const { return to - from; }
 };
 
-/// The part of a stratum that its hole covers lies in these ranges; false: it covers none.
+/// Shrinks the ranges to the bounding box of the part that a round hole covers; false: it covers none.
 LFDSIM_BOTH bool clip_to_hole(S radius, Range& x, Range& y) {
     auto nearest = [](Range r) { return optics::min(optics::max(S(0), r.from), r.to); };
     const S near_x = nearest(x), near_y = nearest(y);
@@ -57,7 +61,7 @@ class BundleMaker {
                    : t.strata <= 8 ? 3
                                    : 2) {
         probes.lay_out(per_axis);
-        for (int p = 0; p < optics::most_probes; ++p) {  // the last lanes of a packet trace something, too
+        for (int p = 0; p < optics::most_probes; ++p) {  // all of them: the last lanes of a packet trace something, too
             probes.at_x[p] = block.sweep[0][0].at;
             probes.at_y[p] = block.sweep[1][0].at;
             rays.at_x[p] = rays.at_y[p] = rays.x[p] = rays.y[p] = 0;
@@ -67,7 +71,7 @@ class BundleMaker {
         }
     }
 
-    /// All of the block's.
+    /// All bundles of the block, row after row.
     LFDSIM_BOTH void make_all(Bundles* bundles) {
         Bundles* next = bundles;
         for (int j = 0; j < axis[1].strata; ++j)
@@ -75,7 +79,7 @@ class BundleMaker {
         finish();
         while (bundles != next) settle(*bundles++);
     }
-    /// Those of stratum (i, j).
+    /// The bundles of stratum (i, j).
     LFDSIM_BOTH void make(Bundles& b, int i, int j) {
         start(b, i, j);
         finish();
@@ -83,11 +87,12 @@ class BundleMaker {
     }
 
   private:
-    /// Where a hole is broken, rays of the pixels' own tell what lies beside it, too.
+    /// Where the bundle through the hole is broken, the pixels' own rays also cover what lies beside the hole.
     LFDSIM_BOTH static void settle(Bundles& b) {
         if (b.through.state == SharedBundle::State::broken) b.beside.state = SharedBundle::State::dark;
     }
 
+    /// Traces the probes of stratum (i, j), column i and row j, and queues the rays that follow sharp bundles over the block.
     LFDSIM_BOTH void start(Bundles& b, int i, int j) {
         const S r = scene.hole_radius;
         const Stratum &across = axis[0].stratum[i], &up = axis[1].stratum[j];
@@ -117,7 +122,7 @@ class BundleMaker {
         return optics::abs(far - scene.hole_radius) < move;
     }
 
-    /// Traces the probes of a part of a stratum.
+    /// Traces the probes of a part of stratum (i, j): a grid over x and y, of which those inside the hole count, or those outside.
     LFDSIM_BOTH void trace(int i, Range x, int j, Range y, bool inside) {
         const optics::Place<S> lens =
             optics::axis_of(scene.lattice, optics::Cell<S>{axis[0].stratum[i].cell, axis[1].stratum[j].cell});
@@ -131,6 +136,7 @@ class BundleMaker {
         optics::trace_probes<through, F>(scene, block, probes, per_axis * per_axis);
     }
 
+    /// The bundle of a part of stratum (i, j), inside its hole or beside it. Motion of sharp ones is left to follow().
     LFDSIM_BOTH SharedBundle probe(int i, Range x, int j, Range y, bool inside) {
         trace(i, x, j, y, inside);
         SharedBundle b = optics::sum_up(probes, per_axis);
@@ -147,12 +153,12 @@ class BundleMaker {
         finish();
         if (b.state == SharedBundle::State::broken) return b;
         b.state = SharedBundle::State::soft;
-        // What a pixel sees of the outermost strata changes over the block.
+        // The part of an outermost stratum that a pixel sees changes over the block.
         const bool ends = sees_end(0, i) || sees_end(1, j);
         b.nodes = !b.still ? block.nodes() : ends ? 2 : 1;
         for (int n = 0; n < b.nodes * b.nodes; ++n)
             for (int c = 0; c < 4; ++c) b.colour[n][c] = 0;
-        // The wider the footprint the more probes.
+        // Wider footprints get more probes.
         const int parts =
             b.still ? optics::min(FilteredLimits::most_parts, 1 + int(optics::max(b.width, b.height) * part_per_pixel)) : 1;
         for (int k = 0; k < parts * parts; ++k) {
@@ -167,14 +173,15 @@ class BundleMaker {
         b.weight = 1;
         for (int n = 0; n < b.nodes * b.nodes; ++n) {
             const S in = b.colour[n][3];
-            if (in == S(0))
-                b.state = SharedBundle::State::broken;  // all that the first probes met of the part were points at its edge
+            if (in == S(0)) b.state = SharedBundle::State::broken;  // the first probes met only points at the edge of the part
             for (int c = 0; c < 3; ++c) b.colour[n][c] = b.colour[n][c] / in;
         }
         return b;
     }
 
-    /// Pixels see parts of the outermost strata: their footprints are smaller than that of all of it, and move with these parts.
+    /// Pixels see only parts of the outermost strata. Reduces a sharp footprint, made by probes over all of stratum (i, j), to what
+    /// the block's middle sees, and adds the motion of the seen part's middle to that of the bundle (lean). The map from holes to
+    /// panel is taken as linear (optics::Slopes); the variance of a box of width w is w^2 / 12, so squared widths subtract.
     LFDSIM_BOTH void lean(SharedBundle& b, int i, Range x, int j, Range y) const {
         if (!sees_end(0, i) && !sees_end(1, j)) return;
         const optics::Slopes<S> slopes(probes, b);
@@ -186,7 +193,7 @@ class BundleMaker {
             const Range all = ranges[a], here = seen_of(a, strata[a], all, 0, 0), right = seen_of(a, strata[a], all, 1, 0),
                         down = seen_of(a, strata[a], all, 0, 1);
             if (!(here.length() > S(FilteredLimits::part_seen) * all.length()))
-                continue;  // what most pixels see of it is too unlike that
+                continue;  // other pixels see parts of it that differ too much from this one
             const S from_all = here.middle() - all.middle(), per = S(1) / S(block.reach),
                     moves[2] = {(right.middle() - here.middle()) * per, (down.middle() - here.middle()) * per};
             b.column = b.column + slopes.column[a] * from_all;
@@ -203,7 +210,8 @@ class BundleMaker {
         b.height = optics::sqrt(optics::max(height, S(0)));
     }
 
-    /// What a pixel at (dx, dy) of the block, -1 .. 1, sees of a range of a stratum; nothing: the end of the range next to it.
+    /// The part of a range of a stratum along axis a that a pixel at (dx, dy) of the block, -1 .. 1, sees; an empty range at the
+    /// nearest end if it sees none.
     LFDSIM_BOTH Range seen_of(int a, int stratum, Range r, S dx, S dy) const {
         const Gradient &first = axis[a].cut[0].place, &last = axis[a].cut[axis[a].strata].place;
         const S start = first.middle + first.right * dx + first.down * dy, end = last.middle + last.right * dx + last.down * dy,
@@ -212,11 +220,13 @@ class BundleMaker {
         return {optics::min(optics::max(r.from, low), r.to), optics::max(optics::min(r.to, high), r.from)};
     }
 
+    /// Is it an outermost stratum with an end that moves with the pixels?
     LFDSIM_BOTH bool sees_end(int a, int stratum) const {
         return !axis[a].moving && (stratum == 0 || stratum == axis[a].strata - 1);
     }
 
-    /// Adds the probes' light at the nodes, each probe as far as a pixel there sees its part of the range.
+    /// Adds the light of the probes' boxes to the sums at the nodes, each weighted with the share of its part of the range that a
+    /// pixel at the node sees.
     LFDSIM_BOTH void add_nodes(SharedBundle& b, int i, Range x, int j, Range y) {
         optics::ProbeBoxes<S> boxes;
         boxes.make<F>(probes, per_axis);
@@ -241,7 +251,7 @@ class BundleMaker {
         }
     }
 
-    /// Leaves of each probe's part of a range what a pixel at (dx, dy) of the block sees of it.
+    /// Multiplies `seen` of each probe by the share of its part of a range along axis a that a pixel at (dx, dy) of the block sees.
     LFDSIM_BOTH void narrow(int a, int stratum, Range r, const S* grid, S dx, S dy, S* seen) const {
         const Gradient &first = axis[a].cut[0].place, &last = axis[a].cut[axis[a].strata].place;
         const S start = first.middle + first.right * dx + first.down * dy, end = last.middle + last.right * dx + last.down * dy,
@@ -250,14 +260,15 @@ class BundleMaker {
         const S range = r.to - r.from, half = S(0.5) * range / S(per_axis);
         if (!(half > 0)) return;
         const S per = S(0.5) / half,
-                least = S(FilteredLimits::least_seen);  // where nothing is seen, all of it tells the light for the pixels beside
+                least = S(FilteredLimits::least_seen);  // where nothing is seen, the mean over all of it serves interpolation
         for (int p = 0; p < optics::most_probes; ++p) {
             const S middle = r.from + grid[p] * range, part = optics::min(high, middle + half) - optics::max(low, middle - half);
             seen[p] = seen[p] * optics::min(optics::max(part * per, least), S(1));
         }
     }
 
-    /// Queues the rays that tell how a bundle moves.
+    /// Queues three rays from the block's points 1 .. 3 (optics::block_rays) through the bundle's point in the plane of the holes,
+    /// which moves with the pixels where strata do. finish() derives the bundle's motion over the block from them.
     LFDSIM_BOTH void follow(SharedBundle& b) {
         for (int from = 1; from < optics::block_rays; ++from) {
             const int p = 3 * waiting + from - 1;
@@ -273,6 +284,7 @@ class BundleMaker {
         followed[waiting++] = &b;
         if (waiting == most_waiting) finish();
     }
+    /// Traces the queued rays, and completes the bundles that wait for them.
     LFDSIM_BOTH void finish() {
         if (waiting > 0) optics::trace_probes<through, F>(scene, block, rays, 3 * waiting);
         for (int k = 0; k < waiting; ++k) {
@@ -294,9 +306,9 @@ class BundleMaker {
     const optics::Scene<S>& scene;
     const optics::PixelBlock<S>& block;
     const Axis* axis;
-    int per_axis;  // probes: the coarser the strata the more, as they have to find what is dark in them
+    int per_axis;  // probes along an axis of a stratum: more in coarser strata, as they also have to find what is dark there
     S grid_x[optics::most_probes], grid_y[optics::most_probes],
-        counts[optics::most_probes];  // places in a stratum; 1 of those in use
+        counts[optics::most_probes];  // the probes' positions in a stratum, 0 .. 1; 1 for those in use
     optics::Probes<S> probes, rays;
     SharedBundle* followed[most_waiting];
     int waiting = 0;

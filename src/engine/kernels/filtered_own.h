@@ -1,5 +1,10 @@
-// The filtered estimator: rays of the pixels' own, where a bundle cannot speak for a block.
+// The filtered estimator: the pixels' own rays, where a bundle does not describe what all pixels of a block see.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
+//
+// The lanes of a packet are pixels. A Span (optics/strata.h) is a pixel's part of a stratum along one axis: low .. high of the
+// diffuser's number, which is in [-1, 1], and from .. to in the plane of the holes, in units of the hole's radius from the lens's
+// axis. Along x, positions decrease as the number grows (optics::sense()); along y they increase. Positions on the panel are in
+// panel pixels.
 #pragma once
 #include "engine/kernel.h"
 #include "engine/kernels/filtered_axis.h"
@@ -13,7 +18,7 @@ namespace lfdsim {
 
 namespace {
 
-/// Where a pixel's ray ends that the diffuser turns by the numbers (a, b).
+/// Where each pixel's ray ends on the panel if the diffuser turns it by the angles of the numbers (a, b).
 template <optics::Way through>
 LFDSIM_APART optics::PanelPoint<F> trace_own(const optics::Scene<S>& scene, const optics::PixelRays<F>& pixels, F a, F b) {
     return optics::trace_array<through>(scene, pixels.extent, pixels.base,
@@ -21,37 +26,38 @@ LFDSIM_APART optics::PanelPoint<F> trace_own(const optics::Scene<S>& scene, cons
                                         pixels.alive);
 }
 
-/// What the rays of a pixel's own are for: a whole stratum; one of which a round hole covers a known share; what lies beside the
-/// hole.
+/// What a pixel's own rays are for: a whole stratum; one of which a round hole covers a known share; the part beside the hole.
 enum class Own { all, covered, beside };
 
-/// Rays of the pixels' own for a stratum whose bundle is broken. One at random tells whether light gets through, unless its share
-/// is known; where two others stay with it, they tell the footprint to take the light from, else the ray's own end.
+/// Adds the light that pixels see through a stratum (x, y) whose bundle is broken, by rays of their own; `weight` is its share of
+/// the pixel's light. One ray, in a random direction of the stratum, determines whether light gets through, unless the covered
+/// share is known. If two more rays end close to it, the three give a footprint by finite differences (Igehy 1999), and the panel's
+/// mean over it counts; otherwise the panel pixel at the first ray's end.
 template <optics::Way through>
 LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pixels, const Span<F>& x, const Span<F>& y, Own part,
                                F weight, const optics::Sampler<F>& first, optics::Light<F>& light) {
     const optics::Scene<S>& scene = *tile.scene;
-    // Not handed over by value: clang's address sanitizer leaves the stack of such a call aligned to 32 bytes, whatever F's width.
+    // Not passed by value: with clang's address sanitizer the stack of such a call is aligned to only 32 bytes, whatever F's width.
     optics::Sampler<F> sampler = first;
     const F half = F(0.5f), quarter = F(0.25f);
     F a = F(0), b = F(0);
     optics::Mask<F> found = F(1) < F(0);
     for (int attempt = 0; attempt < (part == Own::beside ? FilteredLimits::attempts : 1);
-         ++attempt) {  // the last stands if none of them lies beside the hole
+         ++attempt) {  // the last is used if none of them lies beside the hole
         ++sampler.sample;
         const F s = half + half * sampler(0), t = half + half * sampler(1);
         a = optics::select(found, a, x.low + s * (x.high - x.low));
         b = optics::select(found, b, y.low + t * (y.high - y.low));
-        const F px = x.to - s * (x.to - x.from), py = y.from + t * (y.to - y.from);  // along x places run against the numbers
+        const F px = x.to - s * (x.to - x.from), py = y.from + t * (y.to - y.from);  // along x against the number
         found = found || (px * px + py * py > F(1));
     }
     if (part == Own::covered) {
-        // At the hole's edge: the corner next to the lens's axis lies in it.
+        // On the hole's edge: take a point near the corner next to the lens's axis, if that corner lies in the hole.
         auto towards_axis = [](const Span<F>& span, F at_from, F at_to) {
             return optics::select(optics::abs(span.from) < optics::abs(span.to), F(0.9f) * at_from + F(0.1f) * at_to,
                                   F(0.1f) * at_from + F(0.9f) * at_to);
         };
-        // Or, where the hole is smaller than the stratum, the place that is next to the axis.
+        // Otherwise, where the hole is smaller than the stratum, the point nearest to the axis.
         auto next_to_axis = [](const Span<F>& span, F at_from, F at_to) {
             const F place = optics::min(optics::max(F(0), span.from), span.to);
             return at_from + (place - span.from) / optics::max(span.to - span.from, F(1e-6f)) * (at_to - at_from);
@@ -67,12 +73,13 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
     auto one = trace_own<through>(scene, pixels, a, b);
     weight = optics::select(one.alive, weight * one.weight, F(0));
     if (part != Own::beside) {
-        // Two more rays, a quarter of the stratum towards its middle, tell where the middle looks and how wide.
+        // Two more rays, each a quarter of the stratum towards its middle, give where the ray through the middle ends, and the size
+        // of the footprint: four steps along each axis, added up.
         auto step = [&](const Span<F>& span, F at) {
             const F mid = half * (span.low + span.high), size = quarter * (span.high - span.low);
             return optics::select(at < mid, size, -size);
         };
-        auto steps = [&](const Span<F>& span, F at, F one_step) {  // to the middle
+        auto steps = [&](const Span<F>& span, F at, F one_step) {  // from `at` to the middle
             return (half * (span.low + span.high) - at) / optics::select(one_step == F(0), F(1), one_step);
         };
         const F step_a = step(x, a), step_b = step(y, b), to_a = steps(x, a, step_a), to_b = steps(y, b, step_b);
@@ -102,8 +109,9 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
     light.add(tile.texels, optics::Fetch<F>(hit));
 }
 
-/// A pixel's own probes: 2 x 2 rays through what its hole covers of a part of a stratum that looks through one lens. The panel
-/// counts over a box about the end of each, as wide as it is to the next ones.
+/// Adds the light that pixels see through a part (x, y) of a stratum that looks through one lens, by probes of their own: 2 x 2
+/// rays through what the hole covers of it, each with the panel's mean over a box around its end, as wide as the distance to the
+/// ends of the next ones. `weight` is the part's share of the pixel's light.
 template <optics::Way through>
 LFDSIM_APART void add_own_probes(const Tile& tile, const optics::PixelRays<F>& pixels, const Span<F>& x, const Span<F>& y, F weight,
                                  optics::Light<F>& light) {
@@ -114,17 +122,17 @@ LFDSIM_APART void add_own_probes(const Tile& tile, const optics::PixelRays<F>& p
     const optics::Mask<F> seen = weight > none;
     if (optics::none(seen)) return;
 
-    // Places, in units of the hole's radius, or shares of the part where it is not round: along each axis the one nearer to the
-    // lens's axis first, which the hole always covers.
+    // Where the rays pass, in units of the hole's radius, or as shares of the part where the hole is not round. Along each axis the
+    // one nearer to the lens's axis comes first: the ray that has both is always inside the hole.
     const Span<F>* const span[2] = {&x, &y};
-    F first[2], per[2], place[2][2];  // where the part begins; numbers a place
+    F first[2], per[2], place[2][2];  // position at the number `low`; change of the number per unit of position
     for (int k = 0; k < 2; ++k) {
         F from = none, to = one;
         if (round) {
             from = span[k]->from;
             to = span[k]->to;
         }
-        first[k] = k == 0 ? to : from;  // along x places run against the numbers
+        first[k] = k == 0 ? to : from;  // along x against the number
         per[k] = (span[k]->high - span[k]->low) / optics::max(to - from, F(1e-9f));
         if (round) {
             const Span<F>& other = *span[1 - k];
@@ -151,7 +159,7 @@ LFDSIM_APART void add_own_probes(const Tile& tile, const optics::PixelRays<F>& p
     }
     weight = weight / optics::max(count, one);
     for (int p = 0; p < 4; ++p) {
-        F wide = none, high = none;  // squared: two spreads add up like variances
+        F wide = none, high = none;  // squared: the spreads of two directions add up like variances
         for (int step = 1; step <= 2; ++step) {
             const optics::PanelPoint<F>& next = end[p ^ step];
             const optics::Mask<F> lit =

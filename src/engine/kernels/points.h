@@ -1,4 +1,4 @@
-// Point samples: all those of a packet of pixels.
+// The estimator `point`: all samples of a packet of pixels.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
 #include "engine/kernel.h"
@@ -17,11 +17,12 @@ LFDSIM_APART optics::PanelHit<F> trace_one(const Tile& tile, const optics::Pixel
     return optics::trace<through, pinhole>(*tile.scene, *tile.view, pixels, sampler);
 }
 
-/// Lanes are neighbouring pixels and each adds its samples in their order, two at a time, so that no bit depends on the packet a
-/// pixel is in. The light of two samples is fetched while the next two are traced: neither then waits for the other.
+/// Lanes are neighbouring pixels, and each adds its samples in order, two at a time, so that no bit depends on the packet a pixel
+/// is in. The light of two samples is fetched while the next two are traced, so that memory latency is hidden.
 ///
-/// Two samples are traced side by side where lanes are many. A thread of a GPU takes one after the other: there other threads fill
-/// the waits, and registers are dear; nor does it call anything, which would keep the sampler out of the registers.
+/// With several lanes two samples are traced side by side (optics/pair.h). A GPU thread traces one after the other: there other
+/// threads hide latency, and registers are scarce. It does not call trace_one() either, which would keep the sampler out of the
+/// registers.
 template <optics::Way through, bool pinhole = false>
 LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& pixels, optics::Uint<F> pixel) {
     constexpr bool one_lane = optics::LaneTraits<F>::width == 1;

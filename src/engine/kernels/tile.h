@@ -1,5 +1,5 @@
 // The kernel's source, compiled once for each instruction set (kernels.cmake): LFDSIM_ISA names it, LFDSIM_LANES is its width.
-// Floor 2. No header of the standard library's templates: a copy of one compiled for AVX-512 must never serve another kernel.
+// Floor 2. No header with templates of the standard library: a copy compiled for AVX-512 must never be linked into another kernel.
 #include "engine/kernel.h"
 #if LFDSIM_LANES > 1
 #include "optics/simd.h"
@@ -32,7 +32,7 @@ namespace {
 template <optics::Way through>
 void render_points(const Tile& tile) {
     using Block = optics::Block<F>;
-    std::uint32_t lane[Block::lanes];  // number of its pixel in the frame, from the block's first
+    std::uint32_t lane[Block::lanes];  // number of the lane's pixel in the frame, minus that of the block's first
     for (int k = 0; k < Block::lanes; ++k) lane[k] = std::uint32_t(k / Block::width * tile.view->width + k % Block::width);
     for (std::int32_t y = tile.y0 / Block::height * Block::height; y < tile.y1; y += Block::height) {
         for (std::int32_t x = tile.x0 / Block::width * Block::width; x < tile.x1; x += Block::width) {

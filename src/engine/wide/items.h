@@ -1,4 +1,4 @@
-// The items of each step, for one lane a thread. The work itself is that of the CPU's kernels: engine/kernels, optics. Floor 2.
+// The items of each step, with one lane per thread. The work itself is that of the CPU's kernels: engine/kernels, optics. Floor 2.
 // Compiled as CUDA (engine/cuda) and, to test it anywhere, for the host.
 #pragma once
 #ifndef LFDSIM_LANES
@@ -45,7 +45,7 @@ LFDSIM_FN Pixel pixel_of(int side, int k) {
     return {part % across * wide + in % wide, part / across * 4 + in / wide};
 }
 
-/// Where the light of pixel (x, y), in the block, goes; nullptr: it is not wanted.
+/// Where the light of the frame's pixel (x, y), in the block, is written; nullptr: it is not needed.
 LFDSIM_FN float* output(const Frame& frame, std::int64_t block, std::int32_t x, std::int32_t y) {
     const Tile& tile = frame.tile;
     const bool wanted = x >= tile.x0 && x < tile.x1 && y >= tile.y0 && y < tile.y1;
@@ -160,7 +160,7 @@ LFDSIM_FN void pixel_item(const Frame& frame, std::int64_t i) {
     for (int c = 0; c < 3; ++c) out[c] = light[c];
 }
 
-/// Item i of a step. `simple`: points of a pinhole camera; pixels with few strata.
+/// Item i of a step. `simple`: for points, a pinhole camera; for pixels, few strata.
 template <Step step, optics::Way through, bool simple>
 LFDSIM_FN void item(const Frame& frame, std::int64_t i) {
     if constexpr (step == Step::points) point_item<through, simple>(frame, i);
@@ -172,7 +172,7 @@ LFDSIM_FN void item(const Frame& frame, std::int64_t i) {
     if constexpr (step == Step::pixels) pixel_item<through, simple ? few_strata + more_strata : max_strata>(frame, i);
 }
 
-/// do_it.template run<step, way, simple>() for the step and the frame at hand: what differs is compiled apart.
+/// do_it.template operator()<step, way, simple>() for the step and the frame at hand: each combination is compiled separately.
 template <class Do>
 void choose_item(Step step, const Frame& frame, Do do_it) {
     auto by_way = [&]<Step s, bool simple>() {

@@ -1,4 +1,4 @@
-// A view that lies in a wide machine's memory, compared with a photograph there: the same bits as by the CPU. Floor 2.
+// Compares a view in a wide machine's memory with a photograph there, with the same bits as on the CPU. Floor 2.
 #pragma once
 #include "engine/wide/queue.h"
 #include "image/image.h"
@@ -13,11 +13,11 @@ struct Photograph {
     static std::size_t bytes(const Image&);  // while it is made
 
     int width, height;
-    Buffer<SrgbLine> srgb;      // for its own codes, and those of the views that it meets
+    Buffer<SrgbLine> srgb;      // for its own codes, and those of the views that are compared with it
     Buffer<float> code, light;  // of sRGB codes, of light; height x width each
 };
 
-/// Bytes that likeness() takes.
+/// Bytes that likeness() needs.
 std::size_t likeness_bytes(int width, int height);
 
 /// As image/likeness.h. `view`: light in the machine's memory, 3 floats a pixel, of the photograph's size. Throws DeviceError.

@@ -1,4 +1,4 @@
-// Comparing a view with a photograph as a wide machine does it. Plain data. Floor 2.
+// The comparison of a view with a photograph on a wide machine. Plain data. Floor 2.
 #pragma once
 #include "image/likeness.h"
 #include "image/ssim_window.h"
@@ -16,10 +16,10 @@ enum class LikenessStep {
     rows         // one of the sums, of a row
 };
 
-/// What is summed: SSIM over both regions, then for the covered share.
+/// The sums: SSIM over both regions, then those for the covered share.
 constexpr int likeness_regions = 2, likeness_sums = likeness_regions + cover_sums;
 
-/// What every item of every step is given. Memory is the machine's.
+/// The input of every item of every step. Pointers are to the machine's memory.
 struct LikenessFrame {
     std::int32_t width, height;
     const SrgbLine* srgb;
@@ -27,7 +27,7 @@ struct LikenessFrame {
     float gain;
     const float* picture;                                   // light, 3 floats a pixel, of the photograph or the view
     float *photograph_code, *photograph_light, *view_code;  // luma of sRGB codes and of light
-    // Columns in each row, [height] of each: where windows' middles may stand, for both regions; then the screen.
+    // Columns in each row, [height] of each: where the windows' middles may lie, for both regions; then the screen.
     const Region::Row* columns;
     std::int32_t first_row, row_count;  // the rows at hand
     double* moments;                    // [moments][row_count][width]

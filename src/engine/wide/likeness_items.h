@@ -1,4 +1,4 @@
-// The items of each step of comparing a view with a photograph, each a thread's: what image/likeness.cpp computes, in the same
+// The items of each step of comparing a view with a photograph, one for each thread: what image/likeness.cpp computes, in the same
 // order. Compiled as CUDA (engine/cuda) and, to test it anywhere, for the host. Floor 2.
 #pragma once
 #include "engine/wide/likeness_frame.h"
@@ -93,7 +93,7 @@ LFDSIM_FN void likeness_item(const LikenessFrame& f, std::int64_t i) {
     }
 }
 
-/// do_it.template operator()<step>() for the step at hand: each is compiled apart.
+/// do_it.template operator()<step>() for the step at hand: each is compiled separately.
 template <class Do>
 void choose_likeness_item(LikenessStep step, Do do_it) {
     switch (step) {

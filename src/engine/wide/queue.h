@@ -1,4 +1,4 @@
-// What a wide machine does for the renderer: memory, transfers, steps. Floor 2.
+// The interface of a wide machine to the renderer: memory, transfers, steps. Floor 2.
 #pragma once
 #include "engine/wide/frame.h"
 #include "engine/wide/likeness_frame.h"
@@ -9,8 +9,8 @@
 
 namespace lfdsim::wide {
 
-/// Work is done in the order in which it is handed over; steps do not keep the caller waiting. Functions throw DeviceError where
-/// the machine fails. To be used by one thread at a time.
+/// Work is done in the order in which it is submitted; run() does not wait for it. Functions throw DeviceError where the machine
+/// fails. To be used by one thread at a time.
 class Queue {
   public:
     virtual ~Queue() = default;
@@ -18,9 +18,9 @@ class Queue {
     /// The machine's name, as in "cuda:0, NVIDIA H100".
     virtual std::string name() const = 0;
 
-    /// Bytes that can be had, less what the steps may need for their stacks.
+    /// Bytes that can be allocated, less what the steps may need for their stacks.
     virtual std::size_t free_bytes() = 0;
-    /// Throws DeviceError where there are not so many.
+    /// Throws DeviceError where there are too few.
     virtual void* allocate(std::size_t bytes) = 0;
     virtual void release(void*) noexcept = 0;
 
@@ -28,7 +28,7 @@ class Queue {
     virtual void clear(void*, std::size_t bytes) = 0;
     /// Waits until `from` may be changed.
     virtual void upload(void* to, const void* from, std::size_t bytes) = 0;
-    /// What was there when all that is handed over so far is done. Waits for that and no later work.
+    /// Copies what is there after all work submitted so far. Waits for that work and no later work.
     virtual void download(void* to, const void* from, std::size_t bytes) = 0;
 
     virtual void run(Step, const Frame&, std::int64_t items) = 0;
@@ -36,8 +36,8 @@ class Queue {
     /// Seconds that the steps have taken on the machine so far, by its own clock. Waits for all of them.
     virtual double seconds() = 0;
 
-    /// What the items take for granted: memory of a block that is cut into at most so many strata an axis, and of the even cuts;
-    /// places along an axis of a block.
+    /// What the items rely on: the memory of a block cut into at most so many strata an axis, and of the even cuts; the places
+    /// along an axis of a block.
     virtual std::size_t block_bytes(int most_strata) const = 0;
     virtual std::size_t even_bytes() const = 0;
     virtual int places_per_axis(const Tile&) const = 0;

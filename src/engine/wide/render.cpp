@@ -8,13 +8,13 @@ namespace lfdsim::wide {
 
 namespace {
 
-constexpr std::int64_t most_points = std::int64_t(1) << 31;  // of one step: a fraction of a second, after which Ctrl-C is heard
+constexpr std::int64_t most_points = std::int64_t(1) << 31;  // in one step: a fraction of a second, after which Ctrl-C takes effect
 constexpr int point_side = 16;
 
-/// For the blocks at hand: enough of them to fill any machine, and at least one of the largest.
+/// Memory for the blocks at hand: enough of them to fill any machine, and at least one of the largest.
 std::size_t block_memory(const Queue& queue) { return std::max(queue.block_bytes(max_strata), std::size_t(256) << 20); }
 
-/// Works off blocks, a part of them at a time.
+/// Renders blocks, a part of them at a time.
 class Renderer {
   public:
     Renderer(Queue& queue, const DevicePanel& panel, const Tile& tile) : queue_(queue) {
@@ -27,7 +27,8 @@ class Renderer {
     }
     Frame& frame() { return frame_; }
 
-    /// All blocks of the tile's rectangle, after(n) after each n pixels or so of them; false: that said so before the last.
+    /// Renders all blocks of the tile's rectangle, and calls after(n) after each part, of n pixels; stops, and returns false, where
+    /// after() returns false before the last part.
     template <class After>
     bool run_all(After after) {
         prepare();
@@ -40,7 +41,7 @@ class Renderer {
         return run(std::int64_t(frame_.columns) * ((t.y1 - 1) / side + 1 - frame_.first_row), after);
     }
 
-    /// The blocks of whole squares of the frame.
+    /// Renders the blocks of whole squares of the frame.
     void run_listed(const std::vector<RefinedBlock>& squares) {
         prepare();
         const int side = frame_.tile.block_side;
@@ -108,7 +109,7 @@ class Renderer {
     Buffer<ListedBlock> listed_;
 };
 
-/// Squares for refine_tile, as many as it likes.
+/// Renders squares of the frame for refine_tile.
 class Painter : public BlockPainter {
   public:
     Painter(Queue& queue, Renderer& renderer) : queue_(queue), renderer_(renderer) {
@@ -140,7 +141,7 @@ class Painter : public BlockPainter {
     std::size_t room_ = 0;
 };
 
-/// Rows of squares, some thousands of squares at a time: each takes 30 KB of the caller's memory.
+/// Renders rows of squares, some thousands of squares at a time: each takes 30 KB of the caller's memory.
 Done render_refined(Queue& queue, Renderer& renderer, const Tile& tile, double target, float* error, Job& job) {
     constexpr std::int64_t at_once = 4096;
     const std::int64_t columns = (tile.x1 - tile.x0) / refined_side + 2;
@@ -198,7 +199,7 @@ Done render_there(Queue& queue, const DevicePanel& panel, const Tile& tile, floa
     const bool complete = renderer.run_all([&](std::int64_t done) {
         done = std::min(done, pixels - told);  // blocks reach beyond the tile
         told += done;
-        if (told < pixels) queue.seconds();  // keeps the caller from running far ahead of the machine
+        if (told < pixels) queue.seconds();  // waits, so that the caller does not run far ahead of the machine
         job.advance(done);
         return !job.cancelled();
     });

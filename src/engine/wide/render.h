@@ -1,4 +1,4 @@
-// A picture by a wide machine: the same bits as by the CPU's kernels. Floor 2.
+// Renders a picture on a wide machine, with the same bits as the CPU's kernels. Floor 2.
 #pragma once
 #include "engine/kernel.h"
 #include "engine/wide/queue.h"
@@ -25,15 +25,15 @@ class DevicePanel {
     const float* texels_;
 };
 
-/// Bytes that a picture takes beside the panel, at least.
+/// Bytes that a picture needs at least, in addition to the panel.
 std::size_t picture_bytes(const Queue&, const Tile&);
 
-/// Renders the tile to `out`, light of 3 floats a pixel in the machine's memory, black where it was cancelled before. Throws
-/// DeviceError.
+/// Renders the tile to `out` in the machine's memory, 3 floats of linear light a pixel, black where it was not rendered before the
+/// job was cancelled. Throws DeviceError.
 Done render_there(Queue&, const DevicePanel&, const Tile&, float* out, Job&);
 
-/// Renders the tile, whose memory is the caller's but for the panel. `target_error` with `error`: as refine_tile. Throws
-/// DeviceError.
+/// Renders the tile to the caller's memory; only the panel is already in the machine's. `target_error` with `error`: as
+/// refine_tile. Throws DeviceError.
 Done render(Queue&, const DevicePanel&, const Tile&, std::optional<double> target_error, float* error, Job&);
 
 }  // namespace lfdsim::wide
