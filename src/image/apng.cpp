@@ -37,7 +37,7 @@ std::string chunk(std::string_view type, std::string_view data) {
     return bytes;
 }
 
-/// A whole PNG in parts: what stands before its pixels, and its pixels, compressed.
+/// The parts of a PNG: everything before its pixels, and its pixels, compressed.
 struct Still {
     std::string head, pixels;
 };
@@ -63,7 +63,7 @@ std::string frame_control(std::uint32_t sequence, const Image& frame, double sec
     put(data, sequence, 4);
     put(data, std::uint32_t(frame.width), 4);
     put(data, std::uint32_t(frame.height), 4);
-    put(data, 0, 4);  // its place
+    put(data, 0, 4);  // its position
     put(data, 0, 4);
     put(data, std::uint32_t(std::lround(seconds * 1000)), 2);
     put(data, 1000, 2);

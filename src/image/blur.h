@@ -5,8 +5,8 @@
 namespace lfdsim {
 
 /// `values` are rows x columns x channels; each channel is convolved with a Gaussian of standard deviation `sigma` pixels, sampled
-/// at pixels, cut at 4 sigma and brought to a sum of 1; beyond the border its last pixel goes on. At sigma below 0.5 the samples
-/// are too far apart to keep the variance. The same bits on any number of threads.
+/// at pixels, cut at 4 sigma and normalised; beyond the border the last pixel is repeated. At sigma below 0.5 the samples are too
+/// far apart to keep the variance. The same bits on any number of threads.
 void blur(std::vector<float>& values, int columns, int rows, int channels, double sigma);
 
 }  // namespace lfdsim

@@ -55,7 +55,7 @@ Comparison compare(const Image& a, const Image& b, std::optional<Rect> wanted) {
                                          a.height, b.width, b.height));
     const Rect region = wanted.value_or(Rect{0, 0, a.width, a.height});
     if (region.x0 < 0 || region.y0 < 0 || region.x1 > a.width || region.y1 > a.height)
-        throw InputError("", fmt::format("the region {},{},{},{} leaves the picture of {} x {} pixels", region.x0, region.y0,
+        throw InputError("", fmt::format("the region {},{},{},{} exceeds the picture of {} x {} pixels", region.x0, region.y0,
                                          region.x1, region.y1, a.width, a.height));
     const int columns = region.x1 - region.x0, rows = region.y1 - region.y0;
     if (columns < ssim_window || rows < ssim_window)

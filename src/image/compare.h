@@ -1,4 +1,4 @@
-// How alike are two pictures? Floor 0.
+// Measures of how alike two pictures are. Floor 0.
 #pragma once
 #include "image/image.h"
 #include "image/region.h"

@@ -12,7 +12,7 @@ namespace lfdsim {
 std::uint16_t encode16(float light, Encoding);
 
 /// Equals round(255 encode(x)) in double precision for every float x; clips to [0, 1], NaN gives 0.
-/// The leading bits of x pick a bucket that holds at most one step between codes; comparing with that step settles the rest.
+/// The leading bits of x pick a bucket that holds at most one step between codes; a comparison with that step decides.
 class Encoder8 {
   public:
     static const Encoder8& of(Encoding);

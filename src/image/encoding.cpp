@@ -52,7 +52,7 @@ Encoder8::Encoder8(Encoding encoding) {
     for (int k = 1; k < 256; ++k) {
         const double middle = (k - 0.5) / 255;
         float x = float(encoding == Encoding::srgb ? srgb_to_linear(middle) : middle);
-        // The closed form is right to a few units in the last place: walk to the least float that rounds to k.
+        // The closed form is accurate to a few units in the last place: step to the least float that rounds to k.
         while (code_of(x) < k) x = std::nextafter(x, infinity);
         while (code_of(std::nextafter(x, 0.0f)) >= k) x = std::nextafter(x, 0.0f);
         step_[std::size_t(k)] = x;

@@ -15,7 +15,7 @@ double linear_to_srgb(double light);
 /// The light of each code 0 .. 2^bits - 1 (bits 8 or 16), rounded once to float32.
 const std::vector<float>& decode_table(Encoding, int bits);
 
-/// The nearest 8-bit codes, H x W x 3: what a panel or a PNG shows of an image. encode8(decode(code)) == code.
+/// The nearest 8-bit codes, H x W x 3, as a panel or a PNG shows an image. encode8(decode(code)) == code.
 std::vector<std::uint8_t> encode8(const Image&, Encoding);
 
 }  // namespace lfdsim

@@ -24,7 +24,8 @@ constexpr std::int64_t most_block_rows = 64;         // read at a time: enough f
 constexpr std::int64_t most_block_pixels = 1 << 22;  // and at most 48 MiB, unless one row takes more
 constexpr int most_tile = 8192;
 
-/// OpenEXR's settings are the process's: its pool of threads, empty at first, and a limit on the tiles that a header may claim.
+/// OpenEXR's settings apply to the whole process: its pool of threads, empty at first, and a limit on the tiles that a header may
+/// claim.
 void start_library() {
     static const bool started = [] {
         Imf::setGlobalThreadCount(int(std::thread::hardware_concurrency()));
@@ -62,7 +63,7 @@ void check_windows(const InputFile& file, const Window& data, const Window& disp
     // DWA first keeps one value of a flat 8 x 8 block.
     const bool dwa = compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
     file.check_size(data.columns, data.rows, 1032.0 / 6 * (dwa ? 64 : 1));
-    // What no data cover is black and costs no bytes, so a small file may claim a large frame:
+    // Parts of the frame without data are black and take no bytes, so a small file may claim a large frame:
     // up to 2^25 pixels (7680 x 4320 are fewer) or 64 times the data.
     const double frame = double(display.columns) * double(display.rows);
     if (frame >= 0x1p31 || frame > std::max(0x1p25, 64.0 * double(data.columns) * double(data.rows)))
@@ -70,7 +71,7 @@ void check_windows(const InputFile& file, const Window& data, const Window& disp
                                 display.rows, data.columns, data.rows));
 }
 
-/// Copies what lies in both windows; outside of the data the picture stays black.
+/// Copies what lies in both windows; outside the data the picture stays black.
 void read_rows(Imf::InputFile& exr, const Names& names, const Window& data, const Window& display, const Pixels& pixels) {
     const std::int64_t block_rows = std::clamp(most_block_pixels / data.columns, std::int64_t(1), most_block_rows);
     std::vector<float> block(std::size_t(data.columns * block_rows) * 3);

@@ -1,4 +1,4 @@
-// Files as the formats read and write them. Internal to src/image. Floor 0.
+// Input and output files for the image formats. Internal to src/image. Floor 0.
 #pragma once
 #include "model/error.h"
 
@@ -38,7 +38,7 @@ class InputFile {
     std::int64_t size_ = 0;
 };
 
-/// Where the formats write to.
+/// The destination of an image.
 class Output {
   public:
     virtual ~Output() = default;
@@ -85,7 +85,7 @@ class OutputFile : public Output {
     int error_ = 0;  // errno of the first failure
 };
 
-/// Throws InputError unless a file can be made or replaced at `path`, as far as can be told without touching anything.
+/// Throws InputError unless a file can be made or replaced at `path`, as far as can be checked without writing.
 void check_replaceable(const std::filesystem::path& path);
 
 }  // namespace lfdsim::detail

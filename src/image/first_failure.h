@@ -5,10 +5,10 @@
 
 namespace lfdsim::detail {
 
-/// Keeps the first exception until the pipeline has run dry: one that leaves tbb::parallel_pipeline() leaks what is on its way.
+/// Keeps the first exception until the pipeline is empty: one that leaves tbb::parallel_pipeline() leaks the items in it.
 class FirstFailure {
   public:
-    /// Does the work, unless some has failed before. From any thread.
+    /// Does the work, unless other work has failed before. May be called from any thread.
     template <class Work>
     void guard(const Work& work) {
         if (failed_) return;

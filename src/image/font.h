@@ -8,7 +8,7 @@ namespace lfdsim {
 
 inline constexpr int glyph_width = 6, glyph_height = 10;  // spacing included
 
-/// The scale at which text is read where a picture this wide is shown 480 pixels wide, as on a phone or in a list of pictures.
+/// The scale at which text is readable when a picture this wide is shown 480 pixels wide, as on a phone or in a list of pictures.
 int readable_scale(int picture_width);
 
 /// Draws text with its upper left corner at (x, y), each dot of the font `scale` pixels wide, cut off at the image's edge. ASCII

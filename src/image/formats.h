@@ -1,4 +1,4 @@
-// What each file format gives to image_file.cpp. Internal to src/image. Floor 0.
+// The functions of each file format that image_file.cpp calls. Internal to src/image. Floor 0.
 #pragma once
 #include "image/file.h"
 #include "image/image.h"
@@ -11,8 +11,8 @@
 
 namespace lfdsim::detail {
 
-/// Where a reader puts linear light: rows of `columns` pixels, each `stride` floats of which the first three are R, G, B. Zeroed.
-/// `job` is told of each row that is done.
+/// Where a reader puts linear light: rows of `columns` pixels of `stride` floats each, the first three R, G, B. Zeroed. Each
+/// finished row is reported to `job`.
 struct Pixels {
     float* data;
     std::int64_t columns;
@@ -25,7 +25,7 @@ struct Pixels {
 /// Called once by each reader, when it knows the size and has found it plausible.
 using Allocate = std::function<Pixels(std::int64_t columns, std::int64_t rows)>;
 
-// All throw InputError that names the file and what is wrong. EXR and NPY may hand over values that are not finite.
+// All throw InputError, which names the file and the fault. EXR and NPY may return values that are not finite.
 void read_png(const InputFile&, Encoding, const Allocate&);
 void read_jpeg(const InputFile&, Encoding, const Allocate&);
 void read_exr(const InputFile&, const Allocate&);
@@ -33,12 +33,12 @@ void read_exr(const InputFile&, const Allocate&);
 void read_exr_layer(const InputFile&, const std::string& layer, const Allocate&);
 void read_npy(const InputFile&, const Allocate&);
 
-// What the header says; the picture is not read. Throw like the readers.
+// From the header; the picture is not read. Throw like the readers.
 Metadata read_png_metadata(const InputFile&);
 Metadata read_exr_metadata(const InputFile&);
 int read_jpeg_orientation(const InputFile&);
 
-// All throw std::runtime_error when writing fails, and tell the job of each row that is done.
+// All throw std::runtime_error when writing fails, and report each finished row to the job.
 void write_png(Output&, const Image&, const WriteOptions&, Job&);
 void write_exr(Output&, const Image&, const WriteOptions&, Job&);
 void write_npy(Output&, const Image&, Job&);

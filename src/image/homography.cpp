@@ -32,7 +32,7 @@ Matrix from_square(const Corners& p) {
             1};
 }
 
-// The inverse but for a factor, which a homography does not feel.
+// The inverse up to a factor, which cancels in a homography.
 Matrix adjugate(const Matrix& m) {
     const auto minor = [&](int a, int b, int c, int d) {
         return m[std::size_t(a)] * m[std::size_t(d)] - m[std::size_t(b)] * m[std::size_t(c)];

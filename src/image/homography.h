@@ -18,12 +18,11 @@ void check_corners(const std::string& where, const Corners&);
 /// (x, y) to ((a x + b y + c)/w, (d x + e y + f)/w), w = g x + h y + i.
 class Homography {
   public:
-    /// The one that takes each corner of `from` to its fellow in `to`; both as check_corners() wants them. It is composed of the
-    /// two closed forms from the unit square: P. Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989,
-    /// section 2.2.3.
+    /// Maps each corner of `from` to the same corner of `to`; both must pass check_corners(). Composed of the two closed forms from
+    /// the unit square: P. Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989, section 2.2.3.
     Homography(const Corners& from, const Corners& to);
 
-    /// w is positive inside `from`; where it is not, the point has no image and the result means nothing.
+    /// w is positive inside `from`; where it is not, the point has no image and the result is meaningless.
     Point operator()(double x, double y) const;
     double w(double x, double y) const { return m_[6] * x + m_[7] * y + m_[8]; }
 

@@ -6,7 +6,7 @@ namespace lfdsim::detail {
 
 inline constexpr std::size_t huge_page = std::size_t(1) << 21;  // x86-64
 
-/// Asks for huge pages where whole ones lie in these bytes; to be called before they are touched. A wish: without it all works.
+/// Requests huge pages where whole ones lie in these bytes; to be called before they are touched. Failure has no consequences.
 void want_huge_pages(void* memory, std::size_t bytes);
 
 }  // namespace lfdsim::detail

@@ -40,7 +40,7 @@ Format format_to_write(const fs::path& path) {
     throw InputError(path.string(), fmt::format("unknown image extension \"{}\"; .png, .exr and .npy can be written", e));
 }
 
-/// Refuses what would drive the machine into swapping, or the kernel to kill the program.
+/// Refuses pictures that would make the machine swap, or the operating system kill the program.
 void check_memory(const InputFile& file, std::int64_t columns, std::int64_t rows, int floats_per_pixel) {
     const double needed = double(columns) * double(rows) * floats_per_pixel * sizeof(float);
     const double present = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
@@ -49,7 +49,8 @@ void check_memory(const InputFile& file, std::int64_t columns, std::int64_t rows
                                 needed / 1e9, present / 1e9));
 }
 
-/// Begins a stage of the caller's, if there is one and the picture is large enough to keep it waiting; else nobody is told.
+/// Begins a stage of the caller's job, if there is one and the picture is large enough to take long; else returns a job that does
+/// nothing.
 Job& stage(Job* caller, const char* name, std::int64_t columns, std::int64_t rows) {
     constexpr std::int64_t large_pixels = 1 << 24;  // from here on a second or more
     static Job nobody;
@@ -60,7 +61,7 @@ Job& stage(Job* caller, const char* name, std::int64_t columns, std::int64_t row
 
 enum class Values { finite, radiance };
 
-/// NaN and infinities have no meaning in a picture, nor negative radiance on a panel; the first such value is named.
+/// Refuses NaN and infinities in a picture, and negative radiance on a panel; the error names the first such value.
 void check_values(const InputFile& file, Values allowed, const Pixels& pixels, std::int64_t rows) {
     const float least = allowed == Values::radiance ? 0 : std::numeric_limits<float>::lowest();
     for (std::int64_t r = 0; r < rows; ++r) {
@@ -73,7 +74,7 @@ void check_values(const InputFile& file, Values allowed, const Pixels& pixels, s
     }
 }
 
-/// For formats that hold any float: what `reader` reads is checked.
+/// For formats that can hold any float: checks the values that `reader` reads.
 template <class Reader>
 void read_floats(const InputFile& file, Values allowed, const Allocate& allocate, const Reader& reader) {
     Pixels pixels{};
@@ -112,7 +113,7 @@ void check_layers(const fs::path& path, const Image& image, const std::vector<Im
             throw std::invalid_argument(fmt::format("write_image: layer \"{}\" has a wrong name or size", layer.name));
 }
 
-// Of a picture that is to be written: throws as write_image() does.
+// Checks a picture that is to be written: throws as write_image() does.
 void check_picture(const fs::path& path, const Image& image, const WriteOptions& options) {
     if (options.bits != 8 && options.bits != 16)
         throw InputError(path.string(), fmt::format("{} bits; 8 or 16 are possible", options.bits));
@@ -131,7 +132,7 @@ void write(Output& to, Format format, const Image& image, const WriteOptions& op
 
 void check_writable(const fs::path& path) {
     format_to_write(path);
-    const OutputFile removed_again(path);  // names too long, /proc: known only by trying
+    const OutputFile removed_again(path);  // names too long, /proc: found only by trying
 }
 
 bool keeps_metadata(const fs::path& path) { return format_to_write(path) != Format::npy; }

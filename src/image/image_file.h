@@ -17,8 +17,8 @@ namespace lfdsim {
 /// Settings that made a picture, kept in it (PNG text chunks, EXR attributes; NPY has no place for them).
 using Metadata = std::map<std::string, std::string>;
 
-/// Something known of every pixel beside its light, of the picture's size; for instance "error", the standard error of each channel
-/// in linear light. EXR keeps it as the channels NAME.R, NAME.G, NAME.B; no other format can.
+/// Further data for every pixel, of the picture's size; for instance "error", the standard error of each channel in linear light.
+/// EXR keeps it as the channels NAME.R, NAME.G, NAME.B; no other format can.
 struct ImageLayer {
     std::string name;  // not empty; a dot makes a layer within a layer
     Image image;
@@ -28,7 +28,7 @@ struct WriteOptions {
     int bits = 8;                        // PNG: 8 or 16
     Encoding encoding = Encoding::srgb;  // PNG code values: sRGB (clipped to [0,1]) or linear
     Metadata metadata;
-    std::vector<ImageLayer> layers = {};  // EXR alone: see keeps_layers()
+    std::vector<ImageLayer> layers = {};  // EXR only: see keeps_layers()
 };
 
 /// Throws InputError unless `path` ends in .png, .exr or .npy and a file can be made there: makes and removes the temporary file of
@@ -47,30 +47,29 @@ bool keeps_layers(const std::filesystem::path& path);
 /// Large pictures, which take seconds, are a stage of the job, counted in rows; it does not cancel them.
 void write_image(const std::filesystem::path& path, const Image&, const WriteOptions& = {}, Job* = nullptr);
 
-/// The bytes of the file that write_image() would make of a name with this ending (".png", ".exr", ".npy"). The job, if there is
-/// one, is told of all rows that are done, without a stage; what its advance() throws ends the work. Throws like write_image().
+/// The bytes of the file that write_image() would write for a name with this ending (".png", ".exr", ".npy"). Finished rows are
+/// reported to the job, if there is one, without a stage; an exception from its advance() ends the work. Throws like write_image().
 std::string image_bytes(const std::string& ending, const Image&, const WriteOptions& = {}, Job* = nullptr);
 
-/// Linear light. `encoding` says how PNG and JPEG code values decode; EXR and NPY are linear. No alpha channel.
-/// Throws InputError that names the file and what is wrong with it: missing, truncated, not an image, too large.
-/// Layers are not looked at.
+/// Linear light. `encoding` is that of PNG and JPEG code values; EXR and NPY are linear. No alpha channel. Ignores layers.
+/// Throws InputError, which names the file and the fault: missing, truncated, not an image, too large.
 Image read_image(const std::filesystem::path& path, Encoding encoding);
 
-/// The same for a panel image, straight into texels, row by row. Throws InputError if its size is not columns x rows (says both).
+/// The same for a panel image, directly into texels, row by row. Throws InputError, with both sizes, if it is not columns x rows.
 /// A large one is a stage of the job like those of write_image().
 Texels read_panel_image(const std::filesystem::path& path, Encoding encoding, std::int64_t columns, std::int64_t rows,
                         Job* = nullptr);
 
-/// What a file keeps of WriteOptions::metadata; nothing where its format has no place for it. Only the file's head is read.
+/// The WriteOptions::metadata that a file keeps; empty where its format has no place for it. Only the file's header is read.
 /// Throws like read_image().
 Metadata read_metadata(const std::filesystem::path& path);
 
-/// Whether a file of this name holds code values, which end at white; .exr and .npy hold light, which has no end. Throws InputError
-/// for an unknown extension.
+/// Whether a file of this name holds code values, which are limited by white; .exr and .npy hold light without a limit. Throws
+/// InputError for an unknown extension.
 bool holds_codes(const std::filesystem::path& path);
 
-/// How a camera was held, as a JPEG's Exif says it (CIPA DC-008, tag Orientation): 1 upright ... 8; 1 where nothing is said.
-/// read_image() gives the picture as it is stored; viewers turn it. Only the file's head is read. Throws like read_image().
+/// How a camera was held, from a JPEG's Exif data (CIPA DC-008, tag Orientation): 1 upright ... 8; 1 where there is no such tag.
+/// read_image() returns the picture as it is stored; viewers turn it. Only the file's header is read. Throws like read_image().
 int read_orientation(const std::filesystem::path& path);
 
 /// A layer of an EXR file, its values finite; nothing where the file has no such layer or is of another format. Throws like

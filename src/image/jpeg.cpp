@@ -11,7 +11,7 @@
 namespace lfdsim::detail {
 namespace {
 
-constexpr int max_scans = 100;  // a progressive picture has about ten; thousands are an attack on the reader's time
+constexpr int max_scans = 100;  // a progressive picture has about ten; thousands are an attack by slowness
 
 /// libjpeg's hooks. They throw in place of longjmp: every x86-64 library carries the tables that unwinding needs.
 struct Hooks {
@@ -59,7 +59,7 @@ struct JpegReader {
     JpegReader& operator=(const JpegReader&) = delete;
 };
 
-/// Tag 0x0112 of an APP1 marker "Exif" (CIPA DC-008: a TIFF file, of which the first directory counts); 0: says nothing.
+/// Tag 0x0112 of an APP1 marker "Exif" (CIPA DC-008: the first directory of a TIFF file); 0: there is none.
 int exif_orientation(std::span<const unsigned char> marker) {
     constexpr char name[] = "Exif\0";  // and a zero byte more
     if (marker.size() < sizeof name + 8 || std::memcmp(marker.data(), name, sizeof name) != 0) return 0;
@@ -95,7 +95,7 @@ void read_jpeg(const InputFile& file, Encoding encoding, const Allocate& allocat
     JpegReader reader(file);
     jpeg_decompress_struct& jpeg = reader.jpeg;
     jpeg_read_header(&jpeg, TRUE);
-    // At best one bit tells a block of 8 x 8 samples, each of which covers 4 x 4 pixels.
+    // At best one bit codes a block of 8 x 8 samples, each of which covers 4 x 4 pixels.
     file.check_size(jpeg.image_width, jpeg.image_height, 8 * 64 * 16);
     if (jpeg.num_components != 1 && jpeg.num_components != 3)
         file.refuse(fmt::format("has {} colour components; gray or RGB is needed", jpeg.num_components));

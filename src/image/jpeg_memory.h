@@ -1,4 +1,4 @@
-// Small and quick JPEG files in memory, for pictures that are looked at once. Floor 0.
+// Small JPEG files, quickly made in memory, for pictures that are viewed once. Floor 0.
 #pragma once
 #include <cstdint>
 #include <string>

@@ -10,7 +10,7 @@
 namespace lfdsim {
 namespace {
 
-// It throws in place of longjmp, as in jpeg.cpp.
+// Throws in place of longjmp, as in jpeg.cpp.
 [[noreturn]] void on_error(j_common_ptr common) {
     std::array<char, JMSG_LENGTH_MAX> text;
     common->err->format_message(common, text.data());

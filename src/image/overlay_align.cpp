@@ -7,7 +7,7 @@
 namespace lfdsim {
 namespace {
 
-/// What a photograph shows at a point: bilinear between the pixels about it. Adds to `sum`; returns whether one of them is
+/// Samples a photograph at a point, bilinearly between the pixels around it. add() adds to `sum` and returns whether one of them is
 /// saturated.
 class Sampler {
   public:
@@ -37,7 +37,7 @@ class Sampler {
     const float saturation_;
 };
 
-/// Cuts the region down to pixels whose centres the photograph shows. What a line of pixels sees of it is one interval.
+/// Reduces the region to pixels whose centres the photograph shows; in each row these are one interval.
 void keep_covered(Region& region, const Homography& to_photograph, const Image& photograph) {
     const auto covered = [&](int x, int y) {
         const Point p = to_photograph(x + 0.5, y + 0.5);
@@ -51,7 +51,7 @@ void keep_covered(Region& region, const Homography& to_photograph, const Image& 
     }
 }
 
-/// So many samples along a side of a pixel that they lie at most one pixel of the photograph apart.
+/// The number of samples along a side of a pixel at which they lie at most one pixel of the photograph apart.
 int samples_along(const Point& derivative) {
     constexpr double most = 64;
     return int(std::clamp(std::ceil(std::hypot(derivative[0], derivative[1]) - 1e-9), 1.0, most));

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-// Gauss-Newton steps over the eight coordinates of the corners. The photograph is laid over the view once; from there on it moves
-// in the view's grid. Both pictures are blurred, first so widely that a step sees beyond a misplacement, then less and less.
+// Gauss-Newton steps over the eight coordinates of the corners. The photograph is resampled to the view's grid once; from there on
+// it moves in that grid. Both pictures are blurred, at first by as much as a corner may be misplaced, then less and less.
 namespace lfdsim {
 namespace {
 
@@ -66,10 +66,10 @@ class Level {
         Vector right{};
         double squares = 0, pixels = 0, light = 0;  // squared residuals; squared light of the view
     };
-    /// The equations of a step where the corners have moved `by` in the view's grid.
+    /// The normal equations of a step from corners that have moved `by` in the view's grid.
     Sums sums(const Vector& by) const {
         const Homography now(corners_, moved(corners_, by));
-        std::vector<Homography> tried;  // each with one coordinate a pixel further
+        std::vector<Homography> tried;  // each with one coordinate moved one pixel further
         for (std::size_t k = 0; k < unknowns; ++k) {
             Vector further = by;
             further[k] += 1;
@@ -104,7 +104,7 @@ class Level {
         const Region::Row& row = aligned_.screen.rows[std::size_t(k)];
         return x >= row.from && x < row.to;
     }
-    /// Far enough from the screen's border that the black beside it does not blur in; the screen is convex.
+    /// Whether a pixel is far enough from the screen's border that the black beside it does not blur in; the screen is convex.
     bool counts(int x, int y) const {
         for (const int i : {-border_, border_})
             for (const int j : {-border_, border_})
@@ -172,13 +172,13 @@ Corners fit_corners(const Image& view, const Corners& in_view, const Aligned& ph
     const auto [along_x, along_y] =
         to_photograph.derivatives((in_view[0][0] + in_view[2][0]) / 2, (in_view[0][1] + in_view[2][1]) / 2);
     const double reach = most_px / std::sqrt(std::hypot(along_x[0], along_x[1]) * std::hypot(along_y[0], along_y[1]));
-    const double click_px = 0.4 * reach;  // how well a corner is known before, in the view's grid
+    const double click_px = 0.4 * reach;  // how accurately a corner is known before the fit, in the view's grid
     Vector by{};
     for (double sigma = std::max(1.0, reach); sigma >= 1; sigma /= 2) {
         const Level level(light, simulated, photograph, in_view, sigma);
         Level::Sums here = level.sums(by);
         if (here.pixels == 0) break;
-        // Neighbours share what noise is left after the blur: so many pixels tell as much as one.
+        // After the blur the noise of neighbours is correlated: so many pixels count as one.
         const double alike = std::max(1.0, 4 * pi * sigma * sigma / level.pixels_per_sample());
         const double known = std::max(here.squares, 1e-12 * here.light) / here.pixels * alike / (click_px * click_px);
         const auto cost = [&](const Level::Sums& sums, const Vector& moved_by) {

@@ -12,7 +12,7 @@ namespace lfdsim {
 namespace {
 
 constexpr int cell_side = 8;          // pixels; more than a blur or a misplaced corner moves light
-constexpr double least_share = 0.05;  // of the brightest cell: darker ones tell nothing of a gain
+constexpr double least_share = 0.05;  // of the brightest cell: darker ones do not determine a gain
 constexpr double least_used = 0.01, most_blur_px = 64;
 constexpr const char* colour_names[] = {"red", "green", "blue"};
 
@@ -63,8 +63,8 @@ double median(std::vector<Weighted> all) {
     return all.back().value;
 }
 
-/// The slope of photograph = gain x simulation. It starts from the least sum of absolute residuals, which is the weighted median of
-/// quotients; then least squares with Tukey's weights, which let go of what does not belong (a reflection, a finger).
+/// The slope of photograph = gain x simulation. Starts with the least sum of absolute residuals, which is the weighted median of
+/// quotients; then least squares with Tukey's weights, which ignore outliers (a reflection, a finger).
 double gain(const std::vector<Cell>& cells, std::size_t c) {
     double brightest = 0;
     for (const Cell& cell : cells) brightest = std::max(brightest, cell.simulated[c]);
@@ -79,7 +79,7 @@ double gain(const std::vector<Cell>& cells, std::size_t c) {
             if (cell.simulated[c] >= least_share * brightest)
                 residuals.push_back({std::abs(cell.photograph[c] - slope * cell.simulated[c]), cell.pixels});
         const double reach = 4.685 * 1.4826 * median(residuals);  // Tukey's constant, of standard deviations
-        if (reach <= 1e-9 * slope * brightest) break;             // it fits all but exactly
+        if (reach <= 1e-9 * slope * brightest) break;             // it fits almost exactly
         double products = 0, squares = 0;
         for (const Cell& cell : cells) {
             const double s = cell.simulated[c], p = cell.photograph[c], r = (p - slope * s) / reach;
@@ -102,7 +102,7 @@ std::vector<float> gray(const Image& image, const std::array<double, 3>& gain) {
     return result;
 }
 
-/// Sums over rows, in row order whatever the threads do.
+/// Sums over rows, in row order for any number of threads.
 template <class OfRow>
 double sum_over_rows(const Region& region, const OfRow& of_row) {
     std::vector<double> sums(region.rows.size());
@@ -112,7 +112,8 @@ double sum_over_rows(const Region& region, const OfRow& of_row) {
     return total;
 }
 
-/// Where a function with one minimum in [0, most] has it, to 0.5 % or less: brackets by doubling from 0.5, then golden sections.
+/// The place of the minimum of a function that has one in [0, most], to 0.5 % or better: brackets it by doubling from 0.5, then
+/// uses golden sections.
 template <class Function>
 double minimum(const Function& f, double most) {
     double low = 0, middle = 0, high = 0.5, best = f(0);
@@ -143,8 +144,8 @@ double minimum(const Function& f, double most) {
     return (low + high) / 2;
 }
 
-/// The blur that leaves the least squares of photograph - k x blurred view, k the best for each blur: a blur takes light across the
-/// borders of cells, so that the gains of the sharp view are not yet those of the blurred one.
+/// The blur with the least squares of photograph - k x blurred view, with the best k for each blur: a blur carries light across the
+/// borders of cells, so the gains of the sharp view differ from those of the blurred one.
 double fitted_blur(const Image& simulated, const Aligned& photo, const std::array<double, 3>& gain) {
     const std::vector<float> sharp = gray(simulated, {1, 1, 1}), seen = gray(photo.light, gain);
     const int width = simulated.width, height = simulated.height;
@@ -181,10 +182,10 @@ double used_share(const Aligned& photo) {
 
 std::array<double, 3> fit_gains(const Image& simulated, const Aligned& photo, double black) {
     if (photo.screen.pixels() == 0)
-        throw InputError("", "the photograph shows no part of the screen that the view shows; see that the corners are right");
+        throw InputError("", "the photograph shows no part of the screen that the view shows; check the corners");
     if (const double used = used_share(photo); used < least_used)
         throw InputError("",
-                         fmt::format("the photograph is saturated on {:.1f} % of the screen; expose shorter", 100 * (1 - used)));
+                         fmt::format("the photograph is saturated on {:.1f} % of the screen; expose it less", 100 * (1 - used)));
     const std::vector<Cell> cells = cells_of(simulated, photo);
     std::array<double, 3> result{};
     double sum = 0;
@@ -199,8 +200,8 @@ std::array<double, 3> fit_gains(const Image& simulated, const Aligned& photo, do
         if (in_photograph > black) result[c] = gain(cells, c);
         if (!(result[c] > 0))
             throw InputError(
-                "", fmt::format("the photograph's {} channel is black between the corners, the view's is not; see that the "
-                                "corners are right, or expose longer",
+                "", fmt::format("the photograph's {} channel is black between the corners, the view's is not; check the corners, "
+                                "or expose it more",
                                 colour_names[c]));
         sum += result[c];
         ++known;
@@ -239,8 +240,8 @@ Match match(const Image& simulated, const Aligned& photo, bool fit_blur, double 
     result.ssim = ssim(result.simulated, result.photograph, std::array{photo.screen}).front();
     if (std::isnan(result.ssim))
         throw InputError("",
-                         fmt::format("view and photograph share {:.0f} pixels of the screen, no square of {} x {} among them; see "
-                                     "that the corners are right",
+                         fmt::format("view and photograph share {:.0f} pixels of the screen, but no square of {} x {}; check the "
+                                     "corners",
                                      pixels, ssim_window, ssim_window));
     return result;
 }

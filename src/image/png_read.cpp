@@ -53,10 +53,10 @@ struct Band {
     std::vector<Code> codes;
 };
 
-/// One thread inflates, others turn codes into light: as much work again, most of it the first touch of the memory.
+/// One thread inflates, others turn codes into light, which takes as long again, mostly for the first touch of the memory.
 template <class Code>
 void read_rows(const PngReader& reader, int passes, std::int64_t rows, const std::vector<float>& table, const Pixels& pixels) {
-    constexpr std::int64_t band_codes = 1 << 18;  // what fits a core's own cache
+    constexpr std::int64_t band_codes = 1 << 18;  // fits into a core's own cache
     const std::int64_t row_codes = pixels.columns * 3;
     // Interlaced pictures come in passes, each of which touches every row: all codes must be kept until the last.
     const std::int64_t most_rows = passes > 1 ? rows : std::max<std::int64_t>(1, band_codes / row_codes);

@@ -62,7 +62,7 @@ void write_header(const Writer& writer, const Image& image, const WriteOptions& 
     png_write_info(writer.png, writer.info);
 }
 
-/// The code values of one row as PNG wants them: 16-bit ones big-endian.
+/// The code values of one row in PNG's byte order: 16-bit ones big-endian.
 void encode_row(const float* light, const WriteOptions& options, Bytes& codes) {
     if (options.bits == 8) {
         const Encoder8& encoder = Encoder8::of(options.encoding);
@@ -80,12 +80,12 @@ struct Strip {
     int begin;  // its first row
     bool last;
     Bytes deflated;
-    uLong adler;  // of what went in
+    uLong adler;  // of the uncompressed bytes
     std::size_t bytes;
 };
 
-/// Rows begin .. end-1 with the filter Up: measured against the others on elemental images and views, it is the quickest and,
-/// with the quickest compression, as small as any.
+/// Rows begin .. end-1 with the filter Up: of all filters, measured on elemental images and views, the quickest and, with the
+/// quickest compression, as small as any.
 Bytes filter_up(const Image& image, const WriteOptions& options, int begin, int end) {
     const std::size_t row_bytes = std::size_t(image.width) * 3 * std::size_t(options.bits / 8);
     Bytes above(row_bytes), row(row_bytes), filtered;
@@ -122,7 +122,7 @@ Strip compress(const Bytes& filtered, int begin, bool last) {
 }  // namespace
 
 void write_png(Output& file, const Image& image, const WriteOptions& options, Job& job) {
-    constexpr int most = PNG_USER_WIDTH_MAX;  // libpng's own limit; most readers keep it
+    constexpr int most = PNG_USER_WIDTH_MAX;  // libpng's own limit, which most readers share
     if (image.width > most || image.height > most)
         throw InputError(file.name(), fmt::format("{} x {} pixels; a PNG has at most {} columns and rows, use .exr or .npy",
                                                   image.width, image.height, most));

@@ -25,7 +25,7 @@ struct Region {
     static Region polygon(std::span<const std::array<double, 2>> corners, int width, int height);
 
     std::int64_t pixels() const;
-    Rect bounds() const;  // of what is not empty; 0, 0, 0, 0 if all is
+    Rect bounds() const;  // of the rows that are not empty; 0, 0, 0, 0 if all are
     Region shifted(int columns, int rows) const;
     Region intersected(const Region&) const;
 };

@@ -8,7 +8,7 @@
 namespace lfdsim {
 namespace {
 
-/// The numbers 0 .. from - 1 that the k-th of `to` even parts of them covers: add(number, its share of the part).
+/// Divides 0 .. from into `to` equal parts and calls add(number, its share of the part) for the numbers that part k covers.
 template <class Add>
 void each_covered(int k, int from, int to, Add add) {
     const double scale = double(from) / to, begin = k * scale, end = std::min((k + 1) * scale, double(from));

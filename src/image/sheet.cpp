@@ -28,7 +28,7 @@ std::string first_letters(const std::string& text, std::size_t letters) {
     return text.substr(0, end);
 }
 
-// In lines of so many letters, broken between words; the first few of them, and of a word what a line holds.
+// The label in lines of so many letters, broken between words; at most most_lines, and words cut to a line's length.
 std::vector<std::string> lines_of(const std::string& label, std::size_t letters) {
     std::vector<std::string> lines;
     std::istringstream words(label);
@@ -43,7 +43,7 @@ std::vector<std::string> lines_of(const std::string& label, std::size_t letters)
     return lines;
 }
 
-// As large as reads well on a sheet of that width, but not so large that a word is wider than a picture.
+// As large as needed to read on a sheet of that width, but not so large that a word is wider than a picture.
 int label_scale(std::span<const std::string> labels, int picture_width, int sheet_width) {
     std::size_t longest = 1;
     for (const std::string& label : labels) {

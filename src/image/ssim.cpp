@@ -67,7 +67,7 @@ void luma_of_row(const Image& image, int row, int x0, int x1, double* to) {
 
 using Moments = std::array<std::vector<double>, moments>;
 
-/// Eleven rows of moments, as they enter and leave the window from above.
+/// The eleven rows of moments that a window covers, moved down the picture row by row.
 class Rows {
   public:
     Rows(const Image& a, const Image& b, Rect box) : a_(a), b_(b), box_(box), columns_(std::size_t(box.x1 - box.x0)) {
@@ -86,7 +86,7 @@ class Rows {
             product[x] = va[x] * vb[x];
         }
     }
-    /// SSIM of the windows about (x, row), x = box.x0 + ssim_border ...; the rows row - ssim_border ... row + ssim_border are
+    /// SSIM of the windows centred at (x, row), x = box.x0 + ssim_border ...; rows row - ssim_border ... row + ssim_border must be
     /// loaded.
     void windows(int row, std::vector<double>& values) {
         for (std::size_t i = 0; i < moments; ++i) {

@@ -1,4 +1,4 @@
-// What SSIM computes at a pixel and in a window: ssim.cpp's, and the GPU's (engine/wide). Floor 0.
+// The steps of SSIM at a pixel and in a window, for ssim.cpp and the GPU (engine/wide). Floor 0.
 #pragma once
 #include "image/ssim.h"
 #include "model/host_device.h"
@@ -11,7 +11,7 @@ namespace lfdsim {
 
 constexpr int ssim_border = ssim_window / 2;
 
-/// Sums over a row are made of so many columns at a time, then of those sums: the same bits however the work is spread.
+/// Rows are summed in groups of so many columns, then over the groups: the same bits however the work is divided.
 constexpr int columns_at_once = 32;
 
 /// Sum of value(x) over the columns x of a row of a region.
@@ -27,11 +27,11 @@ double sum_of_row(const Region::Row& row, Value value) {
     return sum;
 }
 
-/// Where a window's middle may stand so that it lies in the region and in the picture.
+/// Where a window's middle may be so that the window lies in the region and in the picture.
 Region ssim_middles(const Region&, int width, int height);
 
-/// sRGB's encoding of single-precision light in [0, 1], good to 2e-7: straight lines between 512 places an octave, by the bits of
-/// the number. A power takes six times as long.
+/// sRGB's encoding of single-precision light in [0, 1], accurate to 2e-7: straight lines between 512 points an octave, looked up by
+/// the bits of the number. A power takes six times as long.
 struct SrgbLine {
     float at_zero, slope;
 };
@@ -54,7 +54,7 @@ LFDSIM_FN float code_luma(const SrgbLine* lines, const float* light) {
     return luma(codes);
 }
 
-/// The Gaussian over a window, along one axis: of the pixel at distance k; both sides sum to 1.
+/// The Gaussian over a window, along one axis: at[k] for the pixels at distance k; all eleven sum to 1.
 struct SsimWeights {
     double at[ssim_border + 1];
 };
@@ -67,10 +67,10 @@ LFDSIM_FN double weighted(const SsimWeights& w, At at) {
            w.at[4] * (at(1) + at(9)) + w.at[5] * (at(0) + at(10));
 }
 
-/// What is summed over a window: both lumas, their squares together, their product.
+/// The weighted sums over a window: of both lumas, of the sum of their squares, of their product.
 enum Moment { of_a, of_b, of_squares, of_product, moments };
 
-/// Of a window with these weighted sums of its moments: Wang et al. 2004, equation 13.
+/// SSIM of a window with these moments: Wang et al. 2004, equation 13.
 LFDSIM_FN double ssim_value(double a, double b, double both_squares, double both_product) {
     constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;  // (K1 L)^2, (K2 L)^2 with L = 1
     const double product = a * b, squares = a * a + b * b;

@@ -12,7 +12,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr double touching = 1e-6;  // of the semi aperture: rims nearer than this are one
+constexpr double touching = 1e-6;  // of the semi-aperture: rims closer together than this coincide
 
 bool is_plane(const PlacedSurface& s) {
     return s.curvature_per_mm == 0 && std::all_of(s.even_asphere.begin(), s.even_asphere.end(), [](double a) { return a == 0; });
@@ -20,7 +20,7 @@ bool is_plane(const PlacedSurface& s) {
 
 double sag(const PlacedSurface& s, double distance) { return sag_mm(s.curvature_per_mm, s.conic, s.even_asphere, distance); }
 
-// Upwards, at this distance from the axis: its parts along the distance and along z. Finite at the rim of a half ball, too.
+// The upward unit normal at this distance from the axis: components away from the axis and along z. Finite at a half ball's rim.
 std::array<double, 2> normal(const PlacedSurface& s, double distance) {
     const double c = s.curvature_per_mm, d2 = distance * distance, root = std::sqrt(std::max(0.0, 1 - (1 + s.conic) * c * c * d2));
     double polynomial = 0;
@@ -36,14 +36,14 @@ class Outline {
         : radius_(s.semi_aperture_mm),
           round_(array.aperture == Aperture::circle),
           half_{array.pitch_mm[0] / 2, array.pitch_mm[1] / 2} {}
-    // After this share of the way round, counter-clockwise. A cell's begins in a corner, so that quarters end in corners.
+    // The point at this share of the way round, counter-clockwise. A cell's outline begins in a corner, so quarters end in corners.
     std::array<double, 2> point(double share) const {
         if (round_) {
             const double angle = 2 * pi * share;
             return {radius_ * std::cos(angle), radius_ * std::sin(angle)};
         }
         const int side = std::min(int(4 * share), 3);
-        const std::size_t out = side % 2, up = 1 - out;  // the axis that the side looks along, and that it lies along
+        const std::size_t out = side % 2, up = 1 - out;  // the axis normal to the side, and the one along it
         const double along = half_[up] * (2 * (4 * share - side) - 1),
                      scale = std::min(1.0, radius_ / std::hypot(half_[out], along));
         const double x = scale * half_[out], y = scale * along;
@@ -60,7 +60,7 @@ class Outline {
     double half_[2];
 };
 
-// Ring k of a curved surface has sectors x k vertices, the last one is the rim.
+// Ring k of a curved surface has sectors x k vertices; the last ring is the rim.
 struct Grid {
     int sectors, rings;
     int rim() const { return sectors * rings; }
@@ -96,7 +96,7 @@ class Builder {
         return std::move(mesh_);
     }
 
-    // Triangles of such a mesh; exact but for walls of square lenses whose rims touch in parts.
+    // Number of triangles of such a mesh; exact except for walls of square lenses whose rims touch in parts.
     double count(Grid grid) const {
         double sum = 0;
         const auto& surfaces = geometry_.surfaces;
@@ -110,7 +110,7 @@ class Builder {
 
   private:
     bool rims_touch(const PlacedSurface& a, const PlacedSurface& b) const {
-        // A square's outline has most of its points nearer than its corners: its middle stands for them.
+        // Most points of a square's outline are closer to the axis than its corners: the middle of a side represents them.
         const double x = std::hypot(Outline(a, array_).point(0.125)[0], Outline(a, array_).point(0.125)[1]);
         const double near = touching * a.semi_aperture_mm;
         return std::abs(a.semi_aperture_mm - b.semi_aperture_mm) < near && std::abs(a.z_mm + sag(a, x) - b.z_mm - sag(b, x)) < near;
@@ -169,7 +169,8 @@ class Builder {
         rims_.push_back(inner);
     }
 
-    // Between the rims of two surfaces, each of them `around` vertices in a row. Where they are `near` each other there is no wall.
+    // The wall between the rims of two surfaces, each of `around` vertices in sequence. Where the rims are closer than `near` they
+    // are joined and there is no wall.
     void add_wall(std::uint32_t lower, std::uint32_t upper, int around, double near) {
         for (std::uint32_t k = 0; k < std::uint32_t(around); ++k) {
             const float* from = &mesh_.vertices_mm[3 * (lower + k)];
@@ -189,7 +190,7 @@ class Builder {
         }
     }
 
-    // Of a quadrilateral of a wall, lower edge first, at its corner i: a round wall is a cone, a square one has flat sides.
+    // The normal at corner i of a quadrilateral of a wall, lower edge first: a round wall is a cone, a square one has flat sides.
     Vec3d wall_normal(const Vec3d (&at)[4], int i) const {
         Vec3d n;
         if (array_.aperture == Aperture::circle) {
@@ -197,7 +198,7 @@ class Builder {
             const double out = std::hypot(at[i][0], at[i][1]), rise = high[2] - low[2];
             n = {rise * at[i][0] / out, rise * at[i][1] / out, std::hypot(low[0], low[1]) - std::hypot(high[0], high[1])};
         } else {
-            // Of its diagonals none vanishes where the wall ends in a point.
+            // From the diagonals: neither vanishes where the wall ends in a point.
             n = cross(minus(at[2], at[0]), minus(at[3], at[1]));
         }
         return length(n) > 0 ? normalised(n) : Vec3d{};
@@ -209,13 +210,13 @@ class Builder {
     std::vector<std::uint32_t> rims_;  // first vertex of each surface's rim
 };
 
-// The grid whose triangles are nearest to the wanted number; of grids as near, that of the best shape: six sectors, or two to a
-// square's side.
+// The grid whose number of triangles is closest to the wanted one; among equally close ones that of the best shape: six sectors, or
+// two to a square's side.
 Grid choose_grid(const Builder& builder, bool square, double wanted) {
     Grid best{};
     double least = INFINITY;
     for (const int sectors : square ? std::vector{4, 8, 12, 16} : std::vector{3, 4, 5, 6, 7, 8}) {
-        int rings = 1;  // the most that do not have too many
+        int rings = 1;  // the most that do not give too many triangles
         for (int step = 1024; step > 0; step /= 2)
             if (builder.count({sectors, rings + step}) <= wanted) rings += step;
         for (const int more : {0, 1}) {
@@ -231,7 +232,7 @@ Grid choose_grid(const Builder& builder, bool square, double wanted) {
 
 LensMesh mesh_lens(const Display& display, const Geometry& geometry, std::int64_t triangles) {
     if (geometry.surfaces.front().form == SurfaceForm::thin)
-        throw InputError("lens.type", "an ideal lens has no surface of which triangles could be made; give a real one");
+        throw InputError("lens.type", "an ideal lens has no surfaces to make triangles of; give a real lens");
     if (triangles < least_lens_triangles || triangles > most_lens_triangles)
         throw InputError("--lens-mesh",
                          fmt::format("{} triangles; allowed: {} to {}", triangles, least_lens_triangles, most_lens_triangles));

@@ -23,11 +23,11 @@ struct LensMesh {
 
 inline constexpr std::int64_t least_lens_triangles = 8, most_lens_triangles = 4'000'000;
 
-/// A lens of about so many triangles: within 10 % for 500 and more, else as near as there is. A curved surface is a fan about its
-/// pole and rings, equally far apart along the surface, each with as many vertices more than the last; so triangles are about as
-/// wide as long. A flat one is a fan to the vertices of its rim. With square apertures outlines are squares, cut by the semi
-/// apertures. A surface between two glasses faces the viewer. Throws InputError for an ideal lens and for a number beyond the
-/// limits.
+/// A lens of about so many triangles: within 10 % for 500 and more, else as close as possible. A curved surface is a fan about its
+/// pole and rings, equally spaced along the surface, each with the same number of vertices more than the last, so that triangles
+/// are about as wide as long. A flat surface is a fan to the vertices of its rim. With square apertures outlines are squares, cut
+/// by the semi-apertures. A surface between two glasses faces the viewer. Throws InputError for an ideal lens and for a number
+/// beyond the limits.
 LensMesh mesh_lens(const Display&, const Geometry&, std::int64_t triangles);
 
 }  // namespace lfdsim

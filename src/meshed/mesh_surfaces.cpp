@@ -25,7 +25,7 @@ void check(RTCDevice device) {
 MeshSurfaces::MeshSurfaces(const LensMesh& mesh, const Geometry& geometry, LensNormals normals)
     : mesh_(mesh), normals_(normals), device_(rtcNewDevice(nullptr)) {
     if (!device_) throw std::runtime_error("Embree cannot start");
-    mesh_.vertices_mm.push_back(0);  // Embree asks for one number more than the vertices need
+    mesh_.vertices_mm.push_back(0);  // Embree needs the buffer to be one number longer than the vertices
     for (std::size_t k = geometry.surfaces.size(); k-- > 0;) surfaces_.push_back(surface(k, geometry));
 }
 
@@ -59,8 +59,8 @@ MeshSurfaces::Surface MeshSurfaces::surface(std::size_t number, const Geometry& 
     rtcCommitGeometry(triangles);
     rtcAttachGeometry(s.tree.get(), triangles);
     rtcReleaseGeometry(triangles);
-    // One thread builds the tree: several would order its leaves by chance, and of two triangles met in their common edge now the
-    // one, now the other would count.
+    // One thread builds the tree: with several, the order of its leaves would vary from run to run, and so would the choice between
+    // two triangles met in their common edge.
     oneapi::tbb::task_arena alone(1);
     alone.execute([&] { rtcJoinCommitScene(s.tree.get()); });
     check(device_.get());
@@ -80,7 +80,7 @@ MeshSurfaces::Triangle MeshSurfaces::Surface::triangle(const MeshSurfaces& all, 
 optics::Hit<float> MeshSurfaces::meet(int k, const optics::Ray<float>& ray) const {
     const Surface& s = surfaces_[std::size_t(k)];
     optics::Hit<float> hit{{ray.at.x, ray.at.y, 0}, {0, 0, 1}, 1, 1, false};
-    // Embree's ray begins where the line enters the ball round the surface: all its numbers are then about as small as the lens.
+    // Embree's ray begins where the line enters the ball round the surface, so that all its numbers are of the lens's size.
     const Vec3d d{ray.to.x, ray.to.y, ray.to.z}, at{ray.at.x, ray.at.y, s.vertex_z};
     const Vec3d to_middle{-at[0], -at[1], s.middle_z - at[2]};
     const double length2 = dot(d, d), nearest = dot(to_middle, d) / length2;
@@ -106,11 +106,11 @@ optics::Hit<float> MeshSurfaces::meet(int k, const optics::Ray<float>& ray) cons
         const Triangle t = s.triangle(*this, embree.hit.primID);
         const Vec3d a = from_to(t.corner[0], t.corner[1]), b = from_to(t.corner[0], t.corner[2]), plane = cross(a, b);
         const double down = -dot(plane, d);
-        if (!(down > 0)) {  // comes up through it: look behind it
+        if (!(down > 0)) {  // the line comes up through it: continue behind it
             embree.ray.tnear = embree.ray.tfar + float(1e-6 * s.radius);
             continue;
         }
-        // Moeller and Trumbore 1997
+        // Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997
         const Vec3d p{at[0] - t.corner[0][0], at[1] - t.corner[0][1], at[2] - t.corner[0][2]}, q = cross(p, d);
         const double way = dot(plane, p) / down, u = dot(b, q) / down, v = -dot(a, q) / down;
         Vec3d n = plane;

@@ -1,4 +1,4 @@
-// Where rays meet the triangles of a lens. Floor 2, internal to meshed.
+// Intersections of rays with the triangles of a lens. Floor 2, internal to meshed.
 #pragma once
 #include "meshed/lens_mesh.h"
 #include "meshed/render_meshed.h"
@@ -16,8 +16,9 @@ class MeshSurfaces {
   public:
     MeshSurfaces(const LensMesh&, const Geometry&, LensNormals);
 
-    /// The first triangle of surface k that the line comes down through. The ray stands in the plane of the surface's vertex; the
-    /// triangle may lie before it. Embree, in single precision, tells the triangle; place and normal follow in double.
+    /// The hit on the first triangle of surface k that the ray's line passes downwards. The ray starts in the surface's vertex
+    /// plane; the triangle may lie behind its start. Embree finds the triangle in single precision; point and normal are computed
+    /// in double.
     optics::Hit<float> meet(int k, const optics::Ray<float>&) const;
 
   private:
@@ -46,13 +47,13 @@ class MeshSurfaces {
     std::vector<Surface> surfaces_;
 };
 
-/// What the tracer is given: its own scene with meshes in place of the surfaces.
+/// The tracer's input: its own scene, with meshes in place of the surfaces.
 struct MeshedScene : optics::Scene<float> {
     const MeshSurfaces* surfaces;
 };
 
 namespace optics {
-/// As trace_opaque<Shapes::meshed> asks for it; the scene is that of a MeshedScene.
+/// For trace_opaque<Shapes::meshed>; the scene must be a MeshedScene.
 inline Hit<float> meet_mesh(const Scene<float>& scene, int k, const Ray<float>& ray) {
     return static_cast<const MeshedScene&>(scene).surfaces->meet(k, ray);
 }

@@ -12,7 +12,7 @@
 namespace lfdsim {
 namespace {
 
-// The rays of a tile one by one: what Embree takes a ray for is far more than what packets would save.
+// Traces the rays of a tile one by one: Embree's time for a ray is far more than packets would save.
 void render_tile(const Tile& tile) {
     const optics::Scene<float>& scene = *tile.scene;
     for (std::int32_t y = tile.y0; y < tile.y1; ++y) {
@@ -40,7 +40,7 @@ void render_tile(const Tile& tile) {
 
 MeshedLens::MeshedLens(const Display& display, const Geometry& geometry, std::int64_t triangles, LensNormals normals) {
     if (display.array.surround != Surround::opaque)
-        throw InputError("array.surround", fmt::format("is \"{}\"; lenses of triangles are traced in \"opaque\" alone",
+        throw InputError("array.surround", fmt::format("is \"{}\"; lenses of triangles can only be traced in \"opaque\"",
                                                        word(display.array.surround)));
     const LensMesh mesh = mesh_lens(display, geometry, triangles);
     triangles_ = std::int64_t(mesh.count());

@@ -7,17 +7,17 @@
 
 namespace lfdsim {
 
-/// Of a triangle's points: that of its plane, or that of the true surface at its corners, interpolated.
+/// The normals at a triangle's points: that of its plane, or those of the true surface at its corners, interpolated.
 enum class LensNormals { flat, smooth };
 
 class MeshSurfaces;
 
-/// A lens as mesh_lens() makes it, ready for rays. It serves any camera. Throws InputError for what mesh_lens() does, and for
-/// surrounds other than opaque.
+/// A lens as mesh_lens() makes it, ready for rays, for any camera. Throws InputError as mesh_lens() does, and for surrounds other
+/// than opaque.
 class MeshedLens {
   public:
     MeshedLens(const Display&, const Geometry&, std::int64_t triangles, LensNormals);
-    std::int64_t triangles() const { return triangles_; }  // that it has, in all its parts
+    std::int64_t triangles() const { return triangles_; }  // their number, in all its parts
     const MeshSurfaces& surfaces() const { return *surfaces_; }
 
   private:
@@ -25,8 +25,8 @@ class MeshedLens {
     std::shared_ptr<const MeshSurfaces> surfaces_;
 };
 
-/// As render() with the estimator "point", sample by sample: the same rays and rules, only that triangles are met in place of the
-/// surfaces. The lens is that of the display. The same bits on any number of threads, for any crop; the kernel is the same for all.
+/// As render() with the estimator "point", sample by sample: the same rays and rules, but with triangles in place of the surfaces.
+/// The lens is that of the display. The same bits with any number of threads and any crop; the choice of kernel has no effect.
 Rendering render_meshed(const Display&, const Geometry&, const Texels& panel, const MeshedLens&, const RenderOptions&, Job&);
 
 }  // namespace lfdsim

@@ -87,7 +87,7 @@ TEST(Compare, RefusesWhatCannotBeCompared) {
               std::string::npos);
     EXPECT_NE(test::input_error([&] { compare(constant(10, 30, 0), constant(10, 30, 0)); }).find("at least 11 x 11"),
               std::string::npos);
-    EXPECT_NE(test::input_error([&] { compare(image, image, Rect{0, 0, 41, 30}); }).find("leaves the picture"), std::string::npos);
+    EXPECT_NE(test::input_error([&] { compare(image, image, Rect{0, 0, 41, 30}); }).find("exceeds the picture"), std::string::npos);
     EXPECT_NE(test::input_error([&] { compare(image, image, Rect{5, 5, 2, 20}); }).find("at least 11 x 11"), std::string::npos);
 }
 
