@@ -12,7 +12,8 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-// Black rings of neighbours overlap by so much, and lie so far before a flat face at the same height: no ray slips through between.
+// Black rings of neighbours overlap by this much, and lie this far in front of a flat face at the same height, so that no ray
+// passes between.
 constexpr double solid_overlap_mm = 1e-3;
 
 std::uint32_t add_vertex(Patch& patch, const Point& at, const Point& normal) {
@@ -32,7 +33,7 @@ double angle(const Point& p) { return std::atan2(p[1], p[0]); }
 
 // The border of one surface of the lens, by its angle about the axis.
 std::vector<Point> rim(const LensMesh& mesh, std::int32_t surface) {
-    std::vector<std::uint64_t> edges;  // those of one triangle alone are the border
+    std::vector<std::uint64_t> edges;  // those that belong to only one triangle are the border
     for (std::size_t t = 0; t < mesh.count(); ++t) {
         if (mesh.surface_of[t] != surface) continue;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -64,7 +65,8 @@ std::vector<Point> circle(double radius, std::size_t count) {
     return points;
 }
 
-// From a polygon about the axis to the cell's border and `wider` beyond, all at one height; nothing where the polygon lies on it.
+// The face from a polygon about the axis to the cell's border, and `wider` beyond it, all at one height; nothing where the polygon
+// lies on the border.
 void add_ring(Patch& patch, const std::vector<Point>& inner, double z, const std::array<double, 2>& half, double wider) {
     const double reach[] = {half[0] + wider, half[1] + wider};
     struct Pair {
@@ -92,7 +94,7 @@ void add_ring(Patch& patch, const std::vector<Point>& inner, double z, const std
     }
 }
 
-// Everything between a rectangle and a larger square, at one height.
+// The face between a rectangle and a larger square, at one height.
 void add_frame(Patch& patch, const std::array<double, 2>& inner, double z, double half) {
     const double x[4] = {-half, -inner[0], inner[0], half}, y[4] = {-half, -inner[1], inner[1], half};
     const auto rectangle = [&](int i0, int j0, int i1, int j1) {
@@ -106,7 +108,7 @@ void add_frame(Patch& patch, const std::array<double, 2>& inner, double z, doubl
     rectangle(2, 1, 3, 2);
 }
 
-// A whole face without a seam, at which a ray could be refracted twice: one triangle, wider than the sheet.
+// A whole face as one triangle, wider than the sheet: at a seam a ray could be refracted twice.
 void add_face(Patch& patch, double z, double half) {
     add_triangle(patch, {-half, -half, z}, {4 * half, -half, z}, {-half, 4 * half, z}, up);
 }
@@ -176,7 +178,7 @@ class ArrayBuilder {
         take(made_.sheet, std::move(beside));
     }
 
-    // A little before a flat face at the same height.
+    // This height, moved a little in front of a flat face at the same height.
     double before_faces(double z) const {
         for (const PlacedSurface& s : geometry_.surfaces)
             if (is_plane(s) && std::abs(s.z_mm - z) < solid_overlap_mm) z = s.z_mm + solid_overlap_mm;
@@ -202,7 +204,7 @@ class ArrayBuilder {
         add(stop_rings(display_, geometry_), true);
         if (display_.array.surround == Surround::opaque) {
             for (std::size_t k = 0; k + 1 < rims_.size(); ++k) add_barrel(black, rims_[k], rims_[k + 1]);
-            // The rim of a square lens is not at one height: its walls reach to the faces of the black part all the same.
+            // The rim of a square lens varies in height: its walls are extended to the faces of the black part.
             if (display_.array.aperture == Aperture::square) {
                 const std::vector<Ring> rings = black_rings(display_, geometry_);
                 add_barrel(black, at_height(rims_.front(), local(rings.back().z_mm)), rims_.front());
@@ -218,7 +220,7 @@ class ArrayBuilder {
         return polygon;
     }
 
-    // Rims have their points at the same angles, but for those of square apertures cut at different places.
+    // Rims have their points at the same angles, except square apertures that are cut at different places.
     static void add_barrel(Patch& patch, const std::vector<Point>& low, const std::vector<Point>& high) {
         const std::size_t count = std::min(low.size(), high.size());
         for (std::size_t i = 0; i < count; ++i) {
@@ -254,7 +256,7 @@ std::vector<Ring> black_rings(const Display& display, const Geometry& geometry) 
         top = std::max(top, rim_z(s));
         bottom = std::min(bottom, rim_z(s));
     }
-    // A surface hollow to the outside lies deeper than the black part: light has to pass the hole in that part's face, too.
+    // A surface concave to the outside lies inside the black part: light also has to pass the hole in that part's face.
     rings.push_back({top, geometry.surfaces.back().semi_aperture_mm});
     rings.push_back({bottom, geometry.surfaces.front().semi_aperture_mm});
     std::sort(rings.begin(), rings.end(), [](const Ring& a, const Ring& b) { return a.z_mm > b.z_mm; });

@@ -1,4 +1,4 @@
-// An array of lenses as triangles: what stands in each cell, and what stands once. Floor 2.
+// An array of lenses as triangles: the parts that are repeated in each cell, and those that exist once. Floor 2.
 #pragma once
 #include "model/display.h"
 #include "model/geometry.h"
@@ -10,8 +10,8 @@
 
 namespace lfdsim::peers {
 
-/// Triangles of one matter. A black one absorbs; a glass one refracts between the medium on the side that its triangles show
-/// counter-clockwise (front) and the one behind. z counts from Geometry::base_z_mm.
+/// Triangles of one material. A black one absorbs; a glass one refracts between the medium on the front, from which its triangles
+/// appear counter-clockwise, and the one on the back. z is measured from Geometry::base_z_mm.
 struct Patch {
     std::string name;  // letters, digits and dashes
     bool black;
@@ -31,12 +31,12 @@ struct MeshedArray {
 /// Throws InputError as mesh_lens() does.
 MeshedArray mesh_array(const Display&, const Geometry&, std::int64_t triangles);
 
-/// Black rings beside the lenses: at this height everything further than the radius from a lens's axis (0: beside its cell)
-/// absorbs.
+/// Black rings around the lenses: at this height everything farther than the radius from a lens's axis absorbs (0: outside its
+/// cell).
 struct Ring {
     double z_mm, radius_mm;
 };
-/// Those of the black part between lenses, highest first, none unless the surround is opaque; and that of the stop.
+/// Those of the black part between lenses, highest first, none unless the surround is opaque; and the one of the stop.
 std::vector<Ring> black_rings(const Display&, const Geometry&);
 std::vector<Ring> stop_rings(const Display&, const Geometry&);
 
@@ -44,8 +44,8 @@ std::vector<Ring> stop_rings(const Display&, const Geometry&);
 double rim_z(const PlacedSurface&);
 bool is_plane(const PlacedSurface&);
 
-/// Half the sides of the array's rectangle, and of what stands for an infinite sheet: no ray that passes beside it can reach the
-/// panel less steep than 87 degrees off its normal.
+/// Half the sides of the array's rectangle, and of the square that represents an infinite sheet: rays that pass beside it could
+/// only reach the panel at more than 87 degrees from its normal.
 std::array<double, 2> array_half(const Geometry&);
 double sheet_half(const Display&, const Geometry&);
 

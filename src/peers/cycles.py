@@ -1,4 +1,4 @@
-"""The display SCENE as Blender's Cycles sees it. Lengths are millimetres, as Blender's units."""
+"""The display SCENE in Blender's Cycles. One Blender unit is a millimetre."""
 import argparse
 import math
 import os
@@ -57,7 +57,7 @@ def black(name):
 
 
 def glass(name, ratio):
-    """Refraction alone, weakened by Fresnel's equations if the display says so; total reflection goes on where glass is in the open."""
+    """Refraction only, weighted by Fresnel's equations if the display asks for them; total reflection where the surround is not opaque."""
     nodes = Nodes(name)
     color, share = (1, 1, 1, 1), None
     if SCENE["fresnel"] == "exact" or SCENE["reflects"]:
@@ -73,7 +73,7 @@ def glass(name, ratio):
 
 
 def scatter(diffuser):
-    """The diffuser as refraction into a medium of index n at a normal of its own: along i - n t, which by Snell's law turns i into t."""
+    """The diffuser as refraction into a medium of index n, with the normal along i - n t, by which Snell's law turns i into t."""
     nodes, index = Nodes("diffuser"), 1.5
     geometry = nodes.add("NewGeometry")
     noise = nodes.add("TexWhiteNoise", (("Vector", geometry.outputs["Position"]),), noise_dimensions="3D")
@@ -142,7 +142,7 @@ def patches(name, parts):
 
 
 def place_array(array):
-    """Cells stand on the vertices of a parent: one mesh for all."""
+    """Places the cells on the vertices of a parent, so that all share one mesh."""
     axes = lens_axes(array)
     lattice = thing("lattice", np.pad(axes, ((0, 0), (0, 1))), np.zeros((0, 3)), [])
     lattice.matrix_world = Matrix.Translation((*array["offset_mm"], array["base_z_mm"])) @ Matrix.Rotation(math.radians(array["rotation_deg"]), 4, "Z")
@@ -190,7 +190,7 @@ def main():
     cycles.device = "CPU"
     cycles.samples, cycles.seed = wanted.samples, SCENE["seed"] % 2**31
     cycles.use_adaptive_sampling = cycles.use_denoising = False
-    cycles.pixel_filter_type = "BOX"  # the first ray goes through the pixel's centre; the others are spread so wide:
+    cycles.pixel_filter_type = "BOX"  # the first ray goes through the pixel's centre; the others are spread over this width:
     cycles.filter_width = 1.0 if SCENE["camera"]["whole_pixels"] else 0.01
     bounces = SCENE["hits"] - 1
     for kind in ("max", "diffuse", "glossy", "transmission", "transparent_max"):

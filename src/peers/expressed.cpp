@@ -16,7 +16,7 @@ class Refusals {
 
     std::vector<Problem> all() {
         if (d_.lens.type() == LensType::ideal) {
-            add("lens.type", "a scene of real matter has no ideal lenses; give the display a real lens");
+            add("lens.type", "an ideal lens cannot be made of surfaces and glass; give the display a real lens");
             return std::move(problems_);
         }
         array();
@@ -24,7 +24,7 @@ class Refusals {
             add("camera.pupil_diameter_mm", "the scene's camera is a pinhole; add --set camera.pupil_diameter_mm=none");
         if (peer_ == Peer::pov) pov();
         if (peer_ == Peer::cycles && d_.diffuser && d_.diffuser->profile == Profile::gaussian)
-            add("diffuser.profile", "Cycles' nodes draw box angles alone; add --set 'diffuser.profile=\"box\"'");
+            add("diffuser.profile", "Cycles' nodes can only draw box angles; add --set 'diffuser.profile=\"box\"'");
         triangles();
         return std::move(problems_);
     }
@@ -37,13 +37,12 @@ class Refusals {
         const bool square = d_.array.aperture == Aperture::square;
         if (square && d_.array.surround == Surround::plate && meshed())
             add("array.aperture",
-                "a plate with square lenses is not written as triangles; give circle, another array.surround, or export true "
-                "surfaces "
-                "for pov");
+                "a plate with square lenses cannot be exported as triangles; give circle, another array.surround, or export true "
+                "surfaces for pov");
         if (square && d_.array.surround == Surround::clear && meshed())
             add("array.aperture",
-                "square bodies of glass touch, and triangles in the same place have no order; give circle, another array.surround, "
-                "or export true surfaces for pov");
+                "square bodies of glass touch, and coinciding triangles have no defined order; give circle, another "
+                "array.surround, or export true surfaces for pov");
         if (d_.array.surround == Surround::clear && g_.surfaces.front().semi_aperture_mm != g_.surfaces.back().semi_aperture_mm)
             add("lens.surface.0.semi_aperture_mm",
                 fmt::format("differs from the other surface's, so that the wall of the glass would be a cone; make both {} mm",

@@ -1,4 +1,4 @@
-"""The display SCENE as Mitsuba 3 sees it. Lengths are millimetres."""
+"""The display SCENE in Mitsuba 3. Lengths are millimetres."""
 import argparse
 import math
 import os
@@ -21,7 +21,7 @@ def arguments():
 
 
 def plugins():
-    """What Mitsuba has not: refraction without the reflected share, and a diffuser that turns a ray by two random angles."""
+    """Plugins that Mitsuba lacks: refraction without the reflected share, and a diffuser that turns a ray by two random angles."""
 
     class Delta(mi.BSDF):
         def __init__(self, props):
@@ -47,7 +47,7 @@ def plugins():
     class Glass(Delta):
         def __init__(self, props):
             Delta.__init__(self, props)
-            self.ratio = props["ratio"]  # index behind the front over that before it
+            self.ratio = props["ratio"]  # index behind the front side over index in front of it
 
         def sample(self, ctx, si, sample1, sample2, active=True):
             cos_i = mi.Frame3f.cos_theta(si.wi)
@@ -87,7 +87,7 @@ def plugins():
 
 
 def patch(part, axes):
-    """The triangles of a file about each axis, as one mesh: Mitsuba compiles a program for each instance of one."""
+    """The triangles of a file about each lens axis, as a single mesh: Mitsuba would compile a program for each instance."""
     array, (vertices, triangles) = SCENE["array"], read_ply(part["file"])
     turn = math.radians(array["rotation_deg"])
     rotation = np.array([[math.cos(turn), -math.sin(turn), 0], [math.sin(turn), math.cos(turn), 0], [0, 0, 1]])
@@ -129,7 +129,7 @@ def world():
 
 
 def follow(scene, ray, turn):
-    """The light that rays meet: all surfaces refract or end them, so there is one way on; `turn` is for the diffuser."""
+    """The light that rays collect. Each surface refracts a ray or ends it, so there is a single path; `turn`: the diffuser's random numbers."""
     context, light, weight = mi.BSDFContext(), mi.Color3f(0), mi.Color3f(1)
     active = mi.Bool(True)
     for left in range(SCENE["hits"], -1, -1):
@@ -143,7 +143,7 @@ def follow(scene, ray, turn):
             sample, value = si.bsdf().sample(context, si, mi.Float(0), turn, active)
             weight = weight * value
             active = active & (dr.max(value) > 0)
-            # Further along the ray, not beside the surface as spawn_ray() puts it: that would shift oblique rays
+            # Moved along the ray, not along the normal as by spawn_ray(), which would shift oblique rays
             on = si.to_world(sample.wo)
             ray = mi.Ray3f(si.p + (1 + dr.max(dr.abs(si.p))) * 1e-5 * on, on)
             dr.eval(ray, light, weight, active)
@@ -151,7 +151,7 @@ def follow(scene, ray, turn):
 
 
 def render(scene, width, height, samples):
-    """Rays through the pixels' centres, or spread over the pixels, so many at once as memory likes."""
+    """Traces rays through the pixels' centres, or spread over the pixels, as many at once as memory allows."""
     camera, random = SCENE["camera"], np.random.default_rng(SCENE["seed"])
     pixel = camera["frame_width_mm"] / width
     picture = np.zeros((height, width, 3), np.float32)

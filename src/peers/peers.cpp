@@ -26,7 +26,7 @@ PeerScene peer_scene(Peer peer, const Display& display, const Geometry& geometry
                                   [&](const PlacedSurface& s) { return s.semi_aperture_mm == surfaces.front().semi_aperture_mm; });
     if (!even && display.array.surround == Surround::opaque)
         scene.deviations.push_back(
-            "lens.surface.semi_aperture_mm: they differ; between them the scene has black walls and rings, lfdsim nothing");
+            "lens.surface.semi_aperture_mm: they differ; between them the scene has black walls and rings, lfdsim has nothing");
     if (options.triangles)
         scene.deviations.push_back(fmt::format("lenses are meshes of about {} triangles with {} normals", *options.triangles,
                                                options.normals == MeshNormals::flat ? "flat" : "smooth"));
@@ -44,7 +44,7 @@ std::optional<std::string> panel_deviation(const PeerScene& scene, const Texels&
     if (!scene.panel_file.ends_with(".png")) return std::nullopt;
     const float* const end = panel.data() + panel.columns() * panel.rows() * 4;
     if (std::all_of(panel.data(), end, [](float light) { return light <= 1; })) return std::nullopt;
-    return fmt::format("panel image: {} ends at white; brighter light is cut off", scene.panel_file);
+    return fmt::format("panel image: {} is limited to white; brighter light is clipped", scene.panel_file);
 }
 
 }  // namespace lfdsim

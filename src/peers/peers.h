@@ -1,7 +1,7 @@
-// A display as a scene for another renderer, for a second opinion on what lfdsim shows of it. Floor 2.
+// A display as a scene for another renderer, for an independent check of lfdsim's pictures. Floor 2.
 //
 // Same camera, same pixel centres, nearest panel pixels, linear light. What the other program cannot express is either refused or
-// named as a deviation, in words that stand in the scene too.
+// listed as a deviation, also in the scene's own comments.
 #pragma once
 #include "image/texels.h"
 #include "model/display.h"
@@ -23,7 +23,7 @@ struct PeerOptions {
     MeshNormals normals = MeshNormals::flat;
 };
 
-/// The lens that the 2019 paper tells of has so many.
+/// As many as the lens of the 2019 paper has.
 inline constexpr std::int64_t default_triangles = 3386;
 /// A scene of POV-Ray holds its triangles as text.
 inline constexpr std::int64_t most_pov_triangles = 1'000'000;
@@ -34,8 +34,8 @@ struct PeerFile {
 
 struct PeerScene {
     std::vector<PeerFile> files;  // the scene first
-    std::string panel_file;       // what the scene calls the panel image: .png, 16-bit codes linear in light, or .exr
-    Display shown;                // the display that the scene shows: the given one less what deviates, as panel_file encodes it
+    std::string panel_file;       // the panel image's name in the scene: .png, 16-bit codes linear in light, or .exr
+    Display shown;                // the display that the scene shows: the given one with its deviations and panel_file's encoding
     std::string command;          // shell words that render it in its folder, to `picture`
     std::string picture;
     std::vector<std::string> deviations;
@@ -43,13 +43,13 @@ struct PeerScene {
 
 std::string_view name_of(Peer);  // of the program
 
-/// All that keeps a display from being expressed for that program, each with the key and the remedy. Empty: it can be.
+/// Everything in a display that cannot be expressed for that program, each with the key and the remedy. Empty: all can be.
 std::vector<Problem> not_expressed(Peer, const Display&, const Geometry&, const PeerOptions&);
 
 /// Throws InputError with the problems of not_expressed().
 PeerScene peer_scene(Peer, const Display&, const Geometry&, const PeerOptions&);
 
-/// What a scene adds to its deviations when its panel file cannot hold this light.
+/// A further deviation of a scene, if its panel file cannot hold this light.
 std::optional<std::string> panel_deviation(const PeerScene&, const Texels&);
 
 }  // namespace lfdsim

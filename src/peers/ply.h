@@ -1,4 +1,4 @@
-// Triangles in a file that every program reads. Floor 2.
+// Triangles in a file format that all the programs read. Floor 2.
 #pragma once
 #include "peers/cell.h"
 
@@ -6,7 +6,7 @@
 
 namespace lfdsim::peers {
 
-/// Stanford's PLY, binary, little endian: x y z nx ny nz as floats, then three 32-bit numbers a triangle.
+/// Stanford's PLY, binary, little endian: x y z nx ny nz as floats, then three 32-bit numbers for each triangle.
 std::string ply(const Patch&);
 
 }  // namespace lfdsim::peers

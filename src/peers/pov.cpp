@@ -11,16 +11,16 @@
 #include <cmath>
 
 // How POV-Ray follows light. A ray keeps a list of the media that it is in. Where it meets a shape whose medium is in the list, it
-// leaves that; else it enters it, from whatever came last. So in `clear` and `plate`, where all faces of one glass share its
-// medium, crossings alternate, whatever the order. In `opaque`, where each surface is met once, each brings the medium behind it,
-// air too.
+// leaves that medium; otherwise it enters it, from the medium it met last. So in `clear` and `plate`, where all faces of one glass
+// share its medium, entering and leaving alternate, in whatever order the faces are met. In `opaque`, where each surface is met
+// once, each surface has the medium behind it, even if that is air.
 //
-// Shapes with one medium have to be parts of one union; copies of a shape have media of their own. POV-Ray takes each intersection
-// nearer than 1e-3 units for where the ray stands: so a lens is 120 units wide.
+// Shapes that share a medium have to be parts of one union; copies of a shape have media of their own. POV-Ray ignores
+// intersections closer than 1e-3 units to the ray's start: so a lens is 120 units wide.
 namespace lfdsim::peers {
 namespace {
 
-constexpr double gap_pitches = 2.5e-5;  // between square bodies that would touch: half of it belongs to each
+constexpr double gap_pitches = 2.5e-5;  // between a square body and its cell's border: half the gap between bodies that would touch
 constexpr double overlap_mm = 1e-6;     // of flat parts of neighbouring cells
 constexpr double longest_units = 4e6;   // POV-Ray sees nothing beyond 1e7
 
@@ -58,7 +58,7 @@ class Writer {
         return all;
     }
 
-    // What is nearer than this to where a ray stands POV-Ray does not see.
+    // POV-Ray ignores intersections closer than this to a ray's start.
     double least_way_mm() const { return 1e-3 / units_per_mm(); }
 
     bool fresnel() const { return d_.render.fresnel == Fresnel::exact; }
@@ -96,7 +96,7 @@ class Writer {
         const double x = half_[0] + wider, y = half_[1] + wider;
         return fmt::format("box {{ {}, {} }}", vector(-x, -y, low), vector(x, y, high));
     }
-    // In a union of all lenses each needs a box; lenses that stand alone get one from POV-Ray.
+    // In a union of all lenses each needs a bounding box; POV-Ray gives one to lenses that are separate objects.
     std::string cell_bounds() const {
         if (d_.array.surround != Surround::plate) return "";
         double low = g_.base_z_mm, high = g_.top_z_mm;
@@ -109,12 +109,12 @@ class Writer {
     // Whether a cell has room beside a hole of this radius.
     bool beside_hole(double radius) const { return radius < outer_radius_mm(d_.array); }
 
-    // A flat part of the cell beside what is round.
+    // The flat part of the cell outside a circle.
     std::string ring(double z, double radius, const std::string& matter) const {
         return fmt::format("  disc {{ {}, z, {}, {} clipped_by {{ {} }} {} }}\n", vector(0, 0, z),
                            text(1.06 * outer_radius_mm(d_.array)), text(radius), cell_box(z - 1, z + 1, overlap_mm), matter);
     }
-    // A flat part beside the array.
+    // The flat part outside the array.
     std::string beside(double z, const std::string& matter) const {
         const auto [x, y] = array_half(g_);
         return fmt::format("disc {{ {}, z, {} clipped_by {{ box {{ {}, {} inverse }} }} {}", vector(0, 0, z),
@@ -125,7 +125,7 @@ class Writer {
         return fmt::format("disc {{ {}, z, {} ", vector(0, 0, s.z_mm), text(100 * sheet_half(d_, g_)));
     }
 
-    // A stop in the plane of a flat face lies before it.
+    // A stop in the plane of a flat face is placed in front of it.
     double before_faces(double z) const {
         for (const PlacedSurface& s : g_.surfaces)
             if (is_plane(s) && std::abs(s.z_mm - z) < gap_mm_) z = s.z_mm + gap_mm_;
@@ -168,7 +168,7 @@ class Writer {
                                      black());
             return parts;
         }
-        // Black walls on the cell's borders: between the rims, and as high as the glass there
+        // Black walls on the cell's borders: between the rims, and up to the glass there
         if (high > low + 1e-6)
             parts += fmt::format("  difference {{ {} {} {} }}\n", cell_box(low, high, overlap_mm),
                                  cell_box(low - 1, high + 1, -gap_mm_), black());
@@ -194,7 +194,7 @@ class Writer {
                            medium(lower.index_above));
     }
 
-    // The same lens as triangles, each patch a mesh, which copies share.
+    // The same lens as triangles; copies share each patch's mesh.
     std::string meshed_lens() const {
         const MeshedArray made = mesh_array(d_, g_, *options_.triangles);
         const bool opaque = d_.array.surround == Surround::opaque;
@@ -229,7 +229,7 @@ class Writer {
         return all;
     }
 
-    // Of a plate whose lenses fill their cells: the walls in which caps end at the array's border, here on the cell's right (axis
+    // For a plate whose lenses fill their cells: the walls in which caps end at the array's border, here on the cell's right (axis
     // 0) or upper side.
     std::string border_wall(int axis) const {
         std::string walls;
@@ -247,7 +247,8 @@ class Writer {
         return fmt::format("#declare Wall{} = union {{\n{}  {}\n}}\n", axis, walls, cell_bounds());
     }
 
-    // The plate: all of it one union, so that its faces share their medium; rows of lenses within boxes, so that a ray asks few.
+    // The plate: a single union, so that its faces share their medium; rows of lenses in boxes, so that a ray is tested against
+    // few.
     std::string sheet() const {
         const double index = g_.surfaces.front().index_above;
         const auto [x, y] = array_half(g_);
@@ -291,21 +292,20 @@ void write_pov(const Display& display, const Geometry& geometry, const PeerOptio
     const Fresnel fresnel = display.render.fresnel;
     if (fresnel == Fresnel::schlick || (fresnel == Fresnel::exact && !opaque)) {
         scene.shown.render.fresnel = Fresnel::none;
-        deviations.push_back(opaque ? "render.fresnel: POV-Ray knows no Schlick weights; refraction takes nothing here"
-                                    : "render.fresnel: POV-Ray would take what is totally reflected, too; refraction takes nothing "
-                                      "here");
+        deviations.push_back(opaque ? "render.fresnel: POV-Ray has no Schlick weights; refraction is without loss here"
+                                    : "render.fresnel: POV-Ray's weights would also remove totally reflected light; refraction is "
+                                      "without loss here");
     }
     if (opaque && options.triangles == std::nullopt && display.array.aperture == Aperture::square)
         deviations.push_back(
             fmt::format("array.aperture: the black walls between square cells are {} pitches thick", 2 * gap_pitches));
     if (display.array.surround == Surround::clear && display.array.aperture == Aperture::square)
-        deviations.push_back(fmt::format(
-            "array.aperture: {} pitches of air are between square bodies of glass, which touch in lfdsim", 2 * gap_pitches));
+        deviations.push_back(fmt::format("array.aperture: square bodies of glass are {} pitches of air apart; in lfdsim they touch",
+                                         2 * gap_pitches));
     const Writer writer(scene.shown, geometry, options);
     if (writer.least_way_mm() > 1e-4 * display.array.pitch_mm.least())
-        deviations.push_back(
-            fmt::format("camera.position_mm: so far away that POV-Ray may miss surfaces that are within {:.3g} mm of each other",
-                        writer.least_way_mm()));
+        deviations.push_back(fmt::format("camera.position_mm: so far away that POV-Ray may miss surfaces less than {:.3g} mm apart",
+                                         writer.least_way_mm()));
     scene.panel_file = "panel.png";
     scene.picture = "view.png";
     const auto [width, height] = display.camera.resolution;

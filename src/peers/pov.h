@@ -6,8 +6,7 @@
 
 namespace lfdsim::peers {
 
-/// Adds the scene's file, picture and command, and what deviates. `head`: lines that go into its first comment, deviations after
-/// them.
+/// Adds the scene's file, picture and command, and its deviations. `head`: lines for its first comment, followed by the deviations.
 void write_pov(const Display&, const Geometry&, const PeerOptions&, std::vector<std::string> head, PeerScene&);
 
 }  // namespace lfdsim::peers

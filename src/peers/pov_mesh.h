@@ -6,7 +6,7 @@
 
 namespace lfdsim::peers {
 
-/// A mesh2 without the closing brace, so that matter can be added.
+/// A mesh2 without the closing brace, so that a material can be added.
 std::string pov_mesh(const Patch&, bool smooth);
 
 }  // namespace lfdsim::peers

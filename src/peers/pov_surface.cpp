@@ -10,14 +10,13 @@
 namespace lfdsim::peers {
 namespace {
 
-constexpr double margin_mm = 1e-6;  // by which what clips a surface is larger than it
+constexpr double margin_mm = 1e-6;  // by which the clipping shape is larger than the surface
 
 bool is_conic(const PlacedSurface& s) {
     return std::all_of(s.even_asphere.begin(), s.even_asphere.end(), [](double a) { return a == 0; });
 }
 
-// z less the sag, as a formula of x, y, z. Beyond the reach the sag stays what it is there, so that the slope's bound holds
-// everywhere.
+// z minus the sag, as a formula of x, y, z. Beyond `reach` the sag is constant, so that the bound on the slope holds everywhere.
 std::string height_above(const PlacedSurface& s, double reach) {
     const std::string s2 = fmt::format("min(x*x+y*y,{})", text(reach * reach));
     std::string polynomial;
@@ -29,7 +28,7 @@ std::string height_above(const PlacedSurface& s, double reach) {
                        polynomial);
 }
 
-// The steepest that height_above() rises: one step of a central difference of the sag over 1024 places, with a margin.
+// The largest gradient of height_above(): from differences of the sag between 1024 points, with a margin.
 double steepest(const PlacedSurface& s, double reach) {
     constexpr int steps = 1024;
     double slope = 0, before = 0;

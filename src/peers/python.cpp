@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-// A script is a head of comments, one literal SCENE and a text that is the same for all displays. JSON without true, false and null
-// is Python, too.
+// A script is a head of comments, one literal SCENE and text that is the same for all displays. JSON without true, false and null
+// is also Python.
 namespace lfdsim::peers {
 namespace {
 
@@ -64,11 +64,11 @@ void write_python(Peer peer, const Display& display, const Geometry& geometry, c
     deviations.push_back("rays are followed in single precision from the camera on");
     if (cycles && display.render.fresnel == Fresnel::schlick) {
         scene.shown.render.fresnel = Fresnel::exact;
-        deviations.push_back("render.fresnel: Cycles knows no Schlick weights of refraction; they are exact here");
+        deviations.push_back("render.fresnel: Cycles has no Schlick weights for refraction; they are exact here");
     }
     if (cycles && display.diffuser)
         deviations.push_back(
-            "diffuser: its angles are a hash of the place where a ray meets it; so rays are spread over a hundredth of the pixel");
+            "diffuser: its angles are a hash of the point where a ray meets it, so rays are spread over a hundredth of the pixel");
 
     std::vector<PeerFile> files;
     const MeshedArray made = mesh_array(display, geometry, *options.triangles);
@@ -90,7 +90,7 @@ void write_python(Peer peer, const Display& display, const Geometry& geometry, c
           {"offset_mm", array.offset_mm}}},
         {"diffuser", diffuser(display, geometry)},
         {"fresnel", word(scene.shown.render.fresnel)},
-        // Opaque: each surface once. Else: up to 16, and what is totally reflected goes on.
+        // Opaque: each surface once. Otherwise: up to 16, and totally reflected light continues.
         {"hits", (opaque ? geometry.surfaces.size() : 16) + (display.diffuser ? 1 : 0)},
         {"reflects", opaque ? 0 : 1},
         {"smooth", options.normals == MeshNormals::smooth ? 1 : 0},

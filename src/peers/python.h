@@ -7,11 +7,11 @@
 
 namespace lfdsim::peers {
 
-// What follows the data: the files cycles.py and mitsuba.py of this folder.
+// The part of a script that follows the data: the files cycles.py and mitsuba.py of this folder.
 extern const char* const cycles_script;
 extern const char* const mitsuba_script;
 
-/// Adds the scene's files, picture and command, and what deviates, as write_pov() does. The options name a number of triangles.
+/// Adds the scene's files, picture and command, and its deviations, as write_pov() does. options.triangles must be set.
 void write_python(Peer, const Display&, const Geometry&, const PeerOptions&, std::vector<std::string> head, PeerScene&);
 
 }  // namespace lfdsim::peers

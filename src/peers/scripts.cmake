@@ -1,4 +1,4 @@
-# The scripts for other renderers, each in one C++ literal, and what they share in the place of the line that names it.
+# The scripts for other renderers, each as one C++ literal; the line "# shared.py" is replaced by the content of that file.
 set(scripts_cpp ${CMAKE_CURRENT_BINARY_DIR}/peers/scripts.cpp)
 set(scripts_text "#include \"peers/python.h\"\n")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/shared.py)

@@ -1,4 +1,4 @@
-// Bytes as text, for data: addresses. Floor 4.
+// Bytes as text, for data: URLs. Floor 4.
 #pragma once
 #include <cstdint>
 #include <string>

@@ -68,10 +68,10 @@ std::vector<Figure> figures(const Display& d, const Theory& t) {
         return by_axis ? std::vector{x, y} : std::vector{x};
     };
     constexpr const char* inside = "the camera stands inside the display or behind it";
-    // Seen from the lenses, depths are sharp from the near end's 1/z down to the far end's: towards the viewer from the one,
-    // through infinity where the signs differ, and behind the lenses where 1/z is negative.
+    // Depths are sharp from the near end's 1/z down to the far end's, z from the lenses towards the viewer: through infinity where
+    // the signs differ, and behind the lenses where 1/z is negative.
     const auto end_of = [](double per_mm, bool near) {
-        if (per_mm > 0) return near ? "where it begins, before the lenses" : "where it ends towards the viewer";
+        if (per_mm > 0) return near ? "where it begins, in front of the lenses" : "where it ends towards the viewer";
         if (per_mm < 0) return near ? "where it ends far behind the lenses" : "where it begins, behind the lenses";
         return near ? "its end, at infinity" : "its other end, at infinity";
     };

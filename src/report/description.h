@@ -14,7 +14,7 @@ struct Setting {
     std::string table, key;
     Json value;          // null: absent
     bool is_default;     // the value is the one that holds without the key
-    std::string absent;  // what holds without it, in words, where the value does not say it
+    std::string absent;  // what applies without it, in words, where the value does not express it
 };
 std::vector<Setting> settings(const Display&);
 
@@ -23,7 +23,7 @@ struct Figure {
     const char* name;
     std::vector<double> values;  // infinite where there is no finite one; NaN where it is undefined; two: along the array's x and y
     const char* meaning;
-    const char* formula = "";    // by which it follows; symbols as in docs/model.md
+    const char* formula = "";    // how it is computed; symbols as in docs/model.md
     const char* undefined = "";  // why there is none, where the value is NaN
 };
 std::vector<Figure> figures(const Display&, const Geometry&);

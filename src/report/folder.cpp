@@ -31,7 +31,7 @@ std::string csv(const DataTable& table) {
     return text;
 }
 
-/// A report carries an animation as it is: this many pixels, over all frames, make some megabytes.
+/// A report contains animations unchanged, so they are limited here: this many pixels, over all frames, take some megabytes.
 void write_small(const fs::path& path, const Animation& animation) {
     constexpr double most_pixels = 8e6, most_columns = 960;
     if (animation.frames.empty()) throw std::invalid_argument("an animation without frames");
@@ -61,7 +61,7 @@ Json ResultFolder::read(const Measure& measure) const {
     try {
         return Json::parse(file);
     } catch (const Json::exception& e) {
-        throw InputError(path.string(), fmt::format("is not what a measure leaves: {}", e.what()));
+        throw InputError(path.string(), fmt::format("is not the result of a measure: {}", e.what()));
     }
 }
 
@@ -79,7 +79,7 @@ bool ResultFolder::has(const Measure& measure) const {
     }
 }
 
-/// Null: there is nothing, or nothing that a measure leaves.
+/// Null: there is no result of this measure.
 Json ResultFolder::settings_of(const Measure& measure) const {
     if (!fs::is_regular_file(path_ / (std::string(measure.name) + ".json"))) return {};
     try {
@@ -109,7 +109,7 @@ void ResultFolder::remove_others() const {
         const Json theirs = settings_of(m);
         if (!theirs.is_object() || theirs == settings_) continue;
         any = true;
-        std::vector<std::string> names{std::string(m.name) + ".json"};  // first: what has none is incomplete
+        std::vector<std::string> names{std::string(m.name) + ".json"};  // first: a measure without it is incomplete
         try {
             const Json json = read(m);
             for (const Json& file : json.at("report").at("files")) names.push_back(file.get<std::string>());

@@ -1,4 +1,4 @@
-// The folder in which measures leave what they found. Floor 4.
+// The folder that holds the results of measures. Floor 4.
 #pragma once
 #include "analysis/measure.h"
 
@@ -8,12 +8,12 @@
 
 namespace lfdsim {
 
-/// Of each measure: NAME.json (its figures, and under "report" what the report shows), CSV tables, SVG plots and maps, PNG pictures
-/// and animations (made smaller so that a report can hold them). Files are written beside and renamed; NAME.json comes last, so
-/// that where it is, the measure is complete.
+/// Holds for each measure: NAME.json (its figures, and under "report" what the report shows), CSV tables, SVG plots and maps, PNG
+/// pictures and animations (made smaller so that a report can hold them). Files are written under a temporary name and renamed;
+/// NAME.json is written last, so a measure that has one is complete.
 class ResultFolder {
   public:
-    /// Makes the folder if it is missing. `settings`: all that the results depend on. Throws InputError if that is not possible.
+    /// Makes the folder if it is missing. `settings`: everything the results depend on. Throws InputError if it cannot be made.
     ResultFolder(std::filesystem::path, Json settings);
 
     const std::filesystem::path& path() const { return path_; }
@@ -25,11 +25,11 @@ class ResultFolder {
     std::vector<std::string> others() const;
     /// Removes their results, and the report.
     void remove_others() const;
-    /// What NAME.json holds. Throws InputError if it cannot be read.
+    /// The content of NAME.json. Throws InputError if it cannot be read.
     Json read(const Measure&) const;
-    /// Returns what NAME.json then holds. Throws std::runtime_error when writing fails.
+    /// Returns the content of NAME.json as written. Throws std::runtime_error when writing fails.
     Json write(const Measure&, const Result&, double seconds) const;
-    /// Writes a text file, beside and renamed.
+    /// Writes a text file, under a temporary name first.
     void write_text(const std::string& name, const std::string& text) const;
 
     /// The name of the report in a folder of results.

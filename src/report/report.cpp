@@ -28,7 +28,7 @@ bool holds(const std::vector<Shown>& shown, const Measure* m) {
 
 std::string name_of(const Measure* m) { return fmt::format("{} ({})", escaped(m->title), escaped(m->name)); }
 
-/// What is missing of what was asked for, and why; empty: nothing is.
+/// Which of the wanted measures are missing, and why; empty: none.
 std::string missing_measures(const std::vector<Shown>& shown, const ReportAbout& about) {
     std::string why, names;
     for (const auto& [m, what] : about.failed)
@@ -40,13 +40,13 @@ std::string missing_measures(const std::vector<Shown>& shown, const ReportAbout&
     if (why.empty() && names.empty() && !about.interrupted) return "";
     std::string html = "<div class=\"incomplete\" role=\"alert\">\n<p><strong>This report is incomplete.</strong>";
     if (about.interrupted) html += " The run was interrupted.";
-    if (!names.empty()) html += fmt::format(" Missing: {}. The same command with --resume goes on.", names);
+    if (!names.empty()) html += fmt::format(" Missing: {}. The same command with --resume continues.", names);
     return html + "</p>\n" + why + "</div>\n";
 }
 
 std::string contents(const std::vector<Shown>& shown) {
     std::string html =
-        "<nav aria-label=\"Contents\"><ul>\n<li><a href=\"#summary\">Theory beside measurement</a></li>\n"
+        "<nav aria-label=\"Contents\"><ul>\n<li><a href=\"#summary\">Theory and measurement</a></li>\n"
         "<li><a href=\"#display\">The display</a></li>\n";
     for (const Shown& s : shown)
         html += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", s.measure->name, escaped(s.measure->title));
@@ -54,7 +54,7 @@ std::string contents(const std::vector<Shown>& shown) {
 }
 
 std::string summary(const std::vector<Shown>& shown) {
-    std::string html = "<section id=\"summary\">\n<h2>Theory beside measurement</h2>\n";
+    std::string html = "<section id=\"summary\">\n<h2>Theory and measurement</h2>\n";
     html += findings_table;
     for (const Shown& s : shown) {
         const std::string rows = finding_rows(s.measured.at("report"));
@@ -65,7 +65,7 @@ std::string summary(const std::vector<Shown>& shown) {
     return html + "</table></div>\n</section>\n";
 }
 
-/// All that the results depend on but the description, which follows as it is.
+/// Everything the results depend on; the description comes last, as text.
 std::string settings(const ResultFolder& folder, const ReportAbout& about) {
     std::string html = "<section id=\"settings\">\n<h2>Settings</h2>\n<p>The command:</p>\n<pre>" + escaped(about.command) +
                        "</pre>\n<div class=\"wide\"><table>\n";

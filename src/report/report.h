@@ -1,4 +1,4 @@
-// The report: one HTML file of all that lies in a folder of results. Floor 4.
+// The report: one HTML file with everything in a folder of results. Floor 4.
 #pragma once
 #include "analysis/subject.h"
 #include "report/folder.h"
@@ -17,12 +17,12 @@ struct ReportAbout {
     bool interrupted = false;
 };
 
-/// Whether a measure of the folder's settings is there to be shown.
+/// Whether the folder holds a measure with its settings, to be shown.
 bool has_results(const ResultFolder&);
 
-/// UTF-8, without script or reference to another file: plots inline, pictures within, about 1000 pixels wide. Shows every measure
-/// that the folder holds with its settings; where some of those wanted are missing it says so at its top. The same folder and
-/// arguments give the same text. A picture that cannot be read is named in its place.
+/// UTF-8, without scripts or references to other files: plots and pictures are inline, pictures about 1000 pixels wide. Shows every
+/// measure that the folder holds with its settings; where some of those wanted are missing it says so at the top. The same folder
+/// and arguments give the same text. A picture that cannot be read is named in its place.
 std::string report_html(const Subject&, const ResultFolder&, const ReportAbout&);
 
 }  // namespace lfdsim

@@ -27,7 +27,7 @@ std::string bytes_of(const std::filesystem::path& path) {
     return bytes;
 }
 
-/// Columns of a PNG, from its header; 0: it is none.
+/// Columns of a PNG, from its header; 0: it is not one.
 int columns_of(const std::string& png) {
     if (png.size() < 24 || png.compare(1, 3, "PNG") != 0) return 0;
     int columns = 0;
@@ -41,7 +41,7 @@ std::string figure(const std::string& inside, const std::string& caption) {
 
 std::string inline_svg(const std::string& svg) { return fmt::format("<div class=\"drawing\">{}</div>", svg); }
 
-/// What `make` gives for the file that an entry names; a file that cannot be shown is named.
+/// The result of `make` for the file that an entry names; for a file that cannot be shown, a message with its name.
 template <class Make>
 std::string shown(const ResultFolder& folder, const Json& entry, Make make) {
     const std::string name = entry.at("file");
@@ -57,7 +57,7 @@ std::string plots(const ResultFolder& folder, const Json& list) {
     for (const Json& entry : list)
         html += shown(folder, entry, [&](const auto& path) {
             const std::string svg = bytes_of(path);
-            if (svg.rfind("<svg ", 0) != 0) throw InputError(path.string(), "is no SVG of a measure");
+            if (svg.rfind("<svg ", 0) != 0) throw InputError(path.string(), "is not an SVG of a measure");
             return fmt::format("<figure>{}</figure>\n", inline_svg(svg));
         });
     return html;
@@ -68,7 +68,7 @@ std::string pictures(const ResultFolder& folder, const Json& list, bool as_they_
     for (const Json& entry : list)
         html += shown(folder, entry, [&](const auto& path) {
             std::string png = bytes_of(path);
-            if (columns_of(png) == 0) throw InputError(path.string(), "is no PNG");
+            if (columns_of(png) == 0) throw InputError(path.string(), "is not a PNG");
             if (!as_they_are && columns_of(png) > most_columns) {
                 const Image small = reduced(read_image(path, Encoding::srgb), most_columns);
                 png = png_bytes(small.width, small.height, 3, encode8(small, Encoding::srgb));
@@ -79,7 +79,7 @@ std::string pictures(const ResultFolder& folder, const Json& list, bool as_they_
     return html;
 }
 
-/// Sentences of theory, name beside number.
+/// Rows of sizes and theory, each a name and its value.
 std::string theory_rows(const Subject& s) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();
@@ -101,12 +101,12 @@ std::string theory_rows(const Subject& s) {
                                along(d.array.pitch_mm[0], d.array.pitch_mm[1], " mm"),
                                along(g.clear_aperture_mm[0], g.clear_aperture_mm[1], " mm"))},
         {"Gap g, focal length f", fmt::format("{}, {}", number(g.gap_mm, " mm"), number(g.focal_length_mm, " mm"))},
-        {"Diffuser", d.diffuser ? fmt::format("{:.4g}° × {:.4g}°, {:.4g} mm before the lenses", d.diffuser->angle_deg[0],
+        {"Diffuser", d.diffuser ? fmt::format("{:.4g}° × {:.4g}°, {:.4g} mm in front of the lenses", d.diffuser->angle_deg[0],
                                               d.diffuser->angle_deg[1], d.diffuser->distance_mm)
                                 : std::string("none")},
         {"Field of view, 2 atan(p / 2g)", theory(&AxisTheory::fov_deg, "°")},
         {"Field of view of whole elemental images", theory(&AxisTheory::fov_elemental_deg, "°")},
-        {"Views across, and between them",
+        {"Views across, and the angle between them",
          fmt::format("{}, {}", theory(&AxisTheory::views, ""), theory(&AxisTheory::view_step_deg, "°"))},
         {"Central depth plane L, from the lenses", number(t.central_depth_mm, " mm")},
         {"Depth of field, from the lenses: ends",
@@ -199,9 +199,9 @@ std::string display_section(const Subject& s) {
                   "From the panel to the eye. Orange: rays from the eye, through the diffuser's middle and "
                   "edges, back to the panel. Blue: the light of one pixel.") +
            figure(inline_svg(lens_view_svg(s)),
-                  "Lenses about the middle, with rays traced through their surfaces; a faint ray ends at "
+                  "Lenses near the middle, with rays traced through their surfaces; a faint ray ends at "
                   "a rim or a stop.") +
-           "<div class=\"wide\"><table>\n<caption>What its description gives, by paraxial theory</caption>\n" + theory_rows(s) +
+           "<div class=\"wide\"><table>\n<caption>Sizes and paraxial theory, from the description</caption>\n" + theory_rows(s) +
            "</table></div>\n</section>\n";
 }
 

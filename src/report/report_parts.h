@@ -14,13 +14,13 @@ std::string value_html(const Json& values, const std::string& unit);
 /// " ± 0.02", the largest of a finding's errors; nothing if none is stated.
 std::string error_text(const Json& errors);
 
-/// Rows of the table of theory beside measurement.
+/// Rows of the table of theory and measurement.
 std::string finding_rows(const Json& report);
 
-/// Title, meaning, source, findings, remarks, plots, pictures and all figures of one measure, from what its NAME.json holds.
+/// Title, meaning, source, findings, remarks, plots, pictures and all figures of one measure, from its NAME.json.
 std::string measure_section(const ResultFolder&, const Json& measured);
 
-/// Plots, maps, pictures and animations of one measure, in this order, each by itself.
+/// Plots, maps, pictures and animations of one measure, in this order, as separate elements.
 std::vector<std::string> figures_of(const ResultFolder&, const Json& measured);
 
 /// Sizes and paraxial theory of the display as a table, and its views from the side.

@@ -1,4 +1,4 @@
-// How the report looks: on light and dark screens, on a phone, on paper. Floor 4.
+// The style sheet of the report, for light and dark screens, phones and paper. Floor 4.
 #pragma once
 
 namespace lfdsim {

@@ -65,7 +65,7 @@ Json more_than_errors(const Json& difference, const Json& one, const Json& other
     return false;
 }
 
-/// The findings of one measure by what they are of, in the order in which they first come.
+/// The findings of one measure, one entry for each quantity, in the order of first occurrence.
 Json findings_of(const Measure& m, std::span<const MeasuredDisplay> displays) {
     Json all = Json::array();
     for (std::size_t n = 0; n < displays.size(); ++n) {
@@ -136,7 +136,7 @@ std::string difference_html(const Json& difference, const Json& more) {
 std::string findings_section(const Json& all) {
     std::string last;
     for (std::size_t n = 1; n < all["displays"].size(); ++n)
-        last += fmt::format("<th scope=\"col\">{}, less {}</th>", escaped(all["displays"][n].get<std::string>()),
+        last += fmt::format("<th scope=\"col\">{} minus {}</th>", escaped(all["displays"][n].get<std::string>()),
                             escaped(all["displays"][0].get<std::string>()));
     std::string html = "<section id=\"findings\">\n<h2>Findings</h2>\n" + header(all["displays"], "Figure", last), measure;
     for (const Json& row : all["findings"]) {
@@ -153,11 +153,12 @@ std::string findings_section(const Json& all) {
         html += "</tr>\n";
     }
     return html +
-           "</table></div>\n<p>\"More than the errors\": than the stated errors of both figures together. Where nothing is said, "
-           "at least one of them states none.</p>\n</section>\n";
+           "</table></div>\n<p>\"More than the errors\": more than the sum of the errors stated for both figures. Where there is "
+           "no "
+           "remark, at least one of them has no stated error.</p>\n</section>\n";
 }
 
-/// Plots and pictures of a measure: those of the same place in each display's list next to each other.
+/// Plots and pictures of a measure: those at the same position in each display's list next to each other.
 std::string measure_section(const Measure& m, std::span<const MeasuredDisplay> displays) {
     std::vector<std::vector<std::string>> columns;
     std::size_t rows = 0;
@@ -197,7 +198,7 @@ std::string side_by_side_html(std::span<const MeasuredDisplay> displays, const J
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<title>{0}</title>\n<style>{1}{2}</style>\n</head>\n<body>\n<header>\n<h1>{0}</h1>\n"
-        "<p class=\"about\">Light field displays, simulated and measured alike by lfdsim {3}. A report of each by itself:</p>\n"
+        "<p class=\"about\">Light field displays, simulated and measured in the same way by lfdsim {3}. The report of each:</p>\n"
         "<nav aria-label=\"Reports\"><ul>\n{4}</ul></nav>\n</header>\n",
         title, report_style, style, escaped(displays.front().folder.settings().value("lfdsim", std::string())), links);
     if (!missing.empty())

@@ -1,4 +1,4 @@
-// Displays measured in the same way, beside one another. Floor 4.
+// A comparison of displays that were measured in the same way. Floor 4.
 #pragma once
 #include "model/display.h"
 #include "report/folder.h"
@@ -9,21 +9,20 @@
 
 namespace lfdsim {
 
-/// A display and the folder that holds what was found of it: a subfolder, of its name, of the folder that holds the comparison.
+/// A display and the folder of its results: a subfolder, with its name, of the folder that holds the comparison.
 struct MeasuredDisplay {
     std::string name;
     Display display;
     ResultFolder folder;
 };
 
-/// What is different, as plain data: {"displays": [names], "settings": [{"key", "values"}], "findings": [{"measure", "what",
-/// "unit", "measured", "error", "difference", "more_than_errors"}]}. "settings" holds the keys of the description whose values are
-/// not all the same. "measured" and "error" hold a list for each display, null where it has no such figure; "difference" that of
-/// each display to the first one; "more_than_errors" whether it is more than the errors of both together, null where they state
-/// none.
+/// The differences as plain data: {"displays": [names], "settings": [{"key", "values"}], "findings": [{"measure", "what", "unit",
+/// "measured", "error", "difference", "more_than_errors"}]}. "settings" holds the keys of the description whose values are not all
+/// the same. "measured" and "error" hold a list for each display, null where it has no such figure; "difference" is that of each
+/// display from the first; "more_than_errors" is whether it exceeds the sum of both errors, null where an error is not stated.
 Json differences(std::span<const MeasuredDisplay>);
 
-/// The same as a page, plots and pictures of the same measure next to each other; like report_html() a file by itself, but that it
+/// The same as a page, with plots and pictures of the same measure next to each other; like report_html() a single file, except for
 /// links to the reports in the subfolders. `missing`: a sentence on what could not be measured; empty: nothing is missing.
 std::string side_by_side_html(std::span<const MeasuredDisplay>, const Json& differences, const std::string& command,
                               const std::string& missing);

@@ -10,7 +10,7 @@
 namespace lfdsim {
 namespace {
 
-/// What pass_lens() asks of a lens through which a ray is drawn: the points of its path.
+/// The rules of pass_lens() for a ray that is drawn: records the points of its path.
 struct Pen : optics::Alone<double> {
     SidePath& path;
     const double sense;  // of z: -1 for the lens turned over
@@ -29,7 +29,7 @@ struct Pen : optics::Alone<double> {
         const double cell = scene.lattice.half_pitch[1], rim = std::min(surface.semi_aperture, square ? cell : INFINITY);
         way.alive = hit.ok && std::abs(hit.at.y) <= rim && z <= from_z;
         if (way.alive) return point(hit.at.y, z);
-        // A ray beside the lens ends as high as the rim.
+        // A ray that passes beside the lens ends at the height of the rim.
         double sag = 0, slope;
         bool real;
         optics::sag(surface, rim * rim, sag, slope, real);

@@ -8,19 +8,19 @@
 
 namespace lfdsim {
 
-/// At (y, z), mm from the lens's axis and from the panel, in a direction of unit length.
+/// A ray at (y, z), mm from the lens's axis and from the panel; direction of unit length.
 struct SideRay {
     double y, z, dy, dz;
 
     double y_at(double other_z) const { return y + dy / dz * (other_z - z); }
 };
 
-/// From `y` at `z` towards another place.
+/// From (y, z) towards another point.
 SideRay side_ray(double y, double z, double to_y, double to_z);
 
 struct SidePath {
     std::vector<std::array<double, 2>> points;  // (y, z): the start, and where each surface was met
-    SideRay last;                               // how it goes on
+    SideRay last;                               // the ray after the last point
     bool through;                               // false: a rim, a stop or total reflection ended it at the last point
 };
 

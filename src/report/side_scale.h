@@ -31,7 +31,7 @@ struct SideScale {
     bool true_to_scale() const { return per_z == per_y; }
 };
 
-/// The lens whose axis is the nearest to y (array's frame), and where it stands.
+/// A lens: its row, and the height of its axis. lens_near() finds the one whose axis is nearest to y.
 struct SideLens {
     std::int64_t row;  // 0 at the bottom
     double y_mm;
@@ -46,7 +46,7 @@ inline SideLens lens_near(const Display& d, double y) {
     return lens_at(d, std::int64_t(std::clamp(row, 0., lattice.count[1] - 1)));
 }
 
-/// The way through the lens in whose cell the ray comes to the lenses. Points in the display's frame.
+/// The path through the lens in whose cell the ray reaches the lenses. Points in the display's frame.
 inline SidePath through_array(const Display& d, const Geometry& g, SideRay ray) {
     const double y = lens_near(d, ray.y_at(ray.dz > 0 ? g.base_z_mm : g.vertex_plane_mm)).y_mm;
     ray.y -= y;
@@ -56,7 +56,7 @@ inline SidePath through_array(const Display& d, const Geometry& g, SideRay ray) 
     return path;
 }
 
-/// Draws a path, and how its ray goes on to z if it came through.
+/// Draws a path and, if its ray came through, the ray on to to_z.
 inline void draw_path(Drawing& drawing, const SideScale& scale, const SidePath& path, double to_z, std::string style) {
     std::vector<Point> points;
     for (const auto& [y, z] : path.points) points.push_back(scale.at(y, z));

@@ -17,7 +17,7 @@ double half_height(const Display& d, const Geometry& g) {
     return std::min(s > 0 ? 0.5 * g.array_width_mm / s : INFINITY, c > 0 ? 0.5 * g.array_height_mm / c : INFINITY);
 }
 
-/// Planes beside the panel that lie near enough to be drawn.
+/// Heights of the depth planes that are near enough to be drawn; NaN for others.
 struct Planes {
     double central = NAN;
     std::array<double, 2> marginal{NAN, NAN};
@@ -68,8 +68,8 @@ void draw_backward(Drawing& drawing, const SideScale& scale, const Subject& s) {
     }
 }
 
-/// The light of the pixel before the middle lens, as far as its image; what has none goes a way and, dashed, back to where it
-/// seems to come from.
+/// The light of the pixel behind the middle lens, up to its image; where that is not real, some way forward and, dashed, back to
+/// where the light seems to come from.
 void draw_pixel(Drawing& drawing, const SideScale& scale, const Subject& s, const Planes& planes) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();
@@ -85,7 +85,7 @@ void draw_pixel(Drawing& drawing, const SideScale& scale, const Subject& s, cons
     }
 }
 
-/// Names above the planes; planes that fall together share one.
+/// Names above the planes; planes that coincide share one.
 struct Labels {
     std::vector<double> lines;
     std::vector<std::string> texts;

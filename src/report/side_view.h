@@ -6,7 +6,7 @@
 
 namespace lfdsim {
 
-/// Where a drawing has its lengths: y and z, mm, at the borders of a box in the drawing's own units, z to the right and y up.
+/// The scale of a drawing: y and z, mm, at the borders of a box in the drawing's own units; z to the right, y up.
 struct SideFrame {
     double y_low, y_high, z_low, z_high;
     double left, top, width, height;  // of the box
@@ -16,8 +16,8 @@ struct SideFrame {
 /// the eye back through the diffuser to the panel, and one pixel's light on its way to its image.
 std::string side_view_svg(const Subject&, SideFrame* = nullptr);
 
-/// A few lenses about the middle, with their true surfaces, the gap, what is between them, and the same rays. In the array's own
-/// frame where that is turned.
+/// A few lenses near the middle, with their true surfaces, the gap, what is between them, and the same rays. In the array's own
+/// frame where the array is turned.
 std::string lens_view_svg(const Subject&, SideFrame* = nullptr);
 
 }  // namespace lfdsim

@@ -13,7 +13,7 @@ constexpr double lens_page_width = 960, left = 76, top = 16, notes = 220, lens_d
 
 double rim_z(const PlacedSurface& f, double rim) { return f.z_mm + sag_mm(f.curvature_per_mm, f.conic, f.even_asphere, rim); }
 
-/// What is seen of the display: lenses first .. last, z from .. to.
+/// The part of the display that is drawn: lenses first .. last, z from .. to.
 struct Window {
     std::int64_t first, last;
     double from, to, low, high;  // mm
@@ -26,7 +26,7 @@ Window window_of(const Display& d, const Geometry& g) {
     w.low = lens_at(d, w.first).y_mm - 0.6 * p;
     w.high = lens_at(d, w.last).y_mm + 0.6 * p;
     w.from = std::min(0., g.base_z_mm) - 0.05 * depth;
-    // As far before the lenses as the picture has room for at the scale that its height allows.
+    // As far in front of the lenses as the picture has room for at the scale that its height allows.
     const double scale = std::min(lens_most_height / (w.high - w.low), lens_drawn / (depth + std::max(1.2 * p, 0.5 * depth)));
     w.to = w.from + lens_drawn / scale;
     return w;
@@ -68,7 +68,7 @@ void draw_lens(Drawing& drawing, const SideScale& scale, const Display& d, const
                      scale.at(y + sense * 0.5 * d.array.pitch_mm[1], g.stop_z_mm), "stroke-width=\"3\"");
 }
 
-/// What stands between two lenses, y the border of their cells: black walls, or the glass of a plate.
+/// Draws what is between two lenses, y the border of their cells: black walls, or the glass of a plate.
 void draw_between(Drawing& drawing, const SideScale& scale, const Display& d, const Geometry& g, double y, bool upper, bool lower) {
     const double half = 0.5 * d.array.pitch_mm[1];
     double rim = g.glass_radius_mm, low = g.vertex_plane_mm, high = low;
@@ -90,7 +90,7 @@ void draw_rays(Drawing& drawing, const SideScale& scale, const Subject& s, const
     const Geometry& g = s.geometry();
     const SideLens middle = lens_near(d, 0), lower = lens_at(d, w.first), upper = lens_at(d, w.last);
     const Vec3d& eye = d.camera.position_mm;
-    // The field of view that theory expects, at the upper lens: by its elemental image's edges and its principal points.
+    // The theoretical field of view, at the upper lens: lines from its elemental image's edges through its principal points.
     for (const double sense : {-1., 1.}) {
         const double edge = upper.y_mm + sense * 0.5 * d.array.pitch_mm[1];
         const double far = upper.y_mm - sense * 0.5 * d.array.pitch_mm[1] / g.gap_mm * (w.to - g.rear_principal_mm);

@@ -1,4 +1,4 @@
-// Axes with round numbers, and the frame they stand at. Floor 4.
+// Axes with round numbers, and the frame around a plot. Floor 4.
 #pragma once
 #include "report/svg_drawing.h"
 
@@ -10,7 +10,7 @@ namespace lfdsim {
 /// A range of numbers with ticks at multiples of 1, 2 or 5 times a power of ten.
 class PlotAxis {
   public:
-    /// At most about `ticks` of them. A range without width is widened; low > high: nothing is known, 0 .. 1.
+    /// With at most about `ticks` ticks. A range without width is widened; low > high means an empty range, shown as 0 .. 1.
     PlotAxis(double low, double high, int ticks);
 
     double low() const { return low_; }
@@ -25,7 +25,7 @@ class PlotAxis {
     double low_, high_, step_;
 };
 
-/// The smallest and the greatest of what has been put in; values that are not finite do not count.
+/// The smallest and the largest of the values added; those that are not finite do not count.
 struct PlotRange {
     double low = 1, high = -1;
     bool empty() const { return low > high; }
@@ -46,7 +46,7 @@ struct Frame {
     void draw(Drawing&, const std::string& x_label, const std::string& y_label, bool grid) const;
 };
 
-/// Pixels that the numbers and the label of an axis take beside the frame.
+/// Pixels that the numbers and the label of an axis need beside the frame.
 double room_beside(const PlotAxis&);
 inline constexpr double room_below = 48;
 

@@ -9,7 +9,7 @@
 namespace lfdsim {
 
 std::string escaped(std::string_view text) {
-    // What JSON's writer cannot read as UTF-8 it replaces.
+    // The JSON writer replaces bytes that are not valid UTF-8.
     const std::string quoted = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
     const std::string valid = Json::parse(quoted).get<std::string>();
     std::string safe;
@@ -55,7 +55,7 @@ std::vector<std::string> wrapped(std::string_view text, double size, double widt
     return lines;
 }
 
-// From the right, each as low as it ends before the labels and the lines that are there already.
+// From the right, each in the lowest row where it ends to the left of the labels and lines already placed.
 std::vector<LabelPlace> place_labels(std::span<const double> lines, std::span<const std::string> labels, double size,
                                      double width) {
     std::vector<LabelPlace> places(lines.size());

@@ -11,22 +11,22 @@ namespace lfdsim {
 /// Text for XML and HTML: special letters escaped, valid UTF-8, no control characters.
 std::string escaped(std::string_view);
 
-/// Pixels to two decimals, without idle zeros. 0 for what is not finite.
+/// Pixels to two decimals, without trailing zeros. 0 for values that are not finite.
 std::string px(double);
 
-/// About how wide a text comes out, in pixels; fonts differ.
+/// Approximate width of a text, in pixels; fonts differ.
 double text_width(std::string_view, double size);
 
 /// The text in lines of about `width` pixels at most, as far as its words allow.
 std::vector<std::string> wrapped(std::string_view text, double size, double width);
 
-/// Labels above upright lines: each begins at its line and stands in a row, 0 the lowest, such that no line that rises to its label
+/// Labels above upright lines: each begins at its line, in a row, 0 the lowest, chosen so that no line that rises to its label
 /// crosses another label.
 struct LabelPlace {
     double x;
     int row;
 };
-/// `lines` rising, in a drawing of this width.
+/// `lines`: their x in ascending order, in a drawing of this width.
 std::vector<LabelPlace> place_labels(std::span<const double> lines, std::span<const std::string> labels, double size, double width);
 
 /// Pixels, y down.
@@ -35,7 +35,7 @@ using Point = std::array<double, 2>;
 /// `style`: further attributes, `stroke="#1f7fc0" stroke-width="2"`. Without one, lines are in the colour of text.
 class Drawing {
   public:
-    /// `title`: what is drawn, for those who do not see it.
+    /// `title`: what is drawn, for screen readers.
     Drawing(double width, double height, std::string_view title);
 
     void line(Point from, Point to, std::string_view style);

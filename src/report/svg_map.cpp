@@ -14,8 +14,8 @@ namespace {
 
 constexpr double map_width = 600, bar_width = 18;
 
-/// Dark blue over green to light yellow, 0 .. 1: lightness rises evenly, so that the map reads in grey and without colour vision.
-/// Oklab (Ottosson, "A perceptual color space for image processing", 2020) to sRGB.
+/// Dark blue through green to light yellow, 0 .. 1: lightness rises evenly, so that the map is readable in grey and without colour
+/// vision. Oklab (Ottosson, "A perceptual color space for image processing", 2020) to sRGB.
 std::array<std::uint8_t, 3> colour(double t) {
     const double light = 0.28 + 0.67 * t, turn = (285 - 180 * t) * degree, chroma = 0.09 + 0.06 * t * (1.6 - t);
     const double a = chroma * std::cos(turn), b = chroma * std::sin(turn);
@@ -62,7 +62,7 @@ std::string picture(const std::string& png, Point corner, double wide, double hi
         px(corner[0]), px(corner[1]), px(wide), px(high), base64(png));
 }
 
-/// What stands behind the last comma of a label.
+/// The part of a label after its last comma.
 std::string unit(const std::string& label) {
     const std::size_t comma = label.rfind(", ");
     return comma == label.npos ? "" : label.substr(comma + 2);
@@ -73,7 +73,7 @@ std::string unit(const std::string& label) {
 std::string svg(const ColourMap& map) {
     if (map.columns < 1 || map.rows < 1 || map.values.size() != std::size_t(map.columns) * std::size_t(map.rows))
         throw std::invalid_argument("a map's values are not rows x columns");
-    if (!(map.x0 <= map.x1 && map.y0 <= map.y1 && map.low <= map.high)) throw std::invalid_argument("a map's range falls");
+    if (!(map.x0 <= map.x1 && map.y0 <= map.y1 && map.low <= map.high)) throw std::invalid_argument("a map's range is reversed");
     const PlotAxis x(map.x0, map.x1, 8), y(map.y0, map.y1, 6), scale(map.low, map.high, 6);
     const double left = room_beside(y) + 4, right = bar_width + 24 + room_beside(scale);
     double wide = map_width - left - right, high = 320;

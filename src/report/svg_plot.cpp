@@ -9,11 +9,11 @@
 namespace lfdsim {
 namespace {
 
-// Narrow, so that text of 12 pixels is read where a plot is shown 480 pixels wide.
+// Narrow, so that text of 12 pixels is readable when a plot is shown 480 pixels wide.
 constexpr double plot_width = 600, row_height = 20, mark_row = 15;
 
-// Colours that colour-blind people tell apart, of middling lightness, so that they show on white and on black; with other dashes
-// for each that follow, and for the same colour again.
+// Colours that colour-blind people can distinguish, of medium lightness, so that they are visible on white and on black; the dashes
+// differ from one curve to the next, and when a colour is used again.
 constexpr const char* colours[] = {"#1f7fc0", "#d55e00", "#009e73", "#b0508a", "#b8860b", "#4a90d9"};
 constexpr const char* dashes[] = {"", " stroke-dasharray=\"8 4\"", " stroke-dasharray=\"2 3\"", " stroke-dasharray=\"9 3 2 3\""};
 constexpr const char* mark_style = "stroke=\"currentColor\" stroke-opacity=\"0.6\" stroke-dasharray=\"5 4\"";
@@ -41,14 +41,14 @@ struct Ranges {
 Ranges ranges(const Plot& plot) {
     Ranges r;
     for (const Series& s : plot.series) {
-        if (s.x.size() != s.y.size()) throw std::invalid_argument("a series has not as many x as y");
+        if (s.x.size() != s.y.size()) throw std::invalid_argument("a series has different numbers of x and y");
         for (std::size_t i = 0; i < s.x.size(); ++i) {
             if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) continue;
             r.x.add(s.x[i]);
             r.y.add(s.y[i]);
         }
     }
-    // Thresholds that lie near enough belong to the picture.
+    // Thresholds that are close enough are included in the range.
     const double span = r.y.high - r.y.low, low = r.y.low - span, high = r.y.high + span;
     for (const PlotMark& m : plot.marks)
         if (!m.vertical && (r.y.empty() || span == 0 || (m.at >= low && m.at <= high))) r.y.add(m.at);
@@ -95,7 +95,7 @@ Legend legend_of(const Plot& plot, const PlotAxis& x, const PlotAxis& y) {
     return legend;
 }
 
-/// The upright marks within the axis, and where their labels stand above the frame.
+/// The upright marks within the axis, and the places of their labels above the frame.
 struct MarkLabels {
     std::vector<const PlotMark*> marks;
     std::vector<LabelPlace> places;

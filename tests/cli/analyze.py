@@ -55,7 +55,7 @@ report = (program.folder / "whole/report.html").read_text()
 page = Page(report)
 checks.that(not page.open and not page.wrong, f"report: tags not closed in order: {page.open} {page.wrong}")
 checks.that("This report is incomplete" not in report, "a complete report says that it is not")
-for words in ["<h1>tiny</h1>", "Theory beside measurement", "Field of view", "Depth of field", "analyze fov,dof tiny", "pitch_mm"]:
+for words in ["<h1>tiny</h1>", "Theory and measurement", "Field of view", "Depth of field", "analyze fov,dof tiny", "pitch_mm"]:
     checks.that(words in report, f"report: no {words!r}")
 
 # --resume leaves what is finished, whatever the order of settings, and measures again what was made with others.
