@@ -1,9 +1,9 @@
-// How much of the time for elemental images and reference photographs is Embree's? The rest is what this program adds to it:
-// setting up rays, shading, writing pixels. And what do elemental images at many depths cost over those at one?
+// Embree's share of the time for elemental images and reference photographs; the rest is this program's: setting up rays, shading,
+// writing pixels. Also the cost of elemental images at many depths compared with one.
 //
 // Usage: lfdsim-embree-share DISPLAY.toml MODEL [runs = 5]
 //
-// Prints JSON, medians: the shares are of one thread, the depth sweeps (three at most) run on all.
+// Prints JSON, medians: the shares are measured on one thread, the depth sweeps (three at most) on all.
 #include "content/content.h"
 #include "files/display_file.h"
 
@@ -26,7 +26,7 @@ std::uint64_t ticks_inside = 0, calls = 0;
 
 }  // namespace
 
-/// Stands before Embree's own function, to which it hands every packet: just these rays, and nothing else, are timed.
+/// Replaces Embree's own function, to which it passes every packet: only these calls are timed.
 extern "C" void rtcIntersect16(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRayHit16* rays) {
     const std::uint64_t start = __rdtsc();
     embree(valid, scene, context, rays);
@@ -47,7 +47,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// What reading the counter twice adds to a call.
+/// The time that reading the counter twice adds to a call.
 double ticks_of_reading() {
     std::vector<double> between;
     for (int i = 0; i < 1001; ++i) {
@@ -72,8 +72,7 @@ void share(const char* name, int runs, Make make) {
                 median(rates), static_cast<unsigned long long>(calls));
 }
 
-/// On all threads: the model is read and its scene made ready once, then its elemental images are made at depths a millimetre
-/// apart.
+/// On all threads: reads the model and prepares its scene once, then makes its elemental images at depths a millimetre apart.
 void sweep(const Display& display, const Geometry& geometry, const char* model, int runs, Job& job) {
     constexpr int depths = 31;
     std::vector<double> ready, one, all;

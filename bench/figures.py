@@ -56,7 +56,7 @@ def panel_of(display, name, *words):
 
 
 def against_yardstick(panel):
-    """The renderer and the flat kernel, turn by turn, on all threads and on one."""
+    """The renderer and the flat kernel in turn, on all threads and on one."""
     if not shutil.which("clang++-14"):
         say("| the flat kernel | SKIPPED: no clang++-14 to build it with | |")
         return
@@ -78,7 +78,7 @@ def against_yardstick(panel):
 
 
 def duties(panel):
-    """What each duty costs: its rate over the plain case's."""
+    """The cost of each option: its rate divided by that of the plain case."""
     asphere = os.path.join(ROOT, "displays/desktop-asphere.toml")
     cases = {
         "plain": [], "no Fresnel weights": ["render.fresnel=none"], "exact Fresnel weights": ["render.fresnel=exact"],
@@ -159,13 +159,13 @@ def flatness(panel):
 
 
 def bench(*words):
-    """What `lfdsim bench` says of the groups."""
+    """The results of `lfdsim bench` by group."""
     made = lfdsim("bench", *words, "--runs", options.runs, *(["--quick"] if options.quick else []))
     return {group: rows for group, rows in made.items() if isinstance(rows, list)}
 
 
 def parts_of_the_program():
-    """The paper's case as its user meets it; lenses, kernels, threads; finished pictures."""
+    """The 2019 paper's case from start to file; lenses, kernels, threads; finished pictures."""
     groups = bench("paper", "lenses", "kernels", "threads", "pictures")
     paper = {row["name"]: row for row in groups["paper"]}
     whole = "3840 x 2160 x " + ("10" if options.quick else "100")
@@ -181,7 +181,7 @@ def parts_of_the_program():
 
 
 def estimators():
-    """Time to an error, on all shipped displays. Where rays go their own way through glass a reference takes long: small crops there."""
+    """Time to an error, on all shipped displays. In clear and plate a reference takes long: small crops there."""
     if options.quick:
         return tell_estimators(bench("estimators"))
     files = sorted(glob.glob(os.path.join(ROOT, "displays/*.toml")))
@@ -208,7 +208,7 @@ def tell_estimators(found, known=()):
             if name == "point, random":
                 continue
             if ratio is None:
-                say(f"| {where}: {name} does not come to the RMSE of the 100 | | |")
+                say(f"| {where}: {name} does not reach the RMSE of the 100 | | |")
             else:
                 figure(f"{where}: time to that RMSE by \"{name}\", over that of the 100", ratio, "0.05" if name == "filtered" else "")
         finest = points["filtered", max(point["samples"] for point in row["points"] if point["estimator"] == "filtered")]
@@ -217,7 +217,7 @@ def tell_estimators(found, known=()):
 
 
 def machine():
-    """What a reader has to know of the figures."""
+    """The conditions of the measurement."""
     found = lfdsim("bench", "pictures", "--quick")
     build = found["build"]
     return (f"{found['machine']['processor']}, {found['machine']['processors']} processors, {found['machine']['memory_gb']:.0f} GB of memory; "
@@ -227,7 +227,7 @@ def machine():
 
 
 def write_section(text):
-    """In place of what stands under the heading."""
+    """Replaces the text under the heading."""
     path = os.path.join(ROOT, "docs/performance.md")
     with open(path) as file:
         before, _, rest = file.read().partition("## Measured\n")
@@ -245,7 +245,7 @@ parser.add_argument("--check", action="store_true")
 parser.add_argument("--write", action="store_true")
 options = parser.parse_args()
 if options.write and (options.only or options.quick):
-    parser.error("--write takes all figures, in full")
+    parser.error("--write needs all figures, without --quick and --only")
 if options.quick:
     options.runs = 1
 DISPLAY = os.path.join(ROOT, "bench/yardstick.toml")
@@ -261,5 +261,5 @@ with tempfile.TemporaryDirectory() as folder:
 if options.write:
     write_section("\n".join(lines))
 for line in failures:
-    print("misses its loose bound: " + line)
+    print("outside its loose bound: " + line)
 sys.exit(1 if options.check and failures else 0)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What lenses of triangles cost a picture: the table, the plot and the picture of docs/meshed.md, measured now on this machine.
+"""The error that lenses of triangles cause in a picture: the table, the plot and the picture of docs/meshed.md, measured now on this machine.
 
 Usage: bench/lens_mesh.py [--program build/release/lfdsim] [--display displays/desktop-asphere.toml] [--quick] [--write] [-o FOLDER]
 --quick: small pictures, few triangles. --write: puts the table in place of the section "Measured" of docs/meshed.md, and plot and
@@ -31,7 +31,7 @@ SAMPLES = 100
 
 
 def lfdsim(*words):
-    """Runs the program; its JSON, with the processors' seconds for the whole process: other work on the machine adds little to them."""
+    """Runs the program; its JSON, with the processors' seconds for the whole process, which other work on the machine changes little."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run([options.program, *map(str, words), "--json", "--progress", "none"], capture_output=True, text=True)
     if done.returncode != 0:
@@ -41,7 +41,7 @@ def lfdsim(*words):
 
 
 def view(name, *words):
-    """A picture by points, in linear light, and what the program says of it."""
+    """A picture by point samples, in linear light, and the program's report."""
     path = folder / f"{name}.npy"
     made = lfdsim("render", options.display, "--estimator", "point", "-o", path, *words)
     return np.load(path).astype(np.float64), made
@@ -57,7 +57,7 @@ def camera(angle):
 
 
 def near_share(truth, found):
-    """Share of the rays that reach the panel either way that meet the same panel pixel or one beside it both ways."""
+    """Of the rays that reach the panel in either picture, the share that end on the same panel pixel in both, or on adjacent ones."""
     lit = (truth[:, :, 2] > 0) | (found[:, :, 2] > 0)
     same = (np.abs(truth - found)[lit] <= 1).all(axis=1) & (truth[lit][:, 2] == found[lit][:, 2])
     return same.mean()
@@ -76,7 +76,7 @@ def measure():
     truths = {angle: view("truth", *rays, "--camera-mm", camera(angle))[0] for angle in (0, 15)}
     picture, made = view("picture", *shown)
     result = [{"triangles": None, "normals": "true surfaces", "seconds": made["processor_seconds"]}]
-    # How far 100 other points are off, for the scale
+    # The error of 100 other points, for scale
     other = view("other", *shown, "--seed", 1)[0]
     noise = np.sqrt(np.mean((picture - other) ** 2) / 2)
     for triangles, normals in MESHES[:2] + MESHES[5:7] if options.quick else MESHES:
@@ -118,7 +118,7 @@ def orders(result):
 
 
 def plot(result):
-    """Two frames, logarithmic both ways: RMSE, and seconds, against triangles."""
+    """Two plots, both axes logarithmic: RMSE, and seconds, against triangles."""
     wide, high, left, top = 300, 220, 64, 30
     rows = [row for row in result if row["triangles"]]
     ends = [np.floor(np.log10(min(row["triangles"] for row in rows))), np.ceil(np.log10(max(row["triangles"] for row in rows)))]

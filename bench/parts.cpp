@@ -13,7 +13,7 @@
 namespace lfdsim {
 namespace {
 
-// One tile of the renderer on one thread: the start of a render is in it, some per cent of the time.
+// One tile of the renderer on one thread, including the start of a render, some per cent of the time.
 void tile(benchmark::State& state, const std::string& kernel, void (*change)(Display&)) {
     Display display = cli::bench_display();
     change(display);
@@ -29,11 +29,11 @@ void tile(benchmark::State& state, const std::string& kernel, void (*change)(Dis
     state.SetItemsProcessed(samples);
 }
 
-using F = optics::Lane<4>;  // of the processor that all machines have, as this file is compiled
+using F = optics::Lane<4>;  // this file is compiled for the baseline instruction set
 
 template <class Function>
 void values(benchmark::State& state, float low, float high, Function function) {
-    std::vector<float> numbers(1024);  // they stay in the first cache
+    std::vector<float> numbers(1024);  // fits into the first-level cache
     for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = low + (high - low) * float(i) / float(numbers.size() - 1);
     for (auto _ : state)
         for (std::size_t i = 0; i < numbers.size(); i += 4) {

@@ -1,5 +1,5 @@
-// Files, codes, texels and measures of pictures under Google Benchmark. items/s: pixels a second, by the clock on the wall, since
-// some use all processors.
+// Files, codes, texels and measures of pictures under Google Benchmark. items/s: pixels a second of wall time, since some use
+// all processors.
 #include <benchmark/benchmark.h>
 
 #include "cli/bench_cases.h"

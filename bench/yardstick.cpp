@@ -1,6 +1,6 @@
-// What can this machine do? One fixed case of the renderer's work, written flat: camera, box diffuser, spherical cap, flat back,
-// Lambertian panel, Schlick weights, one texel read. It takes the short cuts a simulator may not take: it looks only into the cell
-// under the ray, knows one lens, checks nothing, lets the compiler reorder and contract (-ffast-math), reads packed texels.
+// A yardstick for this machine: one fixed case of rendering, written flat: camera, box diffuser, spherical cap, flat back,
+// Lambertian panel, Schlick weights, one texel read. It takes shortcuts that a simulator cannot take: it tests only the cell under
+// the ray, has only one kind of lens, checks nothing, lets the compiler reorder and contract (-ffast-math), reads packed texels.
 // The display is bench/yardstick.toml. Usage: yardstick [samples = 100] [threads = all] [width = 3840] [height = 2160]
 // Prints JSON with msamples_per_s.
 #include <atomic>
@@ -144,7 +144,7 @@ int main(int argc, char** argv) {
     }
     for (auto& thread : pool) thread.join();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    double mean = 0;  // keeps the compiler from leaving the work out
+    double mean = 0;  // keeps the compiler from removing the work
     for (const float f : image) mean += f;
     std::printf("{\"threads\": %d, \"seconds\": %.4f, \"msamples_per_s\": %.1f, \"mean\": %.4f}\n", threads, seconds,
                 double(width) * height * samples / seconds / 1e6, mean / double(image.size()));

@@ -22,7 +22,7 @@ COLOURS = ((0.9, 0.75, 0.1), (0.1, 0.35, 0.9), (0.1, 0.7, 0.2), (0.9, 0.05, 0.05
 
 
 def kinds(truth, differs, shown):
-    """A number of KINDS for each pixel that differs, -1 for the others. A pixel has the first reason that holds."""
+    """For each pixel that differs the index in KINDS of the first reason that applies, -1 for the others."""
     kind = np.full(differs.shape, -1)
     exact_total = truth.status == TOTAL
     dark = ~(shown.max(axis=2) > 0)
@@ -60,7 +60,7 @@ def compare(program, folder, name, surround, degrees, size):
 
 
 def picture(ours, kind, away):
-    """lfdsim's picture, pale and paler away from edges, and the pixels that differ in the colours of their kinds."""
+    """lfdsim's picture, pale, and paler away from edges, with the pixels that differ in the colours of their kinds."""
     shown = (0.45 + 0.3 * away[:, :, None] + 0.25 * np.clip(ours.mean(axis=2, keepdims=True), 0, 1)) * np.ones(3)
     for number, colour in enumerate(COLOURS):
         shown[kind == number] = colour
@@ -94,9 +94,9 @@ def text(found, image):
     rows = found["rows"]
     odd = sum(row["odd_where_exact_is_on_panel"] for row in rows)
     lines = [TITLE, "",
-             f"{found['program']}, one ray through each pixel's centre, {rows[0]['size'][0]} x {rows[0]['size'][1]} pixels, no diffuser; with Fresnel's exact weights where the surround is opaque, without elsewhere. "
+             f"{found['program']}, one ray through each pixel's centre, {rows[0]['size'][0]} x {rows[0]['size'][1]} pixels, no diffuser; exact Fresnel weights where the surround is opaque, none elsewhere. "
              "Agree: share of the pixels away from lens edges whose colours are within 1/255 in linear light. "
-             "In brackets, what that share would be if lfdsim's gap were longer by a thousandth: the comparison would see it. The last four columns count "
+             "In brackets, the share with lfdsim's gap made longer by a thousandth, to show that the comparison would detect it. The last four columns count "
              "all pixels that differ, each under the first reason that holds.", "",
              "| display | surround | from | away from edges | agree | PSNR there, dB | " + " | ".join(KINDS) + " |", "|---" * (6 + len(KINDS)) + "|"]
     for row in rows:
@@ -105,10 +105,10 @@ def text(found, image):
     lines += ["",
               "*Away from lens edges*: the exact rays through the pixel and its eight neighbours meet the same lenses in the same order and end alike (on the "
               "panel, beside it, absorbed). The exact rays are those of the tracer of `tests/oracle/`. *Panel pixel border*: the exact ray meets the panel "
-              "within 1/1000 panel pixel of a border, where single precision, or a hit that POV-Ray finds to 10⁻⁶, may take either side. *Total internal "
+              "within 1/1000 panel pixel of a border, where single precision, or a hit that POV-Ray finds to 10⁻⁶, may fall on either side. *Total internal "
               "reflection*: the exact ray is totally reflected somewhere, or POV-Ray's picture is dark there. *Other*: none of these.",
-              f"In plate and clear {odd} of the differences away from edges have an exact ray on the panel: lfdsim shows its panel pixel in "
-              f"{sum(row['of_these_lfdsim_exact'] for row in rows)}, POV-Ray in {sum(row['of_these_pov_exact'] for row in rows)}.", "",
+              f"In plate and clear, the exact ray ends on the panel for {odd} of the pixels that differ away from edges: lfdsim shows that panel pixel in "
+              f"{sum(row['of_these_lfdsim_exact'] for row in rows)}, POV-Ray in {sum(row['of_these_pov_exact'] for row in rows)} of them.", "",
               f"![Pixels that differ]({image})", "",
               f"Middle of {rows[0]['display']} from {max(row['degrees'] for row in rows)}°: opaque, plate, "
               "clear; darker is near lens edges. Yellow: next to a lens edge. Blue: panel pixel border. Green: total internal reflection. Red: other."]

@@ -1,4 +1,4 @@
-"""Lenses of triangles: how far the rays of Cycles and Mitsuba land from those through the true surfaces, against the number of triangles.
+"""Lenses of triangles: how far rays in Cycles and Mitsuba end from those through the true surfaces, against the number of triangles.
 
 The panel shows addresses: a difference is counted in whole panel pixels. Its mean over many rays is that of the true shift, as a ray shifted by a tenth of
 a pixel crosses a border in a tenth of all cases.
@@ -9,11 +9,11 @@ import programs
 from programs import NAMES, failed_row, going_on, say
 from scenes import Exported, Scene, Truth, address, address_panel, described
 
-FAR = 40  # panel pixels, half an elemental image: such rays went another way through the lens, and are counted apart
+FAR = 40  # panel pixels, half an elemental image: such rays took another path through the lens, and are counted separately
 
 
 def shift(found, exact, where):
-    """Mean shift along rows and columns in panel pixels, share within one pixel, share that went astray."""
+    """Mean shift along rows and columns in panel pixels, share within one pixel, share that ended far off."""
     both = where & (found.max(axis=2) > 0) & (exact.max(axis=2) > 0)
     off = np.abs(address(found) - address(exact))
     astray = off.max(axis=0) > FAR
@@ -24,7 +24,7 @@ def shift(found, exact, where):
 
 
 def order(rows):
-    """q of the law N^-q between the fewest and the most triangles."""
+    """The exponent q of the law N^-q between the fewest and the most triangles."""
     first, last = rows[0], rows[-1]
     if first is last:
         return None
@@ -104,6 +104,6 @@ def text(found, image, failed):
               "the camera. Where it is as large as the shift from the true surfaces, more triangles do not help, and the order ends there.", "",
               f"![Where rays land]({image})", "",
               f"{NAMES[found['pictured']]}, {found['rows'][min(1, found['counts'] - 1)]['triangles']} triangles a lens, flat (left) and smooth. Blue: one panel pixel off, "
-              "as rays near a border of panel pixels are. Red: more than one, where the normals of flat triangles are far off. Green: lit in one picture alone (rims are "
+              "as rays near a border of panel pixels are. Red: more than one, where the normals of flat triangles are far off. Green: lit in only one of the pictures (rims are "
               "polygons; total internal reflection). Yellow: any of these next to a lens edge. Darker is near lens edges."]
     return lines

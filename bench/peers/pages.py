@@ -1,4 +1,4 @@
-"""What was found, in the documents: between markers, so that nothing there is typed by hand."""
+"""Puts the results into the documents, between markers, so that nothing there is typed by hand."""
 import textwrap
 
 from programs import ROOT
@@ -7,7 +7,7 @@ BEGIN, END = "<!-- peers:begin -->", "<!-- peers:end -->"
 
 
 def wrapped(line):
-    """Paragraphs as wide as those around them; tables, headings and pictures as they are."""
+    """Wraps paragraphs to the documents' width; tables, headings and pictures stay as they are."""
     return line if line.startswith(("|", "#", "!")) else textwrap.fill(line, 132, break_long_words=False, break_on_hyphens=False)
 
 

@@ -1,4 +1,4 @@
-"""Pictures of linear light as arrays (rows, columns, 3): what lfdsim, POV-Ray and Blender write, and PNG for people."""
+"""Pictures of linear light as arrays (rows, columns, 3): reads those of lfdsim, POV-Ray and Blender, writes PNG for viewing."""
 import struct
 import zlib
 
@@ -31,7 +31,7 @@ def read_exr(path):
     x0, y0, x1, y1 = struct.unpack("<4i", head["dataWindow"])
     columns, rows, compression = x1 - x0 + 1, y1 - y0 + 1, head["compression"][0]
     if compression not in (0, 2, 3):
-        raise RuntimeError(f"{path}: is compressed in a way that is not read here")
+        raise RuntimeError(f"{path}: has a compression that cannot be read here")
     block, channels, rest = {0: 1, 2: 1, 3: 16}[compression], [], head["channels"]
     while rest[0]:
         name, rest = rest.split(b"\0", 1)

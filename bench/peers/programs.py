@@ -1,4 +1,4 @@
-"""The programs that are compared: which are there, how those that are missing are got, how they are run and timed."""
+"""The programs that are compared: which are installed, how missing ones are installed, how they are run and timed."""
 import contextlib
 import functools
 import glob
@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 VENV = ROOT / "build/peers/venv"  # Mitsuba's own
 NAMES = {"pov": "POV-Ray", "cycles": "Cycles", "mitsuba": "Mitsuba 3"}
 begun = time.monotonic()
-failed = {}  # renderers that failed on the way, and how; they are left out from then on
+failed = {}  # renderers that failed, and how; they are left out from then on
 
 
 def say(text):
@@ -24,7 +24,7 @@ def say(text):
 
 
 class Ran:
-    """What a command said, and how long it and its children took."""
+    """A command's output, and how long it and its children took."""
 
     def __init__(self, command, folder):
         before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
@@ -62,7 +62,7 @@ def run_peer(command, folder, picture):
 
 @contextlib.contextmanager
 def going_on(peer):
-    """What a renderer does within may fail: that is noted, and the others go on. A failure of lfdsim itself ends the run."""
+    """A renderer may fail within this: the failure is recorded, and the others go on. A failure of lfdsim itself ends the run."""
     try:
         yield
     except PeerFailed as error:
@@ -71,7 +71,7 @@ def going_on(peer):
 
 
 def failed_row(peer, why, columns):
-    """Its line of a table."""
+    """The table row of a renderer that failed."""
     return f"| {NAMES[peer]} | failed: {why} " + "| " * (columns - 2) + "|"
 
 
@@ -97,7 +97,7 @@ def llvms():
     return ["", *(newer[number] for number in sorted(newer, reverse=True))]
 
 
-# A picture, since an LLVM that does not know the processor fails only in the code of a whole renderer.
+# Renders a picture, since an LLVM that does not support the processor fails only in the code of a whole renderer.
 PROBE = """import numpy, mitsuba as m
 m.set_variant('llvm_ad_rgb')
 scene = m.load_dict({'type': 'scene', 'integrator': {'type': 'path'}, 'emitter': {'type': 'constant'}, 'shape': {'type': 'sphere', 'bsdf': {'type': 'dielectric'}},
@@ -116,7 +116,7 @@ def working_mitsuba():
             if works(python, "-c", PROBE, env={"DRJIT_LIBLLVM_PATH": library} if library else {}):
                 if library:
                     os.environ["DRJIT_LIBLLVM_PATH"] = library
-                    say(f"Mitsuba takes {library}")
+                    say(f"Mitsuba uses {library}")
                 return python
             say(f"Mitsuba of {python} makes no picture with {library or 'the LLVM that it chooses'}")
     return None
@@ -138,7 +138,7 @@ def as_root(*command):
 
 
 def install(peer):
-    """Says in words why it could not, and goes on."""
+    """Installs a renderer; if that fails, prints why and goes on."""
     if peer == "mitsuba":
         say(f"Mitsuba 3 is missing: into {VENV.relative_to(ROOT)} by pip")
         made = any(works(python, "-m", "venv", "--clear", str(VENV)) for python in (sys.executable, "python3"))
@@ -156,7 +156,7 @@ def install(peer):
 
 
 def find(peers, may_install):
-    """Those of the peers that can run."""
+    """The peers that can run."""
     found = []
     for peer in peers:
         if not there(peer) and may_install:
@@ -164,7 +164,7 @@ def find(peers, may_install):
         if there(peer):
             found.append(peer)
         else:
-            say(f"{NAMES[peer]} is not here: left out")
+            say(f"{NAMES[peer]} is not installed: left out")
     return found
 
 

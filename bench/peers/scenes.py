@@ -1,4 +1,4 @@
-"""A display as all programs see it: exported, rendered by its peer and by lfdsim."""
+"""A display for all programs: exported, rendered by the peer and by lfdsim."""
 import json
 import math
 import pathlib
@@ -25,7 +25,7 @@ READ = "import sys, numpy, mitsuba as m; m.set_variant('scalar_rgb'); numpy.save
 
 
 def described(name, size, degrees=0.0, diffuser=False, **over):
-    """A ready display, seen from an angle; over: its other keys."""
+    """A display of displays/, seen from an angle; over: further keys."""
     a = math.radians(degrees)
     description = tomllib.loads((ROOT / f"displays/{name}.toml").read_text())
     for surface in description["lens"].get("surface", []):
@@ -92,7 +92,7 @@ def address(picture):
 
 
 class Truth:
-    """Where each pixel's ray goes by the tracer in double precision of tests/oracle, which shares no line with lfdsim."""
+    """The path of each pixel's ray by the double-precision tracer of tests/oracle, which shares no code with lfdsim."""
 
     def __init__(self, description):
         columns, rows = description["camera"]["resolution"]
@@ -103,7 +103,7 @@ class Truth:
         self.away = self._away()
 
     def _away(self):
-        """Away from lens edges: all nine rays of a pixel and those around it meet the same lenses in the same order, and end alike."""
+        """Away from lens edges: the rays of a pixel and its eight neighbours meet the same lenses in the same order, and end alike."""
         key = self.way * np.uint64(8) + self.status.astype(np.uint64)
         wide = np.pad(key, 1)
         rows, columns = key.shape
@@ -115,7 +115,7 @@ class Truth:
         return same
 
     def near_border(self, pixels=1e-3):
-        """Rays that meet the panel so near to a border of its pixels."""
+        """Rays that meet the panel this close to a border of its pixels."""
         return (np.abs(self.x - np.rint(self.x)) < pixels) | (np.abs(self.y - np.rint(self.y)) < pixels)
 
 

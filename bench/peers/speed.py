@@ -18,7 +18,7 @@ PEERS = {"with diffuser": [("cycles", "smooth"), ("cycles", "flat"), ("mitsuba",
 
 
 def scene_of(program, folder, case, size, panel, pixel_filter="box"):
-    """Without a diffuser samples are spread over the pixel: else all would be one ray."""
+    """Without a diffuser samples are spread over the pixel: otherwise all would be the same ray."""
     spread = {} if case == "with diffuser" else {"camera": {"pixel_filter": pixel_filter}}
     over = {"panel": {"encoding": "srgb"}, "render": {"fresnel": "exact"}, **spread}
     description = described(DISPLAY, size, diffuser=case == "with diffuser", **over)
@@ -30,7 +30,7 @@ def noise(run, bias):
 
 
 def samples_for(runs, bias, goal):
-    """Samples until the noise is that small: on the lines through the measured points in logarithmic axes, the outer ones prolonged; and their law N^-q."""
+    """Samples until the noise is that small, interpolated and extrapolated linearly in logarithmic axes; and the law N^-q of the noise."""
     n, e = np.log([run["samples"] for run in runs]), np.log([noise(run, bias) for run in runs])
     slopes = np.minimum(np.diff(e) / np.diff(n), -0.1)
     k = min(int(np.sum(e[1:-1] > np.log(goal))), len(slopes) - 1)
@@ -41,7 +41,7 @@ def line(runs, key):
     """(start, per sample) of seconds = start + N * per sample, from the fewest and the most samples."""
     first, last = runs[0], runs[-1]
     slope = (last[key] - first[key]) / (last["samples"] - first["samples"])
-    if slope <= 0:  # what the machine did besides was more
+    if slope <= 0:  # lost in the machine's other work
         slope = last[key] / last["samples"]
     return max(0.0, first[key] - slope * first["samples"]), slope
 
@@ -61,7 +61,7 @@ def ours(scene, reference, way, options, samples, rounds):
 
 
 def lfdsims(scene, reference, rounds):
-    """Each way with the samples that first come below the error of 100 random ones."""
+    """Each estimator with the fewest samples whose error is below that of 100 random ones."""
     random = ours(scene, reference, "random points", ["--estimator", "point", "--set", 'render.sampling="random"'], 100, rounds)
     goal, rows = random["rmse"], [random]
     for way, options, counts in (("point", ["--estimator", "point"], (8, 16, 24, 32, 48, 64, 100)), ("filtered", ["--estimator", "filtered"], (1, 2, 3, 4, 8, 16, 32, 64))):
@@ -73,7 +73,7 @@ def lfdsims(scene, reference, rounds):
 
 
 def bias_of(scene, exported, options, picture, samples, reference):
-    """What remains of a picture's error without its noise: two pictures of other random numbers have it in common."""
+    """The part of a picture's error that is not noise: two pictures with different random numbers have it in common."""
     other = Exported(scene, exported.peer, *options, "--set", "render.seed=77").render(samples=samples)[0]
     return float(np.sqrt(max(0.0, np.mean((picture - reference) * (other - reference)))))
 
@@ -147,7 +147,7 @@ def seconds(value):
 
 def text(found, load, failed):
     lines = [f"{found['display']} ({found['size'][0]} x {found['size'][1]} pixels, 43 x 24 lenses, 3840 x 2160 panel pixels, exact Fresnel weights), "
-             f"{'; '.join(found['versions'].values())}; lenses of about {found['triangles']} triangles but for POV-Ray. {load}", ""]
+             f"{'; '.join(found['versions'].values())}; lenses of about {found['triangles']} triangles, except for POV-Ray. {load}", ""]
     for case, made in found["cases"].items():
         spread = "samples scattered by the box diffuser" if case == "with diffuser" else "no diffuser, samples spread over the pixel"
         lines += [f"**{case[0].upper()}{case[1:]}{' diffuser' if case == 'without' else ''}**: {spread}; to the RMSE of 100 random samples, {made['goal']:.5f}.", "",
@@ -167,25 +167,25 @@ def text(found, load, failed):
         cycles = next((row for row in made["peers"] if row["program"] == NAMES["cycles"] and case == "with diffuser"), None)
         if cycles:
             at_goal, at_own = cycles["over_filtered_processor"], cycles["over_filtered_at_its_error_processor"]
-            lines += ["", "1000 times the speed of Cycles with the diffuser was expected, by processor seconds. At the RMSE of 100 random samples it is "
-                      f"{at_goal:.0f} times: {'confirmed' if at_goal >= 1000 else 'refuted'}. At the RMSE that filtered has with its fewest samples, {filtered['rmse']:.5f}, "
-                      f"it is {at_own:.0f} times: {'confirmed' if at_own >= 1000 else 'refuted'}. "
-                      "Filtered's time grows more slowly than the picture, so smaller pictures (`--quick`) gain less."]
+            lines += ["", "Expected: 1000 times the speed of Cycles with the diffuser, in processor seconds. At the RMSE of 100 random samples the factor is "
+                      f"{at_goal:.0f}: {'confirmed' if at_goal >= 1000 else 'refuted'}. At the RMSE of filtered with its fewest samples, {filtered['rmse']:.5f}, "
+                      f"it is {at_own:.0f}: {'confirmed' if at_own >= 1000 else 'refuted'}. "
+                      "Filtered's time grows more slowly than the number of pixels, so smaller pictures (`--quick`) gain less."]
         never = [f"{row['program']}, {row['normals']}" for row in made["peers"] if row["samples"] is None]
         if never:
-            lines += ["", f"Counting what the triangles do wrong, too, no number of samples brings {' and '.join(never)} to that RMSE."]
+            lines += ["", f"With the errors of the triangles included, no number of samples brings {' and '.join(never)} to that RMSE."]
         lines.append("")
     measured = [row for made in found["cases"].values() for row in made["peers"]]
     if not measured:
         return lines
     counts = ", ".join(str(run["samples"]) for run in measured[-1]["runs"])
     lines += [f"All errors are RMSE in linear light against {made['reference_samples']} points by lfdsim through the true surfaces (their own error is about "
-              f"{made['reference_error']:.6f}). A peer's pictures of {counts} samples a pixel have two errors: what its triangles, and all else in which it differs, do "
-              "wrong (*that samples do not lower*: two pictures with other random numbers have it in common), and noise. Samples and times are those for the "
-              "noise alone, so that no peer pays for its meshes. "
-              "*RMSE reached*: lfdsim's filtered has with its fewest samples less noise than was asked for, so the next column gives the peer's time to that lower RMSE, "
-              "prolonging how its noise falls. *Start*: what the command takes without samples: launch, scene, tree, panel image; export is not in it. lfdsim's rendering is "
-              "what it reports of itself (wall) and the command less the same command for one pixel (processor).",
-              "Cycles has no box diffuser; its stand-in refracts at a normal by a hash of the place (`lfdsim export cycles`), which is exact in the mean. "
-              "POV-Ray has none at all; its samples over a pixel are a regular grid, and its aspheres are isosurfaces, found step by step."]
+              f"{made['reference_error']:.6f}). A peer's pictures of {counts} samples a pixel have two errors: a systematic one, from its triangles and "
+              "other differences (*RMSE that samples do not lower*: two pictures with different random numbers have it in common), and noise. Samples and times "
+              "are those for the noise alone, so that no peer is charged for its meshes. "
+              "*RMSE reached*: filtered with its fewest samples already has less noise than required, so the next column gives the peer's time to that lower RMSE, "
+              "extrapolating how its noise falls. *Start*: the time of the command without samples: launch, scene, tree, panel image; export is not included. lfdsim's "
+              "rendering time is the one it reports (wall), and that of the command minus that of the same command for one pixel (processor).",
+              "Cycles has no box diffuser; its stand-in refracts at a normal derived from a hash of the position (`lfdsim export cycles`), which is exact in the mean. "
+              "POV-Ray has no diffuser at all; its samples over a pixel are a regular grid, and its aspheres are isosurfaces, found step by step."]
     return lines

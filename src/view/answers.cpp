@@ -34,7 +34,7 @@ Json json_of(const std::vector<Problem>& problems) {
     return all;
 }
 
-/// The display as described, without what the page has set; the display itself where that is not valid with this eye.
+/// The display as described, without the page's settings; with them where it is not valid with this eye.
 Display described(const Library& library, Wanted wanted, const Display& display) {
     wanted.set.clear();
     try {
@@ -44,7 +44,7 @@ Display described(const Library& library, Wanted wanted, const Display& display)
     }
 }
 
-// Names of files may be of any bytes, JSON is UTF-8.
+// File names may contain any bytes, JSON is UTF-8.
 Json in_utf8(Json json) {
     try {
         json.dump();
@@ -80,7 +80,7 @@ Json side(const Display& display, const std::string& name) {
               {"box", {f.left, f.top, f.width, f.height}}}}};
 }
 
-/// The file of the model that is shown, or would be if something else were not; or built-in:spheres.
+/// The file of the model that is shown, or would be if nothing else were; or built-in:spheres.
 std::string model_file(const Library& library, const Wanted& wanted, const Display& display) {
     if (wanted.shown.kind == Shown::Kind::model)
         return wanted.shown.name == built_in_spheres ? wanted.shown.name : library.file(wanted.shown.name).string();
@@ -96,12 +96,12 @@ class Cancellable : public Job {
     const std::function<bool()>& cancelled_;
 };
 
-/// The description as it stands, for a file in the folder: its model is named from there where it lies below.
+/// The current description, for a file in the folder: its model is named relative to that folder where it lies below it.
 std::string toml(const Library& library, const Wanted& wanted, const std::filesystem::path& folder) {
     namespace fs = std::filesystem;
     Display display = library.display(wanted);
     const std::string file = model_file(library, wanted, display);
-    if (file == model_of(display) && file == built_in_spheres) return write_display(display);  // said, or shown without a word
+    if (file == model_of(display) && file == built_in_spheres) return write_display(display);  // given, or shown by default
     display.content.model = file;
     if (file != built_in_spheres) {
         const fs::path relative = fs::absolute(file).lexically_normal().lexically_relative(fs::absolute(folder).lexically_normal());
@@ -139,7 +139,7 @@ Json answer_to(const Library& library, Panels& panels, const Wanted& wanted, con
         case Ask::What::exr:
             break;
     }
-    throw InputError("exr", "is no question with an answer: the picture comes as a frame of the lane \"file\"");
+    throw InputError("exr", "has no answer: the picture is sent as a frame of the lane \"file\"");
 }
 
 }  // namespace

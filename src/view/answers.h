@@ -1,4 +1,4 @@
-// What a page shows beside the pictures: figures, controls, drawings, plots, files. Floor 5.
+// The data that a page shows besides pictures: figures, controls, drawings, plots, files. Floor 5.
 #pragma once
 #include "view/library.h"
 #include "view/messages.h"
@@ -15,8 +15,8 @@ using Json = nlohmann::ordered_json;
 /// The message "resolved" or, for a display that is not valid, "problems": docs/view-protocol.md.
 Json resolved(const Library&, const Wanted&);
 
-/// The message "answer". Takes milliseconds but for plots, which may take seconds and stop when `cancelled` says so.
-/// What is wrong with the question is told in the answer's "problems"; never throws InputError.
+/// The message "answer". Takes milliseconds, except for plots, which may take seconds and stop when `cancelled` returns true.
+/// Errors in the question are reported in the answer's "problems"; never throws InputError.
 Json answer(const Library&, Panels&, const Wanted&, const Ask&, const std::function<bool()>& cancelled);
 
 }  // namespace lfdsim::view

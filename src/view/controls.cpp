@@ -39,7 +39,7 @@ Json control_json(const List& list) {
     return json;
 }
 
-/// A diffuser that could be put before a display that has none: it joins the lenses from there.
+/// A diffuser that could be put in front of a display that has none, wide enough to close the gaps between lenses.
 Diffuser new_diffuser(const Display& d, const Geometry& g) {
     const double distance = rounded(g.top_z_mm - g.vertex_plane_mm + 10 * std::max(g.gap_mm, 1.), 2);
     const auto joining = [&](std::size_t axis) {
@@ -49,7 +49,7 @@ Diffuser new_diffuser(const Display& d, const Geometry& g) {
     return {distance, {joining(0), joining(1)}, Profile::box};
 }
 
-/// Of keys that are absent: what holds without them, or else a start.
+/// Values for keys that are absent: what applies without them, or else a starting value.
 double suggested(std::string_view path, const Display& d, const Geometry& g) {
     const std::pair<std::string_view, double> all[] = {
         {"lens.aperture_radius_mm", g.glass_radius_mm},
@@ -100,7 +100,7 @@ class Lister {
         });
     }
 
-    /// Where there is no diffuser, what could be put there is suggested, after the table before.
+    /// Where there is no diffuser, one is suggested, after the preceding table.
     void add_diffuser() {
         Json all = std::exchange(list_, Json::array());
         trial_.diffuser = suggested_diffuser_;
@@ -115,14 +115,14 @@ class Lister {
     template <class Field>
     void add_key(const std::string& path, const KeyInfo& key, Field& field) {
         const std::string table(table_of_path(path));
-        const bool idle = table == last_surface() && (key.name == "distance_mm" || key.name == "index");  // nothing follows
+        const bool idle = table == last_surface() && (key.name == "distance_mm" || key.name == "index");  // no surface follows
         if (idle || std::find(std::begin(left_out), std::end(left_out), path) != std::end(left_out)) return;
         Json control{{"key", path}, {"table", table}, {"label", label(key.name)}, {"unit", unit_of(std::string(key.name))}};
         auto described = value_at(described_, path);
         if (!described && table == table_of<Diffuser>().name) described = value_at(trial_, path);
         const Field* const* same = described ? std::get_if<const Field*>(&*described) : nullptr;
         add(control, path, key.range, field, same ? *same : nullptr);
-        if (!key.absent.empty()) control["absent"] = key.absent;  // such a key may be taken away
+        if (!key.absent.empty()) control["absent"] = key.absent;  // such a key may be removed
         control["doc"] = key.doc;
         list_.push_back(std::move(control));
     }
@@ -132,14 +132,14 @@ class Lister {
         return lens ? fmt::format("lens.surface.{}", lens->surfaces.size() - 1) : "";
     }
 
-    // Most of the time goes here, so not for keys that nothing but their range bounds.
+    // This takes most of the time, so it is skipped for keys that are limited only by their range.
     bool valid(std::string_view path) const {
         const bool free = path.starts_with("render.") || (path.starts_with("content.") && path != "content.viewing_distance_mm") ||
                           path == "panel.encoding" || path == "panel.emission_exponent" || path == "diffuser.profile";
         return free || validate(trial_).empty();
     }
 
-    /// The slider of a number whose value put() changes.
+    /// The slider of a number that put() sets.
     template <class Put>
     Slider slider(const std::string& path, const Range& range, double value, double described, bool whole, Put put) {
         if (std::isinf(value)) value = geometry_.focus_distance_mm;  // the viewing distance: start at the camera's
@@ -177,7 +177,7 @@ class Lister {
         control["form"] = whole ? "integer" : "number";
     }
 
-    // One slider where both pitches are one; radii follow it.
+    // A single slider where both pitches are equal by definition; radii follow it.
     void add(Json& control, const std::string& path, const Range& range, Pitch& field, const Pitch* described) {
         using Both = std::array<double, 2>;
         if (differs_by_axis(trial_.array))
@@ -210,7 +210,7 @@ class Lister {
         field.reset();
     }
 
-    // Both numbers have one slider's ends: where each may go by itself.
+    // Each of the two numbers has a slider with its own ends, found with the other number fixed.
     template <class Number>
     void add(Json& control, const std::string& path, const Range& range, std::array<Number, 2>& field,
              const std::array<Number, 2>* described) {
@@ -238,7 +238,7 @@ class Lister {
         control["form"] = "list";
     }
 
-    // Words that leave the display valid.
+    // The words with which the display stays valid.
     template <class E>
     requires has_words<E>
     void add(Json& control, const std::string& path, const Range&, E& field, const E*) {
@@ -255,7 +255,7 @@ class Lister {
 
     void add(Json&, const std::string&, const Range&, std::string&, const std::string*) {}  // content.model, which is left out
 
-    /// Radii that are half the pitch at most. They follow a pitch that becomes smaller, or it could not.
+    /// Radii that are limited to half the pitch. They shrink with the pitch, which could otherwise not be reduced.
     template <class Visit>
     static void visit_limited(Display& d, const Visit& visit) {
         if (d.array.aperture == Aperture::circle)

@@ -31,10 +31,10 @@ void Drawing::begin(const Wanted& wanted) {
 
 std::string Drawing::beside_problem() const {
     const bool can = wanted_.beside == Beside::none || eyes_.empty() || !eyes_[0].model.name.empty();
-    return can ? "" : "has nothing to photograph: what is shown was made of no model that is known";
+    return can ? "" : "has nothing to photograph: what is shown was not made from a known model";
 }
 
-// Of all eyes; for the photographs beside them much the same is added, which the pace learns.
+// The cost of all eyes; photographs beside them add a similar cost, which the pace learns.
 double Drawing::coarse_cost(const Seen& eye, double scale) const {
     const Display d = coarse_view(eye.display, eye.geometry, scale);
     return double(eyes_.size()) *
@@ -53,7 +53,7 @@ Drawing::Lit Drawing::true_light(const Seen& eye, Job& job) {
 Drawing::Lit Drawing::quick_light(const Seen& eye, Job& job) {
     if (auto light = panels_.find(eye.key)) return {eye, light};
     if (eye.key.lengths.empty())
-        return true_light(eye, job);  // an image, or a pattern that knows no lenses: no coarse one is like it
+        return true_light(eye, job);  // an image, or a pattern that does not depend on lenses: a coarse one would not resemble it
     if (eye.source.kind == Shown::Kind::model) panels_.scene(eye.source, eye.made_for, eye.made_for_geometry, job);
     const double count = double(eye.display.panel.pixels[0]) * double(eye.display.panel.pixels[1]);
     const auto cost = [&](int k) {

@@ -1,4 +1,4 @@
-// One state's pictures, drawn and encoded. Floor 5. Of one visitor, on one thread.
+// Renders and encodes the pictures of one state. Floor 5. For one visitor, on one thread.
 #pragma once
 #include "view/frame.h"
 #include "view/likeness.h"
@@ -21,21 +21,21 @@ class Drawing {
     /// Frames that belong together: all of one state and quality.
     using Frames = std::vector<Frame>;
 
-    /// Begins with another state. Throws InputError. What is beside two eyes' pictures is of the left one.
+    /// Begins another state. Throws InputError. With two eyes, what is shown beside them (`beside`) is for the left one.
     void begin(const Wanted&);
-    /// What `beside` asks for cannot be: why. Empty: it can.
+    /// Why what `beside` asks for is not possible; empty: it is.
     std::string beside_problem() const;
 
-    /// As large and as true as can be in 22 ms or so; the panel's light is a stand-in, made in about 12 ms, unless the true one is
-    /// there. All three throw InputError and Stopped.
+    /// The best size and quality that take about 22 ms; the panel's light is a stand-in, made in about 12 ms, unless the true one
+    /// is already made. All three throw InputError and Stopped.
     Frames coarse(Job&);
     /// Whether final() would keep the page waiting and fine() shows more than coarse() did.
     bool wants_fine() const;
     /// Full size, one sample, the true panel.
     Frames fine(Job&);
-    /// What lfdsim render gives.
+    /// The same picture as lfdsim render.
     Frames final(Job&);
-    /// The picture at rest as an OpenEXR file; two eyes' pictures are the file's picture and its layer "right".
+    /// The final picture as an OpenEXR file; two eyes' pictures are the file's picture and its layer "right".
     Frame exr(std::int64_t id, Job&);
 
   private:
@@ -59,7 +59,7 @@ class Drawing {
     Pace coarse_pace_{1}, final_pace_{1}, panel_pace_{1};
     int coarse_scale_ = 0, coarse_panel_ = 0;  // the last choices
     PanelKey stand_in_key_;
-    std::shared_ptr<const ShownPanel> stand_in_;  // the last one: while the eye alone moves it serves again
+    std::shared_ptr<const ShownPanel> stand_in_;  // the last one: reused while only the eye moves
     WhiteField quick_white_, white_;
 };
 

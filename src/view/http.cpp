@@ -13,7 +13,7 @@ namespace {
 
 std::string_view view(boost::beast::string_view text) { return {text.data(), text.size()}; }
 
-/// The page with a nonce for each element script and style, whose insides are left alone.
+/// The page with a nonce in each element script and style; their contents are not changed.
 std::string with_nonce(std::string_view page, const std::string& nonce) {
     std::string text;
     while (true) {
@@ -33,7 +33,7 @@ Response page_response(const std::string& page) {
     const std::string nonce = make_token();
     Response r(http::status::ok, 11, with_nonce(page, nonce));
     r.set(http::field::content_type, "text/html; charset=utf-8");
-    // Drawings of the page carry style attributes, which cannot have a nonce.
+    // Drawings in the page have style attributes, which cannot have a nonce.
     r.set("Content-Security-Policy",
           fmt::format("default-src 'none'; script-src 'nonce-{0}'; style-src 'nonce-{0}'; style-src-attr 'unsafe-inline'; "
                       "img-src blob: data:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
@@ -63,19 +63,18 @@ std::optional<Response> respond(const Request& request, const Gate& gate, const 
     const std::string_view host = view(request[http::field::host]), target = view(request.target());
     const std::string_view path = target.substr(0, target.find('?'));
     if (request.count(http::field::host) != 1 || !gate.lets_host(host))
-        return sentence(http::status::forbidden,
-                        "The viewer does not go by the name of that address. Open the address that it printed.");
+        return sentence(http::status::forbidden, "The viewer cannot be reached under this name. Open the address that it printed.");
     if (path != "/" && path != "/socket") return sentence(http::status::not_found, "There is nothing at this address.");
     if (request.method() != http::verb::get) {
-        Response r = sentence(http::status::method_not_allowed, "Only GET is answered here.");
+        Response r = sentence(http::status::method_not_allowed, "Only GET is allowed here.");
         r.set(http::field::allow, "GET");
         return r;
     }
     if (!same_token(token_of(target), token))
-        return sentence(http::status::forbidden, "The address needs the token that the viewer printed with it. Open it whole.");
+        return sentence(http::status::forbidden, "The address needs the token. Open the whole address that the viewer printed.");
     const std::size_t origins = request.count(http::field::origin);
     if (origins > 1 || (origins == 1 && !same_origin(view(request[http::field::origin]), host)))
-        return sentence(http::status::forbidden, "Pages of other sites may not talk to the viewer.");
+        return sentence(http::status::forbidden, "Pages of other sites may not connect to the viewer.");
     if (path == "/") return finished(page_response(page));
     if (!boost::beast::websocket::is_upgrade(request))
         return sentence(http::status::upgrade_required, "Only a WebSocket is served here.");

@@ -1,4 +1,4 @@
-// What the server answers to one HTTP request. Floor 5.
+// The server's answer to one HTTP request. Floor 5.
 #pragma once
 #include "view/access.h"
 
@@ -11,11 +11,11 @@ namespace lfdsim::view {
 using Request = boost::beast::http::request<boost::beast::http::empty_body>;
 using Response = boost::beast::http::response<boost::beast::http::string_body>;
 
-/// A sentence; the connection ends with it.
+/// A response of one sentence, which ends the connection.
 Response sentence(boost::beast::http::status, const std::string& text);
 
-/// Nothing: a WebSocket that is let in. Of the page, elements script and style are
-/// given the nonce that its policy asks for; no attribute of an element can run anything.
+/// The response to a request; nothing for a WebSocket that is accepted. In the page, the elements script and style get the nonce
+/// that its Content-Security-Policy requires; no attribute of an element can run anything.
 std::optional<Response> respond(const Request&, const Gate&, const std::string& token, const std::string& page);
 
 }  // namespace lfdsim::view

@@ -29,11 +29,11 @@ bool is_utf8(const std::string& text) {
     }
 }
 
-/// The name as a path, of plain parts alone. Throws InputError.
+/// The name as a path of plain parts only. Throws InputError.
 fs::path relative(const std::string& name) {
     const fs::path path(name);
     if (name.empty() || name.size() > longest_name || name.find('\0') != name.npos || !is_utf8(name))
-        throw InputError("name", "is no file's name");
+        throw InputError("name", "is not a file name");
     if (path.is_absolute()) throw InputError(quoted(name), "is not in the folder that is served; names start there");
     for (const fs::path& part : path)
         if (part.empty() || part.native().starts_with('.'))
@@ -80,8 +80,8 @@ Vec3d right_of(const Camera& camera) { return normalised(cross(minus(camera.targ
 
 std::string position(const Vec3d& eye) { return fmt::format("camera.position_mm=[{}]", fmt::join(eye, ", ")); }
 
-// What is told of "--set array.gap_mm=99" as "array.gap_mm: is ..." or "diffuser.distance_mm: is missing" is told of that key. Of a
-// list's element ("array.offset_mm[0]") it is told of the list.
+// A problem reported for "--set array.gap_mm=99" as "array.gap_mm: is ..." or "diffuser.distance_mm: is missing" is assigned to
+// that key; one of a list's element ("array.offset_mm[0]") to the list.
 Problem by_key(Problem problem) {
     constexpr std::string_view option = "--set ";
     if (!problem.where.starts_with(option)) return problem;
@@ -101,7 +101,7 @@ Problem by_key(Problem problem) {
 
 Library::Library(Start start, fs::path folder) : start_(std::move(start)), folder_(std::move(folder)) {
     std::error_code error;
-    if (!fs::is_directory(folder_, error)) throw InputError(folder_.string(), "is no folder; give the one to serve files from");
+    if (!fs::is_directory(folder_, error)) throw InputError(folder_.string(), "is not a folder; give the one to serve files from");
 }
 
 std::string Library::model(const Display& display) const { return start_.model.empty() ? model_of(display) : start_.model; }
@@ -136,7 +136,7 @@ Library::Files Library::files() const {
         const fs::path& path = entry->path();
         const bool hidden = path.filename().native().starts_with('.');
         if (hidden || entry.depth() >= deepest) entry.disable_recursion_pending();
-        std::error_code broken;  // a link that leads nowhere is no reason to stop
+        std::error_code broken;  // a broken link is skipped
         if (hidden || !fs::is_regular_file(path, broken) || !inside(fs::canonical(path, broken), real_folder)) continue;
         std::vector<std::string>* kind =
             ends_in(path, {".toml"})                                   ? &found.displays

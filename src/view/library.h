@@ -9,7 +9,7 @@
 
 namespace lfdsim::view {
 
-/// What the program was started with; paths as the command line has them, and not bound to the folder.
+/// What the program was started with; paths as on the command line, not restricted to the folder.
 struct Start {
     std::filesystem::path display;
     std::vector<std::string> set;  // --set of the command line, before those of a page
@@ -20,17 +20,17 @@ struct Start {
 
 class Library {
   public:
-    /// Throws InputError if the folder is none.
+    /// Throws InputError if it is not a folder.
     Library(Start, std::filesystem::path folder);
 
     const Start& start() const { return start_; }
-    /// The model that is shown of a description unless a page names another: --model, or the description's.
+    /// The model that is shown with a description unless a page names another: --model, or the description's.
     std::string model(const Display&) const;
 
-    /// The file that a page names, inside the folder. Throws InputError for what is outside (.., absolute, links that lead out), is
+    /// The file that a page names, inside the folder. Throws InputError if it is outside (.., absolute, links that lead out), is
     /// not a plain file, or does not exist.
     std::filesystem::path file(const std::string& name) const;
-    /// The same for a file to be made. Throws InputError for other endings than .toml.
+    /// The same for a file to be made. Throws InputError for endings other than .toml.
     std::filesystem::path new_file(const std::string& name) const;
 
     /// Names of files that a page may name, '/' between folders, sorted: at most 1000, six folders deep, hidden ones left out.
@@ -39,14 +39,14 @@ class Library {
     };
     Files files() const;
 
-    /// Its file, and the overrides that make of it what is wanted: the start's, the page's, the eye and the size. With `eye` -1, 0,
-    /// 1 for the left one, the middle, the right one. lfdsim render with the same --set gives the same picture.
+    /// The description's file and the overrides for what is wanted: the command line's, the page's, the eye and the size. `eye`:
+    /// -1, 0, 1 for the left one, the middle, the right one. lfdsim render with the same --set gives the same picture.
     struct Description {
         std::filesystem::path file;
         std::vector<std::string> set;
     };
     Description description(const Wanted&, int eye = 0) const;
-    /// The description read and validated. Throws InputError whose places are keys where they can be ("array.gap_mm").
+    /// The description, read and validated. Throws InputError, which names keys where possible ("array.gap_mm").
     Display display(const Wanted&, int eye = 0) const;
 
   private:

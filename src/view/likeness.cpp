@@ -13,7 +13,7 @@
 namespace lfdsim::view {
 
 double WhiteField::of(const Display& seen, const Geometry& geometry, bool quick, int threads, const Job& job) {
-    // A white panel is white with fewer and larger pixels, too, and sooner ready.
+    // A white panel with fewer and larger pixels is as white, and made sooner.
     Display d = seen;
     d.name.clear();
     d.content.model.clear();

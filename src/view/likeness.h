@@ -1,4 +1,4 @@
-// How like the view of an eye is to the photograph of the scene from there. Floor 5.
+// The likeness of an eye's view to a photograph of the scene from the same point. Floor 5.
 #pragma once
 #include "content/content.h"
 #include "model/job.h"
@@ -9,10 +9,10 @@
 
 namespace lfdsim::view {
 
-/// Light that a white panel gives the camera, as analysis divides views by it; kept until what it depends on changes.
+/// The light that the camera receives from a white panel, by which analysis divides views; kept until its inputs change.
 class WhiteField {
   public:
-    /// More than 0. Quick: from few pixels, good to about a hundredth. Throws Stopped; InputError where the camera sees no light.
+    /// More than 0. Quick: from few pixels, accurate to about 1 %. Throws Stopped; InputError where the camera sees no light.
     double of(const Display&, const Geometry&, bool quick, int threads, const Job&);
 
   private:
@@ -28,8 +28,9 @@ struct Compared {
 /// `view` is the camera's whole picture; it is divided by `white`. Throws Stopped.
 Compared compared(Image& view, double white, const Display&, const Geometry&, const ContentScene&, int threads, const Job&);
 
-/// View less photograph in sRGB codes, which are about as far apart as they look: middle grey where both are equal, lighter where
-/// the view is, ends at 127 codes either way. A sign tells blur from ghosts and a wrong brightness, an amount alone does not.
+/// View minus photograph in sRGB codes, whose differences are about as large as they look: middle grey where both are equal,
+/// lighter where the view is lighter, limited to 127 codes either way. With its sign, blur can be distinguished from ghosts and
+/// from a wrong brightness.
 std::vector<std::uint8_t> difference_codes(const Image& view, const Image& photograph);
 
 }  // namespace lfdsim::view

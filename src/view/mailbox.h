@@ -1,4 +1,4 @@
-// What waits for one browser. Floor 5. All calls from any thread.
+// The messages that wait to be sent to one browser. Floor 5. All calls from any thread.
 #pragma once
 #include <cstddef>
 #include <deque>
@@ -18,16 +18,16 @@ class Mailbox {
         std::string bytes;
         bool binary;
     };
-    /// False: more texts wait than outbox.h allows; the box is empty and closed then.
+    /// Returns false if more texts wait than outbox.h allows; the box is then emptied and closed.
     bool text(std::string);
-    /// True: it took the place of one that waited in the same lane. The newest of each lane waits, lanes in the order of their
-    /// first.
+    /// Returns true if it replaced one that waited in the same lane. Only the newest of each lane waits; lanes are in the order in
+    /// which they began to wait.
     bool frame(const std::string& lane, std::string bytes);
-    /// One of the lane waits, or is the item that next() gave last.
+    /// Whether one of the lane waits, or is the item that next() returned last.
     bool busy(const std::string& lane) const;
-    /// What to send now, texts first; the item before has been sent. Nothing: the box is empty.
+    /// What to send next, texts first; to be called when the last item has been sent. Nothing: the box is empty.
     std::optional<Item> next();
-    /// Takes no more frames and drops those that wait; with `texts`, texts too.
+    /// Accepts no more frames and drops those that wait; with `texts`, also texts.
     void close(bool texts);
 
   private:

@@ -18,7 +18,7 @@ using Parsed = nlohmann::json;
 constexpr int deepest_message = 3;  // an object, a list or an object in it, and what is in those
 constexpr std::size_t longest_text = 1000, most_settings = 100;
 constexpr double farthest_eye_mm = 1e6;
-constexpr std::int64_t largest_id = std::int64_t(1) << 53;  // beyond, a browser's numbers are not exact
+constexpr std::int64_t largest_id = std::int64_t(1) << 53;  // above this a browser's numbers are not exact
 constexpr std::int64_t least_side = 16, largest_side = 4096;
 
 Parsed parse(std::string_view text) {
@@ -55,7 +55,7 @@ double number(const Parsed& json, const std::string& where, double low, double h
 }
 
 std::int64_t whole(const Parsed& json, const std::string& where, std::int64_t low, std::int64_t high) {
-    // json.get() would turn what is beyond 2^63 round
+    // json.get() would wrap numbers above 2^63
     const bool fits = json.is_number_integer() && (!json.is_number_unsigned() || json.get<std::uint64_t>() <= std::uint64_t(high));
     if (fits)
         if (const auto value = json.get<std::int64_t>(); value >= low && value <= high) return value;
@@ -90,7 +90,7 @@ const Parsed& list(const Parsed& json, const std::string& where, std::size_t lea
     return json;
 }
 
-/// An object whose keys are taken one by one; those that nobody wanted are wrong.
+/// An object whose keys are taken one by one; keys left over at the end are errors.
 class Object {
   public:
     Object(const Parsed& json, std::string where) : json_(json), where_(std::move(where)) {

@@ -1,4 +1,4 @@
-// What a browser says to the viewer, checked. Floor 5. docs/view-protocol.md has the messages.
+// Messages from a browser to the viewer, parsed and checked: docs/view-protocol.md. Floor 5.
 #pragma once
 #include "model/display.h"
 
@@ -16,14 +16,14 @@ struct Shown {
     enum class Kind { start, model, panel_image, pattern };  // start: what the program was started with
     Kind kind = Kind::start;
     std::string name;   // a file in the served folder, "built-in:spheres", or a pattern's name
-    bool hold = false;  // elemental images stay those of the description without `set`: misalignment shows as it would
+    bool hold = false;  // elemental images stay those of the description without `set`, to see the effect of misalignment
     bool operator==(const Shown&) const = default;
 };
 
 enum class Layout { one, pair, crossed };            // pair: left eye's picture on the left
-enum class Beside { none, photograph, difference };  // what else is wanted for the same eye
+enum class Beside { none, photograph, difference };  // what else is shown for the same eye
 
-/// All that a page wants to see. A page says it whole each time, so nothing is lost when a connection drops.
+/// Everything that a page wants to see. A page sends it whole each time, so nothing is lost when a connection drops.
 struct Wanted {
     std::int64_t id = 0;           // rises; frames carry it
     std::string display;           // description in the served folder; empty: the one that the program was started with
@@ -34,23 +34,23 @@ struct Wanted {
     Layout layout = Layout::one;
     double eye_distance_mm = 65;  // 0 .. 1000
     Beside beside = Beside::none;
-    bool moving = false;  // more is about to come: a coarse picture will do
+    bool moving = false;  // more is about to come: a coarse picture is enough
     bool operator==(const Wanted&) const = default;
 };
 
-/// But for its number and for whether more is about to come.
+/// Whether two are the same, apart from id and `moving`.
 inline bool same_state(Wanted a, const Wanted& b) {
     a.id = b.id;
     a.moving = b.moving;
     return a == b;
 }
 
-/// A question about the state that was wanted last; its answer carries its number.
+/// A question about the state that was wanted last; its answer has the same id.
 struct Ask {
     enum class What { probe, side, plot, files, toml, save, exr };
     std::int64_t id = 0;
     What what = What::probe;
-    std::array<double, 2> at{};  // probe: place in the picture, 0 .. 1 from its upper left corner
+    std::array<double, 2> at{};  // probe: point of the picture, 0 .. 1 from its upper left corner
     std::string name;            // side: "display" or "lens"; plot: "fov" or "spot"; save: file in the served folder
     bool overwrite = false;      // save
 };

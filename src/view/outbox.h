@@ -1,18 +1,18 @@
-// Where what a browser is to be told waits until its connection takes it. Floor 5.
+// Accepts messages to a browser, which wait until its connection can send them. Floor 5.
 #pragma once
 #include <string>
 
 namespace lfdsim::view {
 
-/// Of one connection. Calls come from any thread and never wait for the network.
+/// The outbox of one connection. May be called from any thread; calls never wait for the network.
 class Outbox {
   public:
     virtual ~Outbox() = default;
-    /// A JSON text. Those that the browser has not taken wait in order; more than 256 of them, or 4 MiB, end the connection.
+    /// Sends a JSON text. Texts that have not been sent yet wait in order; more than 256 of them, or 4 MiB, end the connection.
     virtual void text(std::string json) = 0;
-    /// A binary message. One of the same lane that has not been sent yet is dropped for it: never a queue of frames.
+    /// Sends a binary message. It replaces one of the same lane that has not been sent yet, so frames never queue.
     virtual void frame(const std::string& lane, std::string bytes) = 0;
-    /// The frame of that lane is on its way or waits: making the next one would be in vain.
+    /// Whether a frame of that lane is being sent or waits, so that the next one need not be made yet.
     virtual bool busy(const std::string& lane) const = 0;
 };
 

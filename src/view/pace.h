@@ -1,4 +1,4 @@
-// How long a picture takes, and which size of it takes a short time. Floor 5.
+// How long a picture takes, and the size at which it takes a given time. Floor 5.
 #pragma once
 #include "model/display.h"
 #include "model/geometry.h"
@@ -12,7 +12,7 @@ namespace lfdsim::view {
 /// may take longer than a large one.
 double render_cost(const Display&, const Geometry&, bool rough = false);
 
-/// What the costs of a kind are in true seconds: learned from each picture, half of what is known comes from the last one.
+/// Conversion of costs to true seconds, learned from each picture: the last one counts half.
 class Pace {
   public:
     explicit Pace(double seconds_per_cost) : seconds_per_cost_(seconds_per_cost) {}
@@ -27,9 +27,9 @@ class Pace {
     bool known_ = false;
 };
 
-/// The first of `count` choices, the best one first, that takes no more than so long; where none does, the first that takes at most
-/// half as long again as the quickest. One better than the last has to be clearly quick enough, so that pictures do not flicker
-/// between two sizes. seconds(k): of choice k.
+/// The first of `count` choices, ordered from the best, that takes at most most_seconds; where none does, the first that takes at
+/// most 1.5 times as long as the quickest. A choice better than the last one must take at most 0.8 of the time, so that pictures do
+/// not flicker between two sizes. seconds(k): time of choice k.
 template <class Seconds>
 int best_in_time(int count, int last, double most_seconds, const Seconds& seconds) {
     double quickest = seconds(0);

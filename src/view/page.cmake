@@ -1,4 +1,4 @@
-# The viewer's page: style and scripts in one HTML text, the text in one C++ function.
+# The viewer's page: style and scripts joined into one HTML text, which one C++ function returns.
 set(page_folder ${CMAKE_CURRENT_LIST_DIR}/page)
 file(GLOB page_parts CONFIGURE_DEPENDS ${page_folder}/*.html ${page_folder}/*.css ${page_folder}/*.js)
 set(page_cpp ${CMAKE_CURRENT_BINARY_DIR}/view/page.cpp)

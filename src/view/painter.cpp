@@ -20,8 +20,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr auto settling = 80ms;   // after a change the next one is likely: nothing that takes long is begun
-constexpr auto standing = 300ms;  // a hand that holds the mouse still sees the sharp picture, too
+constexpr auto settling = 80ms;   // after a change the next one is likely: no long work is started
+constexpr auto standing = 300ms;  // the sharp picture also comes while the mouse button is held without moving
 constexpr auto poll_outbox = 2ms;
 
 std::vector<std::string> lanes(const Wanted& w) {
@@ -48,7 +48,7 @@ struct Painter::Impl {
         thread.join();
     }
 
-    // Called by the thread alone, but for newer() and stopped().
+    // Called only by the thread, except newer() and stopped().
     void run();
     std::optional<std::int64_t> asked() const;
     bool next();
@@ -63,7 +63,7 @@ struct Painter::Impl {
         const std::lock_guard lock(mutex);
         return ended || (wanted && wanted->id != now.id);
     }
-    /// Something else altogether is wanted: a coarse picture of this would be of no use.
+    /// Whether a different state is wanted, so that even a coarse picture of this one would be useless.
     bool other() const {
         const std::lock_guard lock(mutex);
         return ended || (wanted && (wanted->display != now.display || !(wanted->shown == now.shown)));
@@ -88,8 +88,8 @@ struct Painter::Impl {
     Clock::time_point changed_at;
 
     Wanted now;           // what the thread works on; written with the mutex held
-    bool painted = true;  // it is done with
-    bool shown = false;   // a picture of the state went out
+    bool painted = true;  // its work is done
+    bool shown = false;   // a picture of the state has been sent
     std::thread thread;
 };
 
@@ -116,12 +116,12 @@ void Painter::want_exr(std::int64_t id) {
     impl_->changed.notify_all();
 }
 
-/// Waits for something to do; false: the end.
+/// Waits for something to do; false: the painter is to end.
 bool Painter::Impl::next() {
     std::unique_lock lock(mutex);
     const auto todo = [&] { return ended || (wanted && (wanted->id != now.id || exr)); };
     changed.wait(lock, todo);
-    // The outbox has no bell. What is wanted last when it is free again counts.
+    // The outbox does not notify, so it is polled. What is wanted when it is free again counts.
     for (;;) {
         if (ended) return false;
         if (wanted->id == now.id) return true;
@@ -139,7 +139,7 @@ bool Painter::Impl::next() {
     return true;
 }
 
-/// Does it and tells what is wrong; false: it was stopped for something newer.
+/// Does the work and reports errors; false: it was stopped for something newer.
 template <class Do>
 bool Painter::Impl::guarded(const Do& what) {
     try {
@@ -171,7 +171,7 @@ void Painter::Impl::run() {
     }
 }
 
-/// The file that is wanted of the state at hand, if it is still the newest.
+/// Makes the file that is wanted for the current state, if that is still the newest.
 std::optional<std::int64_t> Painter::Impl::asked() const {
     const std::lock_guard lock(mutex);
     return painted && wanted->id == now.id ? exr : std::nullopt;
@@ -190,7 +190,7 @@ void Painter::Impl::paint() {
     send(drawing.final(job));
 }
 
-/// Waits until the state is likely to stay; false: another is wanted before that.
+/// Waits until the state is likely to stay; false: another one was wanted in the meantime.
 bool Painter::Impl::rests() {
     std::unique_lock lock(mutex);
     const auto at = changed_at + (now.moving ? Clock::duration(standing) : Clock::duration(settling));

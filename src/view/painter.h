@@ -10,16 +10,16 @@ namespace lfdsim::view {
 
 class Panels;  // light of panels, shared by all visitors: panels.h
 
-/// Works on a thread of its own. Of what it is told only the newest counts.
+/// Works on a thread of its own. Only the newest request counts.
 class Painter {
   public:
     Painter(const Library&, Panels&, Outbox&, int threads);
     ~Painter();  // stops at once
 
-    /// Draws what is wanted until something else is: frames to the outbox, one lane for each of "one", "left", "right",
-    /// "photograph", "difference". What is wrong is told as the text message "problems".
+    /// Renders what is wanted until something else is: frames to the outbox, in the lanes "one", "left", "right", "photograph",
+    /// "difference". Errors are sent as the text message "problems".
     void want(const Wanted&);
-    /// The picture at rest as an OpenEXR file, in the lane "file".
+    /// Sends the final picture as an OpenEXR file, in the lane "file".
     void want_exr(std::int64_t id);
 
   private:

@@ -1,4 +1,4 @@
-// What a painter's long work reports to: progress to the page, an end when something newer is wanted. Floor 5.
+// The Job of a painter's long work: sends progress to the page, and stops the work when something newer is wanted. Floor 5.
 #pragma once
 #include "analysis/subject.h"
 
@@ -45,7 +45,7 @@ class PainterJob : public Job {
     std::atomic<int> told_{0};
 };
 
-/// For writers, which ask nobody: throws Stopped where the work is to end.
+/// For writers, which do not check cancelled(): throws Stopped from advance() when the work is to end.
 class Writing : public Job {
   public:
     explicit Writing(const Job& whole) : whole_(whole) {}

@@ -24,7 +24,7 @@ Entry* used(std::list<Entry>& all, const Is& is) {
 }
 
 Source of_file(Shown::Kind kind, const std::string& path) {
-    // A file that cannot be looked at is told of where it is read.
+    // An error here is reported when the file is read.
     std::error_code error;
     const auto changed = fs::last_write_time(path, error).time_since_epoch().count();
     const auto bytes = fs::file_size(path, error);
@@ -64,7 +64,7 @@ Source source_of(const Library& library, const Shown& shown, const Display& disp
     return model_source(library.model(display));
 }
 
-// The nodal pick-up (content/pickup.h) and the model's pose (content/scene.cpp) read these, resolved, and nothing else.
+// The nodal pick-up (content/pickup.h) and the model's pose (content/scene.cpp) depend on these resolved numbers only.
 PanelKey panel_key(const Source& source, const Display& d, const Geometry& g) {
     PanelKey key{source, d.panel.pixels, d.panel.encoding, {}};
     if (!drawn_for_lenses(source)) return key;
@@ -89,7 +89,7 @@ std::shared_ptr<const ShownPanel> Panels::get(const PanelKey& key, const Display
     if (auto light = find(key)) return light;
     const std::shared_ptr<const ShownPanel> light = make(key.source, display, geometry, threads, job);
     const std::lock_guard lock(mutex_);
-    // Another visitor may have made it meanwhile.
+    // Another visitor may have made it in the meantime.
     if (const Made* const panel = used(panels_, [&](const Made& p) { return p.key == key; })) return panel->light;
     panels_.push_front({key, light, texel_bytes(display)});
     double bytes = 0;
@@ -127,7 +127,7 @@ void Panels::prepare(const Source& source, const Display& display, const Geometr
 
 ContentScene Panels::scene(const Source& source, const Display& display, const Geometry& geometry, Job& job) {
     if (source.kind != Shown::Kind::model || source.name.empty())
-        throw InputError("shown", "is no model: name a mesh file, or built-in:spheres");
+        throw InputError("shown", "is not a model: name a mesh file, or built-in:spheres");
     const std::array<double, 3> pose = pose_of(display, geometry);
     {
         const std::lock_guard lock(mutex_);
@@ -151,21 +151,21 @@ std::shared_ptr<const Model> Panels::model(const Source& source, Job& job) {
     }
     try {
         return future.get();
-    } catch (...) {  // the next one to ask tries again
+    } catch (...) {  // the next caller tries again
         const std::lock_guard lock(mutex_);
         models_.remove_if([&](const Loaded& l) { return l.source == source; });
         throw;
     }
 }
 
-// A process of its own reads the model, in a thread that goes on when nobody waits any more: whoever comes next wants the same one.
+// A separate process reads the model, in a thread that continues when nobody waits any more: the next caller wants the same model.
 Panels::ModelFuture Panels::reading(const Source& source) {
     const std::lock_guard lock(mutex_);
     if (const Loaded* const loaded = used(models_, [&](const Loaded& l) { return l.source == source; })) return loaded->model;
     const auto load = [name = source.name] { return load_model(name); };
     models_.push_front({source, std::async(std::launch::async, load).share()});
     std::size_t count = 0;
-    models_.remove_if([&](const Loaded& l) {  // the end of one that is being read would be waited for
+    models_.remove_if([&](const Loaded& l) {  // removing one that is being read would wait for its end
         return ++count > most_models && l.model.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
     });
     return models_.front().model;

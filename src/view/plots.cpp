@@ -19,7 +19,7 @@ namespace {
 constexpr std::int64_t picture_width = 320, most_panel_pixels = std::int64_t(7680) * 4320;
 constexpr int angles_each_side = 12, spot_depths = 161, spot_rays = 301;
 
-/// The same display, seen from its distance on axis in small pictures that just hold the panel.
+/// The same display, seen from its distance on the axis in small pictures that just contain the panel.
 Display small(Display d) {
     const double distance = length(d.camera.position_mm);
     d.camera = {};
@@ -34,9 +34,9 @@ Plot fov_plot(const Display& display, std::shared_ptr<const Model> model, const 
     if (const auto [columns, rows] = display.panel.pixels; columns * rows > most_panel_pixels)
         throw InputError("panel.pixels",
                          fmt::format("{} x {} are too many for a plot that takes seconds, which is for 7680 x 4320 or "
-                                     "fewer; take lfdsim analyze fov",
+                                     "fewer; use lfdsim analyze fov",
                                      columns, rows));
-    // One at a time, whoever asks: each takes all processors and up to two gigabytes.
+    // One at a time for all visitors: each takes all processors and up to two gigabytes.
     static std::timed_mutex mutex;
     std::unique_lock lock(mutex, std::defer_lock);
     while (!lock.try_lock_for(std::chrono::milliseconds(20)))
@@ -46,7 +46,7 @@ Plot fov_plot(const Display& display, std::shared_ptr<const Model> model, const 
     Subject subject(d, ContentScene(std::move(model), d, g), {});
     const double edge = 0.5 * subject.theory(0).fov_elemental_deg, depth = fov_depth_mm(subject);
     const double highest =
-        std::acos(std::min(1.2 * nearest_eye_mm(g) / d.camera.position_mm[2], 1.)) / degree;  // before the display
+        std::acos(std::min(1.2 * nearest_eye_mm(g) / d.camera.position_mm[2], 1.)) / degree;  // still in front of the display
     const double most = std::min({80., highest, 1.35 * edge + 2});
     const ContentScene scene = subject.scene().at_depth(depth);
     const double white = subject.white_field(job);
@@ -73,7 +73,7 @@ Plot spot_plot(const Display& d) {
     const Theory t = theory(d, g);
     const double L = t.central_depth_mm, from_vertex = g.rear_principal_mm - g.vertex_plane_mm;
     const std::vector<Line> fan = fans(LensTrace(d, g), {0, 0}, spot_rays).meridional;
-    // As far as the depth of field and half as far again; where the plane is at infinity, as far as the viewer is.
+    // To one and a half times the depth of field; where the plane is at infinity, as far as the viewer.
     const bool finite = std::abs(L) < 1e6;
     const double reach = finite ? std::clamp(0.75 * t.depth_of_field_mm, 0.2 * std::abs(L), 0.95 * std::abs(L)) : 0;
     const double low = finite ? L - reach : 0, high = finite ? L + reach : 2 * d.camera.position_mm[2];
@@ -87,7 +87,7 @@ Plot spot_plot(const Display& d) {
         diffuse.y.push_back(after.empty() ? NAN : width_at(after, z).mm);
         pixel.y.push_back(d.panel.pixel_pitch_mm * std::abs(z) / g.gap_mm);
     }
-    Plot plot{"spot", "Spot of a panel point on the lens's axis", "depth before the lenses, mm", "width, mm", {}};
+    Plot plot{"spot", "Spot of a panel point on the lens's axis", "depth in front of the lenses, mm", "width, mm", {}};
     plot.series = {std::move(traced)};
     if (d.diffuser) plot.series.push_back(std::move(diffuse));
     plot.series.push_back(std::move(pixel));

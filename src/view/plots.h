@@ -7,13 +7,13 @@
 
 namespace lfdsim::view {
 
-/// Likeness (SSIM) of the simulated view to the scene against the horizontal angle, by small pictures, with theory's field of view
-/// and the angle where the eye is. A few seconds at most. Throws InputError for panels of more than 7680 x 4320 pixels, which would
-/// take longer; Stopped where the job is cancelled.
+/// Likeness (SSIM) of the simulated view to the scene against the horizontal angle, from small pictures, with the theoretical field
+/// of view and the angle of the eye. Takes a few seconds at most. Throws InputError for panels of more than 7680 x 4320 pixels,
+/// which would take longer; Stopped where the job is cancelled.
 Plot fov_plot(const Display&, std::shared_ptr<const Model>, const Job&);
 
-/// Width of a panel point's spot, traced through the lens on its axis, against depth from the vertex plane, beside a pixel's image;
-/// the central depth plane is marked. Milliseconds.
+/// Width of a panel point's spot, traced through the lens on its axis, against depth from the vertex plane, with the width of a
+/// pixel's image; the central depth plane is marked. Takes milliseconds.
 Plot spot_plot(const Display&);
 
 }  // namespace lfdsim::view

@@ -20,7 +20,7 @@ using Number = std::array<std::int64_t, 2>;
 
 constexpr int fan_rays = 5, cone_rays = 65;
 
-/// From the camera through a place of its picture, of unit length.
+/// Direction from the camera through a point of its picture, of unit length.
 Vec3d direction(const optics::View& view, Place at) {
     const double right = (at[0] - 0.5) * view.width * view.pixel_mm, up = (0.5 - at[1]) * view.height * view.pixel_mm;
     Vec3d d{};
@@ -33,14 +33,14 @@ optics::Place<double> in_array(const Lattice<double>& lattice, double x, double 
     return optics::to_array(lattice, x - lattice.offset[0], y - lattice.offset[1]);
 }
 
-/// Column, and row from the top, of the lens whose axis is there.
+/// Column, and row from the top, of the lens whose axis is at that point.
 Number lens_of(const Lattice<double>& lattice, const Vec3d& axis) {
     const auto at = in_array(lattice, axis[0], axis[1]);
     const auto lens = optics::lens_at(lattice, at.x, at.y);
     return {std::int64_t(lens.i), std::int64_t(lattice.count[1] - 1 - lens.j)};
 }
 
-/// The pixel at a place of the panel's plane; none beside the panel.
+/// The pixel at a point of the panel's plane; none beside the panel.
 std::optional<Number> pixel_of(const Panel& panel, double x, double y) {
     const double column = std::floor(x / panel.pixel_pitch_mm + 0.5 * double(panel.pixels[0]));
     const double row = std::floor(0.5 * double(panel.pixels[1]) - y / panel.pixel_pitch_mm);
@@ -58,7 +58,7 @@ std::string off_axis(double x, double y) {
     return far(y) ? up + " its axis" : "on its axis";
 }
 
-/// Downwards from where the diffuser, if there is one, turns the line of sight; `count` rays over its vertical angle.
+/// Rays down from the point where the diffuser, if there is one, turns the line of sight; `count` over its vertical angle.
 std::vector<SideRay> turned(const Display& d, const Geometry& g, const SideRay& sight, int count) {
     if (!g.diffuser_z_mm) return {sight};
     const double z = *g.diffuser_z_mm, half = 0.5 * d.diffuser->angle_deg[1] * degree;
@@ -71,7 +71,7 @@ std::vector<SideRay> turned(const Display& d, const Geometry& g, const SideRay& 
     return rays;
 }
 
-/// How much of the panel the diffuser's cone sees from top to bottom, and through how many rows of lenses.
+/// How much of the panel's height the diffuser's cone covers, and through how many rows of lenses.
 std::string cone(const Display& d, const Geometry& g, const SideRay& sight) {
     if (!d.diffuser) return "";
     struct Seen {
@@ -111,7 +111,7 @@ Probe probe(const Display& d, Place at) {
     const Vec3d to = direction(make_view(d, g), at);
     Probe probe;
     if (!(to[2] < -1e-9)) {
-        probe.says = "The line of sight does not come to the display.";
+        probe.says = "The line of sight does not reach the display.";
         return probe;
     }
     const Vec3d& eye = d.camera.position_mm;
@@ -129,7 +129,7 @@ Probe probe(const Display& d, Place at) {
     const std::string where = off_axis(sight.x - sight.lens[0], sight.y - sight.lens[1]);
     probe.says = probe.panel_pixel ? fmt::format("{} shows panel pixel {}, {}, {}{}.", lens, (*probe.panel_pixel)[0],
                                                  (*probe.panel_pixel)[1], where, cone(d, g, in_plane))
-                                   : fmt::format("{} shows a place beside the panel, {}.", lens, where);
+                                   : fmt::format("{} shows a point beside the panel, {}.", lens, where);
     return probe;
 }
 

@@ -1,4 +1,4 @@
-// Which lens and panel pixel a place of the picture shows. Floor 5.
+// Which lens and panel pixel a point of the picture shows. Floor 5.
 #pragma once
 #include "analysis/result.h"
 #include "model/display.h"
@@ -16,7 +16,7 @@ struct Probe {
     std::optional<std::array<double, 2>> panel_mm;           // from the panel's centre, x to the right, y up
     std::string says;                                        // one sentence
     /// Polylines of (y, z), mm, from the eye to the panel: the line of sight as the side views draw it, in the plane of its lens's
-    /// axis; behind a diffuser five, over its vertical angle. One that a lens does not let through ends there.
+    /// axis; with a diffuser five, spread over its vertical angle. One that a lens does not let through ends there.
     std::vector<std::vector<std::array<double, 2>>> fan;
 };
 

@@ -1,12 +1,12 @@
-// A text into a file, whole or not at all. Floor 5.
+// Writes a text to a file, completely or not at all. Floor 5.
 #pragma once
 #include <filesystem>
 #include <string>
 
 namespace lfdsim::view {
 
-/// Throws InputError if there is such a file and it may not be overwritten, std::runtime_error when writing fails; what was there
-/// then stays.
+/// Throws InputError if the file exists and may not be overwritten, std::runtime_error when writing fails; an existing file then
+/// stays as it is.
 void save_text(const std::filesystem::path&, const std::string& text, bool overwrite);
 
 }  // namespace lfdsim::view

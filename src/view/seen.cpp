@@ -26,7 +26,7 @@ Seen of_eye(const Library& library, const Wanted& wanted, const char* lane, int 
     one.key = panel_key(one.source, one.made_for, one.made_for_geometry);
     one.model = one.source;
     if (one.source.kind == Shown::Kind::pattern) one.model = {};
-    // An image of a panel was made of the description's model, if of any that is known.
+    // A panel image was made from the description's model, if from any known one.
     if (one.source.kind == Shown::Kind::panel_image) one.model = model_source(display.content.model);
     return one;
 }
@@ -65,7 +65,7 @@ Display coarse_view(Display d, const Geometry& g, double scale) {
     d.camera.pixel_filter = PixelFilter::center;
     d.camera.pupil_diameter_mm.reset();
     d.render.estimator = Estimator::filtered;
-    // A turned array is seen by points alone: of one, nothing but noise would be left.
+    // A turned array is rendered with point samples: a single one would show only noise.
     d.render.samples = estimator_of(d) == Estimator::filtered ? 1 : 4;
     return d;
 }

@@ -1,4 +1,4 @@
-// What each eye of a visitor looks at, and coarser stand-ins for it. Floor 5.
+// The display that each eye of a visitor sees, and coarser stand-ins for it. Floor 5.
 #pragma once
 #include "view/panels.h"
 
@@ -8,7 +8,7 @@
 
 namespace lfdsim::view {
 
-/// One eye's display, and the one that its panel's light was made for: another where the elemental images are held.
+/// One eye's display, and the display that its panel's light was made for, a different one where the elemental images are held.
 struct Seen {
     std::string lane;
     Display display;
@@ -23,12 +23,12 @@ struct Seen {
 /// One for each eye, the left one first. Throws InputError.
 std::vector<Seen> seen(const Library&, const Wanted&);
 
-/// The same with a panel of `divisor` times fewer columns and rows that are as much larger: its elemental images are close to the
-/// true ones. Nothing where such a display is not valid. divisor >= 1.
+/// The same with a panel of `divisor` times fewer columns and rows, of larger pixels: its elemental images are close to the true
+/// ones. Nothing where such a display is not valid. divisor >= 1.
 std::optional<Seen> with_coarse_panel(const Seen&, int divisor);
 
-/// What shows the same soonest: columns and rows times `scale`, 0 .. 1, as few samples as there can be, no filter over pixels and
-/// no pupil, which would need many. Its geometry must be resolved anew.
+/// The fastest view of the same: columns and rows times `scale`, 0 .. 1, the fewest possible samples, and neither pixel filter nor
+/// pupil, which would need many. Its geometry must be resolved again.
 Display coarse_view(Display, const Geometry&, double scale);
 
 }  // namespace lfdsim::view

@@ -26,9 +26,9 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr std::size_t most_header_bytes = 32 << 10;  // cookies of all that this machine serves come along
-constexpr std::size_t most_callers = 256;            // connections that are no WebSocket yet; one more ends the oldest
-constexpr std::size_t most_turned_away = 32;         // that are being told so
+constexpr std::size_t most_header_bytes = 32 << 10;  // includes the cookies of all other servers of this machine
+constexpr std::size_t most_callers = 256;            // connections that are not yet a WebSocket; one more ends the oldest
+constexpr std::size_t most_turned_away = 32;         // connections that are being sent a refusal
 constexpr auto request_time = 5s;                    // for a whole request, and for its answer
 
 std::string own_name() {
@@ -36,7 +36,7 @@ std::string own_name() {
     return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
-/// A connection of which a request is expected.
+/// A connection from which a request is expected.
 struct Caller {
     explicit Caller(tcp::socket socket) : stream(std::move(socket)) { parser.header_limit(most_header_bytes); }
     beast::tcp_stream stream;
@@ -48,7 +48,7 @@ using Callers = std::list<std::shared_ptr<Caller>>;
 
 }  // namespace
 
-/// All but the constructor, the destructor and counts runs on one network thread, and none of it waits for anyone.
+/// All except the constructor, the destructor and counts() runs on one network thread, which never waits.
 struct Server::Impl {
     Impl(ServerOptions, std::string page_text, std::function<std::unique_ptr<Visitor>(Outbox&)>);
 
@@ -87,7 +87,7 @@ void Server::Impl::listen() {
     tcp::resolver resolver(context);
     const auto found = resolver.resolve(options.host, std::to_string(options.port), tcp::resolver::passive, error);
     if (error || found.empty())
-        throw InputError("--host", fmt::format("\"{}\" is no address of this machine: {}", options.host, error.message()));
+        throw InputError("--host", fmt::format("\"{}\" is not an address of this machine: {}", options.host, error.message()));
     const tcp::endpoint endpoint = *found.begin();
     acceptor.open(endpoint.protocol(), error);
     if (!error) acceptor.set_option(net::socket_base::reuse_address(true), error);
@@ -125,7 +125,7 @@ void Server::Impl::read(const std::shared_ptr<Caller>& caller) {
             return answer(caller, sentence(http::status::request_header_fields_too_large, "The request is too long."));
         if (error.category() == http::make_error_code(http::error::bad_line_ending).category() &&
             error != http::error::end_of_stream && error != http::error::partial_message)
-            return answer(caller, sentence(http::status::bad_request, "That is no HTTP request."));
+            return answer(caller, sentence(http::status::bad_request, "This is not an HTTP request."));
         if (error) return end(caller);
         auto response = respond(caller->parser.get(), gate, options.token, page);
         if (!response) return upgrade(caller);
@@ -189,7 +189,7 @@ void Server::Impl::stop() {
 Server::Server(ServerOptions options, std::string page, Session::Connect connect)
     : impl_(std::make_unique<Impl>(std::move(options), std::move(page), std::move(connect))) {}
 
-// Sessions are work of the context until their visitors are no more, so that its thread ends last.
+// Sessions count as work of the io_context until their visitors are gone, so that the network thread ends last.
 Server::~Server() {
     net::post(impl_->context, [this] { impl_->stop(); });
     impl_->thread.join();

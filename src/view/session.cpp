@@ -21,10 +21,10 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr auto between_messages = 2ms, credit = 1000ms;  // 500 messages a second, as many at once after a quiet second
+constexpr auto between_messages = 2ms, credit = 1000ms;  // on average 500 messages a second; 500 at once after a quiet second
 constexpr int most_malformed = 100;
 constexpr int most_unsent_bytes = 128 << 10;
-constexpr std::size_t fragment_bytes = 64 << 10;  // pings and pongs go between the fragments of a long frame
+constexpr std::size_t fragment_bytes = 64 << 10;  // pings and pongs can be sent between the fragments of a long frame
 
 std::string error_text(const std::string& what) {
     return nlohmann::ordered_json{{"type", "error"}, {"what", what}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -39,16 +39,19 @@ Session::Session(boost::beast::tcp_stream stream, std::chrono::seconds most_sile
       tally_(tally),
       gone_(std::move(gone)),
       pause_(socket_.get_executor()) {
-    // What the network has not taken yet shall wait here, where a newer frame can take its place, and not in the kernel.
+    // Unsent data should wait in the mailbox, where a newer frame can replace it, rather than in the kernel: limit the latter's
+    // share.
     setsockopt(boost::beast::get_lowest_layer(socket_).socket().native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &most_unsent_bytes,
                sizeof most_unsent_bytes);
 }
 
+/// Runs work(session) on the network thread, later.
 template <class Work>
 void Session::post(Work work) {
     net::post(socket_.get_executor(), [self = shared_from_this(), work = std::move(work)] { work(*self); });
 }
 
+/// Completes the WebSocket's handshake, then calls `then`.
 void Session::accept(const Request& request, std::function<void()> then) {
     socket_.next_layer().expires_never();
     socket_.set_option(websocket::stream_base::timeout{5s, most_silence_, true});
@@ -81,6 +84,7 @@ void Session::turn_away(const Request& request, const std::string& why) {
     });
 }
 
+/// Reads one message, not before due_.
 void Session::read() {
     if (ended_ || finishing_) return;
     const auto now = std::chrono::steady_clock::now();
@@ -97,18 +101,21 @@ void Session::read() {
     });
 }
 
+/// Passes the message that was read to the visitor's thread.
 void Session::received() {
     const auto now = std::chrono::steady_clock::now();
-    due_ = std::max(due_, now - credit) + between_messages;
+    due_ = std::max(due_, now - credit) + between_messages;  // a token bucket: idle time counts up to `credit`
     ++tally_.messages;
     {
         const std::lock_guard lock(mutex_);
-        message_ = socket_.got_text() ? boost::beast::buffers_to_string(buffer_.data()) : std::string();  // no text is no message
+        message_ = socket_.got_text() ? boost::beast::buffers_to_string(buffer_.data())
+                                      : std::string();  // a binary one counts as an empty message
     }
     changed_.notify_one();
     buffer_.consume(buffer_.size());
 }
 
+/// Sends the mailbox's next item, unless one is being sent, and goes on until the mailbox is empty.
 void Session::write() {
     if (sending_ || closing_ || ended_) return;
     sending_ = mailbox_.next();
@@ -132,6 +139,7 @@ void Session::finish() {
     write();
 }
 
+/// Closes the WebSocket in order, with its closing handshake.
 void Session::leave() {
     closing_ = true;
     socket_.async_close(websocket::close_code::try_again_later, [self = shared_from_this()](error_code) { self->end(); });
@@ -148,13 +156,14 @@ void Session::end() {
         over_ = true;
     }
     changed_.notify_one();
-    if (!visit_.joinable())
+    if (!visit_.joinable())  // no visitor's thread, which would call gone_
         post([](Session& s) {
             s.gone_();
             s.work_.reset();
         });
 }
 
+/// The visitor's thread.
 void Session::visit(const Connect& connect) {
     std::unique_ptr<Visitor> visitor;
     try {
@@ -171,7 +180,7 @@ void Session::visit(const Connect& connect) {
         text(error_text(e.what()));
         post([](Session& s) { s.finish(); });
     }
-    while (take()) {
+    while (take()) {  // until end() has been called
     }
     post([](Session& s) {
         s.visit_.join();
@@ -180,6 +189,7 @@ void Session::visit(const Connect& connect) {
     });
 }
 
+/// Waits for a message; nothing when the session ends. On the visitor's thread.
 std::optional<std::string> Session::take() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return over_ || message_; });

@@ -1,4 +1,4 @@
-// One WebSocket: messages in, mail out. Floor 5.
+// One WebSocket connection: messages to a visitor, texts and frames from it. Floor 5.
 #pragma once
 #include "view/http.h"
 #include "view/mailbox.h"
@@ -21,27 +21,33 @@
 
 namespace lfdsim::view {
 
-/// ServerCounts, counted by several threads.
+/// ServerCounts, incremented by several threads.
 struct Tally {
     std::atomic<long> visitors{0}, refused{0}, malformed{0}, messages{0}, frames_sent{0}, frames_dropped{0};
 };
 
-/// Two threads share a session. The network thread, one for all sessions, does all reading and writing and never waits for a
-/// visitor. A thread of the session's own makes the visitor, hands it the message that was read, and destroys it; only when that
-/// message has been dealt with, and not before `due_`, is the next one read. What the visitor sends goes into the mailbox, from
-/// which the network thread writes whenever the last piece has been taken (post() is how the one thread calls the other). A session
-/// lives until the last handler that holds it is done.
+/// Two threads share a session:
+/// - The network thread, one for all sessions, does all reading and writing and never waits for a visitor.
+/// - The session's own thread, visit(), makes the visitor, passes it each message, and destroys it.
+///
+/// Messages: read() -> received() puts one into message_ -> take() gives it to the visitor -> read() again, when the visitor has
+/// returned and not before due_, which limits the rate. So there is never more than one message waiting.
+/// Mail: text() and frame(), called by any thread, fill the mailbox and post() write() to the network thread, which sends one item
+/// at a time, each when the one before has been sent.
+/// End: end() closes the connection at once, finish() after the waiting texts have been sent. Both let take() return nothing, so
+/// that visit() ends; gone_ is then called.
+/// Handlers hold a shared pointer, so a session lives until its last handler is done.
 class Session : public Outbox, public std::enable_shared_from_this<Session> {
   public:
     using Connect = std::function<std::unique_ptr<Visitor>(Outbox&)>;
 
-    /// `gone` is called once, on the network thread, when the visitor is no more and nothing waits for it.
+    /// `gone` is called once, on the network thread, after the visitor has been destroyed.
     Session(boost::beast::tcp_stream, std::chrono::seconds most_silence, Tally&, std::function<void()> gone);
 
-    // Of the network thread.
-    void welcome(const Request&, Connect);
-    void turn_away(const Request&, const std::string& why);
-    void end();  // at once
+    // To be called on the network thread.
+    void welcome(const Request&, Connect);                   // accepts the WebSocket and starts the visitor's thread
+    void turn_away(const Request&, const std::string& why);  // accepts it, sends the message "error" with `why`, and closes it
+    void end();                                              // closes it at once
 
     void text(std::string json) override;
     void frame(const std::string& lane, std::string bytes) override;
@@ -52,7 +58,7 @@ class Session : public Outbox, public std::enable_shared_from_this<Session> {
     void read();
     void received();
     void write();
-    void finish();  // when what waits has been sent
+    void finish();  // closes the connection when the waiting texts have been sent
     void leave();
     void visit(const Connect&);
     std::optional<std::string> take();
@@ -68,16 +74,16 @@ class Session : public Outbox, public std::enable_shared_from_this<Session> {
     Mailbox mailbox_;
     std::thread visit_;
 
-    // Of the network thread.
+    // Used only by the network thread.
     boost::beast::flat_buffer buffer_;
     boost::asio::steady_timer pause_;
     std::chrono::steady_clock::time_point due_{};  // when the next message may be read
     std::optional<Mailbox::Item> sending_;
     bool finishing_ = false, closing_ = false, ended_ = false;
 
-    int malformed_ = 0;  // of the visitor's thread
+    int malformed_ = 0;  // used only by the visitor's thread
 
-    std::mutex mutex_;  // of the two below
+    std::mutex mutex_;  // protects message_ and over_
     std::condition_variable changed_;
     std::optional<std::string> message_;
     bool over_ = false;

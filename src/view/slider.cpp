@@ -33,7 +33,7 @@ double round_step(double about) {
     return rounded(times * power);
 }
 
-/// From `value` towards `end`, as far as it holds.
+/// The farthest point from `value` towards `end` up to which it holds.
 double edge(double value, double end, const std::function<bool(double)>& valid) {
     constexpr int trials = 3, halvings = 12;  // finer than a slider's steps
     if (valid(end)) return end;
@@ -61,7 +61,7 @@ double rounded(double x, int digits) { return std::strtod(fmt::format("{:.{}g}",
 
 Slider sensible_ends(std::string_view path, const Range& range, double described, const Display& d, const Geometry& g) {
     Slider ends = ends_of(path, range, described, d, g);
-    const double most = std::min(range.high, 1e12);  // a viewing distance has no bound
+    const double most = std::min(range.high, 1e12);  // a viewing distance has no upper limit
     ends.low = std::clamp(ends.low, range.low, most);
     ends.high = std::clamp(ends.high, range.low, most);
     return ends;

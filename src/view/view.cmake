@@ -1,4 +1,4 @@
-# `lfdsim view`: its server, its pictures and answers. Boost is headers alone here: Asio and Beast.
+# `lfdsim view`: its server, its pictures and answers. Only headers of Boost are used: Asio and Beast.
 find_package(Boost 1.74 REQUIRED GLOBAL)  # the tests use it too
 
 lfdsim_floor(view

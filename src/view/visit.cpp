@@ -9,7 +9,7 @@
 namespace lfdsim::view {
 namespace {
 
-// Whether controls and figures stay as they were: what else there is - eye, size, layout - changes nothing but the command.
+// Whether controls and figures stay the same: everything else (eye, size, layout) affects only the command.
 bool same_controls(const Wanted& a, const Wanted& b) { return a.display == b.display && a.set == b.set && a.shown == b.shown; }
 
 Json hello(const Library& library, const std::string& version) {
@@ -79,7 +79,7 @@ void Visit::message(std::string_view text) {
     const Message message = parse_message(text);
     if (const Wanted* wanted = std::get_if<Wanted>(&message)) return want(*wanted);
     const Ask& question = std::get<Ask>(message);
-    if (!wanted_ && question.what != Ask::What::files) throw InputError("ask", "there is no \"show\" yet that it could be about");
+    if (!wanted_ && question.what != Ask::What::files) throw InputError("ask", "needs a \"show\" before it");
     if (question.what == Ask::What::exr)
         painter_.want_exr(question.id);
     else if (question.what == Ask::What::plot)
@@ -91,7 +91,7 @@ void Visit::message(std::string_view text) {
 void Visit::want(const Wanted& wanted) {
     wanted_ = wanted;
     painter_.want(wanted);
-    // Milliseconds that a picture could use: while the eye moves the command can wait for its rest.
+    // This takes milliseconds that a picture could use: while the eye moves the command is not updated.
     if (told_ && (wanted.moving ? same_controls(*told_, wanted) : same_state(*told_, wanted))) return;
     told_ = wanted;
     outbox_.text(resolved(library_, wanted).dump());

@@ -1,4 +1,4 @@
-// One browser's visit: hands what it says to the painter and to the answers. Floor 5.
+// One browser's visit: passes its messages to the painter and to answer(). Floor 5.
 #pragma once
 #include "view/library.h"
 #include "view/painter.h"
@@ -12,7 +12,7 @@
 
 namespace lfdsim::view {
 
-/// A thread that answers one question at a time, of which only the newest is worth its while: plots take seconds.
+/// A thread that answers one question at a time, always the newest: plots take seconds.
 class Answerer {
   public:
     Answerer(const Library&, Panels&, Outbox&);
@@ -34,7 +34,7 @@ class Answerer {
 
 class Visit : public Visitor {
   public:
-    /// Says hello. `version` is the program's. All have to outlive it.
+    /// Sends the message "hello". `version` is the program's. All references must outlive the visit.
     Visit(const Library&, Panels&, Outbox&, int threads, const std::string& version);
     void message(std::string_view text) override;
 
@@ -44,7 +44,7 @@ class Visit : public Visitor {
     const Library& library_;
     Panels& panels_;
     Outbox& outbox_;
-    std::optional<Wanted> wanted_, told_;  // told_: what "resolved" was last about
+    std::optional<Wanted> wanted_, told_;  // told_: the state of the last message "resolved"
     Painter painter_;
     Answerer plots_;
 };

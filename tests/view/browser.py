@@ -194,7 +194,7 @@ def files(page, folder):
     bad = folder / "bad.json"
     bad.write_text(json.dumps({**path, "poses": path["poses"][::-1]}))
     page.find("#path-load").send_keys(str(bad))
-    page.until("a bad path is refused", lambda s: "no camera path: pose 0" in page.find("#path-says").text)
+    page.until("a bad path is refused", lambda s: "not a camera path: pose 0" in page.find("#path-says").text)
     page.find("#path-load").send_keys(str(folder / "path.json"))
     page.find("#stage").send_keys("\ue011")
     page.click("#replay")

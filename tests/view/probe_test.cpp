@@ -70,7 +70,7 @@ TEST(Probe, SaysWhereNothingIsSeen) {
     EXPECT_THAT(probe(d, {0, 0}).says, HasSubstr("No lens"));
     const Probe up = probe(small({"camera.target_mm=[0, 1000, 600]", "camera.up=[0, 0, 1]"}), {0.5, 0.5});
     EXPECT_TRUE(up.fan.empty());
-    EXPECT_THAT(up.says, HasSubstr("does not come to the display"));
+    EXPECT_THAT(up.says, HasSubstr("does not reach the display"));
 }
 
 // In the plane x = 0 of the middle column's axes the drawn rays are the traced ones.

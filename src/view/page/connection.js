@@ -1,4 +1,4 @@
-// The WebSocket to the program: comes back by itself, tells frames from texts, carries questions to their answers.
+// The WebSocket to the program: reconnects by itself, separates frames from texts, matches answers with questions.
 
 export class Connection {
   /// handlers: state(name, says), message(object), frame(header, blob)
@@ -53,14 +53,14 @@ export class Connection {
     const length = new DataView(buffer).getUint32(0, true);
     const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
     const type = { jpeg: "image/jpeg", png: "image/png", exr: "image/x-exr" }[header.format];
-    if (!type || !Number.isSafeInteger(header.id)) throw new Error("a frame of no known kind");
+    if (!type || !Number.isSafeInteger(header.id)) throw new Error("a frame of an unknown kind");
     this.handlers.frame(header, new Blob([new Uint8Array(buffer, 4 + length)], { type }));
   }
   send(message) {
     if (this.is_open) this.socket.send(JSON.stringify(message));
     return this.is_open;
   }
-  /// The answer; rejected when the connection is lost or takes longer than a minute.
+  /// Resolves to the answer; rejected when the connection is lost or no answer comes within a minute.
   ask(what, more = {}) {
     const id = ++this.last_ask;
     return new Promise((resolve, reject) => {

@@ -1,7 +1,7 @@
-// The display's parameters: a row each with slider, field, unit, and what is wrong with it.
+// The display's parameters: a row each with slider, field, unit, and its errors.
 import { byId, clamp, make, say, short } from "./dom.js";
 
-// What one turns most often; the rest is folded, by table.
+// The parameters changed most often; the rest is folded, by table.
 const main = [
   /^array\.gap_mm$/, /^array\.pitch_mm$/, /^lens\.(sphere_radius_mm|focal_length_mm|index|aperture_radius_mm)$/,
   /^lens\.surface\.\d+\.(curvature_per_mm|index|semi_aperture_mm)$/, /^array\.aperture$/, /^diffuser(\.(angle_deg|distance_mm))?$/,
@@ -12,11 +12,11 @@ const table_names = { panel: "Panel", lens: "Lens", array: "Lens array", diffuse
 const table_name = (table) =>
   table_names[table] || table.replace(/^lens\.surface\.(\d+)$/, (_, k) => `Lens surface ${Number(k) + 1}`) || "General";
 
-// Before the label of a row that stands outside its table.
+// Prefix of the label of a row that is shown outside its table.
 const prefix = (table) => ({ lens: "lens ", diffuser: "diffuser ", content: "model " })[table] || table.replace(/^lens\.surface\.(\d+)$|.*/, (_, k) => k ? `surface ${Number(k) + 1} ` : "");
 
 const value_text = (value) => (value === null ? "" : typeof value === "number" ? short(value, 8) : String(value));
-/// As --set takes it. Infinity is "infinite" in messages and inf in TOML.
+/// A value in the form of --set. Infinity is "infinite" in messages and inf in TOML.
 const toml = (text) => (/^\s*infinite\s*$/i.test(text) ? "inf" : text.trim());
 
 class Control {
@@ -26,7 +26,7 @@ class Control {
     const id = "c-" + data.key.replaceAll(".", "-");
     this.error = make("div", { className: "error", id: id + "-error", hidden: true });
     this.note = make("div", { className: "note", hidden: true });
-    this.before = {};  // what it limits, as it was when the hand came
+    this.before = {};  // values of the parameters that it limits, from the start of the drag
     this.back = make("button", { className: "back", textContent: "↺", title: "As described", "aria-label": `${data.label}: as described` });
     this.back.onclick = () => {
       const limited = Object.keys(this.data.limits || {}).filter((key) => this.follower(key)?.note.textContent);
@@ -96,7 +96,7 @@ class Control {
     for (const input of this.inputs) input.shown = input.value;
     const texts = this.inputs.map((input) => toml(input.value));
     if (this.data.form === "list") return this.store.set(this.key, `[${texts[0]}]`, moving, time);
-    if (texts.every((text) => text === ""))  // back as described; or, where that can be, away
+    if (texts.every((text) => text === ""))  // back to the description's value, or none where that is possible
       return this.store.set(this.key, this.data.absent && !(this.key in this.store.now.set) ? "none" : null, moving, time);
     texts.forEach((text, k) => {
       if (text === "") texts[k] = this.at("suggested", k) ?? texts.find((other) => other !== "");
@@ -104,7 +104,7 @@ class Control {
     this.store.set_all({ [this.key]: this.text_of(texts), ...this.lowered(Number(texts[0])) }, moving, time);
     this.tell("");
   }
-  /// What it limits goes down with it, and up again as far as it was while the same hand moves.
+  /// Parameters that it limits go down with it, and during the same drag up again to their old values.
   lowered(value) {
     const set = {};
     for (const [key, share] of Object.entries(this.data.limits || {})) {
@@ -124,13 +124,13 @@ class Control {
   text_of(values) {
     return this.data.form === "pair" ? `[${values.join(", ")}]` : String(values[0]);
   }
-  /// What the program says; a slider that is being dragged keeps its ends.
+  /// Shows the program's data; a slider that is being dragged keeps its ends.
   update(data, set) {
     this.data = data;
     const said = set[this.key];
     this.row.classList.toggle("changed", said !== undefined);
     if (said === undefined) this.tell("");
-    // What was set by hand is shown as it was typed, valid or not.
+    // A value set by the user is shown as typed, valid or not.
     const inside = said?.replace(/^\[|\]$/g, ""), typed = data.form === "pair" ? inside?.split(/\s*,\s*/) : [inside];
     const is = data.form === "list" ? [data.value?.map((x) => short(x, 8)).join(", ") ?? ""] : [data.value].flat().map(value_text);
     const values = this.inputs.map((_, k) => (said === "none" && data.form !== "word" ? "" : typed?.[k] ?? is[k] ?? ""));
@@ -146,7 +146,7 @@ class Control {
     const low = this.at("low", k), high = this.at("high", k), step = this.at("step", k);
     slider.disabled = !(Number.isFinite(low) && Number.isFinite(high) && high > low);
     if (slider.disabled) return;
-    // "any": a value need not lie on a step. Arrow keys of the field go by steps.
+    // "any": values need not be multiples of the step. Arrow keys in the field use the step.
     const whole = Number.isInteger(low) && Number.isInteger(high) && Number.isInteger(step) && step > 0;
     Object.assign(slider, { min: low, max: high, step: whole ? 1 : "any" });
     if (Number.isFinite(value)) slider.value = clamp(value, low, high);
@@ -169,7 +169,7 @@ export class Controls {
     this.place = byId("controls");
     byId("filter").oninput = () => this.filter();
   }
-  /// A slider is being dragged.
+  /// Whether a slider is being dragged.
   held() {
     return [...this.all.values()].some((c) => c.held);
   }
@@ -184,18 +184,18 @@ export class Controls {
     if (shape !== this.shape) this.rebuild(controls, shape);
     for (const data of controls) this.all.get(data.key).update(data, set);
   }
-  /// The diffuser as a whole can be away, or be put there.
+  /// The diffuser as a whole can be removed or added.
   with_switch(controls) {
     const own = controls.filter((c) => c.table === "diffuser");
     if (!own.length) return controls;
     const away = own.every((c) => c.value === null), all = controls.filter((c) => c.table !== "diffuser");
-    all.push({ key: "diffuser", table: "diffuser", label: "diffuser", form: "word", words: ["there", "none"], value: away ? "none" : "there", doc: "There, or away." });
+    all.push({ key: "diffuser", table: "diffuser", label: "diffuser", form: "word", words: ["there", "none"], value: away ? "none" : "there", doc: "With or without a diffuser." });
     return away ? all : [...all, ...own];
   }
   switch_diffuser(away, controls) {
     const { diffuser, ...set } = this.store.now.set;  // its keys stay, for when it comes back
     if (away) set.diffuser = "none";
-    else if (diffuser === undefined)  // the description has none: what the program suggests makes one
+    else if (diffuser === undefined)  // the description has none: use the one that the program suggests
       for (const c of controls) if (c.table === "diffuser" && c.form !== "word" && c.suggested != null) set[c.key] = JSON.stringify(c.suggested);
     this.store.change({ set });
   }
@@ -228,9 +228,9 @@ export class Controls {
       if (words.length && !table.hidden) table.open = true;
     }
   }
-  /// Marks what is wrong in its place; what a text stands for that no row has is left to the caller.
+  /// Marks problems at their rows; those of keys without a row are left to the caller.
   mark(problems) {
-    if (problems.length) this.shown = null;  // fields hold what was typed, whatever is said next
+    if (problems.length) this.shown = null;  // so that the next message updates the fields
     for (const c of this.all.values()) c.mark(problems.filter((p) => p.key === c.key).map((p) => p.what).join(" "));
   }
 }

@@ -1,4 +1,4 @@
-// Elements of the page. Data reach the page as text and as properties only, never as markup.
+// Elements of the page. Data are put into the page only as text and properties, never as markup.
 
 export const byId = (id) => document.getElementById(id);
 
@@ -12,7 +12,7 @@ export function make(tag, properties = {}, ...children) {
   return element;
 }
 
-/// Sets a text only where it differs, so that a screen reader hears it once.
+/// Sets a text only where it differs, so that a screen reader reads it once.
 export function say(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }

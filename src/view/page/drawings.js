@@ -1,4 +1,4 @@
-// Drawings and plots of the program, and over the side view the rays of the place under the pointer.
+// The program's drawings and plots, and on the side view the rays through the point under the pointer.
 import { byId, say } from "./dom.js";
 
 const questions = {
@@ -8,7 +8,7 @@ const questions = {
 const probe_pause_ms = 50;
 const svg_space = "http://www.w3.org/2000/svg";
 
-/// A drawing without what could run or fetch anything, ready for the page; null if it is none.
+/// A drawing for the page, without anything that could run or fetch something; null if the text is not a drawing.
 export function clean_svg(text) {
   const parsed = new DOMParser().parseFromString(String(text).replace(/\sstyle="[^"]*"/g, ""), "image/svg+xml");
   const root = parsed.documentElement;
@@ -24,7 +24,7 @@ export function clean_svg(text) {
 }
 
 export class Drawings {
-  /// ask(what, more): the connection's; optical(): text of all that a drawing depends on.
+  /// ask(what, more): that of the connection; optical(): a text of everything that a drawing depends on.
   constructor(ask, optical) {
     Object.assign(this, { ask, optical, open: null, drawn: "", frame: null, fan: [], probing: false, probed: -Infinity });
     this.place = byId("drawing");
@@ -41,11 +41,11 @@ export class Drawings {
     say(byId("drawing-says"), "");
     this.refresh();
   }
-  /// What is there is of a state that was.
+  /// Marks a drawing that is of an older state.
   age() {
     this.place.classList.toggle("old", this.drawn !== "" && this.drawn !== this.optical());
   }
-  /// At rest; `sharp` once the sharp picture is there: plots take their time.
+  /// To be called at rest; with `sharp` when the sharp picture has come, since plots take long.
   async refresh(sharp = true) {
     this.age();
     const name = this.open, of = this.optical(), question = questions[name];
@@ -70,7 +70,7 @@ export class Drawings {
     this.age();
     this.draw_fan();
   }
-  /// Asks what the place shows; of many places only the newest, at most 20 a second.
+  /// Asks what a point shows; only for the newest point, at most 20 times a second.
   async probe(at) {
     this.wanted = at;
     if (this.probing || !at) return;
@@ -89,12 +89,12 @@ export class Drawings {
         say(byId("probe-says"), answer.says || "");
         this.draw_fan();
       } catch {
-        break;  // the connection is gone, and says so itself
+        break;  // the connection is lost, which is shown elsewhere
       }
     }
     this.probing = false;
   }
-  /// With two eyes a place is not one line of sight.
+  /// With two eyes a point is not a single line of sight.
   hush(silent) {
     this.silent = silent;
     if (!silent) return;

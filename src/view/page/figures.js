@@ -1,4 +1,4 @@
-// What the display comes to: theory, lengths, warnings, the command; and what is wrong.
+// Results for the display: theory, lengths, warnings, the command; and problems.
 import { byId, make, say, short } from "./dom.js";
 
 const unit_text = { degrees: "°" };
@@ -26,7 +26,7 @@ export function show_figures(resolved) {
   byId("command").value = resolved.command || "";
 }
 
-/// What is wrong, until something newer is right.
+/// The problems, shown until something newer is valid.
 export class Problems {
   constructor(mark) {
     Object.assign(this, { mark, id: 0, list: [], notes: [] });
@@ -39,7 +39,7 @@ export class Problems {
     this.list = [...same.values()];
     this.show();
   }
-  /// A frame or a valid display of that id came. A moment later, so that what stays wrong stays told.
+  /// To be called for a frame or valid display with that id. Clears a moment later, so that a lasting problem stays on the page.
   right(id) {
     if (id <= this.id || !this.list.length) return;
     clearTimeout(this.timer);
@@ -48,7 +48,7 @@ export class Problems {
       this.show();
     }, 150);
   }
-  /// What is not about the display: told for a while.
+  /// A message that is not about the display: shown for a while.
   note(text) {
     this.notes = [...this.notes.filter((t) => t !== text), text].slice(-3);
     this.show();

@@ -12,7 +12,7 @@ export class Files {
       const [kind, ...name] = shown.value.split(":");
       store.change({ shown: { kind, name: name.join(":"), hold: store.now.shown.hold } });
     };
-    // Parameters of one display mean little to another.
+    // Parameters of one display do not apply to another.
     display.onchange = () => store.change({ display: display.value, set: {} });
     for (const list of [shown, display]) list.onpointerdown = list.onfocus = () => this.look();
     byId("hold").onchange = (event) => store.change({ shown: { ...store.now.shown, hold: event.target.checked } });
@@ -25,14 +25,14 @@ export class Files {
     this.hello = hello;
     this.fill();
   }
-  /// Files come and go: looked up when the list is about to open.
+  /// Files may change: they are listed again when the list is about to open.
   async look() {
     try {
       const answer = await this.ask("files");
       for (const kind of Object.keys(this.files)) this.files[kind] = (Array.isArray(answer[kind]) ? answer[kind] : []).map(String);
       this.fill();
     } catch {
-      // without a connection the lists stay
+      // without a connection the lists stay as they are
     }
   }
   fill() {
@@ -88,9 +88,9 @@ export class Files {
     return this.ask_and_say("save", { name: byId("save-name").value.trim(), overwrite: byId("overwrite").checked },
       (answer) => `Saved as ${answer.name}.`);
   }
-  /// The picture itself comes as a frame; an answer says only what is wrong.
+  /// The picture itself comes as a frame; an answer contains only problems.
   async exr() {
-    files_say("The picture is made ...");
+    files_say("Making the picture ...");
     this.exr_wanted = true;
     try {
       const problem = told(await this.ask("exr"));
@@ -99,7 +99,7 @@ export class Files {
       if (this.exr_wanted) files_say(error.message);
     }
   }
-  /// The frame of the lane "file".
+  /// Saves the frame of the lane "file".
   exr_came(blob) {
     if (!this.exr_wanted) return;
     this.exr_wanted = false;

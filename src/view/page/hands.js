@@ -3,7 +3,7 @@ import { at_distance, in_plane, on_axis, on_sphere } from "./eye.js";
 
 const sweep_deg = 60;  // a drag over the width of the stage
 
-/// store: state.js; released(): a drag has ended; hover(x, y) or hover(null): the pointer rests over the picture, or leaves it.
+/// store: state.js; released(): after a drag; hover(x, y), hover(null): when the pointer rests on the picture or leaves it.
 export function watch_hands(stage, store, { released, hover }) {
   const pointers = new Map();  // by id: where they are now
   let from = null;             // where the drag began: pointer, eye, and the fingers' distance

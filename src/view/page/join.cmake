@@ -1,4 +1,4 @@
-# Joins the page's parts to one HTML text. Usage: cmake [-D HTML=page.html] [-D CPP=page.cpp] -P join.cmake
+# Joins the page's parts into one HTML text. Usage: cmake [-D HTML=page.html] [-D CPP=page.cpp] -P join.cmake
 # The scripts become one module: each comes after those that it imports, and names at their top level are all different.
 cmake_minimum_required(VERSION 3.25)
 set(here ${CMAKE_CURRENT_LIST_DIR})

@@ -1,4 +1,4 @@
-// Puts the parts together: what is changed by hand is said to the program, what comes is shown.
+// Connects the parts: changes by the user are sent to the program, and its messages are shown.
 import { byId, clamp, make, say, short } from "./dom.js";
 import { angles, at_distance, distance, on_axis } from "./eye.js";
 import { choices, Store, wish } from "./state.js";
@@ -165,7 +165,7 @@ function buttons() {
   byId("reset-all").disabled = !Object.keys(store.now.set).length;
 }
 
-// By hand
+// Input by the user
 for (const name of Object.keys(choices)) byId(name).onchange = (event) => store.change({ [name]: event.target.value });
 byId("eye-distance").onchange = (event) => {
   const mm = Number(event.target.value);
@@ -191,7 +191,7 @@ byId("reset-all").onclick = () => {
 window.addEventListener("keydown", (event) => {
   if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z" || event.altKey) return;
   const typing = event.target.matches?.("input[type=text], input[type=search], textarea") && event.target.value !== event.target.shown;
-  if (typing) return;  // the field's own
+  if (typing) return;  // the field has its own undo
   event.preventDefault();
   byId(event.shiftKey ? "redo" : "undo").click();
 });
@@ -227,7 +227,7 @@ const colour = () => { document.documentElement.dataset.theme = theme.value || (
 try {
   theme.value = localStorage.getItem("lfdsim-theme") || "";
 } catch {
-  // kept from storage: as the system has it
+  // storage is not available: use the system's setting
 }
 theme.onchange = () => {
   try {
@@ -242,7 +242,7 @@ colour();
 show_state();
 buttons();
 
-/// For tests: what is wanted, and what was seen.
+/// For tests: the state that is wanted, and what was shown.
 window.lfdsim = {
   state: () => structuredClone(store.now),
   controls: () => Object.fromEntries((resolved?.controls ?? []).map((c) => [c.key, c.value])),

@@ -1,11 +1,11 @@
-// When to say what is wanted: the newest alone, never more than two on their way, and once more when all is at rest.
+// When to send the wanted state: only the newest, at most two unanswered, and once more when nothing moves.
 
-const at_once = 2;      // messages without a frame yet
-const patience_ms = 100;  // then one more all the same
+const at_once = 2;        // messages without a frame yet
+const patience_ms = 100;  // after this one more is sent anyway
 const rest_ms = 80;
 
 export class Pacing {
-  /// say(id, moving) sends; returns false if there is no connection. rest() follows what was said without `moving`.
+  /// say(id, moving) sends; returns false if there is no connection. rest() is called after a message without `moving`.
   constructor(say_wish, rest) {
     this.say = say_wish;
     this.rest = rest;
@@ -15,7 +15,7 @@ export class Pacing {
     this.dirty = false;
     this.waiting = false;
   }
-  /// Something changed at that time; `moving`: more is about to come.
+  /// To be called when something changed at that time; `moving`: more is about to come.
   wish(moving, time) {
     this.event = time;
     this.dirty = true;
@@ -35,7 +35,7 @@ export class Pacing {
       else this.soon();
     });
   }
-  /// The pointer is released, or nothing has moved for a while: now the sharp picture.
+  /// The pointer is released, or nothing has moved for a while: asks for the sharp picture.
   settle() {
     clearTimeout(this.timer);
     if (this.dirty || this.said_moving) this.send(false);
@@ -49,17 +49,17 @@ export class Pacing {
     this.sent.set(++this.id, { at: now, event: this.event ?? now, moving });
     for (const id of this.sent.keys()) if (id < this.id - 50) this.sent.delete(id);
   }
-  /// A frame or a refusal came for that id.
+  /// To be called when a frame or a refusal came for that id.
   answer(id) {
     this.answered = Math.max(this.answered, id);
   }
-  /// What is known of the message with that id, once it is drawn; older ones are forgotten.
+  /// The record of the message with that id, when its frame has been drawn; older ones are forgotten.
   drawn(id) {
     const known = this.sent.get(id);
     for (const older of this.sent.keys()) if (older < id) this.sent.delete(older);
     return known;
   }
-  /// On a new connection, which knows nothing.
+  /// For a new connection, which has no state yet.
   again() {
     this.answered = this.id;
     this.dirty = true;

@@ -1,11 +1,11 @@
-// A camera path: where the eye was and when. `lfdsim render --path` takes the same file.
+// A camera path: positions of the eye and their times. `lfdsim render --path` reads the same file.
 import { byId, download, finite, say } from "./dom.js";
 
 const most_poses = 15000;      // so that the file stays below 1 MiB, which `lfdsim render --path` reads
 const most_read = 100000;
 const path_says = (text) => say(byId("path-says"), text);
 
-/// The poses of a file's text. Throws Error that says what is wrong with it.
+/// The poses in a file's text. Throws Error, which states the fault.
 export function parse_path(text) {
   const path = JSON.parse(text), { frames_per_second: fps, poses } = path ?? {};
   if (path?.schema !== 1) throw new Error('"schema" must be 1');
@@ -20,7 +20,7 @@ export function parse_path(text) {
   return poses.map(({ time_s, position_mm }) => ({ time_s, position_mm }));
 }
 
-/// Where the eye is at that time: linear between poses.
+/// The eye's position at that time: linear between poses.
 export function position_at(poses, time_s) {
   const next = poses.findIndex((pose) => pose.time_s > time_s);
   if (next < 0) return poses.at(-1).position_mm;
@@ -30,7 +30,7 @@ export function position_at(poses, time_s) {
 }
 
 export class Path {
-  /// moved(): a replay has ended.
+  /// moved(): called when a replay has ended.
   constructor(store, moved) {
     Object.assign(this, { store, moved, poses: [], recording: null, replaying: null });
     byId("record").onclick = () => (this.recording === null ? this.record() : this.stop());
@@ -55,12 +55,12 @@ export class Path {
     path_says("Recording: move the eye.");
     this.buttons();
   }
-  /// The eye may have moved.
+  /// To be called when the eye may have moved.
   note() {
     if (this.recording === null) return;
     const time_s = Math.round(performance.now() - this.recording) / 1000, last = this.poses.at(-1), { eye } = this.store.now;
     if (String(eye) === String(last.position_mm) || time_s <= last.time_s) return;
-    // Between poses the eye goes straight on: where it stood still, it does so until now.
+    // Between poses the eye moves in a straight line: where it stood still, a pose is added at the end of that time.
     if (time_s - last.time_s > 0.1) this.poses.push({ time_s: Math.round(1000 * time_s - 20) / 1000, position_mm: last.position_mm });
     this.poses.push({ time_s, position_mm: eye });
     path_says(`Recording: ${this.poses.length} poses, ${time_s.toFixed(1)} s.`);
@@ -104,7 +104,7 @@ export class Path {
       this.poses = parse_path(await file.text());
       this.tell(file.name);
     } catch (error) {
-      path_says(`${file.name} is no camera path: ${error.message}.`);
+      path_says(`${file.name} is not a camera path: ${error.message}.`);
     }
     this.buttons();
   }

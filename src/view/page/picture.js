@@ -1,16 +1,16 @@
-// The pictures of the view: one canvas a lane, in step with the frames that come.
+// The pictures of the view: one canvas for each lane, updated as frames come.
 import { byId, make, say } from "./dom.js";
 
 const rank = { coarse: 0, fine: 1, final: 2 };
 const lane_names = { left: "left eye", right: "right eye", photograph: "photograph", difference: "difference" };
 
-/// Lanes that are shown, from left to right.
+/// The lanes that are shown, from left to right.
 export function lanes_of(state) {
   const eyes = { one: ["one"], pair: ["left", "right"], crossed: ["right", "left"] }[state.layout];
   return [...eyes, ...({ none: [], beside: ["photograph"], wipe: ["photograph"], difference: ["difference"] }[state.compare])];
 }
 
-/// The wipe lays the photograph over the picture of one eye; with two it stands beside.
+/// With one eye the wipe lays the photograph over the picture; with two the photograph is beside them.
 export const wiped = (state) => state.compare === "wipe" && state.layout === "one";
 
 export class Picture {
@@ -21,7 +21,7 @@ export class Picture {
     this.tiles = new Map();  // by lane
     this.counts = { coarse: 0, fine: 0, final: 0, dropped: 0, malformed: 0 };
   }
-  /// Sizes the tiles for the state; returns the pixels that one picture is to have.
+  /// Sets the tiles' sizes for the state; returns the size of one picture in pixels.
   arrange(state, most_pixels) {
     const names = lanes_of(state), over = wiped(state), ratio = window.devicePixelRatio || 1;
     if (names.join() !== this.names || over !== this.over) this.rebuild(names, over);
@@ -33,13 +33,13 @@ export class Picture {
                                  : { column: false, size: state.size.split("x").map(Number) };
     this.stage.toggleAttribute("data-column", column);
     for (const tile of this.tiles.values()) {
-      tile.canvas.style.width = `${size[0] / ratio}px`;  // a pixel of the picture, one of the screen
+      tile.canvas.style.width = `${size[0] / ratio}px`;  // one pixel of the picture for each of the screen
       tile.canvas.style.height = `${size[1] / ratio}px`;
     }
     this.wipe(state.wipe);
     return size;
   }
-  /// 16:9, as large as there is room for `count` of them in a row, or in a column where that is allowed.
+  /// A size of 16:9, the largest of which `count` fit in a row, or in a column where that is allowed.
   fitting(count, may_stack, ratio, most_pixels) {
     const inside = (columns, rows) => {
       const w = ((this.stage.clientWidth - 4 * (columns - 1)) * ratio) / columns, h = ((this.stage.clientHeight - 4 * (rows - 1)) * ratio) / rows;
@@ -76,7 +76,7 @@ export class Picture {
   wipe(share) {
     if (this.over) this.tiles.get("photograph").canvas.style.clipPath = `inset(0 0 0 ${100 * share}%)`;
   }
-  /// Draws it unless a newer or a better one is there; while one is decoded only the newest waits.
+  /// Draws a frame unless a newer or a better one has been drawn; while one is decoded only the newest waits.
   async frame(header, blob) {
     const tile = this.tiles.get(header.lane);
     if (!tile) return;
@@ -104,7 +104,7 @@ export class Picture {
     if (header.id < tile.id || (header.id === tile.id && quality <= tile.rank)) return void ++this.counts.dropped;
     tile.id = header.id;
     tile.rank = quality;
-    // The bitmap becomes the canvas, without a copy; a coarse one is stretched as the page is put together.
+    // The bitmap becomes the canvas's content without a copy; a coarse one is stretched by the browser.
     const { width, height } = bitmap;
     if (tile.canvas.width !== width || tile.canvas.height !== height) Object.assign(tile.canvas, { width, height });
     tile.context ??= tile.canvas.getContext("bitmaprenderer", { alpha: false });
@@ -112,7 +112,7 @@ export class Picture {
     ++this.counts[header.quality];
     this.drawn(header);
   }
-  /// Where in the picture of one eye a place of the window is, from 0 to 1 each; null outside.
+  /// The point of one eye's picture, 0 to 1 each, at a point of the window; null outside.
   place(x, y) {
     const canvas = this.tiles.get("one")?.canvas;
     if (!canvas) return null;
@@ -127,7 +127,7 @@ export class Picture {
 
 export const quality_words = { coarse: "coarse", fine: "fine", final: "sharp" };
 
-/// The live number, in a region that a screen reader follows; spoken only for pictures at rest.
+/// Shows the SSIM in a live region, which a screen reader reads only for pictures at rest.
 export function show_ssim(ssim, at_rest) {
   const place = byId("ssim");
   place.setAttribute("aria-live", at_rest ? "polite" : "off");

@@ -1,4 +1,4 @@
-// All that the page wants to see, its history, and where it is kept over a reload: in the address's fragment.
+// The state of everything that the page wants to see, its history, and its storage over a reload: the address's fragment.
 import { clamp, finite } from "./dom.js";
 
 export const choices = {
@@ -10,14 +10,14 @@ export const choices = {
 const kinds = ["start", "model", "panel_image", "pattern"];
 
 export const fresh = () => ({
-  started: "",  // the description that the program was started with: of another one, the state is worth nothing
+  started: "",  // the description that the program was started with: with another one the state is not used
   display: "", set: {}, shown: { kind: "start", name: "", hold: false }, eye: [0, 0, 2000], eye_distance_mm: 65,
   layout: "one", compare: "none", size: "fit", surface: "sphere", wipe: 0.5,
 });
 
 const text = (x, most) => typeof x === "string" && x.length <= most;
 
-/// A state from an address, which anybody may have written; null if it is none.
+/// A state from an address, which anybody may have written; null if it is not valid.
 function checked(x) {
   const s = fresh();
   if (!x || typeof x !== "object") return null;
@@ -43,7 +43,7 @@ function kept() {
   }
 }
 
-/// `changed(moving, time)` is called after each change; time is that of the event behind it.
+/// `changed(moving, time)` is called after each change; time is that of the event that caused it.
 export class Store {
   constructor(changed) {
     this.changed = changed;
@@ -52,8 +52,8 @@ export class Store {
     this.future = [];
     this.known = this.now;  // as of the last step
     this.sent = new Map();  // id: what was wanted
-    this.good = { id: 0, wanted: null };  // the newest that the program has said can be
-    this.bad_id = 0;  // the newest that it has said cannot be
+    this.good = { id: 0, wanted: null };  // the newest that the program has reported as valid
+    this.bad_id = 0;  // the newest that it has reported as not valid
     this.last_key = null;
   }
   change(parts, moving = false, time = performance.now()) {
@@ -73,7 +73,7 @@ export class Store {
   set(key, value, moving = false, time = performance.now()) {
     this.set_all({ [key]: value }, moving, time);
   }
-  /// What cannot be stays until something else is changed; then it is as it last could be, or nothing would be shown any more.
+  /// An invalid value stays until something else is changed, then returns to its last valid one: else nothing would be shown.
   possible() {
     const { wanted } = this.good;
     return this.bad_id > this.good.id && wanted?.display === this.now.display ? wanted.set : this.now.set;
@@ -88,7 +88,7 @@ export class Store {
   wrong(id) {
     this.bad_id = Math.max(this.bad_id, id);
   }
-  /// A step to undo ends here, if anything differs.
+  /// Ends a step for undo, if anything differs.
   step() {
     if (JSON.stringify(this.now) === JSON.stringify(this.known)) return;
     this.past = [...this.past.slice(-199), this.known];
@@ -99,7 +99,7 @@ export class Store {
     // Relative, so that the token in the address stays.
     history.replaceState(null, "", "#" + encodeURIComponent(JSON.stringify(this.now)));
   }
-  /// The program says what it was started with.
+  /// To be called with the program's message of what it was started with.
   started(hello) {
     if (this.now.started === hello.display) return;
     this.now = this.known = { ...fresh(), started: hello.display, eye: hello.eye_mm };
@@ -124,7 +124,7 @@ export class Store {
 /// The message "show", without its id and whether more is about to come.
 export function wish(state, size) {
   const off = Object.keys(state.set).filter((key) => state.set[key] === "none");
-  const set = Object.entries(state.set).filter(([key]) => !off.some((table) => key.startsWith(table + ".")));  // its table is away
+  const set = Object.entries(state.set).filter(([key]) => !off.some((table) => key.startsWith(table + ".")));  // its table is removed
   return {
     type: "show", display: state.display, set: set.map(([key, value]) => `${key}=${value}`), shown: state.shown, eye_mm: state.eye, size,
     layout: state.layout, eye_distance_mm: state.eye_distance_mm,
