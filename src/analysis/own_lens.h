@@ -14,8 +14,8 @@ namespace lfdsim {
 
 /// Of the light that an eye sees of a white, Lambertian panel through those lenses whose whole elemental image lies on it, the
 /// share that comes from the image of the lens that it passed. It depends on no content, picture or pixels: an elemental image is
-/// the cell, scaled to the pitch p', about the point where the line from the viewer that images are made for, through the lens's nodal
-/// points, meets the panel.
+/// the cell, scaled to the pitch p', about the point where the line from the viewer that images are made for, through the lens's
+/// nodal points, meets the panel.
 class OwnLens {
   public:
     /// With the display's diffuser, or as light leaves the lenses.

@@ -116,8 +116,8 @@ struct Camera {
 };
 
 struct Content {
-    std::string model;                  // mesh file; relative to the description file; empty: none
-    std::optional<double> depth_mm;     // of the model's centre, from the viewer-side vertex plane; default L, or 0 where L is too far
+    std::string model;               // mesh file; relative to the description file; empty: none
+    std::optional<double> depth_mm;  // of the model's centre, from the viewer-side vertex plane; default L, or 0 where L is too far
     std::optional<double> height_mm;    // default half the panel's height
     double tilt_deg = 0;                // about x, before the yaw; positive raises the front
     double yaw_deg = 0;                 // counter-clockwise seen from above

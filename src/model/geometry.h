@@ -35,7 +35,8 @@ struct Geometry {
     double rear_principal_mm;             // viewer-side one
     double gap_mm;                        // g, panel to front_principal
     double focal_length_mm;               // f, paraxial; infinite for an afocal lens
-    double glass_radius_mm;  // plano_convex: r of the cap in glass (a lens that fills its cell: at least to the corners); else semi aperture
+    double glass_radius_mm;  // plano_convex: r of the cap in glass (a lens that fills its cell: at least to the corners); else semi
+                             // aperture
     std::array<double, 2> clear_aperture_mm;  // D along the array's own x and y: 2r, a cell's width, twice the stop radius
     double stop_z_mm;                         // plane of the curved vertex (last vertex for surfaces, lens for ideal)
     std::optional<double> diffuser_z_mm;
