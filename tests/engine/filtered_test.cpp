@@ -115,6 +115,33 @@ TEST_P(Filtered, HasTheSameBitsEverywhere) {
     EXPECT_EQ(bits.hash(), kept_bits[GetParam()]) << name;
 }
 
+// And where a block's size is decided: pictures that are fine or coarse beside the lenses, diffusers that are weak, oblique views.
+TEST(FilteredEstimator, KeepsItsBitsWhereBlocksGrow) {
+    struct Case {
+        double frame_mm;
+        std::array<double, 2> angle_deg;
+        std::int64_t samples;
+        bool rough;
+        double view_deg;
+    };
+    Bits bits;
+    for (const Case& c :
+         {Case{11, {5.7, 5.7}, 100, false, 0}, Case{2.8, {5.7, 5.7}, 400, false, 0}, Case{5.6, {0.15, 5.7}, 4, false, 0},
+          Case{8, {0.315, 5.7}, 4, false, 0}, Case{8, {1.57, 1.57}, 4, false, 0}, Case{52, {5.7, 5.7}, 4, true, 0},
+          Case{90, {5.7, 5.7}, 4, true, 0}, Case{20, {30, 30}, 4, false, 60}}) {
+        Display d = example();
+        d.diffuser = Diffuser{40, c.angle_deg, Profile::box};
+        d.render.estimator = Estimator::filtered;
+        d.render.samples = c.samples;
+        d.camera.frame_width_mm = c.frame_mm;
+        look_from(d, c.view_deg, 400);
+        RenderOptions options{1, "scalar", Rect{56, 40, 104, 72}};
+        options.rough = c.rough;
+        bits.add(picture(d, patterned_panel(d), options));
+    }
+    EXPECT_EQ(bits.hash(), 0xd2bbabadfe8f4c35);
+}
+
 TEST(FilteredEstimator, SeesAWhitePanelWhite) {
     Display d = ideal_example();
     d.diffuser = Diffuser{40, {5.7, 5.7}, Profile::box};
