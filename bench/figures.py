@@ -84,7 +84,7 @@ def duties(panel):
         "plain": [], "no Fresnel weights": ["render.fresnel=none"], "exact Fresnel weights": ["render.fresnel=exact"],
         "independent random samples": ["render.sampling=random"], "box pixel filter": ["camera.pixel_filter=box"],
         "pupil of 4 mm": ["camera.pupil_diameter_mm=4"], "gaussian diffuser": ["diffuser.profile=gaussian"],
-        "square cells": ["array.aperture=square"], "aperture stop": ["lens.stop_radius_mm=2"],
+        "filled cells": ["array.aperture=cell"], "aperture stop": ["lens.stop_radius_mm=2"],
         "array turned by 1 degree": ["array.rotation_deg=1"], "clear surround": ["array.surround=clear"],
         "plate surround": ["array.surround=plate"], "desktop-asphere, Schlick": ["render.fresnel=schlick"],
     }

@@ -25,10 +25,10 @@ Display diffuser_alone(const Display& d, const Geometry& g) {
     Display bare = d;
     bare.lens = Lens{IdealLens{{}, longest_mm}, {}};
     bare.array = LensArray{};
-    bare.array.count = {1, 1};
+    bare.array.count = {{1, 1}};
     bare.array.pitch_mm = 1.01 * std::max({g.panel_width_mm, g.panel_height_mm, g.array_width_mm, g.array_height_mm});
     bare.array.gap_mm = g.vertex_plane_mm;
-    bare.array.aperture = Aperture::square;
+    bare.array.aperture = Aperture::cell;
     return bare;
 }
 

@@ -25,7 +25,7 @@ struct Box {
 
 /// The upright rectangle within the array and in front of the panel, less a lens at each border.
 Box screen_middle(const Display& d, const Geometry& g) {
-    const double c = std::abs(std::cos(d.array.rotation_deg * degree)), s = std::abs(std::sin(d.array.rotation_deg * degree));
+    const double c = std::abs(g.lattice.cos_turn), s = std::abs(g.lattice.sin_turn);
     const double w = 0.5 * g.array_width_mm, h = 0.5 * g.array_height_mm;
     const double share = std::min(w / (w * c + h * s), h / (w * s + h * c));
     const auto along = [&](double offset, double array_half, double panel_half, double pitch, double& centre, double& half) {

@@ -61,7 +61,7 @@ EyeRays::EyeRays(const Display& d, const Geometry& g)
       vertex_plane_(g.vertex_plane_mm),
       start_z_(make_view(d, g).start_z),
       stop_first_(scene_.has_stop && g.stop_z_mm >= g.top_z_mm - 1e-9),
-      base_{double(d.array.count[0] / 2), double(d.array.count[1] / 2)} {}
+      base_(optics::base_cell(g.lattice, {std::floor(g.lattice.count[0] / 2), std::floor(g.lattice.count[1] / 2)})) {}
 
 Vec3d EyeRays::point(double x, double y) const {
     const Place at = optics::in_display(scene_.lattice, Place{x, y});

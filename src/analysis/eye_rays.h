@@ -33,6 +33,7 @@ class EyeRays {
   public:
     /// A valid display.
     EyeRays(const Display&, const Geometry&);
+    const Lattice<double>& lattice() const { return scene_.lattice; }
 
     /// From an eye in front of the display. The line aims at a point of the array's rectangle in the vertex plane and is turned
     /// where it crosses the diffuser, as camera rays are. For each choice of lens and angles its place in the cell is shifted

@@ -32,7 +32,7 @@ LensTrace::LensTrace(const Display& display, const Geometry& geometry)
 /// By how much, in units of the aperture, a point lies outside of it; 0 or less: inside.
 double LensTrace::outside(double x, double y, double radius) const {
     double reach = std::hypot(x, y) / radius;
-    if (scene_.aperture == Aperture::square)
+    if (scene_.aperture == Aperture::cell)
         reach = std::max({reach, std::abs(x) / scene_.lattice.half_pitch[0], std::abs(y) / scene_.lattice.half_pitch[1]});
     return reach - 1;
 }
@@ -247,7 +247,7 @@ Width width_at(const std::vector<Line>& lines, double z) {
 
 double diffuser_angle(const Display& d, Point along) {
     if (!d.diffuser) return 0;
-    const double turn = d.array.rotation_deg * degree, c = std::cos(turn), s = std::sin(turn);
+    const double turn = d.array.turn_deg() * degree, c = std::cos(turn), s = std::sin(turn);
     const double x = std::abs(c * along[0] - s * along[1]) * d.diffuser->angle_deg[0] * degree / 2,
                  y = std::abs(s * along[0] + c * along[1]) * d.diffuser->angle_deg[1] * degree / 2;
     return d.diffuser->profile == Profile::box ? x + y : std::hypot(x, y);  // a rectangle's reach; a normal distribution's width

@@ -58,7 +58,7 @@ struct AxisLight {
           diffuser(d.diffuser ? d.diffuser->distance_mm : 0),
           pitch(d.array.pitch_mm[k]),
           offset(d.array.offset_mm[k]),
-          lenses(double(d.array.count[k])),
+          lenses(g.lattice.count[k]),
           panel_half(0.5 * (k == 0 ? g.panel_width_mm : g.panel_height_mm)) {}
 
     /// Share of the lenses whose place q lies between these.
@@ -114,7 +114,7 @@ double passed(const Display& d, const Geometry& g) {
 
 TheoryFigure luminance_over_panel(const Display& d, const Geometry& g, double eye_mm) {
     if (d.panel.emission_exponent != 0) return {nan, "theory holds for a panel that is equally bright from all directions"};
-    if (d.array.rotation_deg != 0) return {nan, "theory holds for arrays that are not turned"};
+    if (d.array.turn_deg() != 0) return {nan, "theory holds for arrays that are not turned"};
     return {passed(d, g) * seen_share(d, g, eye_mm, 0) * seen_share(d, g, eye_mm, 1), ""};
 }
 

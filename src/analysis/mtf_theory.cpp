@@ -34,7 +34,7 @@ Blur blur(const Display& d, const Geometry& g, const Theory& t, double z_mm, dou
     Blur b{pixel_image_mm(d, g, z_mm),
            {g.clear_aperture_mm[0] * defocus, g.clear_aperture_mm[1] * defocus},
            d.array.aperture == Aperture::circle || d.lens.stop_radius_mm,
-           d.array.rotation_deg * degree,
+           d.array.turn_deg() * degree,
            {0, 0},
            false};
     if (!d.diffuser) return b;

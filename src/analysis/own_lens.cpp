@@ -144,7 +144,7 @@ namespace {
 
 /// An axis of the array, as a unit vector in the display's frame.
 std::array<double, 2> array_axis(const Display& d, int axis) {
-    const double turn = d.array.rotation_deg * degree, c = std::cos(turn), s = std::sin(turn);
+    const double turn = d.array.turn_deg() * degree, c = std::cos(turn), s = std::sin(turn);
     return axis == 0 ? std::array{c, s} : std::array{-s, c};
 }
 

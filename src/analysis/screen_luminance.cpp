@@ -26,12 +26,12 @@ double within_part(double number, int k, int parts, std::int64_t lenses) {
 }  // namespace
 
 int screen_luminance_parts(const Display& d) {
-    const auto [columns, rows] = parts_along(d.array.count);
+    const auto [columns, rows] = parts_along(lens_count(d.panel, d.array));
     return columns * rows;
 }
 
 ScreenLuminance screen_luminance(const EyeRays& rays, const Display& d, const Vec3d& eye, Parts& parts) {
-    const std::array<std::int64_t, 2> lenses = d.array.count;
+    const std::array<std::int64_t, 2> lenses = lens_count(d.panel, d.array);
     const auto [columns, rows] = parts_along(lenses);
     ScreenLuminance screen{columns, rows, {}, {}};
     screen.parts.resize(std::size_t(columns) * std::size_t(rows));
@@ -94,11 +94,11 @@ Estimate ScreenLuminance::uniformity_percent(bool inside) const {
 
 PitchLuminance pitch_luminance(const EyeRays& rays, const Display& d, const Vec3d& eye, Parts& parts) {
     constexpr int side = PitchLuminance::side;
-    const Lattice<double> lattice = make_lattice<double>(d.array);
+    const Lattice<double>& lattice = rays.lattice();
     const int rays_each = rays_a_part * rays.more_for(eye);
     // One of the columns or rows of the array's middle half
     const auto in_middle = [&](std::size_t k, double choice) {
-        const std::int64_t first = d.array.count[k] / 4, count = d.array.count[k] - 2 * first;
+        const auto all = std::int64_t(lattice.count[k]), first = all / 4, count = all - 2 * first;
         return double(first + std::min(std::int64_t((0.5 + 0.5 * choice) * double(count)), count - 1));
     };
     const auto cell = [](double number) { return std::size_t(std::min(int((0.5 + 0.5 * number) * side), side - 1)); };

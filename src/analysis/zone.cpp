@@ -85,7 +85,7 @@ struct ParaxialZone {
 ParaxialZone paraxial(const Subject& s, std::size_t axis) {
     const LensArray& array = s.display().array;
     return {s.theory().along[axis].elemental_pitch_mm / (2 * s.geometry().gap_mm),
-            double(array.count[axis] - 1) * array.pitch_mm[axis] / 2,
+            (s.geometry().lattice.count[axis] - 1) * array.pitch_mm[axis] / 2,
             s.display().content.viewing_distance_mm - s.geometry().rear_principal_mm};
 }
 

@@ -13,6 +13,7 @@
 #include "engine/memory.h"
 #include "files/display_file.h"
 #include "image/file.h"
+#include "model/coverage.h"
 #include "report/folder.h"
 #include "report/report.h"
 #include "report/side_by_side.h"
@@ -158,6 +159,8 @@ struct Analysis {
     void one(const Measure& m, Progress& progress) {
         try {
             const auto start = std::chrono::steady_clock::now();
+            if (auto problem = beyond_rows_and_columns(subject.display(), fmt::format("the measure {}", m.name)))
+                throw InputError(std::vector{std::move(*problem)});
             const Result result = m.run(subject, progress);
             folder.write(m, result, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
         } catch (const InputError& e) {  // it does not suit this display or these options: others may

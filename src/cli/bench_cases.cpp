@@ -24,7 +24,7 @@ void make_ideal(Display& d) {
 // A million lenses on the same panel: all lengths of lens and array shrink.
 void make_tiny_lenses(Display& d) {
     const double shrink = 384.0 / 1000 / 8.8;
-    d.array.count = {1000, 1000};
+    d.array.count = {{1000, 1000}};
     d.array.pitch_mm = shrink * d.array.pitch_mm[0];
     *d.array.base_z_mm *= shrink;
     auto& lens = d.lens.as<PlanoConvex>();
@@ -49,7 +49,7 @@ constexpr Duty duty_table[] = {
          d.array.offset_mm = {1, 2};
      }},
     {"facing the panel", [](Display& d) { d.lens.as<PlanoConvex>().facing = Facing::panel; }},
-    {"square apertures", [](Display& d) { d.array.aperture = Aperture::square; }},
+    {"filled cells", [](Display& d) { d.array.aperture = Aperture::cell; }},
     {"aperture stop", [](Display& d) { d.lens.stop_radius_mm = 2; }},
     {"a million lenses", make_tiny_lenses},
 };
@@ -106,7 +106,7 @@ Display bench_display() {
     d.panel.pixels = {3840, 2160};
     d.panel.pixel_pitch_mm = 0.1;
     d.lens.kind = PlanoConvex{9, 4.4, 1, 1.49, Facing::viewer};
-    d.array.count = {44, 25};
+    d.array.count = {{44, 25}};
     d.array.pitch_mm = 8.8;
     d.array.base_z_mm = 12;
     d.diffuser.emplace();

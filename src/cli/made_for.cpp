@@ -42,11 +42,11 @@ std::optional<MadeFor> made_for(const Metadata& about) {
 std::vector<Said> pickup_of(const MadeFor& made) {
     const auto& [d, g] = made;
     return {{"panel.pixel_pitch_mm", {d.panel.pixel_pitch_mm}},
-            {"array.count", {double(d.array.count[0]), double(d.array.count[1])}},
+            {"array.count", {g.lattice.count[0], g.lattice.count[1]}},
             {"array.pitch_mm", {d.array.pitch_mm.begin(), d.array.pitch_mm.end()}},
             {"array.gap_mm", {g.gap_mm}},
             {"array.offset_mm", {d.array.offset_mm[0], d.array.offset_mm[1]}},
-            {"array.rotation_deg", {d.array.rotation_deg}},
+            {"array.rotation_deg", {d.array.turn_deg()}},
             {"content.viewing_distance_mm", {d.content.viewing_distance_mm}},
             {"distance of the lens's principal planes", {g.rear_principal_mm - g.front_principal_mm}},
             {"distance of its vertex from them", {g.vertex_plane_mm - g.rear_principal_mm}}};
@@ -91,9 +91,11 @@ void warn_if_for_another(const std::filesystem::path& panel_image, const Metadat
     const std::optional<MadeFor> made = made_for(about);
     if (!made || !drawn_for_lenses(about)) return;
     std::string what = differences(pickup_of(*made), pickup_of({display, resolve(display)}));
-    if (made->display.panel.encoding != display.panel.encoding && holds_codes(panel_image))
-        what += fmt::format("{}panel.encoding {}, not {}", what.empty() ? "" : "; ", word(made->display.panel.encoding),
-                            word(display.panel.encoding));
+    const auto compare_words = [&](const char* key, std::string_view was, std::string_view is) {
+        if (was != is) what += fmt::format("{}{} {}, not {}", what.empty() ? "" : "; ", key, was, is);
+    };
+    compare_words("array.lattice", word(made->display.array.lattice), word(display.array.lattice));
+    if (holds_codes(panel_image)) compare_words("panel.encoding", word(made->display.panel.encoding), word(display.panel.encoding));
     if (!what.empty()) spdlog::warn("{}: was made for another display: {}", panel_image.string(), what);
 }
 

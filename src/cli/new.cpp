@@ -71,7 +71,7 @@ void run(const NewArguments& args) {
     print(
         fmt::format("{}: {} x {} lenses of {:.4g} mm, {} x {} views over {:g} degrees, central depth plane at {:g} mm\n"
                     "Next: lfdsim check {}, lfdsim view {}\n",
-                    args.output, d.array.count[0], d.array.count[1], d.array.pitch_mm[0], made.views, made.views,
+                    args.output, (*d.array.count)[0], (*d.array.count)[1], d.array.pitch_mm[0], made.views, made.views,
                     made.request.fov_deg, *made.request.depth_mm, name, name));
 }
 

@@ -11,13 +11,13 @@ class PickupRays {
   public:
     PickupRays(const Display& display, const Geometry& geometry, const ContentScene& scene)
         : pickup_(display, geometry),
-          turned_(display.array.rotation_deg != 0),
+          apart_(display.array.turn_deg() != 0 || is_staggered(display.array) || is_strips(display.array)),
           half_mm_(scene.impl().half_mm),
           centre_mm_(scene.centre_mm()),
           half_depth_(half_mm_[2] * 1.0001 + 1e-3),
           rise_(centre_mm_[2] + half_depth_ - pickup_.z_rear),
           width_per_t_(float(display.panel.pixel_pitch_mm / geometry.gap_mm)) {
-        if (turned_) return;
+        if (apart_) return;
         // (x, y): the middle of the array, where a lens owns the panel.
         const double x = display.array.offset_mm[0] * pickup_.scale, y = display.array.offset_mm[1] * pickup_.scale;
         for (std::int64_t i = 0; i < display.panel.pixels[0]; ++i) {
@@ -40,7 +40,7 @@ class PickupRays {
             ray.org_z[k] = float(half_depth_);
             ray.dir_z[k] = -1;
         }
-        turned_ ? each_alone(column, row, block) : by_column_and_row(column, row, block);
+        apart_ ? each_alone(column, row, block) : by_column_and_row(column, row, block);
     }
 
   private:
@@ -107,7 +107,7 @@ class PickupRays {
     }
 
     Pickup pickup_;
-    bool turned_;
+    bool apart_;                 // no row or column has anything in common
     Vec3d half_mm_, centre_mm_;  // of the scene's box
     double half_depth_, rise_;   // rise: of the rays' first plane over the rear nodal points
     float width_per_t_;

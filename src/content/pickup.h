@@ -20,7 +20,10 @@ struct NodalLine {
 class Pickup {
   public:
     Pickup(const Display& d, const Geometry& g)
-        : lattice_(make_lattice<double>(d.array)),
+        : lattice_(g.lattice),
+          viewer_(d.content.viewing_distance_mm),
+          top_z_(g.vertex_plane_mm),
+          reduced_top_(g.reduced_vertex_plane_mm),
           inverse_gap_(1 / g.gap_mm),
           pixel_(d.panel.pixel_pitch_mm),
           left_(-0.5 * double(d.panel.pixels[0])),
@@ -39,7 +42,9 @@ class Pickup {
     NodalLine line(double x, double y) const {
         const auto at =
             optics::to_array(lattice_, x * inverse_scale_ - lattice_.offset[0], y * inverse_scale_ - lattice_.offset[1]);
-        const optics::Cell<double> lens{number(at.x, 0), number(at.y, 1)};
+        if (lattice_.strips) return line_of_strip(x, y, at.x);
+        const optics::Cell<double> lens =
+            lattice_.staggered ? optics::lens_at(lattice_, at.x, at.y) : optics::Cell<double>{number(at.x, 0), number(at.y, 1)};
         const auto c = optics::in_display(lattice_, optics::axis_in_array(lattice_, lens));
         return {c.x, c.y, (c.x - x) * inverse_gap_, (c.y - y) * inverse_gap_, optics::holds(lattice_, lens)};
     }
@@ -55,10 +60,31 @@ class Pickup {
     Place place(double x, double y) const {
         const NodalLine l = line(x, y);
         const auto off = optics::to_array(lattice_, x - l.x * scale, y - l.y * scale);
-        return {off.x / (lattice_.pitch[0] * scale), off.y / (lattice_.pitch[1] * scale), l.owned};
+        return {off.x / (lattice_.pitch[0] * scale), lattice_.strips ? 0 : off.y / (lattice_.pitch[1] * scale), l.owned};
     }
 
   private:
+    /// Strips show a panel point in the plane through their rear nodal line, in which the viewer's eyes, on a level with the
+    /// panel's middle at the distance D, see it from one place. Along the strip its light passes plane plates: in the array's frame
+    /// it rises by m_y for each mm of their reduced thickness.
+    NodalLine line_of_strip(double x, double y, double owner_x) const {
+        const optics::Cell<double> lens{number(owner_x, 0), 0};
+        const double centre = optics::axis_in_array(lattice_, lens).x, c = lattice_.cos_turn, s = lattice_.sin_turn;
+        const auto p = optics::to_array(lattice_, x - lattice_.offset[0], y - lattice_.offset[1]);
+        const double mx = (centre - p.x) * inverse_gap_;
+        double my = -s / c * mx;
+        if (!std::isinf(viewer_)) {
+            // The eye is on the display's line y = 0, where it crosses the strip's plane of light; from the array's middle.
+            const double eye_x = (centre + mx * (viewer_ - z_rear) + s * lattice_.offset[1]) / c;
+            const auto eye = optics::to_array(lattice_, eye_x, -lattice_.offset[1]);
+            my = (eye.y - p.y) / (reduced_top_ + viewer_ - top_z_);
+        }
+        const double rise = p.y + my * (reduced_top_ - top_z_ + z_rear);
+        const auto at = optics::in_display(lattice_, optics::Place<double>{centre, rise});
+        const auto slope = optics::to_display(lattice_, mx, my);
+        return {at.x, at.y, slope.x, slope.y, optics::holds(lattice_, lens)};
+    }
+
     // The column or row of the lens at a place, from the array's middle; outside the count where there is none. Rounding down
     // without the library's floor is twice as fast.
     double number(double place, int axis) const {
@@ -68,6 +94,7 @@ class Pickup {
     }
 
     Lattice<double> lattice_;
+    double viewer_, top_z_, reduced_top_;  // the viewer's distance, the vertex plane's, and its reduced one, from the panel, mm
     double inverse_gap_, pixel_, left_, top_;
 
   public:

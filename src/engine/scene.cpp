@@ -123,10 +123,9 @@ optics::Scene<S> make_scene(const Display& display, const Geometry& geometry) {
     add_lens(scene, display, geometry);
 
     scene.surround = array.surround;
-    scene.lattice = make_lattice<S>(array);
-    const Lattice<double> lattice = make_lattice<double>(array);
-    for (int k = 0; k < 2; ++k) scene.pitch_pixels[k] = S(lattice.pitch[k] / display.panel.pixel_pitch_mm);
-    scene.rotated = array.rotation_deg != 0;
+    scene.lattice = make_lattice<S>(display.panel, array);
+    for (int k = 0; k < 2; ++k) scene.pitch_pixels[k] = S(geometry.lattice.pitch[k] / display.panel.pixel_pitch_mm);
+    scene.rotated = array.turn_deg() != 0;
 
     scene.fresnel = display.render.fresnel;
     scene.has_diffuser = display.diffuser.has_value();
@@ -171,7 +170,7 @@ optics::View make_view(const Display& display, const Geometry& geometry) {
     view.pupil_radius = camera.pupil_diameter_mm.value_or(0) / 2;
     view.frame_per_focus = view.distance / geometry.focus_distance_mm;
     view.start_z = geometry.diffuser_z_mm.value_or(geometry.entrance_z_mm);
-    view.lattice = make_lattice<double>(display.array);
+    view.lattice = geometry.lattice;
     view.panel_width = geometry.panel_width_mm;
     view.panel_height = geometry.panel_height_mm;
     view.pixels_per_mm = 1 / display.panel.pixel_pitch_mm;
@@ -181,7 +180,8 @@ optics::View make_view(const Display& display, const Geometry& geometry) {
 
 Estimator estimator_of(const Display& display) {
     const bool applies = display.diffuser && display.camera.pixel_filter == PixelFilter::center &&
-                         display.camera.pupil_diameter_mm.value_or(0) == 0 && display.array.rotation_deg == 0;
+                         display.camera.pupil_diameter_mm.value_or(0) == 0 && display.array.turn_deg() == 0 &&
+                         !is_staggered(display.array) && !is_strips(display.array);
     return applies ? display.render.estimator : Estimator::point;
 }
 

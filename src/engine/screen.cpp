@@ -11,7 +11,7 @@ namespace lfdsim {
 std::optional<Corners> screen_corners(const Display& display, const Geometry& geometry) {
     const optics::View view = make_view(display, geometry);
     const CameraAxes axes = camera_axes(display.camera);
-    const double quarters = std::round(display.array.rotation_deg / 90), rest = display.array.rotation_deg - 90 * quarters;
+    const double quarters = std::round(display.array.turn_deg() / 90), rest = display.array.turn_deg() - 90 * quarters;
     const double c = std::cos(rest * degree), s = std::sin(rest * degree);
     double half_width = geometry.array_width_mm / 2, half_height = geometry.array_height_mm / 2;
     if (std::fmod(quarters, 2) != 0) std::swap(half_width, half_height);

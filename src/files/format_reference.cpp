@@ -18,6 +18,7 @@ std::string_view type_text(const Pitch&) { return "number or 2 numbers"; }
 std::string_view type_text(const std::array<double, 2>&) { return "2 numbers"; }
 std::string_view type_text(const std::array<double, 3>&) { return "3 numbers"; }
 std::string_view type_text(const std::array<std::int64_t, 2>&) { return "2 integers"; }
+std::string_view type_text(const std::optional<std::array<std::int64_t, 2>>&) { return "2 integers"; }
 template <class E>
 requires has_words<E> std::string_view type_text(const E&) { return "string"; }
 

@@ -29,11 +29,6 @@ requires has_words<E> std::string read_value(const toml::node& node, E& value) {
     return fault;
 }
 
-template <class T>
-std::string read_value(const toml::node& node, std::optional<T>& value) {
-    return read_value(node, value.emplace());
-}
-
 template <class T, std::size_t n>
 std::string read_value(const toml::node& node, std::array<T, n>& values) {
     const toml::array* array = node.as_array();
@@ -46,6 +41,11 @@ std::string read_value(const toml::node& node, std::array<T, n>& values) {
     return {};
 }
 
+template <class T>
+std::string read_value(const toml::node& node, std::optional<T>& value) {
+    return read_value(node, value.emplace());
+}
+
 // A field in TOML syntax, every digit kept; empty for an absent optional.
 std::string toml_text(double);
 std::string toml_text(std::int64_t);
@@ -54,15 +54,15 @@ std::string toml_text(const Pitch&);
 
 template <class E>
 requires has_words<E> std::string toml_text(const E& value) { return toml_text(std::string(word(value))); }
-template <class T>
-std::string toml_text(const std::optional<T>& value) {
-    return value ? toml_text(*value) : std::string();
-}
 template <class List>
 requires std::is_arithmetic_v<typename List::value_type> std::string toml_text(const List& values) {
     std::string text = "[";
     for (const auto& value : values) text += (text.size() > 1 ? ", " : "") + toml_text(value);
     return text + "]";
+}
+template <class T>
+std::string toml_text(const std::optional<T>& value) {
+    return value ? toml_text(*value) : std::string();
 }
 
 }  // namespace lfdsim

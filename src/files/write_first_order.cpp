@@ -119,7 +119,7 @@ void write_array(const FirstOrder& o, Text& text) {
         "Elemental images are p' = p (1 + g/E) = {:.6g} mm wide, E = {:.6g} mm from the lenses to the eye. The count is of those "
         "that lie whole on the panel.",
         o.theory.along[0].elemental_pitch_mm, o.eye_mm);
-    text.key("count", array.count);
+    text.key("count", *array.count);
     text.note(
         "From the panel to the lens's panel-side principal plane: g = 1 / (2 tan(FOV/2) / p - 1/E), so that the field of view, 2 "
         "atan(p' / 2g), is {:g} degrees (tan(FOV/2) = {:.5g}). Depth of field: |1/z - 1/L| <= a/(g D), from {} to {}.",

@@ -1,5 +1,6 @@
 #include "meshed/lens_mesh.h"
 
+#include "model/coverage.h"
 #include "model/numbers.h"
 #include "model/vec.h"
 
@@ -233,11 +234,12 @@ Grid choose_grid(const Builder& builder, bool square, double wanted) {
 LensMesh mesh_lens(const Display& display, const Geometry& geometry, std::int64_t triangles) {
     if (geometry.surfaces.front().form == SurfaceForm::thin)
         throw InputError("lens.type", "an ideal lens has no surfaces to make triangles of; give a real lens");
+    if (auto problem = beyond_rows_and_columns(display, "a mesh of the lens")) throw InputError(std::vector{std::move(*problem)});
     if (triangles < least_lens_triangles || triangles > most_lens_triangles)
         throw InputError("--lens-mesh",
                          fmt::format("{} triangles; allowed: {} to {}", triangles, least_lens_triangles, most_lens_triangles));
     Builder builder(display, geometry);
-    return builder.build(choose_grid(builder, display.array.aperture == Aperture::square, double(triangles)));
+    return builder.build(choose_grid(builder, display.array.aperture == Aperture::cell, double(triangles)));
 }
 
 }  // namespace lfdsim

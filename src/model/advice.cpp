@@ -41,7 +41,7 @@ void advise_on_lenses(Advised& a) {
     // Lens k begins k N pixels from the first; a fraction of a pixel in N shifts the views of the last lens against those of the
     // first.
     const auto drift = [&](std::size_t k) {
-        return std::abs(t.along[k].views - std::round(t.along[k].views)) * double(d.array.count[k]);
+        return std::abs(t.along[k].views - std::round(t.along[k].views)) * g.lattice.count[k];
     };
     const std::size_t drifts = drift(0) >= drift(1) ? 0 : 1;
     if (t.along[few].views < 2)

@@ -10,8 +10,8 @@ namespace {
 /// Share of the lenses whose elemental images have their centres beside the panel: at least half of such an image is missing. In
 /// large arrays 256 evenly spread rows and columns are counted.
 double share_beside_panel(const Geometry& g, const LensArray& array, double elemental_over_lens_pitch) {
-    const double turn = array.rotation_deg * degree, cos = std::cos(turn), sin = std::sin(turn);
-    const std::int64_t columns = std::min<std::int64_t>(array.count[0], 256), rows = std::min<std::int64_t>(array.count[1], 256);
+    const double turn = array.turn_deg() * degree, cos = std::cos(turn), sin = std::sin(turn);
+    const auto columns = std::int64_t(std::min(g.lattice.count[0], 256.)), rows = std::int64_t(std::min(g.lattice.count[1], 256.));
     std::int64_t beside = 0;
     for (std::int64_t j = 0; j < rows; ++j)
         for (std::int64_t i = 0; i < columns; ++i) {
@@ -34,6 +34,7 @@ void advise_on_layout(Advised& a) {
     LensArray straight = d.array;
     straight.offset_mm = {};
     straight.rotation_deg = 0;
+    straight.slant_deg.reset();
     const double beside = share_beside_panel(g, d.array, scale), beside_straight = share_beside_panel(g, straight, scale);
     if (beside > beside_straight + 0.005)
         a.say(
@@ -50,7 +51,8 @@ void advise_on_layout(Advised& a) {
             g.array_width_mm, g.array_height_mm, g.panel_width_mm, g.panel_height_mm);
     } else if (beside_straight > 0.02) {
         const auto fitting = [&](double size, std::size_t k) {
-            return std::clamp<std::int64_t>(std::int64_t(size / a.theory.along[k].elemental_pitch_mm), 1, d.array.count[k]);
+            return std::clamp<std::int64_t>(std::int64_t(size / a.theory.along[k].elemental_pitch_mm), 1,
+                                            std::int64_t(g.lattice.count[k]));
         };
         a.say(
             "the elemental images for a viewer at {:.5g} mm are {:.4f} times as wide as the lenses, {:.5g} x {:.5g} mm together, "

@@ -71,9 +71,9 @@ double michelson_of(const std::vector<double>& waves) {
 double aperture_plane_mm(const Display& d, const Geometry& g, std::size_t axis) {
     if (d.lens.type() == LensType::ideal || stop_at_entrance(d, g)) return g.entrance_z_mm;
     const PlacedSurface& last = g.surfaces.back();
-    const bool square = d.array.aperture == Aperture::square;
+    const bool filled = d.array.aperture == Aperture::cell;
     return last.z_mm + sag_mm(last.curvature_per_mm, last.conic, last.even_asphere,
-                              square ? std::min(d.array.pitch_mm[axis] / 2, last.semi_aperture_mm) : last.semi_aperture_mm);
+                              filled ? std::min(d.array.pitch_mm[axis] / 2, last.semi_aperture_mm) : last.semi_aperture_mm);
 }
 
 double gap_closing_angle_deg(double pitch_mm, double height_mm) { return 2 * std::atan(pitch_mm / (2 * height_mm)) / degree; }
@@ -81,7 +81,7 @@ double gap_closing_angle_deg(double pitch_mm, double height_mm) { return 2 * std
 std::array<double, 2> band_contrast(const Display& d, const Geometry& g) {
     // Without an opaque surround light passes between the lenses too; a sheet of stops is black in any case.
     if (d.array.surround != Surround::opaque && !d.lens.stop_radius_mm) return {0, 0};
-    const double turn = d.array.rotation_deg * degree, radius = pupil_radius_mm(d, g);
+    const double turn = d.array.turn_deg() * degree, radius = pupil_radius_mm(d, g);
     std::array<double, 2> contrast{};
     for (const std::size_t axis : {0u, 1u}) {
         const double height = d.diffuser ? *g.diffuser_z_mm - aperture_plane_mm(d, g, axis) : 0, pitch = d.array.pitch_mm[axis];

@@ -37,7 +37,7 @@ struct Surface {
 
 struct PlanoConvex {
     double sphere_radius_mm = 0;               // R
-    std::optional<double> aperture_radius_mm;  // r; may be absent for a square aperture
+    std::optional<double> aperture_radius_mm;  // r; may be absent of a lens that fills its cell
     double cylinder_height_mm = 0;             // h
     double index = 0;                          // n
     Facing facing = Facing::viewer;
@@ -50,7 +50,7 @@ struct SurfaceLens {
 };
 
 struct IdealLens {
-    std::optional<double> aperture_radius_mm;  // r; may be absent for a square aperture
+    std::optional<double> aperture_radius_mm;  // r; may be absent of a lens that fills its cell
     double focal_length_mm = 0;                // f
     bool operator==(const IdealLens&) const = default;
 };
@@ -84,14 +84,18 @@ struct Pitch : std::array<double, 2> {
 
 struct LensArray {
     LatticeKind lattice = LatticeKind::square;
-    std::array<std::int64_t, 2> count{};  // nx, ny
-    Pitch pitch_mm;                       // px, py
-    std::optional<double> gap_mm;         // panel to the lens's panel-side principal plane; exactly one of the two
-    std::optional<double> base_z_mm;      // panel to the lens's lowest z
+    std::optional<std::array<std::int64_t, 2>> count;  // nx, ny; absent: the least that cover the panel (lattice.h)
+    Pitch pitch_mm;                                    // px, py
+    std::optional<double> gap_mm;                      // panel to the lens's panel-side principal plane; exactly one of the two
+    std::optional<double> base_z_mm;                   // panel to the lens's lowest z
     Surround surround = Surround::opaque;
     Aperture aperture = Aperture::circle;
     std::array<double, 2> offset_mm{};
-    double rotation_deg = 0;  // counter-clockwise as the viewer sees it, about the array's centre, before the offset
+    double rotation_deg = 0;          // counter-clockwise as the viewer sees it, about the array's centre, before the offset
+    std::optional<double> slant_deg;  // of strips' axes from the vertical, their upper ends to the viewer's right
+
+    /// Of the array's frame against the display's, counter-clockwise.
+    double turn_deg() const { return slant_deg ? -*slant_deg : rotation_deg; }
     bool operator==(const LensArray&) const = default;
 };
 

@@ -99,7 +99,7 @@ void place_lenses(FirstOrder& o, double L) {
     o.eye_mm = r.distance_mm - apart - gap;
     if (r.lens == LensType::ideal) {
         o.display.lens.kind = IdealLens{{}, to_nanometre(1 / (1 / gap + 1 / L))};
-        array.aperture = Aperture::square;
+        array.aperture = Aperture::cell;
         o.aperture_rule = ApertureRule::cell;
     } else {
         lens.index = pmma_index;
@@ -137,8 +137,9 @@ std::optional<Problem> design(FirstOrder& o) {
                                    "wide as its pitch; --lens ideal has no such limit",
                                    r.fov_deg, pmma_index)};
 
+    d.array.count.emplace();
     for (std::size_t k = 0; k < 2; ++k)
-        d.array.count[k] = std::max<std::int64_t>(1, std::int64_t(double(r.pixels[k]) * a / (p * (1 + g / o.eye_mm)) + 1e-6));
+        (*d.array.count)[k] = std::max<std::int64_t>(1, std::int64_t(double(r.pixels[k]) * a / (p * (1 + g / o.eye_mm)) + 1e-6));
 
     d.camera.position_mm = {0, 0, D};
     d.camera.frame_width_mm = rounded(1.05 * std::max(width, height * 16 / 9) * D / o.eye_mm);

@@ -2,6 +2,7 @@
 #pragma once
 #include "model/display.h"
 #include "model/error.h"
+#include "model/lattice.h"
 
 #include <array>
 #include <optional>
@@ -26,10 +27,12 @@ struct PlacedSurface {
 
 /// A valid display resolved to lengths on the z axis. All z in mm from the panel.
 struct Geometry {
+    Lattice<double> lattice;              // where the lenses stand
     std::vector<PlacedSurface> surfaces;  // panel side first; at least one
     double base_z_mm;                     // lowest z of a lens, rims and sags included
     double top_z_mm;                      // highest z of a lens, rims and sags included
     double entrance_z_mm;                 // vertex of the surface that an eye's rays meet first
+    double reduced_vertex_plane_mm;       // of the media on a lens's axis from the panel up to there: sum of thickness / index
     double vertex_plane_mm;               // viewer-side vertex plane: highest z of a lens on its axis
     double front_principal_mm;            // panel-side principal (= nodal) point
     double rear_principal_mm;             // viewer-side one
@@ -41,7 +44,7 @@ struct Geometry {
     double stop_z_mm;                         // plane of the curved vertex (last vertex for surfaces, lens for ideal)
     std::optional<double> diffuser_z_mm;
     double panel_width_mm, panel_height_mm;
-    double array_width_mm, array_height_mm;  // nx px, ny py
+    double array_width_mm, array_height_mm;  // of the box about all cells, in the array's frame
     double frame_width_mm;                   // of the camera, resolved from frame_width_mm | fov_deg | default
     double focus_distance_mm;                // of the camera
     double content_depth_mm, content_height_mm;

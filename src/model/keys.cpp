@@ -11,7 +11,7 @@ namespace {
 
 constexpr double two_to_63 = 9223372036854775808.0;  // what the largest 64-bit integer, 2^63 - 1, rounds to
 constexpr Range no_range{-infinity, infinity}, count_range{1, two_to_31, false, true}, index_range{1, 4}, turn{-360, 360};
-constexpr Range angle{0, 180, false, true}, open_angle{0, 180, true, true};
+constexpr Range angle{0, 180, false, true}, open_angle{0, 180, true, true}, slant_range{-90, 90, true, true};
 // Curvatures up to a nanometre's radius, and coefficients of any size: the sag that they give is checked instead.
 constexpr Range curvature_range{-1 / shortest_mm, 1 / shortest_mm}, coefficient_range{-1e6, 1e6};
 
@@ -24,9 +24,10 @@ constexpr Key<Panel> panel_keys[] = {
 };
 
 constexpr std::string_view aperture_radius_doc =
-    "r, the lens's radius; 2 r is at most the least lens pitch for circular apertures. With square apertures it may be absent: the "
-    "lens then reaches the cell's corners, r = pitch/sqrt(2) in square cells.";
-constexpr std::string_view no_aperture_radius = "half the cell's diagonal with square apertures; required with circular ones";
+    "r, the lens's radius; 2 r is at most the least lens pitch for circular apertures; of a cylindrical lens half its width. Of "
+    "lenses that fill their cells it may be "
+    "absent: the lens then reaches the cell's corners, r = pitch/sqrt(2) in square cells.";
+constexpr std::string_view no_aperture_radius = "required of round lenses; else as far as the cell's corners";
 
 constexpr Key<Lens> lens_keys[] = {
     {"type", &Lens::kind, no_range, true,
@@ -67,20 +68,26 @@ constexpr Key<Surface> surface_keys[] = {
 };
 
 constexpr Key<LensArray> array_keys[] = {
-    {"lattice", &LensArray::lattice, no_range, false, "Shape of the cells in which the lenses stand."},
-    {"count", &LensArray::count, count_range, true, "Lenses across and up. Their product is below 2^31."},
+    {"lattice", &LensArray::lattice, no_range, false,
+     "Of the cells in which the lenses stand: squares; rectangles; hexagons, corners up and down; rectangles whose rows alternate "
+     "by half a pitch; or strips, which hold cylindrical lenses."},
+    {"count", &LensArray::count, count_range, false, "Lenses across and up. Their product is below 2^31. Strips are one row.",
+     "the least that cover the panel"},
     {"pitch_mm", &LensArray::pitch_mm, positive_length, true,
-     "From lens to lens: one number, or for rectangular cells two, along the array's rows and along its columns."},
+     "From lens to lens: one number, or for rectangles and bricks two, along the array's rows and from row to row."},
     {"gap_mm", &LensArray::gap_mm, positive_length, false, "From the panel to the lens's panel-side principal plane.",
      "given by base_z_mm; exactly one of the two is required"},
     {"base_z_mm", &LensArray::base_z_mm, length_or_zero, false, "From the panel to the lens's lowest point.",
      "given by gap_mm; exactly one of the two is required"},
     {"surround", &LensArray::surround, no_range, false,
      "Between the lenses: black walls, air and polished walls, or one moulded sheet. The last two need a lens of one glass body."},
-    {"aperture", &LensArray::aperture, no_range, false,
-     "Round lenses, or lenses that fill their cells (\"square\", rectangular ones too)."},
+    {"aperture", &LensArray::aperture, no_range, false, "Round lenses, or lenses that fill their cells."},
     {"offset_mm", &LensArray::offset_mm, any_length, false, "Of the array's centre from the panel's, after the rotation."},
     {"rotation_deg", &LensArray::rotation_deg, turn, false, "Counter-clockwise as the viewer sees it, about the array's centre."},
+    {"slant_deg", &LensArray::slant_deg, slant_range, false,
+     "Of strips, in place of the rotation: angle of their axes from the vertical, positive where the upper ends lean to the "
+     "viewer's right.",
+     "the rotation, the other way round"},
 };
 
 constexpr Key<Diffuser> diffuser_keys[] = {
@@ -231,8 +238,8 @@ template <> std::span<const std::string_view> words<LensType>() { static constex
 template <> std::span<const std::string_view> words<LensKind>() { return words<LensType>(); }
 template <> std::span<const std::string_view> words<Facing>() { static constexpr std::string_view w[] = {"viewer", "panel"}; return w; }
 template <> std::span<const std::string_view> words<Surround>() { static constexpr std::string_view w[] = {"opaque", "clear", "plate"}; return w; }
-template <> std::span<const std::string_view> words<LatticeKind>() { static constexpr std::string_view w[] = {"square", "rectangle"}; return w; }
-template <> std::span<const std::string_view> words<Aperture>() { static constexpr std::string_view w[] = {"circle", "square"}; return w; }
+template <> std::span<const std::string_view> words<LatticeKind>() { static constexpr std::string_view w[] = {"square", "rectangle", "hexagon", "brick", "strips"}; return w; }
+template <> std::span<const std::string_view> words<Aperture>() { static constexpr std::string_view w[] = {"circle", "cell"}; return w; }
 template <> std::span<const std::string_view> words<Profile>() { static constexpr std::string_view w[] = {"box", "gaussian"}; return w; }
 template <> std::span<const std::string_view> words<PixelFilter>() { static constexpr std::string_view w[] = {"center", "box"}; return w; }
 template <> std::span<const std::string_view> words<Estimator>() { static constexpr std::string_view w[] = {"filtered", "point"}; return w; }

@@ -30,11 +30,11 @@ inline constexpr double two_to_31 = 2147483648.0;
 
 /// One of all the types of a value, Of<V> being a pointer to it or to a member.
 template <template <class> class Of>
-using ValuesOf =
-    std::variant<Of<double>, Of<std::optional<double>>, Of<std::int64_t>, Of<std::optional<std::int64_t>>, Of<std::string>,
-                 Of<std::array<double, 2>>, Of<Vec3d>, Of<std::array<std::int64_t, 2>>, Of<std::vector<double>>, Of<Pitch>,
-                 Of<Encoding>, Of<LensKind>, Of<Facing>, Of<Surround>, Of<LatticeKind>, Of<Aperture>, Of<Profile>, Of<PixelFilter>,
-                 Of<Estimator>, Of<Sampling>, Of<Fresnel>>;
+using ValuesOf = std::variant<Of<double>, Of<std::optional<double>>, Of<std::int64_t>, Of<std::optional<std::int64_t>>,
+                              Of<std::string>, Of<std::array<double, 2>>, Of<Vec3d>, Of<std::array<std::int64_t, 2>>,
+                              Of<std::optional<std::array<std::int64_t, 2>>>, Of<std::vector<double>>, Of<Pitch>, Of<Encoding>,
+                              Of<LensKind>, Of<Facing>, Of<Surround>, Of<LatticeKind>, Of<Aperture>, Of<Profile>, Of<PixelFilter>,
+                              Of<Estimator>, Of<Sampling>, Of<Fresnel>>;
 
 /// What a key fills. Only Display and SurfaceLens contain tables: one that is always there, one that may be absent, or a list;
 /// the keys of a kind stand beside its word.

@@ -8,11 +8,11 @@ inline constexpr decltype(sizeof 0) max_surfaces = 16, max_asphere_terms = 8;
 
 enum class Encoding { srgb, linear };  // of the panel image's code values
 enum class LensType { plano_convex, surfaces, ideal };
-enum class Facing { viewer, panel };           // which way the convex side of a plano-convex lens faces
-enum class Surround { opaque, clear, plate };  // what is between the lenses
-enum class LatticeKind { square, rectangle };  // of the cells in which lenses stand
-enum class Aperture { circle, square };        // square: the lens fills its cell
-enum class Profile { box, gaussian };          // of the diffuser, per axis
+enum class Facing { viewer, panel };                                   // which way the convex side of a plano-convex lens faces
+enum class Surround { opaque, clear, plate };                          // what is between the lenses
+enum class LatticeKind { square, rectangle, hexagon, brick, strips };  // of the cells in which lenses stand
+enum class Aperture { circle, cell };                                  // cell: the lens fills it
+enum class Profile { box, gaussian };                                  // of the diffuser, per axis
 enum class PixelFilter { center, box };
 enum class Estimator { filtered, point };
 enum class Sampling { sobol, random };

@@ -1,30 +1,51 @@
 // Where the lenses of an array stand. Floor 0: plain data; the functions on it are in optics/lattice.h, compiled once for each
 // instruction set.
 #pragma once
+#include <array>
+#include <cstdint>
 
 namespace lfdsim {
 
 struct LensArray;
+struct Panel;
 
 /// Lengths in mm. The array's frame has x' along its rows and y' along its columns. Lens (i, j), counted from 0 to the right and
-/// upwards, has its axis at ((i + 1/2 - nx/2) px, (j + 1/2 - ny/2) py) from the array's middle; its cell is the rectangle about it.
+/// upwards, has its axis at ((i + 1/2 - nx/2) px, (j + 1/2 - ny/2) py) from the array's middle; staggered rows stand px/4 to the
+/// right of that where j is odd and px/4 to the left where it is even. A cell is the rectangle about the axis, or, where lenses are
+/// nearest to each other at 60 degrees, the hexagon with corners up and down. Strips are cells without end along y'.
 template <class S>
 struct Lattice {
-    S pitch[2], per_pitch[2], half_pitch[2];  // along x' and y'; the second its inverse
+    S pitch[2], per_pitch[2], half_pitch[2];  // along x', and from row to row; the second its inverse
     S count[2];                               // lenses along x' and y'
     S offset[2];                              // of the array's middle in the display's frame
     S cos_turn, sin_turn;                     // of the array's frame against the display's, counter-clockwise to the viewer
+    bool staggered, hexagonal, strips;        // hexagonal ones are staggered, too
 };
+
+/// Rows alternate by half a pitch (hexagon, brick).
+bool is_staggered(const LensArray&);
+
+/// Cylindrical lenses side by side.
+bool is_strips(const LensArray&);
 
 /// Whether figures that depend on the pitch differ between the array's own x and y, and are reported for each.
 bool differs_by_axis(const LensArray&);
 
-/// Radii of the largest disk within a cell and of the smallest around it, mm.
+/// From lens to lens along x' and from row to row along y', mm; of strips, which are one row, as far as they reach over the panel.
+std::array<double, 2> spacing_mm(const Panel&, const LensArray&);
+
+/// Lenses along x' and y': as given, or the least that cover the panel. At most 1e10, also of sizes without bounds.
+std::array<std::int64_t, 2> lens_count(const Panel&, const LensArray&);
+
+/// The box about all cells, along x' and y', mm.
+std::array<double, 2> array_size_mm(const Panel&, const LensArray&);
+
+/// Radii of the largest disk within a cell and of the smallest around it (of strips both p/2), mm.
 double inner_radius_mm(const LensArray&);
 double outer_radius_mm(const LensArray&);
 
 /// Rounded to S from double precision.
 template <class S>
-Lattice<S> make_lattice(const LensArray&);
+Lattice<S> make_lattice(const Panel&, const LensArray&);
 
 }  // namespace lfdsim

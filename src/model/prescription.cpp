@@ -76,7 +76,7 @@ Cardinal cardinal_points(const std::vector<PlacedSurface>& surfaces) {
 
 double glass_radius_mm(const std::optional<double>& aperture_radius_mm, const LensArray& array) {
     const double given = aperture_radius_mm.value_or(0);
-    return array.aperture == Aperture::square ? std::max(given, outer_radius_mm(array)) : given;
+    return array.aperture == Aperture::cell ? std::max(given, outer_radius_mm(array)) : given;
 }
 
 namespace {

@@ -15,7 +15,7 @@ struct Cardinal {
 };
 Cardinal cardinal_points(const std::vector<PlacedSurface>&);
 
-/// The radius r of a plano-convex or ideal lens: as given; with square apertures at least half the cell's diagonal.
+/// The radius r of a plano-convex or ideal lens: as given; of lenses that fill their cells at least as far as the corners.
 double glass_radius_mm(const std::optional<double>& aperture_radius_mm, const LensArray&);
 
 /// The lens's surfaces with the first vertex in z = 0, panel side first.

@@ -28,6 +28,12 @@ void place_lens(const Lens& lens, const LensArray& array, Geometry& g) {
     g.top_z_mm = first + highest;
     g.vertex_plane_mm = first + vertex;
     g.entrance_z_mm = g.surfaces.back().z_mm;
+    double z = 0, index = 1;
+    for (const PlacedSurface& s : g.surfaces) {
+        g.reduced_vertex_plane_mm += (s.z_mm - z) / index;
+        z = s.z_mm;
+        index = s.index_above;
+    }
     g.front_principal_mm = first + paraxial.front_principal_mm;
     g.rear_principal_mm = first + paraxial.rear_principal_mm;
     g.focal_length_mm = paraxial.focal_length_mm;
@@ -39,7 +45,7 @@ void place_lens(const Lens& lens, const LensArray& array, Geometry& g) {
     g.stop_z_mm = (first_curved ? g.surfaces.front() : g.surfaces.back()).z_mm;
     // to the last bit as given: g = f must stay exact
     g.gap_mm = array.gap_mm.value_or(g.front_principal_mm);
-    if (array.aperture == Aperture::square) g.clear_aperture_mm = array.pitch_mm;
+    if (array.aperture == Aperture::cell) g.clear_aperture_mm = array.pitch_mm;
     if (lens.stop_radius_mm) g.clear_aperture_mm.fill(2 * *lens.stop_radius_mm);
 }
 
@@ -49,12 +55,14 @@ double distance_mm(const Vec3d& a, const Vec3d& b) { return std::hypot(a[0] - b[
 
 Geometry resolve_unchecked(const Display& d) {
     Geometry g{};
+    g.lattice = make_lattice<double>(d.panel, d.array);
     place_lens(d.lens, d.array, g);
     if (d.diffuser) g.diffuser_z_mm = g.vertex_plane_mm + d.diffuser->distance_mm;
     g.panel_width_mm = double(d.panel.pixels[0]) * d.panel.pixel_pitch_mm;
     g.panel_height_mm = double(d.panel.pixels[1]) * d.panel.pixel_pitch_mm;
-    g.array_width_mm = double(d.array.count[0]) * d.array.pitch_mm[0];
-    g.array_height_mm = double(d.array.count[1]) * d.array.pitch_mm[1];
+    const auto [array_width, array_height] = array_size_mm(d.panel, d.array);
+    g.array_width_mm = array_width;
+    g.array_height_mm = array_height;
 
     const double target_mm = distance_mm(d.camera.position_mm, d.camera.target_mm);
     // the panel with a margin, also where it is narrower than the usual 16:9 frame

@@ -45,15 +45,15 @@ class LensCheck {
     // False: it is missing, or not known.
     bool check_radius(const std::optional<double>& radius) {
         if (!findings.sound("lens.aperture_radius_mm")) return false;
-        if (array.aperture == Aperture::square) return true;
+        if (array.aperture == Aperture::cell) return true;
         if (radius)
             check_width("lens.aperture_radius_mm", *radius);
         else
-            findings.add("lens.aperture_radius_mm", "is missing; only lenses of array.aperture = \"square\" can do without");
+            findings.add("lens.aperture_radius_mm", "is missing; only lenses of array.aperture = \"cell\" can do without");
         return radius.has_value();
     }
 
-    // Round lenses must not overlap; with square apertures the cell's borders cut them.
+    // Round lenses must not overlap; lenses that fill their cells are cut by the borders.
     void check_width(const std::string& where, double radius) {
         if (array.aperture == Aperture::circle && radius > inner_radius_mm(array))
             findings.add(where, "{} mm makes the lens wider than array.pitch_mm = {} mm; at most {} mm, or a larger pitch", radius,

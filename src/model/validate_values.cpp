@@ -3,6 +3,7 @@
 #include "model/findings.h"
 #include "model/geometry.h"
 #include "model/keys.h"
+#include "model/lattice.h"
 #include "model/vec.h"
 
 namespace lfdsim {
@@ -94,12 +95,25 @@ void check_view(const Camera& camera, Findings& findings) {
                      "lies along the line of sight from camera.position_mm to camera.target_mm; take another direction");
 }
 
+// What the lattice asks of the other keys of the array.
+void check_lattice(const LensArray& array, Findings& findings) {
+    if (!findings.sound("array.lattice")) return;
+    const std::string_view lattice = word(array.lattice);
+    if (const Pitch& p = array.pitch_mm; !differs_by_axis(array) && !p.is_one() && findings.sound("array.pitch_mm"))
+        findings.add("array.pitch_mm", "is [{}, {}], but array.lattice is \"{}\"; take \"{}\", or give one number", p[0], p[1],
+                     lattice, is_staggered(array) ? "brick" : "rectangle");
+    if (is_strips(array) && array.count && (*array.count)[1] != 1 && findings.sound("array.count"))
+        findings.add("array.count", "is [{}, {}], but strips are one row; give [{}, 1]", (*array.count)[0], (*array.count)[1],
+                     (*array.count)[0]);
+    if (!array.slant_deg || !findings.sound("array.slant_deg")) return;
+    if (!is_strips(array))
+        findings.add("array.slant_deg", "is given, but array.lattice is \"{}\"; turn such an array by array.rotation_deg", lattice);
+    else if (array.rotation_deg != 0 && findings.sound("array.rotation_deg"))
+        findings.add("array.slant_deg", "both array.slant_deg and array.rotation_deg given; leave one out");
+}
+
 // Keys that exclude one another or need one another.
 void check_choices(const Display& d, Findings& findings) {
-    if (const Pitch& p = d.array.pitch_mm;
-        d.array.lattice == LatticeKind::square && !p.is_one() && findings.sound("array.pitch_mm"))
-        findings.add("array.pitch_mm", "is [{}, {}], but array.lattice is \"square\"; take \"rectangle\", or give one number", p[0],
-                     p[1]);
     if (d.array.gap_mm && d.array.base_z_mm && findings.sound("array.base_z_mm"))
         findings.add("array.base_z_mm", "both array.gap_mm and array.base_z_mm given; leave one out");
     if (!d.array.gap_mm && !d.array.base_z_mm && findings.sound("array.gap_mm") && findings.sound("array.base_z_mm"))
@@ -122,8 +136,10 @@ void validate_values(const Display& d, Findings& findings) {
             std::visit([&](const auto* v) { check(where, key.range, *v); }, value);
     });
     check_product("panel.pixels", d.panel.pixels, findings);
-    check_product("array.count", d.array.count, findings);
+    if (d.array.count || (findings.sound("panel.") && findings.sound("array.")))
+        check_product("array.count", lens_count(d.panel, d.array), findings);
     check_product("camera.resolution", d.camera.resolution, findings);
+    check_lattice(d.array, findings);
     check_choices(d, findings);
     if (type_known) check_surround(d, findings);
     if (findings.sound("camera.position_mm") && findings.sound("camera.target_mm") && findings.sound("camera.up"))

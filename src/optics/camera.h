@@ -61,10 +61,10 @@ LFDSIM_FN BaseLens<S> base_lens(const View& view, double column, double row) {
     double d[3], x0, y0;
     follow_to_first_plane(view, column, row, d, x0, y0);
     const double nx = view.lattice.count[0], ny = view.lattice.count[1];
-    const auto within = [](double i, double count) { return i > 0 ? i < count - 1 ? i : count - 1 : 0; };
-    const Cell<double> nearest = lens_at(view.lattice, x0, y0);
-    const double i = within(nearest.i, nx), j = within(nearest.j, ny);
-    const Place<double> axis = axis_in_array(view.lattice, Cell<double>{i, j}), at = in_display(view.lattice, axis);
+    const auto [i, j] = base_cell(view.lattice, lens_at(view.lattice, x0, y0));
+    Place<double> axis = axis_in_array(view.lattice, Cell<double>{i, j});
+    if (view.lattice.strips) axis.y = y0;  // any point of a strip's axis serves
+    const Place<double> at = in_display(view.lattice, axis);
     const double u = (at.x + 0.5 * view.panel_width) * view.pixels_per_mm,
                  v = (0.5 * view.panel_height - at.y) * view.pixels_per_mm;
     const double whole_u = __builtin_floor(u), whole_v = __builtin_floor(v);

@@ -108,6 +108,14 @@ LFDSIM_FN F cross_surface(const SurfaceData<Scalar<F>>& surface, Vec3<F> at, Vec
     return t;
 }
 
+/// The same for a cylinder along y': the crossing of its section by the ray seen along y'.
+template <class F>
+LFDSIM_FN F cross_cylinder(const SurfaceData<Scalar<F>>& surface, Vec3<F> at, Vec3<F> to, bool downwards, Vec3<F>& up,
+                           Mask<F>& valid) {
+    const F per = F(1) / sqrt(to.x * to.x + to.z * to.z);
+    return per * cross_surface(surface, {at.x, F(0), at.z}, {to.x * per, F(0), to.z * per}, downwards, up, valid);
+}
+
 /// The top or bottom face of the solid in one cell, crossed inwards or outwards.
 template <class F>
 LFDSIM_FN void cross_face(const Scene<Scalar<F>>& scene, bool top, Vec3<F> at, Vec3<F> to, bool inwards, Cell<F> cell,
@@ -117,11 +125,10 @@ LFDSIM_FN void cross_face(const Scene<Scalar<F>>& scene, bool top, Vec3<F> at, V
     const Vec3<F> local{at.x - axis.x, at.y - axis.y, at.z - F(surface.z)};
     Vec3<F> up;
     Mask<F> valid;
-    const F t = cross_surface(surface, local, to, inwards == top, up, valid);
-    if (scene.aperture == Aperture::square) {
-        const F half_x = F(scene.lattice.half_pitch[0]) + slack<F>(), half_y = F(scene.lattice.half_pitch[1]) + slack<F>();
-        valid = valid && (abs(local.x + to.x * t) <= half_x) && (abs(local.y + to.y * t) <= half_y);
-    }
+    const F t = scene.lattice.strips ? cross_cylinder(surface, local, to, inwards == top, up, valid)
+                                     : cross_surface(surface, local, to, inwards == top, up, valid);
+    if (scene.aperture == Aperture::cell)
+        valid = valid && in_cell(scene.lattice, local.x + to.x * t, local.y + to.y * t, slack<F>());
     const F sense = F(Scalar<F>(top ? 1 : -1));
     best.take(active && valid, t, {sense * up.x, sense * up.y, sense * up.z}, cell);
 }
@@ -130,7 +137,7 @@ LFDSIM_FN void cross_face(const Scene<Scalar<F>>& scene, bool top, Vec3<F> at, V
 template <class F>
 LFDSIM_FN Mask<F> between_faces(const Scene<Scalar<F>>& scene, Vec3<F> local, bool caps_only) {
     const auto &top = scene.surface[0], &bottom = scene.surface[scene.surface_count - 1];
-    const F s2 = local.x * local.x + local.y * local.y;
+    const F y = across(scene.lattice, local.y), s2 = local.x * local.x + y * y;
     F high, low, d;
     Mask<F> sheet;
     sag(top, s2, high, d, sheet);
@@ -142,13 +149,15 @@ LFDSIM_FN Mask<F> between_faces(const Scene<Scalar<F>>& scene, Vec3<F> local, bo
     return inside;
 }
 
-/// The walls of one cell: a cylinder, or four planes. caps_only: the walls above and below a plate, at the array's border.
+/// The walls of one cell: a round one, or planes. caps_only: the walls above and below a plate, at the array's border and where the
+/// cap of a neighbour in a staggered row is lower.
 template <class F>
 LFDSIM_FN void cross_walls(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, Vec3<F> at, Vec3<F> to, bool inwards,
                            Cell<F> cell, Mask<F> active, bool caps_only, Crossing<F>& best) {
     const Place<F> from = axis_of(scene.lattice, cell);
     const F x = at.x - from.x, y = at.y - from.y, zero = F(0);
-    if (scene.aperture == Aperture::circle) {
+    const auto& lattice = scene.lattice;
+    if (scene.aperture == Aperture::circle && !lattice.strips) {
         const F r = F(scene.surface[0].semi_aperture), per = F(1) / r;
         Mask<F> real;
         const F t = root(to.x * to.x + to.y * to.y, x * to.x + y * to.y, x * x + y * y - r * r, !inwards, real);
@@ -160,21 +169,28 @@ LFDSIM_FN void cross_walls(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>
         return;
     }
     const F one = F(1);
-    for (int axis = 0; axis < 2; ++axis) {
-        const F half = F(scene.lattice.half_pitch[axis]),
-                along = F(scene.lattice.half_pitch[1 - axis]);  // the wall's distance from the axis, and half its length
-        const F place = axis == 0 ? x : y, slope = axis == 0 ? to.x : to.y;
-        const F sign = select(slope < zero, -one, one);  // of the way along the axis
+    for (int pair = 0; pair < border_pairs(lattice); ++pair) {
+        const Borders<Scalar<F>> wall = borders(lattice, pair);
+        const F half = scene.aperture == Aperture::circle ? F(scene.surface[0].semi_aperture) : F(wall.half);
+        const F nx = F(wall.x), ny = F(wall.y), slope = nx * to.x + ny * to.y;
+        const F sign = select(slope < zero, -one, one);  // of the way along the normal
         const F side = inwards ? -sign : sign;           // of the wall that it crosses
-        const F t = (side * half - place) / slope;
-        const Vec3<F> p{axis == 0 ? side * half : x + to.x * t, axis == 0 ? y + to.y * t : side * half, at.z + to.z * t};
-        Mask<F> valid = active && (abs(slope) > F(Scalar<F>(1e-20))) && ahead(t) &&
-                        (abs(axis == 0 ? p.y : p.x) <= along + slack<F>()) && between_faces(scene, p, caps_only);
+        const F t = (side * half - (nx * x + ny * y)) / slope;
+        const Vec3<F> p{pair == 0 ? side * half : x + to.x * t, pair == 1 && !lattice.hexagonal ? side * half : y + to.y * t,
+                        at.z + to.z * t};
+        Mask<F> valid = active && (abs(slope) > F(Scalar<F>(1e-20))) && ahead(t) && in_cell(lattice, p.x, p.y, slack<F>()) &&
+                        between_faces(scene, p, caps_only);
         if (caps_only) {
-            const Cell<F> beyond{axis == 0 ? cell.i + side : cell.i, axis == 0 ? cell.j : cell.j + side};
-            valid = valid && !extent.holds(beyond);
+            const Cell<F> beyond = cell_beyond(lattice, cell, F(Scalar<F>(pair)), side, p.x + from.x);
+            Mask<F> air = !extent.holds(beyond);
+            if (lattice.staggered && !lattice.hexagonal) {
+                const Place<F> axis = axis_of(lattice, beyond);
+                const Vec3<F> there{p.x + from.x - axis.x, p.y + from.y - axis.y, p.z};
+                air = air || !between_faces(scene, there, false);
+            }
+            valid = valid && air;
         }
-        best.take(valid, t, {axis == 0 ? side : zero, axis == 0 ? zero : side, zero}, cell);
+        best.take(valid, t, {side * nx, side * ny, zero}, cell);
     }
 }
 
@@ -232,7 +248,7 @@ LFDSIM_FN void next_on_face(const Scene<Scalar<F>>& scene, const Extent<Scalar<F
     Mask<F> in_cap = extent.holds(under);
     if (scene.aperture == Aperture::circle) {
         const Place<F> axis = axis_of(scene.lattice, under);
-        const F lx = x - axis.x, ly = y - axis.y, r = F(surface.semi_aperture);
+        const F lx = x - axis.x, ly = across(scene.lattice, y - axis.y), r = F(surface.semi_aperture);
         in_cap = in_cap && (lx * lx + ly * ly < r * r);
     }
     if (surface.shape == Shape::plane) in_cap = in_cap && (F(0) > F(1));
@@ -245,7 +261,7 @@ LFDSIM_FN void next_on_face(const Scene<Scalar<F>>& scene, const Extent<Scalar<F
                [&](Cell<F> cell, Mask<F> here) {
                    const F before = best.t;
                    cross_face(scene, top, rays.at, rays.to, inwards, cell, here, best);
-                   if (scene.aperture == Aperture::square)
+                   if (scene.aperture == Aperture::cell)
                        cross_walls(scene, extent, rays.at, rays.to, inwards, cell, here, true, best);
                    return here && (best.t < before);
                });
@@ -284,7 +300,10 @@ LFDSIM_FN void cross(const Scene<Scalar<F>>& scene, const Crossing<F>& here, Mas
                select(active, i.z * here.t + rays.at.z, rays.at.z)};
     rays.to = {select(active, to.x, i.x), select(active, to.y, i.y), select(active, to.z, i.z)};
     rays.cell = {select(refracted, here.cell.i, rays.cell.i), select(refracted, here.cell.j, rays.cell.j)};
-    rays.below = (rays.below && !refracted) || (refracted && rays.inside && (here.normal.z < F(0)));
+    // Downwards out of a face, or sideways out of a wall that stands below the slab.
+    const auto& bottom = scene.surface[scene.surface_count - 1];
+    const Mask<F> down = (here.normal.z < F(0)) || ((here.normal.z == F(0)) && (rays.at.z < F(bottom.z + bottom.rim)));
+    rays.below = (rays.below && !refracted) || (refracted && rays.inside && down);
     rays.inside = (rays.inside && !refracted) || (refracted && !rays.inside);
 }
 

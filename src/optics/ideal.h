@@ -13,7 +13,7 @@ LFDSIM_FN PanelPoint<F> trace_ideal(const Scene<Scalar<F>>& scene, const Extent<
     way.cell = cell_at(scene.lattice, at.x, at.y);
     const Place<F> axis = axis_of(scene.lattice, way.cell);
     const F qx = at.x - axis.x, qy = at.y - axis.y, r = F(scene.aperture_radius);
-    const F q2 = qx * qx + qy * qy;
+    const F across_y = across(scene.lattice, qy), q2 = qx * qx + across_y * across_y;
     way.alive = way.alive && extent.holds(way.cell);
     if (scene.aperture == Aperture::circle) way.alive = way.alive && (q2 <= r * r);
     if (scene.has_stop) way.alive = way.alive && (q2 <= F(scene.stop_radius2));

@@ -2,7 +2,8 @@
 //
 // Lenses are numbered in two ways. In the array, lens (i, j) is counted from 0 at the lower left, and positions are measured from
 // the array's middle. Near a packet of rays, cells and positions are relative to a base lens's axis: single precision then never
-// sees a number much larger than a lens.
+// sees a number much larger than a lens. Where rows are staggered, the base lens is in an even row, so that a row is odd in both
+// numberings or in neither.
 #pragma once
 #include "model/lattice.h"
 #include "optics/lane.h"
@@ -29,38 +30,118 @@ LFDSIM_FN F cell_along(const Lattice<Scalar<F>>& lattice, int axis, F place) {
     return floor(place * F(lattice.per_pitch[axis]) + F(Scalar<F>(0.5)));
 }
 
+/// By how much the axes of row j are to the right of those of even rows.
 template <class F>
-LFDSIM_FN Cell<F> cell_at(const Lattice<Scalar<F>>& lattice, F x, F y) {
-    return {cell_along(lattice, 0, x), cell_along(lattice, 1, y)};
+LFDSIM_FN F stagger(const Lattice<Scalar<F>>& lattice, F j) {
+    return (j - F(2) * floor(F(Scalar<F>(0.5)) * j)) * F(lattice.half_pitch[0]);
 }
 
 template <class F>
 LFDSIM_FN Place<F> axis_of(const Lattice<Scalar<F>>& lattice, Cell<F> cell) {
-    return {cell.i * F(lattice.pitch[0]), cell.j * F(lattice.pitch[1])};
+    const F x = cell.i * F(lattice.pitch[0]), y = cell.j * F(lattice.pitch[1]);
+    if (lattice.staggered) return {x + stagger(lattice, cell.j), y};
+    return {x, y};
 }
 
-/// Whether a point (x, y), measured from a lens's axis, lies in that lens's cell.
 template <class F>
-LFDSIM_FN Mask<F> in_cell(const Lattice<Scalar<F>>& lattice, F x, F y) {
-    return (abs(x) <= F(lattice.half_pitch[0])) && (abs(y) <= F(lattice.half_pitch[1]));
+LFDSIM_FN Cell<F> cell_at(const Lattice<Scalar<F>>& lattice, F x, F y) {
+    if (!lattice.staggered) return {cell_along(lattice, 0, x), cell_along(lattice, 1, y)};
+    const auto in_row = [&](F j) { return Cell<F>{cell_along(lattice, 0, x - stagger(lattice, j)), j}; };
+    if (!lattice.hexagonal) return in_row(cell_along(lattice, 1, y));
+    // A hexagon holds the points that are nearest to its axis, and its corners do not reach the next row's axes: the point is in
+    // the row below it or in the one above.
+    const F row = floor(y * F(lattice.per_pitch[1]));
+    const Cell<F> below = in_row(row), above = in_row(row + F(1));
+    const auto distance2 = [&](Cell<F> cell) {
+        const Place<F> axis = axis_of(lattice, cell);
+        return (x - axis.x) * (x - axis.x) + (y - axis.y) * (y - axis.y);
+    };
+    const Mask<F> lower = distance2(below) <= distance2(above);
+    return {select(lower, below.i, above.i), select(lower, below.j, above.j)};
+}
+
+/// A pair of opposite borders of a cell: the lines at +-half from its axis along the unit vector (x, y).
+template <class S>
+struct Borders {
+    S x, y, half;
+};
+template <class S>
+LFDSIM_FN int border_pairs(const Lattice<S>& lattice) {
+    return lattice.hexagonal ? 3 : lattice.strips ? 1 : 2;
+}
+template <class S>
+LFDSIM_FN Borders<S> borders(const Lattice<S>& lattice, int pair) {
+    if (pair == 0) return {S(1), S(0), lattice.half_pitch[0]};
+    if (!lattice.hexagonal) return {S(0), S(1), lattice.half_pitch[1]};
+    return {S(pair == 1 ? 0.5 : -0.5), S(0.86602540378443865), lattice.half_pitch[0]};  // at 60 and 120 degrees
+}
+
+/// The cell on the other side of a border of `cell`: of this pair, on this side (-1 or +1), at x' = place.
+template <class F>
+LFDSIM_FN Cell<F> cell_beyond(const Lattice<Scalar<F>>& lattice, Cell<F> cell, F pair, F side, F place) {
+    const Mask<F> in_row = pair == F(0);
+    const F i = select(in_row, cell.i + side, cell.i), j = select(in_row, cell.j, cell.j + side);
+    if (!lattice.staggered) return {i, j};
+    // In the next row a hexagon's neighbours stand half a pitch to the right and to the left.
+    const F x = lattice.hexagonal ? axis_of(lattice, cell).x + select(pair == F(1), side, -side) * F(lattice.half_pitch[0]) : place;
+    return {select(in_row, i, cell_along(lattice, 0, x - stagger(lattice, j))), j};
+}
+
+/// How far a cell reaches along y' from its axis.
+template <class S>
+LFDSIM_FN S reach_of_cell(const Lattice<S>& lattice) {
+    return lattice.hexagonal ? lattice.half_pitch[0] * S(1.1547005383792515) : lattice.half_pitch[1];  // 2/sqrt(3) to the corner
+}
+
+/// The part of a distance along y' that counts for a lens's form: none of strips, whose section is the same everywhere.
+template <class F>
+LFDSIM_FN F across(const Lattice<Scalar<F>>& lattice, F y) {
+    return lattice.strips ? F(0) : y;
+}
+
+/// Whether a point (x, y), measured from a lens's axis, lies in that lens's cell, or at most `margin` outside.
+template <class F>
+LFDSIM_FN Mask<F> in_cell(const Lattice<Scalar<F>>& lattice, F x, F y, F margin = F(0)) {
+    const F half_x = F(lattice.half_pitch[0]) + margin;
+    if (lattice.hexagonal) {
+        const Borders<Scalar<F>> oblique = borders(lattice, 1);
+        return (abs(x) <= half_x) && (F(oblique.x) * abs(x) + F(oblique.y) * abs(y) <= half_x);
+    }
+    return (abs(x) <= half_x) && (abs(y) <= F(lattice.half_pitch[1]) + margin);
 }
 
 // From the array's middle.
 
 template <class S>
-LFDSIM_FN Cell<S> lens_at(const Lattice<S>& lattice, S x, S y) {
-    return {floor(x / lattice.pitch[0] + S(0.5) * lattice.count[0]), floor(y / lattice.pitch[1] + S(0.5) * lattice.count[1])};
+LFDSIM_FN Place<S> axis_in_array(const Lattice<S>& lattice, Cell<S> lens) {
+    const S x = (lens.i + S(0.5) - S(0.5) * lattice.count[0]) * lattice.pitch[0],
+            y = (lens.j + S(0.5) - S(0.5) * lattice.count[1]) * lattice.pitch[1];
+    if (lattice.staggered) return {x + (stagger(lattice, lens.j) - S(0.5) * lattice.half_pitch[0]), y};
+    return {x, y};
 }
 
 template <class S>
-LFDSIM_FN Place<S> axis_in_array(const Lattice<S>& lattice, Cell<S> lens) {
-    return {(lens.i + S(0.5) - S(0.5) * lattice.count[0]) * lattice.pitch[0],
-            (lens.j + S(0.5) - S(0.5) * lattice.count[1]) * lattice.pitch[1]};
+LFDSIM_FN Cell<S> lens_at(const Lattice<S>& lattice, S x, S y) {
+    if (lattice.staggered) {  // from the axis of lens (0, 0), in an even row
+        const Place<S> first = axis_in_array(lattice, Cell<S>{S(0), S(0)});
+        return cell_at(lattice, x - first.x, y - first.y);
+    }
+    const S i = floor(x / lattice.pitch[0] + S(0.5) * lattice.count[0]);
+    if (lattice.strips) return {i, S(0)};
+    return {i, floor(y / lattice.pitch[1] + S(0.5) * lattice.count[1])};
 }
 
 template <class S>
 LFDSIM_FN bool holds(const Lattice<S>& lattice, Cell<S> lens) {
     return lens.i >= 0 && lens.i < lattice.count[0] && lens.j >= 0 && lens.j < lattice.count[1];
+}
+
+/// The lens nearest to one that there may not be, as a base lens: where rows are staggered, in an even row.
+template <class S>
+LFDSIM_FN Cell<S> base_cell(const Lattice<S>& lattice, Cell<S> near) {
+    const auto within = [](S k, S count) { return k > 0 ? k < count - 1 ? k : count - 1 : S(0); };
+    const S j = within(near.j, lattice.count[1]);
+    return {within(near.i, lattice.count[0]), lattice.staggered ? S(2) * floor(j / S(2)) : j};
 }
 
 // Between the frames.

@@ -25,8 +25,36 @@ template <class F>
 LFDSIM_FN Mask<F> passes_stop(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, F x, F y) {
     const Cell<F> cell = cell_at(scene.lattice, x, y);
     const Place<F> axis = axis_of(scene.lattice, cell);
-    const F lx = x - axis.x, ly = y - axis.y;
+    const F lx = x - axis.x, ly = across(scene.lattice, y - axis.y);
     return (lx * lx + ly * ly <= F(scene.stop_radius2)) && extent.holds(cell);
+}
+
+/// Where rows are staggered, for walk_cells(). The array has notches then: a line may pass cells without lenses between its lenses.
+template <class F, class Try>
+LFDSIM_FN void walk_staggered(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, F x, F y, F mx, F my, F begin, F end,
+                              Mask<F> active, Try try_cell) {
+    using S = Scalar<F>;
+    const F huge = F(S(1e30)), zero = F(0), one = F(1);
+    const auto& lattice = scene.lattice;
+    Cell<F> cell = cell_at(lattice, x + mx * begin, y + my * begin);
+    while (any(active)) {
+        active = active && !try_cell(cell, active && extent.holds(cell));
+        // The first border ahead: s there, the pair of borders, and on which side.
+        const Place<F> axis = axis_of(lattice, cell);
+        F next = huge, pair = zero, side = one;
+        for (int k = 0; k < border_pairs(lattice); ++k) {
+            const Borders<S> of = borders(lattice, k);
+            const F slope = F(of.x) * mx + F(of.y) * my, at = F(of.x) * (x - axis.x) + F(of.y) * (y - axis.y);
+            const F ahead = select(slope < zero, -one, one);
+            const F s = select(abs(slope) < F(S(1e-20)), huge, (ahead * F(of.half) - at) / slope);
+            const Mask<F> nearer = s < next;
+            next = select(nearer, s, next);
+            pair = select(nearer, F(S(k)), pair);
+            side = select(nearer, ahead, side);
+        }
+        cell = cell_beyond(lattice, cell, pair, side, x + mx * next);
+        active = active && (next <= end);
+    }
 }
 
 /// Walks cell by cell along the line (x + mx s, y + my s), from <= s <= depth, in the order in which the line enters them, and
@@ -39,19 +67,21 @@ LFDSIM_FN void walk_cells(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>
     const auto& lattice = scene.lattice;
     const F px = F(lattice.pitch[0]), py = F(lattice.pitch[1]), half_x = F(lattice.half_pitch[0]),
             half_y = F(lattice.half_pitch[1]);
-    // s at the array's borders, so that a ray from outside starts where it enters.
-    auto axis = [&](F at, F m, F p, F half, F low, F high, F& in, F& out) {
-        const F a = (low * p - half - at) / m, b = (high * p + half - at) / m;
+    // s at the borders of a box about all cells, so that a ray from outside starts where it enters.
+    auto axis = [&](F at, F m, F low, F high, F& in, F& out) {
+        const F a = (low - at) / m, b = (high - at) / m;
         const Mask<F> still = abs(m) < F(Scalar<F>(1e-20));
-        const Mask<F> within = (at >= low * p - half) && (at <= high * p + half);
+        const Mask<F> within = (at >= low) && (at <= high);
         in = select(still, select(within, -huge, huge), min(a, b));
         out = select(still, select(within, huge, -huge), max(a, b));
     };
     F in_x, out_x, in_y, out_y;
-    axis(x, mx, px, half_x, F(extent.low_i), F(extent.high_i), in_x, out_x);
-    axis(y, my, py, half_y, F(extent.low_j), F(extent.high_j), in_y, out_y);
+    const F right = F(extent.high_i) * px + half_x, beyond = F(reach_of_cell(lattice));
+    axis(x, mx, F(extent.low_i) * px - half_x, lattice.staggered ? right + half_x : right, in_x, out_x);
+    axis(y, my, F(extent.low_j) * py - beyond, F(extent.high_j) * py + beyond, in_y, out_y);
     const F begin = max(max(in_x, in_y), from), end = min(min(out_x, out_y), depth);
     active = active && (begin <= end);
+    if (lattice.staggered) return walk_staggered(scene, extent, x, y, mx, my, begin, end, active, try_cell);
 
     const F step_i = select(mx < zero, -one, one), step_j = select(my < zero, -one, one);
     Cell<F> cell{min(max(cell_along(lattice, 0, x + mx * begin), F(extent.low_i)), F(extent.high_i)),

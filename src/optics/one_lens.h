@@ -18,9 +18,10 @@ struct Passage {
     Mask<F> alive;
 };
 
-/// The forms of surface that a kernel is compiled for, so that the 2019 paper's lens without a stop does not pay for the others.
-/// For triangles in place of surfaces (src/meshed) the caller supplies meet_mesh(scene, k, ray).
-enum class Shapes { plano_convex, any, meshed };
+/// The forms of surface that a kernel is compiled for, so that the 2019 paper's lens without a stop does not pay for the others:
+/// that lens's, any of revolution, cylinders along y'. For triangles in place of surfaces (src/meshed) the caller supplies
+/// meet_mesh(scene, k, ray).
+enum class Shapes { plano_convex, any, cylinders, meshed };
 
 /// Surface k, counted from the viewer's side.
 template <Shapes shapes, class S>
@@ -39,16 +40,30 @@ LFDSIM_FN Hit<F> meet(Shape shape, const SurfaceData<Scalar<F>>& surface, Ray<F>
     return shape == Shape::sphere ? meet_sphere(surface, in_vertex_plane) : meet_asphere(surface, in_vertex_plane);
 }
 
+/// The same surface as a cylinder along y': seen along y', the ray meets its section, and its way is longer by 1/length.
+template <class F>
+LFDSIM_FN Hit<F> meet_cylinder(Shape shape, const SurfaceData<Scalar<F>>& surface, const Ray<F>& in_vertex_plane) {
+    const Vec3<F>&at = in_vertex_plane.at, &to = in_vertex_plane.to;
+    const F length2 = to.x * to.x + to.z * to.z, length = sqrt(length2), per = F(1) / length;
+    Hit<F> hit = meet(shape, surface, Ray<F>{{at.x, F(0), F(0)}, {to.x * per, F(0), to.z * per}});
+    hit.at.y = at.y + to.y * (hit.at.z / to.z);
+    hit.cos = hit.cos * length;
+    hit.cos2 = hit.cos2 * length2;
+    return hit;
+}
+
 /// Surface k.
 template <Shapes shapes, class F>
 LFDSIM_FN Hit<F> meet(const Scene<Scalar<F>>& scene, int k, Ray<F> in_vertex_plane) {
     if constexpr (shapes == Shapes::meshed)
         return meet_mesh(scene, k, in_vertex_plane);
+    else if constexpr (shapes == Shapes::cylinders)
+        return meet_cylinder(scene.surface[k].shape, scene.surface[k], in_vertex_plane);
     else
         return meet(shape_of<shapes>(scene, k), scene.surface[k], in_vertex_plane);
 }
 
-/// Within the walls of a square cell? Those of a round lens are its surfaces' semi-apertures, which `ok` has tested.
+/// Within the walls of its cell? Those of a round lens are its surfaces' semi-apertures, which `ok` has tested.
 template <class F>
 LFDSIM_FN Mask<F> inside_cell(const Scene<Scalar<F>>& scene, Vec3<F> at, Mask<F> ok) {
     if (scene.aperture == Aperture::circle) return ok;
@@ -91,11 +106,11 @@ struct Alone {
 };
 
 /// The ideal thin lens: slopes (dx/dz, dy/dz) of a ray that has passed it = slopes before + q / f, q the point where it meets the
-/// lens, mm from the lens's axis.
+/// lens, mm from the lens's axis; a strip changes the slope across it alone.
 template <class F>
 LFDSIM_FN Place<F> bend(const Scene<Scalar<F>>& scene, Place<F> q, Place<F> slope) {
     const F power = F(scene.ideal_power);
-    return {slope.x + q.x * power, slope.y + q.y * power};
+    return {slope.x + q.x * power, slope.y + across(scene.lattice, q.y) * power};
 }
 
 /// Traces a ray through one lens. `entering` is the ray in the vertex plane of the first surface, in the frame of `rules`; `hit` is

@@ -43,11 +43,36 @@ LFDSIM_RARE void meet_neighbours(const Scene<Scalar<F>>& scene, const Extent<Sca
     const F depth = F(scene.zone_top - scene.zone_bottom);
     const Cell<F> last = cell_at(scene.lattice, x + mx * depth, y + my * depth);
     const F steps = abs(last.i - cell.i) + abs(last.j - cell.j);
-    if (none(astray && (steps > F(Scalar<F>(1.5))))) {  // all cross one border: the last cell is the only other one
+    // Where all cross one border, the last cell is the only other one (a line between neighbours in a comb may cut a third).
+    if (!scene.lattice.staggered && none(astray && (steps > F(Scalar<F>(1.5))))) {
         try_cell(last, astray && extent.holds(last));
         return;
     }
     walk_cells(scene, extent, x, y, mx, my, F(0), depth, astray, try_cell);
+}
+
+/// Which rays may meet another lens on their way from (x, y) to (x + ex, y + ey), where they are down at the rims, seen from above?
+/// Each starts in `cell`, whose lens it misses; r is the semi-aperture. None that ends in its own cell can. A ray that passes
+/// within r of another axis and ends outside of that lens has passed the foot of the perpendicular from the axis, at most r away,
+/// and from there it moves less than |(ex, ey)|: it ends at most sqrt(r^2 + ex^2 + ey^2) from that axis.
+template <class F>
+LFDSIM_FN Mask<F> may_meet_neighbours(const Lattice<Scalar<F>>& lattice, Cell<F> cell, F x, F y, F ex, F ey, F r) {
+    const Place<F> axis = axis_of(lattice, cell);
+    const F reach2 = r * r + (ex * ex + ey * ey);
+    if (lattice.staggered) {
+        const F ux = x - axis.x + ex, uy = y - axis.y + ey;
+        const Mask<F> leaves = !in_cell(lattice, ux, uy);
+        if (!lattice.hexagonal) return leaves;  // a brick's axis need not be the nearest to the points in it
+        const Place<F> nearest = axis_of(lattice, cell_at(lattice, x + ex, y + ey));
+        const F ax = x + ex - nearest.x, ay = y + ey - nearest.y;
+        return leaves && (ax * ax + ay * ay <= reach2);
+    }
+    // Of the neighbour across the one border that it crosses; where it crosses more, any may be near.
+    const F ux = abs(x - axis.x + ex), uy = abs(y - axis.y + ey), px = F(lattice.pitch[0]), py = F(lattice.pitch[1]);
+    const Mask<F> out_x = ux > F(lattice.half_pitch[0]), out_y = uy > F(lattice.half_pitch[1]);
+    const F ax = min(ux, px - ux), ay = min(across(lattice, uy), across(lattice, py - uy));
+    const Mask<F> near = (ax * ax + ay * ay <= reach2) || (out_x && out_y) || (ux > px) || (uy > py);
+    return (out_x || out_y) && near;
 }
 
 /// Finds the lens through which a ray enters the array (way.cell) and where it meets that lens's first surface. `ray` starts in the
@@ -66,24 +91,16 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<
     }
     way.cell = cell_at(scene.lattice, x, y);
     Hit<F> hit = meet_first<shapes>(scene, ray, way.cell);
+    hit.ok = hit.ok && extent.holds(way.cell);
     if (shapes != Shapes::plano_convex && scene.dimple) {  // the entrance is the rim's circle or cell
         const Place<F> axis = axis_of(scene.lattice, way.cell);
-        const F lx = x - axis.x, ly = y - axis.y, r = F(first.semi_aperture);
+        const F lx = x - axis.x, ly = across(scene.lattice, y - axis.y), r = F(first.semi_aperture);
         hit.ok = hit.ok && (lx * lx + ly * ly <= r * r);
     } else if (shapes == Shapes::plano_convex || scene.zone_top > scene.zone_bottom) {
-        // Which rays that missed can meet another lens before they are down at the rims? On the way there a ray moves by (ex, ey),
-        // seen from above. None that ends in its own cell can. A ray that crosses one border and ends at (ax, ay) from the nearer
-        // axis can only if ax^2 + ay^2 <= r^2 + ex^2 + ey^2, r the semi-aperture: it starts farther than r from that axis, so if it
-        // passes within r of it and ends outside, it has passed the foot of the perpendicular from the axis, at most r away, and
-        // from there it moves less than |(ex, ey)|. All others are tested cell by cell.
-        const F kd = F(scene.zone_bottom - scene.zone_top) * fall, ex = ray.to.x * kd, ey = ray.to.y * kd;
-        const Place<F> axis = axis_of(scene.lattice, way.cell);
-        const F ux = abs(x - axis.x + ex), uy = abs(y - axis.y + ey), r = F(first.semi_aperture);
-        const F px = F(scene.lattice.pitch[0]), py = F(scene.lattice.pitch[1]);
-        const Mask<F> out_x = ux > F(scene.lattice.half_pitch[0]), out_y = uy > F(scene.lattice.half_pitch[1]);
-        const F ax = min(ux, px - ux), ay = min(uy, py - uy);
-        const Mask<F> near = (ax * ax + ay * ay <= r * r + (ex * ex + ey * ey)) || (out_x && out_y) || (ux > px) || (uy > py);
-        const Mask<F> astray = way.alive && !hit.ok && (out_x || out_y) && near;
+        const F kd = F(scene.zone_bottom - scene.zone_top) * fall;
+        const Mask<F> astray =
+            way.alive && !hit.ok &&
+            may_meet_neighbours(scene.lattice, way.cell, x, y, ray.to.x * kd, ray.to.y * kd, F(first.semi_aperture));
         if (any(astray)) {
             Hit<F> found = hit;
             Cell<F> cell = way.cell;
@@ -93,7 +110,7 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<
             way.cell = cell;
         }
     }
-    way.alive = way.alive && hit.ok && extent.holds(way.cell);
+    way.alive = way.alive && hit.ok;
     return hit;
 }
 
@@ -112,7 +129,8 @@ struct InArray {
     LFDSIM_FN void leaves(const Passage<F>&) const {}
     LFDSIM_FN Mask<F> passes_back(F x, F y) const {
         const F r = F(scene.surface[scene.surface_count - 1].semi_aperture);
-        return inside_cell(scene, Vec3<F>{x, y, F(0)}, x * x + y * y <= r * r);
+        const F z = F(0), from_middle = across(scene.lattice, y);
+        return inside_cell(scene, Vec3<F>{x, y, z}, x * x + from_middle * from_middle <= r * r);
     }
     LFDSIM_FN bool over(Mask<F>) const { return false; }
 };

@@ -10,12 +10,13 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 
 /// The ways through an array, one of which a display uses: chosen outside the loop over samples, so that none pays for another. A
 /// new one takes a name here, a line in each of the functions below, and a function that traces it.
-enum class Way { plano_convex, opaque, ideal, glass };
+enum class Way { plano_convex, opaque, cylinders, ideal, glass };
 
 template <class S>
 LFDSIM_FN Way way_through(const Scene<S>& scene) {
     if (scene.lens == LensType::ideal) return Way::ideal;
     if (scene.surround != Surround::opaque) return Way::glass;
+    if (scene.lattice.strips) return Way::cylinders;
     const bool plain =
         scene.surface_count == 2 && scene.surface[0].shape == Shape::sphere && scene.surface[1].shape == Shape::plane;
     return plain && !scene.has_stop && !scene.dimple ? Way::plano_convex : Way::opaque;
@@ -29,6 +30,8 @@ inline decltype(auto) with_way(const Scene<S>& scene, const Do& do_it) {
             return do_it.template operator()<Way::plano_convex>();
         case Way::opaque:
             return do_it.template operator()<Way::opaque>();
+        case Way::cylinders:
+            return do_it.template operator()<Way::cylinders>();
         case Way::ideal:
             return do_it.template operator()<Way::ideal>();
         case Way::glass:
@@ -42,6 +45,7 @@ template <class Do>
 inline void for_all_ways(const Do& do_it) {
     do_it.template operator()<Way::plano_convex>();
     do_it.template operator()<Way::opaque>();
+    do_it.template operator()<Way::cylinders>();
     do_it.template operator()<Way::ideal>();
     do_it.template operator()<Way::glass>();
 }
@@ -77,6 +81,7 @@ LFDSIM_FN PanelPoint<F> trace_array(const Scene<Scalar<F>>& scene, const Extent<
     if constexpr (through == Way::ideal) return trace_ideal(scene, extent, base, way);
     if constexpr (through == Way::plano_convex) return trace_opaque<Shapes::plano_convex>(scene, extent, base, way);
     if constexpr (through == Way::opaque) return trace_opaque<Shapes::any>(scene, extent, base, way);
+    if constexpr (through == Way::cylinders) return trace_opaque<Shapes::cylinders>(scene, extent, base, way);
     if constexpr (through == Way::glass) return trace_glass(scene, extent, base, way);
 }
 

@@ -205,7 +205,7 @@ class ArrayBuilder {
         if (display_.array.surround == Surround::opaque) {
             for (std::size_t k = 0; k + 1 < rims_.size(); ++k) add_barrel(black, rims_[k], rims_[k + 1]);
             // The rim of a square lens varies in height: its walls are extended to the faces of the black part.
-            if (display_.array.aperture == Aperture::square) {
+            if (display_.array.aperture == Aperture::cell) {
                 const std::vector<Ring> rings = black_rings(display_, geometry_);
                 add_barrel(black, at_height(rims_.front(), local(rings.back().z_mm)), rims_.front());
                 add_barrel(black, rims_.back(), at_height(rims_.back(), local(rings.front().z_mm)));

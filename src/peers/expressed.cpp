@@ -1,6 +1,7 @@
 #include "peers/peers.h"
 
 #include "meshed/lens_mesh.h"
+#include "model/coverage.h"
 
 #include <fmt/format.h>
 #include <cmath>
@@ -19,6 +20,10 @@ class Refusals {
             add("lens.type", "an ideal lens cannot be made of surfaces and glass; give the display a real lens");
             return std::move(problems_);
         }
+        if (auto problem = beyond_rows_and_columns(d_, "export")) {
+            problems_.push_back(std::move(*problem));
+            return std::move(problems_);
+        }
         array();
         if (d_.camera.pupil_diameter_mm.value_or(0) > 0)
             add("camera.pupil_diameter_mm", "the scene's camera is a pinhole; add --set camera.pupil_diameter_mm=none");
@@ -34,14 +39,15 @@ class Refusals {
     bool meshed() const { return peer_ != Peer::pov || options_.triangles; }
 
     void array() {
-        const bool square = d_.array.aperture == Aperture::square;
-        if (square && d_.array.surround == Surround::plate && meshed())
+        const bool filled = d_.array.aperture == Aperture::cell;
+        if (filled && d_.array.surround == Surround::plate && meshed())
             add("array.aperture",
-                "a plate with square lenses cannot be exported as triangles; give circle, another array.surround, or export true "
+                "a plate with lenses that fill their cells cannot be exported as triangles; give circle, another array.surround, "
+                "or export true "
                 "surfaces for pov");
-        if (square && d_.array.surround == Surround::clear && meshed())
+        if (filled && d_.array.surround == Surround::clear && meshed())
             add("array.aperture",
-                "square bodies of glass touch, and coinciding triangles have no defined order; give circle, another "
+                "bodies of glass that fill their cells touch, and coinciding triangles have no defined order; give circle, another "
                 "array.surround, or export true surfaces for pov");
         if (d_.array.surround == Surround::clear && g_.surfaces.front().semi_aperture_mm != g_.surfaces.back().semi_aperture_mm)
             add("lens.surface.0.semi_aperture_mm",

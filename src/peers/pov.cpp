@@ -32,7 +32,7 @@ class Writer {
     Writer(const Display& d, const Geometry& g, const PeerOptions& o)
         : d_(d),
           g_(g),
-          lattice_(make_lattice<double>(d.array)),
+          lattice_(g.lattice),
           half_{d.array.pitch_mm[0] / 2, d.array.pitch_mm[1] / 2},
           gap_mm_(gap_pitches * d.array.pitch_mm.least()),
           options_(o) {}
@@ -183,12 +183,12 @@ class Writer {
     // One closed body of glass.
     std::string body() const {
         const PlacedSurface &lower = g_.surfaces.front(), &upper = g_.surfaces.back();
-        const bool square = d_.array.aperture == Aperture::square;
+        const bool filled = d_.array.aperture == Aperture::cell;
         const double low = g_.base_z_mm - 0.01, high = g_.top_z_mm + 0.01, r = upper.semi_aperture_mm;
         const std::string round = fmt::format("cylinder {{ {}, {}, {} }}", vector(0, 0, low), vector(0, 0, high), text(r));
-        const double reach = (square ? widest_half() : r) + 0.01;
-        std::string sides = square ? cell_box(low, high, -gap_mm_) : round;
-        if (square && beside_hole(r)) sides += " " + round;
+        const double reach = (filled ? widest_half() : r) + 0.01;
+        std::string sides = filled ? cell_box(low, high, -gap_mm_) : round;
+        if (filled && beside_hole(r)) sides += " " + round;
         return fmt::format("  intersection {{ {}\n    {}\n    {}\n    {} }}\n", sides,
                            pov_space(lower, true, reach, low - 1, high + 1), pov_space(upper, false, reach, low - 1, high + 1),
                            medium(lower.index_above));
@@ -216,8 +216,8 @@ class Writer {
             "#for (J, 0, {1}) #for (I, 0, {0})\n  object {{ Lens translate <(I - {2}) * {4}, (J - {3}) * {6}, 0> transform {{ "
             "Place "
             "}}{5} }}\n#end #end\n",
-            d_.array.count[0] - 1, d_.array.count[1] - 1, text(0.5 * double(d_.array.count[0] - 1)),
-            text(0.5 * double(d_.array.count[1] - 1)), text(lattice_.pitch[0]), flag, text(lattice_.pitch[1]));
+            lattice_.count[0] - 1, lattice_.count[1] - 1, text(0.5 * (lattice_.count[0] - 1)), text(0.5 * (lattice_.count[1] - 1)),
+            text(lattice_.pitch[0]), flag, text(lattice_.pitch[1]));
         const std::vector<Ring> rings = black_rings(d_, g_);
         std::vector<double> heights;
         if (!rings.empty()) heights = {rings.front().z_mm, rings.back().z_mm};
@@ -252,9 +252,9 @@ class Writer {
     std::string sheet() const {
         const double index = g_.surfaces.front().index_above;
         const auto [x, y] = array_half(g_);
-        const std::int64_t right = d_.array.count[0] - 1, top = d_.array.count[1] - 1;
+        const auto right = std::int64_t(lattice_.count[0]) - 1, top = std::int64_t(lattice_.count[1]) - 1;
         std::string walls, all;
-        if (d_.array.aperture == Aperture::square) {
+        if (d_.array.aperture == Aperture::cell) {
             all = border_wall(0) + border_wall(1);
             const std::tuple<std::string, int, int> sides[] = {
                 {fmt::format("I = {}", right), 0, 0}, {fmt::format("J = {}", top), 1, 0}, {"I = 0", 0, 180}, {"J = 0", 1, 180}};
@@ -296,12 +296,13 @@ void write_pov(const Display& display, const Geometry& geometry, const PeerOptio
                                     : "render.fresnel: POV-Ray's weights would also remove totally reflected light; refraction is "
                                       "without loss here");
     }
-    if (opaque && options.triangles == std::nullopt && display.array.aperture == Aperture::square)
+    if (opaque && options.triangles == std::nullopt && display.array.aperture == Aperture::cell)
         deviations.push_back(
-            fmt::format("array.aperture: the black walls between square cells are {} pitches thick", 2 * gap_pitches));
-    if (display.array.surround == Surround::clear && display.array.aperture == Aperture::square)
-        deviations.push_back(fmt::format("array.aperture: square bodies of glass are {} pitches of air apart; in lfdsim they touch",
-                                         2 * gap_pitches));
+            fmt::format("array.aperture: the black walls between filled cells are {} pitches thick", 2 * gap_pitches));
+    if (display.array.surround == Surround::clear && display.array.aperture == Aperture::cell)
+        deviations.push_back(
+            fmt::format("array.aperture: bodies of glass that fill their cells are {} pitches of air apart; in lfdsim they touch",
+                        2 * gap_pitches));
     const Writer writer(scene.shown, geometry, options);
     if (writer.least_way_mm() > 1e-4 * display.array.pitch_mm.least())
         deviations.push_back(fmt::format("camera.position_mm: so far away that POV-Ray may miss surfaces less than {:.3g} mm apart",

@@ -67,7 +67,7 @@ std::string pov_skin(const PlacedSurface& s, const LensArray& array) {
                  z1 = s.z_mm + high + margin_mm;
     std::string clip =
         fmt::format(" clipped_by {{ cylinder {{ {}, {}, {} }} }}", vector(0, 0, z0), vector(0, 0, z1), text(s.semi_aperture_mm));
-    if (array.aperture == Aperture::square)
+    if (array.aperture == Aperture::cell)
         clip = fmt::format(" clipped_by {{ cylinder {{ {}, {}, {} }} box {{ {}, {} }} }}", vector(0, 0, z0), vector(0, 0, z1),
                            text(s.semi_aperture_mm), vector(-half_x, -half_y, z0), vector(half_x, half_y, z1));
     if (is_plane(s)) return fmt::format("disc {{ {}, z, {}", vector(0, 0, s.z_mm), text(s.semi_aperture_mm)) + clip;

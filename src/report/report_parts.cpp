@@ -97,7 +97,7 @@ std::string theory_rows(const Subject& s) {
     const std::pair<const char*, std::string> rows[] = {
         {"Panel", fmt::format("{} × {} pixels of {:.4g} mm, {:.4g} × {:.4g} mm", d.panel.pixels[0], d.panel.pixels[1],
                               d.panel.pixel_pitch_mm, g.panel_width_mm, g.panel_height_mm)},
-        {"Lenses", fmt::format("{} × {}, pitch p {}, aperture D {}", d.array.count[0], d.array.count[1],
+        {"Lenses", fmt::format("{} × {}, pitch p {}, aperture D {}", g.lattice.count[0], g.lattice.count[1],
                                along(d.array.pitch_mm[0], d.array.pitch_mm[1], " mm"),
                                along(g.clear_aperture_mm[0], g.clear_aperture_mm[1], " mm"))},
         {"Gap g, focal length f", fmt::format("{}, {}", number(g.gap_mm, " mm"), number(g.focal_length_mm, " mm"))},

@@ -25,8 +25,8 @@ struct Pen : optics::Alone<double> {
                optics::Passage<double>& way) {
         if (!way.alive) return;
         const auto& surface = scene.surface[k];
-        const bool square = scene.aperture == Aperture::square;
-        const double cell = scene.lattice.half_pitch[1], rim = std::min(surface.semi_aperture, square ? cell : INFINITY);
+        const bool filled = scene.aperture == Aperture::cell;
+        const double cell = scene.lattice.half_pitch[1], rim = std::min(surface.semi_aperture, filled ? cell : INFINITY);
         way.alive = hit.ok && std::abs(hit.at.y) <= rim && z <= from_z;
         if (way.alive) return point(hit.at.y, z);
         // A ray that passes beside the lens ends at the height of the rim.

@@ -36,19 +36,17 @@ struct SideLens {
     std::int64_t row;  // 0 at the bottom
     double y_mm;
 };
-inline SideLens lens_at(const Display& d, std::int64_t row) {
-    const Lattice<double> lattice = make_lattice<double>(d.array);
+inline SideLens lens_at(const Lattice<double>& lattice, std::int64_t row) {
     return {row, lattice.offset[1] + optics::axis_in_array(lattice, optics::Cell<double>{0, double(row)}).y};
 }
-inline SideLens lens_near(const Display& d, double y) {
-    const Lattice<double> lattice = make_lattice<double>(d.array);
+inline SideLens lens_near(const Lattice<double>& lattice, double y) {
     const double row = optics::lens_at(lattice, 0., y - lattice.offset[1]).j;
-    return lens_at(d, std::int64_t(std::clamp(row, 0., lattice.count[1] - 1)));
+    return lens_at(lattice, std::int64_t(std::clamp(row, 0., lattice.count[1] - 1)));
 }
 
 /// The path through the lens in whose cell the ray reaches the lenses. Points in the display's frame.
 inline SidePath through_array(const Display& d, const Geometry& g, SideRay ray) {
-    const double y = lens_near(d, ray.y_at(ray.dz > 0 ? g.base_z_mm : g.vertex_plane_mm)).y_mm;
+    const double y = lens_near(g.lattice, ray.y_at(ray.dz > 0 ? g.base_z_mm : g.vertex_plane_mm)).y_mm;
     ray.y -= y;
     SidePath path = through_lens(d, g, ray);
     for (auto& point : path.points) point[0] += y;

@@ -12,8 +12,8 @@ constexpr double width = 960, side = 72, drawn = width - 2 * side;
 constexpr double least_height = 48, most_height = 400;
 
 /// Half the height of a turned rectangle where x = 0 cuts it.
-double half_height(const Display& d, const Geometry& g) {
-    const double c = std::abs(std::cos(d.array.rotation_deg * degree)), s = std::abs(std::sin(d.array.rotation_deg * degree));
+double half_height(const Geometry& g) {
+    const double c = std::abs(g.lattice.cos_turn), s = std::abs(g.lattice.sin_turn);
     return std::min(s > 0 ? 0.5 * g.array_width_mm / s : INFINITY, c > 0 ? 0.5 * g.array_height_mm / c : INFINITY);
 }
 
@@ -40,7 +40,7 @@ SideScale scale_for(const Subject& s, const Planes& planes, double top, double& 
         first = std::fmin(first, z);
         last = std::fmax(last, z);
     }
-    const double offset = d.array.offset_mm[1], half = half_height(d, g), eye = d.camera.position_mm[1];
+    const double offset = d.array.offset_mm[1], half = half_height(g), eye = d.camera.position_mm[1];
     const double up = std::max({0.5 * g.panel_height_mm, offset + half, eye}),
                  down = std::min({-0.5 * g.panel_height_mm, offset - half, eye});
     const double per_z = std::min(drawn / (last - first), most_height / (up - down));
@@ -54,9 +54,9 @@ void draw_backward(Drawing& drawing, const SideScale& scale, const Subject& s) {
     const Geometry& g = s.geometry();
     const Vec3d& eye = d.camera.position_mm;
     for (const double share : {-0.7, 0., 0.7}) {
-        const double y = d.array.offset_mm[1] + share * half_height(d, g);
+        const double y = d.array.offset_mm[1] + share * half_height(g);
         if (!g.diffuser_z_mm) {
-            const SideLens lens = lens_near(d, y);
+            const SideLens lens = lens_near(g.lattice, y);
             draw_path(drawing, scale, through_array(d, g, side_ray(eye[1], eye[2], lens.y_mm, g.vertex_plane_mm)), 0,
                       backward_style);
             continue;
@@ -73,7 +73,7 @@ void draw_backward(Drawing& drawing, const SideScale& scale, const Subject& s) {
 void draw_pixel(Drawing& drawing, const SideScale& scale, const Subject& s, const Planes& planes) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();
-    const double y = lens_near(d, 0).y_mm, half = 0.45 * g.clear_aperture_mm[1];
+    const double y = lens_near(g.lattice, 0).y_mm, half = 0.45 * g.clear_aperture_mm[1];
     const bool real = planes.central > g.top_z_mm;
     const double end = real ? planes.central : g.top_z_mm + 0.4 * (d.camera.position_mm[2] - g.top_z_mm);
     for (const double share : {-1., -0.5, 0., 0.5, 1.}) {
@@ -147,7 +147,7 @@ std::string side_view_svg(const Subject& s, SideFrame* frame) {
                  {scale.at(0, std::max(eye[2], g.top_z_mm))[0] + 12, scale.at(0, 0)[1]},
                  "stroke-opacity=\"0.5\" stroke-dasharray=\"10 3 2 3\"");
 
-    const double offset = d.array.offset_mm[1], half = half_height(d, g);
+    const double offset = d.array.offset_mm[1], half = half_height(g);
     if (std::isfinite(planes.central)) upright(planes.central, offset - half, offset + half, plane_style);
     for (const double z : planes.marginal)
         if (std::isfinite(z)) upright(z, offset - half, offset + half, margin_style);

@@ -20,11 +20,11 @@ struct Window {
 };
 
 Window window_of(const Display& d, const Geometry& g) {
-    const SideLens middle = lens_near(d, 0);
-    Window w{std::max<std::int64_t>(middle.row - 1, 0), std::min(middle.row + 1, d.array.count[1] - 1), 0, 0, 0, 0};
+    const SideLens middle = lens_near(g.lattice, 0);
+    Window w{std::max<std::int64_t>(middle.row - 1, 0), std::min(middle.row + 1, std::int64_t(g.lattice.count[1]) - 1), 0, 0, 0, 0};
     const double p = d.array.pitch_mm[1], depth = g.top_z_mm - std::min(0., g.base_z_mm);
-    w.low = lens_at(d, w.first).y_mm - 0.6 * p;
-    w.high = lens_at(d, w.last).y_mm + 0.6 * p;
+    w.low = lens_at(g.lattice, w.first).y_mm - 0.6 * p;
+    w.high = lens_at(g.lattice, w.last).y_mm + 0.6 * p;
     w.from = std::min(0., g.base_z_mm) - 0.05 * depth;
     // As far in front of the lenses as the picture has room for at the scale that its height allows.
     const double scale = std::min(lens_most_height / (w.high - w.low), lens_drawn / (depth + std::max(1.2 * p, 0.5 * depth)));
@@ -34,7 +34,7 @@ Window window_of(const Display& d, const Geometry& g) {
 
 /// Half the height of a lens in the plane of its axis.
 double rim_of(const Display& d, const PlacedSurface& f) {
-    return d.array.aperture == Aperture::square ? 0.5 * d.array.pitch_mm[1] : f.semi_aperture_mm;
+    return d.array.aperture == Aperture::cell ? 0.5 * d.array.pitch_mm[1] : f.semi_aperture_mm;
 }
 
 void add_surface(std::vector<Point>& outline, const SideScale& scale, const Display& d, const PlacedSurface& f, double y, bool up) {
@@ -72,7 +72,7 @@ void draw_lens(Drawing& drawing, const SideScale& scale, const Display& d, const
 void draw_between(Drawing& drawing, const SideScale& scale, const Display& d, const Geometry& g, double y, bool upper, bool lower) {
     const double half = 0.5 * d.array.pitch_mm[1];
     double rim = g.glass_radius_mm, low = g.vertex_plane_mm, high = low;
-    if (d.array.aperture == Aperture::square) rim = half;
+    if (d.array.aperture == Aperture::cell) rim = half;
     for (const PlacedSurface& f : g.surfaces) {
         const double z = rim_z(f, std::min(rim, rim_of(d, f)));
         low = &f == &g.surfaces.front() ? z : std::min(low, z);
@@ -88,7 +88,7 @@ void draw_between(Drawing& drawing, const SideScale& scale, const Display& d, co
 void draw_rays(Drawing& drawing, const SideScale& scale, const Subject& s, const Window& w) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();
-    const SideLens middle = lens_near(d, 0), lower = lens_at(d, w.first), upper = lens_at(d, w.last);
+    const SideLens middle = lens_near(g.lattice, 0), lower = lens_at(g.lattice, w.first), upper = lens_at(g.lattice, w.last);
     const Vec3d& eye = d.camera.position_mm;
     // The theoretical field of view, at the upper lens: lines from its elemental image's edges through its principal points.
     for (const double sense : {-1., 1.}) {
@@ -138,7 +138,7 @@ std::vector<std::string> notes_of(const Subject& s) {
                                           : std::string("L: at infinity"),
         fmt::format("{:.4g}\u00b0: field of view, dashed", t.along[1].fov_deg)};
     if (d.diffuser) lines.push_back(fmt::format("\u03c9 = {:.4g}\u00b0: diffuser, vertical", d.diffuser->angle_deg[1]));
-    if (d.array.rotation_deg != 0) lines.push_back("in the frame of the turned array");
+    if (d.array.turn_deg() != 0) lines.push_back("in the frame of the turned array");
     return lines;
 }
 
@@ -156,9 +156,10 @@ std::string lens_view_svg(const Subject& s, SideFrame* frame) {
                     "Lenses of the display from the side, with their rays");
     drawing.add(fmt::format("<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"0 0 {2} {3}\" overflow=\"hidden\">\n",
                             px(left), px(top), px(lens_drawn), px(high)));
-    for (std::int64_t row = w.first; row <= w.last; ++row) draw_lens(drawing, scale, d, g, lens_at(d, row).y_mm);
+    for (std::int64_t row = w.first; row <= w.last; ++row) draw_lens(drawing, scale, d, g, lens_at(g.lattice, row).y_mm);
     for (std::int64_t row = w.first; row <= w.last + 1; ++row)
-        draw_between(drawing, scale, d, g, lens_at(d, row).y_mm - 0.5 * d.array.pitch_mm[1], row<d.array.count[1], row> 0);
+        draw_between(drawing, scale, d, g, lens_at(g.lattice, row).y_mm - 0.5 * d.array.pitch_mm[1],
+                     row<std::int64_t(g.lattice.count[1]), row> 0);
     draw_rays(drawing, scale, s, w);
     if (g.diffuser_z_mm && *g.diffuser_z_mm < w.to)
         drawing.line(scale.at(w.low, *g.diffuser_z_mm), scale.at(w.high, *g.diffuser_z_mm), diffuser_style);
@@ -177,10 +178,10 @@ std::string lens_view_svg(const Subject& s, SideFrame* frame) {
         const auto [x, at_y] = scale.at(y, z);
         return Point{left + x, top + at_y};
     };
-    const SideLens lower = lens_at(d, w.first);
+    const SideLens lower = lens_at(g.lattice, w.first);
     const double x = at(0, 0)[0] - 18, below = top + high + 22;
     if (w.last > w.first) {
-        const double next = lens_at(d, w.first + 1).y_mm;
+        const double next = lens_at(g.lattice, w.first + 1).y_mm;
         for (const double y : {lower.y_mm, next})
             drawing.line({x - 6, at(y, 0)[1]}, {x + 12, at(y, 0)[1]}, "stroke-opacity=\"0.5\"");
         drawing.dimension({x, at(lower.y_mm, 0)[1]}, {x, at(next, 0)[1]}, "");
@@ -193,7 +194,7 @@ std::string lens_view_svg(const Subject& s, SideFrame* frame) {
     drawing.dimension({at(0, 0)[0], below}, {at(0, g.front_principal_mm)[0], below}, "");
     drawing.text({0.5 * (at(0, 0)[0] + at(0, g.front_principal_mm)[0]), below + 17}, "g = " + mm(g.gap_mm),
                  "font-size=\"12\" text-anchor=\"middle\"");
-    const double upper = lens_at(d, w.last).y_mm, half = 0.5 * g.clear_aperture_mm[1];
+    const double upper = lens_at(g.lattice, w.last).y_mm, half = 0.5 * g.clear_aperture_mm[1];
     const double beside = g.top_z_mm + 0.06 * (w.to - g.top_z_mm);
     for (const double y : {upper - half, upper + half})
         drawing.line(at(y, g.stop_z_mm), {at(y, beside)[0] + 6, at(y, beside)[1]}, "stroke-opacity=\"0.5\"");

@@ -210,6 +210,19 @@ class Lister {
         field.reset();
     }
 
+    // A count that is not given follows panel and pitch.
+    template <class Number>
+    void add(Json& control, const std::string& path, const Range& range, std::optional<std::array<Number, 2>>& field,
+             const std::optional<std::array<Number, 2>>* described) {
+        const bool absent = !field;
+        if (absent) field = lens_count(trial_.panel, trial_.array);
+        add(control, path, range, *field, described && *described ? &**described : nullptr);
+        if (!absent) return;
+        control["suggested"] = control["value"];
+        control["value"] = nullptr;
+        field.reset();
+    }
+
     // Each of the two numbers has a slider with its own ends, found with the other number fixed.
     template <class Number>
     void add(Json& control, const std::string& path, const Range& range, std::array<Number, 2>& field,

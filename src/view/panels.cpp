@@ -68,10 +68,10 @@ Source source_of(const Library& library, const Shown& shown, const Display& disp
 PanelKey panel_key(const Source& source, const Display& d, const Geometry& g) {
     PanelKey key{source, d.panel.pixels, d.panel.encoding, {}};
     if (!drawn_for_lenses(source)) return key;
-    key.lengths = {d.panel.pixel_pitch_mm, double(d.array.count[0]), double(d.array.count[1]),
-                   d.array.pitch_mm[1],    d.array.pitch_mm[0],      d.array.offset_mm[0],
-                   d.array.offset_mm[1],   d.array.rotation_deg,     g.gap_mm,
-                   g.rear_principal_mm,    g.vertex_plane_mm,        d.content.viewing_distance_mm};
+    key.lengths = {
+        double(d.array.lattice), d.panel.pixel_pitch_mm, g.lattice.count[0],           g.lattice.count[1], d.array.pitch_mm[1],
+        d.array.pitch_mm[0],     d.array.offset_mm[0],   d.array.offset_mm[1],         d.array.turn_deg(), g.gap_mm,
+        g.rear_principal_mm,     g.vertex_plane_mm,      d.content.viewing_distance_mm};
     if (source.kind != Shown::Kind::model) return key;
     for (const double x : pose_of(d, g)) key.lengths.push_back(x);
     key.lengths.push_back(g.content_depth_mm);

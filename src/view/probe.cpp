@@ -82,7 +82,7 @@ std::string cone(const Display& d, const Geometry& g, const SideRay& sight) {
         const SidePath path = through_array(d, g, ray);
         if (!path.through) continue;
         const double y = path.last.y_at(0);
-        Seen& seen = rows.try_emplace(lens_near(d, ray.y_at(g.vertex_plane_mm)).row, Seen{y, y}).first->second;
+        Seen& seen = rows.try_emplace(lens_near(g.lattice, ray.y_at(g.vertex_plane_mm)).row, Seen{y, y}).first->second;
         seen = {std::min(seen.low, y), std::max(seen.high, y)};
     }
     double height = 0;
@@ -122,7 +122,7 @@ Probe probe(const Display& d, Place at) {
         probe.says = "No lens lets this line of sight through.";
         return probe;
     }
-    probe.lens = lens_of(make_lattice<double>(d.array), sight.lens);
+    probe.lens = lens_of(g.lattice, sight.lens);
     probe.panel_mm = {sight.x, sight.y};
     probe.panel_pixel = pixel_of(d.panel, sight.x, sight.y);
     const std::string lens = fmt::format("Lens {}, {}", (*probe.lens)[0], (*probe.lens)[1]);

@@ -13,6 +13,7 @@ Slider about(double middle, double reach) { return {middle - reach, middle + rea
 Slider ends_of(std::string_view path, const Range& range, double described, const Display& d, const Geometry& g) {
     const bool angle = path.ends_with("_deg");
     if (path == "array.rotation_deg") return about(described, 5);  // misalignment
+    if (path == "array.slant_deg") return {-60, 60, 0};
     if (angle && range.low < 0) return {-180, 180, 0};
     if (path.ends_with("index")) return {1, 2.5, 0};
     if (path == "panel.emission_exponent") return {0, 10, 0};

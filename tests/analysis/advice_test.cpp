@@ -45,7 +45,7 @@ Display near_eye() {
     d.array.count = {16, 9};
     d.array.pitch_mm = 1;
     d.array.gap_mm = 3.3;
-    d.array.aperture = Aperture::square;
+    d.array.aperture = Aperture::cell;
     d.diffuser.reset();
     d.camera.position_mm = {0, 0, 21.3};
     d.content.viewing_distance_mm = 21.3;
@@ -70,14 +70,14 @@ Display sane(std::mt19937& random) {
     const double eye = 300 * std::pow(20, even(0, 1)), width = eye * even(0.2, 0.9), central = eye * even(0.03, 0.33);
     Display d;
     d.array.count = {std::int64_t(even(20, 200)), 0};
-    d.array.count[1] = std::int64_t(double(d.array.count[0]) * even(0.5, 0.7));
-    const double p = width / double(d.array.count[0]), gap = p * even(1.2, 5), views = std::floor(even(8, 80));
+    d.array.count->at(1) = std::int64_t(double(d.array.count->at(0)) * even(0.5, 0.7));
+    const double p = width / double(d.array.count->at(0)), gap = p * even(1.2, 5), views = std::floor(even(8, 80));
     d.array.pitch_mm = p;
     d.array.gap_mm = gap;
     d.lens.kind = IdealLens{p * even(0.4, 0.5), 1 / (1 / gap + 1 / central)};
     d.panel.pixel_pitch_mm = p / views;
     for (const std::size_t k : {0u, 1u})
-        d.panel.pixels[k] = std::int64_t(double(d.array.count[k]) * views * (1 + gap / eye) * even(1, 1.05)) + 1;
+        d.panel.pixels[k] = std::int64_t(double(d.array.count->at(k)) * views * (1 + gap / eye) * even(1, 1.05)) + 1;
     const double angle = 2 * std::atan(p / 2 / central) * 180 / std::numbers::pi;
     d.diffuser = Diffuser{central, {angle, angle}, even(0, 1) < 0.5 ? Profile::box : Profile::gaussian};
     d.camera.position_mm = {0, 0, eye};

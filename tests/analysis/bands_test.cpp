@@ -27,9 +27,9 @@ class Draw {
         d.array.pitch_mm = p;
         d.panel.pixel_pitch_mm = p / std::floor(even(8, 60));
         for (const std::size_t k : {0u, 1u})
-            d.panel.pixels[k] = std::int64_t(std::ceil(1.2 * double(d.array.count[k]) * p / d.panel.pixel_pitch_mm));
+            d.panel.pixels[k] = std::int64_t(std::ceil(1.2 * double(d.array.count->at(k)) * p / d.panel.pixel_pitch_mm));
         d.array.gap_mm = f * even(0.97, 1.15);
-        d.array.aperture = even(0, 1) < 0.25 ? Aperture::square : Aperture::circle;
+        d.array.aperture = even(0, 1) < 0.25 ? Aperture::cell : Aperture::circle;
         std::optional<double> radius;
         if (even(0, 1) < 0.5) {
             if (d.array.aperture == Aperture::circle) radius = p * even(0.3, 0.5);
@@ -49,7 +49,7 @@ class Draw {
                 Diffuser{above, {angle, angle * (even(0, 1) < 0.3 ? 0.4 : 1)}, even(0, 1) < 0.3 ? Profile::gaussian : Profile::box};
         }
         if (even(0, 1) < 0.2) d.array.rotation_deg = even(-50, 50);
-        const double size = double(d.array.count[0]) * p;
+        const double size = double(d.array.count->at(0)) * p;
         const double nearest = d.diffuser ? d.diffuser->distance_mm : 0;
         d.camera.position_mm = {0, 0, *d.array.gap_mm + 2 * p + nearest + size * log_even(0.8, 10)};
         d.content.viewing_distance_mm = d.camera.position_mm[2];
@@ -72,8 +72,8 @@ std::array<double, 2> seen_contrast(const Display& d, const Geometry& g) {
     };
     std::array<std::vector<double>, 2> light{std::vector<double>(32), std::vector<double>(32)};
     for (const Choice& c : even_choices((1 << 16) * rays.more_for(d.camera.position_mm))) {
-        const Vec3d at = rays.point(axis(c[4], d.array.count[0]) + 0.5 * d.array.pitch_mm[0] * c[0],
-                                    axis(c[5], d.array.count[1]) + 0.5 * d.array.pitch_mm[0] * c[1]);
+        const Vec3d at = rays.point(axis(c[4], d.array.count->at(0)) + 0.5 * d.array.pitch_mm[0] * c[0],
+                                    axis(c[5], d.array.count->at(1)) + 0.5 * d.array.pitch_mm[0] * c[1]);
         const double seen = rays.look_through(d.camera.position_mm, at, c[2], c[3]).light;
         for (const std::size_t k : {0u, 1u}) light[k][bin(c[k])] += seen;
     }

@@ -48,7 +48,7 @@ class PlanoConvexArray {
     /// Mean radiance that an eye sees of the array's rectangle (in the plane of the apexes), by random rays.
     double luminance(const Vec& eye, int rays) {
         double sum = 0;
-        const double w = double(d_.array.count[0]) * pitch_, h = double(d_.array.count[1]) * pitch_;
+        const double w = double(d_.array.count->at(0)) * pitch_, h = double(d_.array.count->at(1)) * pitch_;
         for (int n = 0; n < rays; ++n) {
             const Vec at{number(-w / 2, w / 2), number(-h / 2, h / 2), top_};
             Vec to{at[0] - eye[0], at[1] - eye[1], at[2] - eye[2]};
@@ -72,8 +72,8 @@ class PlanoConvexArray {
             const double c = std::pow(number(0, 1), 1 / (m + 2)), s = std::sqrt(1 - c * c), phi = number(0, 2 * std::numbers::pi);
             Vec to{s * std::cos(phi), s * std::sin(phi), c};
             const Vec in = along(at, to, flat_ / c);
-            reaches += std::abs(in[0]) < double(d_.array.count[0]) * pitch_ / 2 &&
-                       std::abs(in[1]) < double(d_.array.count[1]) * pitch_ / 2;
+            reaches += std::abs(in[0]) < double(d_.array.count->at(0)) * pitch_ / 2 &&
+                       std::abs(in[1]) < double(d_.array.count->at(1)) * pitch_ / 2;
             leaves += left(in, to);
         }
         return {reaches / rays, leaves / rays};
@@ -82,7 +82,7 @@ class PlanoConvexArray {
   private:
     /// The axis of the lens in whose cell (x, y) lies, or of the one `di`, `dj` further.
     std::optional<std::array<double, 2>> axis(double x, double y, int di = 0, int dj = 0) const {
-        const double nx = double(d_.array.count[0]), ny = double(d_.array.count[1]);
+        const double nx = double(d_.array.count->at(0)), ny = double(d_.array.count->at(1));
         const double i = std::floor(x / pitch_ + nx / 2) + di, j = std::floor(y / pitch_ + ny / 2) + dj;
         if (i < 0 || j < 0 || i >= nx || j >= ny) return {};
         return std::array{(i + 0.5 - nx / 2) * pitch_, (j + 0.5 - ny / 2) * pitch_};

@@ -21,7 +21,7 @@ Display display(double central_depth_mm) {
     d.array.count = {61, 31};
     d.array.pitch_mm = pitch;
     d.array.gap_mm = gap;
-    d.array.aperture = Aperture::square;
+    d.array.aperture = Aperture::cell;
     d.camera.position_mm = {0, 0, eye_mm + gap};
     d.content.viewing_distance_mm = eye_mm + gap;
     return d;

@@ -15,7 +15,7 @@ inline Display display(double fov_deg, double depth_mm) {
     d.panel.pixel_pitch_mm = 0.2;
     d.array.count = {40, 24};
     d.array.pitch_mm = 6;
-    d.array.aperture = Aperture::square;
+    d.array.aperture = Aperture::cell;
     const double gap = 3 / std::tan(0.5 * fov_deg * degree);
     d.array.gap_mm = gap;
     d.lens.kind = IdealLens{{}, 1 / (1 / depth_mm + 1 / gap)};

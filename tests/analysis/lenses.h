@@ -46,7 +46,7 @@ inline std::vector<std::pair<std::string, Display>> all_lenses() {
     all.emplace_back("facing the panel", d);
     d.lens.stop_radius_mm.reset();
     d.lens.as<PlanoConvex>().sphere_radius_mm = 12;
-    d.array.aperture = Aperture::square;
+    d.array.aperture = Aperture::cell;
     all.emplace_back("square", d);
     all.emplace_back("hollow to the panel", with_lens({{-0.02, 0, {}, 5.5, 4, 1.6}, {-0.12, -0.5, {}, 5.5, 0, 1}}, 10));
     all.emplace_back("hollow to the viewer", with_lens({{0.12, -0.5, {}, 5.5, 4, 1.6}, {0.02, 0, {}, 5.5, 0, 1}}, 10));

@@ -23,7 +23,7 @@ Display ideal_display() {
     d.array.count = {40, 30};
     d.array.pitch_mm = 5;
     d.array.gap_mm = 8;
-    d.array.aperture = Aperture::square;
+    d.array.aperture = Aperture::cell;
     d.camera.position_mm = {0, 0, 1500};
     d.content.viewing_distance_mm = 1500;
     return d;

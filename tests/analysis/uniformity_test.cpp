@@ -136,8 +136,8 @@ TEST(Uniformity, MeanLuminanceIsTheory) {
         bool diffuser;
         double panel;  // over the array's width
     };
-    for (const Case& c : {Case{Aperture::square, 0, false, 0.9}, Case{Aperture::circle, 0, false, 0.9},
-                          Case{Aperture::circle, 0, true, 1.1}, Case{Aperture::square, 0.3, true, 0.9}}) {
+    for (const Case& c : {Case{Aperture::cell, 0, false, 0.9}, Case{Aperture::circle, 0, false, 0.9},
+                          Case{Aperture::circle, 0, true, 1.1}, Case{Aperture::cell, 0.3, true, 0.9}}) {
         d.array.aperture = c.aperture;
         d.lens.as<IdealLens>().aperture_radius_mm = 0.45 * p;
         d.lens.stop_radius_mm.reset();

@@ -20,7 +20,7 @@ Display many_lenses(double focal_length_mm) {
     d.array.count = {41, 23};
     d.array.pitch_mm = 4;
     d.array.gap_mm = 8;
-    d.array.aperture = Aperture::square;
+    d.array.aperture = Aperture::cell;
     d.camera.position_mm = {0, 0, zone_eye_mm + 8};
     d.content.viewing_distance_mm = zone_eye_mm + 8;
     return d;
@@ -40,7 +40,7 @@ std::array<double, 2> both(const Json& json) {
 
 /// Share of wrong rays for an eye at (x, z), lens by lens: the ideal lens's own equation.
 double counted(const Display& d, double x, double z) {
-    const double p = d.array.pitch_mm[0], g = *d.array.gap_mm, n = double(d.array.count[0]),
+    const double p = d.array.pitch_mm[0], g = *d.array.gap_mm, n = double(d.array.count->at(0)),
                  f = d.lens.as<IdealLens>().focal_length_mm, scale = 1 + g / (d.content.viewing_distance_mm - g);
     int wrong = 0, all = 0;
     for (double i = 0; i < n; ++i) {

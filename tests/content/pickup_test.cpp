@@ -1,5 +1,6 @@
 // The nodal pick-up against its closed forms.
 #include "content/pickup.h"
+#include "model/numbers.h"
 #include "small_world.h"
 
 #include <map>
@@ -11,6 +12,7 @@ using namespace small_world;
 
 struct Case {
     double viewing_distance_mm, rotation_deg, offset_x, offset_y, height_of_cell = 1;
+    LatticeKind lattice = LatticeKind::rectangle;
 };
 
 class PickupTest : public testing::TestWithParam<Case> {
@@ -19,7 +21,7 @@ class PickupTest : public testing::TestWithParam<Case> {
         Display d = display();
         d.content.viewing_distance_mm = GetParam().viewing_distance_mm;
         d.array.rotation_deg = GetParam().rotation_deg;
-        d.array.lattice = LatticeKind::rectangle;
+        d.array.lattice = GetParam().lattice;
         d.array.pitch_mm[1] *= GetParam().height_of_cell;
         *d.lens.as<IdealLens>().aperture_radius_mm *= std::min(1., GetParam().height_of_cell);
         d.array.offset_mm = {GetParam().offset_x, GetParam().offset_y};
@@ -27,8 +29,11 @@ class PickupTest : public testing::TestWithParam<Case> {
     }
     // Axis of lens (i, j), from the definition: the lattice, turned, then moved.
     static std::array<double, 2> axis(const Display& d, int i, int j) {
-        const double u = (i + 0.5 - 0.5 * double(d.array.count[0])) * d.array.pitch_mm[0],
-                     v = (j + 0.5 - 0.5 * double(d.array.count[1])) * d.array.pitch_mm[1];
+        const double px = d.array.pitch_mm[0],
+                     py = d.array.lattice == LatticeKind::hexagon ? px * std::sqrt(3) / 2 : d.array.pitch_mm[1];
+        const double aside = d.array.lattice == LatticeKind::rectangle ? 0 : (j & 1) != 0 ? px / 4 : -px / 4;
+        const double u = (i + 0.5 - 0.5 * double(d.array.count->at(0))) * px + aside,
+                     v = (j + 0.5 - 0.5 * double(d.array.count->at(1))) * py;
         const double a = d.array.rotation_deg * 3.14159265358979323846 / 180;
         return {u * std::cos(a) - v * std::sin(a) + d.array.offset_mm[0], u * std::sin(a) + v * std::cos(a) + d.array.offset_mm[1]};
     }
@@ -42,8 +47,8 @@ TEST_P(PickupTest, CentresFollowThePitchLawAndLookAtTheViewer) {
     const Pickup pickup(d, g);
     const double distance = d.content.viewing_distance_mm;
     const double law = std::isinf(distance) ? 1 : 1 + g.gap_mm / (distance - g.rear_principal_mm);
-    for (int i = 0; i < d.array.count[0]; ++i) {
-        for (int j = 0; j < d.array.count[1]; ++j) {
+    for (int i = 0; i < d.array.count->at(0); ++i) {
+        for (int j = 0; j < d.array.count->at(1); ++j) {
             const auto [x, y] = axis(d, i, j);
             const NodalLine line = pickup.line(x * law, y * law);
             ASSERT_TRUE(line.owned);
@@ -62,8 +67,9 @@ TEST_P(PickupTest, CentresFollowThePitchLawAndLookAtTheViewer) {
     }
 }
 
-// The owner is the lens with the nearest centre, found here by looking at all of them; beyond the array there is none.
-TEST_P(PickupTest, OwnerIsTheNearestCentre) {
+// The owner is the lens with the nearest centre, of bricks the one whose cell holds the point, found here by looking at all of
+// them; beyond the array there is none.
+TEST_P(PickupTest, OwnerIsTheLensOfTheCell) {
     const Display d = make();
     const Geometry g = resolve(d);
     const Pickup pickup(d, g);
@@ -74,13 +80,17 @@ TEST_P(PickupTest, OwnerIsTheNearestCentre) {
         const double x = x_mm(random), y = y_mm(random);
         double best = 1e9, best_x = 0, best_y = 0;
         bool inside = false;
-        for (int i = -6; i < d.array.count[0] + 6; ++i) {
-            for (int j = -6; j < d.array.count[1] + 6; ++j) {
+        for (int i = -6; i < d.array.count->at(0) + 6; ++i) {
+            for (int j = -6; j < d.array.count->at(1) + 6; ++j) {
                 const auto [cx, cy] = axis(d, i, j);
-                const double distance = std::hypot(x - cx * pickup.scale, y - cy * pickup.scale);
+                const double dx = x - cx * pickup.scale, dy = y - cy * pickup.scale, a = d.array.rotation_deg * degree;
+                const double distance = d.array.lattice != LatticeKind::brick
+                                            ? std::hypot(dx, dy)
+                                            : std::max(std::abs(std::cos(a) * dx + std::sin(a) * dy) / d.array.pitch_mm[0],
+                                                       std::abs(std::cos(a) * dy - std::sin(a) * dx) / d.array.pitch_mm[1]);
                 if (distance >= best) continue;
                 best = distance, best_x = cx, best_y = cy;
-                inside = i >= 0 && i < d.array.count[0] && j >= 0 && j < d.array.count[1];
+                inside = i >= 0 && i < d.array.count->at(0) && j >= 0 && j < d.array.count->at(1);
             }
         }
         const NodalLine line = pickup.line(x, y);
@@ -112,7 +122,47 @@ TEST_P(PickupTest, APointIsImagedWhereTheNodalRayMeetsThePanel) {
 INSTANTIATE_TEST_SUITE_P(Displays, PickupTest,
                          testing::Values(Case{std::numeric_limits<double>::infinity(), 0, 0, 0}, Case{600, 0, 0, 0},
                                          Case{600, 0, 0.7, -1.3}, Case{300, 12.5, 0.7, -1.3}, Case{450, -31, 0.2, 0.4, 0.7},
+                                         Case{500, 21, 0.5, -0.3, 1, LatticeKind::hexagon},
+                                         Case{700, -8, 0.4, 0.9, 1.4, LatticeKind::brick},
                                          Case{std::numeric_limits<double>::infinity(), -45, 2, 1}));
+
+// Strips that image the panel onto the eye's distance: whatever point of the sheet a ray from an eye on the line y = 0, z = D aims
+// at, the panel point that it reaches was made for just that eye.
+TEST(Pickup, StripsShowEachEyeOnTheLineItsOwnView) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> even(-1, 1);
+    int own = 0, all = 0;
+    for (const double slant : {-35., 0., 9.46, 18.43, 60.}) {
+        for (const double D : {400., 900.}) {
+            Display d = display();
+            d.array.lattice = LatticeKind::strips;
+            d.array.count.reset();
+            d.array.slant_deg = slant;
+            d.array.pitch_mm = 3;
+            d.array.offset_mm = {0.4, -1.7};
+            d.content.viewing_distance_mm = D;
+            d.lens.kind = IdealLens{1.5, 1 / (1 / 10. + 1 / (D - 10))};
+            const Pickup pickup(d, resolve(d));
+            const double c = std::cos(slant * degree), s = std::sin(slant * degree);  // across the strips: (c, -s)
+            for (int n = 0; n < 400; ++n) {
+                const double eye = 25 * even(random), x = 18 * even(random), y = 14 * even(random);  // at the lenses, z = 10
+                const double across = c * (x - 0.4) - s * (y + 1.7);
+                // An even number of strips covers the panel or an odd one: axes at multiples of the pitch, or half-way.
+                const double half = std::fmod(double(pickup.lattice().count[0]), 2) == 0 ? 0.5 : 0;
+                const double axis = 3 * (std::round(across / 3 - half) + half),
+                             bend = (across - axis) / d.lens.as<IdealLens>().focal_length_mm;
+                const double mx = (x - eye) / (10 - D) + c * bend, my = y / (10 - D) - s * bend;  // slopes below the lens
+                const NodalLine line = pickup.line(x - 10 * mx, y - 10 * my);
+                ++all;
+                if (!line.owned || std::abs(c * (line.x - 0.4) - s * (line.y + 1.7) - axis) > 1e-9) continue;  // a neighbour's view
+                ++own;
+                EXPECT_NEAR(line.x + line.mx * (D - 10), eye, 1e-8) << slant;
+                EXPECT_NEAR(line.y + line.my * (D - 10), 0, 1e-8) << slant;
+            }
+        }
+    }
+    EXPECT_GT(own, all / 2);
+}
 
 // With elemental images of exactly 20 x 20 pixels each lens owns just those.
 TEST(Pickup, WholePixelsAreShared) {

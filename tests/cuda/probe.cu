@@ -6,7 +6,7 @@ using namespace lfdsim;
 using namespace lfdsim::optics;
 
 template <Way through>
-__device__ void sample(const Scene<float>& scene, const View& view, const DirectionNumbers& directions,
+__device__ __forceinline__ void sample(const Scene<float>& scene, const View& view, const DirectionNumbers& directions,
                        const PixelRays<float>& pixels, const float* texels, std::uint32_t count, float* out) {
     Sampler<float> sampler(Sampling::sobol, 2, 0, threadIdx.x);
     Light<float> light;
@@ -25,5 +25,6 @@ __device__ void sample(const Scene<float>& scene, const View& view, const Direct
     }
 PROBE(plano_convex)
 PROBE(opaque)
+PROBE(cylinders)
 PROBE(ideal)
 PROBE(glass)

@@ -45,7 +45,7 @@ class Extremes {
         d.array.count = {up_to(50), up_to(50)};
         if (chance(0.1)) d.array.count = {1, 1};
         d.array.pitch_mm = pitch;
-        d.array.aperture = one_of({Aperture::circle, Aperture::square});
+        d.array.aperture = one_of({Aperture::circle, Aperture::cell});
         if (chance(0.15)) d.array.offset_mm = {random(-100, 100) * scale, random(-1, 1) * scale};
         draw_lens(d, scale);
         draw_diffuser(d, scale);

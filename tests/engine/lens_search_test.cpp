@@ -1,7 +1,11 @@
 // No lens is missed: the tracer's arithmetic against a search over all lenses near the ray, in plain geometry.
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include "../optics/example.h"
+#include "model/keys.h"
+#include "model/prescription.h"
 
 namespace lfdsim {
 namespace {
@@ -9,33 +13,49 @@ namespace {
 using V = std::array<double, 3>;
 double dot(const V& a, const V& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
+/// The centre of lens (a, b), b counted upwards, by docs/model.md.
+std::array<double, 2> centre_of(const Display& d, int a, int b) {
+    const bool hexagon = d.array.lattice == LatticeKind::hexagon, staggered = hexagon || d.array.lattice == LatticeKind::brick;
+    const double px = d.array.pitch_mm[0], py = hexagon ? px * std::sqrt(3) / 2 : d.array.pitch_mm[1];
+    const auto [columns, rows] = *d.array.count;
+    return {(a - double(columns - 1) / 2) * px + (!staggered ? 0 : b % 2 != 0 ? px / 4 : -px / 4), (b - double(rows - 1) / 2) * py};
+}
+
+bool within_cell(const Display& d, const V& q) {
+    const double px = d.array.pitch_mm[0], x = std::abs(q[0]), y = std::abs(q[1]);
+    if (d.array.lattice == LatticeKind::strips) return x <= px / 2;
+    if (d.array.lattice == LatticeKind::hexagon) return x <= px / 2 && x / 2 + y * std::sqrt(3) / 2 <= px / 2;
+    return x <= px / 2 && y <= d.array.pitch_mm[1] / 2;
+}
+
 /// Panel pixel of a ray through plano-convex lenses facing the viewer in an opaque surround, or -1: the cap that it meets first is
-/// found by trying every lens whose circle comes near the ray's shadow, as the docs define the solid.
+/// found by trying every lens near the ray's shadow, as the docs define the solid; strips are cylinders along y.
 std::int64_t search(const Display& d, const Geometry& g, const V& o, const V& i) {
     const double R = d.lens.as<PlanoConvex>().sphere_radius_mm, r = g.glass_radius_mm, n = d.lens.as<PlanoConvex>().index;
-    const Pitch& p = d.array.pitch_mm;
-    const bool square = d.array.aperture == Aperture::square;
-    auto within = [&](const V& q) {
-        return square ? std::abs(q[0]) <= p[0] / 2 && std::abs(q[1]) <= p[1] / 2 : q[0] * q[0] + q[1] * q[1] <= r * r;
-    };
+    const bool strips = d.array.lattice == LatticeKind::strips, filled = d.array.aperture == Aperture::cell;
+    auto within = [&](const V& q) { return filled ? within_cell(d, q) : q[0] * q[0] + (strips ? 0 : q[1] * q[1]) <= r * r; };
+    auto across = [&](V v) { return strips ? V{v[0], 0, v[2]} : v; };
     const double base = g.base_z_mm, rim = base + d.lens.as<PlanoConvex>().cylinder_height_mm,
                  centre = rim - std::sqrt(R * R - r * r);
     auto at = [&](double z) { return V{o[0] + i[0] * (z - o[2]) / i[2], o[1] + i[1] * (z - o[2]) / i[2], z}; };
     const V high = at(centre + R), low = at(rim);
     double first = 1e30;
     V met{}, ball{};
-    auto index = [&](double x, int axis) {
-        return int(std::floor(x / p[std::size_t(axis)] + double(d.array.count[std::size_t(axis)]) / 2));
+    const auto zero = centre_of(d, 0, 0), one = centre_of(d, 1, d.array.count->at(1) > 1 ? 2 : 0);
+    auto index = [&](double x, int axis) {  // two more on either side are searched
+        const double step = axis == 0 ? one[0] - zero[0] : one[1] > zero[1] ? (one[1] - zero[1]) / 2 : 1e9;
+        return int(std::floor((x - zero[std::size_t(axis)]) / step));
     };
-    for (int a = std::max(0, index(std::min(high[0], low[0]), 0) - 1);
-         a <= std::min<int>(int(d.array.count[0]) - 1, index(std::max(high[0], low[0]), 0) + 1); ++a) {
-        for (int b = std::max(0, index(std::min(high[1], low[1]), 1) - 1);
-             b <= std::min<int>(int(d.array.count[1]) - 1, index(std::max(high[1], low[1]), 1) + 1); ++b) {
-            const V c{(a + 0.5 - double(d.array.count[0]) / 2) * p[0], (b + 0.5 - double(d.array.count[1]) / 2) * p[1], centre};
-            const V from{high[0] - c[0], high[1] - c[1], high[2] - c[2]};
-            const double half = dot(from, i), disc = half * half - dot(from, from) + R * R;
+    for (int a = std::max(0, index(std::min(high[0], low[0]), 0) - 2);
+         a <= std::min<int>(int(d.array.count->at(0)) - 1, index(std::max(high[0], low[0]), 0) + 2); ++a) {
+        for (int b = std::max(0, index(std::min(high[1], low[1]), 1) - 2);
+             b <= std::min<int>(int(d.array.count->at(1)) - 1, index(std::max(high[1], low[1]), 1) + 2); ++b) {
+            const auto [cx, cy] = centre_of(d, a, b);
+            const V c{cx, cy, centre};
+            const V from{high[0] - c[0], high[1] - c[1], high[2] - c[2]}, flat = across(from), along = across(i);
+            const double steep = dot(along, along), half = dot(flat, along), disc = half * half - steep * (dot(flat, flat) - R * R);
             if (disc < 0) continue;
-            const double t = -half - std::sqrt(disc);  // coming in
+            const double t = (-half - std::sqrt(disc)) / steep;  // coming in
             const V q{from[0] + i[0] * t, from[1] + i[1] * t, from[2] + i[2] * t};
             if (q[2] + centre < rim || !within(q) || t >= first) continue;
             first = t;
@@ -44,7 +64,7 @@ std::int64_t search(const Display& d, const Geometry& g, const V& o, const V& i)
         }
     }
     if (first == 1e30) return -1;
-    const V normal{met[0] / R, met[1] / R, met[2] / R};
+    const V up = across(met), normal{up[0] / R, up[1] / R, up[2] / R};
     auto refract = [](const V& ray, const V& m, double eta, V& out) {
         const double c = -dot(m, ray), radicand = 1 - eta * eta * (1 - c * c);
         if (radicand < 0) return false;
@@ -66,7 +86,9 @@ std::int64_t search(const Display& d, const Geometry& g, const V& o, const V& i)
 template <class F>
 std::int64_t traced(const optics::Scene<F>& scene, const optics::View& view, int column, int row) {
     const optics::Sampler<F> sampler(Sampling::sobol, optics::sampler_dimensions, 0, 0);
-    const auto hit = optics::trace<optics::Way::plano_convex>(scene, view, optics::pixel_rays<F>(view, column, row), sampler);
+    const auto rays = optics::pixel_rays<F>(view, column, row);
+    const auto hit = scene.lattice.strips ? optics::trace<optics::Way::cylinders>(scene, view, rays, sampler)
+                                          : optics::trace<optics::Way::plano_convex>(scene, view, rays, sampler);
     return hit.lit ? std::int64_t(hit.pixel) : -1;
 }
 
@@ -84,15 +106,27 @@ TEST_P(LensSearch, FindsTheLensThatAFullSearchFinds) {
     d.array.base_z_mm = 1.5;
     d.lens.as<PlanoConvex>().index = 1.7;
     d.camera.resolution = {150, 100};
-    for (double radius : {2.001, 2.5, 6.0, 2.83, 3.3, 3.2}) {
+    const struct {
+        LatticeKind lattice;
+        Pitch pitch;
+        Aperture aperture;
+        double radius;
+    } cases[] = {
+        {LatticeKind::square, 4, Aperture::circle, 2.001},   {LatticeKind::square, 4, Aperture::circle, 2.5},
+        {LatticeKind::square, 4, Aperture::circle, 6},       {LatticeKind::square, 4, Aperture::cell, 2.83},
+        {LatticeKind::square, 4, Aperture::cell, 3.3},       {LatticeKind::rectangle, {3.6, 5}, Aperture::cell, 3.2},
+        {LatticeKind::hexagon, 4, Aperture::circle, 2.001},  {LatticeKind::hexagon, 4, Aperture::circle, 2.5},
+        {LatticeKind::hexagon, 4, Aperture::cell, 2.4},      {LatticeKind::brick, {5, 4}, Aperture::circle, 2.001},
+        {LatticeKind::brick, {3.6, 5}, Aperture::cell, 3.2}, {LatticeKind::brick, {6, 2.6}, Aperture::cell, 3.3},
+        {LatticeKind::strips, 4, Aperture::circle, 2.001},   {LatticeKind::strips, 4, Aperture::cell, 2.3},
+    };
+    for (const auto& [lattice, pitch, aperture, radius] : cases) {
         d.lens.as<PlanoConvex>().sphere_radius_mm = radius;
-        d.array.aperture = radius == 2.83 || radius == 3.3 || radius == 3.2 ? Aperture::square : Aperture::circle;
-        if (radius == 3.2) {
-            d.array.lattice = LatticeKind::rectangle;
-            d.array.pitch_mm = {3.6, 5};
-        }
-        // r: half a cell's diagonal, half its side
-        const double reach = d.array.aperture == Aperture::square ? std::hypot(d.array.pitch_mm[0], d.array.pitch_mm[1]) / 2 : 2;
+        d.array.lattice = lattice;
+        d.array.pitch_mm = pitch;
+        d.array.aperture = aperture;
+        d.array.count = {side, lattice == LatticeKind::strips ? 1 : side};
+        const double reach = std::max(2., glass_radius_mm(2, d.array));
         d.lens.as<PlanoConvex>().cylinder_height_mm =
             std::min(0.5, 1.9 * std::sqrt(radius * radius - reach * reach));  // the ball clears the flat face
         for (double angle : {0.0, 30.0, 60.0, 75.0, 85.0}) {
@@ -123,9 +157,10 @@ TEST_P(LensSearch, FindsTheLensThatAFullSearchFinds) {
                     different_float += traced(narrow, view, column, row) != wanted;
                 }
             }
-            EXPECT_EQ(different, 0) << "R " << radius << " at " << angle;
-            EXPECT_LE(different_float, 15) << "R " << radius << " at " << angle;
-            EXPECT_GT(lit, 30) << "R " << radius << " at " << angle;
+            SCOPED_TRACE(fmt::format("{}, R {} at {} degrees", word(lattice), radius, angle));
+            EXPECT_EQ(different, 0);
+            EXPECT_LE(different_float, 15);
+            EXPECT_GT(lit, 30);
         }
     }
 }

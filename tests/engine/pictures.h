@@ -51,7 +51,7 @@ class Bits {
 inline Display ideal_example() {
     Display d = example();
     d.lens = {IdealLens{{}, 6}, {}};
-    d.array.aperture = Aperture::square;
+    d.array.aperture = Aperture::cell;
     return d;
 }
 
@@ -59,7 +59,7 @@ inline Display ideal_example() {
 inline Display in_rectangles(Display d) {
     d.array.lattice = LatticeKind::rectangle;
     d.array.pitch_mm = {d.array.pitch_mm[0], 0.75 * d.array.pitch_mm[0]};
-    d.array.aperture = Aperture::square;
+    d.array.aperture = Aperture::cell;
     return d;
 }
 
@@ -69,7 +69,7 @@ inline std::vector<std::pair<std::string, Display>> every_kind() {
     all.emplace_back("plano-convex", example());
     all.back().second.diffuser = Diffuser{40, {3, 5}, Profile::box};
     all.emplace_back("plano-convex, square, gaussian, random", example());
-    all.back().second.array.aperture = Aperture::square;
+    all.back().second.array.aperture = Aperture::cell;
     all.back().second.diffuser = Diffuser{20, {8, 2}, Profile::gaussian};
     all.back().second.render.sampling = Sampling::random;
     all.emplace_back("aspheres, stop, schlick",
@@ -92,7 +92,7 @@ inline std::vector<std::pair<std::string, Display>> every_kind() {
     all.back().second.diffuser = Diffuser{40, {4, 4}, Profile::box};
     all.emplace_back("clear, square", example());
     all.back().second.array.surround = Surround::clear;
-    all.back().second.array.aperture = Aperture::square;
+    all.back().second.array.aperture = Aperture::cell;
     all.back().second.camera.pixel_filter = PixelFilter::box;
     all.emplace_back("plate", example());
     all.back().second.array.surround = Surround::plate;

@@ -76,8 +76,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Bad{with("pitch_mm = 12.0", "pitch_mm = [12, 9, 3]"), "d:13:12",
                         "array.pitch_mm: is a list; give a number, or a list of 2 numbers"},
                     Bad{with("pitch_mm = 12.0", "pitch_mm = [12, \"9\"]"), "d:13:12", "element 1 is a string; give a number"},
-                    Bad{with("pitch_mm = 12.0", "lattice = \"hexagon\"\npitch_mm = 12"), "d:13:11",
-                        R"(array.lattice: is "hexagon", allowed are "square", "rectangle")"},
+                    Bad{with("pitch_mm = 12.0", "lattice = \"honeycomb\"\npitch_mm = 12"), "d:13:11",
+                        R"(array.lattice: is "honeycomb", allowed are "square", "rectangle", "hexagon", "brick", "strips")"},
+                    Bad{with("pitch_mm = 12.0", "pitch_mm = 12.0\naperture = \"square\""), "d:14:12",
+                        R"(array.aperture: is "square", allowed are "circle", "cell")"},
                     Bad{with("[camera]", "[camera]\nqqqqqqqqqqq = 3"), "d:16:1", "is unknown; known are position_mm, target_mm"},
                     Bad{with("[camera]", "[camera]\n\"a\\nb\" = 3"), "d:16:1", "camera.a?b: is unknown"},
                     Bad{with("[camera]", "[difuser]\n[camera]"), "d:15:2", "difuser: is unknown; did you mean diffuser?"},
@@ -124,7 +126,6 @@ TEST(BadDescriptions, AllFaultsTogetherInTheOrderOfTheFile) {
                      "d:3:10: panel.pixels: is a string; give a list of 2 integers\n"
                      "d:4:1: lens.focal_length_mm: is missing\n"
                      "d:6:1: lens.focal_length: is unknown; did you mean focal_length_mm?\n"
-                     "d:7:1: array.count: is missing\n"
                      "d:7:1: array.gap_mm: is missing; give array.gap_mm, or array.base_z_mm, to say where the lenses stand\n"
                      "d:8:12: array.pitch_mm: is nan, allowed is 1e-6 to 1e6\n"
                      "d:10:11: render.samples: is 0, allowed is 1 to 16777216");

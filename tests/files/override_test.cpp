@@ -26,8 +26,8 @@ std::string fault_of(std::vector<std::string> overrides) {
 
 TEST(Override, ValuesOfEveryKind) {
     EXPECT_EQ(set({"array.pitch_mm=13"}).array.pitch_mm[0], 13);
-    EXPECT_EQ(set({"array.count=[3, 4]"}).array.count[1], 4);
-    EXPECT_EQ(set({"array.count.0=5"}).array.count[0], 5);
+    EXPECT_EQ(set({"array.count=[3, 4]"}).array.count->at(1), 4);
+    EXPECT_EQ(set({"array.count.0=5"}).array.count->at(0), 5);
     EXPECT_EQ(set({"lens.facing=panel"}).lens.as<PlanoConvex>().facing, Facing::panel);
     EXPECT_EQ(set({"lens.facing=\"panel\""}).lens.as<PlanoConvex>().facing, Facing::panel);
     EXPECT_EQ(set({"render.fresnel=none"}).render.fresnel, Fresnel::none);

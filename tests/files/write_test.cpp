@@ -49,6 +49,12 @@ template <class E>
 requires std::is_enum_v<E>
 void fill(E& x, const Range&) { x = E(*rc::gen::inRange<std::size_t>(0, words<E>().size())); }
 
+template <class T>
+void fill(std::optional<std::array<T, 2>>& x, const Range& range) {
+    if (*rc::gen::arbitrary<bool>()) return x.reset();
+    for (T& n : x.emplace()) fill(n, range);
+}
+
 constexpr const char* start_texts[] = {
     R"(lens = {type = "ideal", focal_length_mm = 2, aperture_radius_mm = 1}
 array = {count = [1, 1], pitch_mm = 2, gap_mm = 3})",

@@ -10,7 +10,7 @@ int main() {
         schema = 1
         panel = { pixels = [64, 64], pixel_pitch_mm = 0.1 }
         lens = { type = "ideal", focal_length_mm = 3.0 }
-        array = { count = [6, 6], pitch_mm = 1.0, gap_mm = 3.3, aperture = "square" }
+        array = { count = [6, 6], pitch_mm = 1.0, gap_mm = 3.3, aperture = "cell" }
         camera = { position_mm = [0, 0, 500], frame_width_mm = 4, resolution = [16, 16] }
         render = { fresnel = "none" })",
                                                           "consumer.cpp");

@@ -30,7 +30,7 @@ Display triplet() {
 
 Display square_lens(double height = 0.5) {
     Display d = example();
-    d.array.aperture = Aperture::square;
+    d.array.aperture = Aperture::cell;
     d.lens.as<PlanoConvex>().cylinder_height_mm = height;
     return d;
 }
@@ -42,7 +42,7 @@ std::vector<std::pair<std::string, Display>> lenses() {
     half_ball.lens.as<PlanoConvex>().sphere_radius_mm = half_ball.lens.as<PlanoConvex>().aperture_radius_mm.value();
     half_ball.lens.as<PlanoConvex>().cylinder_height_mm = 0;
     Display cut_square = with_surfaces({{0, 0, {}, 6.5, 2, 1.5}, {-0.08, 0, {}, 7}});
-    cut_square.array.aperture = Aperture::square;
+    cut_square.array.aperture = Aperture::cell;
     return {{"plano-convex", example()},
             {"facing the panel", facing},
             {"half ball", half_ball},

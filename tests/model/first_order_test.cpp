@@ -49,8 +49,8 @@ TEST(FirstOrder, TheoryGivesBackWhatWasAskedFor) {
         RC_ASSERT(std::abs(t.along[0].views - o.views) < 1e-3);
         const double across[] = {g.panel_width_mm, g.panel_height_mm};
         for (std::size_t k = 0; k < 2; ++k) {
-            RC_ASSERT(double(o.display.array.count[k]) * t.along[0].elemental_pitch_mm <= across[k] * (1 + 1e-5));
-            RC_ASSERT(double(o.display.array.count[k] + 1) * t.along[0].elemental_pitch_mm > across[k] * (1 - 1e-5));
+            RC_ASSERT(double(o.display.array.count->at(k)) * t.along[0].elemental_pitch_mm <= across[k] * (1 + 1e-5));
+            RC_ASSERT(double(o.display.array.count->at(k) + 1) * t.along[0].elemental_pitch_mm > across[k] * (1 - 1e-5));
         }
         // The diffuser's own distance spreads light over a lens pitch.
         if (const std::optional<Diffuser>& d = o.display.diffuser)

@@ -60,7 +60,7 @@ TEST(Resolve, GapAndBaseSayTheSame) {
 
 TEST(Resolve, SquareCellsMeetAtTheirCorners) {
     Display d = example();
-    d.array.aperture = Aperture::square;
+    d.array.aperture = Aperture::cell;
     d.lens.as<PlanoConvex>().aperture_radius_mm.reset();
     d.lens.as<PlanoConvex>().sphere_radius_mm = 9;
     const Geometry g = resolve(d);

@@ -22,13 +22,13 @@ struct Figures {
 // that of the wider aperture.
 TEST(Theory, RectanglesAreSquaresOfEachPitch) {
     Display d = example_ideal();
-    d.array.aperture = Aperture::square;
+    d.array.aperture = Aperture::cell;
     d.array.count = {32, 20};
     d.diffuser = Diffuser{100, {1, 1}, Profile::box};
     const auto of_square = [&](double pitch, std::size_t axis) {
         Display square = d;
         square.array.pitch_mm = pitch;
-        square.array.count.fill(d.array.count[axis]);
+        square.array.count->fill(d.array.count->at(axis));
         return theory_of(square);
     };
     const Theory across = of_square(12, 0), up = of_square(9, 1);
@@ -53,7 +53,7 @@ TEST(Theory, DesktopDisplays) {
     Display stopped = example();
     stopped.lens.stop_radius_mm = 1.1595;
     Display ideal = example_ideal();
-    ideal.array.aperture = Aperture::square;
+    ideal.array.aperture = Aperture::cell;
     for (const Figures& want :
          {Figures{"stopped", stopped, 14.803, 145.1, 1.200, 70, 220}, Figures{"ideal", ideal, 15.700, 329.7, 2.727, 254.8, 404.6},
           Figures{"asphere", example_surfaces(), 15.699, 329.5, 2.725, 254.6, 404.3}}) {
@@ -112,7 +112,7 @@ TEST(Theory, VirtualCentralDepthPlane) {
 // narrower.
 TEST(Theory, DepthOfFieldIsOneIntervalOfInverseDepths) {
     Display d = example_ideal();
-    d.array.aperture = Aperture::square;
+    d.array.aperture = Aperture::cell;
     double before = -INFINITY;
     for (const double gap : {3., 9., 14.9, 15.5, 15.69, 15.6999, 15.7, 15.7001, 15.71, 15.9, 16.485, 20., 60.}) {
         d.array.gap_mm = gap;
@@ -143,8 +143,8 @@ TEST(Theory, FieldOfViewOfWholeElementalImages) {
 double counted_zone_deg(const Display& d, const Geometry& g, double elemental_pitch, double eye_z) {
     const double p = d.array.pitch_mm[0], above = eye_z - g.rear_principal_mm;
     const auto all_show_their_own = [&](double X) {
-        for (std::int64_t i = 0; i < d.array.count[0]; ++i) {
-            const double k = double(i) + 0.5 - double(d.array.count[0]) / 2, lens = k * p;
+        for (std::int64_t i = 0; i < d.array.count->at(0); ++i) {
+            const double k = double(i) + 0.5 - double(d.array.count->at(0)) / 2, lens = k * p;
             const double seen = lens - g.gap_mm * (X - lens) / above;
             if (std::abs(seen - k * elemental_pitch) > elemental_pitch / 2) return false;
         }

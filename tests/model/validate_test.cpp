@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Ranges, Fault, testing::Values(
     Case{"lens.surface.1.even_asphere", "has 9 coefficients", [](Display& d) { d.lens.as<SurfaceLens>().surfaces[1].even_asphere.resize(9); }, example_surfaces},
     Case{"lens.surface", "more than the 16", [](Display& d) { d.lens.as<SurfaceLens>().surfaces.resize(17, d.lens.as<SurfaceLens>().surfaces[0]); }, example_surfaces},
     Case{"lens.surface", "at least one", [](Display& d) { d.lens.as<SurfaceLens>().surfaces.clear(); }, example_surfaces},
-    Case{"array.count[1]", "is -3", [](Display& d) { d.array.count[1] = -3; }},
+    Case{"array.count[1]", "is -3", [](Display& d) { d.array.count->at(1) = -3; }},
     Case{"array.count", "= 2147483648, allowed is a product below 2^31", [](Display& d) { d.array.count = {65536, 32768}; }},
     Case{"array.count", "allowed is 1000000 mm", [](Display& d) { d.array.count = {1, big}; }},
     Case{"array.pitch_mm", "is [12, 9], but array.lattice is \"square\"; take \"rectangle\"", [](Display& d) { d.array.pitch_mm = {12, 9}; }},
@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Lens, Fault, testing::Values(
     Case{"lens.aperture_radius_mm", "wider than array.pitch_mm = 12", [](Display& d) { d.lens.as<PlanoConvex>().aperture_radius_mm = 6.01; }},
     Case{"lens.aperture_radius_mm", "wider than array.pitch_mm = 12", [](Display& d) { d.lens.as<IdealLens>().aperture_radius_mm = 6.01; }, example_ideal},
     Case{"lens.sphere_radius_mm", "R = 5 mm is smaller than the aperture radius r = 6", [](Display& d) { d.lens.as<PlanoConvex>().sphere_radius_mm = 5; }},
-    Case{"lens.sphere_radius_mm", "half the cell's diagonal = 8.48", [](Display& d) { d.array.aperture = Aperture::square; }},
+    Case{"lens.sphere_radius_mm", "half the cell's diagonal = 8.48", [](Display& d) { d.array.aperture = Aperture::cell; }},
     Case{"lens.cylinder_height_mm", "2 sqrt(R^2 - r^2) = 8.24", [](Display& d) { d.lens.as<PlanoConvex>().cylinder_height_mm = 8.3; }},
     Case{"lens.stop_radius_mm", "holes of neighbours overlap", [](Display& d) { d.lens.stop_radius_mm = 6.5; }},
     Case{"lens.stop_radius_mm", "holes of neighbours overlap", [](Display& d) { d.lens.stop_radius_mm = 7; }, example_surfaces},
@@ -170,7 +170,7 @@ TEST(Validate, WhatPassesIsFinite) {
                 for (double& a : **list) numbers.push_back(&a);
         });
         for (int i = *rc::gen::inRange(1, 3); i > 0; --i) *numbers[*rc::gen::inRange<std::size_t>(0, numbers.size())] = hostile();
-        d.array.aperture = *rc::gen::element(Aperture::circle, Aperture::square);
+        d.array.aperture = *rc::gen::element(Aperture::circle, Aperture::cell);
         if (auto* ball = std::get_if<PlanoConvex>(&d.lens.kind)) ball->facing = *rc::gen::element(Facing::viewer, Facing::panel);
         const bool valid = validate(d).empty();
         RC_CLASSIFY(valid);

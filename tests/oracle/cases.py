@@ -74,9 +74,9 @@ SHARP = {
     "opaque circle, rotated and offset, oblique": case(SPHERE, view=OBLIQUE, array=TILTED, render=EXACT),
     "opaque circle, panel facing, on axis": case(TURNED, render=EXACT),
     "opaque circle, panel facing, 30 degrees": case(TURNED, view=(30,)),
-    "opaque square, 15 degrees": case(ROUNDER, aperture="square", view=(15,), render=EXACT),
-    "opaque square, 45 degrees, past the border": case(ROUNDER, aperture="square", view=(30, 30), camera={"frame_width_mm": 150.0}),
-    "opaque square, panel facing, oblique": case(ROUNDER_TURNED, aperture="square", view=OBLIQUE, array=TILTED),
+    "opaque square, 15 degrees": case(ROUNDER, aperture="cell", view=(15,), render=EXACT),
+    "opaque square, 45 degrees, past the border": case(ROUNDER, aperture="cell", view=(30, 30), camera={"frame_width_mm": 150.0}),
+    "opaque square, panel facing, oblique": case(ROUNDER_TURNED, aperture="cell", view=OBLIQUE, array=TILTED),
     "opaque circle, stop, 15 degrees": case({**SPHERE, "stop_radius_mm": 1.1}, view=(15,), render=EXACT),
     "opaque circle, panel facing, stop, 15 degrees": case({**TURNED, "stop_radius_mm": 1.4}, view=(15,)),
     "opaque circle, tall walls, oblique": case({**SPHERE, "cylinder_height_mm": 4.0}, view=OBLIQUE, array={"base_z_mm": 6.0}),
@@ -91,11 +91,11 @@ SHARP = {
     "clear circle, panel facing, 15 degrees": case(TURNED, "clear", view=(15,), render=EXACT),
     "clear circle, stop, oblique": case({**SPHERE, "stop_radius_mm": 2.2}, "clear", view=OBLIQUE),
     "clear circle, panel facing, stop, 20 degrees": case({**TURNED, "stop_radius_mm": 2.2}, "clear", view=(20,)),
-    "clear square, on axis, exact": case(ROUNDER, "clear", "square", render=EXACT),
-    "clear square, 30 degrees": case(ROUNDER, "clear", "square", view=(30,)),
-    "clear square, light guides that meet 12 to 18 surfaces": case({**SPHERE, "sphere_radius_mm": 60.0, "cylinder_height_mm": 80.0}, "clear", "square", view=(35, 20),
+    "clear square, on axis, exact": case(ROUNDER, "clear", "cell", render=EXACT),
+    "clear square, 30 degrees": case(ROUNDER, "clear", "cell", view=(30,)),
+    "clear square, light guides that meet 12 to 18 surfaces": case({**SPHERE, "sphere_radius_mm": 60.0, "cylinder_height_mm": 80.0}, "clear", "cell", view=(35, 20),
         array={"count": [26, 18], "pitch_mm": 4.0}, camera={"frame_width_mm": 80.0}),
-    "clear square, panel facing, rotated, oblique": case(ROUNDER_TURNED, "clear", "square", view=OBLIQUE, array=TILTED, render=EXACT),
+    "clear square, panel facing, rotated, oblique": case(ROUNDER_TURNED, "clear", "cell", view=OBLIQUE, array=TILTED, render=EXACT),
     "clear biconvex conics, 15 degrees": case(CONICS, "clear", view=(15,), render=EXACT),
     "clear hollow lens, oblique": case(HOLLOW, "clear", view=OBLIQUE),
     "clear asphere, 30 degrees": case(ASPHERE, "clear", view=(30,), render=EXACT),
@@ -104,21 +104,21 @@ SHARP = {
     "plate circle, 45 degrees, rotated": case(SPHERE, "plate", view=(20, 40), array=TILTED, render=EXACT),
     "plate circle, panel facing, oblique": case(TURNED, "plate", view=OBLIQUE, render=SCHLICK),
     "plate circle, stop, 15 degrees": case({**SPHERE, "stop_radius_mm": 2.0}, "plate", view=(15,)),
-    "plate square, 15 degrees": case(ROUNDER, "plate", "square", view=(15,), render=EXACT),
-    "plate square, panel facing, 45 degrees, past the border": case(ROUNDER_TURNED, "plate", "square", view=(45,), camera={"frame_width_mm": 150.0}),
+    "plate square, 15 degrees": case(ROUNDER, "plate", "cell", view=(15,), render=EXACT),
+    "plate square, panel facing, 45 degrees, past the border": case(ROUNDER_TURNED, "plate", "cell", view=(45,), camera={"frame_width_mm": 150.0}),
     "plate biconvex conics, oblique": case(CONICS, "plate", view=OBLIQUE),
-    "plate asphere, square, 30 degrees": case(WIDE_ASPHERE, "plate", "square", view=(30,)),
+    "plate asphere, square, 30 degrees": case(WIDE_ASPHERE, "plate", "cell", view=(30,)),
     "asphere, 15 degrees, exact": case(ASPHERE, view=(15,), render=EXACT),
     "asphere, 45 degrees, rotated": case(ASPHERE, view=(30, 32), array=TILTED, render=SCHLICK),
-    "asphere, square, oblique": case(WIDE_ASPHERE, aperture="square", view=OBLIQUE),
+    "asphere, square, oblique": case(WIDE_ASPHERE, aperture="cell", view=OBLIQUE),
     "conics, oblique": case(CONICS, view=OBLIQUE, render=EXACT),
     "meniscus, 30 degrees": case(MENISCUS, view=(30,)),
     "hollow lens, 30 degrees": case(HOLLOW, view=(30,), render=EXACT),
-    "hollow lens, square, 30 degrees": case(WIDE_HOLLOW, aperture="square", view=(30, 15)),
+    "hollow lens, square, 30 degrees": case(WIDE_HOLLOW, aperture="cell", view=(30, 15)),
     "cemented doublet, 15 degrees": case(CEMENTED, view=(15,), render=EXACT),
     "two spaced elements, oblique, stop": case({**SPACED, "stop_radius_mm": 2.5}, view=OBLIQUE, render=EXACT),
     "ideal circle, 15 degrees": case(IDEAL, view=(15,)),
-    "ideal square, 30 degrees, rotated, emission 1": case(IDEAL, aperture="square", view=(30,), array=TILTED, panel={"emission_exponent": 1.0}),
+    "ideal square, 30 degrees, rotated, emission 1": case(IDEAL, aperture="cell", view=(30,), array=TILTED, panel={"emission_exponent": 1.0}),
     "ideal, stop, oblique, gap": case({**IDEAL, "stop_radius_mm": 1.5}, view=OBLIQUE),
     "emission 2.5, sRGB panel": case(SPHERE, view=(15,), panel={"emission_exponent": 2.5, "encoding": "srgb"}),
     "odd pitches, rectangle of 5 x 2, even and odd": case({**SPHERE, "sphere_radius_mm": 4.1, "aperture_radius_mm": 3.03}, view=OBLIQUE, camera={"frame_width_mm": 61.7},
@@ -127,15 +127,15 @@ SHARP = {
     "clear, past the border": case(SPHERE, "clear", view=(30, 20), array={"count": [3, 2]}, camera={"frame_width_mm": 60.0}),
     "a million lenses, oblique": case({"type": "plano_convex", "sphere_radius_mm": 0.066, "aperture_radius_mm": 0.05, "cylinder_height_mm": 0.03, "index": 1.49}, view=OBLIQUE,
         array={"count": [1000, 1000], "pitch_mm": 0.108, "base_z_mm": 0.1}, panel={"pixels": [3840, 3600], "pixel_pitch_mm": 0.03}, camera={"frame_width_mm": 9.0}),
-    "camera close by": case(ROUNDER, "plate", "square", camera={"position_mm": [-20.0, 10.0, 60.0], "target_mm": [5.0, 3.0, 0.0], "frame_width_mm": 90.0, "up": [0.2, 1.0, 0.1]}, render=EXACT),
+    "camera close by": case(ROUNDER, "plate", "cell", camera={"position_mm": [-20.0, 10.0, 60.0], "target_mm": [5.0, 3.0, 0.0], "frame_width_mm": 90.0, "up": [0.2, 1.0, 0.1]}, render=EXACT),
     "wide cells, opaque circle, rotated and offset, oblique": case(NARROW, view=OBLIQUE, array={**WIDE, **TILTED}, render=EXACT),
     "tall cells, clear circle, 30 degrees": case(NARROW, "clear", view=(30,), array=TALL),
-    "wide cells filled, opaque, 45 degrees, past the border": case(REACHING, aperture="square", view=(30, 30), array=WIDE, camera={"frame_width_mm": 150.0}),
-    "tall cells filled, plate, rotated, oblique": case(REACHING, "plate", "square", view=OBLIQUE, array={**TALL, **TILTED}, render=EXACT),
-    "wide cells filled, clear, panel facing, oblique": case({**REACHING, "facing": "panel"}, "clear", "square", view=OBLIQUE, array=WIDE, render=EXACT),
-    "tall cells, ideal, filled, oblique": case(IDEAL, aperture="square", view=OBLIQUE, array=TALL),
-    "wide cells, conics cut to them, oblique": case(FLAT_CONICS, aperture="square", view=OBLIQUE, array=WIDE, render=EXACT),
-    "wide cells filled, stop, 15 degrees up": case({**REACHING, "stop_radius_mm": 2.4}, aperture="square", view=(0, 15), array=WIDE),
+    "wide cells filled, opaque, 45 degrees, past the border": case(REACHING, aperture="cell", view=(30, 30), array=WIDE, camera={"frame_width_mm": 150.0}),
+    "tall cells filled, plate, rotated, oblique": case(REACHING, "plate", "cell", view=OBLIQUE, array={**TALL, **TILTED}, render=EXACT),
+    "wide cells filled, clear, panel facing, oblique": case({**REACHING, "facing": "panel"}, "clear", "cell", view=OBLIQUE, array=WIDE, render=EXACT),
+    "tall cells, ideal, filled, oblique": case(IDEAL, aperture="cell", view=OBLIQUE, array=TALL),
+    "wide cells, conics cut to them, oblique": case(FLAT_CONICS, aperture="cell", view=OBLIQUE, array=WIDE, render=EXACT),
+    "wide cells filled, stop, 15 degrees up": case({**REACHING, "stop_radius_mm": 2.4}, aperture="cell", view=(0, 15), array=WIDE),
     "rectangles of one number": case(SPHERE, "clear", view=(15,), array={"lattice": "rectangle"}),
     "camera close by, clear, fov_deg": case(SPHERE, "clear", camera={"position_mm": [9.0, -12.0, 45.0], "fov_deg": 70.0}),
 }
@@ -153,7 +153,7 @@ BLURRED = {
     "wide box diffuser, oblique": case(SPHERE, view=(20, 35), camera=SMALL, diffuser={**DIFFUSER, "angle_deg": [140.0, 60.0]}),
     "gaussian diffuser of unequal widths, ideal": case(IDEAL, view=(15,), camera=SMALL, diffuser={"distance_mm": 3.0, "angle_deg": [60.0, 0.0], "profile": "gaussian"}),
     "box diffuser, clear": case(SPHERE, "clear", view=(15,), camera=SMALL, diffuser=DIFFUSER),
-    "box diffuser, plate, square": case(ROUNDER, "plate", "square", camera=SMALL, diffuser=DIFFUSER),
+    "box diffuser, plate, square": case(ROUNDER, "plate", "cell", camera=SMALL, diffuser=DIFFUSER),
     "box filter, asphere": case(ASPHERE, view=(15,), camera={**SMALL, "pixel_filter": "box"}),
     "thin-lens camera": case(SPHERE, view=(12, 5), camera={**SMALL, **PUPIL}),
     "all at once": case(ASPHERE, view=OBLIQUE, camera={**SMALL, **PUPIL, "pixel_filter": "box"}, diffuser={**DIFFUSER, "profile": "gaussian"},
@@ -162,13 +162,15 @@ BLURRED = {
 
 
 def to_toml(value):
-    """A description as TOML text."""
+    """A description as TOML text. A list of tables ([[lens.surface]], [[panel.layer]]) stands in a table."""
     def text(v):
         return {True: "true", False: "false"}[v] if isinstance(v, bool) else f'"{v}"' if isinstance(v, str) else repr(v)
     lines = [f"{k} = {text(v)}" for k, v in value.items() if not isinstance(v, dict)]
     for name, table in value.items():
         if isinstance(table, dict):
-            lines += [f"[{name}]"] + [f"{k} = {text(v)}" for k, v in table.items() if k != "surface"]
-            for row in table.get("surface", []):
-                lines += [f"[[{name}.surface]]"] + [f"{k} = {text(v)}" for k, v in row.items()]
+            rows = {k: v for k, v in table.items() if isinstance(v, list) and v and isinstance(v[0], dict)}
+            lines += [f"[{name}]"] + [f"{k} = {text(v)}" for k, v in table.items() if k not in rows]
+            for kind, list_of_tables in rows.items():
+                for row in list_of_tables:
+                    lines += [f"[[{name}.{kind}]]"] + [f"{k} = {text(v)}" for k, v in row.items()]
     return "\n".join(lines) + "\n"

@@ -1,11 +1,12 @@
 """Glass in air: separate lenses (`clear`) or caps on a common sheet (`plate`). One path, found by intersecting everything nearby.
 
 Both are bodies between a lower and an upper height over the (x, y) plane. The nearest boundary that the ray crosses the right way (into
-glass when in air, out of it when in glass) ends each step, so the surface just left can never be met again at distance 0.
+glass when in air, out of it when in glass) ends each step, so the surface just left can never be met again at distance 0. A lower face
+that is glued on ends the way through the lenses: what passes it goes on through the layers.
 """
 import numpy as np
 
-from path import ESCAPED, LOST, TOO_MANY
+from path import ALIVE, ESCAPED, LOST, TOO_MANY
 from surface import EPS, refract, transmittance
 
 MOST_SURFACES = 16
@@ -17,58 +18,75 @@ class Glass:
         self.lattice, self.plate = lattice, display.array.surround == "plate"
         if not self.plate and self.lower.semi != self.upper.semi:
             raise ValueError("a clear lens whose two semi-apertures differ has no defined wall")
-        self.index = self.lower.n_above
+        self.index, self.glued = self.lower.n_above, display.glued
         self.z_min = min(self.lower.z_min, self.lower.z_rim)
         self.z_max = max(self.upper.z_max, self.upper.z_rim)
-        self.reach = lattice.pitch / 2 if lattice.fills_cell else max(self.lower.semi, self.upper.semi)
+        self.reach = lattice.shape.extent if lattice.fills_cell else max(self.lower.semi, self.upper.semi)
 
     def lens_hits(self, o, d, i, j, leaving):
         """Nearest boundary of one lens per ray, in its frame, crossed into glass (leaving False) or out of it: (t, outward normal)."""
         best, normal = np.full(len(o), np.inf), np.zeros((len(o), 3))
 
-        def offer(t, normal_at, valid):
-            p = o + np.where(np.isfinite(t), t, 0)[:, None] * d
-            n = normal_at(p)
-            ok = (t > -EPS) & (t < best) & np.isfinite(t) & ((np.sum(d * n, axis=1) > 0) == leaving) & valid(p)
+        def offer(t, n, on):
+            ok = on & (t > -EPS) & (t < best) & np.isfinite(t) & ((np.sum(d * n, axis=1) > 0) == leaving)
             best[ok], normal[ok] = t[ok], n[ok]
 
         for surface, sign in ((self.upper, 1), (self.lower, -1)):
             for t in surface.roots(o, d):
-                offer(t, lambda p: sign * surface.normal(p), lambda p: self.lattice.in_aperture(p, surface.semi))
-        for t, normal_at, exists in self.walls(o, d, i, j):
-            offer(t, normal_at, lambda p: exists & self.on_wall(p))
+                p = _at(o, d, t)
+                offer(t, sign * surface.normal(p), self.lattice.in_aperture(p, surface.semi))
+        for t, n in self.upright(o, d):
+            p = _at(o, d, t)
+            if self.plate:
+                self.offer_steps(t, p, n, i, j, offer)
+            else:
+                s2 = self.upper.squared(p)
+                between = (p[:, 2] >= self.lower.height(s2) - EPS) & (p[:, 2] <= self.upper.height(s2) + EPS)
+                offer(t, n, between & (self.lattice.in_cell(p) | (not self.lattice.fills_cell)))
         return best, normal
 
-    def walls(self, o, d, i, j):
-        """(t, outward normal at p, which rays' lens has that wall) for the vertical walls of one lens per ray."""
-        everywhere = np.ones(len(o), bool)
-        if self.lattice.fills_cell:
-            last = self.lattice.nx - 1, self.lattice.ny - 1
-            for axis, cell in ((0, i), (1, j)):
-                for sign, border in ((-1, 0), (1, last[axis])):
-                    n = np.zeros(3)
-                    n[axis] = sign
-                    with np.errstate(divide="ignore", invalid="ignore"):
-                        t = (sign * self.lattice.pitch[axis] / 2 - o[:, axis]) / d[:, axis]
-                    # Inside a plate the caps of neighbouring cells meet at equal heights: only the array's border has walls.
-                    yield t, lambda p, n=n: np.broadcast_to(n, p.shape), (cell == border) if self.plate else everywhere
-        elif not self.plate:
+    def upright(self, o, d):
+        """(t, outward normals) where lines in a lens's frame meet the upright sides of its body: of its cell, or of a round lens or strip narrower than that."""
+        shape = self.lattice.shape
+        if not self.lattice.fills_cell and self.plate:
+            return
+        if not self.lattice.fills_cell and self.lattice.across.all():
             a = d[:, 0] ** 2 + d[:, 1] ** 2
             b = o[:, 0] * d[:, 0] + o[:, 1] * d[:, 1]
             disc = b * b - a * (o[:, 0] ** 2 + o[:, 1] ** 2 - self.upper.semi**2)
             for sign in (-1, 1):
                 with np.errstate(divide="ignore", invalid="ignore"):
                     t = np.where(disc >= 0, (-b + sign * np.sqrt(np.maximum(disc, 0))) / a, np.inf)
-                yield t, lambda p: p * [1, 1, 0] / self.upper.semi, everywhere
+                yield t, _at(o, d, t) * [1, 1, 0] / self.upper.semi
+            return
+        for n, half in zip(shape.normals, shape.half if self.lattice.fills_cell else [self.upper.semi]):
+            for sign in (-1, 1):
+                with np.errstate(divide="ignore", invalid="ignore"):
+                    t = (sign * half - o[:, :2] @ n) / (d[:, :2] @ n)
+                yield t, np.broadcast_to([*(sign * n), 0.0], o.shape)
 
-    def on_wall(self, p):
-        s2, z = p[:, 0] ** 2 + p[:, 1] ** 2, p[:, 2]
-        inside = (np.abs(p[:, :2]) <= self.lattice.pitch / 2 + EPS).all(axis=1) if self.lattice.fills_cell else True
-        low, high = self.lower.height(s2), self.upper.height(s2)
-        if not self.plate:
-            return inside & (z >= low - EPS) & (z <= high + EPS)
-        upper_step = (z - self.upper.z_rim) * (z - high) <= 0  # between the sheet's face and the cap's edge
-        return inside & (upper_step | ((z - self.lower.z_rim) * (z - low) <= 0))
+    def offer_steps(self, t, p, n, i, j, offer):
+        """Upright faces of a plate whose lenses fill their cells: where a cap ends beside one of another height, or beside the flat sheet.
+
+        p: points on the sides of the cells (i, j) whose outward normals are n. Glass is where the upper face is higher, the lower face lower.
+        """
+        near = np.flatnonzero(np.isfinite(t) & self.lattice.in_cell(p) & (p[:, 2] >= self.z_min - EPS) & (p[:, 2] <= self.z_max + EPS))
+        at, axis = p[near], self.lattice.axis(i[near], j[near])
+        beyond = at + axis + n[near] * 1e-6
+        i2, j2, on = self.lattice.cell(beyond)
+        there = at + axis - self.lattice.axis(i2, j2)
+        for surface, sign in ((self.upper, 1), (self.lower, -1)):
+            here, next_door = self.plate_height(surface, at, True), self.plate_height(surface, there, on)
+            step = sign * (here - next_door)
+            found = (np.abs(step) > EPS) & (at[:, 2] >= np.minimum(here, next_door) - EPS) & (at[:, 2] <= np.maximum(here, next_door) + EPS)
+            valid, outward = np.zeros(len(t), bool), n.copy()
+            valid[near], outward[near] = found, np.sign(step)[:, None] * n[near]
+            offer(t, outward, valid)
+
+    def plate_height(self, surface, q, on):
+        """z of a plate's face at points relative to the axis of the lens in whose cell they are; flat outside its aperture and where no lens is (on False)."""
+        s2 = surface.squared(q)
+        return np.where(on & (s2 <= surface.semi**2), surface.height(s2), surface.z_rim)
 
     def sheet_hits(self, o, d, leaving):
         """Nearest passage through the flat faces of a plate, between the caps."""
@@ -118,15 +136,24 @@ def trace_glass(path, display, lattice):
             else:
                 path.to_panel(rays[~hit], display, lattice)
             rays, t, normal, i, j = rays[hit], t[hit], normal[hit], i[hit], j[hit]
-            path.met[rays] += 1
+            n1 = np.where(inside[rays], glass.index, 1.0)
+            n2 = 1 + glass.index - n1
+            down = glass.glued & leaving & (normal[:, 2] < 0)  # through the face that is glued on; a lower face is flat then
+            n2[down] = glass.lower.n_below
+            path.met[rays] += n1 != n2  # a face between equal indices is none
             path.meet(rays, i, j)
             many = path.met[rays] > MOST_SURFACES
             path.status[rays[many]] = TOO_MANY
             path.advance(rays, t, display, lattice)
             bi[rays], bj[rays] = i, j
-            n1 = np.where(inside[rays], glass.index, 1.0)
-            n2 = 1 + glass.index - n1
             bent, mirrored, cos1, cos2, total = refract(path.d[rays], normal, n1, n2)
             path.d[rays] = np.where(total[:, None], mirrored, bent)
             path.weight[rays] *= np.where(total, 1.0, transmittance(cos1, cos2, n1, n2, display.render.fresnel))
             inside[rays] = np.where(total, inside[rays], ~inside[rays])
+            into_layers = rays[down & ~total]
+            path.to_panel(into_layers[path.status[into_layers] == ALIVE], display, lattice, glass.lower.n_below)
+
+
+def _at(o, d, t):
+    """Points at t along the lines; at 0 where t is not finite."""
+    return o + np.where(np.isfinite(t), t, 0)[:, None] * d

@@ -1,4 +1,4 @@
-"""Lenses in a black sheet, and the ideal lens: light passes each surface of one lens once, in order, or is absorbed."""
+"""Lenses in a black sheet, the ideal lens and the pinhole: light passes each surface of one lens once, in order, or is absorbed."""
 import numpy as np
 
 from path import ALIVE, BLACK, ESCAPED, TOTAL
@@ -6,7 +6,7 @@ from surface import EPS, refract, transmittance
 
 
 def trace_ideal(path, display, lattice):
-    """A thin lens: the panel-side slope is the viewer-side one plus q / f, q the point of passage from the axis."""
+    """A thin lens or a hole: the panel-side slope is the viewer-side one plus q / f, q the point of passage from the axis; along strips it stays."""
     rays = path.alive()
     path.status[rays[path.d[rays, 2] >= 0]] = ESCAPED
     rays = path.alive()
@@ -14,11 +14,11 @@ def trace_ideal(path, display, lattice):
     rays = path.alive()
     p, d = path.o[rays], path.d[rays]
     i, j, on = lattice.cell(p)
-    q = (p - lattice.axis(i, j))[:, :2]
-    inside = on & (display.fills_cell | (np.hypot(*q.T) <= getattr(display.lens, "aperture_radius_mm", np.inf)))
+    q = p - lattice.axis(i, j)
+    inside = on & (display.fills_cell | lattice.in_aperture(q, getattr(display.lens, "aperture_radius_mm", np.inf), 0.0))
     path.status[rays[~inside]] = BLACK
     path.meet(rays[inside], i[inside], j[inside])
-    slope = d[:, :2] / d[:, 2:] + q / display.lens.focal_length_mm
+    slope = d[:, :2] / d[:, 2:] + q[:, :2] * lattice.across * display.power
     d = -np.column_stack([slope, np.ones(len(slope))])  # downwards: dz = -1
     path.d[rays] = d / np.linalg.norm(d, axis=1, keepdims=True)
     path.to_panel(path.alive(), display, lattice)
@@ -45,7 +45,7 @@ def trace_opaque(path, display, lattice):
     path.status[rays[path.d[rays, 2] >= 0]] = ESCAPED
     rays = path.alive()
     o, d = path.o[rays], path.d[rays]
-    reach = lattice.pitch / 2 if lattice.fills_cell else top.semi
+    reach = lattice.shape.extent if lattice.fills_cell else top.semi
     t0, t1 = (max(top.z_max, ceiling) - o[:, 2]) / d[:, 2], (top.z_min - EPS - o[:, 2]) / d[:, 2]
     t, normal, i, j = lattice.first_hit(o, d, t0, t1, reach, enter)
     axis = lattice.axis(i, j)  # of the lens each ray went into
@@ -74,7 +74,7 @@ def trace_opaque(path, display, lattice):
         at_face = o + ((floor - o[:, 2]) / d[:, 2])[:, None] * d
     blocked = (o[:, 2] > floor + EPS) & (d[:, 2] < 0) & ~lattice.in_aperture(at_face, surfaces[0].semi)
     path.status[rays[blocked]] = BLACK
-    path.to_panel(path.alive(), display, lattice)
+    path.to_panel(path.alive(), display, lattice, surfaces[0].n_below)
 
 
 def _next(surface, o, d, lattice):

@@ -1,5 +1,7 @@
-"""The state of a batch of rays on their way from the camera to the panel, and the stop that any of their steps may cross."""
+"""The state of a batch of rays on their way from the camera to the panel, the stop that any of their steps may cross, the layers at the end."""
 import numpy as np
+
+from surface import refract, transmittance
 
 ALIVE, PANEL, OFF_PANEL, BLACK, TOTAL, ESCAPED, TOO_MANY, LOST = range(8)
 # ALIVE: under way. PANEL: reached a panel pixel. OFF_PANEL: passed the panel's plane outside it. BLACK: absorbed. TOTAL: total internal
@@ -36,17 +38,24 @@ class Path:
             with np.errstate(divide="ignore", invalid="ignore"):
                 at = self.o[rays] + ((z - self.o[rays, 2]) / self.d[rays, 2])[:, None] * self.d[rays]
             at[~crosses] = 0
-            i, j, on = lattice.cell(at)
-            hole = on & (np.hypot(*(at - lattice.axis(i, j))[:, :2].T) <= display.stop_radius)
             self.stop_seen[rays] |= crosses
-            self.status[rays[crosses & ~hole]] = BLACK
+            self.status[rays[crosses & (lattice.to_nearest_axis(at) > display.stop_radius)]] = BLACK
         self.o[rays] = p
 
-    def to_panel(self, rays, display, lattice):
-        """Rays that meet no more lens go to z = 0, or away from it."""
+    def to_panel(self, rays, display, lattice, medium=1.0):
+        """Rays that meet no more lens go through the layers to z = 0, or away from it. medium: the index they are in, air or what a lens is glued to."""
         down = self.d[rays, 2] < 0
         self.status[rays[~down]] = ESCAPED
         rays = rays[down]
-        self.advance(rays, -self.o[rays, 2] / self.d[rays, 2], display, lattice)
+        self.advance(rays, (display.layer_top - self.o[rays, 2]) / self.d[rays, 2], display, lattice)
+        for thickness, index in reversed(display.layers):
+            rays = rays[self.status[rays] == ALIVE]
+            n1, n2 = np.full(len(rays), medium), np.full(len(rays), index)
+            bent, _, cos1, cos2, total = refract(self.d[rays], np.broadcast_to([0.0, 0.0, 1.0], (len(rays), 3)), n1, n2)
+            self.d[rays] = bent
+            self.weight[rays] *= transmittance(cos1, cos2, n1, n2, display.render.fresnel)
+            self.status[rays[total]] = TOTAL
+            rays, medium = rays[~total], index
+            self.advance(rays, -thickness / self.d[rays, 2], display, lattice)
         rays = rays[self.status[rays] == ALIVE]
         self.status[rays] = OFF_PANEL  # until the panel is asked

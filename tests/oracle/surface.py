@@ -1,6 +1,6 @@
-"""One refracting surface of revolution, and what happens to light there. Double precision, arrays of rays.
+"""One refracting surface, of revolution or extruded along y, and what happens to light there. Double precision, arrays of rays.
 
-Points and directions are (n, 3) arrays in the lens's own frame: x and y from the lens axis, z from the panel.
+Points and directions are (n, 3) arrays in the lens's own frame: x and y from the lens axis, z from the panel, all in mm.
 """
 import numpy as np
 
@@ -9,26 +9,35 @@ SCAN = 33   # points at which an asphere is sampled to bracket its roots
 
 
 class Surface:
-    """z = z_vertex + sag(s), s <= semi; n_below on the panel's side, n_above on the viewer's."""
+    """z = z_vertex + sag(s), s <= semi; n_below on the panel's side, n_above on the viewer's.
 
-    def __init__(self, z, curvature, conic, even, semi, n_below, n_above):
+    s is the distance from the axis or, on a cylindrical lens, from the plane x = 0: `across` says which of x and y count.
+    """
+
+    def __init__(self, z, curvature, conic, even, semi, n_below, n_above, cylindrical=False):
         self.z, self.c, self.k, self.even, self.semi = z, curvature, conic, list(even), semi
         self.n_below, self.n_above = n_below, n_above
+        self.flat = curvature == 0 and not any(self.even)
+        self.across = np.array([1.0, 0.0 if cylindrical else 1.0])
         s = np.linspace(0.0, semi, 2001)
         heights = self.height(s * s)
         self.z_min, self.z_max, self.z_rim = heights.min(), heights.max(), heights[-1]
 
+    def squared(self, p):
+        """s^2 of points (..., 3)."""
+        return p[..., :2] ** 2 @ self.across
+
     def height(self, s2):
-        """z of the surface at squared distance s2 from the axis."""
+        """z of the surface at the squared distance s2."""
         root = np.sqrt(np.maximum(1 - (1 + self.k) * self.c**2 * s2, 0))
         return self.z + self.c * s2 / (1 + root) + sum(a * s2 ** (m + 2) for m, a in enumerate(self.even))
 
     def normal(self, p):
-        """Unit normal with positive z: the gradient of z - height(x^2 + y^2)."""
-        s2 = p[:, 0] ** 2 + p[:, 1] ** 2
+        """Unit normal with positive z: the gradient of z - height(s^2)."""
+        s2 = self.squared(p)
         root = np.sqrt(np.maximum(1 - (1 + self.k) * self.c**2 * s2, 1e-30))
         slope = self.c / root + sum(2 * (m + 2) * a * s2 ** (m + 1) for m, a in enumerate(self.even))  # (d sag / d s) / s
-        n = np.stack([-slope * p[:, 0], -slope * p[:, 1], np.ones(len(p))], axis=1)
+        n = np.column_stack([-slope[:, None] * p[:, :2] * self.across, np.ones(len(p))])
         return n / np.linalg.norm(n, axis=1, keepdims=True)
 
     def roots(self, o, d):
@@ -36,8 +45,8 @@ class Surface:
         return self._asphere_roots(o, d) if any(self.even) else self._conic_roots(o, d)
 
     def _conic_roots(self, o, d):
-        # c (x^2 + y^2 + (1 + k) z^2) - 2 z = 0 with z from the vertex.
-        w = np.array([1.0, 1.0, 1.0 + self.k])
+        # c (s^2 + (1 + k) z^2) - 2 z = 0 with z from the vertex.
+        w = np.array([*self.across, 1.0 + self.k])
         o = o - [0, 0, self.z]
         a = self.c * (d * d) @ w
         b = self.c * (o * d) @ w - d[:, 2]
@@ -52,11 +61,12 @@ class Surface:
         t = np.where(ok & np.isfinite(t), t, np.inf)
         p = o + np.where(np.isfinite(t), t, 0)[:, None] * d
         near_vertex = 1 - (1 + self.k) * self.c * p[:, 2] >= 0  # the sheet that the sag formula describes
-        return np.where(near_vertex & (p[:, 0] ** 2 + p[:, 1] ** 2 <= (self.semi + EPS) ** 2), t, np.inf)
+        return np.where(near_vertex & (self.squared(p) <= (self.semi + EPS) ** 2), t, np.inf)
 
     def _asphere_roots(self, o, d):
-        # Sample height over the stretch of the line inside the surface's bounding cylinder, bracket, bisect, polish.
-        lo, hi = box_interval(o, d, self.semi + EPS, self.z_min - EPS, self.z_max + EPS)
+        # Sample the height over the stretch of the line inside the surface's bounding box, bracket, bisect.
+        wide = np.where(self.across > 0, self.semi + EPS, np.inf)
+        lo, hi = box_interval(o, d, wide, self.z_min - EPS, self.z_max + EPS)
         some = np.flatnonzero(lo < hi)
         found = [np.full(len(o), np.inf) for _ in range(4)]
         if not len(some):
@@ -65,7 +75,7 @@ class Surface:
 
         def above(t):  # (rays, k) -> signed height over the surface
             p = o[:, None, :] + t[:, :, None] * d[:, None, :]
-            return p[:, :, 2] - self.height(p[:, :, 0] ** 2 + p[:, :, 1] ** 2)
+            return p[:, :, 2] - self.height(self.squared(p))
 
         t = lo[:, None] + (hi - lo)[:, None] * np.linspace(0, 1, SCAN)
         f = above(t)
@@ -93,10 +103,10 @@ class Surface:
         return found
 
 
-def box_interval(o, d, radius, z_min, z_max):
-    """Where the lines are inside the square |x|, |y| <= radius and z_min <= z <= z_max: (t_in, t_out), in > out if never."""
+def box_interval(o, d, wide, z_min, z_max):
+    """Where the lines are inside |x| <= wide[0], |y| <= wide[1] and z_min <= z <= z_max: (t_in, t_out), in > out if never."""
     lo, hi = np.full(len(o), -np.inf), np.full(len(o), np.inf)
-    for axis, (low, high) in enumerate([(-radius, radius), (-radius, radius), (z_min, z_max)]):
+    for axis, (low, high) in enumerate([(-wide[0], wide[0]), (-wide[1], wide[1]), (z_min, z_max)]):
         with np.errstate(divide="ignore", invalid="ignore"):
             t = np.sort(np.stack([(low - o[:, axis]) / d[:, axis], (high - o[:, axis]) / d[:, axis]]), axis=0)
         flat = d[:, axis] == 0

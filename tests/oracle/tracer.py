@@ -1,4 +1,4 @@
-"""The whole way: camera rays, diffuser, lens array, panel, colour; the edge rule; Monte Carlo means with their variance."""
+"""The whole way: camera rays, diffuser, lens array, layers, panel, colour; the edge rule; Monte Carlo means with their variance."""
 from types import SimpleNamespace
 
 import numpy as np
@@ -14,7 +14,7 @@ BATCH = 20000  # rays traced at once; bounds the memory
 def trace(display, o, d, turn=None):
     """Rays o (n, 3) in mm with directions d (n, 3), and the diffuser's angles turn (n, 2) in radians (default 0), to the panel.
 
-    Returns arrays: status (path.py), column and row of the panel pixel (-1: none), weight (Fresnel), cosine (at the panel), met (surfaces
+    Returns arrays: status (path.py), column and row of the panel pixel (-1: none), weight (Fresnel), cosine (at the panel, in what lies on it), met (surfaces
     met between the lenses' outsides and the panel; glass only), x and y (on the panel, in pixels from its top left corner), way (a number that
     is the same for rays that meet the same lenses in the same order; 0 is none), lens (n, 2) (the first one met; -1 is none).
     """

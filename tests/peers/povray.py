@@ -32,8 +32,8 @@ def refusal(d, meshed):
         return "no ideal lenses"
     if d["panel"].get("emission_exponent"):
         return "Lambertian"
-    square, surround = d["array"].get("aperture") == "square", d["array"].get("surround")
-    return {"clear": "no order", "plate": "as triangles"}.get(surround) if square and meshed else None
+    filled, surround = d["array"].get("aperture") == "cell", d["array"].get("surround")
+    return {"clear": "no order", "plate": "as triangles"}.get(surround) if filled and meshed else None
 
 
 def run(command, folder):

@@ -26,7 +26,7 @@ CASES = [
     ("opaque", SHARP, 0.99, 0.03),
     ("clear", [*SHARP, "array.surround=\"clear\""], 0.99, 0.03),
     ("plate, turned", [*SHARP, "array.surround=\"plate\"", "array.rotation_deg=7.0", "array.offset_mm=[0.6,-0.4]"], 0.99, 0.03),
-    ("opaque, square", [*SHARP, "array.aperture=\"square\"", "lens.sphere_radius_mm=3.2"], 0.99, 0.03),
+    ("opaque, filled cells", [*SHARP, "array.aperture=\"cell\"", "lens.sphere_radius_mm=3.2"], 0.99, 0.03),
     ("panel of exponent 3", [*SHARP, "panel.emission_exponent=3.0"], 0.99, 0.0005),
     ("pixels as squares", [*SHARP, "camera.pixel_filter=\"box\"", "render.samples=256"], 0.99, 0.02),
     ("diffuser", ["--set", "render.samples=256"], 0.97, 0.04),

@@ -128,7 +128,7 @@ TEST(Scene, RefusesWhatItCannotShow) {
         EXPECT_THROW(peer_scene(peer, example(), resolve(example()), options), InputError);
         for (const char* surround : {"clear", "plate"}) {  // triangles of square bodies: see docs/peers.md
             const Display square = example(
-                {"array.aperture=\"square\"", std::string("array.surround=\"") + surround + '"', "lens.sphere_radius_mm=9.0"});
+                {"array.aperture=\"cell\"", std::string("array.surround=\"") + surround + '"', "lens.sphere_radius_mm=9.0"});
             options.triangles = 1000;
             EXPECT_THAT(refused_keys(peer, square, options), ElementsAre("array.aperture"));
             EXPECT_EQ(refused_keys(peer, square).empty(), peer == Peer::pov);

@@ -61,7 +61,7 @@ def draw_sides(number, aperture):
     """
     rng = np.random.default_rng([2025, number])
     up = log_uniform(rng, 0.6, 1.6) if rng.random() < 0.2 else 1.0
-    whole = max(1.0, up) if aperture == "square" else min(1.0, up)
+    whole = max(1.0, up) if aperture == "cell" else min(1.0, up)
     return 1.0 / whole, up / whole
 
 
@@ -71,12 +71,12 @@ def log_uniform(rng, low, high):
 
 def draw_lens(rng, pitch):
     """A lens for cells of `pitch` mm, f/1 to f/12, and the aperture's shape."""
-    aperture = str(rng.choice(["circle", "circle", "square"]))
-    semi = pitch / 2 * (1.0 if aperture == "square" else float(rng.choice([1.0, rng.uniform(0.6, 1)])))
+    aperture = str(rng.choice(["circle", "circle", "cell"]))
+    semi = pitch / 2 * (1.0 if aperture == "cell" else float(rng.choice([1.0, rng.uniform(0.6, 1)])))
     focal = log_uniform(rng, 1, 12) * 2 * semi
     index = float(rng.uniform(1.45, 1.75))
     kind = rng.choice(["ideal", "plano_convex", "plano_convex", "asphere", "two surfaces"])
-    corner = pitch / math.sqrt(2) if aperture == "square" else semi  # how far from the axis the glass reaches
+    corner = pitch / math.sqrt(2) if aperture == "cell" else semi  # how far from the axis the glass reaches
     radius = focal * (index - 1)
     if kind == "ideal":
         lens = {"type": "ideal", "focal_length_mm": focal, "aperture_radius_mm": semi}

@@ -190,7 +190,7 @@ TEST(SideView, DrawsAnyDisplay) {
         }),
         with([](Display& d) { d.array.surround = Surround::plate; }),
         with([](Display& d) {
-            d.array.surround = Surround::clear, d.array.aperture = Aperture::square,
+            d.array.surround = Surround::clear, d.array.aperture = Aperture::cell,
             d.lens.as<PlanoConvex>().aperture_radius_mm.reset();
         }),
         with([](Display& d) { d.lens.as<PlanoConvex>().facing = Facing::panel, d.lens.stop_radius_mm = 0.5; }),

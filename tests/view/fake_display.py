@@ -18,7 +18,7 @@ KEYS = [
     ("array.count", "count", "", [43, 24], 1, 100, "pair", None),
     ("array.pitch_mm", "pitch", "mm", 12.0, 12.0, 48.0, "number", None),
     ("array.gap_mm", "gap", "mm", 16.485, 3.1, 40.1, "number", None),
-    ("array.aperture", "aperture", "", "circle", None, None, "word", ["circle", "square"]),
+    ("array.aperture", "aperture", "", "circle", None, None, "word", ["circle", "cell"]),
     ("array.offset_mm", "offset", "mm", [0, 0], -24, 24, "pair", None),
     ("array.rotation_deg", "rotation", "degrees", 0, -360, 360, "number", None),
     ("diffuser.distance_mm", "distance", "mm", 329.9, 10, 1300, "number", None),

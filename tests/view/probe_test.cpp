@@ -75,7 +75,7 @@ TEST(Probe, SaysWhereNothingIsSeen) {
 
 // In the plane x = 0 of the middle column's axes the drawn rays are the traced ones.
 TEST(Probe, DrawsTheTracedRays) {
-    for (const char* lens : {"array.surround=opaque", "diffuser=none", "array.aperture=square"}) {
+    for (const char* lens : {"array.surround=opaque", "diffuser=none", "array.aperture=cell"}) {
         const Display d = small({lens, "camera.position_mm=[0, 40, 600]"});
         const Geometry g = resolve(d);
         const EyeRays rays(d, g);

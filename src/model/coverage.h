@@ -1,0 +1,23 @@
+// Which displays the whole program covers: pictures and elemental images are made of all; measures, exports and triangles so far
+// of some. Floor 0.
+#pragma once
+#include "model/display.h"
+#include "model/error.h"
+#include "model/keys.h"
+#include "model/lattice.h"
+
+#include <fmt/format.h>
+#include <optional>
+#include <string_view>
+
+namespace lfdsim {
+
+/// Why `who` ("the measure fov") cannot take a display, if it covers only rows and columns of round lenses.
+inline std::optional<Problem> beyond_rows_and_columns(const Display& d, std::string_view who) {
+    if (is_staggered(d.array) || is_strips(d.array))
+        return Problem{"array.lattice", fmt::format("is \"{}\", which {} does not cover yet; take \"square\" or \"rectangle\"",
+                                                    word(d.array.lattice), who)};
+    return {};
+}
+
+}  // namespace lfdsim
