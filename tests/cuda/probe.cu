@@ -7,7 +7,7 @@ using namespace lfdsim::optics;
 
 template <Way through>
 __device__ __forceinline__ void sample(const Scene<float>& scene, const View& view, const DirectionNumbers& directions,
-                       const PixelRays<float>& pixels, const float* texels, std::uint32_t count, float* out) {
+                                       const PixelRays<float>& pixels, const float* texels, std::uint32_t count, float* out) {
     Sampler<float> sampler(Sampling::sobol, 2, 0, threadIdx.x);
     Light<float> light;
     for (std::uint32_t k = 0; k < count; ++k) {
