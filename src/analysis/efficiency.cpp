@@ -40,7 +40,7 @@ std::array<LightBudget, independent_sets> light_budgets(const Display& display, 
     const double m = display.panel.emission_exponent, fov_slope[] = {display.array.pitch_mm[0] / (2 * geometry.gap_mm),
                                                                      display.array.pitch_mm[1] / (2 * geometry.gap_mm)};
     const double c = geometry.lattice.cos_turn, s = geometry.lattice.sin_turn;
-    const bool ideal = display.lens.type() == LensType::ideal;
+    const bool ideal = display.lens.is_thin();
     const int rays = budget_rays_a_part * lenses.more_for({0, 0, geometry.vertex_plane_mm + 1e6});
     std::array<Found, light_budget_parts> sums{};
     parts.run(light_budget_parts, [&](int part) {

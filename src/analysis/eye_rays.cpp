@@ -92,7 +92,13 @@ Vec3d EyeRays::aim(const Vec3d& eye, const Choice& choice) const {
         const double place = 0.5 * choice[k] - by / lattice.pitch[k];
         return lattice.pitch[k] * (place - std::floor(place + 0.5));
     };
-    return point(axis.x + in_cell(0, moved.x), axis.y + in_cell(1, moved.y));
+    Place place{in_cell(0, moved.x), in_cell(1, moved.y)};
+    if (lattice
+            .hexagonal) {  // such rectangles cover the plane as the hexagons do: what is outside of this one belongs to a neighbour
+        const Place centre = optics::axis_of(lattice, optics::cell_at(lattice, place.x, place.y));
+        place = {place.x - centre.x, place.y - centre.y};
+    }
+    return point(axis.x + place.x, axis.y + place.y);
 }
 
 Sight EyeRays::look_through(const Vec3d& eye, const Vec3d& at, double a, double b) const {

@@ -106,7 +106,7 @@ double transmission(const Display& d, const Geometry& g) {
 double passed(const Display& d, const Geometry& g) {
     const auto r = [&](std::size_t k) { return 0.5 * g.clear_aperture_mm[k] / d.array.pitch_mm[k]; };
     const double fill = is_round(d) ? pi * r(0) * r(1) : 1, t = transmission(d, g);
-    if (d.lens.type() == LensType::ideal || d.array.surround == Surround::opaque || d.lens.stop_radius_mm) return fill * t;
+    if (d.lens.is_thin() || d.array.surround == Surround::opaque || d.lens.stop_radius_mm) return fill * t;
     return d.array.surround == Surround::plate ? t : fill * t + 1 - fill;
 }
 

@@ -159,7 +159,7 @@ struct Analysis {
     void one(const Measure& m, Progress& progress) {
         try {
             const auto start = std::chrono::steady_clock::now();
-            if (auto problem = beyond_rows_and_columns(subject.display(), fmt::format("the measure {}", m.name)))
+            if (auto problem = beyond_lenses_in_air(subject.display(), fmt::format("the measure {}", m.name)))
                 throw InputError(std::vector{std::move(*problem)});
             const Result result = m.run(subject, progress);
             folder.write(m, result, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());

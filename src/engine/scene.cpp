@@ -50,10 +50,11 @@ optics::SurfaceData<S> surface_data(const PlacedSurface& from) {
 }
 
 template <class S>
-void add_lens(optics::Scene<S>& scene, const Display& display, const Geometry& geometry) {
+void add_lens(optics::Scene<S>& scene, const Geometry& geometry) {
     const auto& surfaces = geometry.surfaces;
-    scene.lens = display.lens.type();
-    if (surfaces.front().form == SurfaceForm::thin) {
+    scene.thin = surfaces.front().form == SurfaceForm::thin;
+    scene.glued = geometry.glued;
+    if (scene.thin) {
         scene.ideal_z = S(geometry.vertex_plane_mm);
         scene.ideal_power = S(1 / surfaces.front().focal_length_mm);
         scene.zone_top = scene.zone_bottom = scene.ideal_z;
@@ -103,6 +104,21 @@ void add_holes(optics::Scene<S>& scene, const Display& display, const Geometry& 
     for (std::size_t k = 0; k < 2; ++k) scene.holes_below[k] = S(start_z - z[k]);
 }
 
+template <class S>
+void add_layers(optics::Scene<S>& scene, const Display& display, const Geometry& geometry) {
+    const std::vector<Layer>& layers = display.panel.layers;
+    if (layers.size() > max_layers)
+        throw InputError("panel.layer", "has more than the " + std::to_string(max_layers) + " layers allowed");
+    scene.layer_count = std::int32_t(layers.size());
+    scene.layers_top = S(geometry.layers_top_mm);
+    double above = 1;
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+        const Layer& layer = layers[layers.size() - 1 - k];
+        scene.layer[k] = {S(layer.thickness_mm), interface<S>(above, layer.index)};
+        above = layer.index;
+    }
+}
+
 }  // namespace
 
 template <class S>
@@ -120,7 +136,8 @@ optics::Scene<S> make_scene(const Display& display, const Geometry& geometry) {
     const double stop = display.lens.stop_radius_mm.value_or(0);
     scene.stop_z = S(geometry.stop_z_mm);
     scene.stop_radius2 = S(stop * stop);
-    add_lens(scene, display, geometry);
+    add_lens(scene, geometry);
+    add_layers(scene, display, geometry);
 
     scene.surround = array.surround;
     scene.lattice = make_lattice<S>(display.panel, array);

@@ -233,8 +233,8 @@ Grid choose_grid(const Builder& builder, bool square, double wanted) {
 
 LensMesh mesh_lens(const Display& display, const Geometry& geometry, std::int64_t triangles) {
     if (geometry.surfaces.front().form == SurfaceForm::thin)
-        throw InputError("lens.type", "an ideal lens has no surfaces to make triangles of; give a real lens");
-    if (auto problem = beyond_rows_and_columns(display, "a mesh of the lens")) throw InputError(std::vector{std::move(*problem)});
+        throw InputError("lens.type", "an ideal lens or a pinhole has no surfaces to make triangles of; give a real lens");
+    if (auto problem = beyond_lenses_in_air(display, "a mesh of the lens")) throw InputError(std::vector{std::move(*problem)});
     if (triangles < least_lens_triangles || triangles > most_lens_triangles)
         throw InputError("--lens-mesh",
                          fmt::format("{} triangles; allowed: {} to {}", triangles, least_lens_triangles, most_lens_triangles));

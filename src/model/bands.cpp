@@ -69,7 +69,7 @@ double michelson_of(const std::vector<double>& waves) {
 }  // namespace
 
 double aperture_plane_mm(const Display& d, const Geometry& g, std::size_t axis) {
-    if (d.lens.type() == LensType::ideal || stop_at_entrance(d, g)) return g.entrance_z_mm;
+    if (d.lens.is_thin() || stop_at_entrance(d, g)) return g.entrance_z_mm;
     const PlacedSurface& last = g.surfaces.back();
     const bool filled = d.array.aperture == Aperture::cell;
     return last.z_mm + sag_mm(last.curvature_per_mm, last.conic, last.even_asphere,

@@ -16,11 +16,19 @@ namespace lfdsim {
 
 using Vec3d = std::array<double, 3>;
 
+/// A plane plate, wide without end.
+struct Layer {
+    double thickness_mm = 0;
+    double index = 0;
+    bool operator==(const Layer&) const = default;
+};
+
 struct Panel {
     std::array<std::int64_t, 2> pixels{};  // columns, rows
     double pixel_pitch_mm = 0;
     Encoding encoding = Encoding::srgb;
     double emission_exponent = 0;  // m of cos(theta)^m, 0 = Lambertian
+    std::vector<Layer> layers;     // on the panel, from it upwards: cover glass, polariser, adhesive
     bool operator==(const Panel&) const = default;
 };
 
@@ -55,13 +63,20 @@ struct IdealLens {
     bool operator==(const IdealLens&) const = default;
 };
 
-using LensKind = std::variant<PlanoConvex, SurfaceLens, IdealLens>;  // in the order of LensType
+/// A black sheet with a hole for each lens, of strips a slit.
+struct Pinhole {
+    double aperture_radius_mm = 0;
+    bool operator==(const Pinhole&) const = default;
+};
+
+using LensKind = std::variant<PlanoConvex, SurfaceLens, IdealLens, Pinhole>;  // in the order of LensType
 
 struct Lens {
     LensKind kind;
     std::optional<double> stop_radius_mm;  // aperture stop in the plane of the curved vertex
 
     LensType type() const { return LensType(kind.index()); }
+    bool is_thin() const { return type() == LensType::ideal || type() == LensType::pinhole; }  // a plane without glass
     template <class Kind>
     Kind& as() {  // throws std::bad_variant_access for a lens of another kind
         return std::get<Kind>(kind);

@@ -29,6 +29,8 @@ struct PlacedSurface {
 struct Geometry {
     Lattice<double> lattice;              // where the lenses stand
     std::vector<PlacedSurface> surfaces;  // panel side first; at least one
+    double layers_top_mm;                 // T, of the layers on the panel
+    bool glued;                           // the lens's flat panel-side face lies on them, or on the panel, without air
     double base_z_mm;                     // lowest z of a lens, rims and sags included
     double top_z_mm;                      // highest z of a lens, rims and sags included
     double entrance_z_mm;                 // vertex of the surface that an eye's rays meet first
@@ -36,7 +38,7 @@ struct Geometry {
     double vertex_plane_mm;               // viewer-side vertex plane: highest z of a lens on its axis
     double front_principal_mm;            // panel-side principal (= nodal) point
     double rear_principal_mm;             // viewer-side one
-    double gap_mm;                        // g, panel to front_principal
+    double gap_mm;                        // g, panel to front_principal, layers counted by thickness / index
     double focal_length_mm;               // f, paraxial; infinite for an afocal lens
     double glass_radius_mm;  // plano_convex: r of the cap in glass (a lens that fills its cell: at least to the corners); else semi
                              // aperture
@@ -53,8 +55,9 @@ struct Geometry {
 /// Along one of the array's own axes, p its pitch there.
 struct AxisTheory {
     double fov_deg;                     // 2 atan(p / 2g)
+    double fov_exact_deg;               // of the ray from p'/2 to the axis at the principal point, by Snell; NaN for glass lenses
     double fov_elemental_deg;           // 2 atan(p' / 2g), p' the elemental images' pitch: what is seen through their whole width
-    double views;                       // N = p / a
+    double views;                       // N = p / a, of strips along a row of the panel p / (a cos(slant))
     double view_step_deg;               // FOV / N
     double viewing_zone_parallel_deg;   // whole screen, elemental-image pitch p
     double viewing_zone_deg;            // whole screen, elemental images for the description's viewing distance, seen by the eye
@@ -67,7 +70,9 @@ struct AxisTheory {
 
 /// Paraxial theory, docs/model.md section "Theory". Infinite where a figure has no finite value, NaN where it is undefined.
 struct Theory {
-    std::array<AxisTheory, 2> along;  // the array's own x and y
+    std::array<AxisTheory, 2> along;  // the array's own x and y; of strips, which do nothing along y, that is NaN
+    double fov_horizontal_deg;        // of strips along the panel's rows, 2 atan(p / (2 g cos(slant))); NaN for others
+    // Of pinholes, which have no image plane, all but the gap is NaN.
     double focal_length_mm;
     double gap_mm;
     double central_depth_mm;   // L, from the rear principal plane; negative: virtual

@@ -20,7 +20,13 @@ constexpr Key<Panel> panel_keys[] = {
     {"pixel_pitch_mm", &Panel::pixel_pitch_mm, positive_length, true, "From pixel to pixel, the same in both directions."},
     {"encoding", &Panel::encoding, no_range, false, "Of the panel image's code values: IEC 61966-2-1, or proportional to light."},
     {"emission_exponent", &Panel::emission_exponent, Range{0, 100}, false,
-     "m: radiance falls as cos(theta)^m from the normal. 0 is a Lambertian panel."},
+     "m: radiance falls as cos(theta)^m from the normal, in what lies on the panel. 0 is a Lambertian panel."},
+    {"layer", &Panel::layers, no_range, false, ""},
+};
+
+constexpr Key<Layer> layer_keys[] = {
+    {"thickness_mm", &Layer::thickness_mm, positive_length, true, "From face to face."},
+    {"index", &Layer::index, index_range, true, "Refractive index."},
 };
 
 constexpr std::string_view aperture_radius_doc =
@@ -31,7 +37,7 @@ constexpr std::string_view no_aperture_radius = "required of round lenses; else 
 
 constexpr Key<Lens> lens_keys[] = {
     {"type", &Lens::kind, no_range, true,
-     "A spherical plano-convex lens, a prescription of surfaces, or a thin lens without aberrations."},
+     "A spherical plano-convex lens, a prescription of surfaces, a thin lens without aberrations, or a pinhole."},
     {"stop_radius_mm", &Lens::stop_radius_mm, positive_length, false,
      "An aperture stop in the plane of the curved vertex (of the last surface, of the thin lens): a black sheet with a hole "
      "for each lens.",
@@ -56,6 +62,11 @@ constexpr Key<IdealLens> ideal_keys[] = {
     {"focal_length_mm", &IdealLens::focal_length_mm, positive_length, true, "Of the thin lens."},
 };
 
+constexpr Key<Pinhole> pinhole_keys[] = {
+    {"aperture_radius_mm", &Pinhole::aperture_radius_mm, positive_length, true,
+     "Of a round hole; of strips half the width of a slit. Twice that is at most the least lens pitch."},
+};
+
 constexpr Key<Surface> surface_keys[] = {
     {"curvature_per_mm", &Surface::curvature_per_mm, curvature_range, false,
      "1/R at the vertex. Sag is positive towards the viewer, so a last surface convex to the viewer has a negative curvature."},
@@ -75,9 +86,11 @@ constexpr Key<LensArray> array_keys[] = {
      "the least that cover the panel"},
     {"pitch_mm", &LensArray::pitch_mm, positive_length, true,
      "From lens to lens: one number, or for rectangles and bricks two, along the array's rows and from row to row."},
-    {"gap_mm", &LensArray::gap_mm, positive_length, false, "From the panel to the lens's panel-side principal plane.",
+    {"gap_mm", &LensArray::gap_mm, positive_length, false,
+     "From the panel to the lens's panel-side principal plane, reduced: the sum of thickness / index of the layers and of the air.",
      "given by base_z_mm; exactly one of the two is required"},
-    {"base_z_mm", &LensArray::base_z_mm, length_or_zero, false, "From the panel to the lens's lowest point.",
+    {"base_z_mm", &LensArray::base_z_mm, length_or_zero, false,
+     "From the panel to the lens's lowest point. A lens that is flat there and lies on the layers (or on the panel) is glued on.",
      "given by gap_mm; exactly one of the two is required"},
     {"surround", &LensArray::surround, no_range, false,
      "Between the lenses: black walls, air and polished walls, or one moulded sheet. The last two need a lens of one glass body."},
@@ -174,6 +187,12 @@ const Table<Panel>& table_of<Panel>() {
     return table;
 }
 template <>
+const Table<Layer>& table_of<Layer>() {
+    static constexpr Table<Layer> table{
+        "layer", "A plane plate on the panel, the first one lying on it: cover glass, polariser, adhesive. At most 8.", layer_keys};
+    return table;
+}
+template <>
 const Table<Lens>& table_of<Lens>() {
     static constexpr Table<Lens> table{"lens", "One lens of the array.", lens_keys};
     return table;
@@ -191,6 +210,12 @@ const Table<SurfaceLens>& table_of<SurfaceLens>() {
 template <>
 const Table<IdealLens>& table_of<IdealLens>() {
     static constexpr Table<IdealLens> table{"ideal", "A thin lens without aberrations.", ideal_keys};
+    return table;
+}
+template <>
+const Table<Pinhole>& table_of<Pinhole>() {
+    static constexpr Table<Pinhole> table{"pinhole", "A black sheet with a hole for each lens, on strips a slit: a barrier.",
+                                          pinhole_keys};
     return table;
 }
 template <>
@@ -234,7 +259,7 @@ std::string Range::text() const {
 
 // clang-format off
 template <> std::span<const std::string_view> words<Encoding>() { static constexpr std::string_view w[] = {"srgb", "linear"}; return w; }
-template <> std::span<const std::string_view> words<LensType>() { static constexpr std::string_view w[] = {"plano_convex", "surfaces", "ideal"}; return w; }
+template <> std::span<const std::string_view> words<LensType>() { static constexpr std::string_view w[] = {"plano_convex", "surfaces", "ideal", "pinhole"}; return w; }
 template <> std::span<const std::string_view> words<LensKind>() { return words<LensType>(); }
 template <> std::span<const std::string_view> words<Facing>() { static constexpr std::string_view w[] = {"viewer", "panel"}; return w; }
 template <> std::span<const std::string_view> words<Surround>() { static constexpr std::string_view w[] = {"opaque", "clear", "plate"}; return w; }

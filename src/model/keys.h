@@ -36,8 +36,8 @@ using ValuesOf = std::variant<Of<double>, Of<std::optional<double>>, Of<std::int
                               Of<LensKind>, Of<Facing>, Of<Surround>, Of<LatticeKind>, Of<Aperture>, Of<Profile>, Of<PixelFilter>,
                               Of<Estimator>, Of<Sampling>, Of<Fresnel>>;
 
-/// What a key fills. Only Display and SurfaceLens contain tables: one that is always there, one that may be absent, or a list;
-/// the keys of a kind stand beside its word.
+/// What a key fills. Only Display, Panel and SurfaceLens contain tables: one that is always there, one that may be absent, or a
+/// list; the keys of a kind stand beside its word.
 template <class T>
 struct MemberOf {
     template <class V>
@@ -48,6 +48,11 @@ template <>
 struct MemberOf<Display> {
     using Type = std::variant<std::string Display::*, Panel Display::*, Lens Display::*, LensArray Display::*,
                               std::optional<Diffuser> Display::*, Camera Display::*, Content Display::*, Render Display::*>;
+};
+template <>
+struct MemberOf<Panel> {
+    using Type =
+        std::variant<std::array<std::int64_t, 2> Panel::*, double Panel::*, Encoding Panel::*, std::vector<Layer> Panel::*>;
 };
 template <>
 struct MemberOf<SurfaceLens> {
@@ -77,10 +82,12 @@ const Table<T>& table_of();
 // clang-format off
 template <> const Table<Display>& table_of<Display>();
 template <> const Table<Panel>& table_of<Panel>();
+template <> const Table<Layer>& table_of<Layer>();
 template <> const Table<Lens>& table_of<Lens>();
 template <> const Table<PlanoConvex>& table_of<PlanoConvex>();
 template <> const Table<SurfaceLens>& table_of<SurfaceLens>();
 template <> const Table<IdealLens>& table_of<IdealLens>();
+template <> const Table<Pinhole>& table_of<Pinhole>();
 template <> const Table<Surface>& table_of<Surface>();
 template <> const Table<LensArray>& table_of<LensArray>();
 template <> const Table<Diffuser>& table_of<Diffuser>();
@@ -92,8 +99,8 @@ template <> const Table<Render>& table_of<Render>();
 template <class T, class... Structs>
 inline constexpr bool is_one_of = (std::is_same_v<T, Structs> || ...);
 template <class T>
-inline constexpr bool has_table =
-    is_one_of<T, Display, Panel, Lens, PlanoConvex, SurfaceLens, IdealLens, Surface, LensArray, Diffuser, Camera, Content, Render>;
+inline constexpr bool has_table = is_one_of<T, Display, Panel, Layer, Lens, PlanoConvex, SurfaceLens, IdealLens, Pinhole, Surface,
+                                            LensArray, Diffuser, Camera, Content, Render>;
 
 /// How a field of a struct is a table within it.
 enum class PartKind { value, table, optional, list, kinds };

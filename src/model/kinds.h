@@ -4,10 +4,10 @@
 namespace lfdsim {
 
 // Enough for any lens maker's prescription, and the most that the kernels hold.
-inline constexpr decltype(sizeof 0) max_surfaces = 16, max_asphere_terms = 8;
+inline constexpr decltype(sizeof 0) max_surfaces = 16, max_asphere_terms = 8, max_layers = 8;
 
 enum class Encoding { srgb, linear };  // of the panel image's code values
-enum class LensType { plano_convex, surfaces, ideal };
+enum class LensType { plano_convex, surfaces, ideal, pinhole };
 enum class Facing { viewer, panel };                                   // which way the convex side of a plano-convex lens faces
 enum class Surround { opaque, clear, plate };                          // what is between the lenses
 enum class LatticeKind { square, rectangle, hexagon, brick, strips };  // of the cells in which lenses stand

@@ -106,6 +106,10 @@ std::vector<PlacedSurface> placed(const IdealLens& lens, const LensArray& array)
     return {{0, 0, 0, {}, glass_radius_mm(lens.aperture_radius_mm, array), 1, 1, SurfaceForm::thin, lens.focal_length_mm}};
 }
 
+std::vector<PlacedSurface> placed(const Pinhole& hole, const LensArray&) {
+    return {{0, 0, 0, {}, hole.aperture_radius_mm, 1, 1, SurfaceForm::thin, std::numeric_limits<double>::infinity()}};
+}
+
 }  // namespace
 
 std::vector<PlacedSurface> prescription(const Lens& lens, const LensArray& array) {

@@ -8,8 +8,24 @@
 namespace lfdsim {
 namespace {
 
+constexpr double glue_mm = 1e-6;  // a flat face so near to what lies under it borders on it
+
+/// Sum of thickness / index.
+double reduced_mm(const std::vector<Layer>& layers) {
+    double sum = 0;
+    for (const Layer& layer : layers) sum += layer.thickness_mm / layer.index;
+    return sum;
+}
+
+bool is_flat(const PlacedSurface& s) {
+    return s.form != SurfaceForm::thin && s.curvature_per_mm == 0 &&
+           std::all_of(s.even_asphere.begin(), s.even_asphere.end(), [](double a) { return a == 0; });
+}
+
 // Places the lens along z: its surfaces and planes, from gap or base.
-void place_lens(const Lens& lens, const LensArray& array, Geometry& g) {
+void place_lens(const Lens& lens, const LensArray& array, const Panel& panel, Geometry& g) {
+    for (const Layer& layer : panel.layers) g.layers_top_mm += layer.thickness_mm;
+    const double T = g.layers_top_mm, reduced_T = reduced_mm(panel.layers);
     g.surfaces = prescription(lens, array);
     const Cardinal paraxial = cardinal_points(g.surfaces);
     double lowest = 0, highest = 0, vertex = 0, widest = 0, narrowest = g.surfaces.front().semi_aperture_mm;
@@ -22,13 +38,15 @@ void place_lens(const Lens& lens, const LensArray& array, Geometry& g) {
         narrowest = std::min(narrowest, s.semi_aperture_mm);
     }
     // z of the first vertex
-    const double first = array.base_z_mm ? *array.base_z_mm - lowest : array.gap_mm.value_or(0) - paraxial.front_principal_mm;
+    const double first =
+        array.base_z_mm ? *array.base_z_mm - lowest : T + (array.gap_mm.value_or(0) - reduced_T) - paraxial.front_principal_mm;
     for (PlacedSurface& s : g.surfaces) s.z_mm += first;
     g.base_z_mm = array.base_z_mm ? *array.base_z_mm : first + lowest;
     g.top_z_mm = first + highest;
     g.vertex_plane_mm = first + vertex;
     g.entrance_z_mm = g.surfaces.back().z_mm;
-    double z = 0, index = 1;
+    double z = T, index = 1;
+    g.reduced_vertex_plane_mm = reduced_T;
     for (const PlacedSurface& s : g.surfaces) {
         g.reduced_vertex_plane_mm += (s.z_mm - z) / index;
         z = s.z_mm;
@@ -43,8 +61,11 @@ void place_lens(const Lens& lens, const LensArray& array, Geometry& g) {
     const auto* ball = std::get_if<PlanoConvex>(&lens.kind);
     const bool first_curved = ball && ball->facing == Facing::panel;
     g.stop_z_mm = (first_curved ? g.surfaces.front() : g.surfaces.back()).z_mm;
-    // to the last bit as given: g = f must stay exact
-    g.gap_mm = array.gap_mm.value_or(g.front_principal_mm);
+    // To the last bit as given: g = f must stay exact. A flat face that is glued on has no power: g is the same without air.
+    g.gap_mm = array.gap_mm.value_or(reduced_T + (g.front_principal_mm - T));
+    PlacedSurface& lowest_surface = g.surfaces.front();
+    g.glued = is_flat(lowest_surface) && std::abs(g.base_z_mm - T) <= glue_mm && std::abs(lowest_surface.z_mm - T) <= glue_mm;
+    if (g.glued) lowest_surface.index_below = panel.layers.empty() ? lowest_surface.index_above : panel.layers.back().index;
     if (array.aperture == Aperture::cell) g.clear_aperture_mm = array.pitch_mm;
     if (lens.stop_radius_mm) g.clear_aperture_mm.fill(2 * *lens.stop_radius_mm);
 }
@@ -56,7 +77,7 @@ double distance_mm(const Vec3d& a, const Vec3d& b) { return std::hypot(a[0] - b[
 Geometry resolve_unchecked(const Display& d) {
     Geometry g{};
     g.lattice = make_lattice<double>(d.panel, d.array);
-    place_lens(d.lens, d.array, g);
+    place_lens(d.lens, d.array, d.panel, g);
     if (d.diffuser) g.diffuser_z_mm = g.vertex_plane_mm + d.diffuser->distance_mm;
     g.panel_width_mm = double(d.panel.pixels[0]) * d.panel.pixel_pitch_mm;
     g.panel_height_mm = double(d.panel.pixels[1]) * d.panel.pixel_pitch_mm;

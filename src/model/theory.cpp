@@ -11,11 +11,29 @@ namespace lfdsim {
 
 namespace {
 
+/// The angle between the two lines to the axis at the principal point from the ends of a width on the panel, by Snell's law through
+/// layers and air. The ray of sine s in air passes sum of t s / sqrt(n^2 - s^2) sideways, which grows with s.
+double exact_angle_deg(const Display& d, const Geometry& g, double width_mm) {
+    const auto half_width = [&](double s) {
+        double x = (g.front_principal_mm - g.layers_top_mm) * s / std::sqrt(1 - s * s);
+        for (const Layer& layer : d.panel.layers) x += layer.thickness_mm * s / std::sqrt(layer.index * layer.index - s * s);
+        return x;
+    };
+    double low = 0, high = 1;
+    while (true) {
+        const double middle = (low + high) / 2;
+        if (middle <= low || middle >= high) break;
+        (half_width(middle) < width_mm / 2 ? low : high) = middle;
+    }
+    return 2 * std::asin(high) / degree;  // 180 where the whole half space does not reach so far
+}
+
 AxisTheory theory_along(const Display& d, const Geometry& g, double L, std::size_t axis) {
+    if (is_strips(d.array) && axis == 1) return {nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
     const double a = d.panel.pixel_pitch_mm, p = d.array.pitch_mm[axis], gap = g.gap_mm;
     AxisTheory t{};
     t.fov_deg = 2 * std::atan(p / (2 * gap)) / degree;
-    t.views = p / a;
+    t.views = is_strips(d.array) ? p / (a * g.lattice.cos_turn) : p / a;
     t.view_step_deg = t.fov_deg / t.views;
 
     // Seen from X = E tan(theta), the lens at x shows the panel at g (x - X)/E from its axis; its elemental image is centred at
@@ -24,6 +42,7 @@ AxisTheory theory_along(const Display& d, const Geometry& g, double L, std::size
     const double made_for = d.content.viewing_distance_mm - g.rear_principal_mm, eye = eye_distance_mm(d) - g.rear_principal_mm;
     t.elemental_pitch_mm = p * (1 + gap / made_for);
     t.fov_elemental_deg = 2 * std::atan(t.elemental_pitch_mm / (2 * gap)) / degree;
+    t.fov_exact_deg = d.lens.is_thin() ? exact_angle_deg(d, g, t.elemental_pitch_mm) : nan;
     const bool before = eye > 0;  // else the camera stands inside the display or behind it
     t.eyebox_mm = before ? eye * t.elemental_pitch_mm / gap : std::nan("");
     const auto zone_deg = [&](double e) {
@@ -45,10 +64,12 @@ AxisTheory theory_along(const Display& d, const Geometry& g, double L, std::size
 // First-order formulas of integral imaging; docs/model.md, "Theory". Symbols as there.
 Theory theory(const Display& d, const Geometry& g) {
     const double a = d.panel.pixel_pitch_mm, D = widest_aperture_mm(g), gap = g.gap_mm, f = g.focal_length_mm;
-    const double inverse_L = gap == f ? 0 : 1 / f - 1 / gap, L = inverse_L == 0 ? infinity : 1 / inverse_L;
+    const bool pinhole = d.lens.type() == LensType::pinhole;
+    const double inverse_L = pinhole ? nan : gap == f ? 0 : 1 / f - 1 / gap, L = inverse_L == 0 ? infinity : 1 / inverse_L;
 
     Theory t{};
-    t.focal_length_mm = f;
+    t.fov_horizontal_deg = is_strips(d.array) ? 2 * std::atan(d.array.pitch_mm[0] / (2 * gap * g.lattice.cos_turn)) / degree : nan;
+    t.focal_length_mm = pinhole ? nan : f;
     t.gap_mm = gap;
     t.central_depth_mm = L;
     t.pixel_image_mm = a * std::abs(L) / gap;

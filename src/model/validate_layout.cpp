@@ -13,10 +13,11 @@ void check_heights(const Display& d, const Geometry& g, Findings& findings) {
     if (!positive_length.contains(g.gap_mm))
         findings.add(given, "puts the lens's panel-side principal plane {:.6g} mm in front of the panel, allowed is {}", g.gap_mm,
                      positive_length.text());
-    else if (!(g.base_z_mm >= -rounding_mm))
-        findings.add(given, "{} mm puts the lens's lowest point {:.6g} mm into the panel; at least {:.6g} mm", g.gap_mm,
-                     -g.base_z_mm, g.gap_mm - g.base_z_mm);
-    else if (!(g.top_z_mm <= longest_mm && std::abs(g.rear_principal_mm) <= longest_mm))
+    else if (const double into = g.layers_top_mm - g.base_z_mm; !(into <= rounding_mm)) {
+        const double value = d.array.gap_mm ? g.gap_mm : g.base_z_mm;
+        findings.add(given, "{} mm puts the lens's lowest point {:.6g} mm into the {}; at least {:.6g} mm", value, into,
+                     d.panel.layers.empty() ? "panel" : "panel's layers", value + into);
+    } else if (!(g.top_z_mm <= longest_mm && std::abs(g.rear_principal_mm) <= longest_mm))
         findings.add(given, "puts the lens's top at {:.6g} mm and its viewer-side principal plane at {:.6g} mm, allowed is {}",
                      g.top_z_mm, g.rear_principal_mm, any_length.text());
 }

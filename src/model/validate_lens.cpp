@@ -25,6 +25,14 @@ class LensCheck {
     void check(const IdealLens& ideal) {
         if (check_radius(ideal.aperture_radius_mm)) check_stop();
     }
+    void check(const Pinhole& hole) {
+        if (array.aperture == Aperture::cell)
+            findings.add("array.aperture", "is \"cell\", but a pinhole is a hole in a black sheet; take \"circle\"");
+        if (lens.stop_radius_mm)
+            findings.add("lens.stop_radius_mm", "has no meaning for a lens of type \"pinhole\", which is a stop; leave it out");
+        if (findings.sound("lens.aperture_radius_mm") && findings.sound("array.aperture"))
+            check_width("lens.aperture_radius_mm", hole.aperture_radius_mm);
+    }
     // Widths and sags one by one, then each pair of neighbours: the medium between them must have a thickness everywhere.
     void check(const SurfaceLens& given) {
         const std::vector<PlacedSurface> surfaces = prescription(lens, array);
@@ -76,7 +84,7 @@ class LensCheck {
         if (R < r)
             findings.add("lens.sphere_radius_mm",
                          "R = {} mm is smaller than {} = {} mm, so the ball does not cover the aperture; at least that", R,
-                         corner ? "half the cell's diagonal" : "the aperture radius r", r);
+                         corner ? "the cell's circumradius" : "the aperture radius r", r);
         else if (findings.sound("lens.cylinder_height_mm") && h > highest)
             findings.add("lens.cylinder_height_mm",
                          "h = {} mm, but the ball of R = {} mm would cut the flat face; at most 2 sqrt(R^2 - r^2) = {} mm", h, R,

@@ -60,8 +60,9 @@ void check_product(const std::string& where, const std::array<std::int64_t, 2>& 
 void check_surround(const Display& d, Findings& findings) {
     if (d.array.surround == Surround::opaque || !findings.sound("array.surround")) return;
     const std::string_view surround = word(d.array.surround);
-    if (d.lens.type() == LensType::ideal)
-        findings.add("array.surround", "is \"{}\", but an ideal lens has no glass; take \"opaque\"", surround);
+    if (d.lens.is_thin())
+        findings.add("array.surround", "is \"{}\", but a lens of type \"{}\" has no glass; take \"opaque\"", surround,
+                     word(d.lens.kind));
     const auto* lens = std::get_if<SurfaceLens>(&d.lens.kind);
     if (!lens) return;
     const std::vector<Surface>& surfaces = lens->surfaces;
@@ -139,6 +140,7 @@ void validate_values(const Display& d, Findings& findings) {
     if (d.array.count || (findings.sound("panel.") && findings.sound("array.")))
         check_product("array.count", lens_count(d.panel, d.array), findings);
     check_product("camera.resolution", d.camera.resolution, findings);
+    if (d.panel.layers.size() > max_layers) findings.add("panel.layer", "has more than the {} layers allowed", max_layers);
     check_lattice(d.array, findings);
     check_choices(d, findings);
     if (type_known) check_surround(d, findings);

@@ -283,9 +283,14 @@ LFDSIM_FN void next_in_plate(const Scene<Scalar<F>>& scene, const Extent<Scalar<
 /// Snell's law at a crossing, either way; total internal reflection is followed with weight 1.
 template <class F>
 LFDSIM_FN void cross(const Scene<Scalar<F>>& scene, const Crossing<F>& here, Mask<F> active, GlassRays<F>& rays, F& weight) {
-    const auto& media = scene.surface[0].media;
+    const auto &media = scene.surface[0].media, &last = scene.surface[scene.surface_count - 1].media;
     const F air = F(media.n_above), glass = F(media.n_below), one = F(1);
-    const F n1 = select(rays.inside, glass, air), n2 = select(rays.inside, air, glass), eta = n1 / n2;
+    F outside = air, schlick_t0 = F(media.schlick_t0);
+    if (scene.glued) {
+        outside = select(here.normal.z < F(0), F(last.n_below), air);
+        schlick_t0 = select(here.normal.z < F(0), F(last.schlick_t0), schlick_t0);
+    }
+    const F n1 = select(rays.inside, glass, outside), n2 = select(rays.inside, outside, glass), eta = n1 / n2;
     const F facing = select(rays.inside, -one, one);  // the normal that faces the ray
     const Vec3<F> n{facing * here.normal.x, facing * here.normal.y, facing * here.normal.z}, i = rays.to;
     const F c1 = -dot(n, i), cos2 = one - eta * eta * (one - c1 * c1), c2 = sqrt(max(cos2, F(0)));
@@ -293,8 +298,8 @@ LFDSIM_FN void cross(const Scene<Scalar<F>>& scene, const Crossing<F>& here, Mas
     const F k = select(reflected, one, eta), m = select(reflected, F(2) * c1, eta * c1 - c2);
     const Vec3<F> to{k * i.x + m * n.x, k * i.y + m * n.y, k * i.z + m * n.z};
     if (scene.fresnel != Fresnel::none) {
-        const F c_thin = select(rays.inside, c2, c1);
-        weight = select(refracted, weight * transmittance(scene.fresnel, F(media.schlick_t0), n1, n2, c1, c2, c_thin), weight);
+        const F c_thin = select(scene.glued ? n2 < n1 : rays.inside, c2, c1);
+        weight = select(refracted, weight * transmittance(scene.fresnel, schlick_t0, n1, n2, c1, c2, c_thin), weight);
     }
     rays.at = {select(active, i.x * here.t + rays.at.x, rays.at.x), select(active, i.y * here.t + rays.at.y, rays.at.y),
                select(active, i.z * here.t + rays.at.z, rays.at.z)};
@@ -323,7 +328,10 @@ LFDSIM_FN PanelPoint<F> trace_glass(const Scene<Scalar<F>>& scene, const Extent<
                       F(0) > F(1),
                       F(0) > F(1)};
     F weight = way.weight;
-    Mask<F> alive = way.alive, arrived = F(0) > F(1), stop_ahead = way.alive;
+    const Mask<F> no_ray = F(0) > F(1);
+    Mask<F> alive = way.alive, arrived = no_ray, stop_ahead = way.alive, in_layer = no_ray;
+    const auto& last = scene.surface[scene.surface_count - 1];
+    const bool vanishes = scene.glued && last.media.n_above == last.media.n_below;  // the glued face is none
     for (int surfaces = 0; surfaces <= most_crossings && any(alive); ++surfaces) {
         Crossing<F> next{F(S(1e30)), {F(0), F(0), F(1)}, {F(0), F(0)}, F(0) > F(1)};
         if (scene.surround == Surround::clear)
@@ -340,11 +348,22 @@ LFDSIM_FN PanelPoint<F> trace_glass(const Scene<Scalar<F>>& scene, const Extent<
         }
         arrived = arrived || (alive && leaves && !rays.inside && (rays.to.z < F(0)));
         alive = alive && next.found;
-        if (surfaces < most_crossings) cross(scene, next, alive, rays, weight);
+        const Mask<F> at_glue = scene.glued ? alive && rays.inside && (next.normal.z < F(0)) : no_ray;
+        if (vanishes) {
+            in_layer = in_layer || at_glue;
+            alive = alive && !at_glue;
+        }
+        if (surfaces == most_crossings) break;
+        cross(scene, next, alive, rays, weight);
+        if (scene.glued && !vanishes) {
+            in_layer = in_layer || (at_glue && !rays.inside);
+            alive = alive && !(at_glue && !rays.inside);
+        }
     }
-    const F t = -rays.at.z / rays.to.z;
+    arrived = arrived || in_layer;
+    const Place<F> end = down_to_panel(scene, rays.at, in_layer, rays.to, weight, arrived);
     if (scene.emission_exponent != S(0)) weight = weight * power(abs(rays.to.z), scene.emission_exponent);
-    return panel_point(scene, base, {F(0), F(0)}, rays.at.x + rays.to.x * t, rays.at.y + rays.to.y * t, weight, arrived);
+    return panel_point(scene, base, {F(0), F(0)}, end.x, end.y, weight, arrived);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -1,4 +1,4 @@
-// The ideal thin lens of paraxial theory: no aberrations, no losses. Floor 1.
+// The ideal thin lens of paraxial theory, without aberrations and losses, and the pinhole, which is one without power. Floor 1.
 #pragma once
 #include "optics/sequential.h"
 
@@ -19,6 +19,13 @@ LFDSIM_FN PanelPoint<F> trace_ideal(const Scene<Scalar<F>>& scene, const Extent<
     if (scene.has_stop) way.alive = way.alive && (q2 <= F(scene.stop_radius2));
     const F fall = F(1) / way.ray.to.z;
     const auto [mx, my] = bend(scene, Place<F>{qx, qy}, Place<F>{way.ray.to.x * fall, way.ray.to.y * fall});
+    if (scene.layer_count > 0) {
+        const F per = F(1) / sqrt(F(1) + mx * mx + my * my);
+        Vec3<F> to{-mx * per, -my * per, -per};
+        const Place<F> end = down_to_panel(scene, {qx, qy, F(scene.ideal_z)}, F(0) > F(1), to, way.weight, way.alive);
+        if (scene.emission_exponent != S(0)) way.weight = way.weight * power(-to.z, scene.emission_exponent);
+        return panel_point(scene, base, way.cell, end.x, end.y, way.weight, way.alive);
+    }
     if (scene.emission_exponent != S(0)) {
         way.weight = way.weight * power(F(1) / sqrt(F(1) + mx * mx + my * my), scene.emission_exponent);
     }

@@ -86,7 +86,8 @@ LFDSIM_FN void refract_down(const Scene<Scalar<F>>& scene, Shape shape, const Su
         way.ray.to = {eta * i.x + m * hit.normal.x, eta * i.y + m * hit.normal.y, eta * i.z + m * hit.normal.z};
     }
     way.ray.at = hit.at;
-    if (scene.fresnel != Fresnel::none) {
+    const bool vanishes = scene.glued && surface.media.n_above == surface.media.n_below;  // the lens's medium goes on
+    if (scene.fresnel != Fresnel::none && !vanishes) {
         way.weight = way.weight * transmittance(scene.fresnel, F(surface.media.schlick_t0), F(surface.media.n_above),
                                                 F(surface.media.n_below), hit.cos, cosine,
                                                 surface.media.n_above < surface.media.n_below ? hit.cos : cosine);

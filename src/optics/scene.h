@@ -37,19 +37,30 @@ struct SurfaceData {
     Interface<S> media;
 };
 
+/// A plate on the panel.
+template <class S>
+struct LayerData {
+    S thickness;
+    Interface<S> media;  // at its upper face: of the top one air above it, however the lens lies on it
+};
+
 template <class S>
 struct Scene {
     // panel
     std::uint32_t columns, rows;
     S pixels_per_mm;
     S emission_exponent;
+    std::int32_t layer_count;
+    LayerData<S> layer[max_layers];  // from the top one downwards
+    S layers_top;
 
     // lens
-    LensType lens;
+    bool thin;   // ideal or a pinhole
+    bool glued;  // its last surface borders on the layers, or on the panel
     std::int32_t surface_count;
     SurfaceData<S> surface[max_surfaces];
-    S ideal_z, ideal_power;  // 1/f
-    S aperture_radius;       // of an ideal lens, if it is round
+    S ideal_z, ideal_power;  // of a thin lens; 1/f, of a pinhole 0
+    S aperture_radius;       // of a thin lens, if it is round
     Aperture aperture;
     bool has_stop;
     S stop_z, stop_radius2;

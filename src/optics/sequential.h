@@ -5,6 +5,7 @@
 // `way` hold them from the base lens's axis until the ray has met a lens, and from that lens's axis afterwards.
 #pragma once
 #include "optics/elementary.h"
+#include "optics/layers.h"
 #include "optics/one_lens.h"
 #include "optics/panel.h"
 
@@ -145,10 +146,17 @@ LFDSIM_FN PanelPoint<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent
     const Ray<F> entering = way.ray;
     const Hit<F> hit = enter_array<shapes>(scene, extent, entering, way);
     pass_lens<shapes>(scene, InArray<F>{scene, extent, way.cell}, entering, hit, way);
-    const F t = -(way.ray.at.z + F(scene.surface[count - 1].z)) / way.ray.to.z;
+    const Vec3<F> leaves{way.ray.at.x, way.ray.at.y, way.ray.at.z + F(scene.surface[count - 1].z)};
+    Place<F> end;
+    if constexpr (shapes == Shapes::plano_convex) {  // without layers
+        const F t = -leaves.z / way.ray.to.z;
+        end = {leaves.x + way.ray.to.x * t, leaves.y + way.ray.to.y * t};
+    } else {
+        const Mask<F> glued = F(scene.glued ? 1 : 0) > F(0);
+        end = down_to_panel(scene, leaves, glued, way.ray.to, way.weight, way.alive);
+    }
     if (scene.emission_exponent != S(0)) way.weight = way.weight * power(-way.ray.to.z, scene.emission_exponent);
-    return panel_point(scene, base, way.cell, way.ray.at.x + way.ray.to.x * t, way.ray.at.y + way.ray.to.y * t, way.weight,
-                       way.alive);
+    return panel_point(scene, base, way.cell, end.x, end.y, way.weight, way.alive);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -14,12 +14,12 @@ enum class Way { plano_convex, opaque, cylinders, ideal, glass };
 
 template <class S>
 LFDSIM_FN Way way_through(const Scene<S>& scene) {
-    if (scene.lens == LensType::ideal) return Way::ideal;
+    if (scene.thin) return Way::ideal;
     if (scene.surround != Surround::opaque) return Way::glass;
     if (scene.lattice.strips) return Way::cylinders;
     const bool plain =
         scene.surface_count == 2 && scene.surface[0].shape == Shape::sphere && scene.surface[1].shape == Shape::plane;
-    return plain && !scene.has_stop && !scene.dimple ? Way::plano_convex : Way::opaque;
+    return plain && !scene.has_stop && !scene.dimple && scene.layer_count == 0 && !scene.glued ? Way::plano_convex : Way::opaque;
 }
 
 /// do_it.operator()<way>() for the way through a display.

@@ -16,11 +16,11 @@ class Refusals {
     Refusals(Peer peer, const Display& d, const Geometry& g, const PeerOptions& o) : peer_(peer), d_(d), g_(g), options_(o) {}
 
     std::vector<Problem> all() {
-        if (d_.lens.type() == LensType::ideal) {
-            add("lens.type", "an ideal lens cannot be made of surfaces and glass; give the display a real lens");
+        if (d_.lens.is_thin()) {
+            add("lens.type", "an ideal lens or a pinhole cannot be made of surfaces and glass; give the display a real lens");
             return std::move(problems_);
         }
-        if (auto problem = beyond_rows_and_columns(d_, "export")) {
+        if (auto problem = beyond_lenses_in_air(d_, "export")) {
             problems_.push_back(std::move(*problem));
             return std::move(problems_);
         }

@@ -4,7 +4,9 @@
 #include "model/lattice.h"
 
 #include <fmt/format.h>
+#include <cctype>
 #include <cmath>
+#include <sstream>
 
 namespace lfdsim {
 namespace {
@@ -68,6 +70,7 @@ std::vector<Figure> figures(const Display& d, const Theory& t) {
         return by_axis ? std::vector{x, y} : std::vector{x};
     };
     constexpr const char* inside = "the camera stands inside the display or behind it";
+    constexpr const char* pinhole = "a pinhole has no image plane";
     // Depths are sharp from the near end's 1/z down to the far end's, z from the lenses towards the viewer: through infinity where
     // the signs differ, and behind the lenses where 1/z is negative.
     const auto end_of = [](double per_mm, bool near) {
@@ -77,17 +80,29 @@ std::vector<Figure> figures(const Display& d, const Theory& t) {
     };
     return {
         {"fov_deg", along(&AxisTheory::fov_deg), "field of view", "2 atan(p / 2g)"},
+        {"fov_exact_deg", along(&AxisTheory::fov_exact_deg), "the same through the layers on the panel, which theory has paraxial",
+         "Snell's law, from p'/2 on the panel to the axis at the lens",
+         "a glass lens has aberrations, which analyze fov counts in"},
+        {"fov_horizontal_deg",
+         {t.fov_horizontal_deg},
+         "field of view of strips along the panel's rows",
+         "2 atan(p / (2 g cos(slant)))",
+         "only strips are turned against what they show"},
         {"fov_elemental_deg", along(&AxisTheory::fov_elemental_deg), "field of view of whole elemental images", "2 atan(p' / 2g)"},
-        {"focal_length_mm", {t.focal_length_mm}, "f, focal length of a lens", "paraxial, of the lens's surfaces in air"},
-        {"gap_mm", {t.gap_mm}, "g, gap", "panel to the front principal plane"},
-        {"central_depth_mm", {t.central_depth_mm}, "L, central depth plane, from the rear principal plane", "1/L = 1/f - 1/g"},
-        {"pixel_image_mm", {t.pixel_image_mm}, "P_I, image of a panel pixel on it", "a |L| / g"},
-        {"depth_of_field_mm", {t.depth_of_field_mm}, "depth of field, as published", "2 |L| P_I / D"},
-        {"depth_near_mm", {depth_mm(t.depth_near_per_mm)}, end_of(t.depth_near_per_mm, true), "1 / (1/L + a / (g D))"},
-        {"depth_far_mm", {depth_mm(t.depth_far_per_mm)}, end_of(t.depth_far_per_mm, false), "1 / (1/L - a / (g D))"},
-        {"depth_near_diopters", {1000 * t.depth_near_per_mm}, "the same end as 1/z", "1/L + a / (g D)"},
-        {"depth_far_diopters", {1000 * t.depth_far_per_mm}, "the same end as 1/z", "1/L - a / (g D)"},
-        {"views", along(&AxisTheory::views), "N, views across", "p / a"},
+        {"focal_length_mm", {t.focal_length_mm}, "f, focal length of a lens", "paraxial, of the lens's surfaces in air", pinhole},
+        {"gap_mm", {t.gap_mm}, "g, gap", "panel to the front principal plane, layers by thickness / index"},
+        {"central_depth_mm",
+         {t.central_depth_mm},
+         "L, central depth plane, from the rear principal plane",
+         "1/L = 1/f - 1/g",
+         pinhole},
+        {"pixel_image_mm", {t.pixel_image_mm}, "P_I, image of a panel pixel on it", "a |L| / g", pinhole},
+        {"depth_of_field_mm", {t.depth_of_field_mm}, "depth of field, as published", "2 |L| P_I / D", pinhole},
+        {"depth_near_mm", {depth_mm(t.depth_near_per_mm)}, end_of(t.depth_near_per_mm, true), "1 / (1/L + a / (g D))", pinhole},
+        {"depth_far_mm", {depth_mm(t.depth_far_per_mm)}, end_of(t.depth_far_per_mm, false), "1 / (1/L - a / (g D))", pinhole},
+        {"depth_near_diopters", {1000 * t.depth_near_per_mm}, "the same end as 1/z", "1/L + a / (g D)", pinhole},
+        {"depth_far_diopters", {1000 * t.depth_far_per_mm}, "the same end as 1/z", "1/L - a / (g D)", pinhole},
+        {"views", along(&AxisTheory::views), "N, views across", "p / a, of strips along a row p / (a cos(slant))"},
         {"view_step_deg", along(&AxisTheory::view_step_deg), "angle from view to view", "field of view / N"},
         {"viewing_zone_parallel_deg", along(&AxisTheory::viewing_zone_parallel_deg),
          "zone that sees the whole screen, elemental images at lens pitch",
@@ -99,9 +114,9 @@ std::vector<Figure> figures(const Display& d, const Theory& t) {
          "p (1 + g / D')"},
         {"lens_sampling_limit_per_mm", along(&AxisTheory::lens_sampling_limit_per_mm), "resolution limit of the lens pitch",
          "1 / 2p"},
-        {"pixel_image_limit_per_mm", {t.pixel_image_limit_per_mm}, "resolution limit of the panel pixels", "1 / 2 P_I"},
+        {"pixel_image_limit_per_mm", {t.pixel_image_limit_per_mm}, "resolution limit of the panel pixels", "1 / 2 P_I", pinhole},
         {"gap_closing_diffuser_deg", along(&AxisTheory::gap_closing_diffuser_deg),
-         "diffuser at L that closes the gaps between lenses", "2 atan(p / 2 |L|)"},
+         "diffuser at L that closes the gaps between lenses", "2 atan(p / 2 |L|)", pinhole},
         {"gap_closing_here_deg", along(&AxisTheory::gap_closing_here_deg), "angle that closes them from where the diffuser stands",
          "2 atan(p / 2d), d its height above the lenses' rims", "there is no diffuser"}};
 }
@@ -109,26 +124,36 @@ std::vector<Figure> figures(const Display& d, const Theory& t) {
 Json to_json(const std::vector<Setting>& all) {
     Json display = Json::object();
     for (const Setting& s : all) {
-        constexpr std::string_view surfaces = "lens.surface.";
-        if (s.table.empty())
-            display[s.key] = s.value;
-        else if (s.table.starts_with(surfaces))
-            display["lens"]["surface"][std::stoul(s.table.substr(surfaces.size()))][s.key] = s.value;
-        else
-            display[s.table][s.key] = s.value;
+        // "lens.surface.0": the tables and, by number, the members of lists on the way
+        Json* table = &display;
+        std::istringstream path(s.table);
+        for (std::string part; std::getline(path, part, '.');)
+            table = std::isdigit(static_cast<unsigned char>(part[0])) ? &(*table)[std::stoul(part)] : &(*table)[part];
+        (*table)[s.key] = s.value;
     }
     return display;
 }
 
+/// "fov_y_deg" of "fov_deg": the figure along the array's own y.
+std::string name_along_y(std::string name) {
+    for (const std::string_view unit : {"_per_mm", "_mm", "_deg"})
+        if (name.ends_with(unit)) return name.insert(name.size() - unit.size(), "_y");
+    return name + "_y";
+}
+
 Json to_json(const std::vector<Figure>& all) {
     Json json = Json::object();
-    for (const Figure& f : all) json[f.name] = f.values.size() == 1 ? number_json(f.values[0]) : numbers_json(f.values);
+    for (const Figure& f : all) {
+        json[f.name] = number_json(f.values[0]);
+        if (f.values.size() > 1) json[name_along_y(f.name)] = number_json(f.values[1]);
+    }
     return json;
 }
 
 void add_notes(const std::vector<Figure>& all, const std::string& part, Json& notes) {
     for (const Figure& f : all)
-        if (std::isnan(f.values[0])) notes[part + "." + f.name] = f.undefined;
+        for (std::size_t k = 0; k < f.values.size(); ++k)
+            if (std::isnan(f.values[k])) notes[part + "." + (k == 0 ? f.name : name_along_y(f.name))] = f.undefined;
 }
 
 std::string unit_of(const std::string& name) {

@@ -30,7 +30,8 @@ std::vector<Figure> figures(const Display&, const Geometry&);
 std::vector<Figure> figures(const Display&, const Theory&);
 
 Json to_json(const std::vector<Setting>&);  // {"panel": {"pixels": ...}, ...}
-Json to_json(const std::vector<Figure>&);   // {"fov_deg": ...}; "infinite" and "-infinite" as words, null where undefined
+Json to_json(const std::vector<Figure>&);  // {"fov_deg": ...}, along y "fov_y_deg"; "infinite" and "-infinite" as words, null where
+                                           // undefined
 /// Adds to `notes`, an object, why figures are undefined: {"PART.NAME": "..."}.
 void add_notes(const std::vector<Figure>&, const std::string& part, Json& notes);
 

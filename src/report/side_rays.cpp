@@ -56,7 +56,7 @@ SidePath through_lens(const Display& d, const Geometry& g, const SideRay& start)
     const auto scene = make_scene<double>(d, up ? turned_over(g) : g);
     SidePath path{{{start.y, start.z}}, start, true};
     const auto go_on = [&](double y, double z, double dy, double dz) { path.last = {y, sense * z, dy, sense * dz}; };
-    if (scene.lens == LensType::ideal) {
+    if (scene.thin) {
         const double y = start.y_at(g.vertex_plane_mm);
         const double slope = optics::bend<double>(scene, {0, y}, {0, sense * start.dy / start.dz}).y, length = std::hypot(slope, 1);
         path.points.push_back({y, g.vertex_plane_mm});

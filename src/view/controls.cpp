@@ -273,8 +273,11 @@ class Lister {
     static void visit_limited(Display& d, const Visit& visit) {
         if (d.array.aperture == Aperture::circle)
             visit_all(d, [&](const std::string& path, const KeyInfo&, ValueRef value) {
-                auto* const given = std::get_if<std::optional<double>*>(&value);
-                if (path == "lens.aperture_radius_mm" && **given) visit(path, ***given);
+                if (path == "lens.aperture_radius_mm") {
+                    auto* const may_be_absent = std::get_if<std::optional<double>*>(&value);
+                    if (!may_be_absent) visit(path, *std::get<double*>(value));
+                    if (may_be_absent && **may_be_absent) visit(path, ***may_be_absent);
+                }
                 if (path.ends_with(".semi_aperture_mm")) visit(path, *std::get<double*>(value));
             });
         if (d.lens.stop_radius_mm) visit("lens.stop_radius_mm", *d.lens.stop_radius_mm);

@@ -63,6 +63,25 @@ inline Display in_rectangles(Display d) {
     return d;
 }
 
+/// Lenses that fill the cells of another lattice; bricks have the rectangles' pitches.
+inline Display in_lattice(Display d, LatticeKind lattice) {
+    d = in_rectangles(std::move(d));
+    d.array.lattice = lattice;
+    if (lattice != LatticeKind::brick) d.array.pitch_mm = d.array.pitch_mm[0];
+    if (lattice == LatticeKind::strips) d.array.count = {10, 1};
+    return d;
+}
+
+/// Slanted strips, their flat side glued onto cover glass.
+inline Display glued_strips() {
+    Display d = in_lattice(example(), LatticeKind::strips);
+    d.array.slant_deg = 9.5;
+    d.panel.layers = {{2, 1.52}, {0.1, 1.47}};
+    d.array.gap_mm.reset();
+    d.array.base_z_mm = 2.1;
+    return d;
+}
+
 /// One display for every way through an array, and for every option of camera and diffuser.
 inline std::vector<std::pair<std::string, Display>> every_kind() {
     std::vector<std::pair<std::string, Display>> all;
@@ -102,6 +121,23 @@ inline std::vector<std::pair<std::string, Display>> every_kind() {
     all.back().second.array.surround = Surround::clear;
     all.back().second.array.rotation_deg = -5;
     all.back().second.diffuser = Diffuser{40, {4, 4}, Profile::box};
+    all.emplace_back("hexagons, layers", in_lattice(example(), LatticeKind::hexagon));
+    all.back().second.panel.layers = {{0.7, 1.5}};
+    all.back().second.diffuser = Diffuser{40, {4, 4}, Profile::box};
+    all.emplace_back("bricks, plate", in_lattice(example(), LatticeKind::brick));
+    all.back().second.array.surround = Surround::plate;
+    all.back().second.array.rotation_deg = 3;
+    all.back().second.camera.pixel_filter = PixelFilter::box;
+    all.emplace_back("strips, glued", glued_strips());
+    all.back().second.diffuser = Diffuser{40, {4, 0.5}, Profile::box};
+    all.emplace_back("strips, clear", in_lattice(example(), LatticeKind::strips));
+    all.back().second.array.surround = Surround::clear;
+    all.back().second.camera.pixel_filter = PixelFilter::box;
+    all.emplace_back("slits over a layer", in_lattice(example(), LatticeKind::strips));
+    all.back().second.array.aperture = Aperture::circle;
+    all.back().second.lens = {Pinhole{0.4}, {}};
+    all.back().second.panel.layers = {{3, 1.5}};
+    all.back().second.diffuser = Diffuser{40, {4, 4}, Profile::box};
     for (auto& [name, d] : all) {
         look_from(d, 20, 400);
         d.camera.position_mm[1] = 60;
@@ -138,6 +174,15 @@ inline std::vector<std::pair<std::string, Display>> diffused() {
     add("rectangular cells", in_rectangles(example()), closing);
     add("weak", example(), {40, {1.2, 1.8}, Profile::box});
     add("weak, rectangular cells", in_rectangles(example()), {40, {1.2, 1.2}, Profile::box});
+    add("layers", example(), closing);
+    all.back().second.panel.layers = {{2, 1.5}, {1, 1.7}};
+    add("glued onto a layer, plate", example(), closing);
+    all.back().second.panel.layers = {{2, 1.5}};
+    all.back().second.array.gap_mm.reset();
+    all.back().second.array.base_z_mm = 2;
+    all.back().second.array.surround = Surround::plate;
+    add("pinholes", example(), closing);
+    all.back().second.lens = {Pinhole{0.8}, {}};
     return all;
 }
 

@@ -8,6 +8,7 @@
 #include "files/display_file.h"
 #include "meshed/mesh_surfaces.h"
 #include "meshed/render_meshed.h"
+#include "model/coverage.h"
 
 namespace lfdsim {
 namespace {
@@ -102,7 +103,7 @@ TEST_P(Convergence, IsOfTheOrderThatTheTriangleSizePromises) {
 // its ray meets, and few rays are so near a border of two.
 TEST(RenderMeshed, TendsToThePicture) {
     for (auto [name, d] : every_kind()) {
-        if (d.lens.type() == LensType::ideal || d.array.surround != Surround::opaque) continue;
+        if (d.lens.is_thin() || d.array.surround != Surround::opaque || beyond_lenses_in_air(d, "")) continue;
         d.render.samples = 1;
         const Texels panel = noise_panel(d);
         const Image wanted = picture(d, panel), got = meshed(d, panel, 300000, LensNormals::smooth).image;
@@ -169,7 +170,7 @@ TEST(MeshSurfaces, OnlyWaysDownCount) {
 
 TEST(RenderMeshed, WhiteIsWhiteOrBlack) {
     for (auto [name, d] : every_kind()) {
-        if (d.lens.type() == LensType::ideal || d.array.surround != Surround::opaque) continue;
+        if (d.lens.is_thin() || d.array.surround != Surround::opaque || beyond_lenses_in_air(d, "")) continue;
         d.render.fresnel = Fresnel::none;
         d.panel.emission_exponent = 0;
         d.diffuser.reset();

@@ -72,6 +72,16 @@ INSTANTIATE_TEST_SUITE_P(Ranges, Fault, testing::Values(
     Case{"array.pitch_mm", "is [12, 9], but array.lattice is \"square\"; take \"rectangle\"", [](Display& d) { d.array.pitch_mm = {12, 9}; }},
     Case{"array.pitch_mm[1]", "is -9", [](Display& d) { d.array.lattice = LatticeKind::rectangle; d.array.pitch_mm = {12, -9}; }},
     Case{"lens.aperture_radius_mm", "wider than array.pitch_mm = 9 mm; at most 4.5", [](Display& d) { d.array.lattice = LatticeKind::rectangle; d.array.pitch_mm = {12, 9}; }},
+    Case{"array.pitch_mm", "is [12, 9], but array.lattice is \"hexagon\"; take \"brick\"", [](Display& d) { d.array.lattice = LatticeKind::hexagon; d.array.pitch_mm = {12, 9}; }},
+    Case{"array.pitch_mm", "is [12, 9], but array.lattice is \"strips\"", [](Display& d) { d.array.lattice = LatticeKind::strips; d.array.count.reset(); d.array.pitch_mm = {12, 9}; }},
+    Case{"array.count", "is [43, 24], but strips are one row; give [43, 1]", [](Display& d) { d.array.lattice = LatticeKind::strips; }},
+    Case{"array.count", "5000000000 x 9000000000 = 45", [](Display& d) { d.array.count.reset(); d.array.pitch_mm = 1e-6; d.panel = {{500, 900}, 10, {}, 0, {}}; d.lens.kind = IdealLens{{}, 15.7}; d.array.aperture = Aperture::cell; }},
+    Case{"array.slant_deg", "is 90, allowed is more than -90 to below 90", [](Display& d) { d.array.lattice = LatticeKind::strips; d.array.count.reset(); d.array.slant_deg = 90; }},
+    Case{"array.slant_deg", "turn such an array by array.rotation_deg", [](Display& d) { d.array.slant_deg = 9; }},
+    Case{"array.slant_deg", "both array.slant_deg and array.rotation_deg", [](Display& d) { d.array.lattice = LatticeKind::strips; d.array.count.reset(); d.array.slant_deg = 9; d.array.rotation_deg = -9; }},
+    Case{"panel.layer.0.index", "is 0.9, allowed is 1 to 4", [](Display& d) { d.panel.layers = {{1, 0.9}}; }},
+    Case{"panel.layer.1.thickness_mm", "is 0", [](Display& d) { d.panel.layers = {{1, 1.5}, {0, 1.5}}; }},
+    Case{"panel.layer", "more than the 8", [](Display& d) { d.panel.layers.resize(9, {0.1, 1.5}); }},
     Case{"array.offset_mm[1]", "is nan", [](Display& d) { d.array.offset_mm[1] = nan; }},
     Case{"array.rotation_deg", "is 361", [](Display& d) { d.array.rotation_deg = 361; }},
     Case{"array.gap_mm", "is missing", [](Display& d) { d.array.gap_mm.reset(); }},
@@ -91,21 +101,28 @@ INSTANTIATE_TEST_SUITE_P(Lens, Fault, testing::Values(
     Case{"lens.aperture_radius_mm", "wider than array.pitch_mm = 12", [](Display& d) { d.lens.as<PlanoConvex>().aperture_radius_mm = 6.01; }},
     Case{"lens.aperture_radius_mm", "wider than array.pitch_mm = 12", [](Display& d) { d.lens.as<IdealLens>().aperture_radius_mm = 6.01; }, example_ideal},
     Case{"lens.sphere_radius_mm", "R = 5 mm is smaller than the aperture radius r = 6", [](Display& d) { d.lens.as<PlanoConvex>().sphere_radius_mm = 5; }},
-    Case{"lens.sphere_radius_mm", "half the cell's diagonal = 8.48", [](Display& d) { d.array.aperture = Aperture::cell; }},
+    Case{"lens.sphere_radius_mm", "the cell's circumradius = 8.48", [](Display& d) { d.array.aperture = Aperture::cell; }},
     Case{"lens.cylinder_height_mm", "2 sqrt(R^2 - r^2) = 8.24", [](Display& d) { d.lens.as<PlanoConvex>().cylinder_height_mm = 8.3; }},
     Case{"lens.stop_radius_mm", "holes of neighbours overlap", [](Display& d) { d.lens.stop_radius_mm = 6.5; }},
     Case{"lens.stop_radius_mm", "holes of neighbours overlap", [](Display& d) { d.lens.stop_radius_mm = 7; }, example_surfaces},
     Case{"array.surround", "make them equal", [](Display& d) { d.array.surround = Surround::clear; d.lens.as<SurfaceLens>().surfaces[0].semi_aperture_mm = 5; }, example_surfaces},
     Case{"lens.surface.0.semi_aperture_mm", "wider than array.pitch_mm", [](Display& d) { d.lens.as<SurfaceLens>().surfaces[0].semi_aperture_mm = 6.5; }, example_surfaces},
+    Case{"lens.aperture_radius_mm", "wider than array.pitch_mm = 12 mm; at most 6", [](Display& d) { d.lens.kind = Pinhole{6.1}; d.array.lattice = LatticeKind::strips; d.array.count.reset(); }},
+    Case{"array.aperture", "a hole in a black sheet", [](Display& d) { d.lens.kind = Pinhole{1}; d.array.aperture = Aperture::cell; }},
+    Case{"lens.stop_radius_mm", "is a stop; leave it out", [](Display& d) { d.lens = {Pinhole{1}, 0.5}; }},
+    Case{"array.surround", "a lens of type \"pinhole\" has no glass", [](Display& d) { d.lens.kind = Pinhole{1}; d.array.surround = Surround::clear; }},
     // conic edge: 1/(c sqrt(1 + k)) = 1/(0.25 * 1) = 4 mm
     Case{"lens.surface.1.semi_aperture_mm", "ends 4 mm from the axis", [](Display& d) { d.lens.as<SurfaceLens>().surfaces[1] = {-0.25, 0, {}, 6, 0, 1}; }, example_surfaces},
     Case{"lens.surface.1.semi_aperture_mm", "sag grows to", [](Display& d) { d.lens.as<SurfaceLens>().surfaces[1].even_asphere = {1e4}; }, example_surfaces},
     Case{"lens.surface.0.distance_mm", "cross within the aperture; at least 2.48997", [](Display& d) { d.lens.as<SurfaceLens>().surfaces[0].distance_mm = 1; }, example_surfaces},
-    Case{"array.surround", "an ideal lens has no glass", [](Display& d) { d.array.surround = Surround::plate; }, example_ideal},
+    Case{"array.surround", "a lens of type \"ideal\" has no glass", [](Display& d) { d.array.surround = Surround::plate; }, example_ideal},
     Case{"array.surround", "the lens has 3", [](Display& d) { d.array.surround = Surround::clear; d.lens.as<SurfaceLens>().surfaces.insert(d.lens.as<SurfaceLens>().surfaces.begin(), {0, 0, {}, 6, 1, 1.6}); }, example_surfaces}));
 
 INSTANTIATE_TEST_SUITE_P(Layout, Fault, testing::Values(
     Case{"array.gap_mm", "into the panel; at least 2.786", [](Display& d) { d.array.gap_mm = 1; }},
+    Case{"array.gap_mm", "into the panel's layers; at least 19.7866", [](Display& d) { d.panel.layers = {{17, 1}}; }},
+    Case{"array.base_z_mm", "4 mm puts the lens's lowest point 1 mm into the panel's layers; at least 5 mm", [](Display& d) {
+        d.panel.layers = {{3, 1.5}, {2, 1.6}}; d.array.gap_mm.reset(); d.array.base_z_mm = 4; }},
     // a meniscus whose principal planes lie far below it
     Case{"array.base_z_mm", "in front of the panel", [](Display& d) {
         d.lens.as<SurfaceLens>().surfaces = {{-0.08, 0, {}, 3, 5, 1.7}, {-0.1, 0, {}, 3, 0, 1}};

@@ -177,6 +177,10 @@ def paraxial(harness, description):
             return a is b
         return np.shape(a) == np.shape(b) and np.allclose(a, b, rtol=1e-6, atol=0)
 
+    for name, value in list(wanted.items()):  # along x' and y': a figure and "fov_y_deg"
+        if isinstance(value, list):
+            stem, unit = (name.removesuffix("_deg"), "_deg") if name.endswith("_deg") else (name, "")
+            wanted[name], wanted[f"{stem}_y{unit}"] = value
     missing = [k for k in wanted if k not in got]
     if missing:
         return False, "check does not print theory." + ", theory.".join(missing), {}

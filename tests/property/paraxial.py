@@ -7,7 +7,7 @@ ROUNDING = 1e-9
 
 
 def forms(display, description):
-    """Paths with (value, error), or a list of them along x' and y'. Depths in dioptres, also those that are printed in mm."""
+    """Paths with (value, error); along y', where that differs, in paths of their own. Depths in dioptres, also those that are printed in mm."""
     g, f, p, a = display.paraxial.front, display.paraxial.f, display.array.pitch_mm, display.panel.pixel_pitch_mm
     made_for = description["content"]["viewing_distance_mm"] - display.paraxial.rear
     eye = description["camera"]["position_mm"][2] - display.paraxial.rear
@@ -35,7 +35,21 @@ def forms(display, description):
     dioptres = {f"theory.depth_{end}_{unit}": value for end, value in dioptres.items() for unit in ("diopters", "mm")} | {"theory.central_depth_mm": 1000 * central}
 
     def told(figure):
-        return [told(v) for v in figure] if isinstance(figure, list) else (figure, ROUNDING * abs(figure) + 1e-12)
+        return figure, ROUNDING * abs(figure) + 1e-12
 
-    out = {path: told(oracle.by_axis(display, pair)) for path, pair in along.items()} | {"theory.focal_length_mm": told(f)}
+    out = {"theory.focal_length_mm": told(f)}
+    for path, pair in along.items():
+        figures = oracle.by_axis(display, pair)
+        if isinstance(figures, list):
+            out[path], out[along_y(path)] = told(figures[0]), told(figures[1])
+        else:
+            out[path] = told(figures)
     return out | {path: (value, ROUNDING * 1000 / f) for path, value in dioptres.items()}
+
+
+def along_y(path):
+    """The name of a figure along y': "fov_y_deg" of "fov_deg"."""
+    for unit in ("_per_mm", "_mm", "_deg"):
+        if path.endswith(unit):
+            return path.removesuffix(unit) + "_y" + unit
+    return path + "_y"

@@ -78,6 +78,7 @@ def look_up(result, path):
 
 
 def label(measure, path):
+    path = path.replace("_y_", "_").removesuffix("_y")  # along the array's own y: a figure of the same kind
     return measure + " " + ".".join(p for p in path.split(".") if not p.isdigit() and p not in ("horizontal", "vertical", "theory", "green"))
 
 
