@@ -19,9 +19,20 @@ struct Passage {
 };
 
 /// The forms of surface that a kernel is compiled for, so that the 2019 paper's lens without a stop does not pay for the others:
-/// that lens's, any of revolution, cylinders along y'. For triangles in place of surfaces (src/meshed) the caller supplies
-/// meet_mesh(scene, k, ray).
-enum class Shapes { plano_convex, any, cylinders, meshed };
+/// that lens's; any of revolution, in rows and columns with air under them; those in other lattices, cylinders and glued ones too.
+/// For triangles in place of surfaces (src/meshed) the caller supplies meet_mesh(scene, k, ray).
+enum class Shapes { plano_convex, any, other, meshed };
+
+/// Tells the compiler, which leaves out what cannot be, that a display has rows and columns of lenses with air under them. It takes
+/// these one by one only, and forgets them where a function is called.
+template <class S>
+LFDSIM_FN void has_rows_in_air(const Scene<S>& scene) {
+    if (scene.lattice.staggered) __builtin_unreachable();
+    if (scene.lattice.hexagonal) __builtin_unreachable();
+    if (scene.lattice.strips) __builtin_unreachable();
+    if (scene.glued) __builtin_unreachable();
+    if (scene.layer_count != 0) __builtin_unreachable();
+}
 
 /// Surface k, counted from the viewer's side.
 template <Shapes shapes, class S>
@@ -57,10 +68,10 @@ template <Shapes shapes, class F>
 LFDSIM_FN Hit<F> meet(const Scene<Scalar<F>>& scene, int k, Ray<F> in_vertex_plane) {
     if constexpr (shapes == Shapes::meshed)
         return meet_mesh(scene, k, in_vertex_plane);
-    else if constexpr (shapes == Shapes::cylinders)
-        return meet_cylinder(scene.surface[k].shape, scene.surface[k], in_vertex_plane);
     else
-        return meet(shape_of<shapes>(scene, k), scene.surface[k], in_vertex_plane);
+        return shapes == Shapes::other && scene.lattice.strips
+                   ? meet_cylinder(scene.surface[k].shape, scene.surface[k], in_vertex_plane)
+                   : meet(shape_of<shapes>(scene, k), scene.surface[k], in_vertex_plane);
 }
 
 /// Within the walls of its cell? Those of a round lens are its surfaces' semi-apertures, which `ok` has tested.

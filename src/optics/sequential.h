@@ -76,6 +76,15 @@ LFDSIM_FN Mask<F> may_meet_neighbours(const Lattice<Scalar<F>>& lattice, Cell<F>
     return (out_x || out_y) && near;
 }
 
+/// Whether a way from one cell to the point (x, y) may pass cells with lenses.
+template <class F>
+LFDSIM_FN Mask<F> may_enter(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, Cell<F> from, F x, F y) {
+    const Cell<F> to = cell_at(scene.lattice, x, y);
+    const F beside = F(1);  // as far as a way between staggered rows may lead aside
+    return (min(from.i, to.i) <= F(extent.high_i) + beside) && (max(from.i, to.i) >= F(extent.low_i) - beside) &&
+           (min(from.j, to.j) <= F(extent.high_j)) && (max(from.j, to.j) >= F(extent.low_j));
+}
+
 /// Finds the lens through which a ray enters the array (way.cell) and where it meets that lens's first surface. `ray` starts in the
 /// vertex plane of the first surfaces; the hit is relative to the axis of the lens found. Most rays meet the cap of the cell they
 /// point at; a ray that misses it and leaves the cell before it is down at the rims is tested against the next cells.
@@ -102,7 +111,8 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<
         const Mask<F> astray =
             way.alive && !hit.ok &&
             may_meet_neighbours(scene.lattice, way.cell, x, y, ray.to.x * kd, ray.to.y * kd, F(first.semi_aperture));
-        if (any(astray)) {
+        // Only the array's own cells are searched: of the rays that come from beside them, those that go there.
+        if (any(astray) && any(astray && may_enter(scene, extent, way.cell, x + ray.to.x * kd, y + ray.to.y * kd))) {
             Hit<F> found = hit;
             Cell<F> cell = way.cell;
             const Ray<F> from = ray;
@@ -145,10 +155,11 @@ LFDSIM_FN PanelPoint<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent
     const int count = shapes == Shapes::plano_convex ? 2 : scene.surface_count;
     const Ray<F> entering = way.ray;
     const Hit<F> hit = enter_array<shapes>(scene, extent, entering, way);
+    if constexpr (shapes != Shapes::other) has_rows_in_air(scene);
     pass_lens<shapes>(scene, InArray<F>{scene, extent, way.cell}, entering, hit, way);
     const Vec3<F> leaves{way.ray.at.x, way.ray.at.y, way.ray.at.z + F(scene.surface[count - 1].z)};
     Place<F> end;
-    if constexpr (shapes == Shapes::plano_convex) {  // without layers
+    if constexpr (shapes != Shapes::other) {
         const F t = -leaves.z / way.ray.to.z;
         end = {leaves.x + way.ray.to.x * t, leaves.y + way.ray.to.y * t};
     } else {

@@ -8,18 +8,19 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// The ways through an array, one of which a display uses: chosen outside the loop over samples, so that none pays for another. A
-/// new one takes a name here, a line in each of the functions below, and a function that traces it.
-enum class Way { plano_convex, opaque, cylinders, ideal, glass };
+/// The ways through an array, one of which a display uses: chosen outside the loop over samples, so that none pays for another. The
+/// first three are for rows and columns of lenses with air under them, `glass` is for light between the lenses, `other` for the
+/// rest. A new one takes a name here, a line in each of the functions below, and a function that traces it.
+enum class Way { plano_convex, opaque, ideal, glass, other };
 
 template <class S>
 LFDSIM_FN Way way_through(const Scene<S>& scene) {
+    if (!scene.thin && scene.surround != Surround::opaque) return Way::glass;
+    if (scene.lattice.staggered || scene.lattice.strips || scene.glued || scene.layer_count > 0) return Way::other;
     if (scene.thin) return Way::ideal;
-    if (scene.surround != Surround::opaque) return Way::glass;
-    if (scene.lattice.strips) return Way::cylinders;
     const bool plain =
         scene.surface_count == 2 && scene.surface[0].shape == Shape::sphere && scene.surface[1].shape == Shape::plane;
-    return plain && !scene.has_stop && !scene.dimple && scene.layer_count == 0 && !scene.glued ? Way::plano_convex : Way::opaque;
+    return plain && !scene.has_stop && !scene.dimple ? Way::plano_convex : Way::opaque;
 }
 
 /// do_it.operator()<way>() for the way through a display.
@@ -30,14 +31,14 @@ inline decltype(auto) with_way(const Scene<S>& scene, const Do& do_it) {
             return do_it.template operator()<Way::plano_convex>();
         case Way::opaque:
             return do_it.template operator()<Way::opaque>();
-        case Way::cylinders:
-            return do_it.template operator()<Way::cylinders>();
         case Way::ideal:
             return do_it.template operator()<Way::ideal>();
         case Way::glass:
+            return do_it.template operator()<Way::glass>();
+        case Way::other:
             break;
     }
-    return do_it.template operator()<Way::glass>();
+    return do_it.template operator()<Way::other>();
 }
 
 /// The same for all ways, one after the other.
@@ -45,9 +46,9 @@ template <class Do>
 inline void for_all_ways(const Do& do_it) {
     do_it.template operator()<Way::plano_convex>();
     do_it.template operator()<Way::opaque>();
-    do_it.template operator()<Way::cylinders>();
     do_it.template operator()<Way::ideal>();
     do_it.template operator()<Way::glass>();
+    do_it.template operator()<Way::other>();
 }
 
 // to_first_vertex() and sample_ray() return their result in the last argument: GCC 12 passes a returned value through memory, with
@@ -76,13 +77,15 @@ LFDSIM_FN void to_first_vertex(const Scene<Scalar<F>>& scene, Passage<F>& way) {
 template <Way through, class F>
 LFDSIM_FN PanelPoint<F> trace_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
                                     const PanelBase<Scalar<F>>& base, Ray<F> ray, Mask<F> alive) {
+    if constexpr (through == Way::plano_convex || through == Way::opaque || through == Way::ideal) has_rows_in_air(scene);
     Passage<F> way{ray, {F(0), F(0)}, F(1), alive};
     to_first_vertex(scene, way);
     if constexpr (through == Way::ideal) return trace_ideal(scene, extent, base, way);
     if constexpr (through == Way::plano_convex) return trace_opaque<Shapes::plano_convex>(scene, extent, base, way);
     if constexpr (through == Way::opaque) return trace_opaque<Shapes::any>(scene, extent, base, way);
-    if constexpr (through == Way::cylinders) return trace_opaque<Shapes::cylinders>(scene, extent, base, way);
     if constexpr (through == Way::glass) return trace_glass(scene, extent, base, way);
+    if constexpr (through == Way::other)
+        return scene.thin ? trace_ideal(scene, extent, base, way) : trace_opaque<Shapes::other>(scene, extent, base, way);
 }
 
 /// The ray of one sample of each pixel of a packet, in the first plane and after the diffuser; sampler(d) is the sample's number of

@@ -28,16 +28,7 @@ class Backward {
         const double length = std::hypot(ray.mx, ray.my, 1);
         const optics::Ray<double> start{{ray.x + ray.mx * start_, ray.y + ray.my * start_, 0},
                                         {-ray.mx / length, -ray.my / length, -1 / length}};
-        switch (optics::way_through(scene_)) {
-            case optics::Way::plano_convex:
-                return end<optics::Way::plano_convex>(start);
-            case optics::Way::opaque:
-                return end<optics::Way::opaque>(start);
-            case optics::Way::ideal:
-                return end<optics::Way::ideal>(start);
-            default:
-                return end<optics::Way::glass>(start);
-        }
+        return optics::with_way(scene_, [&]<optics::Way way>() { return end<way>(start); });
     }
 
   private:

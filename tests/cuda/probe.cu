@@ -25,6 +25,6 @@ __device__ __forceinline__ void sample(const Scene<float>& scene, const View& vi
     }
 PROBE(plano_convex)
 PROBE(opaque)
-PROBE(cylinders)
 PROBE(ideal)
 PROBE(glass)
+PROBE(other)

@@ -22,16 +22,7 @@ PanelHit<F> trace(const Scene<F>& scene, const View& view, int column, int row, 
     Sampler<F> sampler(sampling, optics::sampler_dimensions, view.seed, pixel);
     for (int n = 0; n < sample; ++n) sampler.next(sobol_directions());
     const auto rays = optics::pixel_rays<F>(view, column, row);
-    switch (optics::way_through(scene)) {
-        case Way::plano_convex:
-            return optics::trace<Way::plano_convex>(scene, view, rays, sampler);
-        case Way::opaque:
-            return optics::trace<Way::opaque>(scene, view, rays, sampler);
-        case Way::ideal:
-            return optics::trace<Way::ideal>(scene, view, rays, sampler);
-        default:
-            return optics::trace<Way::glass>(scene, view, rays, sampler);
-    }
+    return optics::with_way(scene, [&]<Way way>() { return optics::trace<way>(scene, view, rays, sampler); });
 }
 
 /// Does a double-precision ray through a point at most 0.02 pixels away, in the picture, do what the single-precision one did?
