@@ -80,9 +80,9 @@ LFDSIM_FN Mask<F> may_meet_neighbours(const Lattice<Scalar<F>>& lattice, Cell<F>
 template <class F>
 LFDSIM_FN Mask<F> may_enter(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, Cell<F> from, F x, F y) {
     const Cell<F> to = cell_at(scene.lattice, x, y);
-    const F beside = F(1);  // as far as a way between staggered rows may lead aside
+    const F beside = F(scene.lattice.staggered ? 1 : 0);  // as far as a way between staggered cells may lead aside
     return (min(from.i, to.i) <= F(extent.high_i) + beside) && (max(from.i, to.i) >= F(extent.low_i) - beside) &&
-           (min(from.j, to.j) <= F(extent.high_j)) && (max(from.j, to.j) >= F(extent.low_j));
+           (min(from.j, to.j) <= F(extent.high_j) + beside) && (max(from.j, to.j) >= F(extent.low_j) - beside);
 }
 
 /// Finds the lens through which a ray enters the array (way.cell) and where it meets that lens's first surface. `ray` starts in the
@@ -108,11 +108,10 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<
         hit.ok = hit.ok && (lx * lx + ly * ly <= r * r);
     } else if (shapes == Shapes::plano_convex || scene.zone_top > scene.zone_bottom) {
         const F kd = F(scene.zone_bottom - scene.zone_top) * fall;
-        const Mask<F> astray =
-            way.alive && !hit.ok &&
-            may_meet_neighbours(scene.lattice, way.cell, x, y, ray.to.x * kd, ray.to.y * kd, F(first.semi_aperture));
-        // Only the array's own cells are searched: of the rays that come from beside them, those that go there.
-        if (any(astray) && any(astray && may_enter(scene, extent, way.cell, x + ray.to.x * kd, y + ray.to.y * kd))) {
+        Mask<F> astray = way.alive && !hit.ok &&
+                         may_meet_neighbours(scene.lattice, way.cell, x, y, ray.to.x * kd, ray.to.y * kd, F(first.semi_aperture));
+        if (any(astray)) astray = astray && may_enter(scene, extent, way.cell, x + ray.to.x * kd, y + ray.to.y * kd);
+        if (any(astray)) {
             Hit<F> found = hit;
             Cell<F> cell = way.cell;
             const Ray<F> from = ray;
