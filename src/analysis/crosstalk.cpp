@@ -75,6 +75,12 @@ class Eyes {
     LineSets lines_, fine_;
 };
 
+/// Width of an elemental image along a row of the panel; strips lean against it.
+double image_along_row_mm(const Subject& s) {
+    const Lattice<double>& lattice = s.geometry().lattice;
+    return s.theory(0).elemental_pitch_mm / (lattice.strips ? lattice.cos_turn : 1);
+}
+
 Sums less(Sums a, const Sums& b) {
     for (std::size_t k = 0; k < a.size(); ++k) a[k] -= b[k];
     return a;
@@ -114,9 +120,8 @@ void between_views(const Subject& s, Eyes& eyes, Result& result) {
     Json& json = result.figures["between_views"];
     json["view_step_mm"] = eyes.view_slope * eyes.eye_mm;
     json["view_step_deg"] = s.theory(0).view_step_deg;
-    // A view is whole where its strip, a wide, lies in the elemental image: (|k| + 1/2) a <= p'/2.
-    const double across = s.theory(0).elemental_pitch_mm / s.display().panel.pixel_pitch_mm,
-                 last = std::floor(0.5 * (across - 1) + 1e-9);
+    // A view is whole where its strip, a wide, lies in the elemental image: (|k| + 1/2) a <= p'/2, along the row.
+    const double across = image_along_row_mm(s) / s.display().panel.pixel_pitch_mm, last = std::floor(0.5 * (across - 1) + 1e-9);
     json["whole_views"] = last < 0 ? 0 : 2 * std::int64_t(std::min(last, 1e6)) + 1;
     const ViewsCrosstalk views =
         last < 0 ? ViewsCrosstalk{{0}, {{nan, nan}}, {{nan, nan}}} : look_at_views(eyes, int(std::min(last, 1e6)));
@@ -203,7 +208,7 @@ void tell_apart(const Subject& s, Eyes& eyes, double zone_mm, Result& result) {
 
 /// Two eyes whose head moves, while the right half of what the panel shows stays meant for the right eye.
 void between_eyes(const Subject& s, Eyes& eyes, Result& result) {
-    const double apart = s.options().eye_distance_mm, zone_mm = eyes.eye_mm * s.theory(0).elemental_pitch_mm / s.geometry().gap_mm;
+    const double apart = s.options().eye_distance_mm, zone_mm = eyes.eye_mm * image_along_row_mm(s) / s.geometry().gap_mm;
     if (apart > zone_mm) return tell_apart(s, eyes, zone_mm, result);
     std::vector<double> places;
     for (int n = 0; n < heads; ++n) places.push_back(1.5 * apart * (2. * n / (heads - 1) - 1));

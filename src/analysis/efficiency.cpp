@@ -37,8 +37,9 @@ std::array<LightBudget, independent_sets> light_budgets(const Display& display, 
     // no other light does, in black surrounds, it is counted.
     const bool black = display.array.surround == Surround::opaque;
     const double margin = black ? 8 * (geometry.vertex_plane_mm - geometry.base_z_mm) : 0;
-    const double m = display.panel.emission_exponent, fov_slope[] = {display.array.pitch_mm[0] / (2 * geometry.gap_mm),
-                                                                     display.array.pitch_mm[1] / (2 * geometry.gap_mm)};
+    const double m = display.panel.emission_exponent,
+                 fov_slope[] = {display.array.pitch_mm[0] / (2 * geometry.gap_mm),
+                                is_strips(display.array) ? infinity : display.array.pitch_mm[1] / (2 * geometry.gap_mm)};
     const double c = geometry.lattice.cos_turn, s = geometry.lattice.sin_turn;
     const bool ideal = display.lens.is_thin();
     const int rays = budget_rays_a_part * lenses.more_for({0, 0, geometry.vertex_plane_mm + 1e6});

@@ -21,7 +21,12 @@ constexpr double least_view_ssim = 0.85, most_slope_per_deg = 0.005;  // the 201
 constexpr double wanted_error_deg = 0.05;
 
 double theory_edge_deg(const Subject& s, int axis) { return arc_edge_deg(s.geometry(), s.theory(), s.viewing_distance_mm(), axis); }
-double widest_edge_deg(const Subject& s) { return std::max(theory_edge_deg(s, 0), theory_edge_deg(s, 1)); }
+double widest_edge_deg(const Subject& s) {
+    double widest = 0;
+    for (int axis = 0; axis < imaging_axes(s.display().array); ++axis) widest = std::max(widest, theory_edge_deg(s, axis));
+    return widest;
+}
+constexpr const char* strips_upright = "strips show the same from above and from below";
 
 /// What all views share: the scene, its elemental images, the white field.
 struct ShownEdge {
@@ -109,8 +114,7 @@ void add_finding(Result& result, const std::string& what, const Interval& measur
     result.findings.push_back(finding(what, "deg", measured, std::move(theory), remark));
 }
 
-void add_geometry(Result& result, Json& json, const std::string& name, const Geometric& g, double edge_deg) {
-    const std::vector<double> theory{-edge_deg, edge_deg};
+void add_geometry(Result& result, Json& json, const std::string& name, const Geometric& g, std::vector<double> theory) {
     add_limits(result, json, name + ".", "own_lens_deg", interval(g.lenses));
     add_limits(result, json, name + ".", "own_lens_with_diffuser_deg", interval(g.diffused));
     add_finding(result, fmt::format("Field of view, {}", name), interval(g.lenses), theory,
@@ -146,6 +150,7 @@ void add_likeness(Result& result, Json& json, const std::string& name, const Ang
 double most_aside_deg(const Json& figures) {
     double most = 0;
     for (const char* axis : {"horizontal", "vertical"}) {
+        if (figures.at(axis).is_null()) continue;
         const auto aside = [&](const char* name) {
             const Json& at = figures.at(axis).at(name);
             return at[0].is_number() && at[1].is_number() ? at[0].get<double>() + at[1].get<double>() : 0;
@@ -164,7 +169,7 @@ void add_eyebox(Result& result, const Subject& s, const std::array<OwnRange, 2>&
     };
     std::vector<double> size, error;
     std::string missing;
-    for (const std::size_t axis : {0u, 1u}) {
+    for (std::size_t axis = 0; axis < std::size_t(imaging_axes(s.display().array)); ++axis) {
         const OwnRange& r = ranges[axis];
         const std::string why = r.missing[0].empty() ? r.missing[1] : r.missing[0];
         size.push_back(r.at[1] - r.at[0]);
@@ -196,7 +201,7 @@ std::array<Geometric, 2> measure_geometry(Result& result, const Subject& s, Job&
     Parts parts(job, s.threads(), (d.diffuser ? 6 : 4) * own_range_parts, geometry_steps(s));
     std::array<Geometric, 2> edges;
     std::array<OwnRange, 2> box;
-    for (const int axis : {0, 1}) {
+    for (int axis = 0; axis < imaging_axes(d.array); ++axis) {
         Geometric& g = edges[std::size_t(axis)];
         const EyePath path = arc(d, s.geometry(), distance, axis);
         g.lenses = where_own(lenses, path, wanted_error_deg, seed, parts);
@@ -258,7 +263,7 @@ Result measure_fov(Subject& subject, Job& job) {
                                      "display; give less",
                                      most, distance));
     Result result;
-    const double edge[] = {theory_edge_deg(subject, 0), theory_edge_deg(subject, 1)};
+    const double edge[] = {theory_edge_deg(subject, 0), is_strips(display.array) ? nan : theory_edge_deg(subject, 1)};
     const std::array<AxisTheory, 2>& along = subject.theory().along;
     result.figures["viewing_distance_mm"] = distance;
     result.figures["theory_fov_deg"] = axes_json(display.array, along[0].fov_deg, along[1].fov_deg);
@@ -274,12 +279,18 @@ Result measure_fov(Subject& subject, Job& job) {
     Plot plot{"fov", "Likeness of the simulated view to the scene", "angle of the view, degrees", "SSIM", {}};
     Plot shares{"fov-share", "The scene's share in the view", "angle of the view, degrees", "covariance / variance", {}};
     DataTable table{"fov", {{"angle_deg", angles}}};
-    for (const int axis : {0, 1}) {
+    if (is_strips(display.array)) {
+        result.figures["vertical"] = Json();
+        result.note("vertical", strips_upright);
+    }
+    for (int axis = 0; axis < imaging_axes(display.array); ++axis) {
         const std::string name = axis == 0 ? "horizontal" : "vertical";
         const Geometric& edges = geometric[std::size_t(axis)];
         const AngleCurves curves = measure(subject, shown, axis, angles, job);
         Json json = Json::object();
-        add_geometry(result, json, name, edges, edge[axis]);
+        // A hexagon's image has a corner above its middle, where theory's pitch has none.
+        const bool corner = axis == 1 && display.array.lattice == LatticeKind::hexagon;
+        add_geometry(result, json, name, edges, corner ? std::vector<double>{} : std::vector{-edge[axis], edge[axis]});
         add_likeness(result, json, name, curves, edges, edge[axis], fades_over_deg(subject, axis));
         result.figures[name] = std::move(json);
         table.columns.push_back({name + "_ssim", curves.screen.value});

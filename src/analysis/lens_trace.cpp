@@ -31,14 +31,34 @@ LensTrace::LensTrace(const Display& display, const Geometry& geometry)
 
 /// By how much, in units of the aperture, a point lies outside of it; 0 or less: inside.
 double LensTrace::outside(double x, double y, double radius) const {
-    double reach = std::hypot(x, y) / radius;
-    if (scene_.aperture == Aperture::cell)
-        reach = std::max({reach, std::abs(x) / scene_.lattice.half_pitch[0], std::abs(y) / scene_.lattice.half_pitch[1]});
+    double reach = std::hypot(x, optics::across(scene_.lattice, y)) / radius;
+    for (int pair = 0; scene_.aperture == Aperture::cell && pair < optics::border_pairs(scene_.lattice); ++pair) {
+        const auto border = optics::borders(scene_.lattice, pair);
+        reach = std::max(reach, std::abs(border.x * x + border.y * y) / border.half);
+    }
     return reach - 1;
 }
 
+/// Through the layers on the panel, whose directions are those in the lowest one. At their top: in air, or in what the lens is
+/// glued to. False: the light stays within them.
+bool LensTrace::leaves_layers(Point& at, Point& cosines) const {
+    double index = 1;
+    for (int k = scene_.layer_count; k-- > 0;) {  // from the panel upwards
+        const auto& layer = scene_.layer[k];
+        const double share = k == scene_.layer_count - 1 ? 1 : index / layer.media.n_below;
+        index = layer.media.n_below;
+        cosines = {share * cosines[0], share * cosines[1]};
+        const double cos2 = 1 - cosines[0] * cosines[0] - cosines[1] * cosines[1];
+        if (!(cos2 > 0)) return false;
+        const double per_height = layer.thickness / std::sqrt(cos2);
+        at = {at[0] + per_height * cosines[0], at[1] + per_height * cosines[1]};
+    }
+    if (!scene_.glued) cosines = {index * cosines[0], index * cosines[1]};
+    return true;
+}
+
 double LensTrace::blocked_by_ideal(Point panel, Point slope, LensRay& out) const {
-    const double z = -scene_.ideal_z, x = panel[0] + slope[0] * z, y = panel[1] + slope[1] * z;
+    const double z = -scene_.ideal_z - scene_.layers_top, x = panel[0] + slope[0] * z, y = panel[1] + slope[1] * z;
     const double radius = scene_.aperture == Aperture::circle ? scene_.aperture_radius : infinity;
     const double aperture = outside(x, y, radius), stop = scene_.has_stop ? outside(x, y, std::sqrt(scene_.stop_radius2)) : 0;
     if (!(aperture <= 0 && stop <= 0)) return missed(0, std::max(aperture, stop));
@@ -63,7 +83,7 @@ struct LensTrace::Aim : optics::Alone<double> {
     }
     bool passes_stop(bool crosses, double x, double y) {
         if (!crosses) return true;
-        astray = std::max(std::hypot(x, y) / std::sqrt(scene.stop_radius2) - 1, 0.);
+        astray = std::max(std::hypot(x, optics::across(scene.lattice, y)) / std::sqrt(scene.stop_radius2) - 1, 0.);
         stopped = !Alone::passes_stop(true, x, y);
         return true;  // it counts once the surface is reached, as a search needs the distance to that first
     }
@@ -92,7 +112,8 @@ struct LensTrace::Aim : optics::Alone<double> {
 
 double LensTrace::blocked(Point panel, Point cosines, LensRay& out) const {
     const int count = scene_.surface_count;
-    const double cos2 = 1 - cosines[0] * cosines[0] - cosines[1] * cosines[1];
+    if (!leaves_layers(panel, cosines)) return missed(3 * count + 2, 0);
+    const double top = -scene_.layers_top, cos2 = 1 - cosines[0] * cosines[0] - cosines[1] * cosines[1];
     if (!(cos2 > 0)) return missed(3 * count + 2, 0);
     const double cosine = std::sqrt(cos2);
     if (count == 0) return blocked_by_ideal(panel, {cosines[0] / cosine, cosines[1] / cosine}, out);
@@ -105,12 +126,12 @@ double LensTrace::blocked(Point panel, Point cosines, LensRay& out) const {
     };
     Aim aim{{scene_}, *this};
     if (aim.black && scene_.dimple) {  // the way in is the hole in the black part's face
-        const auto hole = place(0, scene_.zone_top);
+        const auto hole = place(top, scene_.zone_top);
         if (const double excess = outside(hole.x, hole.y, semi_aperture_mm_[0]); excess > 0) return missed(3 * count + 1, excess);
     }
     const auto& first = scene_.surface[0];
-    const optics::Ray<double> entering{place(0, first.z), to};
-    optics::pass_lens<optics::Shapes::any>(scene_, aim, entering, optics::meet(first.shape, first, entering), way);
+    const optics::Ray<double> entering{place(top, first.z), to};
+    optics::pass_lens<optics::Shapes::other>(scene_, aim, entering, optics::meet<optics::Shapes::other>(scene_, 0, entering), way);
     if (!way.alive) return aim.miss > 0 ? aim.miss : missed(0, aim.last);
     const auto principal = place(at.z + scene_.surface[count - 1].z, -rear_principal_mm_);
     out = {principal.x, principal.y, -to.x / to.z, -to.y / to.z};
@@ -120,6 +141,7 @@ double LensTrace::blocked(Point panel, Point cosines, LensRay& out) const {
 std::optional<LensRay> LensTrace::ray(Point panel, Point cosines) const {
     LensRay ray;
     if (blocked(panel, cosines, ray) > 0) return {};
+    if (scene_.lattice.strips) ray.y = ray.my = 0;  // their foci are lines along y
     return ray;
 }
 

@@ -41,6 +41,7 @@ class LensTrace {
     /// misses the aperture at which it ends, so that a search can follow it.
     double blocked(Point panel, Point cosines, LensRay& out) const;
     std::optional<Directions> search(Point panel, Directions among) const;
+    bool leaves_layers(Point& at, Point& cosines) const;
     double blocked_by_ideal(Point panel, Point slope, LensRay& out) const;
     double outside(double x, double y, double radius) const;
     struct Aim;

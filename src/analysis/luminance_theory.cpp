@@ -114,6 +114,8 @@ double passed(const Display& d, const Geometry& g) {
 
 TheoryFigure luminance_over_panel(const Display& d, const Geometry& g, double eye_mm) {
     if (d.panel.emission_exponent != 0) return {nan, "theory holds for a panel that is equally bright from all directions"};
+    if (is_staggered(d.array) || is_strips(d.array)) return {nan, "theory holds for rows and columns of lenses"};
+    if (!d.panel.layers.empty()) return {nan, "theory holds for panels without layers"};
     if (d.array.turn_deg() != 0) return {nan, "theory holds for arrays that are not turned"};
     return {passed(d, g) * seen_share(d, g, eye_mm, 0) * seen_share(d, g, eye_mm, 1), ""};
 }

@@ -17,8 +17,17 @@ MeantLight::MeantLight(const EyeRays& rays, const Pickup& pickup, const Geometry
             for (const Choice& c : {choice, LineSets::mirrored(choice)}) {
                 const Sight s = rays.look(eye, c);
                 if (!(s.light > 0)) continue;
-                const NodalLine line = pickup.line(s.x, s.y);
-                if (line.owned) rays_[k].push_back({(line.x * pickup.scale - s.x) / g.gap_mm, float(s.light)});
+                const Lattice<double>& lattice = pickup.lattice();
+                if (!lattice.strips) {
+                    const NodalLine line = pickup.line(s.x, s.y);
+                    if (line.owned) rays_[k].push_back({(line.x * pickup.scale - s.x) / g.gap_mm, float(s.light)});
+                    continue;
+                }
+                // The whole pixel, which a strip's edge cuts obliquely, shows what its centre is meant for.
+                const double x = pickup.x_mm(pickup.column(s.x)), y = pickup.y_mm(pickup.row(s.y));
+                const NodalLine line = pickup.line(x, y);
+                const double across = optics::to_array(lattice, line.x * pickup.scale - x, line.y * pickup.scale - y).x;
+                if (line.owned) rays_[k].push_back({across / (g.gap_mm * lattice.cos_turn), float(s.light)});
             }
     }
 }

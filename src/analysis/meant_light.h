@@ -24,7 +24,8 @@ class LineSets {
 
 /// The light that one eye gathers of a white panel, by the viewers that its panel points are meant for: the horizontal slope at
 /// which their elemental image's lens shows them, through its nodal points, to a viewer in front of the screen's middle. A viewer
-/// at x, E from the principal plane, is meant to see the slope x/E.
+/// at x, E from the principal plane, is meant to see the slope x/E. Of strips, which number views by pixels, it is the slope that
+/// the centre of the whole pixel is meant for.
 class MeantLight {
   public:
     MeantLight(const EyeRays&, const Pickup&, const Geometry&, const Vec3d& eye, const LineSets&);

@@ -3,6 +3,7 @@
 #include "analysis/result.h"
 #include "analysis/subject.h"
 
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -19,6 +20,9 @@ struct Measure {
     /// Throws InputError for options that do not suit the display, Stopped where the job is cancelled.
     Result (*run)(Subject&, Job&);
 };
+
+/// Why a measure does not suit a display, if it does not.
+std::optional<Problem> refusal(const Measure&, const Display&);
 
 /// All of them, in the order of the report.
 std::span<const Measure> measures();

@@ -40,6 +40,16 @@ constexpr Measure all[] = {
 
 std::span<const Measure> measures() { return all; }
 
+std::optional<Problem> refusal(const Measure& m, const Display& d) {
+    const bool of_images = m.name == "dof" || m.name == "mtf" || m.name == "spot";
+    if (of_images && d.lens.type() == LensType::pinhole)
+        return Problem{"lens.type",
+                       fmt::format("is \"pinhole\", which images no point: there is nothing for {} to measure", m.name)};
+    if (m.name == "mtf" && is_strips(d.array))
+        return Problem{"array.lattice", "is \"strips\", whose resolution mtf does not measure yet; spot shows their foci"};
+    return {};
+}
+
 const Measure& measure_named(std::string_view name) {
     std::string names;
     for (const Measure& m : all) {

@@ -30,7 +30,8 @@ OwnLens::OwnLens(Display display, bool with_diffuser)
       geometry_(resolve(display_)),
       rays_(display_, geometry_),
       pickup_(display_, geometry_),
-      half_image_mm_{pickup_.lattice().half_pitch[0] * pickup_.scale, pickup_.lattice().half_pitch[1] * pickup_.scale} {}
+      half_image_mm_{pickup_.lattice().half_pitch[0] * pickup_.scale,
+                     pickup_.lattice().strips ? 0 : optics::reach_of_cell(pickup_.lattice()) * pickup_.scale} {}
 
 bool OwnLens::is_whole(double x, double y) const {
     const double c = std::abs(pickup_.lattice().cos_turn), s = std::abs(pickup_.lattice().sin_turn);
@@ -55,11 +56,17 @@ double OwnLens::share(const Vec3d& eye, std::span<const Choice> choices) const {
     for (const Choice& choice : choices) {
         const Sight sight = rays_.look(eye, choice);
         if (!(sight.light > 0 && sight.by_lens)) continue;
-        const double x = sight.lens[0] * pickup_.scale, y = sight.lens[1] * pickup_.scale;
+        const Lattice<double>& lattice = pickup_.lattice();
+        double x = sight.lens[0] * pickup_.scale, y = sight.lens[1] * pickup_.scale;
+        const auto off = optics::to_array(lattice, sight.x - x, sight.y - y);
+        if (lattice.strips) {  // the point of the image's middle line beside the one that is seen
+            const auto along = optics::to_display(lattice, 0., off.y);
+            x += along.x;
+            y += along.y;
+        }
         if (!is_whole(x, y)) continue;
         all += sight.light;
-        const auto off = optics::to_array(pickup_.lattice(), sight.x - x, sight.y - y);
-        if (std::abs(off.x) <= half_image_mm_[0] && std::abs(off.y) <= half_image_mm_[1]) own += sight.light;
+        if (optics::in_cell(lattice, off.x / pickup_.scale, off.y / pickup_.scale)) own += sight.light;
     }
     return all > 0 ? own / all : nan;
 }

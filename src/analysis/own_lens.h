@@ -33,7 +33,7 @@ class OwnLens {
     Geometry geometry_;
     EyeRays rays_;
     Pickup pickup_;
-    std::array<double, 2> half_image_mm_;  // along x' and y'
+    std::array<double, 2> half_image_mm_;  // how far an image reaches from its middle along x' and, but of strips, y'
     bool is_whole(double centre_x, double centre_y) const;
 };
 

@@ -108,7 +108,7 @@ PitchLuminance pitch_luminance(const EyeRays& rays, const Display& d, const Vec3
         sum.resize(side * side);
         for (const Choice& c : even_choices(rays_each, set_number(d.render.seed, part))) {
             const auto axis = optics::axis_in_array(lattice, optics::Cell<double>{in_middle(0, c[4]), in_middle(1, c[5])});
-            const Vec3d at = rays.point(axis.x + lattice.half_pitch[0] * c[0], axis.y + lattice.half_pitch[1] * c[1]);
+            const Vec3d at = rays.point(axis.x + lattice.half_pitch[0] * c[0], axis.y + 0.5 * lattice.pitch[1] * c[1]);
             sum[(side - 1 - cell(c[1])) * side + cell(c[0])] += rays.look_through(eye, at, c[2], c[3]).light;
         }
     });

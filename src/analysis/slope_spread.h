@@ -2,6 +2,7 @@
 #pragma once
 #include "analysis/subject.h"
 
+#include <array>
 #include <functional>
 
 namespace lfdsim {
@@ -12,7 +13,8 @@ namespace lfdsim {
 /// - the lens aperture: q (1/E - 1/L), q the place in the aperture;
 /// - the diffuser: (tan(atan m + theta) - m)(d/M - 1), theta its angle, d its distance from that plane; what it turns past the
 ///   array's border is dark;
-/// - the lenses across: X (1/M - 1/E).
+/// - the lenses across: X (1/M - 1/E);
+/// - of strips, which a pixel stands askew to: its width a/g and height a tan(slant)/g, from its centre; along the panel's rows.
 class SlopeSpread {
   public:
     /// eye_mm: E, more than 0. Along the array's width, or with axis 1 along its height.
@@ -33,8 +35,8 @@ class SlopeSpread {
         double low, high;
         std::function<double(double)> below;
     };
-    Spread aperture() const, lenses() const, diffuser(double x_mm, double aimed_mm) const;
-    static double convolved(const Spread& a, const Spread& b, const Spread& c, double low, double high);
+    Spread aperture() const, lenses() const, diffuser(double x_mm, double aimed_mm) const, pixel() const;
+    static double convolved(std::array<const Spread*, 4> spreads, double low, double high);
     double turned_less(double angle) const;
 
     double eye_mm_, field_;  // slopes of one elemental image, p'/g
@@ -42,6 +44,7 @@ class SlopeSpread {
     bool round_;
     double half_rad_, above_mm_, diffuser_scale_;  // half the diffuser's angle; its height above the vertex plane; 1 - d/M
     bool box_;
+    std::array<double, 2> pixel_slopes_{};  // of strips, whose views are of whole pixels: a pixel along its row, and up it
 };
 
 }  // namespace lfdsim

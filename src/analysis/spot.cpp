@@ -1,6 +1,7 @@
 #include "analysis/spot.h"
 
 #include "model/numbers.h"
+#include "optics/lattice.h"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
@@ -25,12 +26,13 @@ struct Field {
 };
 
 std::vector<Field> trace_fields(const Subject& s, const LensTrace& lens) {
-    const Pitch& p = s.display().array.pitch_mm;
-    const double edge = p[0] / 2;
+    const LensArray& array = s.display().array;
+    const double edge = array.pitch_mm[0] / 2,
+                 corner = array.lattice == LatticeKind::hexagon ? edge / std::sqrt(3) : array.pitch_mm[1] / 2;
     std::vector<Field> fields{{"axis", "on the axis", {0, 0}, {}, {}},
                               {"half", "half way to the edge", {edge / 2, 0}, {}, {}},
-                              {"edge", "edge of the field", {edge, 0}, {}, {}},
-                              {"corner", "corner", {edge, p[1] / 2}, {}, {}}};
+                              {"edge", "edge of the field", {edge, 0}, {}, {}}};
+    if (!is_strips(array)) fields.push_back({"corner", "corner", {edge, corner}, {}, {}});
     for (Field& f : fields) {
         f.light = bundle(lens, f.panel, bundle_rays);
         f.rims = fans(lens, f.panel, fan_rays);
@@ -48,12 +50,13 @@ double told(double mm, double z) { return mm < 1e-9 + 1e-14 * std::abs(z) ? 0 : 
 Spot spot_at(const Subject& s, const Field& f, double z) {
     if (f.light.rays.empty() || f.rims.meridional.empty()) return {nan, nan, nan, nan, nan};
     Spot spot{told(centroid_at(f.light, z).rms, z), told(width_at(f.rims.meridional, z).mm, z),
-              told(width_at(f.rims.sagittal, z).mm, z), nan, nan};
+              is_strips(s.display().array) ? nan : told(width_at(f.rims.sagittal, z).mm, z), nan, nan};
     if (!s.display().diffuser) return spot;
     const double z_diffuser = *s.geometry().diffuser_z_mm - s.geometry().rear_principal_mm,
                  height = std::hypot(f.panel[0], f.panel[1]);
     const Point u = height > 0 ? Point{f.panel[0] / height, f.panel[1] / height} : Point{1, 0}, v{-u[1], u[0]};
     spot.meridional_diffused = told(width_at(diffused(f.rims.meridional, z_diffuser, diffuser_angle(s.display(), u)), z).mm, z);
+    if (is_strips(s.display().array)) return spot;
     spot.sagittal_diffused = told(width_at(diffused(f.rims.sagittal, z_diffuser, diffuser_angle(s.display(), v)), z).mm, z);
     return spot;
 }
@@ -102,6 +105,9 @@ void tell_spots(const Subject& s, const std::vector<Field>& fields, const std::v
     if (!s.display().diffuser)
         for (const char* name : {"meridional_with_diffuser_mm", "sagittal_with_diffuser_mm"})
             result.note(fmt::format("spots.{}", name), "there is no diffuser");
+    if (is_strips(s.display().array))
+        for (const char* name : {"sagittal_width_mm", "sagittal_with_diffuser_mm"})
+            result.note(fmt::format("spots.{}", name), "cylindrical lenses have line foci; widths are across the strips");
     result.tables.push_back(std::move(table));
 }
 
@@ -252,14 +258,16 @@ Distortion distortion(const Display& display, const Geometry& g, const Theory& t
     const LensTrace lens(display, g);
     std::array<int, 2> places;
     std::array<double, 2> step;
+    const Lattice<double>& lattice = g.lattice;
     for (const std::size_t k : {0u, 1u}) {
-        const double views = t.along[k].views;
+        const double views = k == 1 && lattice.strips ? 1 : t.along[k].views;
         places[k] = int(std::clamp(std::round(views), 1., double(most_places)));
         step[k] = views > most_places ? display.array.pitch_mm[k] / places[k] : display.panel.pixel_pitch_mm;
     }
     const auto [columns, rows] = places;
     const double L = t.central_depth_mm, gap = g.gap_mm;
     const auto miss = [&](Point panel) {
+        if (!optics::in_cell(lattice, panel[0], panel[1], 1e-9 * lattice.pitch[0])) return nan;
         const Bundle light = bundle(lens, panel, pixel_rays);
         if (light.rays.empty()) return nan;
         // Both lines as slopes from the axis's point at H', so that L may be infinite: at L a pixel's image is a |L| / g wide.

@@ -71,8 +71,8 @@ void add_screen(Result& result, const ScreenLuminance& screen, const Subject& s,
 
 void add_bands(Result& result, const PitchLuminance& pitch, const Subject& s) {
     constexpr int side = PitchLuminance::side;
-    const Pitch& p = s.display().array.pitch_mm;
-    const double half[] = {p[0] / 2, p[1] / 2};
+    const Lattice<double>& lattice = s.geometry().lattice;
+    const double half[] = {lattice.pitch[0] / 2, lattice.pitch[1] / 2};
     Plot plot{"uniformity_bands",
               "Luminance across one lens pitch, seen on axis",
               "place from the lens's axis, mm",
@@ -81,13 +81,14 @@ void add_bands(Result& result, const PitchLuminance& pitch, const Subject& s) {
     DataTable table{"uniformity_bands", {}};
     const std::array<double, 2> foreseen = band_contrast(s.display(), s.geometry());
     Json& json = result.figures["bands"];
-    for (const int axis : {0, 1}) {
+    for (int axis = 0; axis < imaging_axes(s.display().array); ++axis) {
         const std::string name = axis == 0 ? "horizontal" : "vertical";
         const std::vector<Sums> profile = pitch.profile(axis);
         const Estimate contrast = michelson(profile);
         const double theory = foreseen[std::size_t(axis)];
         add_figure(json, name + "_contrast", contrast);
-        json["theory_" + name + "_contrast"] = theory;
+        json["theory_" + name + "_contrast"] = number_json(theory);
+        if (std::isnan(theory)) result.note("bands.theory_" + name + "_contrast", "theory holds for rows and columns of lenses");
         result.findings.push_back({fmt::format("Dark bands at lens joints, {}: Michelson contrast", name),
                                    "",
                                    {contrast.value},
@@ -96,8 +97,7 @@ void add_bands(Result& result, const PitchLuminance& pitch, const Subject& s) {
                                    {contrast.error}});
         std::vector<double> places;
         for (int k = 0; k < side; ++k) places.push_back(half[axis] * ((2 * k + 1.) / side - 1));
-        if (axis == 0 || differs_by_axis(s.display().array))
-            table.columns.push_back({axis == 0 ? "place_mm" : "vertical_place_mm", places});
+        if (axis == 0 || half[1] != half[0]) table.columns.push_back({axis == 0 ? "place_mm" : "vertical_place_mm", places});
         plot.series.push_back({name, places, means(profile)});
         table.columns.push_back({name + "_luminance", means(profile)});
     }
@@ -204,7 +204,12 @@ void add_angles(Result& result, Subject& s, const EyeRays& rays, double distance
     result.tables.push_back(std::move(table));
 }
 
-void add_budget(Result& result, const std::array<LightBudget, independent_sets>& budgets) {
+void add_budget(Result& result, const Geometry& g, const std::array<LightBudget, independent_sets>& budgets) {
+    if (g.layers_top_mm > 0 || g.glued) {  // which guide part of the light sideways
+        for (const char* name : {"efficiency", "efficiency_within_fov", "efficiency_of_panel", "share_reaching_array"})
+            result.figures["light"][name] = Json();
+        return result.note("light", "how much light enters what lies on the panel is not measured, only what leaves lenses in air");
+    }
     const auto share = [&](double LightBudget::*part, double LightBudget::*whole) {
         return jackknife([&](int without) {
             const LightBudget b = mean_budget(budgets, without);
@@ -248,7 +253,7 @@ Result measure_uniformity(Subject& s, Job& job) {
     add_screen(result, screen_luminance(rays, s.display(), eye, parts), s, distance);
     add_bands(result, pitch_luminance(rays, s.display(), eye, parts), s);
     add_angles(result, s, rays, distance, parts);
-    add_budget(result, light_budgets(s.display(), s.geometry(), parts));
+    add_budget(result, s.geometry(), light_budgets(s.display(), s.geometry(), parts));
     result.remarks.push_back(
         "A lens passes on the panel's radiance: luminance falls only by reflection and where lines of sight end beside a lens or "
         "the panel. Light efficiency is a different measure: light leaves in all directions, most of it to where no viewer is.");

@@ -83,9 +83,11 @@ struct ParaxialZone {
 };
 
 ParaxialZone paraxial(const Subject& s, std::size_t axis) {
-    const LensArray& array = s.display().array;
-    return {s.theory().along[axis].elemental_pitch_mm / (2 * s.geometry().gap_mm),
-            (s.geometry().lattice.count[axis] - 1) * array.pitch_mm[axis] / 2,
+    const Lattice<double>& lattice = s.geometry().lattice;
+    // Strips are crossed obliquely by an eye that moves along x.
+    const double per = lattice.strips ? 1 / lattice.cos_turn : 1;
+    return {per * s.theory().along[axis].elemental_pitch_mm / (2 * s.geometry().gap_mm),
+            per * (lattice.count[axis] - 1) * lattice.pitch[axis] / 2,
             s.display().content.viewing_distance_mm - s.geometry().rear_principal_mm};
 }
 
@@ -209,7 +211,11 @@ void add_sideways(Result& result, Search& search, const Subject& s, const std::a
     Plot plot{"zone", missing, "viewer's place, degrees", "share of rays", {}};
     DataTable table{"zone", {}};
     const auto degrees = [&](double mm) { return std::atan(mm / eye) / degree; };
-    for (const std::size_t axis : {0u, 1u}) {
+    if (is_strips(s.display().array)) {
+        result.figures["vertical"] = Json();
+        result.note("vertical", "strips show the same from above and from below");
+    }
+    for (std::size_t axis = 0; axis < std::size_t(imaging_axes(s.display().array)); ++axis) {
         const std::string name = axis == 0 ? "horizontal" : "vertical";
         const Zone zone = search.along(even_places(-half[axis], half[axis], curve_points), [&](double place) {
             return axis == 0 ? Vec3d{place, 0, distance} : Vec3d{0, place, distance};
@@ -253,7 +259,8 @@ void add_sideways(Result& result, Search& search, const Subject& s, const std::a
 
 void add_axis(Result& result, Search& search, const Subject& s, double distance) {
     const double rear = s.geometry().rear_principal_mm;
-    const ParaxialZone across = paraxial(s, 0), up = paraxial(s, 1);  // the shorter of the two is the display's
+    const ParaxialZone across = paraxial(s, 0),
+                       up = paraxial(s, imaging_axes(s.display().array) - 1);  // the shorter is the display's
     const ParaxialZone theory = across.reach_per_mm() <= up.reach_per_mm() ? across : up;
     const auto from_panel = [&](double inverse) { return rear + 1 / inverse; };
     Zone zone = search.along(inverse_distances(s, distance - rear, theory), [&](double inverse) {
@@ -282,7 +289,8 @@ void add_axis(Result& result, Search& search, const Subject& s, double distance)
 
 /// Why a zone is not symmetric, where it is not by more than the stated errors.
 std::string aside_remark(const Json& figures) {
-    for (const char* axis : {"horizontal", "vertical"})
+    for (const char* axis : {"horizontal", "vertical"}) {
+        if (figures.at(axis).is_null()) continue;
         for (const std::string name : {"wrong_1_percent_deg", "wrong_50_percent_deg"}) {
             const Json &at = figures.at(axis).at(name), &error = figures.at(axis).at(name + "_error");
             if (!at[0].is_number() || !at[1].is_number()) continue;
@@ -292,6 +300,7 @@ std::string aside_remark(const Json& figures) {
                        "two "
                        "elemental images belong, as whole pixels must, to the one to the right and above.";
         }
+    }
     return "";
 }
 
@@ -314,8 +323,10 @@ SightShares sight_shares(const EyeRays& rays, const Pickup& pickup, const Displa
                      row = std::floor(0.5 * double(d.panel.pixels[1]) - s.y / pixel);
         const NodalLine owner = pickup.line(pickup.x_mm(column), pickup.y_mm(row));
         if (s.light > 0 && owner.owned) {
-            const auto off = optics::to_array(pickup.lattice(), owner.x - s.lens[0], owner.y - s.lens[1]);
-            const std::pair way{std::lround(off.x / d.array.pitch_mm[0]), std::lround(off.y / d.array.pitch_mm[1])};
+            const Lattice<double>& lattice = pickup.lattice();
+            const auto off = optics::to_array(lattice, owner.x - s.lens[0], owner.y - s.lens[1]);
+            const std::pair way{std::lround(2 * off.x / lattice.pitch[0]),
+                                std::lround(optics::across(lattice, off.y) / lattice.pitch[1])};
             wrong += way != std::pair{0L, 0L};
             ++towards[way];
         } else {
@@ -335,7 +346,10 @@ std::int64_t zone_steps(const Subject& s) { return pictures_worth(s, 12'000'000)
 Result measure_zone(Subject& s, Job& job) {
     const double distance = checked_viewing_distance_mm(s), eye = distance - s.geometry().rear_principal_mm;
     std::array<double, 2> half;
-    for (const std::size_t axis : {0u, 1u}) half[axis] = eye * std::min(3 * paraxial(s, axis).half_fov, std::tan(80 * degree));
+    for (const std::size_t axis : {0u, 1u}) {
+        const std::size_t imaging = std::min(axis, std::size_t(imaging_axes(s.display().array) - 1));
+        half[axis] = eye * std::min(3 * paraxial(s, imaging).half_fov, std::tan(80 * degree));
+    }
     Search search(s, job);
     Result result;
     result.figures["viewing_distance_mm"] = distance;

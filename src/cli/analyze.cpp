@@ -13,7 +13,6 @@
 #include "engine/memory.h"
 #include "files/display_file.h"
 #include "image/file.h"
-#include "model/coverage.h"
 #include "report/folder.h"
 #include "report/report.h"
 #include "report/side_by_side.h"
@@ -159,8 +158,7 @@ struct Analysis {
     void one(const Measure& m, Progress& progress) {
         try {
             const auto start = std::chrono::steady_clock::now();
-            if (auto problem = beyond_lenses_in_air(subject.display(), fmt::format("the measure {}", m.name)))
-                throw InputError(std::vector{std::move(*problem)});
+            if (auto problem = refusal(m, subject.display())) throw InputError(std::vector{std::move(*problem)});
             const Result result = m.run(subject, progress);
             folder.write(m, result, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
         } catch (const InputError& e) {  // it does not suit this display or these options: others may

@@ -36,6 +36,10 @@ class Pickup {
     double x_mm(double column) const { return (left_ + column + 0.5) * pixel_; }
     double y_mm(double row) const { return (top_ - row - 0.5) * pixel_; }
 
+    /// The pixel whose column or row a panel point is in.
+    double column(double x) const { return std::floor(x / pixel_ - left_); }
+    double row(double y) const { return std::floor(top_ - y / pixel_); }
+
     /// The line of the panel point (x, y). The line from the viewer at (0, 0, D) through the nodal points of the lens at C meets
     /// the panel at C scale, scale = 1 + g / (D - z_rear): the centre of its elemental image. The nearest centre is found in the
     /// array's own axes, where lens (i, j) covers the unit square from (i, j).

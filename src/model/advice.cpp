@@ -37,20 +37,21 @@ void advise_on_lenses(Advised& a) {
               g.focal_length_mm);
     if (g.focal_length_mm < 0) a.say("the lens is a diverging one: it has no real image of the panel at any gap");
 
-    const std::size_t few = t.along[0].views <= t.along[1].views ? 0 : 1;
+    const bool strips = is_strips(d.array);
+    const std::size_t few = strips || t.along[0].views <= t.along[1].views ? 0 : 1;
     // Lens k begins k N pixels from the first; a fraction of a pixel in N shifts the views of the last lens against those of the
     // first.
     const auto drift = [&](std::size_t k) {
         return std::abs(t.along[k].views - std::round(t.along[k].views)) * g.lattice.count[k];
     };
-    const std::size_t drifts = drift(0) >= drift(1) ? 0 : 1;
+    const std::size_t drifts = strips || drift(0) >= drift(1) ? 0 : 1;
     if (t.along[few].views < 2)
         a.say(
             "the lenses are {} ({:.4g} of {:.4g} mm): they can show only one view. Use wider lenses (--set array.pitch_mm), or a "
             "panel of finer pixels (--set panel.pixel_pitch_mm)",
             t.along[few].views < 1 ? "smaller than a panel pixel" : "less than two panel pixels wide", d.array.pitch_mm[few],
             d.panel.pixel_pitch_mm);
-    else if (drift(drifts) > 0.5)
+    else if (drift(drifts) > 0.5 && !strips)  // which lean so that their views are not whole numbers
         a.say("a lens covers {:.4f} panel pixels, not a whole number: across the array this adds up to {:.2g} pixels",
               t.along[drifts].views, drift(drifts));
 }

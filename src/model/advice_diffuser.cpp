@@ -37,6 +37,7 @@ std::string option_text(const std::array<double, 2>& deg) {
 void advise_on_diffuser(Advised& a) {
     const Display& d = a.display;
     const Geometry& g = a.geometry;
+    if (is_staggered(d.array) || is_strips(d.array)) return;  // band_contrast() is that of rows and columns
     const Pitch& p = d.array.pitch_mm;
     const double eye = eye_distance_mm(d) - g.vertex_plane_mm, best_distance = best_distance_mm(g, a.theory, p, eye);
     std::array<double, 2> best_deg, height, angle;

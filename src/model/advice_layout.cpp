@@ -30,6 +30,7 @@ void advise_on_layout(Advised& a) {
     const Display& d = a.display;
     const Geometry& g = a.geometry;
     if (!(d.content.viewing_distance_mm > g.rear_principal_mm)) return;  // there are no such elemental images
+    if (!d.array.count || is_strips(d.array)) return;                    // what covers the panel reaches beyond it
     const double scale = a.theory.along[0].elemental_pitch_mm / d.array.pitch_mm[0];
     LensArray straight = d.array;
     straight.offset_mm = {};

@@ -79,6 +79,7 @@ double aperture_plane_mm(const Display& d, const Geometry& g, std::size_t axis) 
 double gap_closing_angle_deg(double pitch_mm, double height_mm) { return 2 * std::atan(pitch_mm / (2 * height_mm)) / degree; }
 
 std::array<double, 2> band_contrast(const Display& d, const Geometry& g) {
+    if (is_staggered(d.array) || is_strips(d.array)) return {nan, nan};  // the waves are those of rows and columns
     // Without an opaque surround light passes between the lenses too; a sheet of stops is black in any case.
     if (d.array.surround != Surround::opaque && !d.lens.stop_radius_mm) return {0, 0};
     const double turn = d.array.turn_deg() * degree, radius = pupil_radius_mm(d, g);

@@ -28,6 +28,9 @@ bool is_staggered(const LensArray&);
 /// Cylindrical lenses side by side.
 bool is_strips(const LensArray&);
 
+/// Axes of the array's frame along which the lenses image: strips do so along x' alone.
+inline int imaging_axes(const LensArray& array) { return is_strips(array) ? 1 : 2; }
+
 /// Whether figures that depend on the pitch differ between the array's own x and y, and are reported for each.
 bool differs_by_axis(const LensArray&);
 
