@@ -1,0 +1,61 @@
+// Measures on hexagons and strips against closed forms.
+#include "analysis/crosstalk.h"
+#include "analysis/own_lens.h"
+#include "model/numbers.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace lfdsim {
+namespace {
+
+/// Thin lenses that fill cells of pitch 2 mm before a panel of 240 mm, for an eye at 600 mm.
+Display display(LatticeKind lattice, double gap_mm, double central_depth_mm, std::vector<Layer> layers = {}) {
+    Display d;
+    d.panel = {{2400, 1200}, 0.1, {}, 0, std::move(layers)};
+    d.lens.kind = IdealLens{{}, 1 / (1 / gap_mm + 1 / central_depth_mm)};
+    d.array.lattice = lattice;
+    d.array.pitch_mm = 2;
+    d.array.gap_mm = gap_mm;
+    d.array.aperture = Aperture::cell;
+    d.camera.position_mm = {0, 0, 600};
+    d.content.viewing_distance_mm = 600;
+    return d;
+}
+
+TEST(Lattices, FieldOfViewIsThatOfTheExactRay) {
+    Display steep = display(LatticeKind::strips, 2.6, 3000, {{1.5, 1.52}, {0.3, 1.6}}),
+            gentle = display(LatticeKind::strips, 6, 200);
+    steep.array.slant_deg = -27;
+    gentle.array.slant_deg = 9.4623;
+    const Display hexagons = display(LatticeKind::hexagon, 4, 150), covered = display(LatticeKind::hexagon, 3, 1e4, {{1.8, 1.5}});
+    for (const Display& d : {steep, gentle, hexagons, covered}) {
+        const Geometry g = resolve(d);
+        const double exact = theory(d, g).along[0].fov_exact_deg;
+        Job job;
+        Parts parts(job, 2, own_range_parts, 1);
+        const OwnRange found = where_own(OwnLens(d, false), arc(d, g, 600, 0), 0.05, 0, parts);
+        EXPECT_NEAR(found.at[1] - found.at[0], exact, 0.5);
+        EXPECT_LT(found.error[0], 0.06);
+    }
+}
+
+// An eye at the distance that images are made for sees one line of the panel through each strip, askew to the pixels by the slant.
+// Pixels belong to the view that their centres are meant for, a pixel wide along the row: a pixel on the line is as far from it as
+// the sum of two even spreads, a along the row and a tan(slant). It is at most a/2 with probability 1 - tan(slant)/4.
+TEST(Lattices, CrosstalkOfSlantedStripsIsTheViewsOverlap) {
+    for (const double slant : {0., 9.4623, -18.435, 30.}) {
+        Display d = display(LatticeKind::strips, 5, 595);
+        d.array.slant_deg = slant;
+        Subject subject(d, {}, {});
+        Job job;
+        const Json figures = measure_crosstalk(subject, job).figures.at("between_views");
+        const double t = std::abs(std::tan(slant * degree)), overlap = 100 * t / (4 - t);
+        EXPECT_NEAR(figures.at("woods_percent").get<double>(), overlap, 1) << slant;
+        EXPECT_NEAR(figures.at("theory_percent").get<double>(), overlap, 0.1) << slant;
+    }
+}
+
+}  // namespace
+}  // namespace lfdsim
