@@ -24,7 +24,8 @@ void advise_on_lenses(Advised& a) {
     const Theory& t = a.theory;
 
     // With ten times the gap the image of the panel is a virtual one a tenth farther than the panel itself, and hardly larger.
-    if (!(std::abs(g.focal_length_mm) < 10 * g.gap_mm))
+    const bool pinhole = d.lens.type() == LensType::pinhole;
+    if (!pinhole && !(std::abs(g.focal_length_mm) < 10 * g.gap_mm))
         a.say(
             "the lenses have hardly any power (focal length {:.5g} mm, the panel {:.5g} mm behind them): the panel itself is "
             "seen through them, and no views. Use glass of an index well above 1 (--set lens.index=1.4918), or surfaces that are "
@@ -45,7 +46,7 @@ void advise_on_lenses(Advised& a) {
         return std::abs(t.along[k].views - std::round(t.along[k].views)) * g.lattice.count[k];
     };
     const std::size_t drifts = strips || drift(0) >= drift(1) ? 0 : 1;
-    if (t.along[few].views < 2)
+    if (t.along[few].views < 1.9)  // a barrier of two views has a little less than two pixels behind a slit
         a.say(
             "the lenses are {} ({:.4g} of {:.4g} mm): they can show only one view. Use wider lenses (--set array.pitch_mm), or a "
             "panel of finer pixels (--set panel.pixel_pitch_mm)",

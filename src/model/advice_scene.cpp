@@ -69,7 +69,8 @@ void advise_on_scene(Advised& a) {
 
     // Depths count from the vertex plane, the theory's from the rear principal plane.
     const double from_lens = g.content_depth_mm + g.vertex_plane_mm - g.rear_principal_mm;
-    if (!is_sharp(a.theory, from_lens))
+    const bool at_lenses = std::abs(from_lens) <= widest_aperture_mm(g);  // where all views agree
+    if (a.display.lens.type() != LensType::pinhole && !at_lenses && !is_sharp(a.theory, from_lens))
         a.say(
             "the content's centre, {:.4g} mm from the lenses, is outside the depth of field, whose ends are at "
             "{:.4g} and {:.4g} mm",
