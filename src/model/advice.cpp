@@ -32,7 +32,7 @@ void advise_on_lenses(Advised& a) {
             "more curved",
             g.focal_length_mm, g.gap_mm);
     // Beyond a hundred panel heights an image plane is practically at infinity: intended only where the scene is far away too.
-    else if (!(std::abs(t.central_depth_mm) < 100 * g.panel_height_mm) &&
+    else if (!pinhole && !(std::abs(t.central_depth_mm) < 100 * g.panel_height_mm) &&
              !is_sharp(t, g.content_depth_mm + g.vertex_plane_mm - g.rear_principal_mm))
         a.say("the gap is about the focal length ({:.6g} and {:.6g} mm): the central depth plane is at infinity", g.gap_mm,
               g.focal_length_mm);
@@ -46,7 +46,7 @@ void advise_on_lenses(Advised& a) {
         return std::abs(t.along[k].views - std::round(t.along[k].views)) * g.lattice.count[k];
     };
     const std::size_t drifts = strips || drift(0) >= drift(1) ? 0 : 1;
-    if (t.along[few].views < 1.9)  // a barrier of two views has a little less than two pixels behind a slit
+    if (t.along[few].views < (strips ? 1.9 : 2))  // a little less than two pixels of a barrier's two views are behind a slit
         a.say(
             "the lenses are {} ({:.4g} of {:.4g} mm): they can show only one view. Use wider lenses (--set array.pitch_mm), or a "
             "panel of finer pixels (--set panel.pixel_pitch_mm)",
