@@ -225,17 +225,21 @@ void add_sideways(Result& result, Search& search, const Subject& s, const std::a
         const ParaxialZone zone_of = paraxial(s, axis);
         const double theory = degrees(eye * zone_of.half_slope(eye)), half_fov = degrees(eye * zone_of.half_fov);
         Json json = Json::object();
-        json["theory_deg"] = {0 - theory, theory};
+        // A hexagon's image has a corner above its middle, where theory's pitch has none.
+        const bool corner = axis == 1 && s.display().array.lattice == LatticeKind::hexagon;
+        json["theory_deg"] = corner ? Json() : Json{0 - theory, theory};
         for (const std::size_t t : {0u, 1u}) {
             const Interval& mm = zone.limits[t];
             const Interval deg = mapped(mm, degrees);
             const std::string percent = fmt::format("{:g}", 100 * thresholds[t]);
             add_limits(result, json, name + ".", fmt::format("wrong_{}_percent_mm", percent), mm);
             add_limits(result, json, name + ".", fmt::format("wrong_{}_percent_deg", percent), deg);
-            result.findings.push_back(
-                finding(fmt::format("Viewing zone, {}: at most {} % of the rays wrong", name, percent), "deg", deg,
-                        t == 0 ? std::vector<double>{0 - theory, theory} : std::vector<double>{-half_fov, half_fov},
-                        fmt::format("{:.4g} to {:.4g} mm", mm.low.at, mm.high.at)));
+            result.findings.push_back(finding(fmt::format("Viewing zone, {}: at most {} % of the rays wrong", name, percent), "deg",
+                                              deg,
+                                              corner   ? std::vector<double>{}
+                                              : t == 0 ? std::vector<double>{0 - theory, theory}
+                                                       : std::vector<double>{-half_fov, half_fov},
+                                              fmt::format("{:.4g} to {:.4g} mm", mm.low.at, mm.high.at)));
         }
         result.figures[name] = std::move(json);
         if (axis == 0) {

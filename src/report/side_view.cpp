@@ -1,4 +1,5 @@
 #include "report/side_view.h"
+#include "report/section.h"
 
 #include "model/numbers.h"
 #include "report/side_scale.h"
@@ -102,7 +103,8 @@ struct Labels {
 
 }  // namespace
 
-std::string side_view_svg(const Subject& s, SideFrame* frame) {
+std::string side_view_svg(const Subject& display, SideFrame* frame) {
+    const Subject s = section_of(display);
     const Display& d = s.display();
     const Geometry& g = s.geometry();
     const Planes planes(s);

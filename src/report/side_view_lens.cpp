@@ -1,4 +1,5 @@
 #include "model/numbers.h"
+#include "report/section.h"
 #include "report/side_scale.h"
 #include "report/side_view.h"
 
@@ -8,7 +9,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr double lens_page_width = 960, left = 76, top = 16, notes = 220, lens_drawn = lens_page_width - left - notes,
+constexpr double lens_page_width = 960, left = 76, top = 16, notes_width = 220, lens_drawn = lens_page_width - left - notes_width,
                  lens_most_height = 440;
 
 double rim_z(const PlacedSurface& f, double rim) { return f.z_mm + sag_mm(f.curvature_per_mm, f.conic, f.even_asphere, rim); }
@@ -144,7 +145,8 @@ std::vector<std::string> notes_of(const Subject& s) {
 
 }  // namespace
 
-std::string lens_view_svg(const Subject& s, SideFrame* frame) {
+std::string lens_view_svg(const Subject& display, SideFrame* frame) {
+    const Subject s = section_of(display);
     const Display& d = s.display();
     const Geometry& g = s.geometry();
     const Window w = window_of(d, g);
@@ -160,6 +162,11 @@ std::string lens_view_svg(const Subject& s, SideFrame* frame) {
     for (std::int64_t row = w.first; row <= w.last + 1; ++row)
         draw_between(drawing, scale, d, g, lens_at(g.lattice, row).y_mm - 0.5 * d.array.pitch_mm[1],
                      row<std::int64_t(g.lattice.count[1]), row> 0);
+    double layer_z = 0;
+    for (const Layer& layer : d.panel.layers) {
+        drawing.rectangle(scale.at(w.high, layer_z), per_z * layer.thickness_mm, high, glass_style);
+        layer_z += layer.thickness_mm;
+    }
     draw_rays(drawing, scale, s, w);
     if (g.diffuser_z_mm && *g.diffuser_z_mm < w.to)
         drawing.line(scale.at(w.low, *g.diffuser_z_mm), scale.at(w.high, *g.diffuser_z_mm), diffuser_style);
@@ -200,14 +207,17 @@ std::string lens_view_svg(const Subject& s, SideFrame* frame) {
         drawing.line(at(y, g.stop_z_mm), {at(y, beside)[0] + 6, at(y, beside)[1]}, "stroke-opacity=\"0.5\"");
     drawing.dimension(at(upper - half, beside), at(upper + half, beside), "D = " + mm(g.clear_aperture_mm[1]));
     double row = top + 16;
-    for (const std::string& line : notes_of(s)) {
-        drawing.text({lens_page_width - notes + 18, row}, line, "font-size=\"12\"");
+    std::vector<std::string> notes = notes_of(s);
+    if (shows_a_row(display.display())) notes.push_back("section along a row of the array");
+    for (const std::string& line : notes) {
+        drawing.text({lens_page_width - notes_width + 18, row}, line, "font-size=\"12\"");
         row += 21;
     }
-    drawing.text({lens_page_width - notes + 18, row + 6}, "from the eye back to the panel", "font-size=\"12\" fill=\"#d55e00\"");
-    drawing.text({lens_page_width - notes + 18, row + 27}, "the light of one pixel", "font-size=\"12\" fill=\"#1f7fc0\"");
+    drawing.text({lens_page_width - notes_width + 18, row + 6}, "from the eye back to the panel",
+                 "font-size=\"12\" fill=\"#d55e00\"");
+    drawing.text({lens_page_width - notes_width + 18, row + 27}, "the light of one pixel", "font-size=\"12\" fill=\"#1f7fc0\"");
     if (!scale.true_to_scale())
-        drawing.text({lens_page_width - notes + 18, row + 48}, fmt::format("heights drawn {:.3g} times", per_y / per_z),
+        drawing.text({lens_page_width - notes_width + 18, row + 48}, fmt::format("heights drawn {:.3g} times", per_y / per_z),
                      "font-size=\"11\"");
     return drawing.svg();
 }

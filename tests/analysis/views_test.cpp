@@ -104,7 +104,9 @@ TEST(Views, AStoppedMeasureStops) {
 TEST(Views, DepthsInsideTheLensesAreRefused) {
     Display d = display(40, 150);
     AnalysisOptions options;
-    options.depths_mm = {-1, 0, 1};
+    d.lens.kind = PlanoConvex{8, 3, 1, 1.5, Facing::viewer};
+    d.array.aperture = Aperture::circle;
+    options.depths_mm = {-3, -0.5, 1};
     Subject s(d, ContentScene(built_in_model(), d, resolve(d)), options);
     Job job;
     EXPECT_THROW(measure_dof(s, job), InputError);
