@@ -1,6 +1,6 @@
 #include "meshed/lens_mesh.h"
 
-#include "model/coverage.h"
+#include "meshed/cell_sides.h"
 #include "model/numbers.h"
 #include "model/vec.h"
 
@@ -36,29 +36,31 @@ class Outline {
     Outline(const PlacedSurface& s, const LensArray& array)
         : radius_(s.semi_aperture_mm),
           round_(array.aperture == Aperture::circle),
-          half_{array.pitch_mm[0] / 2, array.pitch_mm[1] / 2} {}
-    // The point at this share of the way round, counter-clockwise. A cell's outline begins in a corner, so quarters end in corners.
+          reach_(round_ ? radius_ : std::min(radius_, outer_radius_mm(array))),
+          sides_(cell_sides(array)) {}
+    // The point at this share of the way round, counter-clockwise. A cell's outline begins in a corner; each side has an equal
+    // share.
     std::array<double, 2> point(double share) const {
         if (round_) {
             const double angle = 2 * pi * share;
             return {radius_ * std::cos(angle), radius_ * std::sin(angle)};
         }
-        const int side = std::min(int(4 * share), 3);
-        const std::size_t out = side % 2, up = 1 - out;  // the axis normal to the side, and the one along it
-        const double along = half_[up] * (2 * (4 * share - side) - 1),
-                     scale = std::min(1.0, radius_ / std::hypot(half_[out], along));
-        const double x = scale * half_[out], y = scale * along;
-        return side == 0 ? std::array{x, y} : side == 1 ? std::array{-y, x} : side == 2 ? std::array{-x, -y} : std::array{y, -x};
+        const double sides = double(sides_.size());
+        const std::size_t number = std::min(std::size_t(sides * share), sides_.size() - 1);
+        const CellSide& side = sides_[number];
+        const double out = side.from_axis_mm, along = side.half_length_mm * (2 * (sides * share - double(number)) - 1),
+                     scale = std::min(1.0, radius_ / std::hypot(out, along));
+        const double x = scale * out, y = scale * along;
+        return {x * side.out[0] - y * side.out[1], x * side.out[1] + y * side.out[0]};
     }
-    double reach() const {
-        const double q = half_[1] / half_[0];
-        return round_ ? radius_ : std::min(radius_, half_[0] * std::sqrt(1 + q * q));
-    }
+    std::array<double, 2> middle_of_side() const { return point(0.5 / double(sides_.size())); }
+    double reach() const { return reach_; }
 
   private:
     double radius_;
     bool round_;
-    double half_[2];
+    double reach_;  // from the axis
+    std::vector<CellSide> sides_;
 };
 
 // Ring k of a curved surface has sectors x k vertices; the last ring is the rim.
@@ -97,7 +99,7 @@ class Builder {
         return std::move(mesh_);
     }
 
-    // Number of triangles of such a mesh; exact except for walls of square lenses whose rims touch in parts.
+    // Number of triangles of such a mesh; exact except for walls of lenses that fill their cells, whose rims touch in parts.
     double count(Grid grid) const {
         double sum = 0;
         const auto& surfaces = geometry_.surfaces;
@@ -111,8 +113,9 @@ class Builder {
 
   private:
     bool rims_touch(const PlacedSurface& a, const PlacedSurface& b) const {
-        // Most points of a square's outline are closer to the axis than its corners: the middle of a side represents them.
-        const double x = std::hypot(Outline(a, array_).point(0.125)[0], Outline(a, array_).point(0.125)[1]);
+        // Most points of a cell's outline are closer to the axis than its corners: the middle of a side represents them.
+        const auto middle = Outline(a, array_).middle_of_side();
+        const double x = std::hypot(middle[0], middle[1]);
         const double near = touching * a.semi_aperture_mm;
         return std::abs(a.semi_aperture_mm - b.semi_aperture_mm) < near && std::abs(a.z_mm + sag(a, x) - b.z_mm - sag(b, x)) < near;
     }
@@ -191,7 +194,7 @@ class Builder {
         }
     }
 
-    // The normal at corner i of a quadrilateral of a wall, lower edge first: a round wall is a cone, a square one has flat sides.
+    // The normal at corner i of a quadrilateral of a wall, lower edge first: a round wall is a cone, that of a cell has flat sides.
     Vec3d wall_normal(const Vec3d (&at)[4], int i) const {
         Vec3d n;
         if (array_.aperture == Aperture::circle) {
@@ -212,17 +215,20 @@ class Builder {
 };
 
 // The grid whose number of triangles is closest to the wanted one; among equally close ones that of the best shape: six sectors, or
-// two to a square's side.
-Grid choose_grid(const Builder& builder, bool square, double wanted) {
+// two to a rectangle's side. Of lenses that fill cells with so many sides, 0 otherwise.
+Grid choose_grid(const Builder& builder, int sides, double wanted) {
     Grid best{};
     double least = INFINITY;
-    for (const int sectors : square ? std::vector{4, 8, 12, 16} : std::vector{3, 4, 5, 6, 7, 8}) {
+    const std::vector<int> choice = sides == 0   ? std::vector{3, 4, 5, 6, 7, 8}
+                                    : sides == 4 ? std::vector{4, 8, 12, 16}
+                                                 : std::vector{6, 12, 18};
+    for (const int sectors : choice) {
         int rings = 1;  // the most that do not give too many triangles
         for (int step = 1024; step > 0; step /= 2)
             if (builder.count({sectors, rings + step}) <= wanted) rings += step;
         for (const int more : {0, 1}) {
             const Grid grid{sectors, rings + more};
-            const double cost = std::abs(std::log(builder.count(grid) / wanted)) + 0.01 * std::abs(sectors - (square ? 8 : 6));
+            const double cost = std::abs(std::log(builder.count(grid) / wanted)) + 0.01 * std::abs(sectors - (sides == 4 ? 8 : 6));
             if (cost < least) least = cost, best = grid;
         }
     }
@@ -234,12 +240,14 @@ Grid choose_grid(const Builder& builder, bool square, double wanted) {
 LensMesh mesh_lens(const Display& display, const Geometry& geometry, std::int64_t triangles) {
     if (geometry.surfaces.front().form == SurfaceForm::thin)
         throw InputError("lens.type", "an ideal lens or a pinhole has no surfaces to make triangles of; give a real lens");
-    if (auto problem = beyond_lenses_in_air(display, "a mesh of the lens")) throw InputError(std::vector{std::move(*problem)});
+    if (is_strips(display.array))
+        throw InputError("array.lattice", "is \"strips\", and cylindrical lenses are not made of triangles; take another lattice");
     if (triangles < least_lens_triangles || triangles > most_lens_triangles)
         throw InputError("--lens-mesh",
                          fmt::format("{} triangles; allowed: {} to {}", triangles, least_lens_triangles, most_lens_triangles));
     Builder builder(display, geometry);
-    return builder.build(choose_grid(builder, display.array.aperture == Aperture::cell, double(triangles)));
+    return builder.build(choose_grid(builder, display.array.aperture == Aperture::cell ? int(cell_sides(display.array).size()) : 0,
+                                     double(triangles)));
 }
 
 }  // namespace lfdsim

@@ -3,6 +3,7 @@
 #include "engine/scene.h"
 #include "engine/tracer.h"
 #include "meshed/mesh_surfaces.h"
+#include "model/coverage.h"
 #include "model/keys.h"
 #include "optics/camera.h"
 #include "optics/trace.h"
@@ -42,6 +43,10 @@ MeshedLens::MeshedLens(const Display& display, const Geometry& geometry, std::in
     if (display.array.surround != Surround::opaque)
         throw InputError("array.surround", fmt::format("is \"{}\"; lenses of triangles can only be traced in \"opaque\"",
                                                        word(display.array.surround)));
+    if (auto problem = beyond_lenses_in_air(display, "--lens-mesh")) throw InputError(std::vector{std::move(*problem)});
+    if (geometry.glued)
+        throw InputError("array.base_z_mm",
+                         "lets the lenses lie on the panel without air, which --lens-mesh does not cover; raise them");
     const LensMesh mesh = mesh_lens(display, geometry, triangles);
     triangles_ = std::int64_t(mesh.count());
     surfaces_ = std::make_shared<const MeshSurfaces>(mesh, geometry, normals);

@@ -43,7 +43,13 @@ std::vector<std::pair<std::string, Display>> lenses() {
     half_ball.lens.as<PlanoConvex>().cylinder_height_mm = 0;
     Display cut_square = with_surfaces({{0, 0, {}, 6.5, 2, 1.5}, {-0.08, 0, {}, 7}});
     cut_square.array.aperture = Aperture::cell;
+    Display hexagon = square_lens();
+    hexagon.array.lattice = LatticeKind::hexagon;
+    Display brick = square_lens();
+    brick.array.lattice = LatticeKind::brick;
     return {{"plano-convex", example()},
+            {"hexagon", hexagon},
+            {"brick", brick},
             {"facing the panel", facing},
             {"half ball", half_ball},
             {"square", square_lens()},
@@ -192,6 +198,10 @@ TEST(LensMesh, RefusesWhatItCannotMake) {
         return "accepted";
     };
     EXPECT_THAT(refusal(shipped("desktop-ideal"), 1000), AllOf(HasSubstr("lens.type"), HasSubstr("ideal")));
+    Display strips = example();
+    strips.array.lattice = LatticeKind::strips;
+    strips.array.count.reset();
+    EXPECT_THAT(refusal(strips, 1000), AllOf(HasSubstr("array.lattice"), HasSubstr("strips")));
     for (const std::int64_t n :
          {std::int64_t(-1), std::int64_t(0), std::int64_t(7), std::int64_t(4'000'001), std::int64_t(1) << 62})
         EXPECT_THAT(refusal(example(), n), AllOf(HasSubstr(std::to_string(n)), HasSubstr("8 to 4000000")));

@@ -228,6 +228,25 @@ TEST(RenderMeshed, SaysWhatItDidAndWhatItCannotDo) {
     }
 }
 
+TEST(RenderMeshed, RefusesWhatItDoesNotCover) {
+    const auto refusal = [](const Display& d) -> std::string {
+        try {
+            MeshedLens(d, resolve(d), 860, LensNormals::flat);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    Display hexagons = example(), layers = example(), glued = example();
+    hexagons.array.lattice = LatticeKind::hexagon;
+    EXPECT_THAT(refusal(hexagons), AllOf(HasSubstr("array.lattice"), HasSubstr("--lens-mesh")));
+    layers.panel.layers = {{0.1, 1.5}};
+    EXPECT_THAT(refusal(layers), HasSubstr("panel.layer"));
+    glued.array.gap_mm.reset();
+    glued.array.base_z_mm = 0;
+    EXPECT_THAT(refusal(glued), HasSubstr("array.base_z_mm"));
+}
+
 struct Stopped : Job {
     bool cancelled() const override { return true; }
 };
