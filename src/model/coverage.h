@@ -1,5 +1,5 @@
-// Which displays the whole program covers: pictures and elemental images are made of all; measures, exports and triangles so far
-// of some. Floor 0.
+// Which displays the whole program covers: pictures and elemental images are made of all, exports of nearly all; measures and
+// pictures through lenses of triangles so far of some. Floor 0.
 #pragma once
 #include "model/display.h"
 #include "model/error.h"

@@ -1,5 +1,6 @@
 #include "peers/cell.h"
 
+#include "meshed/cell_sides.h"
 #include "meshed/lens_mesh.h"
 #include "model/numbers.h"
 
@@ -23,7 +24,11 @@ std::uint32_t add_vertex(Patch& patch, const Point& at, const Point& normal) {
 }
 
 void add_triangle(Patch& patch, const Point& a, const Point& b, const Point& c, const Point& normal) {
-    if (a == b || b == c || c == a) return;
+    // Where they would meet in single precision
+    const auto same = [](const Point& p, const Point& q) {
+        return std::equal(p.begin(), p.end(), q.begin(), [](double x, double y) { return float(x) == float(y); });
+    };
+    if (same(a, b) || same(b, c) || same(c, a)) return;
     for (const Point& p : {a, b, c}) patch.triangles.push_back(add_vertex(patch, p, normal));
 }
 
@@ -65,32 +70,74 @@ std::vector<Point> circle(double radius, std::size_t count) {
     return points;
 }
 
+// The corner between a side of the cell and the next one, both moved out by `wider`.
+Point corner_after(const std::vector<CellSide>& sides, std::size_t number, double wider, double z) {
+    const CellSide &a = sides[number], &b = sides[(number + 1) % sides.size()];
+    const double da = a.from_axis_mm + wider, db = b.from_axis_mm + wider, det = a.out[0] * b.out[1] - a.out[1] * b.out[0];
+    return {(da * b.out[1] - db * a.out[1]) / det, (a.out[0] * db - b.out[0] * da) / det, z};
+}
+
 // The face from a polygon about the axis to the cell's border, and `wider` beyond it, all at one height; nothing where the polygon
 // lies on the border.
-void add_ring(Patch& patch, const std::vector<Point>& inner, double z, const std::array<double, 2>& half, double wider) {
-    const double reach[] = {half[0] + wider, half[1] + wider};
+void add_ring(Patch& patch, const std::vector<Point>& inner, double z, const std::vector<CellSide>& sides, double wider) {
     struct Pair {
         Point in, out;
+        std::size_t side;
     };
+    const auto towards = [](const CellSide& side, const Point& p) { return side.out[0] * p[0] + side.out[1] * p[1]; };
     std::vector<Pair> pairs;
+    for (const Point& p : inner) {
+        double scale = INFINITY;
+        std::size_t nearest = 0;
+        for (std::size_t k = 0; k < sides.size(); ++k) {
+            const double to_side = towards(sides[k], p), reach = sides[k].from_axis_mm + wider;
+            if (to_side > 0 && reach / to_side < scale) scale = reach / to_side, nearest = k;
+        }
+        pairs.push_back({{p[0], p[1], z}, {scale * p[0], scale * p[1], z}, nearest});
+    }
     const auto on_border = [&](const Point& p) {
-        const bool beside = std::abs(p[0]) * reach[1] >= std::abs(p[1]) * reach[0];
-        const double scale = beside ? reach[0] / std::abs(p[0]) : reach[1] / std::abs(p[1]);
-        return beside ? Point{std::copysign(reach[0], p[0]), p[1] * scale, z}
-                      : Point{p[0] * scale, std::copysign(reach[1], p[1]), z};
+        return std::any_of(sides.begin(), sides.end(),
+                           [&](const CellSide& side) { return towards(side, p) >= side.from_axis_mm - 1e-6; });
     };
-    for (const Point& p : inner) pairs.push_back({{p[0], p[1], z}, on_border(p)});
-    const std::size_t count = pairs.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const Pair &a = pairs[i], &b = pairs[(i + 1) % count];
-        const auto border = [&](const Point& p) { return std::abs(p[0]) >= half[0] - 1e-6 || std::abs(p[1]) >= half[1] - 1e-6; };
-        if (border(a.in) && border(b.in)) continue;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const Pair &a = pairs[i], &b = pairs[(i + 1) % pairs.size()];
+        if (on_border(a.in) && on_border(b.in)) continue;
         add_triangle(patch, a.in, a.out, b.in, up);
-        add_triangle(patch, b.in, a.out, b.out, up);
-        if (std::abs(a.out[0]) == reach[0] && std::abs(b.out[1]) == reach[1] && std::abs(a.out[1]) != reach[1])
-            add_triangle(patch, a.out, {a.out[0], b.out[1], z}, b.out, up);  // the corner between two sides
-        else if (std::abs(a.out[1]) == reach[1] && std::abs(b.out[0]) == reach[0] && std::abs(a.out[0]) != reach[0])
-            add_triangle(patch, a.out, {b.out[0], a.out[1], z}, b.out, up);
+        Point from = a.out;
+        for (std::size_t k = a.side; k != b.side; k = (k + 1) % sides.size()) {
+            const Point corner = corner_after(sides, k, wider, z);
+            add_triangle(patch, b.in, from, corner, up);
+            from = corner;
+        }
+        add_triangle(patch, b.in, from, b.out, up);
+    }
+}
+
+// The places in the box about all cells that no cell of staggered rows covers, at one height, in the array's frame.
+void add_between(Patch& patch, const Display& d, const Geometry& g, double z) {
+    const Lattice<double>& lattice = g.lattice;
+    if (!lattice.staggered) return;
+    const auto [x, y] = array_half(d, g);
+    const double p = lattice.pitch[0], up_to = cell_half(d, g)[1];
+    const double beside = lattice.hexagonal ? up_to / 2 : up_to;  // half the height of a cell's left and right side
+    const auto columns = std::int64_t(lattice.count[0]), rows = std::int64_t(lattice.count[1]);
+    for (std::int64_t j = 0; j < rows; ++j) {
+        // Half a cell: of even rows, which stand to the left, on the right
+        const double sign = j % 2 == 0 ? 1 : -1, row = (double(j) - 0.5 * double(rows - 1)) * lattice.pitch[1];
+        const Point a{sign * (x - p / 2), row - sign * beside, z}, b{sign * x, row - sign * up_to, z},
+            c{sign * x, row + sign * up_to, z}, e{sign * (x - p / 2), row + sign * beside, z};
+        add_triangle(patch, a, b, c, up);
+        add_triangle(patch, a, c, e, up);
+        // Between the hexagons' corners, at the array's lower and upper border
+        for (const int end : {-1, 1}) {
+            if (!lattice.hexagonal || j != (end < 0 ? 0 : rows - 1)) continue;
+            for (std::int64_t i = -1; i < columns; ++i) {
+                const double axis = (double(i) - 0.5 * double(columns - 1)) * p - sign * p / 4;
+                const Point left{std::max(axis, -x), end * y, z}, right{std::min(axis + p, x), end * y, z},
+                    valley{axis + p / 2, end * (y - beside), z};
+                end > 0 ? add_triangle(patch, left, valley, right, up) : add_triangle(patch, left, right, valley, up);
+            }
+        }
     }
 }
 
@@ -116,7 +163,7 @@ void add_face(Patch& patch, double z, double half) {
 class ArrayBuilder {
   public:
     ArrayBuilder(const Display& d, const Geometry& g, std::int64_t triangles)
-        : display_(d), geometry_(g), mesh_(mesh_lens(d, g, triangles)), half_{d.array.pitch_mm[0] / 2, d.array.pitch_mm[1] / 2} {}
+        : display_(d), geometry_(g), mesh_(mesh_lens(d, g, triangles)), sides_(cell_sides(d.array)) {}
 
     MeshedArray build() {
         const Surround surround = display_.array.surround;
@@ -129,6 +176,7 @@ class ArrayBuilder {
             add_part(wall, LensMesh::wall);
             take(made_.cell, std::move(wall));
         }
+        add_layers();
         add_black();
         made_.lens_triangles = mesh_.count();
         return std::move(made_);
@@ -161,6 +209,7 @@ class ArrayBuilder {
         const PlacedSurface& s = geometry_.surfaces[k];
         const bool clear = display_.array.surround == Surround::clear, down = s.index_below == 1;
         const std::string name = fmt::format("surface-{}", k + 1);
+        if (geometry_.glued && k == 0 && display_.panel.layers.empty()) return;  // the panel itself lies there
         if (is_plane(s) && !clear) {
             Patch face{name, false, s.index_above, s.index_below, {}, {}, {}};
             add_face(face, local(s.z_mm), sheet_half(display_, geometry_));
@@ -171,11 +220,33 @@ class ArrayBuilder {
         take(made_.cell, std::move(cap));
         if (display_.array.surround != Surround::plate) return;
         Patch flat{fmt::format("flat-{}", k + 1), false, s.index_above, s.index_below, {}, {}, {}};
-        add_ring(flat, rims_[k], local(rim_z(s)), half_, 0);
+        add_ring(flat, rims_[k], local(rim_z(s)), sides_, 0);
         take(made_.cell, std::move(flat));
         Patch beside{fmt::format("beside-{}", k + 1), false, s.index_above, s.index_below, {}, {}, {}};
-        add_frame(beside, array_half(geometry_), local(rim_z(s)), sheet_half(display_, geometry_));
+        add_frame(beside, array_half(display_, geometry_), local(rim_z(s)), sheet_half(display_, geometry_));
+        add_between(beside, display_, geometry_, local(rim_z(s)));
         take(made_.sheet, std::move(beside));
+    }
+
+    // The layers' upper faces, except where the lens's own face is that.
+    void add_layers() {
+        const auto& layers = display_.panel.layers;
+        double z = geometry_.layers_top_mm, above = 1;
+        for (std::size_t k = layers.size(); k-- > 0; z -= layers[k].thickness_mm) {
+            Patch face{fmt::format("layer-{}", k + 1), false, above, layers[k].index, {}, {}, {}, false};
+            above = layers[k].index;
+            if (!geometry_.glued || k + 1 < layers.size()) {
+                add_face(face, local(z), sheet_half(display_, geometry_));
+                take(made_.sheet, std::move(face));
+            } else if (display_.array.surround == Surround::clear) {
+                add_ring(face, rims_.front(), local(z), sides_, 0);
+                Patch beside{face.name + "-beside", false, 1, above, {}, {}, {}, false};
+                add_frame(beside, array_half(display_, geometry_), local(z), sheet_half(display_, geometry_));
+                add_between(beside, display_, geometry_, local(z));
+                take(made_.cell, std::move(face));
+                take(made_.sheet, std::move(beside));
+            }
+        }
     }
 
     // This height, moved a little in front of a flat face at the same height.
@@ -194,10 +265,12 @@ class ArrayBuilder {
                 const auto same = std::find_if(surfaces.begin(), surfaces.end(),
                                                [&](const PlacedSurface& s) { return s.semi_aperture_mm == ring.radius_mm; });
                 const bool of_surface = same != surfaces.end() && !all_beside;
-                add_ring(black, of_surface ? rims_[std::size_t(same - surfaces.begin())] : circle(ring.radius_mm, 512), z, half_,
+                add_ring(black, of_surface ? rims_[std::size_t(same - surfaces.begin())] : circle(ring.radius_mm, 512), z, sides_,
                          solid_overlap_mm);
-                if (all_beside || &ring == &rings.front() || &ring == &rings.back())
-                    add_frame(beside, array_half(geometry_), z, 100 * sheet_half(display_, geometry_));
+                if (all_beside || &ring == &rings.front() || &ring == &rings.back()) {
+                    add_frame(beside, array_half(display_, geometry_), z, 100 * sheet_half(display_, geometry_));
+                    add_between(beside, display_, geometry_, z);
+                }
             }
         };
         add(black_rings(display_, geometry_), false);
@@ -234,7 +307,7 @@ class ArrayBuilder {
     const Display& display_;
     const Geometry& geometry_;
     const LensMesh mesh_;
-    const std::array<double, 2> half_;
+    const std::vector<CellSide> sides_;
     std::vector<std::vector<Point>> rims_;
     MeshedArray made_{};
 };
@@ -270,7 +343,15 @@ std::vector<Ring> stop_rings(const Display& display, const Geometry& geometry) {
     return {{geometry.stop_z_mm, *display.lens.stop_radius_mm}};
 }
 
-std::array<double, 2> array_half(const Geometry& g) { return {g.array_width_mm / 2, g.array_height_mm / 2}; }
+std::array<double, 2> cell_half(const Display& display, const Geometry& g) {
+    const double x = g.lattice.pitch[0] / 2;
+    if (g.lattice.strips) return {x, sheet_half(display, g)};
+    return {x, g.lattice.hexagonal ? outer_radius_mm(display.array) : g.lattice.pitch[1] / 2};
+}
+
+std::array<double, 2> array_half(const Display& display, const Geometry& g) {
+    return {g.array_width_mm / 2, g.lattice.strips ? sheet_half(display, g) : g.array_height_mm / 2};
+}
 
 double sheet_half(const Display& display, const Geometry& g) {
     // the array may be turned and moved: its diagonal and the panel's hold for any angle

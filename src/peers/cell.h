@@ -18,6 +18,7 @@ struct Patch {
     double index_front = 1, index_back = 1;
     std::vector<float> vertices_mm, normals;  // normals towards the front
     std::vector<std::uint32_t> triangles;
+    bool of_lens = true;  // false: a layer's, at which total reflection is black
 
     std::size_t count() const { return triangles.size() / 3; }
 };
@@ -44,9 +45,10 @@ std::vector<Ring> stop_rings(const Display&, const Geometry&);
 double rim_z(const PlacedSurface&);
 bool is_plane(const PlacedSurface&);
 
-/// Half the sides of the array's rectangle, and of the square that represents an infinite sheet: rays that pass beside it could
-/// only reach the panel at more than 87 degrees from its normal.
-std::array<double, 2> array_half(const Geometry&);
+/// Half the sides of the box about a cell, of the box about all cells, and of the square that represents an infinite sheet: rays
+/// that pass beside it could only reach the panel at more than 87 degrees from its normal. Strips, which have no end, end with it.
+std::array<double, 2> cell_half(const Display&, const Geometry&);
+std::array<double, 2> array_half(const Display&, const Geometry&);
 double sheet_half(const Display&, const Geometry&);
 
 }  // namespace lfdsim::peers

@@ -56,16 +56,16 @@ def black(name):
     return nodes.done(nodes.add("BsdfDiffuse", (("Color", (0, 0, 0, 1)),)).outputs[0])
 
 
-def glass(name, ratio):
-    """Refraction only, weighted by Fresnel's equations if the display asks for them; total reflection where the surround is not opaque."""
+def glass(name, ratio, reflects):
+    """Refraction only, weighted by Fresnel's equations if the display asks for them; total reflection where light continues after it."""
     nodes = Nodes(name)
     color, share = (1, 1, 1, 1), None
-    if SCENE["fresnel"] == "exact" or SCENE["reflects"]:
+    if SCENE["fresnel"] == "exact" or reflects:
         share = nodes.add("Fresnel", (("IOR", ratio),)).outputs[0]
     if SCENE["fresnel"] == "exact":
         color = nodes.math("SUBTRACT", 1.0, share)
     shader = nodes.add("BsdfRefraction", (("Color", color), ("Roughness", 0.0), ("IOR", ratio)), distribution="SHARP").outputs[0]
-    if SCENE["reflects"]:
+    if reflects:
         mirror = nodes.add("BsdfGlossy", (("Color", (1, 1, 1, 1)), ("Roughness", 0.0)), distribution="SHARP").outputs[0]
         total = nodes.math("GREATER_THAN", share, 0.9999999)
         shader = nodes.add("MixShader", ((0, total), (1, shader), (2, mirror))).outputs[0]
@@ -135,7 +135,7 @@ def patches(name, parts):
         vertices.append(points)
         triangles.append(faces + before)
         which.append(np.full(len(faces), number, np.int32))
-        materials.append(black(part["file"]) if part["black"] else glass(part["file"], part["back"] / part["front"]))
+        materials.append(black(part["file"]) if part["black"] else glass(part["file"], part["back"] / part["front"], part["reflects"]))
         before += len(points)
     vertices = np.concatenate(vertices)
     return thing(name, vertices[:, :3], np.concatenate(triangles), materials, np.concatenate(which), vertices[:, 3:] if SCENE["smooth"] else None)

@@ -1,7 +1,7 @@
 #include "peers/peers.h"
 
 #include "meshed/lens_mesh.h"
-#include "model/coverage.h"
+#include "model/lattice.h"
 
 #include <fmt/format.h>
 #include <cmath>
@@ -16,12 +16,10 @@ class Refusals {
     Refusals(Peer peer, const Display& d, const Geometry& g, const PeerOptions& o) : peer_(peer), d_(d), g_(g), options_(o) {}
 
     std::vector<Problem> all() {
-        if (d_.lens.is_thin()) {
-            add("lens.type", "an ideal lens or a pinhole cannot be made of surfaces and glass; give the display a real lens");
-            return std::move(problems_);
-        }
-        if (auto problem = beyond_lenses_in_air(d_, "export")) {
-            problems_.push_back(std::move(*problem));
+        if (d_.lens.type() == LensType::ideal || (d_.lens.is_thin() && meshed())) {
+            add("lens.type", d_.lens.type() == LensType::ideal
+                                 ? "an ideal lens cannot be made of surfaces and glass; give the display a real lens"
+                                 : "a pinhole has no surfaces to make triangles of; export pov without --triangles");
             return std::move(problems_);
         }
         array();
@@ -39,6 +37,10 @@ class Refusals {
     bool meshed() const { return peer_ != Peer::pov || options_.triangles; }
 
     void array() {
+        if (is_strips(d_.array) && meshed())
+            add("array.lattice",
+                "is \"strips\", and cylindrical lenses are not made of triangles; export true surfaces for pov, without "
+                "--triangles");
         const bool filled = d_.array.aperture == Aperture::cell;
         if (filled && d_.array.surround == Surround::plate && meshed())
             add("array.aperture",

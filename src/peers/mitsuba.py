@@ -48,6 +48,7 @@ def plugins():
         def __init__(self, props):
             Delta.__init__(self, props)
             self.ratio = props["ratio"]  # index behind the front side over index in front of it
+            self.reflects = props["reflects"]  # whether light continues after total reflection
 
         def sample(self, ctx, si, sample1, sample2, active=True):
             cos_i = mi.Frame3f.cos_theta(si.wi)
@@ -59,7 +60,7 @@ def plugins():
             elif SCENE["fresnel"] == "schlick":  # the cosine is the one in the less dense medium
                 less = dr.select(eta_it > 1, dr.abs(cos_i), dr.abs(cos_t))
                 weight = (1 - ((self.ratio - 1) / (self.ratio + 1)) ** 2) * (1 - (1 - less) ** 5)
-            value = dr.select(total, mi.Float(SCENE["reflects"]), weight)
+            value = dr.select(total, mi.Float(self.reflects), weight)
             wo = dr.select(total, mi.reflect(si.wi), mi.refract(si.wi, cos_t, eta_ti))
             return self.sampled(wo, dr.select(total, 1, eta_it), value, active)
 
@@ -95,7 +96,7 @@ def patch(part, axes):
     places = ((vertices[None, :, :3] + np.pad(axes, ((0, 0), (0, 1)))[:, None, :]) @ rotation.T + shift).reshape(-1, 3)
     normals = np.tile(vertices[:, 3:] @ rotation.T, (len(axes), 1))
     faces = (triangles[None] + len(vertices) * np.arange(len(axes))[:, None, None]).reshape(-1, 3)
-    matter = {"type": "diffuse", "reflectance": {"type": "rgb", "value": 0.0}} if part["black"] else {"type": "lfd_glass", "ratio": part["back"] / part["front"]}
+    matter = {"type": "diffuse", "reflectance": {"type": "rgb", "value": 0.0}} if part["black"] else {"type": "lfd_glass", "ratio": part["back"] / part["front"], "reflects": part["reflects"]}
     props = mi.Properties()
     props["bsdf"] = mi.load_dict(matter)
     props["face_normals"] = not SCENE["smooth"]

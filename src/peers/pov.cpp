@@ -1,8 +1,10 @@
 #include "peers/pov.h"
 
 #include "engine/scene.h"
-#include "model/vec.h"
+#include "model/prescription.h"
 #include "peers/cell.h"
+#include "peers/pov_cell.h"
+#include "peers/pov_limits.h"
 #include "peers/pov_mesh.h"
 #include "peers/pov_surface.h"
 #include "peers/text.h"
@@ -13,16 +15,15 @@
 // How POV-Ray follows light. A ray keeps a list of the media that it is in. Where it meets a shape whose medium is in the list, it
 // leaves that medium; otherwise it enters it, from the medium it met last. So in `clear` and `plate`, where all faces of one glass
 // share its medium, entering and leaving alternate, in whatever order the faces are met. In `opaque`, where each surface is met
-// once, each surface has the medium behind it, even if that is air.
+// once, each surface has the medium behind it, even if that is air. So have the layers on the panel, which light enters from above
+// only; from below they are black, as totally reflected light is there. Where a body of glass is glued on it has no lower face:
+// light enters the layer's medium from that of the glass, and beside it from air.
 //
-// Shapes that share a medium have to be parts of one union; copies of a shape have media of their own. POV-Ray ignores
-// intersections closer than 1e-3 units to the ray's start: so a lens is 120 units wide.
+// Shapes that share a medium have to be parts of one union; copies of a shape have media of their own.
 namespace lfdsim::peers {
 namespace {
 
-constexpr double gap_pitches = 2.5e-5;  // between a square body and its cell's border: half the gap between bodies that would touch
-constexpr double overlap_mm = 1e-6;     // of flat parts of neighbouring cells
-constexpr double longest_units = 4e6;   // POV-Ray sees nothing beyond 1e7
+constexpr double overlap_mm = 1e-6;  // of walls of neighbouring cells
 
 std::string black() { return "texture { Black }"; }
 std::string medium(double index) { return fmt::format("texture {{ Clear }} interior {{ ior {} }}", text(index)); }
@@ -33,8 +34,10 @@ class Writer {
         : d_(d),
           g_(g),
           lattice_(g.lattice),
-          half_{d.array.pitch_mm[0] / 2, d.array.pitch_mm[1] / 2},
-          gap_mm_(gap_pitches * d.array.pitch_mm.least()),
+          cell_(d, g),
+          glued_(g.glued ? &g.surfaces.front() : nullptr),
+          gap_mm_(pov_gap_pitches * d.array.pitch_mm.least()),
+          units_per_mm_(pov_units_per_mm(d, g)),
           options_(o) {}
 
     std::string scene(const std::vector<std::string>& head, const std::string& panel_file) const {
@@ -51,29 +54,28 @@ class Writer {
         // POV-Ray's rows and columns of a matrix: images of the axes, then the shift
         all += fmt::format("#declare Place = transform {{ matrix <{},{},0,{},{},0,0,0,1,{},{},0> scale {} }}\n",
                            text(lattice_.cos_turn), text(lattice_.sin_turn), text(-lattice_.sin_turn), text(lattice_.cos_turn),
-                           text(lattice_.offset[0]), text(lattice_.offset[1]), text(units_per_mm()));
-        all += panel(panel_file) + "\n// One lens, about the z axis\n";
+                           text(lattice_.offset[0]), text(lattice_.offset[1]), text(units_per_mm_));
+        all += panel(panel_file) + layers() + "\n// One lens, about the z axis\n";
         all += "#declare Lens = " + (options_.triangles ? meshed_lens() : lens()) + "\n";
         all += one_sheet ? sheet() : lenses();
         return all;
     }
 
-    // POV-Ray ignores intersections closer than this to a ray's start.
-    double least_way_mm() const { return 1e-3 / units_per_mm(); }
-
     bool fresnel() const { return d_.render.fresnel == Fresnel::exact; }
 
-    // Hits on the way: all surfaces once and the panel, or up to 16 surfaces and the panel.
-    int trace_levels() const { return d_.array.surround == Surround::opaque ? int(g_.surfaces.size()) + 1 : 17; }
-
-  private:
-    double units_per_mm() const {
-        return std::min(120 / d_.array.pitch_mm.least(), longest_units / (length(d_.camera.position_mm) + sheet_half(d_, g_)));
+    // Hits on the way: all surfaces once, or up to 16, then the layers and the panel. A glued face, unless it vanishes between
+    // equal indices, is one of both; beside a glued body of glass, light that meets as many surfaces may so be lost.
+    int trace_levels() const {
+        const int below = int(d_.panel.layers.size()) + 1;
+        if (d_.lens.is_thin()) return below;
+        if (d_.array.surround == Surround::opaque) return below + int(g_.surfaces.size()) - (glued_ ? 1 : 0);
+        return below + 16 - (glued_ && glued_->index_below != glued_->index_above ? 1 : 0);
     }
 
+  private:
     std::string camera() const {
         const optics::View view = make_view(d_, g_);
-        const double u = units_per_mm(), width = view.pixel_mm * view.width, height = view.pixel_mm * view.height;
+        const double u = units_per_mm_, width = view.pixel_mm * view.width, height = view.pixel_mm * view.height;
         double at[3], right[3], up[3];
         for (int k = 0; k < 3; ++k) {
             at[k] = view.position[k] * u;
@@ -89,48 +91,71 @@ class Writer {
         return fmt::format(
             "plane {{ z, 0\n  pigment {{ image_map {{ png \"{}\" gamma 1.0 map_type 0 once }} scale {} translate {} }}\n"
             "  finish {{ ambient 0 diffuse 0 emission 1 }}\n  scale {}{} }}\n",
-            file, vector(w, h, 1), vector(-w / 2, -h / 2, 0), text(units_per_mm()), fresnel() ? " no_reflection" : "");
+            file, vector(w, h, 1), vector(-w / 2, -h / 2, 0), text(units_per_mm_), fresnel() ? " no_reflection" : "");
     }
 
-    std::string cell_box(double low, double high, double wider) const {
-        const double x = half_[0] + wider, y = half_[1] + wider;
-        return fmt::format("box {{ {}, {} }}", vector(-x, -y, low), vector(x, y, high));
+    // The layers' upper faces, except where the lens's own face is that. Their interior texture is seen from below.
+    std::string layers() const {
+        std::string all;
+        double z = g_.layers_top_mm;
+        for (std::size_t k = d_.panel.layers.size(); k-- > 0; z -= d_.panel.layers[k].thickness_mm) {
+            const bool of_lens = glued_ && d_.array.surround == Surround::opaque && k + 1 == d_.panel.layers.size();
+            if (!of_lens)
+                all += fmt::format("{}{} interior_texture {{ Black }} scale {}{} }}\n", face(z), medium(d_.panel.layers[k].index),
+                                   text(units_per_mm_), fresnel() ? " no_reflection" : "");
+        }
+        return all;
     }
+
     // In a union of all lenses each needs a bounding box; POV-Ray gives one to lenses that are separate objects.
     std::string cell_bounds() const {
         if (d_.array.surround != Surround::plate) return "";
         double low = g_.base_z_mm, high = g_.top_z_mm;
         if (d_.lens.stop_radius_mm) low = std::min(low, g_.stop_z_mm), high = std::max(high, g_.stop_z_mm);
-        return fmt::format("  bounded_by {{ {} }}\n", cell_box(low - 0.01, high + 0.01, 0.01));
+        return fmt::format("  bounded_by {{ {} }}\n", cell_.box(low - 0.01, high + 0.01, 0.01));
     }
-
-    double widest_half() const { return std::max(half_[0], half_[1]); }
 
     // Whether a cell has room beside a hole of this radius.
     bool beside_hole(double radius) const { return radius < outer_radius_mm(d_.array); }
 
-    // The flat part of the cell outside a circle.
+    // The flat part of the cell outside a lens's aperture.
     std::string ring(double z, double radius, const std::string& matter) const {
-        return fmt::format("  disc {{ {}, z, {}, {} clipped_by {{ {} }} {} }}\n", vector(0, 0, z),
-                           text(1.06 * outer_radius_mm(d_.array)), text(radius), cell_box(z - 1, z + 1, overlap_mm), matter);
+        return fmt::format("{} {} }}\n", cell_.flat(z, radius), matter);
     }
     // The flat part outside the array.
     std::string beside(double z, const std::string& matter) const {
-        const auto [x, y] = array_half(g_);
+        const auto [x, y] = array_half(d_, g_);
         return fmt::format("disc {{ {}, z, {} clipped_by {{ box {{ {}, {} inverse }} }} {}", vector(0, 0, z),
                            text(100 * sheet_half(d_, g_)), vector(-x, -y, z - 1), vector(x, y, z + 1), matter);
     }
 
-    std::string face(const PlacedSurface& s) const {
-        return fmt::format("disc {{ {}, z, {} ", vector(0, 0, s.z_mm), text(100 * sheet_half(d_, g_)));
+    // The places in the box about all cells that no cell of staggered rows covers: cells without lenses, cut off at the box.
+    std::string between(const std::string& flats) const {
+        if (!lattice_.staggered || flats.empty()) return "";
+        const auto [x, y] = array_half(d_, g_);
+        const auto right = cell_.last(0), top = cell_.last(1);
+        const int more = lattice_.hexagonal ? 1 : 0;  // rows below and above, whose corners reach into the box
+        return fmt::format(
+            "union {{\n  #for (J, {}, {}) #for (I, -1, {}, (J < 0 | J > {} ? 1 : {}))\n    union {{\n{}    translate <{}, {}, 0> "
+            "}}\n"
+            "  #end #end\n  clipped_by {{ box {{ {}, {} }} }} }}\n",
+            -more, top + more, right + 1, top, right + 2, flats, cell_.axis_x(), cell_.axis_y(), vector(-x, -y, g_.base_z_mm - 1),
+            vector(x, y, g_.top_z_mm + 1));
     }
 
-    // A stop in the plane of a flat face is placed in front of it.
+    std::string face(double z) const { return fmt::format("disc {{ {}, z, {} ", vector(0, 0, z), text(100 * sheet_half(d_, g_))); }
+
+    // A black face in the plane of a flat one, or of the panel, is placed in front of it.
     double before_faces(double z) const {
         for (const PlacedSurface& s : g_.surfaces)
             if (is_plane(s) && std::abs(s.z_mm - z) < gap_mm_) z = s.z_mm + gap_mm_;
         return z;
     }
+    // A black part may end in the plane of a flat face, but not in that of the panel.
+    double above_panel(double z) const { return std::max(z, gap_mm_); }
+
+    // Whether this surface is glued onto the bare panel: there is none.
+    bool on_panel(const PlacedSurface& s) const { return &s == glued_ && d_.panel.layers.empty(); }
 
     std::string lens() const {
         std::string parts;
@@ -142,11 +167,13 @@ class Writer {
         } else if (d_.array.surround == Surround::plate) {
             for (const PlacedSurface& s : surfaces) {
                 if (is_plane(s)) continue;
-                parts += "  " + pov_skin(s, d_.array) + " }\n";
+                parts += "  " + pov_skin(s, d_.array, cell_) + " }\n";
                 if (beside_hole(s.semi_aperture_mm)) parts += ring(rim_z(s), s.semi_aperture_mm, "");
             }
         } else {
-            for (const PlacedSurface& s : surfaces) parts += "  " + pov_skin(s, d_.array) + " " + medium(s.index_below) + " }\n";
+            for (const PlacedSurface& s : surfaces)
+                if (!d_.lens.is_thin() && !on_panel(s))
+                    parts += "  " + pov_skin(s, d_.array, cell_) + " " + medium(s.index_below) + " }\n";
             parts += black_parts();
         }
         return fmt::format("union {{\n{}{}}}", parts, cell_bounds());
@@ -161,45 +188,63 @@ class Writer {
             high = std::max(high, rim_z(s));
         }
         for (const Ring& r : black_rings(d_, g_))
-            if (beside_hole(r.radius_mm)) parts += ring(r.z_mm, r.radius_mm, black());
+            if (beside_hole(r.radius_mm)) parts += ring(above_panel(r.z_mm), r.radius_mm, black());
         if (d_.array.aperture == Aperture::circle) {
-            if (high > low + 1e-6)
-                parts += fmt::format("  cylinder {{ {}, {}, {} open {} }}\n", vector(0, 0, low), vector(0, 0, high), text(widest),
-                                     black());
+            if (high > low + 1e-6) parts += barrel(widest, low, high);
             return parts;
         }
         // Black walls on the cell's borders: between the rims, and up to the glass there
         if (high > low + 1e-6)
-            parts += fmt::format("  difference {{ {} {} {} }}\n", cell_box(low, high, overlap_mm),
-                                 cell_box(low - 1, high + 1, -gap_mm_), black());
-        const double z0 = g_.base_z_mm - 1, z1 = g_.top_z_mm + 1, reach = widest_half() + 2 * gap_mm_;
-        parts += fmt::format("  intersection {{ {} {} {} {} {} }}\n", cell_box(z0, z1, overlap_mm),
-                             "object { " + cell_box(z0 - 1, z1 + 1, -gap_mm_) + " inverse }",
-                             pov_space(g_.surfaces.front(), true, reach, z0 - 1, z1 + 1),
-                             pov_space(g_.surfaces.back(), false, reach, z0 - 1, z1 + 1), black());
+            parts += fmt::format("  difference {{ {} {} {} }}\n", cell_.prism(low, high, overlap_mm),
+                                 cell_.prism(low - 1, high + 1, -gap_mm_), black());
+        const double z0 = g_.base_z_mm - 1, z1 = g_.top_z_mm + 1, reach = cell_.widest_half() + 2 * gap_mm_;
+        parts += fmt::format("  intersection {{ {} {} {} {} {} }}\n", cell_.prism(z0, z1, overlap_mm),
+                             "object { " + cell_.prism(z0 - 1, z1 + 1, -gap_mm_) + " inverse }",
+                             pov_space(g_.surfaces.front(), cell_, true, reach, z0 - 1, z1 + 1),
+                             pov_space(g_.surfaces.back(), cell_, false, reach, z0 - 1, z1 + 1), black());
         return parts;
     }
 
-    // One closed body of glass.
+    // The black wall around a lens, of a strip to its left and right.
+    std::string barrel(double radius, double low, double high) const {
+        if (!lattice_.strips)
+            return fmt::format("  cylinder {{ {}, {}, {} open {} }}\n", vector(0, 0, low), vector(0, 0, high), text(radius),
+                               black());
+        const double y = cell_.half_length();
+        return upright({-radius, -y}, {-radius, y}, low, high, black()) + upright({radius, -y}, {radius, y}, low, high, black());
+    }
+
+    // A rectangle that stands on a line.
+    static std::string upright(std::array<double, 2> from, std::array<double, 2> to, double low, double high,
+                               const std::string& matter) {
+        const std::string begin = vector(from[0], from[1], low);
+        return fmt::format("  polygon {{ 5, {}, {}, {}, {}, {} {} }}\n", begin, vector(to[0], to[1], low),
+                           vector(to[0], to[1], high), vector(from[0], from[1], high), begin, matter);
+    }
+
+    // One body of glass: closed, unless it is glued on.
     std::string body() const {
         const PlacedSurface &lower = g_.surfaces.front(), &upper = g_.surfaces.back();
         const bool filled = d_.array.aperture == Aperture::cell;
         const double low = g_.base_z_mm - 0.01, high = g_.top_z_mm + 0.01, r = upper.semi_aperture_mm;
-        const std::string round = fmt::format("cylinder {{ {}, {}, {} }}", vector(0, 0, low), vector(0, 0, high), text(r));
-        const double reach = (filled ? widest_half() : r) + 0.01;
-        std::string sides = filled ? cell_box(low, high, -gap_mm_) : round;
-        if (filled && beside_hole(r)) sides += " " + round;
-        return fmt::format("  intersection {{ {}\n    {}\n    {}\n    {} }}\n", sides,
-                           pov_space(lower, true, reach, low - 1, high + 1), pov_space(upper, false, reach, low - 1, high + 1),
-                           medium(lower.index_above));
+        const std::string round = cell_.column(r, low, high);
+        const double reach = (filled ? cell_.widest_half() : r) + 0.01;
+        std::string sides = filled ? cell_.prism(low, high, -gap_mm_) : round;
+        // A strip's column has to end where the strip does
+        if (lattice_.strips ? !filled : filled && beside_hole(r)) sides = cell_.prism(low, high, -gap_mm_) + " " + round;
+        const std::string below = glued_ ? "" : pov_space(lower, cell_, true, reach, low - 1, high + 1) + "\n    ",
+                          cut = glued_ ? fmt::format(" clipped_by {{ {} }}", pov_space(lower, cell_, true, 0, 0, 0)) : "";
+        return fmt::format("  intersection {{ {}\n    {}{}\n    {}{} }}\n", sides, below,
+                           pov_space(upper, cell_, false, reach, low - 1, high + 1), medium(lower.index_above), cut);
     }
 
     // The same lens as triangles; copies share each patch's mesh.
     std::string meshed_lens() const {
         const MeshedArray made = mesh_array(d_, g_, *options_.triangles);
-        const bool opaque = d_.array.surround == Surround::opaque;
+        const bool opaque = d_.array.surround == Surround::opaque, clear = d_.array.surround == Surround::clear;
         std::string glass, blacks;
         for (const Patch& patch : made.cell) {
+            if (clear && glued_ && (!patch.of_lens || patch.name == "surface-1")) continue;  // layers() has that face
             const double below = patch.normals[2] > 0 ? patch.index_back : patch.index_front;
             const std::string matter = patch.black ? black() : opaque ? medium(below) : "";
             (patch.black ? blacks : glass) +=
@@ -213,71 +258,100 @@ class Writer {
     std::string lenses() const {
         const std::string flag = fresnel() ? " no_reflection" : "";
         std::string all = fmt::format(
-            "#for (J, 0, {1}) #for (I, 0, {0})\n  object {{ Lens translate <(I - {2}) * {4}, (J - {3}) * {6}, 0> transform {{ "
-            "Place "
-            "}}{5} }}\n#end #end\n",
-            lattice_.count[0] - 1, lattice_.count[1] - 1, text(0.5 * (lattice_.count[0] - 1)), text(0.5 * (lattice_.count[1] - 1)),
-            text(lattice_.pitch[0]), flag, text(lattice_.pitch[1]));
+            "#for (J, 0, {}) #for (I, 0, {})\n  object {{ Lens translate <{}, {}, 0> transform {{ Place }}{} }}\n#end #end\n",
+            cell_.last(1), cell_.last(0), cell_.axis_x(), cell_.axis_y(), flag);
         const std::vector<Ring> rings = black_rings(d_, g_);
         std::vector<double> heights;
-        if (!rings.empty()) heights = {rings.front().z_mm, rings.back().z_mm};
+        if (!rings.empty()) heights = {above_panel(rings.front().z_mm), above_panel(rings.back().z_mm)};
         for (const Ring& r : stop_rings(d_, g_)) heights.push_back(before_faces(r.z_mm));
-        for (const double z : heights) all += beside(z, black()) + " transform { Place } }\n";
+        std::string flats;
+        for (const double z : heights) {
+            all += beside(z, black()) + " transform { Place } }\n";
+            flats += ring(z, 0, black());
+        }
+        if (const std::string rest = between(flats); !rest.empty())
+            all += fmt::format("object {{ {} transform {{ Place }} }}\n", rest);
         if (options_.triangles && d_.array.surround == Surround::opaque)  // flat faces are common to all lenses
             for (const PlacedSurface& s : g_.surfaces)
-                if (is_plane(s)) all += face(s) + medium(s.index_below) + " transform { Place }" + flag + " }\n";
+                if (is_plane(s) && !on_panel(s))
+                    all += face(s.z_mm) + medium(s.index_below) + " transform { Place }" + flag + " }\n";
         return all;
     }
 
-    // For a plate whose lenses fill their cells: the walls in which caps end at the array's border, here on the cell's right (axis
-    // 0) or upper side.
-    std::string border_wall(int axis) const {
+    // For a plate whose lenses fill their cells: the upright faces on a cell's side, between a cap and the flat part where there is
+    // no lens beyond it, and between the caps of bricks, which meet at different heights.
+    std::string side_walls(const PovCell::Side& side, bool at_border) const {
         std::string walls;
         for (const PlacedSurface& s : g_.surfaces) {
             if (is_plane(s)) continue;
-            const bool upper = &s == &g_.surfaces.back();
-            const double z0 = upper ? rim_z(s) : g_.base_z_mm, z1 = upper ? g_.top_z_mm : rim_z(s);
-            const auto corner = [&](int side, double z) {
-                return axis == 0 ? vector(half_[0], side * half_[1], z) : vector(side * half_[0], half_[1], z);
+            const auto space = [&](bool above) {
+                return pov_space(s, cell_, above, cell_.widest_half() + 0.01, g_.base_z_mm - 1, g_.top_z_mm + 1);
             };
-            walls += fmt::format("  polygon {{ 5, {}, {}, {}, {}, {} clipped_by {{ {} }} }}\n", corner(-1, z0), corner(1, z0),
-                                 corner(1, z1), corner(-1, z1), corner(-1, z0),
-                                 pov_space(s, !upper, widest_half() + 0.01, g_.base_z_mm - 1, g_.top_z_mm + 1));
+            const auto wall = [&](double low, double high, const std::string& within) {
+                if (high > low + 1e-9) walls += upright(side.from, side.to, low, high, "clipped_by { " + within + " }");
+            };
+            const auto [sag_low, sag_high] = sag_range_mm(s);
+            const double low = s.z_mm + sag_low, high = s.z_mm + sag_high, flat = rim_z(s);
+            if (at_border) {
+                wall(flat, high, space(false));
+                wall(low, flat, space(true));
+            } else {
+                const auto beyond = [&](bool above) {
+                    return fmt::format("object {{ {} translate {} }}", space(above), vector(side.beyond[0], side.beyond[1], 0));
+                };
+                wall(low, high, space(false) + " " + beyond(true));
+                wall(low, high, space(true) + " " + beyond(false));
+            }
         }
-        return fmt::format("#declare Wall{} = union {{\n{}  {}\n}}\n", axis, walls, cell_bounds());
+        return walls;
     }
 
     // The plate: a single union, so that its faces share their medium; rows of lenses in boxes, so that a ray is tested against
     // few.
     std::string sheet() const {
         const double index = g_.surfaces.front().index_above;
-        const auto [x, y] = array_half(g_);
-        const auto right = std::int64_t(lattice_.count[0]) - 1, top = std::int64_t(lattice_.count[1]) - 1;
-        std::string walls, all;
+        const auto [x, y] = array_half(d_, g_);
+        std::string walls, all, flats;
         if (d_.array.aperture == Aperture::cell) {
-            all = border_wall(0) + border_wall(1);
-            const std::tuple<std::string, int, int> sides[] = {
-                {fmt::format("I = {}", right), 0, 0}, {fmt::format("J = {}", top), 1, 0}, {"I = 0", 0, 180}, {"J = 0", 1, 180}};
-            for (const auto& [where, wall, turn] : sides)
-                walls += fmt::format("    #if ({}) object {{ Wall{} rotate {} * z translate At }} #end\n", where, wall, turn);
+            int number = 0;
+            for (const PovCell::Side& side : cell_.sides()) {
+                const bool steps = d_.array.lattice == LatticeKind::brick && side.to[1] > 0 && side.beyond[1] > 0;
+                const auto declare = [&](const char* name, bool at_border) {
+                    all += fmt::format("#declare {}{} = union {{\n{}  {}\n}}\n", name, number, side_walls(side, at_border),
+                                       cell_bounds());
+                };
+                declare("Wall", true);
+                if (steps) declare("Step", false);
+                walls += fmt::format("    #if ({}) object {{ Wall{} translate At }}{} #end\n", side.at_border, number,
+                                     steps ? fmt::format(" #else object {{ Step{} translate At }}", number) : "");
+                ++number;
+            }
         }
-        all += fmt::format("union {{\n#for (J, 0, {})\n  #declare Y = (J - {}) * {};\n  union {{\n", top, text(0.5 * double(top)),
-                           text(lattice_.pitch[1]));
-        all += fmt::format(
-            "  #for (I, 0, {})\n    #declare At = <(I - {}) * {}, Y, 0>;\n    object {{ Lens translate At }}\n{}  #end\n", right,
-            text(0.5 * double(right)), text(lattice_.pitch[0]), walls);
+        all += fmt::format("union {{\n#for (J, 0, {})\n  #declare Y = {};\n  union {{\n", cell_.last(1), cell_.axis_y());
+        all += fmt::format("  #for (I, 0, {})\n    #declare At = <{}, Y, 0>;\n    object {{ Lens translate At }}\n{}  #end\n",
+                           cell_.last(0), cell_.axis_x(), walls);
         all += fmt::format("    bounded_by {{ box {{ <{0}, Y - {2}, {3}>, <{1}, Y + {2}, {4}> }} }}\n  }}\n#end\n", text(-x - 0.02),
-                           text(x + 0.02), text(0.51 * lattice_.pitch[1]), text(g_.base_z_mm - 0.02), text(g_.top_z_mm + 0.02));
-        for (const PlacedSurface& s : g_.surfaces) all += "  " + (is_plane(s) ? face(s) : beside(rim_z(s), "")) + " }\n";
-        all += fmt::format("  {} transform {{ Place }}\n}}\n", medium(index));
-        for (const Ring& r : stop_rings(d_, g_)) all += beside(before_faces(r.z_mm), black()) + " transform { Place } }\n";
+                           text(x + 0.02), text(cell_.half()[1] + 0.02), text(g_.base_z_mm - 0.02), text(g_.top_z_mm + 0.02));
+        for (const PlacedSurface& s : g_.surfaces) {
+            if (!is_plane(s)) flats += ring(rim_z(s), 0, "");
+            if (&s != glued_) all += "  " + (is_plane(s) ? face(s.z_mm) : beside(rim_z(s), "")) + " }\n";
+        }
+        all += fmt::format("  {}{} transform {{ Place }}\n}}\n", between(flats), medium(index));
+        for (const Ring& r : stop_rings(d_, g_)) {
+            const double z = before_faces(r.z_mm);
+            all += beside(z, black()) + " transform { Place } }\n";
+            if (const std::string rest = between(ring(z, 0, black())); !rest.empty())
+                all += fmt::format("object {{ {} transform {{ Place }} }}\n", rest);
+        }
         return all;
     }
 
     const Display& d_;
     const Geometry& g_;
     Lattice<double> lattice_;
-    const double half_[2], gap_mm_;
+    const PovCell cell_;
+    const PlacedSurface* glued_;  // the face that lies on the layers or the panel without air
+    const double gap_mm_, units_per_mm_;
     const PeerOptions& options_;
 };
 
@@ -285,34 +359,15 @@ class Writer {
 
 void write_pov(const Display& display, const Geometry& geometry, const PeerOptions& options, std::vector<std::string> head,
                PeerScene& scene) {
-    const bool opaque = display.array.surround == Surround::opaque;
-    auto& deviations = scene.deviations;
     scene.shown = display;
-    scene.shown.panel.encoding = Encoding::linear;
-    const Fresnel fresnel = display.render.fresnel;
-    if (fresnel == Fresnel::schlick || (fresnel == Fresnel::exact && !opaque)) {
-        scene.shown.render.fresnel = Fresnel::none;
-        deviations.push_back(opaque ? "render.fresnel: POV-Ray has no Schlick weights; refraction is without loss here"
-                                    : "render.fresnel: POV-Ray's weights would also remove totally reflected light; refraction is "
-                                      "without loss here");
-    }
-    if (opaque && options.triangles == std::nullopt && display.array.aperture == Aperture::cell)
-        deviations.push_back(
-            fmt::format("array.aperture: the black walls between filled cells are {} pitches thick", 2 * gap_pitches));
-    if (display.array.surround == Surround::clear && display.array.aperture == Aperture::cell)
-        deviations.push_back(
-            fmt::format("array.aperture: bodies of glass that fill their cells are {} pitches of air apart; in lfdsim they touch",
-                        2 * gap_pitches));
-    const Writer writer(scene.shown, geometry, options);
-    if (writer.least_way_mm() > 1e-4 * display.array.pitch_mm.least())
-        deviations.push_back(fmt::format("camera.position_mm: so far away that POV-Ray may miss surfaces less than {:.3g} mm apart",
-                                         writer.least_way_mm()));
+    for (std::string& d : pov_deviations(scene.shown, geometry, options)) scene.deviations.push_back(std::move(d));
     scene.panel_file = "panel.png";
     scene.picture = "view.png";
     const auto [width, height] = display.camera.resolution;
     scene.command = fmt::format("povray +Iscene.pov +O{} +W{} +H{} -D -A +FN16 File_Gamma=1.0", scene.picture, width, height);
     head.push_back("Render: " + scene.command);
-    for (const std::string& d : deviations) head.push_back("Deviates: " + d);
+    for (const std::string& d : scene.deviations) head.push_back("Deviates: " + d);
+    const Writer writer(scene.shown, geometry, options);
     scene.files.push_back({"scene.pov", writer.scene(head, scene.panel_file)});
 }
 

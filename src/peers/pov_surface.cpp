@@ -16,9 +16,10 @@ bool is_conic(const PlacedSurface& s) {
     return std::all_of(s.even_asphere.begin(), s.even_asphere.end(), [](double a) { return a == 0; });
 }
 
-// z minus the sag, as a formula of x, y, z. Beyond `reach` the sag is constant, so that the bound on the slope holds everywhere.
-std::string height_above(const PlacedSurface& s, double reach) {
-    const std::string s2 = fmt::format("min(x*x+y*y,{})", text(reach * reach));
+// z minus the sag, as a formula of x, z and, unless the surface is a cylinder along y, y. Beyond `reach` the sag is constant, so
+// that the bound on the slope holds everywhere.
+std::string height_above(const PlacedSurface& s, const PovCell& cell, double reach) {
+    const std::string s2 = fmt::format("min({},{})", cell.strips() ? "x*x" : "x*x+y*y", text(reach * reach));
     std::string polynomial;
     for (std::size_t i = s.even_asphere.size(); i-- > 0;)
         polynomial =
@@ -40,47 +41,52 @@ double steepest(const PlacedSurface& s, double reach) {
     return 1.05 * std::hypot(1, slope);
 }
 
-std::string isosurface(const PlacedSurface& s, bool above, double wide, double low, double high) {
-    const double reach = s.semi_aperture_mm + margin_mm;
-    const std::string height = height_above(s, reach);
+std::string isosurface(const PlacedSurface& s, const PovCell& cell, bool above, double wide, double low, double high) {
+    const double reach = s.semi_aperture_mm + margin_mm, long_half = cell.strips() ? 1.1 * cell.half_length() : wide;
+    const std::string height = height_above(s, cell, reach);
     return fmt::format(
         "isosurface {{ function {{ {} }} contained_by {{ box {{ {}, {} }} }} accuracy 1e-7 max_gradient {} all_intersections",
-        above ? "-(" + height + ")" : height, vector(-wide, -wide, low), vector(wide, wide, high), text(steepest(s, reach)));
+        above ? "-(" + height + ")" : height, vector(-wide, -long_half, low), vector(wide, long_half, high),
+        text(steepest(s, reach)));
 }
 
-std::string sphere(const PlacedSurface& s) {
-    const double radius = 1 / s.curvature_per_mm;
-    return fmt::format("sphere {{ {}, {}", vector(0, 0, s.z_mm + radius), text(std::abs(radius)));
+// Without the closing brace. A cylinder along y is longer than its strip.
+std::string ball(const PlacedSurface& s, const PovCell& cell, bool open) {
+    const double radius = 1 / s.curvature_per_mm, z = s.z_mm + radius, y = 1.1 * cell.half_length();
+    if (cell.strips())
+        return fmt::format("cylinder {{ {}, {}, {}{}", vector(0, -y, z), vector(0, y, z), text(std::abs(radius)),
+                           open ? " open" : "");
+    return fmt::format("sphere {{ {}, {}", vector(0, 0, z), text(std::abs(radius)));
 }
 
-// c (x^2 + y^2 + (1 + k) z^2) - 2 z = 0 from the vertex
-std::string quadric(const PlacedSurface& s) {
+// c (x^2 + y^2 + (1 + k) z^2) - 2 z = 0 from the vertex, of a cylinder along y without y^2
+std::string quadric(const PlacedSurface& s, const PovCell& cell) {
     const double c = s.curvature_per_mm;
-    return fmt::format("quadric {{ {}, <0,0,0>, <0,0,-2>, 0 translate {}", vector(c, c, c * (1 + s.conic)), vector(0, 0, s.z_mm));
+    return fmt::format("quadric {{ {}, <0,0,0>, <0,0,-2>, 0 translate {}", vector(c, cell.strips() ? 0 : c, c * (1 + s.conic)),
+                       vector(0, 0, s.z_mm));
 }
 
 }  // namespace
 
-std::string pov_skin(const PlacedSurface& s, const LensArray& array) {
+std::string pov_skin(const PlacedSurface& s, const LensArray& array, const PovCell& cell) {
     const auto [low, high] = sag_range_mm(s);
-    const double half_x = array.pitch_mm[0] / 2, half_y = array.pitch_mm[1] / 2, z0 = s.z_mm + low - margin_mm,
-                 z1 = s.z_mm + high + margin_mm;
-    std::string clip =
-        fmt::format(" clipped_by {{ cylinder {{ {}, {}, {} }} }}", vector(0, 0, z0), vector(0, 0, z1), text(s.semi_aperture_mm));
-    if (array.aperture == Aperture::cell)
-        clip = fmt::format(" clipped_by {{ cylinder {{ {}, {}, {} }} box {{ {}, {} }} }}", vector(0, 0, z0), vector(0, 0, z1),
-                           text(s.semi_aperture_mm), vector(-half_x, -half_y, z0), vector(half_x, half_y, z1));
-    if (is_plane(s)) return fmt::format("disc {{ {}, z, {}", vector(0, 0, s.z_mm), text(s.semi_aperture_mm)) + clip;
-    if (!is_conic(s)) return isosurface(s, false, s.semi_aperture_mm + margin_mm, z0, z1) + " open" + clip;
-    return (s.conic == 0 ? sphere(s) : quadric(s)) + clip;
+    const double z0 = s.z_mm + low - margin_mm, z1 = s.z_mm + high + margin_mm, r = s.semi_aperture_mm;
+    std::string clip = " clipped_by { " + cell.column(r, z0, z1);
+    if (array.aperture == Aperture::cell) clip += " " + cell.prism(z0, z1, 0);
+    clip += " }";
+    if (is_plane(s))
+        return fmt::format("disc {{ {}, z, {}", vector(0, 0, s.z_mm), text(cell.strips() ? std::hypot(r, cell.half_length()) : r)) +
+               clip;
+    if (!is_conic(s)) return isosurface(s, cell, false, r + margin_mm, z0, z1) + " open" + clip;
+    return (s.conic == 0 ? ball(s, cell, true) : quadric(s, cell)) + clip;
 }
 
-std::string pov_space(const PlacedSurface& s, bool above, double reach, double low, double high) {
+std::string pov_space(const PlacedSurface& s, const PovCell& cell, bool above, double reach, double low, double high) {
     if (is_plane(s))
         return above ? fmt::format("plane {{ -z, {} }}", text(-s.z_mm)) : fmt::format("plane {{ z, {} }}", text(s.z_mm));
-    if (!is_conic(s)) return isosurface(s, above, reach, low, high) + " }";
-    if (s.conic != 0) return quadric(s) + (above ? " }" : " inverse }");
-    return sphere(s) + (above == (s.curvature_per_mm > 0) ? " }" : " inverse }");
+    if (!is_conic(s)) return isosurface(s, cell, above, reach, low, high) + " }";
+    if (s.conic != 0) return quadric(s, cell) + (above ? " }" : " inverse }");
+    return ball(s, cell, false) + (above == (s.curvature_per_mm > 0) ? " }" : " inverse }");
 }
 
 }  // namespace lfdsim::peers

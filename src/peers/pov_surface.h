@@ -1,7 +1,9 @@
-// Lens surfaces as POV-Ray's shapes: spheres, quadrics, planes and, for aspheres, isosurfaces. Floor 2.
+// Lens surfaces as POV-Ray's shapes: spheres, quadrics, planes and, for aspheres, isosurfaces; of strips, cylinders of these
+// sections. Floor 2.
 #pragma once
 #include "model/display.h"
 #include "model/geometry.h"
+#include "peers/pov_cell.h"
 
 #include <string>
 
@@ -9,9 +11,10 @@ namespace lfdsim::peers {
 
 /// The surface alone, within its aperture: a skin that encloses nothing. x and y from the lens's axis, z from the panel. Without
 /// the closing brace, so that a material can be added.
-std::string pov_skin(const PlacedSurface&, const LensArray&);
+std::string pov_skin(const PlacedSurface&, const LensArray&, const PovCell&);
 
-/// The space above a surface, or below it, near its vertex: valid within `reach` of the axis and for low <= z <= high.
-std::string pov_space(const PlacedSurface&, bool above, double reach, double low, double high);
+/// The space above a surface, or below it, near its vertex: valid within `reach` of the axis, of strips of its plane, and for low
+/// <= z <= high.
+std::string pov_space(const PlacedSurface&, const PovCell&, bool above, double reach, double low, double high);
 
 }  // namespace lfdsim::peers

@@ -31,11 +31,15 @@ Json diffuser(const Display& d, const Geometry& g) {
             {"gaussian", d.diffuser->profile == Profile::gaussian ? 1 : 0}};
 }
 
-Json patches(const std::vector<Patch>& all, std::vector<PeerFile>& files) {
+Json patches(const std::vector<Patch>& all, bool opaque, std::vector<PeerFile>& files) {
     Json list = Json::array();
     for (const Patch& patch : all) {
         const std::string name = patch.name + ".ply";
-        list.push_back({{"file", name}, {"black", patch.black ? 1 : 0}, {"front", patch.index_front}, {"back", patch.index_back}});
+        list.push_back({{"file", name},
+                        {"black", patch.black ? 1 : 0},
+                        {"front", patch.index_front},
+                        {"back", patch.index_back},
+                        {"reflects", !opaque && patch.of_lens ? 1 : 0}});  // totally reflected light continues
         files.push_back({name, ply(patch)});
     }
     return list;
@@ -85,19 +89,20 @@ void write_python(Peer peer, const Display& display, const Geometry& geometry, c
         {"array",
          {{"count", lens_count(display.panel, array)},
           {"pitch_mm", spacing_mm(display.panel, array)},
+          {"staggered", is_staggered(array) ? 1 : 0},
           {"base_z_mm", geometry.base_z_mm},
           {"rotation_deg", array.turn_deg()},
           {"offset_mm", array.offset_mm}}},
         {"diffuser", diffuser(display, geometry)},
         {"fresnel", word(scene.shown.render.fresnel)},
-        // Opaque: each surface once. Otherwise: up to 16, and totally reflected light continues.
-        {"hits", (opaque ? geometry.surfaces.size() : 16) + (display.diffuser ? 1 : 0)},
-        {"reflects", opaque ? 0 : 1},
+        // Opaque: each surface once. Otherwise: up to 16.
+        {"hits", (opaque ? geometry.surfaces.size() - (geometry.glued ? 1 : 0) : 16) + display.panel.layers.size() +
+                     (display.diffuser ? 1 : 0)},
         {"smooth", options.normals == MeshNormals::smooth ? 1 : 0},
         {"samples", samples_of(points)},
         {"seed", display.render.seed},
-        {"cell", patches(made.cell, files)},
-        {"sheet", patches(made.sheet, files)},
+        {"cell", patches(made.cell, opaque, files)},
+        {"sheet", patches(made.sheet, opaque, files)},
     };
     head.push_back("Render: " + scene.command + " [--samples N] [--size WxH]" +
                    (cycles ? "" : " [--variant llvm_ad_rgb|cuda_ad_rgb]"));

@@ -12,4 +12,7 @@ def read_ply(name):
 def lens_axes(array):
     """(n, 2) axes of all lenses in the array's frame, from its middle, row after row."""
     x, y = ((np.arange(n) + 0.5 - n / 2) * p for n, p in zip(array["count"], array["pitch_mm"]))
-    return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    axes = np.stack(np.meshgrid(x, y), axis=-1)
+    if array["staggered"]:  # odd rows to the right
+        axes[:, :, 0] += (np.arange(len(y))[:, None] % 2 - 0.5) * array["pitch_mm"][0] / 2
+    return axes.reshape(-1, 2)

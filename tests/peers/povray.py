@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """What `lfdsim export pov` writes, rendered by POV-Ray, against lfdsim's own picture: povray.py LFDSIM [--full] [--only TEXT] [--triangles N].
 
-The displays of tests/oracle/cases.py, each seen once a pixel. Away from edges all pixels agree within 1/255 (an edge is where the exact picture changes
+The displays of tests/oracle/cases.py and lattice_cases.py, each seen once a pixel. Away from edges all pixels agree within 1/255 (an edge is where the exact picture changes
 within 0.02 pixels: tests/oracle/README.md). The panel shows addresses, so that a wrong panel pixel is a wrong colour. Skipped without the program povray.
 """
 import argparse
@@ -18,22 +18,29 @@ from PIL import Image
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "oracle"))
 import cases  # noqa: E402
+import lattice_cases  # noqa: E402
 import tracer  # noqa: E402
 from display import resolve  # noqa: E402
 from run import panel_images  # noqa: E402
 
 TOLERANCE = 1 / 255 + 1e-5
-QUICK = ("opaque circle, on axis", "opaque circle, 15 degrees", "opaque circle, rotated", "opaque square, 15", "clear circle, 30", "plate circle, 45", "asphere, 15", "cemented", "spaced")
+QUICK = ("opaque circle, on axis", "opaque circle, 15 degrees", "opaque circle, rotated", "opaque square, 15", "clear circle, 30", "plate circle, 45", "asphere, 15", "cemented", "spaced",
+         "hexagon lattice, opaque cell, 30", "hexagon lattice, clear cell, rotated", "brick lattice, glued onto a layer, plate cell",
+         "slanted strips, opaque cell, on axis", "strips slanted to the left, plate cell", "three layers, clear", "glued onto two layers, clear", "pinhole, hexagon")
 
 
 def refusal(d, meshed):
     """A word of the message with which the export refuses a display, None where it must not."""
     if d["lens"]["type"] == "ideal":
-        return "no ideal lenses"
+        return "an ideal lens"
     if d["panel"].get("emission_exponent"):
         return "Lambertian"
+    if meshed and d["lens"]["type"] == "pinhole":
+        return "a pinhole"
+    if meshed and d["array"].get("lattice") == "strips":
+        return "cylindrical lenses"
     filled, surround = d["array"].get("aperture") == "cell", d["array"].get("surround")
-    return {"clear": "no order", "plate": "as triangles"}.get(surround) if filled and meshed else None
+    return {"clear": "no defined order", "plate": "as triangles"}.get(surround) if filled and meshed else None
 
 
 def run(command, folder):
@@ -112,10 +119,11 @@ def main():
         print("SKIPPED: the program povray is not installed (Debian: povray)")
         sys.exit(77)
     program, wrong, done = os.path.abspath(options.program), 0, 0
-    for name, description in cases.SHARP.items():
+    for name, description in {**cases.SHARP, **lattice_cases.SHORT, **lattice_cases.MORE}.items():
         if options.only not in name or not (options.full or options.only or any(name.startswith(part) for part in QUICK)):
             continue
-        if description["array"]["count"][0] > 100 and not options.full:
+        columns, rows = description["array"].get("count", [0, 0])
+        if columns * rows > (1_000_000 if options.full else 10_000):  # one display of a million lenses is enough: POV-Ray needs gigabytes for them
             continue
         over = {"render": {"fresnel": "none"}} if options.triangles else {}  # colours tell addresses
         description = cases.merge(description, {"camera": {"resolution": [192, 108]}, **over})

@@ -138,6 +138,68 @@ TEST(Scene, RefusesWhatItCannotShow) {
                 ElementsAre("camera.pixel_filter", "panel.emission_exponent"));
 }
 
+Display hexagons(const std::vector<std::string>& overrides = {}) {
+    std::vector<std::string> all{"array.lattice=\"hexagon\"", "array.count=[5,4]"};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    return example(all);
+}
+
+Display on_plates(const std::vector<std::string>& overrides = {}) {
+    std::vector<std::string> all{"panel.layer=[{thickness_mm=2.0,index=1.5},{thickness_mm=0.5,index=1.4}]"};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    return example(all);
+}
+
+TEST(Scene, OfStaggeredRowsHasTheirPlaces) {
+    const Display d = hexagons();
+    EXPECT_THAT(scene_text(Peer::pov, d), HasSubstr("(I - 2) * 12 + (mod(J + 2, 2) - 0.5) * 6"));
+    EXPECT_THAT(scene_text(Peer::mitsuba, d), HasSubstr("\"staggered\":1"));
+    EXPECT_THAT(scene_text(Peer::mitsuba, example()), HasSubstr("\"staggered\":0"));
+    // As many as cover the panel, where no number is given
+    const Display counted = example({"array.lattice=\"hexagon\"", "array.count=none"});
+    const auto [columns, rows] = lens_count(counted.panel, counted.array);
+    EXPECT_THAT(scene_text(Peer::pov, counted),
+                HasSubstr("#for (J, 0, " + std::to_string(rows - 1) + ") #for (I, 0, " + std::to_string(columns - 1) + ")"));
+}
+
+TEST(Scene, OfStripsHasCylinders) {
+    const Display d = example({"array.lattice=\"strips\"", "array.slant_deg=10.0", "array.count=none"});
+    const std::string text = scene_text(Peer::pov, d);
+    EXPECT_THAT(text, HasSubstr("cylinder"));
+    EXPECT_EQ(text.find("sphere"), text.npos);
+    PeerOptions meshes;
+    meshes.triangles = 1000;
+    EXPECT_THAT(refused_keys(Peer::pov, d, meshes), ElementsAre("array.lattice"));
+    EXPECT_THAT(refused_keys(Peer::cycles, d), ElementsAre("array.lattice"));
+}
+
+TEST(Scene, OfLayersCountsTheirHits) {
+    EXPECT_THAT(scene_text(Peer::pov, on_plates()), HasSubstr("max_trace_level 5 "));
+    EXPECT_THAT(scene_text(Peer::pov, on_plates({"array.surround=\"clear\""})), HasSubstr("max_trace_level 19 "));
+    EXPECT_THAT(scene_text(Peer::cycles, on_plates()), HasSubstr("\"hits\": 4,"));
+    // Glued on, the lens's face is the upper layer's.
+    const std::vector<std::string> glue{"array.gap_mm=none", "array.base_z_mm=2.5"};
+    EXPECT_THAT(scene_text(Peer::pov, on_plates(glue)), HasSubstr("max_trace_level 4 "));
+    EXPECT_THAT(scene_text(Peer::mitsuba, on_plates(glue)), HasSubstr("\"hits\": 3,"));
+    const Display clear = on_plates({"array.gap_mm=none", "array.base_z_mm=2.5", "array.surround=\"clear\""});
+    EXPECT_THAT(scene_text(Peer::pov, clear), HasSubstr("max_trace_level 18 "));
+}
+
+TEST(Scene, SaysThatLayersAreTooThinForPovRay) {
+    const Display thin = example({"panel.layer=[{thickness_mm=0.00005,index=1.5}]"});
+    EXPECT_THAT(peer_scene(Peer::pov, thin, resolve(thin), {}).deviations, ElementsAre(HasSubstr("panel.layer.0.thickness_mm")));
+    const Display thick = on_plates();
+    EXPECT_TRUE(peer_scene(Peer::pov, thick, resolve(thick), {}).deviations.empty());
+}
+
+TEST(Scene, OfPinholesIsForPovRayAlone) {
+    const std::vector<std::string> holes{"lens.type=\"pinhole\"", "lens.aperture_radius_mm=1.0", "lens.sphere_radius_mm=none",
+                                         "lens.cylinder_height_mm=none", "lens.index=none"};
+    const Display d = on_plates(holes);
+    EXPECT_THAT(scene_text(Peer::pov, d), HasSubstr("max_trace_level 3 "));
+    EXPECT_THAT(refused_keys(Peer::mitsuba, d), ElementsAre("lens.type"));
+}
+
 TEST(Scene, SaysThatLightIsCutOff) {
     const Display d = example();
     const PeerScene pov = peer_scene(Peer::pov, d, resolve(d), {}), cycles = peer_scene(Peer::cycles, d, resolve(d), {});
@@ -180,6 +242,59 @@ TEST(Cell, OfAPlateIsCoveredOnce) {
     EXPECT_EQ(named(made.sheet, "surface-1")->count(), 1u);
     EXPECT_EQ(cap->index_front, 1);
     EXPECT_EQ(cap->index_back, 1.4918);
+}
+
+TEST(Cell, OfStaggeredRowsIsCoveredOnce) {
+    const double cell = 12 * 12 * std::sqrt(0.75);
+    for (const char* lattice : {"hexagon", "brick"}) {
+        const Display d =
+            hexagons({std::string("array.lattice=\"") + lattice + '"', "array.surround=\"plate\"", "lens.aperture_radius_mm=5.5"});
+        const Geometry g = resolve(d);
+        const MeshedArray made = peers::mesh_array(d, g, 5000);
+        const Patch *cap = named(made.cell, "surface-2"), *flat = named(made.cell, "flat-2"),
+                    *beside = named(made.sheet, "beside-2");
+        ASSERT_TRUE(cap && flat && beside);
+        const double one = d.array.lattice == LatticeKind::hexagon ? cell : 144;
+        EXPECT_NEAR(area_from_above(*cap) + area_from_above(*flat), one, 1e-4) << lattice;
+        // The cells and what lies beside them make up the whole sheet.
+        const double half = peers::sheet_half(d, g);
+        EXPECT_NEAR(area_from_above(*beside) + 20 * one, 4 * half * half, 1e-6 * half * half) << lattice;
+    }
+}
+
+TEST(Cell, OfAHexagonThatIsFilledEndsAtItsBorder) {
+    const Display d = hexagons({"array.aperture=\"cell\"", "lens.sphere_radius_mm=9.0"});
+    const MeshedArray made = peers::mesh_array(d, resolve(d), 5000);
+    const Patch* cap = named(made.cell, "surface-2");
+    ASSERT_TRUE(cap);
+    EXPECT_NEAR(area_from_above(*cap), 12 * 12 * std::sqrt(0.75), 1e-4);
+}
+
+TEST(Cell, HasFacesOfLayers) {
+    const Display d = on_plates({"array.surround=\"plate\"", "array.gap_mm=none", "array.base_z_mm=2.5"});
+    const MeshedArray made = peers::mesh_array(d, resolve(d), 1000);
+    const Patch *face = named(made.sheet, "surface-1"), *lower = named(made.sheet, "layer-1");
+    ASSERT_TRUE(face && lower);
+    EXPECT_EQ(named(made.sheet, "layer-2"), nullptr);  // the lens's own face
+    EXPECT_EQ(face->index_back, 1.4);
+    EXPECT_TRUE(face->of_lens);
+    EXPECT_EQ(lower->index_front, 1.4);
+    EXPECT_EQ(lower->index_back, 1.5);
+    EXPECT_FALSE(lower->of_lens);
+    EXPECT_EQ(lower->vertices_mm[2], -0.5f);
+    // Between bodies of glass that are glued on the layer borders on air.
+    const Display clear =
+        on_plates({"array.surround=\"clear\"", "array.gap_mm=none", "array.base_z_mm=2.5", "lens.aperture_radius_mm=5.5"});
+    const MeshedArray bodies = peers::mesh_array(clear, resolve(clear), 5000);
+    const Patch *under = named(bodies.cell, "surface-1"), *beside = named(bodies.cell, "layer-2");
+    ASSERT_TRUE(under && beside && named(bodies.sheet, "layer-2-beside"));
+    EXPECT_EQ(under->index_front, 1.4918);
+    EXPECT_EQ(under->index_back, 1.4);
+    EXPECT_EQ(beside->index_front, 1);
+    EXPECT_NEAR(area_from_above(*under) + area_from_above(*beside), 144, 1e-4);
+    // On the bare panel there is no face.
+    const Display bare = example({"array.gap_mm=none", "array.base_z_mm=0.0"});
+    EXPECT_EQ(named(peers::mesh_array(bare, resolve(bare), 1000).sheet, "surface-1"), nullptr);
 }
 
 TEST(Cell, OfAnOpaqueArrayIsBlackBesideTheLens) {
