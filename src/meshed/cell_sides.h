@@ -1,13 +1,21 @@
 // The border of a cell of the array. Floor 2.
 #pragma once
 #include "model/display.h"
-#include "model/lattice.h"
+#include "model/geometry.h"
 
 #include <array>
-#include <cmath>
 #include <vector>
 
 namespace lfdsim {
+
+/// Half the sides of the square that represents an infinite sheet: rays that pass beside it could only reach the panel at more than
+/// 87 degrees from its normal.
+double sheet_half(const Display&, const Geometry&);
+
+/// Half the sides of the box about a cell, and of the box about all cells. Strips, which have no end, end with the sheet, at whole
+/// millimetres, which single precision holds.
+std::array<double, 2> cell_half(const Display&, const Geometry&);
+std::array<double, 2> array_half(const Display&, const Geometry&);
 
 /// A side of a cell: it is normal to `out`, a unit vector in the array's frame.
 struct CellSide {
@@ -15,16 +23,7 @@ struct CellSide {
     double from_axis_mm, half_length_mm;
 };
 
-/// The sides of a rectangle, or of a hexagon with corners up and down, counter-clockwise from the right one. Strips have no such
-/// border.
-inline std::vector<CellSide> cell_sides(const LensArray& array) {
-    const double x = array.pitch_mm[0] / 2, y = array.pitch_mm[1] / 2;
-    if (array.lattice != LatticeKind::hexagon) return {{{1, 0}, x, y}, {{0, 1}, y, x}, {{-1, 0}, x, y}, {{0, -1}, y, x}};
-    const double c = 0.5, s = std::sqrt(0.75), half = outer_radius_mm(array) / 2;
-    std::vector<CellSide> all;
-    for (const std::array<double, 2>& out : {std::array{1.0, 0.0}, {c, s}, {-c, s}, {-1.0, 0.0}, {-c, -s}, {c, -s}})
-        all.push_back({out, x, half});
-    return all;
-}
+/// The sides of a rectangle, or of a hexagon with corners up and down, counter-clockwise from the right one.
+std::vector<CellSide> cell_sides(const Display&, const Geometry&);
 
 }  // namespace lfdsim

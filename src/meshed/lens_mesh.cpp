@@ -33,11 +33,11 @@ std::array<double, 2> normal(const PlacedSurface& s, double distance) {
 // The border of a surface as seen along the axis.
 class Outline {
   public:
-    Outline(const PlacedSurface& s, const LensArray& array)
+    Outline(const PlacedSurface& s, const LensArray& array, const std::vector<CellSide>& sides)
         : radius_(s.semi_aperture_mm),
           round_(array.aperture == Aperture::circle),
           reach_(round_ ? radius_ : std::min(radius_, outer_radius_mm(array))),
-          sides_(cell_sides(array)) {}
+          sides_(sides) {}
     // The point at this share of the way round, counter-clockwise. A cell's outline begins in a corner; each side has an equal
     // share.
     std::array<double, 2> point(double share) const {
@@ -60,7 +60,7 @@ class Outline {
     double radius_;
     bool round_;
     double reach_;  // from the axis
-    std::vector<CellSide> sides_;
+    const std::vector<CellSide>& sides_;
 };
 
 // Ring k of a curved surface has sectors x k vertices; the last ring is the rim.
@@ -68,6 +68,13 @@ struct Grid {
     int sectors, rings;
     int rim() const { return sectors * rings; }
 };
+
+// A strip's slats, each cut into pieces: single precision loses points on triangles of any length.
+struct Slats {
+    std::uint32_t across, along;
+    std::uint32_t rim() const { return 2 * (across + along); }
+};
+constexpr double longest_slat = 64;  // times its width
 
 // Distances from the axis that divide the surface's meridian evenly, the last one `reach`.
 std::vector<double> ring_distances(const PlacedSurface& s, double reach, int rings) {
@@ -89,7 +96,8 @@ std::vector<double> ring_distances(const PlacedSurface& s, double reach, int rin
 
 class Builder {
   public:
-    Builder(const Display& display, const Geometry& geometry) : array_(display.array), geometry_(geometry) {}
+    Builder(const Display& display, const Geometry& geometry)
+        : array_(display.array), geometry_(geometry), sides_(cell_sides(display, geometry)) {}
 
     LensMesh build(Grid grid) {
         const auto& surfaces = geometry_.surfaces;
@@ -97,6 +105,31 @@ class Builder {
         for (std::size_t k = 0; k + 1 < surfaces.size(); ++k)
             if (surfaces[k].index_above != 1) add_wall(rims_[k], rims_[k + 1], grid.rim(), touching * surfaces[k].semi_aperture_mm);
         return std::move(mesh_);
+    }
+
+    LensMesh build_strip(Slats slats) {
+        const auto& surfaces = geometry_.surfaces;
+        for (std::size_t k = 0; k < surfaces.size(); ++k) add_slats(int(k), slats);
+        for (std::size_t k = 0; k + 1 < surfaces.size(); ++k)
+            if (surfaces[k].index_above != 1)
+                add_wall(rims_[k], rims_[k + 1], int(slats.rim()), touching * surfaces[k].semi_aperture_mm);
+        return std::move(mesh_);
+    }
+    Slats slats(std::uint32_t across) const {
+        const double along = sides_[0].half_length_mm / (longest_slat * sides_[0].from_axis_mm) * across;
+        return {across, std::uint32_t(std::max(1.0, std::ceil(along)))};
+    }
+    // The slats whose number of triangles is closest to the wanted one.
+    Slats choose_slats(double wanted) const {
+        double bodies = 0;
+        for (std::size_t k = 0; k + 1 < geometry_.surfaces.size(); ++k) bodies += geometry_.surfaces[k].index_above != 1;
+        const auto excess = [&](std::uint32_t across) {
+            const Slats s = slats(across);
+            return 2 * double(geometry_.surfaces.size()) * s.across * s.along + 2 * bodies * s.rim() - wanted;
+        };
+        std::uint32_t across = 1;
+        while (excess(across + 1) < -excess(across)) ++across;
+        return slats(across);
     }
 
     // Number of triangles of such a mesh; exact except for walls of lenses that fill their cells, whose rims touch in parts.
@@ -114,7 +147,7 @@ class Builder {
   private:
     bool rims_touch(const PlacedSurface& a, const PlacedSurface& b) const {
         // Most points of a cell's outline are closer to the axis than its corners: the middle of a side represents them.
-        const auto middle = Outline(a, array_).middle_of_side();
+        const auto middle = Outline(a, array_, sides_).middle_of_side();
         const double x = std::hypot(middle[0], middle[1]);
         const double near = touching * a.semi_aperture_mm;
         return std::abs(a.semi_aperture_mm - b.semi_aperture_mm) < near && std::abs(a.z_mm + sag(a, x) - b.z_mm - sag(b, x)) < near;
@@ -136,7 +169,7 @@ class Builder {
 
     void add_surface(int number, Grid grid) {
         const PlacedSurface& s = geometry_.surfaces[std::size_t(number)];
-        const Outline outline(s, array_);
+        const Outline outline(s, array_, sides_);
         const bool plane = is_plane(s), down = s.index_below == 1;
         const double vertex_z = s.z_mm - geometry_.base_z_mm, sense = down ? -1 : 1;
         const auto face = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -173,6 +206,42 @@ class Builder {
         rims_.push_back(inner);
     }
 
+    // A cylinder's section, extruded along y. Its points are closer to each other towards the rim, where it may be steep.
+    void add_slats(int number, Slats slats) {
+        const PlacedSurface& s = geometry_.surfaces[std::size_t(number)];
+        const bool down = s.index_below == 1;
+        const double r = s.semi_aperture_mm, half = array_.aperture == Aperture::cell ? std::min(r, sides_[0].from_axis_mm) : r,
+                     sense = down ? -1 : 1;
+        const auto first = std::uint32_t(mesh_.vertices_mm.size() / 3), n = slats.across, m = slats.along;
+        const auto add = [&](std::uint32_t i, std::uint32_t j) {
+            const double x = half * std::sin(0.5 * pi * (2.0 * i / n - 1)), y = sides_[0].half_length_mm * (2.0 * j / m - 1);
+            const auto [across, up] = normal(s, std::abs(x));
+            add_vertex(x, y, s.z_mm - geometry_.base_z_mm + sag(s, std::abs(x)),
+                       {sense * (x < 0 ? -across : across), 0, sense * up});
+        };
+        // The rim first, counter-clockwise
+        for (std::uint32_t i = 0; i < n; ++i) add(i, 0);
+        for (std::uint32_t j = 0; j < m; ++j) add(n, j);
+        for (std::uint32_t i = n; i > 0; --i) add(i, m);
+        for (std::uint32_t j = m; j > 0; --j) add(0, j);
+        for (std::uint32_t j = 1; j < m; ++j)
+            for (std::uint32_t i = 1; i < n; ++i) add(i, j);
+        const auto at = [&](std::uint32_t i, std::uint32_t j) {
+            if (j == 0) return first + i;
+            if (i == n) return first + n + j;
+            if (j == m) return first + n + m + (n - i);
+            if (i == 0) return first + 2 * n + m + (m - j);
+            return first + slats.rim() + (j - 1) * (n - 1) + (i - 1);
+        };
+        for (std::uint32_t j = 0; j < m; ++j)
+            for (std::uint32_t i = 0; i < n; ++i) {
+                const std::uint32_t a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
+                down ? add_triangle(a, c, b, number) : add_triangle(a, b, c, number);
+                down ? add_triangle(a, d, c, number) : add_triangle(a, c, d, number);
+            }
+        rims_.push_back(first);
+    }
+
     // The wall between the rims of two surfaces, each of `around` vertices in sequence. Where the rims are closer than `near` they
     // are joined and there is no wall.
     void add_wall(std::uint32_t lower, std::uint32_t upper, int around, double near) {
@@ -197,7 +266,7 @@ class Builder {
     // The normal at corner i of a quadrilateral of a wall, lower edge first: a round wall is a cone, that of a cell has flat sides.
     Vec3d wall_normal(const Vec3d (&at)[4], int i) const {
         Vec3d n;
-        if (array_.aperture == Aperture::circle) {
+        if (array_.aperture == Aperture::circle && !is_strips(array_)) {
             const Vec3d &low = at[i == 0 || i == 3 ? 0 : 1], &high = at[i == 0 || i == 3 ? 3 : 2];
             const double out = std::hypot(at[i][0], at[i][1]), rise = high[2] - low[2];
             n = {rise * at[i][0] / out, rise * at[i][1] / out, std::hypot(low[0], low[1]) - std::hypot(high[0], high[1])};
@@ -210,6 +279,7 @@ class Builder {
 
     const LensArray& array_;
     const Geometry& geometry_;
+    const std::vector<CellSide> sides_;
     LensMesh mesh_;
     std::vector<std::uint32_t> rims_;  // first vertex of each surface's rim
 };
@@ -240,14 +310,13 @@ Grid choose_grid(const Builder& builder, int sides, double wanted) {
 LensMesh mesh_lens(const Display& display, const Geometry& geometry, std::int64_t triangles) {
     if (geometry.surfaces.front().form == SurfaceForm::thin)
         throw InputError("lens.type", "an ideal lens or a pinhole has no surfaces to make triangles of; give a real lens");
-    if (is_strips(display.array))
-        throw InputError("array.lattice", "is \"strips\", and cylindrical lenses are not made of triangles; take another lattice");
     if (triangles < least_lens_triangles || triangles > most_lens_triangles)
         throw InputError("--lens-mesh",
                          fmt::format("{} triangles; allowed: {} to {}", triangles, least_lens_triangles, most_lens_triangles));
     Builder builder(display, geometry);
-    return builder.build(choose_grid(builder, display.array.aperture == Aperture::cell ? int(cell_sides(display.array).size()) : 0,
-                                     double(triangles)));
+    if (is_strips(display.array)) return builder.build_strip(builder.choose_slats(double(triangles)));
+    const int sides = display.array.aperture == Aperture::circle ? 0 : display.array.lattice == LatticeKind::hexagon ? 6 : 4;
+    return builder.build(choose_grid(builder, sides, double(triangles)));
 }
 
 }  // namespace lfdsim

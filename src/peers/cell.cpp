@@ -1,6 +1,5 @@
 #include "peers/cell.h"
 
-#include "meshed/cell_sides.h"
 #include "meshed/lens_mesh.h"
 #include "model/numbers.h"
 
@@ -95,13 +94,14 @@ void add_ring(Patch& patch, const std::vector<Point>& inner, double z, const std
         }
         pairs.push_back({{p[0], p[1], z}, {scale * p[0], scale * p[1], z}, nearest});
     }
-    const auto on_border = [&](const Point& p) {
-        return std::any_of(sides.begin(), sides.end(),
-                           [&](const CellSide& side) { return towards(side, p) >= side.from_axis_mm - 1e-6; });
+    const auto along_border = [&](const Point& a, const Point& b) {
+        return std::any_of(sides.begin(), sides.end(), [&](const CellSide& side) {
+            return std::min(towards(side, a), towards(side, b)) >= side.from_axis_mm - 1e-6;
+        });
     };
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         const Pair &a = pairs[i], &b = pairs[(i + 1) % pairs.size()];
-        if (on_border(a.in) && on_border(b.in)) continue;
+        if (along_border(a.in, b.in)) continue;
         add_triangle(patch, a.in, a.out, b.in, up);
         Point from = a.out;
         for (std::size_t k = a.side; k != b.side; k = (k + 1) % sides.size()) {
@@ -163,7 +163,7 @@ void add_face(Patch& patch, double z, double half) {
 class ArrayBuilder {
   public:
     ArrayBuilder(const Display& d, const Geometry& g, std::int64_t triangles)
-        : display_(d), geometry_(g), mesh_(mesh_lens(d, g, triangles)), sides_(cell_sides(d.array)) {}
+        : display_(d), geometry_(g), mesh_(mesh_lens(d, g, triangles)), sides_(cell_sides(d, g)) {}
 
     MeshedArray build() {
         const Surround surround = display_.array.surround;
@@ -256,6 +256,13 @@ class ArrayBuilder {
         return z;
     }
 
+    // The border of a stop's hole or slit.
+    std::vector<Point> hole(double radius) const {
+        if (!geometry_.lattice.strips) return circle(radius, 512);
+        const double y = cell_half(display_, geometry_)[1];
+        return {{-radius, -y, 0}, {radius, -y, 0}, {radius, y, 0}, {-radius, y, 0}};
+    }
+
     void add_black() {
         Patch black{"black", true, 1, 1, {}, {}, {}}, beside{"black-beside", true, 1, 1, {}, {}, {}};
         const auto& surfaces = geometry_.surfaces;
@@ -265,7 +272,7 @@ class ArrayBuilder {
                 const auto same = std::find_if(surfaces.begin(), surfaces.end(),
                                                [&](const PlacedSurface& s) { return s.semi_aperture_mm == ring.radius_mm; });
                 const bool of_surface = same != surfaces.end() && !all_beside;
-                add_ring(black, of_surface ? rims_[std::size_t(same - surfaces.begin())] : circle(ring.radius_mm, 512), z, sides_,
+                add_ring(black, of_surface ? rims_[std::size_t(same - surfaces.begin())] : hole(ring.radius_mm), z, sides_,
                          solid_overlap_mm);
                 if (all_beside || &ring == &rings.front() || &ring == &rings.back()) {
                     add_frame(beside, array_half(display_, geometry_), z, 100 * sheet_half(display_, geometry_));
@@ -341,23 +348,6 @@ std::vector<Ring> black_rings(const Display& display, const Geometry& geometry) 
 std::vector<Ring> stop_rings(const Display& display, const Geometry& geometry) {
     if (!display.lens.stop_radius_mm) return {};
     return {{geometry.stop_z_mm, *display.lens.stop_radius_mm}};
-}
-
-std::array<double, 2> cell_half(const Display& display, const Geometry& g) {
-    const double x = g.lattice.pitch[0] / 2;
-    if (g.lattice.strips) return {x, sheet_half(display, g)};
-    return {x, g.lattice.hexagonal ? outer_radius_mm(display.array) : g.lattice.pitch[1] / 2};
-}
-
-std::array<double, 2> array_half(const Display& display, const Geometry& g) {
-    return {g.array_width_mm / 2, g.lattice.strips ? sheet_half(display, g) : g.array_height_mm / 2};
-}
-
-double sheet_half(const Display& display, const Geometry& g) {
-    // the array may be turned and moved: its diagonal and the panel's hold for any angle
-    const double wide = std::hypot(g.array_width_mm, g.array_height_mm), panel = std::hypot(g.panel_width_mm, g.panel_height_mm);
-    const auto [x, y] = display.array.offset_mm;
-    return wide / 2 + panel / 2 + std::hypot(x, y) + 20 * g.top_z_mm;
 }
 
 MeshedArray mesh_array(const Display& display, const Geometry& geometry, std::int64_t triangles) {

@@ -1,5 +1,6 @@
 // An array of lenses as triangles: the parts that are repeated in each cell, and those that exist once. Floor 2.
 #pragma once
+#include "meshed/cell_sides.h"
 #include "model/display.h"
 #include "model/geometry.h"
 
@@ -44,11 +45,5 @@ std::vector<Ring> stop_rings(const Display&, const Geometry&);
 /// Height of a surface at the rim of its aperture.
 double rim_z(const PlacedSurface&);
 bool is_plane(const PlacedSurface&);
-
-/// Half the sides of the box about a cell, of the box about all cells, and of the square that represents an infinite sheet: rays
-/// that pass beside it could only reach the panel at more than 87 degrees from its normal. Strips, which have no end, end with it.
-std::array<double, 2> cell_half(const Display&, const Geometry&);
-std::array<double, 2> array_half(const Display&, const Geometry&);
-double sheet_half(const Display&, const Geometry&);
 
 }  // namespace lfdsim::peers

@@ -1,7 +1,6 @@
 #include "peers/peers.h"
 
 #include "meshed/lens_mesh.h"
-#include "model/lattice.h"
 
 #include <fmt/format.h>
 #include <cmath>
@@ -37,10 +36,6 @@ class Refusals {
     bool meshed() const { return peer_ != Peer::pov || options_.triangles; }
 
     void array() {
-        if (is_strips(d_.array) && meshed())
-            add("array.lattice",
-                "is \"strips\", and cylindrical lenses are not made of triangles; export true surfaces for pov, without "
-                "--triangles");
         const bool filled = d_.array.aperture == Aperture::cell;
         if (filled && d_.array.surround == Surround::plate && meshed())
             add("array.aperture",

@@ -37,8 +37,6 @@ def refusal(d, meshed):
         return "Lambertian"
     if meshed and d["lens"]["type"] == "pinhole":
         return "a pinhole"
-    if meshed and d["array"].get("lattice") == "strips":
-        return "cylindrical lenses"
     filled, surround = d["array"].get("aperture") == "cell", d["array"].get("surround")
     return {"clear": "no defined order", "plate": "as triangles"}.get(surround) if filled and meshed else None
 

@@ -167,10 +167,6 @@ TEST(Scene, OfStripsHasCylinders) {
     const std::string text = scene_text(Peer::pov, d);
     EXPECT_THAT(text, HasSubstr("cylinder"));
     EXPECT_EQ(text.find("sphere"), text.npos);
-    PeerOptions meshes;
-    meshes.triangles = 1000;
-    EXPECT_THAT(refused_keys(Peer::pov, d, meshes), ElementsAre("array.lattice"));
-    EXPECT_THAT(refused_keys(Peer::cycles, d), ElementsAre("array.lattice"));
 }
 
 TEST(Scene, OfLayersCountsTheirHits) {
@@ -257,7 +253,7 @@ TEST(Cell, OfStaggeredRowsIsCoveredOnce) {
         const double one = d.array.lattice == LatticeKind::hexagon ? cell : 144;
         EXPECT_NEAR(area_from_above(*cap) + area_from_above(*flat), one, 1e-4) << lattice;
         // The cells and what lies beside them make up the whole sheet.
-        const double half = peers::sheet_half(d, g);
+        const double half = sheet_half(d, g);
         EXPECT_NEAR(area_from_above(*beside) + 20 * one, 4 * half * half, 1e-6 * half * half) << lattice;
     }
 }
@@ -268,6 +264,24 @@ TEST(Cell, OfAHexagonThatIsFilledEndsAtItsBorder) {
     const Patch* cap = named(made.cell, "surface-2");
     ASSERT_TRUE(cap);
     EXPECT_NEAR(area_from_above(*cap), 12 * 12 * std::sqrt(0.75), 1e-4);
+}
+
+TEST(Cell, OfAStripIsCoveredOnce) {
+    const Display d =
+        example({"array.lattice=\"strips\"", "array.count=none", "array.surround=\"plate\"", "lens.aperture_radius_mm=5.5"});
+    const Geometry g = resolve(d);
+    const MeshedArray made = peers::mesh_array(d, g, 1000);
+    const Patch *cap = named(made.cell, "surface-2"), *flat = named(made.cell, "flat-2");
+    ASSERT_TRUE(cap && flat);
+    const double length = 2 * cell_half(d, g)[1];
+    EXPECT_NEAR(area_from_above(*cap), 11 * length, 1e-6 * length);
+    EXPECT_NEAR(area_from_above(*flat), length, 1e-6 * length);
+    // A stop's slit
+    const Display stopped =
+        example({"array.lattice=\"strips\"", "array.count=none", "array.surround=\"plate\"", "lens.stop_radius_mm=2.0"});
+    const Geometry of_stopped = resolve(stopped);
+    const Patch black = *named(peers::mesh_array(stopped, of_stopped, 1000).cell, "black");
+    EXPECT_NEAR(area_from_above(black) / (2 * cell_half(stopped, of_stopped)[1]), 12 - 4, 0.01);
 }
 
 TEST(Cell, HasFacesOfLayers) {
