@@ -1,13 +1,13 @@
 // A cell of the array as POV-Ray's shapes: its prism, the hole of a lens in it, its sides. Floor 2.
 //
-// The array's frame, x and y from the lens's axis, z from the panel, mm. Strips, which have no end, are sheet_half() long to either
+// The array's frame, x and y from the lens's axis, z from the panel, mm. Strips, which have no end, are cell_half() long to either
 // side.
 #pragma once
 #include "model/display.h"
 #include "model/geometry.h"
 
 #include <array>
-#include <optional>
+#include <cstdint>
 #include <string>
 #include <vector>
 
