@@ -129,6 +129,11 @@ optics::Scene<S> make_scene(const Display& display, const Geometry& geometry) {
     scene.rows = std::uint32_t(display.panel.pixels[1]);
     scene.pixels_per_mm = S(1 / display.panel.pixel_pitch_mm);
     scene.emission_exponent = S(display.panel.emission_exponent);
+    const double q = display.panel.aperture_ratio;
+    scene.masked = q < 1;
+    scene.opening[0] = S((1 - std::sqrt(q)) / 2);
+    scene.opening[1] = S((1 + std::sqrt(q)) / 2);
+    scene.gain = S(1 / q);
 
     scene.aperture = array.aperture;
     scene.aperture_radius = S(geometry.glass_radius_mm);
@@ -198,7 +203,7 @@ optics::View make_view(const Display& display, const Geometry& geometry) {
 Estimator estimator_of(const Display& display) {
     const bool applies = display.diffuser && display.camera.pixel_filter == PixelFilter::center &&
                          display.camera.pupil_diameter_mm.value_or(0) == 0 && display.array.turn_deg() == 0 &&
-                         !is_staggered(display.array) && !is_strips(display.array);
+                         !is_staggered(display.array) && !is_strips(display.array) && display.panel.aperture_ratio == 1;
     return applies ? display.render.estimator : Estimator::point;
 }
 

@@ -28,6 +28,7 @@ struct Panel {
     double pixel_pitch_mm = 0;
     Encoding encoding = Encoding::srgb;
     double emission_exponent = 0;  // m of cos(theta)^m, 0 = Lambertian
+    double aperture_ratio = 1;     // q, the share of each pixel that shines; in the black matrix around it there is no light
     std::vector<Layer> layers;     // on the panel, from it upwards: cover glass, polariser, adhesive
     bool operator==(const Panel&) const = default;
 };

@@ -21,6 +21,9 @@ constexpr Key<Panel> panel_keys[] = {
     {"encoding", &Panel::encoding, no_range, false, "Of the panel image's code values: IEC 61966-2-1, or proportional to light."},
     {"emission_exponent", &Panel::emission_exponent, Range{0, 100}, false,
      "m: radiance falls as cos(theta)^m from the normal, in what lies on the panel. 0 is a Lambertian panel."},
+    {"aperture_ratio", &Panel::aperture_ratio, Range{0, 1, true, false}, false,
+     "q: each pixel shines in a square about its centre, sqrt(q) as wide, 1/q times as bright, so that white is white in the mean. "
+     "Around it is a black matrix."},
     {"layer", &Panel::layers, no_range, false, ""},
 };
 
@@ -142,7 +145,7 @@ constexpr Key<Content> content_keys[] = {
 constexpr Key<Render> render_keys[] = {
     {"estimator", &Render::estimator, no_range, false,
      "Each sample averages the panel over a lens's footprint, or, by brute force, reads one panel pixel. Without a diffuser, "
-     "or with a pixel filter, a pupil or a turned array beside it, samples are points in any case."},
+     "or with a pixel filter, a pupil, a turned array or a black matrix beside it, samples are points in any case."},
     {"samples", &Render::samples, Range{1, 16777216}, false,
      "Per picture pixel, where a diffuser, filter or pupil spreads the light. Filtered ones are rounded up to a square number, "
      "3844 at most.",

@@ -43,13 +43,25 @@ LFDSIM_FN PanelPoint<F> panel_point(const Scene<Scalar<F>>& scene, const PanelBa
     return {F(base.column_rest) + at.x, F(base.row_rest) - at.y, weight, alive, cell};
 }
 
+/// Whether a point, in panel pixels from the panel's corner or from any other pixel's, lies where its pixel shines.
+template <class F>
+LFDSIM_FN Mask<F> in_opening(const Scene<Scalar<F>>& scene, F column, F row) {
+    const F from = F(scene.opening[0]), to = F(scene.opening[1]), across = column - floor(column), down = row - floor(row);
+    return (across >= from) && (across < to) && (down >= from) && (down < to);
+}
+
 /// The pixel under a point.
 template <class F>
 LFDSIM_FN PanelHit<F> panel_pixel(const Scene<Scalar<F>>& scene, const PanelBase<Scalar<F>>& base, const PanelPoint<F>& point) {
     const Uint<F> column = Uint<F>(base.column) + to_int(floor(point.column));
     const Uint<F> row = Uint<F>(base.row) + to_int(floor(point.row));
     const Mask<F> lit = point.alive && (column < Uint<F>(scene.columns)) && (row < Uint<F>(scene.rows));
-    return {row * Uint<F>(scene.columns) + column, point.weight, lit};
+    PanelHit<F> hit{row * Uint<F>(scene.columns) + column, point.weight, lit};
+    if (scene.masked) [[unlikely]] {
+        hit.lit = hit.lit && in_opening(scene, point.column, point.row);
+        hit.weight = hit.weight * F(scene.gain);
+    }
+    return hit;
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -50,6 +50,9 @@ struct Scene {
     std::uint32_t columns, rows;
     S pixels_per_mm;
     S emission_exponent;
+    bool masked;   // each pixel shines only in the middle, in the same part of its width and height:
+    S opening[2];  // from here to before there, in pixels from its border,
+    S gain;        // and so many times as bright
     std::int32_t layer_count;
     LayerData<S> layer[max_layers];  // from the top one downwards
     S layers_top;

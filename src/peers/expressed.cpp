@@ -22,6 +22,8 @@ class Refusals {
             return std::move(problems_);
         }
         array();
+        if (d_.panel.aperture_ratio != 1)
+            add("panel.aperture_ratio", "the scene's panel has no black matrix; add --set panel.aperture_ratio=1");
         if (d_.camera.pupil_diameter_mm.value_or(0) > 0)
             add("camera.pupil_diameter_mm", "the scene's camera is a pinhole; add --set camera.pupil_diameter_mm=none");
         if (peer_ == Peer::pov) pov();

@@ -17,6 +17,7 @@ Slider ends_of(std::string_view path, const Range& range, double described, cons
     if (angle && range.low < 0) return {-180, 180, 0};
     if (path.ends_with("index")) return {1, 2.5, 0};
     if (path == "panel.emission_exponent") return {0, 10, 0};
+    if (path == "panel.aperture_ratio") return {0.05, 1, 0};
     if (path == "render.seed") return {0, 100, 0};
     if (path == "array.offset_mm") return about(described, d.array.pitch_mm[0]);
     if (path == "content.depth_mm") return about(described, g.panel_height_mm);

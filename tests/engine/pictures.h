@@ -138,6 +138,9 @@ inline std::vector<std::pair<std::string, Display>> every_kind() {
     all.back().second.lens = {Pinhole{0.4}, {}};
     all.back().second.panel.layers = {{3, 1.5}};
     all.back().second.diffuser = Diffuser{40, {4, 4}, Profile::box};
+    all.emplace_back("black matrix", example());
+    all.back().second.panel.aperture_ratio = 0.6;
+    all.back().second.diffuser = Diffuser{40, {4, 4}, Profile::box};
     for (auto& [name, d] : all) {
         look_from(d, 20, 400);
         d.camera.position_mm[1] = 60;

@@ -12,6 +12,7 @@ TEST(WhitePanel, EachRayIsWhiteOrBlack) {
     for (auto [name, d] : every_kind()) {
         d.render.fresnel = Fresnel::none;
         d.panel.emission_exponent = 0;
+        d.panel.aperture_ratio = 1;
         d.diffuser.reset();
         d.camera.pixel_filter = PixelFilter::center;
         d.camera.pupil_diameter_mm.reset();
@@ -33,6 +34,7 @@ TEST(WhitePanel, MeansAreWholeNumbersOfRays) {
     for (auto [name, d] : every_kind()) {
         d.render.fresnel = Fresnel::none;
         d.panel.emission_exponent = 0;
+        d.panel.aperture_ratio = 1;
         d.render.samples = 7;
         const Texels white = uniform_panel(d, 1);
         for (double angle : angles) {
@@ -46,6 +48,58 @@ TEST(WhitePanel, MeansAreWholeNumbersOfRays) {
             EXPECT_GT(grey, 0) << name << " " << angle;
         }
     }
+}
+
+// Behind lenses that bend nothing a camera's rays end at the points of the frame, which lies in the panel's plane: each is bright
+// in the middle of its pixel and else black.
+TEST(WhitePanel, PixelsShineInTheirMiddles) {
+    Display d = ideal_example();
+    d.lens.as<IdealLens>().focal_length_mm = 1e6;
+    d.camera.frame_width_mm = 6;
+    d.camera.resolution = {311, 211};
+    d.panel.aperture_ratio = 0.36;
+    const Image seen = picture(d, uniform_panel(d, 0.5f));
+    const double step = 6.0 / 311;
+    int lit = 0;
+    for (int y = 0; y < 211; ++y)
+        for (int x = 0; x < 311; ++x) {
+            const auto off_middle = [&](double mm) { return std::abs(mm / 0.25 - std::floor(mm / 0.25) - 0.5); };
+            const double away = std::max(off_middle((x - 155) * step), off_middle((y - 105) * step));
+            if (std::abs(away - 0.3) < 1e-3) continue;  // at the border
+            ASSERT_FLOAT_EQ(seen.at(x, y)[1], away < 0.3 ? 0.5f / 0.36f : 0) << x << " " << y;
+            lit += away < 0.3;
+        }
+    EXPECT_GT(lit, 10000);
+}
+
+// Whatever lies before it, a panel with a black matrix is as bright in the mean as one without: in that over places of the array,
+// which may show each lens the same part of a pixel.
+TEST(WhitePanel, TheBlackMatrixKeepsTheMean) {
+    for (auto [name, d] : every_kind()) {
+        d.render.samples = 8;
+        const auto light = [](Display d, double ratio) {
+            d.panel.aperture_ratio = ratio;
+            double sum = 0;
+            const std::array<double, 2> described = d.array.offset_mm;
+            for (int k = 0; k < 16; ++k) {
+                d.array.offset_mm = {described[0] + 0.25 * d.panel.pixel_pitch_mm * (k % 4),
+                                     described[1] + 0.25 * d.panel.pixel_pitch_mm * (k / 4)};
+                for (const float x : picture(d, uniform_panel(d, 1)).rgb) sum += x;
+            }
+            return sum;
+        };
+        EXPECT_NEAR(light(d, 0.5) / light(d, 1), 1, 0.015) << name;
+    }
+}
+
+// Footprints on the panel take each pixel for evenly bright.
+TEST(WhitePanel, TheBlackMatrixIsSeenByPoints) {
+    Display d = example();
+    d.diffuser = Diffuser{40, {3, 3}, Profile::box};
+    d.render.estimator = Estimator::filtered;
+    EXPECT_EQ(estimator_of(d), Estimator::filtered);
+    d.panel.aperture_ratio = 0.9;
+    EXPECT_EQ(estimator_of(d), Estimator::point);
 }
 
 // Square cells without a lens between them: the panel, larger than the array by far, is seen everywhere.

@@ -173,6 +173,7 @@ TEST(RenderMeshed, WhiteIsWhiteOrBlack) {
         if (d.lens.is_thin() || d.array.surround != Surround::opaque || beyond_lenses_in_air(d, "")) continue;
         d.render.fresnel = Fresnel::none;
         d.panel.emission_exponent = 0;
+        d.panel.aperture_ratio = 1;
         d.diffuser.reset();
         d.camera.pixel_filter = PixelFilter::center;
         const Texels white = uniform_panel(d, 1);

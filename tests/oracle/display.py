@@ -9,7 +9,7 @@ from lattice import cell_shape, grid_pitch, least_count, turn_matrix
 from surface import Surface
 
 DEFAULTS = {
-    "panel": {"encoding": "srgb", "emission_exponent": 0.0, "layer": []},
+    "panel": {"encoding": "srgb", "emission_exponent": 0.0, "aperture_ratio": 1.0, "layer": []},
     "lens": {"facing": "viewer"},
     "array": {"lattice": "square", "surround": "opaque", "aperture": "circle", "offset_mm": [0.0, 0.0], "rotation_deg": 0.0},
     "camera": {"position_mm": [0.0, 0.0, 2000.0], "target_mm": [0.0, 0.0, 0.0], "up": [0.0, 1.0, 0.0], "resolution": [3840, 2160],

@@ -106,7 +106,7 @@ def single_rays(harness, description, pattern, share):
 
 def address_of(description):
     """The same rays with nothing that scales their colour, so that the address image can be read back."""
-    return cases.merge(description, {"panel": {"encoding": "linear", "emission_exponent": 0.0}, "render": {"fresnel": "none"}})
+    return cases.merge(description, {"panel": {"encoding": "linear", "emission_exponent": 0.0, "aperture_ratio": 1.0}, "render": {"fresnel": "none"}})
 
 
 def golden(harness, name):
@@ -210,7 +210,8 @@ def main():
             description = cases.merge(description, {"camera": {"resolution": [96, 54]}})
         off_axis = "clear" in name and "on axis" not in name
         todo.append((f"{name}, address", lambda d=description, o=off_axis: single_rays(harness, address_of(d), "address", 0.994 if o else 0.999)))
-        if not options.quick or description["render"]["fresnel"] != "none" or description["panel"]["emission_exponent"]:
+        panel = description["panel"]
+        if not options.quick or description["render"]["fresnel"] != "none" or panel["emission_exponent"] or panel.get("aperture_ratio", 1) < 1:
             todo.append((f"{name}, checker", lambda d=description: single_rays(harness, d, "checker", None)))
         todo.append((f"{name}, theory", lambda d=description: paraxial(harness, d)))
     for name, description in cases.BLURRED.items():

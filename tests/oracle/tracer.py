@@ -65,6 +65,10 @@ def decode(image, encoding):
 def shade(display, hits, linear):
     """Linear colours (n, 3) of traced rays; linear: the decoded panel image."""
     light = hits.weight * hits.cosine**display.panel.emission_exponent
+    ratio = display.panel.aperture_ratio
+    if ratio < 1:  # a black matrix around a square in the middle of each pixel
+        off = np.maximum(np.abs(hits.x % 1 - 0.5), np.abs(hits.y % 1 - 0.5))
+        light = light * (off < np.sqrt(ratio) / 2) / ratio
     return linear[hits.row, hits.column] * np.where(hits.column >= 0, light, 0.0)[:, None]
 
 
