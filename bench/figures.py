@@ -86,7 +86,8 @@ def duties(panel):
         "pupil of 4 mm": ["camera.pupil_diameter_mm=4"], "gaussian diffuser": ["diffuser.profile=gaussian"],
         "filled cells": ["array.aperture=cell"], "aperture stop": ["lens.stop_radius_mm=2"],
         "array turned by 1 degree": ["array.rotation_deg=1"], "clear surround": ["array.surround=clear"],
-        "plate surround": ["array.surround=plate"], "desktop-asphere, Schlick": ["render.fresnel=schlick"],
+        "plate surround": ["array.surround=plate"],
+        "hexagonal array": ["array.lattice=hexagon", "array.count=[43,27]"], "strips": ["array.lattice=strips", "array.count=[43,1]"], "desktop-asphere, Schlick": ["render.fresnel=schlick"],
     }
     crop = ["--crop", "0,500,1920,580"] if options.quick else ["--crop", "0,972,3840,1188"]
     rates = {name: [] for name in cases}

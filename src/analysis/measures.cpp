@@ -4,6 +4,7 @@
 #include "analysis/dof.h"
 #include "analysis/fov.h"
 #include "analysis/measure.h"
+#include "analysis/moire.h"
 #include "analysis/mtf.h"
 #include "analysis/spot.h"
 #include "analysis/uniformity.h"
@@ -32,6 +33,8 @@ constexpr Measure all[] = {
     {"uniformity", "Uniformity and light",
      "How even a white screen is, over its area and over viewing angle, and how much light it passes.",
      "100 Lmin / Lmax; Michelson contrast; radiance theorem", false, uniformity_steps, measure_uniformity},
+    {"moire", "Moire", "The pattern that the lens lattice and the panel's pixels make on a white screen.",
+     "beats of the two lattices; contrast sensitivity by Mannos and Sakrison 1974", false, moire_steps, measure_moire},
     {"spot", "Spots and distortion", "How one lens images points of the panel over field and depth, and how truly it places them.",
      "ray tracing by Snell's law; Welford 1986; paraxial theory D |z - L| / |L|", false, spot_steps, measure_spot},
 };

@@ -5,6 +5,7 @@
 // The edges' direction is known, too. A line fitted to the picture would follow the facets in which a lens array shows an edge.
 #pragma once
 #include "analysis/estimate.h"
+#include "analysis/fourier.h"
 #include "image/image.h"
 #include "model/numbers.h"
 
@@ -49,9 +50,6 @@ class EdgeSpread {
     std::array<std::vector<Bin>, independent_sets> sets_;
     int pictures_ = 0;
 };
-
-/// sin(pi x) / (pi x).
-inline double sinc(double x) { return x == 0 ? 1 : std::sin(pi * x) / (pi * x); }
 
 /// Where a curve over rising frequencies first falls below a level; NaN if it never does.
 double falls_below(std::span<const double> frequencies, std::span<const double> curve, double level);

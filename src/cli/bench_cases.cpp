@@ -51,6 +51,16 @@ constexpr Duty duty_table[] = {
     {"facing the panel", [](Display& d) { d.lens.as<PlanoConvex>().facing = Facing::panel; }},
     {"filled cells", [](Display& d) { d.array.aperture = Aperture::cell; }},
     {"aperture stop", [](Display& d) { d.lens.stop_radius_mm = 2; }},
+    {"hexagons",
+     [](Display& d) {
+         d.array.lattice = LatticeKind::hexagon;
+         d.array.count.reset();
+     }},
+    {"strips",
+     [](Display& d) {
+         d.array.lattice = LatticeKind::strips;
+         d.array.count.reset();
+     }},
     {"a million lenses", make_tiny_lenses},
 };
 

@@ -1,0 +1,16 @@
+// What the eye makes of a luminance pattern. Floor 3.
+#pragma once
+
+namespace lfdsim {
+
+/// Contrast sensitivity over its greatest, for cycles per degree: Mannos and Sakrison, IEEE Trans. Inf. Theory 20(4), 525 (1974),
+/// A(f) = 2.6 (0.0192 + 0.114 f) exp(-(0.114 f)^1.1), greatest at 8 cycles per degree.
+double eye_filter(double cycles_per_degree);
+
+/// Patterns finer than this are invisible: the usual limit of acuity.
+inline constexpr double eye_limit_cycles_per_degree = 60;
+
+/// Millimetres in a degree of what an eye sees from so far.
+double mm_per_degree(double distance_mm);
+
+}  // namespace lfdsim

@@ -1,0 +1,146 @@
+#include "analysis/eye_filter.h"
+#include "analysis/fourier.h"
+#include "analysis/moire.h"
+#include "model/numbers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+// docs/model.md, "Moire".
+namespace lfdsim {
+namespace {
+
+constexpr double window_deg = 10, finest_cycles_per_degree = 50;
+constexpr double least_periods = 3;     // in the window: fewer are not told from their mirror image, the wave of frequency -f
+constexpr double least_over_noise = 6;  // the greatest of a million frequencies' noise is at some 5
+
+struct Candidate {
+    Frequency frequency;
+    double strength;
+};
+
+/// The frequencies where the squares' transform is greatest after the eye's filter, the strongest first.
+std::vector<Candidate> strongest_waves(const WhiteLines& lines, double mm_per_degree) {
+    const Window& w = lines.window();
+    int n = 1;
+    while (n < std::max(w.columns, w.rows)) n *= 2;
+    std::vector<std::complex<double>> plane(std::size_t(n) * std::size_t(n));
+    const std::vector<double> change = lines.weighted_change();
+    for (int y = 0; y < w.rows; ++y)
+        for (int x = 0; x < w.columns; ++x)
+            plane[std::size_t(y) * std::size_t(n) + std::size_t(x)] =
+                change[std::size_t(y) * std::size_t(w.columns) + std::size_t(x)];
+    fourier(plane, n);
+    const auto frequency = [&](int k, int l) {
+        const auto signed_order = [&](int order) { return order < n / 2 ? order : order - n; };
+        return Frequency{signed_order(k) / (n * w.square_mm), signed_order(l) / (n * w.square_mm)};
+    };
+    std::vector<double> strength(plane.size());
+    for (int l = 0; l < n; ++l)
+        for (int k = 0; k < n; ++k) {
+            const Frequency f = frequency(k, l);
+            const double cycles = std::hypot(f[0], f[1]) * mm_per_degree;
+            const bool coarse = std::hypot(f[0] * w.width_mm(), f[1] * w.height_mm()) < least_periods;
+            if (coarse || cycles > finest_cycles_per_degree) continue;
+            strength[std::size_t(l) * std::size_t(n) + std::size_t(k)] =
+                std::abs(plane[std::size_t(l) * std::size_t(n) + std::size_t(k)]) * eye_filter(cycles) /
+                (sinc(f[0] * w.square_mm) * sinc(f[1] * w.square_mm));  // squares average waves
+        }
+    std::vector<Candidate> all;
+    const auto at = [&](int k, int l) { return strength[std::size_t((l + n) % n) * std::size_t(n) + std::size_t((k + n) % n)]; };
+    for (int l = 0; l < n; ++l)
+        for (int k = 0; k < n; ++k) {
+            const Frequency f = frequency(k, l);
+            if (f[1] < 0 || (f[1] == 0 && f[0] <= 0) || at(k, l) == 0) continue;
+            bool greatest = true;
+            for (int dl = -2; dl <= 2; ++dl)
+                for (int dk = -2; dk <= 2; ++dk) greatest = greatest && at(k, l) >= at(k + dk, l + dl);
+            if (greatest) all.push_back({f, at(k, l)});
+        }
+    std::ranges::stable_sort(all, std::greater(), &Candidate::strength);
+    if (all.size() > moire_candidates) all.resize(moire_candidates);
+    return all;
+}
+
+/// The wave near a candidate, without a set of lines; its amplitude is `near`'s.
+Beat beat_at(const WhiteLines::Near& near, const Frequency& f, double mean, double mm_per_degree, int without) {
+    Beat beat{f, 2 * std::abs(near.wave(f, without)) / mean, 0};
+    beat.seen = beat.contrast * eye_filter(std::hypot(f[0], f[1]) * mm_per_degree);
+    return beat;
+}
+
+MeasuredBeat measured(const WhiteLines& lines, const WhiteLines::Near& near, const Frequency& from, double mm_per_degree) {
+    std::array<Beat, independent_sets + 1> found;  // without none, and without each set
+    for (int without = -1; without < independent_sets; ++without)
+        found[std::size_t(without + 1)] = beat_at(near, near.peak(from, without), lines.mean(), mm_per_degree, without);
+    const auto figure = [&](auto of) { return jackknife([&](int without) { return of(found[std::size_t(without + 1)]); }); };
+    MeasuredBeat m;
+    m.beat = found[0];
+    // Other waves too near to be told apart shift the peak, and add to it: in the window's transform one of the share r, half a
+    // period of the window or more away, leaves a third of r or more beside the peak.
+    const double company = 3 * near.company(m.beat.frequency);
+    const std::array step{1 / lines.window().width_mm(), 1 / lines.window().height_mm()};
+    for (std::size_t k = 0; k < 2; ++k)
+        m.frequency_error[k] = figure([&](const Beat& b) { return b.frequency[k]; }).error + company * step[k];
+    const double error = std::hypot(m.frequency_error[0], m.frequency_error[1]), period = period_mm(m.beat.frequency);
+    m.period_mm = {period, error * period * period};
+    m.direction_deg = {direction_deg(m.beat.frequency), std::min(error * period / degree, 90.)};
+    m.contrast = figure([](const Beat& b) { return b.contrast; });
+    m.seen = figure([](const Beat& b) { return b.seen; });
+    m.contrast.error += company * m.contrast.value;
+    m.seen.error += company * m.seen.value;
+    return m;
+}
+
+}  // namespace
+
+Window middle_of_screen(const Display& d, const Geometry& g, double eye_mm) {
+    const double away = eye_mm - g.vertex_plane_mm, square = mm_per_degree(away) / (2 * finest_cycles_per_degree);
+    const double scale = away / eye_mm;  // the panel, as it is seen in the vertex plane
+    double half_x = std::min(0.5 * window_deg * mm_per_degree(away), 0.5 * g.panel_width_mm * scale),
+           half_y = std::min(0.5 * window_deg * mm_per_degree(away), 0.5 * g.panel_height_mm * scale);
+    // Within the array's rectangle, which may be turned and moved
+    const Lattice<double>& lattice = g.lattice;
+    const double move_x = lattice.cos_turn * lattice.offset[0] + lattice.sin_turn * lattice.offset[1],
+                 move_y = lattice.cos_turn * lattice.offset[1] - lattice.sin_turn * lattice.offset[0];
+    const double wide = std::abs(lattice.cos_turn) * half_x + std::abs(lattice.sin_turn) * half_y,
+                 high = std::abs(lattice.cos_turn) * half_y + std::abs(lattice.sin_turn) * half_x;
+    const double fits =
+        std::min({1., (0.5 * g.array_width_mm - std::abs(move_x)) / wide,
+                  d.array.lattice == LatticeKind::strips ? 1. : (0.5 * g.array_height_mm - std::abs(move_y)) / high});
+    const auto squares = [&](double half) { return std::max(1, int(2 * half * std::max(fits, 0.) / square)); };
+    return {squares(half_x), squares(half_y), square};
+}
+
+MoireSearch find_moire(const WhiteLines& lines, double mm_per_degree, Parts& parts) {
+    MoireSearch search;
+    search.least = 2 * least_over_noise * lines.noise() / std::sqrt(2.);
+    std::vector<MeasuredBeat> all;
+    for (const Candidate& c : strongest_waves(lines, mm_per_degree)) {
+        const Frequency rough = lines.near(c.frequency, parts).peak(c.frequency);
+        const MeasuredBeat m = measured(lines, lines.near(rough, parts), rough, mm_per_degree);
+        if (m.beat.contrast > search.least) all.push_back(m);
+    }
+    // Of waves of the same period that may be equally strong, as symmetry makes them, that of the least direction
+    const auto strongest = std::ranges::max_element(all, {}, [](const MeasuredBeat& m) { return m.seen.value; });
+    for (const MeasuredBeat& m : all) {
+        const auto may_equal = [&](const Estimate& a, const Estimate& b) {
+            return std::abs(a.value - b.value) <= a.error + b.error;
+        };
+        if (!may_equal(m.seen, strongest->seen) || !may_equal(m.period_mm, strongest->period_mm)) continue;
+        const auto direction = [](const MeasuredBeat& of) {
+            return of.direction_deg.value + of.direction_deg.error < 180 ? of.direction_deg.value : of.direction_deg.value - 180;
+        };
+        if (!search.strongest || direction(m) < direction(*search.strongest)) search.strongest = m;
+    }
+    for (const MeasuredBeat& m : all) {
+        const bool another = std::hypot(m.beat.frequency[0] - search.strongest->beat.frequency[0],
+                                        m.beat.frequency[1] - search.strongest->beat.frequency[1]) > 1 / lines.window().width_mm();
+        if (another && m.seen.value + m.seen.error >= search.strongest->seen.value - search.strongest->seen.error)
+            search.as_strong.push_back(m);
+    }
+    return search;
+}
+
+}  // namespace lfdsim

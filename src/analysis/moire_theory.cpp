@@ -1,0 +1,161 @@
+#include "analysis/moire_theory.h"
+
+#include "analysis/eye_filter.h"
+#include "analysis/fourier.h"
+#include "model/numbers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace lfdsim {
+namespace {
+
+constexpr int highest_order = 8;  // of the panel's harmonics; higher ones are weaker than 2/(pi 8)^2 of sharp lenses
+
+/// The mean of exp(-2 pi i nu q) over a polygon that is its own mirror image in the origin, so that the mean is real: by Green's
+/// theorem a sum over the edges.
+double polygon_mean(const std::vector<std::array<double, 2>>& corners, double nu_x, double nu_y) {
+    double area = 0, sum = 0;
+    const double nu2 = nu_x * nu_x + nu_y * nu_y;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const auto &a = corners[k], &b = corners[(k + 1) % corners.size()];
+        const double ex = b[0] - a[0], ey = b[1] - a[1];
+        area += 0.5 * (a[0] * b[1] - b[0] * a[1]);
+        const double middle = 0.5 * (nu_x * (a[0] + b[0]) + nu_y * (a[1] + b[1]));
+        sum += (nu_x * ey - nu_y * ex) * sinc(nu_x * ex + nu_y * ey) * std::sin(2 * pi * middle);
+    }
+    return std::sqrt(nu2) * std::sqrt(std::abs(area)) < 1e-6 ? 1 : sum / (2 * pi * nu2 * area);
+}
+
+}  // namespace
+
+double period_mm(const Frequency& f) { return 1 / std::hypot(f[0], f[1]); }
+
+double direction_deg(const Frequency& f) {
+    const double turn = std::atan2(f[1], f[0]) / degree;
+    const double half = turn < 0 ? turn + 180 : turn;
+    return half < 180 ? half + 0. : 0;  // not -0
+}
+
+MoireTheory::MoireTheory(const Display& d, const Geometry& g, double eye_mm) : display_(d), geometry_(g), eye_mm_(eye_mm) {
+    const double e = 1 + g.gap_mm / (eye_mm - g.rear_principal_mm),
+                 power = std::isfinite(g.focal_length_mm) ? g.gap_mm / g.focal_length_mm : 0;
+    // Along strips light passes plane plates.
+    scale_ = {e, g.lattice.strips ? 1 + g.reduced_vertex_plane_mm / (eye_mm - g.vertex_plane_mm) : e};
+    glass_ = {power, g.lattice.strips ? 0 : power};
+}
+
+MoireTheory::Place MoireTheory::to_array(Place v) const {
+    const double c = geometry_.lattice.cos_turn, s = geometry_.lattice.sin_turn;
+    return {c * v.x + s * v.y, c * v.y - s * v.x};
+}
+
+Frequency MoireTheory::to_display(Place v) const {
+    const double c = geometry_.lattice.cos_turn, s = geometry_.lattice.sin_turn;
+    return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+/// A harmonic of the panel as it lies in the vertex plane before the lenses sample it, in the array's frame.
+MoireTheory::Place MoireTheory::seen_harmonic(int k, int l) const {
+    const Place panel = to_array({k / display_.panel.pixel_pitch_mm, l / display_.panel.pixel_pitch_mm});
+    return {scale_.x * panel.x, scale_.y * panel.y};
+}
+
+/// The lattice's harmonics along an axis within reach of a panel harmonic.
+MoireTheory::Range MoireTheory::lens_orders(int axis, double panel, double reach) const {
+    if (axis == 1 && geometry_.lattice.strips) return {0, 0};
+    const double step = lens_harmonic(axis == 0, axis == 1).x + lens_harmonic(axis == 0, axis == 1).y;
+    return {int(std::ceil((panel - reach) / step)), int(std::floor((panel + reach) / step))};
+}
+
+/// (m/px, n/py); where rows are staggered, (m/px, n/2py), of which those with odd m + n vanish.
+MoireTheory::Place MoireTheory::lens_harmonic(int m, int n) const {
+    const Lattice<double>& lattice = geometry_.lattice;
+    if (lattice.strips) return {m / lattice.pitch[0], 0};
+    return {m / lattice.pitch[0], n / lattice.pitch[1] * (lattice.staggered ? 0.5 : 1)};
+}
+
+Frequency MoireTheory::beat(int k, int l) const {
+    const Place panel = seen_harmonic(k, l);
+    const Lattice<double>& lattice = geometry_.lattice;
+    const double reach_x = 1 / lattice.pitch[0], reach_y = 1 / lattice.pitch[1];
+    const Range across = lens_orders(0, panel.x, reach_x), up = lens_orders(1, panel.y, reach_y);
+    Place best{infinity, 0};
+    for (int m = across.from; m <= across.to; ++m)
+        for (int n = up.from; n <= up.to; ++n) {
+            if (lattice.staggered && (m + n) % 2 != 0) continue;
+            const Place lens = lens_harmonic(m, n), f{panel.x - lens.x, panel.y - lens.y};
+            if (std::hypot(f.x, f.y) < std::hypot(best.x, best.y)) best = f;
+        }
+    return to_display(best);
+}
+
+/// Of the mask along one axis, whose mean is 1.
+double MoireTheory::matrix(int order) const { return sinc(order * std::sqrt(display_.panel.aperture_ratio)); }
+
+/// The mean of exp(-2 pi i nu q) over the lens's aperture.
+double MoireTheory::lens(Place nu) const {
+    const Lattice<double>& lattice = geometry_.lattice;
+    const std::array<double, 2>& wide = geometry_.clear_aperture_mm;
+    if (lattice.strips) return sinc(nu.x * wide[0]);
+    if (display_.array.aperture == Aperture::circle || display_.lens.stop_radius_mm) {
+        const double x = pi * wide[0] * std::hypot(nu.x, nu.y);
+        return x < 1e-6 ? 1 : 2 * std::cyl_bessel_j(1, x) / x;
+    }
+    if (!lattice.hexagonal) return sinc(nu.x * wide[0]) * sinc(nu.y * wide[1]);
+    const double half = lattice.half_pitch[0], corner = half * 2 / std::numbers::sqrt3;
+    return polygon_mean(
+        {{half, -corner / 2}, {half, corner / 2}, {0, corner}, {-half, corner / 2}, {-half, -corner / 2}, {0, -corner}}, nu.x,
+        nu.y);
+}
+
+/// The mean of exp(-2 pi i nu angle) over the diffuser's angles; its axes are the display's.
+double MoireTheory::diffuser(Place nu) const {
+    if (!display_.diffuser) return 1;
+    const Frequency along = to_display(nu);
+    double mean = 1;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const double full = display_.diffuser->angle_deg[k] * degree, sigma = full / (2 * std::sqrt(2 * std::numbers::ln2));
+        mean *= display_.diffuser->profile == Profile::box ? sinc(full * along[k])
+                                                           : std::exp(-2 * pi * pi * sigma * sigma * along[k] * along[k]);
+    }
+    return mean;
+}
+
+std::optional<Beat> MoireTheory::strongest() const {
+    if (display_.panel.aperture_ratio == 1) return {};
+    const Lattice<double>& lattice = geometry_.lattice;
+    const double per_degree = mm_per_degree(eye_mm_ - geometry_.vertex_plane_mm), finest = eye_limit_cycles_per_degree / per_degree;
+    const double above = geometry_.diffuser_z_mm.value_or(geometry_.rear_principal_mm) - geometry_.rear_principal_mm;
+    std::optional<Beat> best;
+    for (int k = 0; k <= highest_order; ++k)
+        for (int l = k == 0 ? 1 : -highest_order; l <= highest_order; ++l) {
+            const double most = 2 * std::abs(matrix(k) * matrix(l));
+            if (best && most < best->seen) continue;
+            const Place seen = seen_harmonic(k, l), panel{seen.x / scale_.x, seen.y / scale_.y};
+            const Range across = lens_orders(0, seen.x, finest), up = lens_orders(1, seen.y, finest);
+            for (int m = across.from; m <= across.to; ++m)
+                for (int n = up.from; n <= up.to; ++n) {
+                    if (lattice.staggered && (m + n) % 2 != 0) continue;
+                    const Place of_lens = lens_harmonic(m, n), f{seen.x - of_lens.x, seen.y - of_lens.y};
+                    const double fine = std::hypot(f.x, f.y);
+                    if (fine > finest) continue;
+                    // A diffuser's angle t moves a line by `above` t in the lens and by g t more on the panel.
+                    const Place spread{above * (panel.x - of_lens.x) + geometry_.gap_mm * panel.x,
+                                       above * (panel.y - of_lens.y) +
+                                           (lattice.strips ? geometry_.reduced_vertex_plane_mm : geometry_.gap_mm) * panel.y};
+                    Beat beat{to_display(f), most, 0};
+                    beat.contrast *=
+                        std::abs(lens({glass_.x * panel.x - of_lens.x, glass_.y * panel.y - of_lens.y}) * diffuser(spread));
+                    beat.seen = beat.contrast * eye_filter(fine * per_degree);
+                    const double lead = best ? beat.seen / best->seen - 1 : 1;
+                    if (lead > 1e-6 || (lead > -1e-6 && direction_deg(beat.frequency) < direction_deg(best->frequency)))
+                        best = beat;
+                }
+        }
+    return best;
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,59 @@
+// The beats of the lens lattice with the panel's pixels, in closed form. docs/model.md, "Moire". Floor 3.
+#pragma once
+#include "model/display.h"
+#include "model/geometry.h"
+
+#include <array>
+#include <optional>
+
+namespace lfdsim {
+
+/// A wave exp(2 pi i f r) over the viewer-side vertex plane, f in cycles per mm along the display's x and y.
+using Frequency = std::array<double, 2>;
+
+double period_mm(const Frequency&);
+/// Of the wave vector, counter-clockwise from +x, 0 to below 180.
+double direction_deg(const Frequency&);
+
+/// A component of the pattern. Contrast is Michelson's, of this component alone: without and with the eye's filter.
+struct Beat {
+    Frequency frequency{};
+    double contrast = 0, seen = 0;
+};
+
+/// White panels as an eye on axis sees them through paraxial lenses, `eye_mm` from the panel.
+class MoireTheory {
+  public:
+    MoireTheory(const Display&, const Geometry&, double eye_mm);
+
+    /// The coarsest beat of the panel's harmonic (k, l) with the lens lattice.
+    Frequency beat(int k, int l) const;
+
+    /// The strongest beat after the eye's filter; of equally strong ones that of the least direction. None where the panel has no
+    /// black matrix, or where all are too fine for the eye.
+    std::optional<Beat> strongest() const;
+
+  private:
+    struct Place {
+        double x, y;
+    };
+    struct Range {
+        int from, to;
+    };
+    Place to_array(Place) const;
+    Frequency to_display(Place) const;
+    Place seen_harmonic(int k, int l) const;
+    Range lens_orders(int axis, double panel, double reach) const;
+    Place lens_harmonic(int m, int n) const;
+    double matrix(int order) const;
+    double lens(Place nu) const;
+    double diffuser(Place nu) const;
+
+    const Display& display_;
+    const Geometry& geometry_;
+    double eye_mm_;
+    Place scale_;  // panel places per place of the vertex plane, along the array's x' and y'
+    Place glass_;  // g/f, by how much a lens moves the panel place with the place in the lens
+};
+
+}  // namespace lfdsim

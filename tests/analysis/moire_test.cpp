@@ -1,0 +1,138 @@
+// The pattern of lenses and pixels: theory against published numbers, and what single rays find against theory.
+#include <gtest/gtest.h>
+
+#include "analysis/eye_filter.h"
+#include "analysis/fourier.h"
+#include "analysis/measure.h"
+#include "analysis/moire_theory.h"
+#include "model/numbers.h"
+
+namespace lfdsim {
+namespace {
+
+/// Thin lenses in focus that fill their cells, before a panel of 40 mm, half of it black; the camera at `away` from the lenses.
+Display in_focus(LatticeKind lattice, double pitch, double gap, double pixel, double away) {
+    Display d;
+    d.panel.pixel_pitch_mm = pixel;
+    d.panel.pixels = {std::int64_t(40 / pixel), std::int64_t(40 / pixel)};
+    d.panel.aperture_ratio = 0.5;
+    d.lens.kind = IdealLens{{}, gap};
+    d.array.lattice = lattice;
+    d.array.pitch_mm = pitch;
+    d.array.gap_mm = gap;
+    d.array.aperture = Aperture::cell;
+    d.camera.position_mm = {0, 0, away + gap};
+    d.camera.resolution = {200, 200};
+    return d;
+}
+
+double apart_deg(double a, double b) { return std::abs(std::remainder(a - b, 180)); }
+
+// Found by Fourier transforms of rendered pictures, within their bins: two of cylindrical lenses, two of square cells.
+TEST(MoireTheory, BeatsAreThoseOfFourierTransforms) {
+    const auto beat = [](Display d, double turn) {
+        d.array.rotation_deg = turn;
+        return MoireTheory(d, resolve(d), d.camera.position_mm[2]).beat(1, 0);
+    };
+    const Frequency a = beat(in_focus(LatticeKind::strips, 0.483, 0.66, 0.0784, 650), -7.89);
+    EXPECT_NEAR(a[0], 0.467, 0.0083);
+    EXPECT_NEAR(a[1], 1.708, 0.0083);
+    const Frequency b = beat(in_focus(LatticeKind::strips, 1.003, 2.5, 0.2451, 700), 9.46);
+    EXPECT_NEAR(b[0], 0.158, 0.0083);
+    EXPECT_NEAR(b[1], -0.658, 0.0083);
+    const Frequency c = beat(in_focus(LatticeKind::square, 0.961, 3.2, 0.24, 600), 0);
+    EXPECT_NEAR(std::abs(c[0]), 0.02614, 0.0033);
+    EXPECT_NEAR(c[1], 0, 1e-12);
+    const Frequency e = beat(in_focus(LatticeKind::square, 0.961, 3.2, 0.24, 600), 3);
+    EXPECT_NEAR(e[0], 0.0327, 0.0033);
+    EXPECT_NEAR(e[1], -0.2092, 0.026);
+}
+
+// The lens lattice of hexagons: its harmonics are 60 degrees apart, 2/(sqrt(3) p) long.
+TEST(MoireTheory, HexagonsHaveTheirReciprocalLattice) {
+    const double p = 1, pixel = 0.5 * std::sqrt(3.) * p / 4;  // pixels along y fit the rows but for the eye's distance
+    const Display d = in_focus(LatticeKind::hexagon, p, 2, pixel, 1000);
+    const Frequency f = MoireTheory(d, resolve(d), 1002).beat(0, 1);
+    EXPECT_NEAR(f[0], 0, 1e-12);
+    EXPECT_NEAR(f[1], 0.002 / pixel, 1e-9);
+}
+
+TEST(Moire, TransformIsThatOfItsDefinition) {
+    constexpr int n = 8;
+    std::vector<std::complex<double>> v;
+    for (int k = 0; k < n * n; ++k) v.emplace_back(std::sin(3.1 * k * k), std::cos(1.7 * k));
+    std::vector<std::complex<double>> found = v;
+    fourier(found, n);
+    for (int l = 0; l < n; ++l)
+        for (int k = 0; k < n; ++k) {
+            std::complex<double> sum = 0;
+            for (int y = 0; y < n; ++y)
+                for (int x = 0; x < n; ++x) sum += v[std::size_t(y * n + x)] * std::polar(1., -2 * pi * (x * k + y * l) / n);
+            EXPECT_LT(std::abs(sum - found[std::size_t(l * n + k)]), 1e-12);
+        }
+}
+
+// Its greatest is published as at 8 cycles per degree.
+TEST(Moire, TheEyeSeesMediumWavesBest) {
+    double greatest = 0, at = 0;
+    for (double f = 0.1; f < 60; f += 0.1)
+        if (eye_filter(f) > greatest) greatest = eye_filter(at = f);
+    EXPECT_NEAR(greatest, 1, 1e-5);
+    EXPECT_NEAR(at, 8, 0.15);
+    EXPECT_NEAR(eye_filter(0), 2.6 * 0.0192 / 0.98088, 1e-5);
+    EXPECT_NEAR(eye_filter(20), 2.6 * (0.0192 + 2.28) * std::exp(-std::pow(2.28, 1.1)) / 0.98088, 1e-4);
+}
+
+Json moire_of(const Display& d) {
+    Job job;
+    Subject subject(d, {}, {});
+    return measure_named("moire").run(subject, job).figures;
+}
+
+TEST(Moire, RaysFindTheBeatsOfTheory) {
+    struct Case {
+        const char* name;
+        Display display;
+    };
+    std::vector<Case> cases{{"square, turned", in_focus(LatticeKind::square, 0.961, 3.2, 0.24, 600)},
+                            {"hexagons", in_focus(LatticeKind::hexagon, 1.03, 3, 0.21, 500)},
+                            {"strips, slanted", in_focus(LatticeKind::strips, 1.003, 2.5, 0.2451, 700)},
+                            {"pinholes, round", in_focus(LatticeKind::square, 1.21, 3.2, 0.3, 600)},
+                            {"out of focus, diffuser", in_focus(LatticeKind::rectangle, 0.95, 3.2, 0.3, 600)}};
+    cases[0].display.array.rotation_deg = 3;
+    cases[1].display.lens.kind = IdealLens{{}, 3.4};
+    cases[1].display.array.rotation_deg = -2;
+    cases[2].display.array.slant_deg = -9.46;
+    cases[3].display.lens.kind = Pinhole{0.2};
+    cases[3].display.array.aperture = Aperture::circle;
+    cases[3].display.array.rotation_deg = 1;
+    cases[4].display.lens.kind = IdealLens{{}, 3};
+    cases[4].display.array.pitch_mm = {0.95, 1.13};
+    cases[4].display.diffuser = Diffuser{2, {0.5, 0.8}, Profile::box};
+    for (const Case& c : cases) {
+        const Json json = moire_of(c.display);
+        const Json &white = json["white"], &theory = json["theory"];
+        std::printf("%-24s period %8.4f +- %.4f mm (%8.4f), direction %8.3f +- %.3f deg (%8.3f), contrast %.4f +- %.4f (%.4f)\n",
+                    c.name, white["period_mm"].get<double>(), white["period_mm_error"].get<double>(),
+                    theory["period_mm"].get<double>(), white["direction_deg"].get<double>(),
+                    white["direction_deg_error"].get<double>(), theory["direction_deg"].get<double>(),
+                    white["contrast"].get<double>(), white["contrast_error"].get<double>(), theory["contrast"].get<double>());
+        EXPECT_NEAR(white["period_mm"], theory["period_mm"].get<double>(), white["period_mm_error"].get<double>()) << c.name;
+        EXPECT_LT(apart_deg(white["direction_deg"], theory["direction_deg"]), white["direction_deg_error"].get<double>()) << c.name;
+        EXPECT_NEAR(white["contrast"], theory["contrast"].get<double>(), white["contrast_error"].get<double>()) << c.name;
+        EXPECT_LT(white["period_mm_error"], 0.02 * theory["period_mm"].get<double>()) << c.name;
+    }
+}
+
+TEST(Moire, ThereIsNoneWithoutABlackMatrix) {
+    Display d = in_focus(LatticeKind::square, 0.961, 3.2, 0.24, 600);
+    d.panel.aperture_ratio = 1;
+    const Json json = moire_of(d);
+    EXPECT_EQ(json["white"]["contrast"], 0);
+    EXPECT_TRUE(json["white"]["period_mm"].is_null() && json["white"]["direction_deg"].is_null());
+    EXPECT_EQ(json["theory"]["contrast"], 0);
+    EXPECT_TRUE(json["theory"]["period_mm"].is_null());
+}
+
+}  // namespace
+}  // namespace lfdsim
