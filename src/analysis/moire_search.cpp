@@ -129,10 +129,8 @@ MoireSearch find_moire(const WhiteLines& lines, double mm_per_degree, Parts& par
             return std::abs(a.value - b.value) <= a.error + b.error;
         };
         if (!may_equal(m.seen, strongest->seen) || !may_equal(m.period_mm, strongest->period_mm)) continue;
-        const auto direction = [](const MeasuredBeat& of) {
-            return of.direction_deg.value + of.direction_deg.error < 180 ? of.direction_deg.value : of.direction_deg.value - 180;
-        };
-        if (!search.strongest || direction(m) < direction(*search.strongest)) search.strongest = m;
+        if (!search.strongest || rank_deg(m.direction_deg.value) < rank_deg(search.strongest->direction_deg.value))
+            search.strongest = m;
     }
     for (const MeasuredBeat& m : all) {
         const bool another = std::hypot(m.beat.frequency[0] - search.strongest->beat.frequency[0],

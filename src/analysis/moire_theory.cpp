@@ -151,7 +151,8 @@ std::optional<Beat> MoireTheory::strongest() const {
                         std::abs(lens({glass_.x * panel.x - of_lens.x, glass_.y * panel.y - of_lens.y}) * diffuser(spread));
                     beat.seen = beat.contrast * eye_filter(fine * per_degree);
                     const double lead = best ? beat.seen / best->seen - 1 : 1;
-                    if (lead > 1e-6 || (lead > -1e-6 && direction_deg(beat.frequency) < direction_deg(best->frequency)))
+                    if (lead > 1e-6 ||
+                        (lead > -1e-6 && rank_deg(direction_deg(beat.frequency)) < rank_deg(direction_deg(best->frequency))))
                         best = beat;
                 }
         }
