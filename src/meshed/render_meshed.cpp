@@ -3,7 +3,6 @@
 #include "engine/scene.h"
 #include "engine/tracer.h"
 #include "meshed/mesh_surfaces.h"
-#include "model/coverage.h"
 #include "model/keys.h"
 #include "optics/camera.h"
 #include "optics/trace.h"
@@ -43,7 +42,12 @@ MeshedLens::MeshedLens(const Display& display, const Geometry& geometry, std::in
     if (display.array.surround != Surround::opaque)
         throw InputError("array.surround", fmt::format("is \"{}\"; lenses of triangles can only be traced in \"opaque\"",
                                                        word(display.array.surround)));
-    if (auto problem = beyond_lenses_in_air(display, "--lens-mesh")) throw InputError(std::vector{std::move(*problem)});
+    if (is_staggered(display.array) || is_strips(display.array))
+        throw InputError("array.lattice", fmt::format("is \"{}\", which --lens-mesh does not cover; take \"square\" or "
+                                                      "\"rectangle\"",
+                                                      word(display.array.lattice)));
+    if (!display.panel.layers.empty())
+        throw InputError("panel.layer", "is given, but --lens-mesh does not cover layers; leave them out");
     if (geometry.glued)
         throw InputError("array.base_z_mm",
                          "lets the lenses lie on the panel without air, which --lens-mesh does not cover; raise them");

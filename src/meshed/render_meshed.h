@@ -13,7 +13,7 @@ enum class LensNormals { flat, smooth };
 class MeshSurfaces;
 
 /// A lens as mesh_lens() makes it, ready for rays, for any camera. Throws InputError as mesh_lens() does, for surrounds other than
-/// opaque, and beyond lenses in air (model/coverage.h).
+/// opaque, for lattices other than rows and columns, and for lenses with anything but air under them.
 class MeshedLens {
   public:
     MeshedLens(const Display&, const Geometry&, std::int64_t triangles, LensNormals);
