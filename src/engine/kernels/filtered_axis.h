@@ -32,9 +32,10 @@ struct Cut {
 
 /// What lies between two cuts.
 struct Stratum {
-    S cell;          // its lens, counted from the base lens
+    S axis;          // of its lens, mm from that of the base lens
     S from, to;      // ends within that lens's cell, mm from its axis, seen from the middle of the block
     bool straddles;  // it sees other lenses too
+    bool cut_off;    // an end of the square, which moves with the pixels, lies in it for some of them
 };
 
 /// One axis of the square of angles as a block cuts it. Cuts have fixed positions on the lenses, so their numbers change from pixel
@@ -43,6 +44,7 @@ struct Stratum {
 struct Axis {
     int strata;
     bool moving;
+    Gradient first, last;  // the positions of the ends
     Cut* cut;  // strata + 1 of them
     Stratum* stratum;
 };
@@ -82,6 +84,8 @@ LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>*
         a.cut[j] = {Gradient::of(number[0], number[1], number[2]), {place, 0, 0}};
     };
     const Gradient start = place_of(0), end = place_of(even.strata);
+    a.first = start;
+    a.last = end;
     const S reach = start.reach(), along = end.middle > start.middle ? S(1) : S(-1);
     a.moving = moves || !(along * (end.middle - start.middle) > reach);
 
@@ -120,8 +124,9 @@ LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>*
                 high_end = optics::max(from * along, to * along) - axis_at;
         const S beside = moves ? reach : S(0);  // how far the other pixels' strata lie from this one
         a.stratum[j] = {
-            cell, optics::max(low_end, -half), optics::min(high_end, half),
-            low_end - beside < S(-FilteredLimits::straddling) * half || high_end + beside > S(FilteredLimits::straddling) * half};
+            axis_at, optics::max(low_end, -half), optics::min(high_end, half),
+            low_end - beside < S(-FilteredLimits::straddling) * half || high_end + beside > S(FilteredLimits::straddling) * half,
+            !a.moving && (j == 0 || j == a.strata - 1)};
     }
 }
 
@@ -129,7 +134,7 @@ LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>*
 LFDSIM_BOTH void spans_of(const optics::Scene<S>& scene, const Axis& axis, int along, F dx, F dy, Span<F>* spans) {
     const Lattice<S>& lattice = scene.lattice;
     const int strata = axis.strata;
-    const F start = axis.cut[0].place.at(dx, dy), end = axis.cut[strata].place.at(dx, dy);
+    const F start = axis.first.at(dx, dy), end = axis.last.at(dx, dy);
     const F least = optics::min(start, end), most = optics::max(start, end);
     F number = F(-1), place = start;
     for (int j = 0; j < strata; ++j) {
@@ -143,8 +148,8 @@ LFDSIM_BOTH void spans_of(const optics::Scene<S>& scene, const Axis& axis, int a
         span.share = F(0.5f) * (next_number - number);
         if (scene.hole_radius > 0) {
             // A moving stratum may lie on another lens than for the middle of the block.
-            const F at = F(lattice.pitch[along]) * (axis.moving ? optics::cell_along(lattice, along, F(0.5f) * (place + next_place))
-                                                                : F(axis.stratum[j].cell));
+            const F at = axis.moving ? F(lattice.pitch[along]) * optics::cell_along(lattice, along, F(0.5f) * (place + next_place))
+                                     : F(axis.stratum[j].axis);
             const F half = F(lattice.half_pitch[along]), per = F(1 / scene.hole_radius);
             span.from = optics::max(optics::min(place, next_place) - at, -half) * per;
             span.to = optics::min(optics::max(place, next_place) - at, half) * per;

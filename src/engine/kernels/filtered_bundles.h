@@ -117,15 +117,14 @@ class BundleMaker {
     LFDSIM_BOTH bool hole_edge_near(Range x, Range y) const {
         if (!axis[0].moving && !axis[1].moving) return false;
         const S mid_x = S(0.5) * (x.from + x.to), mid_y = S(0.5) * (y.from + y.to),
-                move_x = axis[0].cut[0].place.reach() + x.to - mid_x, move_y = axis[1].cut[0].place.reach() + y.to - mid_y;
+                move_x = axis[0].first.reach() + x.to - mid_x, move_y = axis[1].first.reach() + y.to - mid_y;
         const S far = optics::sqrt(mid_x * mid_x + mid_y * mid_y), move = optics::sqrt(move_x * move_x + move_y * move_y);
         return optics::abs(far - scene.hole_radius) < move;
     }
 
     /// Traces the probes of a part of stratum (i, j): a grid over x and y, of which those inside the hole count, or those outside.
     LFDSIM_BOTH void trace(int i, Range x, int j, Range y, bool inside) {
-        const optics::Place<S> lens =
-            optics::axis_of(scene.lattice, optics::Cell<S>{axis[0].stratum[i].cell, axis[1].stratum[j].cell});
+        const optics::Place<S> lens{axis[0].stratum[i].axis, axis[1].stratum[j].axis};
         const S limit = scene.hole_radius > 0 ? scene.hole_radius * scene.hole_radius : S(1e30);
         for (int p = 0; p < optics::most_probes; ++p) {
             const S px = x.from + grid_x[p] * (x.to - x.from), py = y.from + grid_y[p] * (y.to - y.from);
@@ -154,7 +153,7 @@ class BundleMaker {
         if (b.state == SharedBundle::State::broken) return b;
         b.state = SharedBundle::State::soft;
         // The part of an outermost stratum that a pixel sees changes over the block.
-        const bool ends = sees_end(0, i) || sees_end(1, j);
+        const bool ends = axis[0].stratum[i].cut_off || axis[1].stratum[j].cut_off;
         b.nodes = !b.still ? block.nodes() : ends ? 2 : 1;
         for (int n = 0; n < b.nodes * b.nodes; ++n)
             for (int c = 0; c < 4; ++c) b.colour[n][c] = 0;
@@ -183,13 +182,13 @@ class BundleMaker {
     /// the block's middle sees, and adds the motion of the seen part's middle to that of the bundle (lean). The map from holes to
     /// panel is taken as linear (optics::Slopes); the variance of a box of width w is w^2 / 12, so squared widths subtract.
     LFDSIM_BOTH void lean(SharedBundle& b, int i, Range x, int j, Range y) const {
-        if (!sees_end(0, i) && !sees_end(1, j)) return;
+        if (!axis[0].stratum[i].cut_off && !axis[1].stratum[j].cut_off) return;
         const optics::Slopes<S> slopes(probes, b);
         const Range ranges[2] = {x, y};
         const int strata[2] = {i, j};
         S width = b.width * b.width, height = b.height * b.height;
         for (int a = 0; a < 2; ++a) {
-            if (!sees_end(a, strata[a])) continue;
+            if (!axis[a].stratum[strata[a]].cut_off) continue;
             const Range all = ranges[a], here = seen_of(a, strata[a], all, 0, 0), right = seen_of(a, strata[a], all, 1, 0),
                         down = seen_of(a, strata[a], all, 0, 1);
             if (!(here.length() > S(FilteredLimits::part_seen) * all.length()))
@@ -213,16 +212,11 @@ class BundleMaker {
     /// The part of a range of a stratum along axis a that a pixel at (dx, dy) of the block, -1 .. 1, sees; an empty range at the
     /// nearest end if it sees none.
     LFDSIM_BOTH Range seen_of(int a, int stratum, Range r, S dx, S dy) const {
-        const Gradient &first = axis[a].cut[0].place, &last = axis[a].cut[axis[a].strata].place;
+        const Gradient &first = axis[a].first, &last = axis[a].last;
         const S start = first.middle + first.right * dx + first.down * dy, end = last.middle + last.right * dx + last.down * dy,
-                at = axis[a].stratum[stratum].cell * scene.lattice.pitch[a], low = optics::min(start, end) - at,
+                at = axis[a].stratum[stratum].axis, low = optics::min(start, end) - at,
                 high = optics::max(start, end) - at;
         return {optics::min(optics::max(r.from, low), r.to), optics::max(optics::min(r.to, high), r.from)};
-    }
-
-    /// Is it an outermost stratum with an end that moves with the pixels?
-    LFDSIM_BOTH bool sees_end(int a, int stratum) const {
-        return !axis[a].moving && (stratum == 0 || stratum == axis[a].strata - 1);
     }
 
     /// Adds the light of the probes' boxes to the sums at the nodes, each weighted with the share of its part of the range that a
@@ -242,8 +236,8 @@ class BundleMaker {
             }
             S seen[optics::most_probes];
             for (int p = 0; p < optics::most_probes; ++p) seen[p] = counts[p];
-            if (sees_end(0, i)) narrow(0, i, x, grid_x, right, down, seen);
-            if (sees_end(1, j)) narrow(1, j, y, grid_y, right, down, seen);
+            if (axis[0].stratum[i].cut_off) narrow(0, i, x, grid_x, right, down, seen);
+            if (axis[1].stratum[j].cut_off) narrow(1, j, y, grid_y, right, down, seen);
             S sum[4][4] = {};
             for (int p = 0; p < optics::most_probes; ++p)
                 for (int c = 0; c < 4; ++c) sum[p % 4][c] = sum[p % 4][c] + seen[p] * light[p][c];
@@ -253,9 +247,9 @@ class BundleMaker {
 
     /// Multiplies `seen` of each probe by the share of its part of a range along axis a that a pixel at (dx, dy) of the block sees.
     LFDSIM_BOTH void narrow(int a, int stratum, Range r, const S* grid, S dx, S dy, S* seen) const {
-        const Gradient &first = axis[a].cut[0].place, &last = axis[a].cut[axis[a].strata].place;
+        const Gradient &first = axis[a].first, &last = axis[a].last;
         const S start = first.middle + first.right * dx + first.down * dy, end = last.middle + last.right * dx + last.down * dy,
-                at = axis[a].stratum[stratum].cell * scene.lattice.pitch[a], low = optics::min(start, end) - at,
+                at = axis[a].stratum[stratum].axis, low = optics::min(start, end) - at,
                 high = optics::max(start, end) - at;
         const S range = r.to - r.from, half = S(0.5) * range / S(per_axis);
         if (!(half > 0)) return;
@@ -273,7 +267,7 @@ class BundleMaker {
         for (int from = 1; from < optics::block_rays; ++from) {
             const int p = 3 * waiting + from - 1;
             auto shift = [&](const Axis& a) {
-                const Gradient& g = a.cut[0].place;
+                const Gradient& g = a.first;
                 return a.moving ? g.right * S(optics::block_right(from)) + g.down * S(optics::block_down(from)) : S(0);
             };
             rays.at_x[p] = block.sweep[0][from].at;
