@@ -21,7 +21,8 @@ ComparedView compare_view(const Display& display, const Geometry& geometry, cons
     if (options.target_error) throw std::invalid_argument("views are compared without a target error");
     const auto start = std::chrono::steady_clock::now();
     const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-    const Work work(display, geometry, panel.levels(), options);
+    const std::vector<optics::PanelLevel>& levels = panel.levels(long_footprints(geometry));
+    const Work work(display, geometry, levels, options);
     const Image& photograph = expected.photograph();
     const int width = work.tile.x1 - work.tile.x0, height = work.tile.y1 - work.tile.y0;
     if (photograph.width != width || photograph.height != height)
@@ -30,7 +31,7 @@ ComparedView compare_view(const Display& display, const Geometry& geometry, cons
     const ChosenDevice device = choose_device(options.device, options.kernel);
     RenderOptions on_cpu = options;
     if (device.gpu) {
-        if (const auto done = compare_on_gpu(device, panel, expected, gain, work, job))
+        if (const auto done = compare_on_gpu(device, panel, levels, expected, gain, work, job))
             return {done->likeness, done->run.done.complete, seconds(), done->run.seconds};
         on_cpu.device = "cpu";
     }

@@ -135,7 +135,7 @@ std::vector<std::string> gpus_given_up() {
 std::optional<GpuRun> render_on_gpu(const ChosenDevice& device, const Pyramid* pyramid,
                                     const std::vector<optics::PanelLevel>& levels, Work& work, Job& job) {
     return on_gpu(device, [&](wide::Queue& queue) {
-        GpuPanels own, &panels = pyramid ? pyramid->on_gpus() : own;
+        GpuPanels own, &panels = pyramid ? pyramid->on_gpus(levels) : own;
         const wide::DevicePanel& panel = panel_on(queue, *device.gpu, panels, levels, wide::picture_bytes(queue, work.tile));
         const double before = queue.seconds();
         const Done done = wide::render(queue, panel, work.tile, work.target_error, work.result.error.rgb.data(), job);
@@ -143,8 +143,9 @@ std::optional<GpuRun> render_on_gpu(const ChosenDevice& device, const Pyramid* p
     });
 }
 
-std::optional<GpuComparison> compare_on_gpu(const ChosenDevice& device, const Pyramid& pyramid, const Expected& expected,
-                                            float gain, const Work& work, Job& job) {
+std::optional<GpuComparison> compare_on_gpu(const ChosenDevice& device, const Pyramid& pyramid,
+                                            const std::vector<optics::PanelLevel>& levels, const Expected& expected, float gain,
+                                            const Work& work, Job& job) {
     return on_gpu(device, [&](wide::Queue& queue) {
         const Image& image = expected.photograph();
         const double before = queue.seconds();
@@ -154,7 +155,7 @@ std::optional<GpuComparison> compare_on_gpu(const ChosenDevice& device, const Py
             GpuPhotographs& photographs = expected.on_gpus();
             const std::lock_guard lock(photographs.mutex);
             const std::size_t sent = photographs.copies.contains(*device.gpu) ? 0 : wide::Photograph::bytes(image);
-            panel = &panel_on(queue, *device.gpu, pyramid.on_gpus(), pyramid.levels(),
+            panel = &panel_on(queue, *device.gpu, pyramid.on_gpus(levels), levels,
                               wide::picture_bytes(queue, work.tile) + wide::likeness_bytes(image.width, image.height) + sent);
             photograph = &copy_on(photographs, *device.gpu, [&] { return wide::Photograph(queue, image); });
         }

@@ -41,7 +41,8 @@ struct GpuComparison {
     GpuRun run;
     Likeness likeness;  // where the run is complete
 };
-std::optional<GpuComparison> compare_on_gpu(const ChosenDevice&, const Pyramid&, const Expected&, float gain, const Work&, Job&);
+std::optional<GpuComparison> compare_on_gpu(const ChosenDevice&, const Pyramid&, const std::vector<optics::PanelLevel>&,
+                                            const Expected&, float gain, const Work&, Job&);
 
 /// Copies of something on GPUs, by number.
 template <class Copy>

@@ -11,8 +11,7 @@ struct Tile {
     const optics::View* view;
     const optics::DirectionNumbers* directions;
     const float* texels;  // 4 floats a panel pixel
-    const optics::PanelLevel* levels;
-    int level_count;
+    optics::PanelLevels levels;
     float* out;
     std::int32_t crop_x, crop_y, crop_width;
     std::int32_t x0, y0, x1, y1;

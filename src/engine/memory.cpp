@@ -1,6 +1,7 @@
 #include "engine/memory.h"
 
 #include "model/error.h"
+#include "model/lattice.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -19,8 +20,10 @@ double memory_bytes() {
 // float32 RGB; writers keep a few rows beside it.
 double picture_bytes(std::int64_t columns, std::int64_t rows) { return double(columns) * double(rows) * 12; }
 
-// Four floats a pixel; the pyramid adds a third.
-double texel_bytes(const Display& d) { return double(d.panel.pixels[0]) * double(d.panel.pixels[1]) * 16 * 4 / 3; }
+// Four floats a pixel; the pyramid adds a third, and the sums of strips' long footprints as much again.
+double texel_bytes(const Display& d) {
+    return double(d.panel.pixels[0]) * double(d.panel.pixels[1]) * 16 * 4 / 3 * (is_strips(d.array) ? 2 : 1);
+}
 
 void require_memory(const std::string& where, const std::string& what, double bytes) {
     if (bytes > memory_bytes())

@@ -1,13 +1,16 @@
 #include "engine/pyramid.h"
 
 #include "engine/gpu.h"
+#include "model/geometry.h"
 #include "optics/scene.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <stdexcept>
 
 namespace lfdsim {
 
@@ -24,34 +27,97 @@ void average_rows(const float* upper, const float* lower, std::int64_t columns, 
     }
 }
 
+Texels halved(const optics::PanelLevel& from, tbb::task_arena& arena) {
+    Texels to((std::int64_t(from.columns) + 1) / 2, (std::int64_t(from.rows) + 1) / 2);
+    arena.execute([&] {
+        tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, to.rows(), 16), [&](const tbb::blocked_range<std::int64_t>& rows) {
+            for (std::int64_t r = rows.begin(); r < rows.end(); ++r) {
+                const float* const upper = from.texels + 2 * r * std::int64_t(from.columns) * 4;
+                const bool whole = 2 * r + 1 < std::int64_t(from.rows);
+                average_rows(upper, whole ? upper + std::int64_t(from.columns) * 4 : nullptr, from.columns, to.row(r));
+            }
+        });
+    });
+    return to;
+}
+
+// Sums over columns (down) or along rows, in double precision.
+Texels sums(const optics::PanelLevel& from, Long along, tbb::task_arena& arena) {
+    const bool down = along == Long::down;
+    const std::int64_t columns = from.columns, rows = from.rows;
+    Texels to(down ? columns : columns + 1, down ? rows + 1 : rows);
+    const auto sum_line = [&](std::int64_t line) {
+        double sum[4] = {};
+        for (std::int64_t k = 0; k < (down ? rows : columns); ++k) {
+            const std::int64_t column = down ? line : k, row = down ? k : line;
+            for (int c = 0; c < 4; ++c) {
+                sum[c] += double(from.texels[(row * columns + column) * 4 + c]);
+                to.row(down ? row + 1 : row)[(down ? column : column + 1) * 4 + c] = float(sum[c]);
+            }
+        }
+    };
+    arena.execute([&] {
+        tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, down ? columns : rows, 16),
+                          [&](const tbb::blocked_range<std::int64_t>& lines) {
+                              for (std::int64_t line = lines.begin(); line < lines.end(); ++line) sum_line(line);
+                          });
+    });
+    return to;
+}
+
+optics::PanelLevel level(const Texels& t) { return {t.data(), std::uint32_t(t.columns()), std::uint32_t(t.rows())}; }
+
+struct Levels {
+    std::vector<Texels> made;
+    std::vector<optics::PanelLevel> all;
+    std::shared_ptr<GpuPanels> on_gpus = std::make_shared<GpuPanels>();
+
+    void add(Texels cells) {
+        all.push_back(level(cells));
+        made.push_back(std::move(cells));
+    }
+};
+
 }  // namespace
+
+Long long_footprints(const Geometry& geometry) {
+    if (!geometry.lattice.strips) return Long::none;
+    return std::abs(geometry.lattice.cos_turn) >= std::abs(geometry.lattice.sin_turn) ? Long::down : Long::across;
+}
+
+struct Pyramid::Parts {
+    tbb::task_arena arena;
+    std::mutex mutex;
+    Levels of[3];
+};
 
 Pyramid::~Pyramid() = default;
 Pyramid::Pyramid(Pyramid&&) noexcept = default;
 Pyramid& Pyramid::operator=(Pyramid&&) noexcept = default;
 
-Pyramid::Pyramid(const Texels& panel, int threads) : on_gpus_(std::make_shared<GpuPanels>()) {
-    const auto level = [](const Texels& t) {
-        return optics::PanelLevel{t.data(), std::uint32_t(t.columns()), std::uint32_t(t.rows())};
-    };
-    levels_.push_back(level(panel));
-    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-    while (levels_.back().columns > 1 || levels_.back().rows > 1) {
-        const optics::PanelLevel from = levels_.back();
-        Texels to((std::int64_t(from.columns) + 1) / 2, (std::int64_t(from.rows) + 1) / 2);
-        arena.execute([&] {
-            tbb::parallel_for(
-                tbb::blocked_range<std::int64_t>(0, to.rows(), 16), [&](const tbb::blocked_range<std::int64_t>& rows) {
-                    for (std::int64_t r = rows.begin(); r < rows.end(); ++r) {
-                        const float* const upper = from.texels + 2 * r * std::int64_t(from.columns) * 4;
-                        const bool whole = 2 * r + 1 < std::int64_t(from.rows);
-                        average_rows(upper, whole ? upper + std::int64_t(from.columns) * 4 : nullptr, from.columns, to.row(r));
-                    }
-                });
-        });
-        levels_.push_back(level(to));
-        coarse_.push_back(std::move(to));
+Pyramid::Pyramid(const Texels& panel, int threads) : parts_(std::make_unique<Parts>()) {
+    parts_->arena.initialize(threads > 0 ? threads : tbb::task_arena::automatic);
+    Levels& plain = parts_->of[0];
+    plain.all.push_back(level(panel));
+    while (plain.all.back().columns > 1 || plain.all.back().rows > 1) plain.add(halved(plain.all.back(), parts_->arena));
+}
+
+const std::vector<optics::PanelLevel>& Pyramid::levels(Long along) const {
+    const std::lock_guard lock(parts_->mutex);
+    Levels &plain = parts_->of[0], &wanted = parts_->of[int(along)];
+    if (wanted.all.empty()) {
+        Levels with_sums;
+        with_sums.all = plain.all;
+        for (const optics::PanelLevel& of : plain.all) with_sums.add(sums(of, along, parts_->arena));
+        wanted = std::move(with_sums);
     }
+    return wanted.all;
+}
+
+GpuPanels& Pyramid::on_gpus(const std::vector<optics::PanelLevel>& levels) const {
+    for (const Levels& of : parts_->of)
+        if (&of.all == &levels) return *of.on_gpus;
+    throw std::logic_error("levels of another pyramid");
 }
 
 }  // namespace lfdsim

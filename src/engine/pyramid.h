@@ -8,10 +8,15 @@
 namespace lfdsim {
 
 class GpuPanels;  // gpu.h
+struct Geometry;
 
 namespace optics {
 struct PanelLevel;  // optics/scene.h
 }
+
+/// Which way the footprints of lenses are long: strips focus along one direction only.
+enum class Long { none, down, across };
+Long long_footprints(const Geometry&);
 
 /// Level 0 is the panel image. Level k + 1 has half the columns and rows of level k, rounded up; a cell is the mean of 2 x 2, black
 /// outside the panel. Takes a third of the panel image's memory. The panel image must outlive it, unchanged.
@@ -23,15 +28,17 @@ class Pyramid {
     Pyramid(Pyramid&&) noexcept;
     Pyramid& operator=(Pyramid&&) noexcept;
 
-    const std::vector<optics::PanelLevel>& levels() const { return levels_; }
+    /// Level after level and, where footprints are long, as many of sums: row k (or column k) of one holds the sum of the level's
+    /// rows (columns) before k, so that the mean over any length takes two of them. Those are made at the first call, and take one
+    /// and a third times the panel image's memory. Throws std::bad_alloc. May be called by several threads.
+    const std::vector<optics::PanelLevel>& levels(Long = Long::none) const;
 
-    /// The copies of it that GPUs hold, made at first use.
-    GpuPanels& on_gpus() const { return *on_gpus_; }
+    /// The copies of such levels that GPUs hold, made at first use.
+    GpuPanels& on_gpus(const std::vector<optics::PanelLevel>& levels) const;
 
   private:
-    std::vector<Texels> coarse_;
-    std::vector<optics::PanelLevel> levels_;
-    std::shared_ptr<GpuPanels> on_gpus_;
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
 };
 
 }  // namespace lfdsim

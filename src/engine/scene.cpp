@@ -91,16 +91,21 @@ void add_holes(optics::Scene<S>& scene, const Display& display, const Geometry& 
     const PlacedSurface& first = geometry.surfaces.back();
     std::array<double, 2> z{};
     double radius = display.array.aperture == Aperture::circle ? first.semi_aperture_mm : 0;
+    std::array<double, 2> edge{geometry.lattice.half_pitch[0], geometry.lattice.half_pitch[1]};
+    // As far from the axis as the root mean square of a hexagon's border is; strips end at their sides alone.
+    if (geometry.lattice.hexagonal) edge.fill(edge[0] * std::sqrt(10.0) / 3);
+    if (geometry.lattice.strips) edge[1] = edge[0];
     for (std::size_t k = 0; k < 2; ++k)
-        z[k] = first.z_mm +
-               sag_mm(first.curvature_per_mm, first.conic, first.even_asphere, radius > 0 ? radius : display.array.pitch_mm[k] / 2);
+        z[k] = first.z_mm + sag_mm(first.curvature_per_mm, first.conic, first.even_asphere, radius > 0 ? radius : edge[k]);
     scene.leaky = display.array.surround != Surround::opaque;
     if (stop_at_entrance(display, geometry) && (radius == 0 || *display.lens.stop_radius_mm < radius)) {
         radius = *display.lens.stop_radius_mm;
         z.fill(geometry.stop_z_mm);
         scene.leaky = false;
     }
-    scene.hole_radius = S(radius);
+    const bool strips = is_strips(display.array);
+    scene.hole_radius = S(strips ? 0 : radius);
+    scene.hole_half = S(strips && radius > 0 ? radius : geometry.lattice.half_pitch[0]);
     for (std::size_t k = 0; k < 2; ++k) scene.holes_below[k] = S(start_z - z[k]);
 }
 
@@ -171,6 +176,8 @@ optics::Scene<S> make_scene(const Display& display, const Geometry& geometry) {
     add_holes(scene, display, geometry, geometry.diffuser_z_mm.value_or(first));
     scene.box_filter = display.camera.pixel_filter == PixelFilter::box;
     scene.thin_lens = display.camera.pupil_diameter_mm.value_or(0) > 0;
+    scene.by_lens = is_staggered(array) || is_strips(array) || array.turn_deg() != 0 || !scene.has_diffuser || scene.box_filter ||
+                    scene.thin_lens;
     return scene;
 }
 
@@ -201,9 +208,8 @@ optics::View make_view(const Display& display, const Geometry& geometry) {
 }
 
 Estimator estimator_of(const Display& display) {
-    const bool applies = display.diffuser && display.camera.pixel_filter == PixelFilter::center &&
-                         display.camera.pupil_diameter_mm.value_or(0) == 0 && display.array.turn_deg() == 0 &&
-                         !is_staggered(display.array) && !is_strips(display.array) && display.panel.aperture_ratio == 1;
+    const bool spreads = display.diffuser || display.camera.pixel_filter == PixelFilter::box;
+    const bool applies = spreads && display.panel.aperture_ratio == 1;
     return applies ? display.render.estimator : Estimator::point;
 }
 
@@ -226,6 +232,8 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
     // diffused ray spans in the plane of the holes; mm.
     const double pixel = view.pixel_mm * std::abs((view.position[2] - view.start_z) / (view.forward[2] * view.distance));
     double seen = std::min(scene.lattice.pitch[0], scene.lattice.pitch[1]);
+    // Without a diffuser pixels share a block's list of lenses and nothing else.
+    if (!scene.has_diffuser) return {16 * pixel < seen ? 16 : 8 * pixel < 2 * seen ? 8 : 4, true};
     double span[2];
     BlockShape shape{4, true};
     for (int k = 0; k < 2; ++k) {

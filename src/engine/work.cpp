@@ -1,5 +1,6 @@
 #include "engine/work.h"
 
+#include "engine/pyramid.h"
 #include "engine/scene.h"
 
 #include <fmt/format.h>
@@ -20,6 +21,12 @@ Rect checked_crop(const std::optional<Rect>& crop, const Camera& camera) {
                         r.x0, r.y0, r.x1, r.y1, width, height, width, height));
     }
     return r;
+}
+
+/// Of point samples there may be the panel alone.
+optics::PanelLevels panel_levels(const Geometry& geometry, const std::vector<optics::PanelLevel>& levels) {
+    const Long along = levels.size() > 1 ? long_footprints(geometry) : Long::none;
+    return {levels.data(), int(levels.size()) / (along == Long::none ? 1 : 2), along != Long::none, along == Long::down};
 }
 
 }  // namespace
@@ -52,8 +59,7 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
             &view,
             &sobol_directions(),
             levels[0].texels,
-            levels.data(),
-            int(levels.size()),
+            panel_levels(geometry, levels),
             nullptr,
             crop.x0,
             crop.y0,

@@ -6,8 +6,8 @@
 // pixel, and whether this motion is linear. Where rays are lost on the way, or end under different lenses, the bundle is broken,
 // and each pixel traces rays of its own.
 //
-// Positions in the planes of diffuser and holes are in mm in the array's frame, from the axis of the block's base lens; positions
-// on the panel are columns and rows, in panel pixels from where that axis meets the panel (PanelBase). The method is ray
+// Positions in the planes of diffuser and holes are in mm along the display's axes, from the axis of the block's base lens;
+// positions on the panel are columns and rows, in panel pixels from where that axis meets the panel (PanelBase). The method is ray
 // differentials by finite differences (Igehy 1999); docs/model.md, "Filtered estimator", and docs/design.md explain it.
 #pragma once
 #include "optics/filtered_limits.h"
@@ -35,6 +35,9 @@ struct PixelBlock {
     Sweep<S> sweep[2][block_rays];  // along x' and y': where the diffuser sends the ray in the plane of the holes
     LFDSIM_FN int nodes() const { return 2 * reach > FilteredLimits::node_step ? 2 * reach / FilteredLimits::node_step + 1 : 2; }
     bool alive;  // all rays reach the display, evenly spaced on it, and strata may treat the diffuser's two turns as independent
+    // How the ray of the middle moves in the first plane, and its slope changes, from the pupil's middle to its right and upper
+    // edge.
+    S pupil_at[2][2], pupil_slope[2][2];  // along x and y
 };
 
 /// Do all rays still go down, at no grazing angle, after the diffuser's largest turn? A ray turned past the horizontal does not
@@ -89,23 +92,48 @@ LFDSIM_FN PixelBlock<S> pixel_block(const Scene<S>& scene, const View& view, int
     const double middle_x = column + block.reach, middle_y = row + block.reach;
     block.lens = base_lens<S>(view, middle_x, middle_y);
     block.alive = true;
+    auto from_axis = [&](double x, double y) {
+        const Place<double> from{x - block.lens.x, y - block.lens.y};
+        return scene.by_lens ? to_display(view.lattice, from.x, from.y) : from;
+    };
     for (int k = 0; k < block_rays; ++k) {
         double d[3], x, y;
         follow_to_first_plane(view, middle_x + block.reach * block_right(k), middle_y + block.reach * block_down(k), d, x, y);
         const double inverse = 1 / __builtin_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         const double z = d[2] * inverse;
         block.to[k] = {S(d[0] * inverse), S(d[1] * inverse), S(z)};
-        block.sweep[0][k] = {S(x - block.lens.x), S(-d[0] / d[2]), scene.holes_below[0], S(sense(0))};
-        block.sweep[1][k] = {S(y - block.lens.y), S(-d[1] / d[2]), scene.holes_below[1], S(sense(1))};
+        const Place<double> at = from_axis(x, y);
+        block.sweep[0][k] = {S(at.x), S(-d[0] / d[2]), scene.holes_below[0], S(sense(0))};
+        block.sweep[1][k] = {S(at.y), S(-d[1] / d[2]), scene.holes_below[1], S(sense(1))};
         block.alive = block.alive && z < -1e-6;
+    }
+    if (scene.thin_lens) {
+        double d[3], x, y;
+        follow_to_first_plane(view, middle_x, middle_y, d, x, y);
+        const PixelRays<S> middle{S(0),
+                                  S(0),
+                                  block.to[0],
+                                  S(1 / __builtin_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2])),
+                                  true,
+                                  block.lens.extent,
+                                  block.lens.panel};
+        for (int k = 0; k < 2; ++k) {
+            const Ray<S> moved = displaced(view, middle, S(0), S(0), S(k == 0 ? 1 : 0), S(k == 1 ? 1 : 0));
+            const Place<S> at = to_display(scene.lattice, moved.at.x, moved.at.y);
+            block.pupil_at[k][0] = at.x;
+            block.pupil_at[k][1] = at.y;
+            block.pupil_slope[k][0] = -moved.to.x / moved.to.z - block.sweep[0][0].slope;
+            block.pupil_slope[k][1] = -moved.to.y / moved.to.z - block.sweep[1][0].slope;
+        }
     }
     for (int a = 0; a < 2 && block.alive; ++a) {
         const Sweep<S>* s = block.sweep[a];
         const S bend = s[1].at + s[2].at + s[3].at - S(3) * s[0].at,
                 turn = s[1].slope + s[2].slope + s[3].slope - S(3) * s[0].slope;
-        block.alive = abs(bend) + abs(turn * scene.holes_below[a]) < S(FilteredLimits::bend) * scene.lattice.pitch[a];
+        const S pitch = scene.by_lens ? min(scene.lattice.pitch[0], scene.lattice.pitch[1]) : scene.lattice.pitch[a];
+        block.alive = abs(bend) + abs(turn * scene.holes_below[a]) < S(FilteredLimits::bend) * pitch;
     }
-    block.alive = block.alive && all_go_down(scene, block) && axes_part(scene, block, most_misjudged);
+    block.alive = block.alive && all_go_down(scene, block) && (!scene.has_diffuser || axes_part(scene, block, most_misjudged));
     return block;
 }
 
@@ -142,19 +170,22 @@ LFDSIM_FN S sum_of(const S (&a)[most_probes]) {
     return (c[0] + c[2]) + (c[1] + c[3]);
 }
 
-/// Traces the first `count` probes (up to a full packet more) to the panel.
+/// Traces the first `count` probes (up to a full packet more) to the panel. Their points (x, y) are so far below the first plane:
+/// the holes' edges across y' may lie at another height than those across x'.
 template <Way through, class F>
 LFDSIM_LARGE void trace_probes(const Scene<Scalar<F>>& scene, const PixelBlock<Scalar<F>>& block, Probes<Scalar<F>>& probes,
-                               int count) {
-    // The holes' edges across y' may lie at another height than those across x'. The displacement in y is scaled to the plane of
-    // the latter; the factor is 1 where both are the same plane.
-    const F down = F(scene.holes_below[0]), to_plane_x = F(scene.holes_below[0] / scene.holes_below[1]);
+                               int count, const Scalar<F> (&below)[2]) {
+    // The displacement in y is scaled to the plane of x; the factor is 1 where both are the same plane.
+    const F down = F(below[0]), to_plane_x = F(below[0] / below[1]);
     for (int p = 0; p < count; p += LaneTraits<F>::width) {
         const F x = load<F>(probes.at_x + p), y = load<F>(probes.at_y + p);
         const F across = load<F>(probes.x + p) - x, up = (load<F>(probes.y + p) - y) * to_plane_x;
         const F per = F(1) / sqrt(across * across + up * up + down * down);
-        const PanelPoint<F> point = trace_array<through>(
-            scene, block.lens.extent, block.lens.panel, Ray<F>{{x, y, F(0)}, {across * per, up * per, -(down * per)}}, F(0) < F(1));
+        Place<F> at{x, y};
+        if (scene.by_lens) at = to_array(scene.lattice, x, y);
+        const PanelPoint<F> point =
+            trace_array<through>(scene, block.lens.extent, block.lens.panel,
+                                 Ray<F>{{at.x, at.y, F(0)}, {across * per, up * per, -(down * per)}}, F(0) < F(1));
         store(point.column, probes.column + p);
         store(point.row, probes.row + p);
         store(select(point.alive, point.weight, F(0)), probes.weight + p);
@@ -175,6 +206,7 @@ struct SharedBundle {
     S weight;                                          // mean share of light transmitted over the part, lost rays counted as 0
     S x, y, probe_column, probe_row;                   // the probe nearest to the middle: mm, and its end on the panel
     S lean_column[2], lean_row[2];                     // sharp: added to the motion per picture pixel to the right and down
+    S blur_width, blur_height;                         // squared: of a box as the camera's pixel and pupil spread each point
     Footprint<S> footprint;                            // sharp: the box, which each pixel reads at its own position
     bool still;                                        // soft: the footprint does not move
     int nodes;                                         // soft: along an axis of the block; 1: its light is the same everywhere
@@ -226,6 +258,7 @@ LFDSIM_FN SharedBundle<S> sum_up(const Probes<S>& probes, int per_axis) {
     b.probe_column = probes.column[one];
     b.probe_row = probes.row[one];
     for (int k = 0; k < 2; ++k) b.lean_column[k] = b.lean_row[k] = S(0);
+    b.blur_width = b.blur_height = S(0);
     b.state = others == S(0) ? State::sharp : State::broken;
     return b;
 }
@@ -255,10 +288,11 @@ struct Slopes {
     }
 };
 
-/// Is the footprint too wide to be described by a single box?
+/// Is the footprint too wide to be described by a single box? It may be long where there are sums.
 template <class S>
-LFDSIM_FN bool is_soft(const SharedBundle<S>& b) {
-    return max(b.width, b.height) > S(FilteredLimits::soft);
+LFDSIM_FN bool is_soft(const PanelLevels& levels, const SharedBundle<S>& b) {
+    const S size = !levels.sums ? max(b.width, b.height) : levels.tall ? b.width : b.height;
+    return size > S(FilteredLimits::soft);
 }
 
 /// The panel's light over small boxes around the probes of a part of a stratum, each as wide as the distance to the next probes.
@@ -295,16 +329,41 @@ struct ProbeBoxes {
         }
     }
 
+    /// Adds squared widths.
+    LFDSIM_FN void blur(S wide, S high) {
+        for (int p = 0; p < most_probes; ++p) {
+            width[p] = sqrt(width[p] * width[p] + wide);
+            height[p] = sqrt(height[p] * height[p] + high);
+        }
+    }
+
     /// The light of each box, moved by (column, row): R, G, B and whether the probe lies in the part.
     template <class F>
-    LFDSIM_FN void look(const Probes<S>& probes, const PanelLevel* levels, int level_count, const PanelBase<S>& base, S column,
-                        S row, S (&light)[most_probes][4]) const {
+    LFDSIM_FN void look(const Probes<S>& probes, const PanelLevels& levels, const PanelBase<S>& base, S column, S row,
+                        S (&light)[most_probes][4]) const {
         for (int p = 0; p < most_probes; p += LaneTraits<F>::width)
-            light_of_boxes(levels, level_count, base, load<F>(probes.column + p) + F(column), load<F>(probes.row + p) + F(row),
+            light_of_boxes(levels, base, load<F>(probes.column + p) + F(column), load<F>(probes.row + p) + F(row),
                            load<F>(width + p), load<F>(height + p), load<F>(weight + p), light + p);
         for (int p = 0; p < most_probes; ++p) light[p][3] = probes.in[p];
     }
 };
+
+/// What the camera adds to a bundle's spread: its pixel, over which the bundle moves as it does from pixel to pixel, and its pupil,
+/// from whose middle to its right and upper edge it moves as rays p and p + 1 tell. The variance of a box of width w is w^2 / 12,
+/// that of a disk of radius r along an axis r^2 / 4.
+template <class S>
+LFDSIM_FN void blur(const Scene<S>& scene, SharedBundle<S>& b, const Probes<S>& rays, int p) {
+    if (scene.box_filter) {
+        b.blur_width = b.column_right * b.column_right + b.column_down * b.column_down;
+        b.blur_height = b.row_right * b.row_right + b.row_down * b.row_down;
+    }
+    for (int k = 0; k < 2 && scene.thin_lens; ++k) {
+        if (!(rays.weight[p + k] > S(0))) continue;
+        const S c = rays.column[p + k] - b.probe_column, r = rays.row[p + k] - b.probe_row;
+        b.blur_width = b.blur_width + S(3) * c * c;
+        b.blur_height = b.blur_height + S(3) * r * r;
+    }
+}
 
 /// Derives a bundle's motion per picture pixel from rays p .. p + 2, which go through its probe's point from the block's points 1,
 /// 2 and 3. The bundle becomes broken if the motion is not linear, or a ray is lost or ends under another lens, unless it is so

@@ -31,10 +31,11 @@ struct LevelReader {
     S cells_per_pixel;
 
     LevelReader() = default;
-    LFDSIM_FN LevelReader(const PanelLevel* levels, int level, const PanelBase<S>& base) {
-        texels = levels[level].texels;
-        columns = levels[level].columns;
-        rows = levels[level].rows;
+    LFDSIM_FN LevelReader(const PanelLevels& levels, int level, const PanelBase<S>& base) {
+        const PanelLevel& of = levels.level[level];
+        texels = of.texels;
+        columns = of.columns;
+        rows = of.rows;
         base_column = std::uint32_t(std::int32_t(base.column) >> level);  // the base may lie outside of the panel
         base_row = std::uint32_t(std::int32_t(base.row) >> level);
         rest_column = S(std::int32_t(base.column - (base_column << level)));
@@ -79,49 +80,83 @@ struct LevelReader {
 /// A box wider or narrower than this, in cells, is read as if it were as wide.
 constexpr float least_box = 1.0f / 64, most_box = 1;
 
-/// A box on the level that suits its size, the same for all pixels of a block except for its position.
-template <class S>
-struct Footprint {
-    LevelReader<S> level;
-    S width, height, per_width, per_height;  // cells
-    bool point;                              // too small to matter: one cell is read
+/// The least level whose cells are at least `size` panel pixels wide, or the last one.
+template <class F>
+LFDSIM_FN Uint<F> level_of(F size, int count) {
+    const Uint<F> above = ((float_bits(size) + Uint<F>(0x7fffffu)) >> 23) - Uint<F>(127u), top = Uint<F>(std::uint32_t(count - 1));
+    const Uint<F> fitting = select(size > F(1), above, Uint<F>(0u));
+    return select(fitting < top, fitting, top);
+}
 
-    Footprint() = default;
-    /// wide x high panel pixels.
-    LFDSIM_FN Footprint(const PanelLevel* levels, int count, const PanelBase<S>& base, S wide, S high) {
-        int l = 0;
-        for (S most = max(wide, high); most > S(most_box) && l + 1 < count; most = most * S(0.5)) ++l;
-        level = LevelReader<S>(levels, l, base);
-        width = min(max(wide * level.cells_per_pixel, S(least_box)), S(most_box));
-        height = min(max(high * level.cells_per_pixel, S(least_box)), S(most_box));
-        per_width = S(1) / width;
-        per_height = S(1) / height;
-        point = max(wide, high) < S(least_box);
+/// light_of_boxes() for boxes that are long where there are sums: at the level at which a box is at most two cells wide, of which
+/// one is read, and along its whole length. Between the sums before and after a cell the sum is linear.
+template <class F>
+LFDSIM_FN void light_of_long_boxes(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, F column, F row, F wide, F high,
+                                   F weight, Scalar<F> (*light)[4]) {
+    using S = Scalar<F>;
+    constexpr int lanes = LaneTraits<F>::width, corners = 8;  // of sums: two lines, two ends, before and after a cell
+    const bool tall = levels.tall;
+    const Uint<F> level = level_of(F(S(0.5)) * (tall ? wide : high), levels.count), one = Uint<F>(1u);
+    const F scale = bits_float<F>((Uint<F>(127u) - level) << 23), half = F(S(0.5));
+    auto cells = [&](std::uint32_t of) { return F(0) - floor(F(0) - F(S(std::int32_t(of))) * scale); };
+    const F columns = cells(levels.level[0].columns), rows = cells(levels.level[0].rows), last = tall ? rows : columns;
+    const F c = (F(S(std::int32_t(base.column))) + column) * scale, r = (F(S(std::int32_t(base.row))) + row) * scale;
+    const F across = min(max((tall ? wide : high) * scale, F(S(least_box))), F(1)),
+            length = max((tall ? high : wide) * scale, F(S(most_box)));  // shorter ones would lose the sums' digits
+    const F side = (tall ? c : r) - half * across, start = (tall ? r : c) - half * length;
+    const F line = floor(side), beyond = max(F(1) - (line + F(1) - side) / across, F(0)), per = weight / length;
+    const Uint<F> lines = to_int(tall ? columns : rows), pitch = to_int(tall ? columns : columns + F(1));
+    std::uint32_t at[lanes], place[corners][lanes];
+    S share[corners][lanes];
+    for (int end = 0; end < 2; ++end) {
+        const F to = min(max(end == 0 ? start : start + length, F(0)), last), cell = min(floor(to), last - F(1)), rest = to - cell;
+        const Uint<F> k = to_int(cell);
+        for (int n = 0; n < 4; ++n) {
+            const Uint<F> number = to_int(line) + (n / 2 == 0 ? Uint<F>(0u) : one), sum = k + (n % 2 == 0 ? Uint<F>(0u) : one);
+            const Mask<F> lit = number < lines;
+            const F part = (n / 2 == 0 ? F(1) - beyond : beyond) * (n % 2 == 0 ? F(1) - rest : rest);
+            store(select(lit, tall ? sum * pitch + number : number * pitch + sum, Uint<F>(0u)), place[4 * end + n]);
+            store(select(lit, end == 0 ? F(0) - per * part : per * part, F(0)), share[4 * end + n]);
+        }
     }
-    template <class F>
-    LFDSIM_FN void add(Light<F>& light, F column, F row, F weight) const {
-        if (point)
-            level.add_point(light, column, row, weight);
-        else
-            level.add_box(light, column, row, weight, F(width), F(height), F(per_width), F(per_height));
+    store(level + Uint<F>(std::uint32_t(levels.count)), at);
+    for (int k = 0; k < lanes; ++k) {
+        const float* const sums = levels.level[at[k]].texels;
+        Texel sum{};
+        for (int n = 0; n < 4; ++n) {
+            Texel ends[2];
+            for (int end = 0; end < 2; ++end)
+                __builtin_memcpy(&ends[end], sums + std::size_t(place[4 * end + n][k]) * 4, sizeof ends[end]);
+            Texel part = ends[1] * share[4 + n][k];
+            part += ends[0] * share[n][k];
+            sum += part;
+        }
+        __builtin_memcpy(light[k], &sum, sizeof sum);
     }
-};
+}
 
 /// The same for boxes that differ from lane to lane, each on a level of its own: weight x the light of each lane; R, G, B and an
 /// unused number. A box's level is that at which it is at most two cells wide, and one cell's width of it is read: the light that a
 /// coarser cell would add from outside the box is the larger error. Positions are measured from the panel's corner in single
 /// precision: on a panel of 16384 columns accurate to 1/1000 of a pixel.
 template <class F>
-LFDSIM_FN void light_of_boxes(const PanelLevel* levels, int count, const PanelBase<Scalar<F>>& base, F column, F row, F wide,
-                              F high, F weight, Scalar<F> (*light)[4]) {
+LFDSIM_FN void light_of_boxes(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, F column, F row, F wide, F high,
+                              F weight, Scalar<F> (*light)[4]) {
     using S = Scalar<F>;
     constexpr int lanes = LaneTraits<F>::width;
+    const bool any_long = levels.sums && any((levels.tall ? high : wide) > F(S(most_box)));
+    S long_light[lanes][4];
+    if (any_long) {
+        const F across = levels.tall ? wide : high, along = levels.tall ? high : wide;
+        const Mask<F> lies_long = along > max(across, F(S(most_box)));
+        light_of_long_boxes(levels, base, column, row, wide, high, select(lies_long, weight, F(0)), long_light);
+        weight = select(lies_long, F(0), weight);
+    }
     const F size = F(S(0.5)) * max(wide, high);  // <= 2^level
-    const Uint<F> above = ((float_bits(size) + Uint<F>(0x7fffffu)) >> 23) - Uint<F>(127u), top = Uint<F>(std::uint32_t(count - 1));
-    const Uint<F> fitting = select(size > F(1), above, Uint<F>(0u)), level = select(fitting < top, fitting, top);
+    const Uint<F> level = level_of(size, levels.count);
     const F scale = bits_float<F>((Uint<F>(127u) - level) << 23);
     auto cells = [&](std::uint32_t of) { return to_int(F(0) - floor(F(0) - F(S(std::int32_t(of))) * scale)); };
-    const Uint<F> columns = cells(levels[0].columns), rows = cells(levels[0].rows);
+    const Uint<F> columns = cells(levels.level[0].columns), rows = cells(levels.level[0].rows);
     const F half = F(S(0.5)), width = min(max(wide * scale, F(S(least_box))), F(1)),
             height = min(max(high * scale, F(S(least_box))), F(1));
     const F c = (F(S(std::int32_t(base.column))) + column) * scale - half * width,
@@ -143,15 +178,48 @@ LFDSIM_FN void light_of_boxes(const PanelLevel* levels, int count, const PanelBa
     cell(3, i + one, j + one, below * right);
     store(level, at);
     for (int k = 0; k < lanes; ++k) {
-        const float* const texels = levels[at[k]].texels;
+        const float* const texels = levels.level[at[k]].texels;
         Texel sum{};
         for (int n = 0; n < 4; ++n) {
             Texel texel;
             __builtin_memcpy(&texel, texels + std::size_t(place[n][k]) * 4, sizeof texel);
             sum += texel * share[n][k];
         }
+        if (any_long) {
+            Texel more;
+            __builtin_memcpy(&more, long_light[k], sizeof more);
+            sum += more;
+        }
         __builtin_memcpy(light[k], &sum, sizeof sum);
     }
 }
+
+/// A box on the level that suits its size, the same for all pixels of a block except for its position.
+template <class S>
+struct Footprint {
+    LevelReader<S> level;
+    S width, height, per_width, per_height;  // cells
+    bool point;                              // too small to matter: one cell is read
+
+    Footprint() = default;
+    /// wide x high panel pixels.
+    LFDSIM_FN Footprint(const PanelLevels& levels, const PanelBase<S>& base, S wide, S high) {
+        int l = 0;
+        for (S most = max(wide, high); most > S(most_box) && l + 1 < levels.count; most = most * S(0.5)) ++l;
+        level = LevelReader<S>(levels, l, base);
+        width = min(max(wide * level.cells_per_pixel, S(least_box)), S(most_box));
+        height = min(max(high * level.cells_per_pixel, S(least_box)), S(most_box));
+        per_width = S(1) / width;
+        per_height = S(1) / height;
+        point = max(wide, high) < S(least_box);
+    }
+    template <class F>
+    LFDSIM_FN void add(Light<F>& light, F column, F row, F weight) const {
+        if (point)
+            level.add_point(light, column, row, weight);
+        else
+            level.add_box(light, column, row, weight, F(width), F(height), F(per_width), F(per_height));
+    }
+};
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

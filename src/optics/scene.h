@@ -82,7 +82,9 @@ struct Scene {
 
     // the holes through which light enters the lenses, for the filtered estimator (strata.h)
     S holes_below[2];  // height of the first plane of the display above the holes' edges across x' and y'
-    S hole_radius;     // of round ones; 0: the cells themselves
+    S hole_radius;     // of round ones; 0: the cells themselves, or slits
+    S hole_half;       // strips: half the width of what light enters
+    bool by_lens;      // blocks of pixels cut what they see lens by lens, not into rows and columns of the whole array
     bool leaky;        // light goes on between them too
 
     // light
@@ -114,6 +116,14 @@ struct View {
 struct PanelLevel {
     const float* texels;
     std::uint32_t columns, rows;
+};
+
+/// The panel's levels: `count` of its pyramid and, where footprints are long, as many of sums (engine/pyramid.h).
+struct PanelLevels {
+    const PanelLevel* level;
+    int count;
+    bool sums;
+    bool tall;  // footprints are long along columns, not along rows
 };
 
 /// Dimensions 0, 1: diffuser; 2, 3: position in the pixel; 4, 5: position in the pupil.

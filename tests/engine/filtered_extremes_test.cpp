@@ -15,7 +15,8 @@ namespace {
 /// Draws displays; most of their numbers are at, or near, the ends of their ranges.
 class Extremes {
   public:
-    explicit Extremes(unsigned seed) : random(seed) {}
+    /// Of squares seen by a pinhole through pixels' centres, or of every lattice and camera.
+    explicit Extremes(unsigned seed, bool every_lattice = false) : random(seed), every(every_lattice) {}
 
     /// The next valid one.
     Display operator()() {
@@ -50,6 +51,7 @@ class Extremes {
         draw_lens(d, scale);
         draw_diffuser(d, scale);
         draw_camera(d, scale);
+        if (every) draw_lattice(d, scale);
         d.render.estimator = Estimator::filtered;
         d.render.fresnel = one_of({Fresnel::exact, Fresnel::none});
         d.render.samples = one_of<std::int64_t>({1, 4, 9, 100, 1024, 3844});
@@ -93,15 +95,37 @@ class Extremes {
         d.camera.frame_width_mm = (chance(0.8) ? 44 : over_decades(1e-3, 1e3)) * scale;
     }
 
+    void draw_lattice(Display& d, double scale) {
+        d.array.lattice = one_of({LatticeKind::square, LatticeKind::hexagon, LatticeKind::brick, LatticeKind::strips});
+        const double pitch = d.array.pitch_mm[0];
+        if (d.array.lattice == LatticeKind::brick) d.array.pitch_mm = {pitch, random(0.8, 1.2) * pitch};
+        if (d.array.lattice == LatticeKind::strips) {
+            d.array.count = {up_to(50), 1};
+            d.array.slant_deg = chance(0.3) ? 0 : random(-89, 89);
+            if (chance(0.9)) d.array.aperture = Aperture::cell;
+        } else if (chance(0.4)) {
+            d.array.rotation_deg = random(-180, 180);
+        }
+        if (chance(0.5)) d.camera.pixel_filter = PixelFilter::box;
+        if (chance(0.3)) d.camera.pupil_diameter_mm = over_decades(0.1, 10) * scale;
+        if (chance(0.4)) d.diffuser.reset();
+        if (!d.diffuser) d.camera.pixel_filter = PixelFilter::box;
+    }
+
     Random random;
+    bool every;
 };
 
 std::string about(int number, const Display& d) {
     auto text = [](double x) { return std::to_string(x) + " "; };
     return std::to_string(number) + ": lens " + std::to_string(int(d.lens.type())) + ", surround " +
-           std::to_string(int(d.array.surround)) + ", pitch " + text(d.array.pitch_mm[0]) + ", diffuser " +
-           text(d.diffuser->distance_mm) + text(d.diffuser->angle_deg[0]) + text(d.diffuser->angle_deg[1]) +
-           (d.diffuser->profile == Profile::box ? "box" : "gaussian") + ", from " + text(d.camera.position_mm[0]) +
+           std::to_string(int(d.array.surround)) + ", lattice " + std::to_string(int(d.array.lattice)) + ", pitch " +
+           text(d.array.pitch_mm[0]) + text(d.array.pitch_mm[1]) + ", turned " + text(d.array.turn_deg()) +
+           (d.diffuser ? ", diffuser " + text(d.diffuser->distance_mm) + text(d.diffuser->angle_deg[0]) +
+                             text(d.diffuser->angle_deg[1]) + (d.diffuser->profile == Profile::box ? "box" : "gaussian")
+                       : "") +
+           (d.camera.pixel_filter == PixelFilter::box ? ", box filter" : "") + ", pupil " +
+           text(d.camera.pupil_diameter_mm.value_or(0)) + ", from " + text(d.camera.position_mm[0]) +
            text(d.camera.position_mm[1]) + text(d.camera.position_mm[2]) + ", frame " + text(*d.camera.frame_width_mm) +
            std::to_string(d.camera.resolution[0]) + " x " + std::to_string(d.camera.resolution[1]) + ", samples " +
            std::to_string(*d.render.samples);
@@ -125,7 +149,7 @@ Rect small_part(const Display& d, double samples) {
 }
 
 /// Is no stratum of 32 x 32 so wide that its rays spread unevenly over the lenses?
-bool benign(const Display& d) { return std::max(d.diffuser->angle_deg[0], d.diffuser->angle_deg[1]) <= 60; }
+bool benign(const Display& d) { return !d.diffuser || std::max(d.diffuser->angle_deg[0], d.diffuser->angle_deg[1]) <= 60; }
 
 TEST(FilteredExtremes, LightStaysLight) {
     Extremes extremes(5);
@@ -174,6 +198,43 @@ TEST(FilteredExtremes, TheMeanIsThatOfBruteForce) {
         compared += truth > 0.01;
     }
     EXPECT_GT(compared, drawn_displays / 4);
+}
+
+TEST(FilteredExtremes, OfEveryLatticeAndCamera) {
+    Extremes extremes(9, true);
+    int compared = 0;
+    for (int n = 0; n < drawn_displays / 2; ++n) {
+        Display d = extremes();
+        d.render.samples = std::min<std::int64_t>(*d.render.samples, 100);
+        const Texels panel = noise_panel(d);
+        const Rect part = small_part(d, 2e4);
+        const Image reference = picture(d, panel, {1, "scalar", part});
+        // The pupil's shares are of the same light from neighbouring places, so those of two lenses may add up to a little more.
+        for (const float x : reference.rgb) {
+            if (!(x >= 0 && x <= 1.001f)) {
+                ADD_FAILURE() << x << ", " << about(n, d);
+                break;
+            }
+        }
+        for (const KernelInfo& kernel : kernels()) {
+            if (!kernel.available || kernel.name == "scalar") continue;
+            const Image other = picture(d, panel, {2, kernel.name, part});
+            EXPECT_EQ(0, std::memcmp(other.rgb.data(), reference.rgb.data(), reference.rgb.size() * sizeof(float)))
+                << kernel.name << ", " << about(n, d);
+        }
+        if (!benign(d)) continue;
+        d.render.samples = 256;
+        const Rect whole = small_part(d, 1e5);
+        const Image filtered = picture(d, panel, {0, "", whole});
+        d.render.estimator = Estimator::point;
+        d.render.sampling = Sampling::random;
+        const Image points = picture(d, panel, {0, "", whole});
+        const double truth = mean_of(points), pixels = double(points.rgb.size()) / 3;
+        const double standard_error = std::sqrt(truth / (pixels * double(*d.render.samples)));
+        EXPECT_NEAR(mean_of(filtered), truth, 4 * standard_error + 0.02 * truth + 1e-4) << about(n, d);
+        compared += truth > 0.01;
+    }
+    EXPECT_GT(compared, drawn_displays / 10);
 }
 
 }  // namespace

@@ -186,6 +186,25 @@ inline std::vector<std::pair<std::string, Display>> diffused() {
     all.back().second.array.surround = Surround::plate;
     add("pinholes", example(), closing);
     all.back().second.lens = {Pinhole{0.8}, {}};
+    // Lens by lens: other lattices, turned arrays, and cameras with pixels and pupils, with or without a diffuser.
+    add("turned", example(), closing);
+    all.back().second.array.rotation_deg = 11;
+    add("hexagons", in_lattice(example(), LatticeKind::hexagon), closing);
+    add("round hexagons, plate", in_lattice(example(), LatticeKind::hexagon), closing);
+    all.back().second.array.aperture = Aperture::circle;
+    all.back().second.array.surround = Surround::plate;
+    add("bricks, weak", in_lattice(example(), LatticeKind::brick), {40, {1.2, 1.8}, Profile::box});
+    add("slanted strips, glued", glued_strips(), {40, {4, 2}, Profile::box});
+    add("box filter and pupil", example(), closing);
+    all.back().second.camera.pixel_filter = PixelFilter::box;
+    all.back().second.camera.pupil_diameter_mm = 2;
+    add("strips, no diffuser", glued_strips(), closing);
+    all.back().second.diffuser.reset();
+    all.back().second.camera.pixel_filter = PixelFilter::box;
+    add("round lenses, no diffuser, pupil", example(), closing);
+    all.back().second.diffuser.reset();
+    all.back().second.camera.pixel_filter = PixelFilter::box;
+    all.back().second.camera.pupil_diameter_mm = 2;
     return all;
 }
 

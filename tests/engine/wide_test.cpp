@@ -30,9 +30,11 @@ void expect_same(const Image& a, const Image& b, const std::string& what) {
 Rendering by_host(const Display& d, const Texels& panel, const RenderOptions& options, HostQueue& queue) {
     Job job;
     const Pyramid pyramid(panel);
-    Work work(d, resolve(d), pyramid.levels(), options);
+    const Geometry geometry = resolve(d);
+    const auto& levels = pyramid.levels(long_footprints(geometry));
+    Work work(d, geometry, levels, options);
     work.make_pictures(options.target_error.has_value());
-    const wide::DevicePanel there(queue, pyramid.levels());
+    const wide::DevicePanel there(queue, levels);
     const Done done = wide::render(queue, there, work.tile, work.target_error, work.result.error.rgb.data(), job);
     EXPECT_TRUE(done.complete);
     work.result.samples = done.samples;

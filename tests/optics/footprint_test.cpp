@@ -26,8 +26,8 @@ Texels panel(Light light) {
 std::array<float, 4> light_of(const Pyramid& pyramid, double column, double row, double wide, double high) {
     const PanelBase<float> base{40, 30, 0, 0};
     float light[1][4];
-    light_of_boxes<float>(pyramid.levels().data(), int(pyramid.levels().size()), base, float(column - 40), float(row - 30),
-                          float(wide), float(high), 1.0f, light);
+    const PanelLevels levels{pyramid.levels().data(), int(pyramid.levels().size()), false, true};
+    light_of_boxes<float>(levels, base, float(column - 40), float(row - 30), float(wide), float(high), 1.0f, light);
     return {light[0][0], light[0][1], light[0][2], light[0][3]};
 }
 

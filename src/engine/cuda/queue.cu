@@ -134,7 +134,10 @@ class CudaQueue : public wide::Queue {
         return seconds_;
     }
 
-    std::size_t block_bytes(int most) const override { return wide::BlockLayout(most).end; }
+    wide::BlockSize block_size(int across, bool by_lens) const override {
+        const Room room(across, by_lens);
+        return {wide::BlockLayout(across, room).end, room.strata};
+    }
     std::size_t even_bytes() const override { return sizeof(EvenCuts); }
     int places_per_axis(const Tile& tile) const override { return lfdsim::places_per_axis(tile); }
 

@@ -15,8 +15,9 @@ namespace {
 struct BlockMemory {
     S light[most_lanes][4];
     Sharp sharp[most_sharps];
-    Cut cut[2][max_strata + 1];
-    Stratum stratum[2][max_strata];
+    Grid grid[most_grids];
+    Cut cut[most_cuts];
+    Stratum stratum[most_cuts];
     Bundles bundles[max_strata * max_strata];
 };
 
@@ -24,10 +25,9 @@ template <optics::Way through>
 class BlockRenderer {
   public:
     BlockRenderer(const Tile& t, const EvenCuts& even, std::int32_t left, std::int32_t top) : tile(t), work(t, state) {
-        for (int a = 0; a < 2; ++a) {
-            state.axis[a].cut = memory.cut[a];
-            state.axis[a].stratum = memory.stratum[a];
-        }
+        state.grids.grid = memory.grid;
+        state.grids.cut = memory.cut;
+        state.grids.stratum = memory.stratum;
         state.bundles = memory.bundles;
         state.sharp = memory.sharp;
         state.light = memory.light;

@@ -5,6 +5,7 @@
 #include "optics/bundle.h"
 #include "optics/diffuser.h"
 #include "optics/filtered_limits.h"
+#include "optics/outline.h"
 #include "optics/strata.h"
 
 namespace lfdsim {
@@ -45,8 +46,24 @@ struct Axis {
     int strata;
     bool moving;
     Gradient first, last;  // the positions of the ends
-    Cut* cut;  // strata + 1 of them
+    Cut* cut;              // strata + 1 of them
     Stratum* stratum;
+};
+
+/// A grid of strata. Rows and columns of lenses share one, whose cuts lie on the borders between them. Of other lattices each lens
+/// that the block sees has one of its own (filtered_lens.h); what its strata hold is the part of them inside the lens's cell.
+struct Grid {
+    Axis axis[2];
+    int first;                                 // number of its first bundle; the others follow row after row
+    int corners = 0;                           // of the lens's cell; 0: each stratum as a whole is the lens's
+    Gradient corner[optics::most_corners][2];  // the diffuser's numbers of the rays to them
+    bool narrow = false;                       // pixels see little of a stratum
+    // A strip's strata are parallelograms: positions across it are from its axis, which leans by so much, mm per mm, along the axis
+    // of this number. Along it strata have fixed numbers.
+    int strip = -1;
+    S lean = 0;
+    bool against = false;  // positions across it run against the array's x'
+    LFDSIM_BOTH int strata() const { return axis[0].strata * axis[1].strata; }
 };
 
 /// Evenly spaced cuts, common to all blocks: their numbers, and the tangents of the diffuser's angles there.
@@ -153,6 +170,36 @@ LFDSIM_BOTH void spans_of(const optics::Scene<S>& scene, const Axis& axis, int a
             const F half = F(lattice.half_pitch[along]), per = F(1 / scene.hole_radius);
             span.from = optics::max(optics::min(place, next_place) - at, -half) * per;
             span.to = optics::min(optics::max(place, next_place) - at, half) * per;
+            span.part_from = optics::circle_part(span.from);
+            span.part_to = optics::circle_part(span.to);
+        }
+        number = next_number;
+        place = next_place;
+    }
+}
+
+/// The same for an axis of a lens's own grid, of which each pixel sees a part.
+LFDSIM_BOTH void spans_on_lens(const optics::Scene<S>& scene, const Grid& grid, int along, F dx, F dy, Span<F>* spans) {
+    const Axis& axis = grid.axis[along];
+    if (grid.strip == 1 - along) {  // its parts are polygons alone
+        for (int j = 0; j < axis.strata; ++j) spans[j].low = F(-1), spans[j].high = F(1);
+        return;
+    }
+    const F start = axis.first.at(dx, dy), end = axis.last.at(dx, dy);
+    const F least = optics::min(start, end), most = optics::max(start, end);
+    auto number_at = [&](int cut) { return optics::min(optics::max(axis.cut[cut].number.at(dx, dy), F(-1)), F(1)); };
+    auto place_at = [&](int cut) { return optics::min(optics::max(F(axis.cut[cut].place.middle), least), most); };
+    F number = number_at(0), place = place_at(0);
+    for (int j = 0; j < axis.strata; ++j) {
+        const F next_number = number_at(j + 1), next_place = place_at(j + 1);
+        Span<F>& span = spans[j];
+        span.low = number;
+        span.high = next_number;
+        span.share = F(0.5f) * (next_number - number);
+        if (scene.hole_radius > 0) {
+            const F at = F(axis.stratum[j].axis), per = F(1 / scene.hole_radius);
+            span.from = (optics::min(place, next_place) - at) * per;
+            span.to = (optics::max(place, next_place) - at) * per;
             span.part_from = optics::circle_part(span.from);
             span.part_to = optics::circle_part(span.to);
         }

@@ -5,6 +5,7 @@
 #include "engine/kernels/filtered_axis.h"
 #include "engine/kernels/filtered_bundles.h"
 #include "engine/kernels/filtered_own.h"
+#include "engine/kernels/filtered_parts.h"
 #include "optics/bundle.h"
 #include "optics/camera.h"
 #include "optics/filtered_limits.h"
@@ -65,18 +66,18 @@ struct Sharp {
     const SharedBundle* bundle;
     S weight[most_lanes];
 };
-constexpr int most_sharps = 2 * (few_strata + more_strata) * (few_strata + more_strata);
+constexpr int most_sharps = 2 * (few_strata + 8) * (few_strata + 8);
 
 /// The results of a block's steps. The arrays belong to the caller.
 struct BlockState {
     std::int32_t x0, y0;  // first pixel
     optics::PixelBlock<S> block;
-    Axis axis[2];
+    Grids grids;
     int per_axis;      // places along an axis; 0: none
     int sharps;        // sharp bundles, where there are places
     bool any_soft;     // bundles
     bool any_alone;    // strata that each pixel looks up by itself
-    Bundles* bundles;  // row after row
+    Bundles* bundles;  // in the order of the grids, row after row
     Sharp* sharp;      // in the order of the bundles
     S (*light)[4];     // at places, of soft bundles
 };
@@ -95,25 +96,29 @@ class BlockWork {
         at.block = optics::pixel_block<S>(scene, *tile.view, tile.block_side,
                                           S(tile.strata > few_strata ? FilteredLimits::misjudged_fine : FilteredLimits::misjudged),
                                           left, top);
-        for (int a = 0; a < 2; ++a) cut_axis(scene, at.block.sweep[a], tile.weak || !at.block.alive, a, even, at.axis[a]);
+        if (scene.by_lens && at.block.alive) at.block.alive = LensCutter(tile, at.block, at.grids).cut();
+        if (!by_lens()) cut_square(even);
         at.per_axis = places_per_axis(tile);
     }
 
     /// Second step: all bundles of a block, or one.
     LFDSIM_BOTH void make_bundles() {
         if (at.block.alive)
-            BundleMaker<through>(tile, at.block, at.axis).make_all(at.bundles);
+            BundleMaker<through>(tile, at.block).make_all(at.grids, at.bundles);
         else
             for (int k = 0; k < strata(); ++k) make_broken(at.bundles[k]);
     }
     LFDSIM_BOTH void make_bundle(int k) {
-        const int i = k % at.axis[0].strata, j = k / at.axis[0].strata;
+        int g = 0;
+        while (g + 1 < at.grids.count && at.grids.grid[g + 1].first <= k) ++g;
+        const Grid& grid = at.grids.grid[g];
+        const int in = k - grid.first, i = in % grid.axis[0].strata, j = in / grid.axis[0].strata;
         if (at.block.alive)
-            BundleMaker<through>(tile, at.block, at.axis).make(at.bundles[k], i, j);
+            BundleMaker<through>(tile, at.block).make(at.bundles[k], grid, i, j);
         else
             make_broken(at.bundles[k]);
     }
-    LFDSIM_BOTH int strata() const { return at.axis[0].strata * at.axis[1].strata; }
+    LFDSIM_BOTH int strata() const { return at.grids.strata; }
 
     /// Third step: lists the sharp bundles, and whether there are soft ones, and strata for each pixel alone.
     LFDSIM_BOTH void survey() {
@@ -144,7 +149,8 @@ class BlockWork {
         F flat[3] = {F(0), F(0), F(0)};
         Sharp* next = at.sharp;
         const F dx = optics::load<F>(right) * F(per_reach), dy = optics::load<F>(down) * F(per_reach);
-        for_strata<most_strata>(dx, dy, [&](const Bundles& b, const Span<F>& across, const Span<F>& up, std::uint32_t) {
+        for_strata<most_strata>(dx, dy, [&](const Seen& seen) {
+            const Bundles& b = *seen.bundles;
             auto weigh = [&](const SharedBundle& bundle, F weight) {
                 weight = weight * F(bundle.weight);
                 if (bundle.state == SharedBundle::State::soft)
@@ -152,7 +158,7 @@ class BlockWork {
                 if (bundle.state == SharedBundle::State::sharp) optics::store(weight, next++->weight + k);
             };
             if (b.through.state == SharedBundle::State::broken) return;
-            const F cover = scene.hole_radius > 0 ? optics::hole_cover(across, up) : F(1), share = across.share * up.share;
+            const F share = seen.share(), cover = cover_of(seen, share);
             weigh(b.through, share * cover);
             weigh(b.beside, share * (F(1) - cover));
         });
@@ -182,9 +188,40 @@ class BlockWork {
 
   private:
     /// May each pixel cut a stratum at the lenses' borders? If it sees little of a lens through it, and no light beside the holes.
-    LFDSIM_BOTH bool cut_by_pixels(int i, int j) const {
-        return at.block.alive && !scene.leaky && at.axis[0].moving && at.axis[1].moving &&
-               within_a_pitch(scene, at.axis[0], 0, i) && within_a_pitch(scene, at.axis[1], 1, j);
+    LFDSIM_BOTH bool cut_by_pixels(const Axis (&axis)[2], int i, int j) const {
+        return at.block.alive && !scene.leaky && axis[0].moving && axis[1].moving && within_a_pitch(scene, axis[0], 0, i) &&
+               within_a_pitch(scene, axis[1], 1, j);
+    }
+
+    /// Do the camera's pixels or its pupil spread the light?
+    LFDSIM_BOTH bool spreads() const { return scene.box_filter || scene.thin_lens; }
+
+    LFDSIM_BOTH bool by_lens() const { return scene.by_lens && at.block.alive; }
+
+    /// One grid for the whole square of angles.
+    LFDSIM_BOTH void cut_square(const EvenCuts& even) {
+        Grid& grid = at.grids.grid[0];
+        grid.first = grid.corners = 0;
+        grid.narrow = false;
+        grid.strip = -1;
+        const int most = Room(tile.strata, false).an_axis;
+        for (int a = 0; a < 2; ++a) {
+            grid.axis[a].cut = at.grids.cut + a * (most + 1);
+            grid.axis[a].stratum = at.grids.stratum + a * (most + 1);
+            cut_axis(scene, at.block.sweep[a], tile.weak || !at.block.alive, a, even, grid.axis[a]);
+        }
+        at.grids.count = 1;
+        at.grids.strata = grid.strata();
+    }
+
+    /// The share of a stratum that the lens's hole covers; `share`: that of the stratum.
+    LFDSIM_BOTH F cover_of(const Seen& seen, F share) const {
+        if (scene.hole_radius == 0) return F(1);
+        const F cover = optics::hole_cover(*seen.across, *seen.up);
+        if (seen.corners->count == 0) return cover;
+        // Only a part of the stratum is the lens's.
+        const F whole = seen.across->share * seen.up->share * cover;
+        return optics::min(whole / optics::max(share, F(1e-12f)), F(1));
     }
 
     LFDSIM_BOTH static void make_broken(Bundles& b) {
@@ -210,9 +247,14 @@ class BlockWork {
         }
     }
 
-    LFDSIM_BOTH static void add_box(const SharedBundle& b, F dx, F dy, F weight, PacketLight& to) {
-        b.footprint.add(to.boxes, F(b.column) + F(b.column_right) * dx + F(b.column_down) * dy,
-                        F(b.row) + F(b.row_right) * dx + F(b.row_down) * dy, weight);
+    LFDSIM_BOTH void add_box(const SharedBundle& b, F dx, F dy, F weight, PacketLight& to) const {
+        const F column = F(b.column) + F(b.column_right) * dx + F(b.column_down) * dy,
+                row = F(b.row) + F(b.row_right) * dx + F(b.row_down) * dy;
+        if (!tile.levels.sums || optics::max(b.width, b.height) <= S(optics::most_box))
+            return b.footprint.add(to.boxes, column, row, weight);
+        S in_box[Packet::lanes][4];
+        optics::light_of_boxes(tile.levels, at.block.lens.panel, column, row, F(b.width), F(b.height), weight, in_box);
+        to.boxes.add(in_box);
     }
 
     /// Adds what each pixel of the packet at (x, y) of the frame computes by itself: all strata where there are no places, else the
@@ -225,46 +267,55 @@ class BlockWork {
         const S reach = S(at.block.reach), per_reach = S(1) / reach;
         dx = dx * F(per_reach);
         dy = dy * F(per_reach);
-        for_strata<most_strata>(dx, dy, [&](const Bundles& b, const Span<F>& across, const Span<F>& up, std::uint32_t stratum) {
+        for_strata<most_strata>(dx, dy, [&](const Seen& seen) {
+            const Bundles& b = *seen.bundles;
+            const Span<F>&across = *seen.across, &up = *seen.up;
             auto ready = [&] {
                 if (!own_ready) pixels = optics::pixel_rays<F>(*tile.view, x, y);
                 own_ready = true;
             };
             auto add_own = [&](Own part, F weight) {
                 ready();
-                optics::Sampler<F> sampler(Sampling::random, 2, tile.view->seed, number + optics::Uint<F>(first));
-                sampler.sample = stratum * 8;
-                add_own_rays<through>(tile, pixels, across, up, part, weight, sampler, to.boxes);
+                optics::Sampler<F> sampler(Sampling::random, spreads() ? 6 : 2, tile.view->seed, number + optics::Uint<F>(first));
+                sampler.sample = seen.number * 8;
+                add_own_rays<through>(tile, pixels, across, up, *seen.corners, part, weight, sampler, to.boxes);
             };
             const bool own_beside = b.beside.state == SharedBundle::State::broken,
                        own = b.through.state == SharedBundle::State::broken;
             if (at.per_axis > 0 && !own && !own_beside) return;
-            const F share = across.share * up.share;
-            if (optics::none(share > F(0))) return;  // a border that only other pixels of the block see
-            const int i = int(stratum % max_strata), j = int(stratum / max_strata);
-            if (own && cut_by_pixels(i, j)) {
+            if (own && by_lens()) {
+                ready();
+                optics::Sampler<F> sampler(Sampling::random, 6, tile.view->seed, number + optics::Uint<F>(first));
+                sampler.sample = seen.number * 8;
+                if (scene.leaky && scene.hole_radius > 0) return add_random_parts<through>(tile, pixels, seen, sampler, to.boxes);
+                return add_parts<through>(tile, at.grids, pixels, seen, dx, dy, per_reach, sampler, to.boxes);
+            }
+            const F share = seen.share();
+            if (optics::none(share > F(0))) return;  // what only other pixels of the block see
+            const Axis(&axis)[2] = seen.grid->axis;
+            if (own && cut_by_pixels(axis, seen.i, seen.j)) {
                 Span<F> x_parts[2], y_parts[2];
-                cut_at_border(scene, at.axis[0], 0, i, dx, dy, x_parts);
-                cut_at_border(scene, at.axis[1], 1, j, dx, dy, y_parts);
+                cut_at_border(scene, axis[0], 0, seen.i, dx, dy, x_parts);
+                cut_at_border(scene, axis[1], 1, seen.j, dx, dy, y_parts);
                 for (const Span<F>& part_y : y_parts) {
                     for (const Span<F>& part_x : x_parts) {
                         const F part = part_x.share * part_y.share;
                         if (optics::none(part > F(0))) continue;
                         ready();
-                        add_own_probes<through>(tile, pixels, part_x, part_y, part, to.boxes);
+                        add_own_probes<through>(tile, pixels, part_x, part_y, part, FourRays(), to.boxes);
                     }
                 }
                 return;
             }
             if (own && at.block.alive && !b.straddles && fine_alone(tile, scene)) {
                 ready();
-                return add_own_probes<through>(tile, pixels, across, up, share, to.boxes);
+                return add_own_probes<through>(tile, pixels, across, up, share, FourRays(), to.boxes);
             }
             if (own) {
                 const bool covered = scene.hole_radius > 0 && !scene.leaky && at.block.alive && !b.straddles;
                 return add_own(covered ? Own::covered : Own::all, share);
             }
-            const F cover = scene.hole_radius > 0 ? optics::hole_cover(across, up) : F(1);
+            const F cover = cover_of(seen, share);
             auto add = [&](const SharedBundle& bundle, F weight) {
                 if (bundle.state == SharedBundle::State::dark) return;
                 weight = weight * F(bundle.weight);
@@ -276,23 +327,34 @@ class BlockWork {
             if (at.per_axis == 0) add(b.through, share * cover);
             if (own_beside) {
                 // Decided for each pixel, so that none depends on the others of its packet.
-                const optics::Mask<F> seen = cover < F(0.9999f);
-                if (optics::any(seen)) add_own(Own::beside, optics::select(seen, share * (F(1) - cover), F(0)));
+                const optics::Mask<F> shows = cover < F(0.9999f);
+                if (optics::any(shows)) add_own(Own::beside, optics::select(shows, share * (F(1) - cover), F(0)));
             } else if (at.per_axis == 0) {
                 add(b.beside, share * (F(1) - cover));
             }
         });
     }
 
-    /// f(bundles, span along x', span along y', number) for each stratum; the spans are those of the lanes at (dx, dy) of the
-    /// block, -1 .. 1. An axis has at most `most` strata.
+    /// f(Seen) for each stratum, with the spans of the lanes at (dx, dy) of the block, -1 .. 1. An axis has at most `most` strata.
     template <int most, class Do>
     LFDSIM_BOTH void for_strata(F dx, F dy, Do f) const {
         Span<F> spans[2][most];
-        for (int a = 0; a < 2; ++a) spans_of(scene, at.axis[a], a, dx, dy, spans[a]);
-        for (int j = 0; j < at.axis[1].strata; ++j)
-            for (int i = 0; i < at.axis[0].strata; ++i)
-                f(at.bundles[j * at.axis[0].strata + i], spans[0][i], spans[1][j], std::uint32_t(j * max_strata + i));
+        for (int g = 0; g < at.grids.count; ++g) {
+            const Grid& grid = at.grids.grid[g];
+            for (int a = 0; a < 2; ++a)
+                by_lens() ? spans_on_lens(scene, grid, a, dx, dy, spans[a]) : spans_of(scene, grid.axis[a], a, dx, dy, spans[a]);
+            const optics::Corners<F> cell = corners_at(grid, dx, dy);
+            optics::Corners<F> part;
+            const Bundles* next = at.bundles + grid.first;
+            for (int j = 0; j < grid.axis[1].strata; ++j) {
+                for (int i = 0; i < grid.axis[0].strata; ++i) {
+                    const bool split = grid.strip >= 0 && grid.axis[1 - grid.strip].strata > 1;
+                    if (split) part = part_of_strip(cell, grid, grid.strip == 1 ? i : j);
+                    f(Seen{next++, &grid, &spans[0][i], &spans[1][j], split ? &part : &cell, i, j,
+                           std::uint32_t(grid.first + j * max_strata + i)});
+                }
+            }
+        }
     }
 
     const Tile& tile;

@@ -7,6 +7,8 @@
 #pragma once
 #include "engine/kernel.h"
 #include "engine/kernels/filtered_axis.h"
+#include "engine/kernels/filtered_blur.h"
+#include "engine/kernels/filtered_lens.h"
 #include "optics/bundle.h"
 #include "optics/filtered_limits.h"
 #include "optics/footprint.h"
@@ -16,8 +18,6 @@
 namespace lfdsim {
 
 namespace {
-
-using SharedBundle = optics::SharedBundle<S>;
 
 /// What a block sees through a stratum: through its hole and, where light passes there too, beside the hole.
 struct Bundles {
@@ -52,11 +52,10 @@ LFDSIM_BOTH bool clip_to_hole(S radius, Range& x, Range& y) {
 template <optics::Way through>
 class BundleMaker {
   public:
-    LFDSIM_BOTH BundleMaker(const Tile& t, const optics::PixelBlock<S>& of, const Axis* both)
+    LFDSIM_BOTH BundleMaker(const Tile& t, const optics::PixelBlock<S>& of)
         : tile(t),
           scene(*t.scene),
           block(of),
-          axis(both),
           per_axis(t.strata <= 4   ? 4
                    : t.strata <= 8 ? 3
                                    : 2) {
@@ -71,22 +70,31 @@ class BundleMaker {
         }
     }
 
-    /// All bundles of the block, row after row.
-    LFDSIM_BOTH void make_all(Bundles* bundles) {
+    /// All bundles of the block, grid after grid and row after row.
+    LFDSIM_BOTH void make_all(const Grids& grids, Bundles* bundles) {
         Bundles* next = bundles;
-        for (int j = 0; j < axis[1].strata; ++j)
-            for (int i = 0; i < axis[0].strata; ++i) start(*next++, i, j);
+        for (int k = 0; k < grids.count; ++k) {
+            use(grids.grid[k]);
+            for (int j = 0; j < axis[1].strata; ++j)
+                for (int i = 0; i < axis[0].strata; ++i) start(*next++, i, j);
+        }
         finish();
         while (bundles != next) settle(*bundles++);
     }
-    /// The bundles of stratum (i, j).
-    LFDSIM_BOTH void make(Bundles& b, int i, int j) {
+    /// The bundles of a grid's stratum (i, j).
+    LFDSIM_BOTH void make(Bundles& b, const Grid& of, int i, int j) {
+        use(of);
         start(b, i, j);
         finish();
         settle(b);
     }
 
   private:
+    LFDSIM_BOTH void use(const Grid& of) {
+        grid = &of;
+        axis = of.axis;
+    }
+
     /// Where the bundle through the hole is broken, the pixels' own rays also cover what lies beside the hole.
     LFDSIM_BOTH static void settle(Bundles& b) {
         if (b.through.state == SharedBundle::State::broken) b.beside.state = SharedBundle::State::dark;
@@ -97,9 +105,17 @@ class BundleMaker {
         const S r = scene.hole_radius;
         const Stratum &across = axis[0].stratum[i], &up = axis[1].stratum[j];
         const Range x{across.from, across.to}, y{up.from, up.to};
+        aside[0] = grid->strip == 1 ? grid->lean * y.middle() : S(0);
+        aside[1] = grid->strip == 0 ? grid->lean * x.middle() : S(0);
         Range hole_x = x, hole_y = y;
         b.through.state = b.beside.state = SharedBundle::State::dark;
         b.straddles = across.straddles || up.straddles;
+        if (scene.by_lens && tile.weak) {
+            b.through.state = SharedBundle::State::broken;
+            if (scene.thin_lens || (scene.box_filter && scene.has_diffuser))
+                blur_alone<through>(scene, block, axis, across, up, rays, b.through);
+            return;
+        }
         if (b.straddles || (r > 0 && hole_edge_near(x, y))) {
             b.through.state = SharedBundle::State::broken;
             return;
@@ -116,8 +132,8 @@ class BundleMaker {
     /// Do some pixels see a moving stratum inside the hole and others outside?
     LFDSIM_BOTH bool hole_edge_near(Range x, Range y) const {
         if (!axis[0].moving && !axis[1].moving) return false;
-        const S mid_x = S(0.5) * (x.from + x.to), mid_y = S(0.5) * (y.from + y.to),
-                move_x = axis[0].first.reach() + x.to - mid_x, move_y = axis[1].first.reach() + y.to - mid_y;
+        const S mid_x = S(0.5) * (x.from + x.to), mid_y = S(0.5) * (y.from + y.to), move_x = axis[0].first.reach() + x.to - mid_x,
+                move_y = axis[1].first.reach() + y.to - mid_y;
         const S far = optics::sqrt(mid_x * mid_x + mid_y * mid_y), move = optics::sqrt(move_x * move_x + move_y * move_y);
         return optics::abs(far - scene.hole_radius) < move;
     }
@@ -132,7 +148,16 @@ class BundleMaker {
             probes.y[p] = lens.y + py;
             probes.in[p] = (px * px + py * py <= limit) == inside ? counts[p] : S(0);
         }
-        optics::trace_probes<through, F>(scene, block, probes, per_axis * per_axis);
+        if (grid->strip == 1)
+            for (int p = 0; p < optics::most_probes; ++p) probes.x[p] = probes.x[p] + grid->lean * (probes.y[p] - lens.y);
+        else if (grid->strip == 0)
+            for (int p = 0; p < optics::most_probes; ++p) probes.y[p] = probes.y[p] + grid->lean * (probes.x[p] - lens.x);
+        else if (grid->corners > 0)
+            for (int p = 0; p < optics::most_probes; ++p) {
+                const optics::Place<S> at = optics::to_array(scene.lattice, probes.x[p] - lens.x, probes.y[p] - lens.y);
+                if (!optics::in_cell(scene.lattice, at.x, at.y)) probes.in[p] = 0;
+            }
+        optics::trace_probes<through, F>(scene, block, probes, per_axis * per_axis, scene.holes_below);
     }
 
     /// The bundle of a part of stratum (i, j), inside its hole or beside it. Motion of sharp ones is left to follow().
@@ -140,11 +165,11 @@ class BundleMaker {
         trace(i, x, j, y, inside);
         SharedBundle b = optics::sum_up(probes, per_axis);
         if (b.state != SharedBundle::State::sharp) return b;
-        if (!optics::is_soft(b)) {
+        if (!optics::is_soft(tile.levels, b)) {
             lean(b, i, x, j, y);
             return b;
         }
-        if (fine_alone(tile, scene)) {
+        if (fine_alone(tile, scene) || grid->narrow) {
             b.state = SharedBundle::State::broken;
             return b;
         }
@@ -214,7 +239,7 @@ class BundleMaker {
     LFDSIM_BOTH Range seen_of(int a, int stratum, Range r, S dx, S dy) const {
         const Gradient &first = axis[a].first, &last = axis[a].last;
         const S start = first.middle + first.right * dx + first.down * dy, end = last.middle + last.right * dx + last.down * dy,
-                at = axis[a].stratum[stratum].axis, low = optics::min(start, end) - at,
+                at = axis[a].stratum[stratum].axis + aside[a], low = optics::min(start, end) - at,
                 high = optics::max(start, end) - at;
         return {optics::min(optics::max(r.from, low), r.to), optics::max(optics::min(r.to, high), r.from)};
     }
@@ -224,14 +249,14 @@ class BundleMaker {
     LFDSIM_BOTH void add_nodes(SharedBundle& b, int i, Range x, int j, Range y) {
         optics::ProbeBoxes<S> boxes;
         boxes.make<F>(probes, per_axis);
+        if (b.blur_width > 0 || b.blur_height > 0) boxes.blur(b.blur_width, b.blur_height);
         S light[optics::most_probes][4];
         const S step = b.nodes == 1 ? S(0) : S(2) / S(b.nodes - 1), first = b.nodes == 1 ? S(0) : S(-1), reach = S(block.reach);
         for (int n = 0; n < b.nodes * b.nodes; ++n) {
             const S right = first + S(n % b.nodes) * step, down = first + S(n / b.nodes) * step;  // -1 .. 1
             if (n == 0 || !b.still) {
                 const S move = b.still ? S(0) : reach;
-                boxes.look<F>(probes, tile.levels, tile.level_count, block.lens.panel,
-                              (b.column_right * right + b.column_down * down) * move,
+                boxes.look<F>(probes, tile.levels, block.lens.panel, (b.column_right * right + b.column_down * down) * move,
                               (b.row_right * right + b.row_down * down) * move, light);
             }
             S seen[optics::most_probes];
@@ -249,7 +274,7 @@ class BundleMaker {
     LFDSIM_BOTH void narrow(int a, int stratum, Range r, const S* grid, S dx, S dy, S* seen) const {
         const Gradient &first = axis[a].first, &last = axis[a].last;
         const S start = first.middle + first.right * dx + first.down * dy, end = last.middle + last.right * dx + last.down * dy,
-                at = axis[a].stratum[stratum].axis, low = optics::min(start, end) - at,
+                at = axis[a].stratum[stratum].axis + aside[a], low = optics::min(start, end) - at,
                 high = optics::max(start, end) - at;
         const S range = r.to - r.from, half = S(0.5) * range / S(per_axis);
         if (!(half > 0)) return;
@@ -264,42 +289,62 @@ class BundleMaker {
     /// Queues three rays from the block's points 1 .. 3 (optics::block_rays) through the bundle's point in the plane of the holes,
     /// which moves with the pixels where strata do. finish() derives the bundle's motion over the block from them.
     LFDSIM_BOTH void follow(SharedBundle& b) {
+        const int each = rays_each();
         for (int from = 1; from < optics::block_rays; ++from) {
-            const int p = 3 * waiting + from - 1;
+            const int p = each * waiting + from - 1;
             auto shift = [&](const Axis& a) {
                 const Gradient& g = a.first;
                 return a.moving ? g.right * S(optics::block_right(from)) + g.down * S(optics::block_down(from)) : S(0);
             };
             rays.at_x[p] = block.sweep[0][from].at;
             rays.at_y[p] = block.sweep[1][from].at;
-            rays.x[p] = b.x + shift(axis[0]);
-            rays.y[p] = b.y + shift(axis[1]);
+            const S right = shift(axis[0]), up = shift(axis[1]);
+            rays.x[p] = b.x + right + (grid->strip == 1 ? grid->lean * up : S(0));
+            rays.y[p] = b.y + up + (grid->strip == 0 ? grid->lean * right : S(0));
+        }
+        for (int k = 0; k < 2 && scene.thin_lens; ++k) {
+            const int p = each * waiting + 3 + k;
+            rays.at_x[p] = block.sweep[0][0].at + block.pupil_at[k][0];
+            rays.at_y[p] = block.sweep[1][0].at + block.pupil_at[k][1];
+            rays.x[p] = b.x;
+            rays.y[p] = b.y;
         }
         followed[waiting++] = &b;
-        if (waiting == most_waiting) finish();
+        if ((waiting + 1) * each > optics::most_probes) finish();
     }
     /// Traces the queued rays, and completes the bundles that wait for them.
     LFDSIM_BOTH void finish() {
-        if (waiting > 0) optics::trace_probes<through, F>(scene, block, rays, 3 * waiting);
+        const int each = rays_each();
+        if (waiting > 0) optics::trace_probes<through, F>(scene, block, rays, each * waiting, scene.holes_below);
         for (int k = 0; k < waiting; ++k) {
             SharedBundle& b = *followed[k];
-            optics::follow(b, rays, 3 * k, block.reach);
+            optics::follow(b, rays, each * k, block.reach);
             if (b.state != SharedBundle::State::sharp) continue;
             b.column_right = b.column_right + b.lean_column[0];
             b.row_right = b.row_right + b.lean_row[0];
             b.column_down = b.column_down + b.lean_column[1];
             b.row_down = b.row_down + b.lean_row[1];
-            b.footprint = optics::Footprint<S>(tile.levels, tile.level_count, block.lens.panel, b.width, b.height);
+            if (scene.box_filter || scene.thin_lens) {
+                optics::blur(scene, b, rays, each * k + 3);
+                b.width = optics::sqrt(b.width * b.width + b.blur_width);
+                b.height = optics::sqrt(b.height * b.height + b.blur_height);
+            }
+            b.footprint = optics::Footprint<S>(tile.levels, block.lens.panel, b.width, b.height);
         }
         waiting = 0;
     }
 
     static constexpr S part_per_pixel = S(1) / S(FilteredLimits::pixels_a_part);
+    /// Rays that follow a bundle over the block, and over the pupil.
+    LFDSIM_BOTH int rays_each() const { return scene.thin_lens ? 5 : 3; }
+
     static constexpr int most_waiting = optics::most_probes / 3;
     const Tile& tile;
     const optics::Scene<S>& scene;
     const optics::PixelBlock<S>& block;
-    const Axis* axis;
+    const Grid* grid = nullptr;
+    const Axis* axis = nullptr;  // the grid's
+    S aside[2];                  // of a strip: how far its axis has leant aside in the stratum at hand
     int per_axis;  // probes along an axis of a stratum: more in coarser strata, as they also have to find what is dark there
     S grid_x[optics::most_probes], grid_y[optics::most_probes],
         counts[optics::most_probes];  // the probes' positions in a stratum, 0 .. 1; 1 for those in use

@@ -11,6 +11,7 @@
 #include "optics/bundle.h"
 #include "optics/filtered_limits.h"
 #include "optics/footprint.h"
+#include "optics/outline.h"
 #include "optics/strata.h"
 #include "optics/trace.h"
 
@@ -18,12 +19,34 @@ namespace lfdsim {
 
 namespace {
 
-/// Where each pixel's ray ends on the panel if the diffuser turns it by the angles of the numbers (a, b).
+/// Where a pixel's ray starts: at a point of its area, in half pixels to the right and upwards from its centre, and at one of the
+/// pupil, in radii.
+struct Start {
+    F right = F(0), up = F(0), lens_x = F(0), lens_y = F(0);
+};
+
+/// Where each pixel's ray ends on the panel if the diffuser turns it by the angles of the numbers (a, b); without a diffuser, the
+/// ray through that point of the pixel.
 template <optics::Way through>
-LFDSIM_APART optics::PanelPoint<F> trace_own(const optics::Scene<S>& scene, const optics::PixelRays<F>& pixels, F a, F b) {
-    return optics::trace_array<through>(scene, pixels.extent, pixels.base,
-                                        optics::Ray<F>{{pixels.x, pixels.y, F(0)}, optics::scatter(scene, pixels.to, a, b)},
-                                        pixels.alive);
+LFDSIM_APART optics::PanelPoint<F> trace_own(const Tile& tile, const optics::PixelRays<F>& pixels, const Start& start, F a, F b) {
+    const optics::Scene<S>& scene = *tile.scene;
+    optics::Ray<F> ray{{pixels.x, pixels.y, F(0)}, pixels.to};
+    if (!scene.has_diffuser || scene.box_filter || scene.thin_lens)
+        ray = optics::displaced(*tile.view, pixels, scene.has_diffuser ? start.right : a, scene.has_diffuser ? start.up : b,
+                                start.lens_x, start.lens_y);
+    if (scene.has_diffuser) ray.to = optics::scatter(scene, ray.to, a, b);
+    return optics::trace_array<through>(scene, pixels.extent, pixels.base, ray, pixels.alive);
+}
+
+/// A random start, of the sampler's current sample.
+LFDSIM_BOTH Start random_start(const optics::Scene<S>& scene, const optics::Sampler<F>& sampler) {
+    Start start;
+    if (scene.box_filter) {
+        start.right = sampler(2);
+        start.up = sampler(3);
+    }
+    if (scene.thin_lens) optics::disk(sampler(4), sampler(5), start.lens_x, start.lens_y);
+    return start;
 }
 
 /// What a pixel's own rays are for: a whole stratum; one of which a round hole covers a known share; the part beside the hole.
@@ -34,22 +57,25 @@ enum class Own { all, covered, beside };
 /// share is known. If two more rays end close to it, the three give a footprint by finite differences (Igehy 1999), and the panel's
 /// mean over it counts; otherwise the panel pixel at the first ray's end.
 template <optics::Way through>
-LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pixels, const Span<F>& x, const Span<F>& y, Own part,
-                               F weight, const optics::Sampler<F>& first, optics::Light<F>& light) {
+LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pixels, const Span<F>& x, const Span<F>& y,
+                               const optics::Corners<F>& cell, Own part, F weight, const optics::Sampler<F>& first,
+                               optics::Light<F>& light) {
     const optics::Scene<S>& scene = *tile.scene;
     // Not passed by value: with clang's address sanitizer the stack of such a call is aligned to only 32 bytes, whatever F's width.
     optics::Sampler<F> sampler = first;
     const F half = F(0.5f), quarter = F(0.25f);
     F a = F(0), b = F(0);
     optics::Mask<F> found = F(1) < F(0);
-    for (int attempt = 0; attempt < (part == Own::beside ? FilteredLimits::attempts : 1);
+    for (int attempt = 0; attempt < (part == Own::beside || cell.count > 0 ? FilteredLimits::attempts : 1);
          ++attempt) {  // the last is used if none of them lies beside the hole
         ++sampler.sample;
         const F s = half + half * sampler(0), t = half + half * sampler(1);
         a = optics::select(found, a, x.low + s * (x.high - x.low));
         b = optics::select(found, b, y.low + t * (y.high - y.low));
         const F px = x.to - s * (x.to - x.from), py = y.from + t * (y.to - y.from);  // along x against the number
-        found = found || (px * px + py * py > F(1));
+        optics::Mask<F> meant = optics::lies_in(cell, a, b);
+        if (part == Own::beside) meant = meant && (px * px + py * py > F(1));
+        found = found || meant;
     }
     if (part == Own::covered) {
         // On the hole's edge: take a point near the corner next to the lens's axis, if that corner lies in the hole.
@@ -70,7 +96,8 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
         b = optics::select(at_edge, optics::select(corner_in, towards_axis(y, y.low, y.high), next_to_axis(y, y.low, y.high)), b);
         weight = optics::select(at_edge, weight * cover, weight);
     }
-    auto one = trace_own<through>(scene, pixels, a, b);
+    const Start start = random_start(scene, sampler);
+    auto one = trace_own<through>(tile, pixels, start, a, b);
     weight = optics::select(one.alive, weight * one.weight, F(0));
     if (part != Own::beside) {
         // Two more rays, each a quarter of the stratum towards its middle, give where the ray through the middle ends, and the size
@@ -83,8 +110,8 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
             return (half * (span.low + span.high) - at) / optics::select(one_step == F(0), F(1), one_step);
         };
         const F step_a = step(x, a), step_b = step(y, b), to_a = steps(x, a, step_a), to_b = steps(y, b, step_b);
-        const auto across = trace_own<through>(scene, pixels, a + step_a, b);
-        const auto along = trace_own<through>(scene, pixels, a, b + step_b);
+        const auto across = trace_own<through>(tile, pixels, start, a + step_a, b);
+        const auto along = trace_own<through>(tile, pixels, start, a, b + step_b);
         auto near = [&](const optics::PanelPoint<F>& p) {
             const F far_x = F(S(FilteredLimits::together) * scene.pitch_pixels[0]),
                     far_y = F(S(FilteredLimits::together) * scene.pitch_pixels[1]);
@@ -98,8 +125,7 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
                 high = F(4) * (optics::abs(across_r) + optics::abs(along_r));
         const F column = one.column + across_c * to_a + along_c * to_b, row = one.row + across_r * to_a + along_r * to_b;
         S in_box[optics::LaneTraits<F>::width][4];
-        optics::light_of_boxes(tile.levels, tile.level_count, pixels.base, column, row, wide, high,
-                               optics::select(together, weight, F(0)), in_box);
+        optics::light_of_boxes(tile.levels, pixels.base, column, row, wide, high, optics::select(together, weight, F(0)), in_box);
         light.add(in_box);
         one.alive = one.alive && !together;
     }
@@ -109,12 +135,93 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
     light.add(tile.texels, optics::Fetch<F>(hit));
 }
 
+/// Four rays of each pixel, two by two at the diffuser's numbers (a, b), of which those that count carry `weight` each.
+struct FourRays {
+    F a[4], b[4];
+    optics::Mask<F> counts[4];
+    F weight;
+    Start start;
+    F blur_width = F(0), blur_height = F(0);  // squared: of what the camera's pixel and pupil add to each box
+};
+
+/// Adds their light: the panel's mean over a box around the end of each, as wide as the distance to the ends of the next ones.
+template <optics::Way through>
+LFDSIM_FN void add_boxes(const Tile& tile, const optics::PixelRays<F>& pixels, const FourRays& rays, optics::Light<F>& light) {
+    const F none = F(0);
+    optics::PanelPoint<F> end[4];
+    for (int p = 0; p < 4; ++p) end[p] = trace_own<through>(tile, pixels, rays.start, rays.a[p], rays.b[p]);
+    for (int p = 0; p < 4; ++p) {
+        F wide = rays.blur_width, high = rays.blur_height;  // squared: the spreads of two directions add up like variances
+        for (int step = 1; step <= 2; ++step) {
+            const optics::PanelPoint<F>& next = end[p ^ step];
+            const optics::Mask<F> lit =
+                rays.counts[p ^ step] && next.alive && (next.cell.i == end[p].cell.i) && (next.cell.j == end[p].cell.j);
+            const F across = next.column - end[p].column, up = next.row - end[p].row;
+            wide = wide + optics::select(lit, across * across, none);
+            high = high + optics::select(lit, up * up, none);
+        }
+        S in_box[optics::LaneTraits<F>::width][4];
+        optics::light_of_boxes(tile.levels, pixels.base, end[p].column, end[p].row, optics::sqrt(wide), optics::sqrt(high),
+                               optics::select(rays.counts[p] && end[p].alive, rays.weight * end[p].weight, none), in_box);
+        light.add(in_box);
+    }
+}
+
+/// May a polygon overlap a box?
+LFDSIM_BOTH optics::Mask<F> reaches(const optics::Corners<F>& of, const optics::Box<F>& box) {
+    F left = of.x[0], right = of.x[0], low = of.y[0], high = of.y[0];
+    for (int k = 1; k < of.count; ++k) {
+        left = optics::min(left, of.x[k]);
+        right = optics::max(right, of.x[k]);
+        low = optics::min(low, of.y[k]);
+        high = optics::max(high, of.y[k]);
+    }
+    return (left < box.right) && (right > box.left) && (low < box.high) && (high > box.low);
+}
+
+/// A whole box.
+LFDSIM_BOTH optics::Moments<F> middle_of(const optics::Box<F>& box) {
+    const F half = F(0.5f), wide = box.right - box.left, high = box.high - box.low;
+    return {wide * high, half * (box.left + box.right), half * (box.low + box.high), half * wide, half * high};
+}
+LFDSIM_BOTH optics::Moments<F> choose(optics::Mask<F> first, const optics::Moments<F>& a, const optics::Moments<F>& b) {
+    return {optics::select(first, a.area, b.area), optics::select(first, a.x, b.x), optics::select(first, a.y, b.y),
+            optics::select(first, a.half_width, b.half_width), optics::select(first, a.half_height, b.half_height)};
+}
+
+/// Adds the light that pixels see through the part of a box of the diffuser's numbers (x, y) that is inside a lens's cell, by four
+/// rays around its middle.
+template <optics::Way through>
+LFDSIM_APART void add_own_part(const Tile& tile, const optics::PixelRays<F>& pixels, const Span<F>& x, const Span<F>& y,
+                               const optics::Corners<F>& cell, FourRays rays, optics::Light<F>& light) {
+    const optics::Box<F> box{x.low, x.high, y.low, y.high};
+    const optics::Mask<F> near = reaches(cell, box);
+    if (optics::none(near)) return;
+    const optics::Mask<F> whole = near && optics::holds(cell, box);
+    optics::Moments<F> part = middle_of(box);
+    if (optics::any(near && !whole)) part = choose(whole, part, optics::part_within(cell, box));
+    const optics::Mask<F> seen = near && (part.area > F(0));
+    if (optics::none(seen)) return;
+    rays.weight = F(S(1.0 / 16)) * part.area;  // a quarter each, of the square's area of 4
+    for (int p = 0; p < 4; ++p) {
+        rays.a[p] = part.x + F(p % 2 == 0 ? -0.5f : 0.5f) * part.half_width;
+        rays.b[p] = part.y + F(p < 2 ? -0.5f : 0.5f) * part.half_height;
+        rays.counts[p] = seen;
+    }
+    for (int p = 0; p < 4 && optics::any(near && !whole); ++p) {
+        const optics::Mask<F> inside = whole || optics::lies_in(cell, rays.a[p], rays.b[p]);
+        rays.a[p] = optics::select(inside, rays.a[p], part.x);
+        rays.b[p] = optics::select(inside, rays.b[p], part.y);
+    }
+    add_boxes<through>(tile, pixels, rays, light);
+}
+
 /// Adds the light that pixels see through a part (x, y) of a stratum that looks through one lens, by probes of their own: 2 x 2
 /// rays through what the hole covers of it, each with the panel's mean over a box around its end, as wide as the distance to the
 /// ends of the next ones. `weight` is the part's share of the pixel's light.
 template <optics::Way through>
 LFDSIM_APART void add_own_probes(const Tile& tile, const optics::PixelRays<F>& pixels, const Span<F>& x, const Span<F>& y, F weight,
-                                 optics::Light<F>& light) {
+                                 FourRays rays, optics::Light<F>& light) {
     const optics::Scene<S>& scene = *tile.scene;
     const F none = F(0), one = F(1), quarter = F(0.25f);
     const bool round = scene.hole_radius > 0;
@@ -147,32 +254,17 @@ LFDSIM_APART void add_own_probes(const Tile& tile, const optics::PixelRays<F>& p
         place[k][1] = optics::select(low_first, high, low);
     }
 
-    optics::PanelPoint<F> end[4];
-    optics::Mask<F> in[4];
     F count = none;
     for (int p = 0; p < 4; ++p) {
         const F px = place[0][p % 2], py = place[1][p / 2];
-        in[p] = seen;
-        if (round && p > 0) in[p] = seen && (px * px + py * py < one);
-        count = count + optics::select(in[p], one, none);
-        end[p] = trace_own<through>(scene, pixels, x.low + (first[0] - px) * per[0], y.low + (py - first[1]) * per[1]);
+        rays.counts[p] = seen;
+        if (round && p > 0) rays.counts[p] = seen && (px * px + py * py < one);
+        count = count + optics::select(rays.counts[p], one, none);
+        rays.a[p] = x.low + (first[0] - px) * per[0];
+        rays.b[p] = y.low + (py - first[1]) * per[1];
     }
-    weight = weight / optics::max(count, one);
-    for (int p = 0; p < 4; ++p) {
-        F wide = none, high = none;  // squared: the spreads of two directions add up like variances
-        for (int step = 1; step <= 2; ++step) {
-            const optics::PanelPoint<F>& next = end[p ^ step];
-            const optics::Mask<F> lit =
-                in[p ^ step] && next.alive && (next.cell.i == end[p].cell.i) && (next.cell.j == end[p].cell.j);
-            const F across = next.column - end[p].column, up = next.row - end[p].row;
-            wide = wide + optics::select(lit, across * across, none);
-            high = high + optics::select(lit, up * up, none);
-        }
-        S in_box[optics::LaneTraits<F>::width][4];
-        optics::light_of_boxes(tile.levels, tile.level_count, pixels.base, end[p].column, end[p].row, optics::sqrt(wide),
-                               optics::sqrt(high), optics::select(in[p] && end[p].alive, weight * end[p].weight, none), in_box);
-        light.add(in_box);
-    }
+    rays.weight = weight / optics::max(count, one);
+    add_boxes<through>(tile, pixels, rays, light);
 }
 
 }  // namespace

@@ -55,22 +55,22 @@ LFDSIM_FN float* output(const Frame& frame, std::int64_t block, std::int32_t x, 
     return tile.out + ((square * refined_side + y % refined_side) * refined_side + x % refined_side) * 3;
 }
 
-/// The memory of a block that is cut into at most `most` strata an axis.
+/// The memory of a block.
 struct BlockLayout {
-    std::size_t light, sharp, cut, stratum, bundles, end;
+    std::size_t light, sharp, grid, cut, stratum, bundles, end;
 
-    LFDSIM_FN explicit BlockLayout(int most) {
-        const std::size_t n = std::size_t(most), sharps = most <= few_strata + more_strata ? 2 * n * n : 0;
+    LFDSIM_FN explicit BlockLayout(int across, const Room& room) {
         light = (sizeof(BlockState) + 15) / 16 * 16;
         sharp = light + sizeof(S[most_lanes][4]);
-        cut = sharp + sharps * sizeof(Sharp);
-        stratum = cut + 2 * (n + 1) * sizeof(Cut);
-        bundles = (stratum + 2 * n * sizeof(Stratum) + 15) / 16 * 16;
-        end = (bundles + n * n * sizeof(Bundles) + 127) / 128 * 128;
+        grid = sharp + (across <= few_strata ? std::size_t(2 * room.strata) : 0) * sizeof(Sharp);
+        cut = grid + std::size_t(room.grids) * sizeof(Grid);
+        stratum = cut + std::size_t(room.cuts) * sizeof(Cut);
+        bundles = (stratum + std::size_t(room.cuts) * sizeof(Stratum) + 15) / 16 * 16;
+        end = (bundles + std::size_t(room.strata) * sizeof(Bundles) + 127) / 128 * 128;
     }
 };
 
-LFDSIM_FN int most_strata(const Tile& tile) { return tile.strata + more_strata; }
+LFDSIM_FN Room room_of(const Frame& frame) { return Room(frame.tile.strata, frame.scene.by_lens); }
 
 LFDSIM_FN BlockState& state_of(const Frame& frame, std::int64_t block) {
     return *reinterpret_cast<BlockState*>(frame.memory + std::size_t(block) * frame.bytes_per_block);
@@ -100,14 +100,12 @@ LFDSIM_FN void block_item(const Frame& frame, std::int64_t i) {
     const Tile tile = tile_of(frame);
     BlockState& state = state_of(frame, i);
     std::byte* const at = reinterpret_cast<std::byte*>(&state);
-    const int most = most_strata(tile);
-    const BlockLayout layout(most);
+    const BlockLayout layout(tile.strata, room_of(frame));
     state.light = reinterpret_cast<S(*)[4]>(at + layout.light);
     state.sharp = reinterpret_cast<Sharp*>(at + layout.sharp);
-    for (int a = 0; a < 2; ++a) {
-        state.axis[a].cut = reinterpret_cast<Cut*>(at + layout.cut) + a * (most + 1);
-        state.axis[a].stratum = reinterpret_cast<Stratum*>(at + layout.stratum) + a * most;
-    }
+    state.grids.grid = reinterpret_cast<Grid*>(at + layout.grid);
+    state.grids.cut = reinterpret_cast<Cut*>(at + layout.cut);
+    state.grids.stratum = reinterpret_cast<Stratum*>(at + layout.stratum);
     state.bundles = reinterpret_cast<Bundles*>(at + layout.bundles);
     const Pixel corner = corner_of(frame, i);
     BlockWork<through>(tile, state).begin(*static_cast<const EvenCuts*>(frame.even), corner.x, corner.y);
@@ -116,7 +114,7 @@ LFDSIM_FN void block_item(const Frame& frame, std::int64_t i) {
 template <optics::Way through>
 LFDSIM_FN void bundle_item(const Frame& frame, std::int64_t i) {
     const Tile tile = tile_of(frame);
-    const int each = most_strata(tile) * most_strata(tile);
+    const int each = room_of(frame).strata;
     BlockWork<through> work(tile, state_of(frame, i / each));
     if (int(i % each) < work.strata()) work.make_bundle(int(i % each));
 }

@@ -9,6 +9,12 @@
 
 namespace lfdsim::wide {
 
+/// A block's memory, and how many bundles it has at most.
+struct BlockSize {
+    std::size_t bytes;
+    std::int64_t bundles;
+};
+
 /// Work is done in the order in which it is submitted; run() does not wait for it. Functions throw DeviceError where the machine
 /// fails. To be used by one thread at a time.
 class Queue {
@@ -36,9 +42,9 @@ class Queue {
     /// Seconds that the steps have taken on the machine so far, by its own clock. Waits for all of them.
     virtual double seconds() = 0;
 
-    /// What the items rely on: the memory of a block cut into at most so many strata an axis, and of the even cuts; the places
-    /// along an axis of a block.
-    virtual std::size_t block_bytes(int most_strata) const = 0;
+    /// What the items rely on: a block whose square is cut into `across` columns and rows, lens by lens or not; the memory of the
+    /// even cuts; the places along an axis of a block.
+    virtual BlockSize block_size(int across, bool by_lens) const = 0;
     virtual std::size_t even_bytes() const = 0;
     virtual int places_per_axis(const Tile&) const = 0;
 };

@@ -12,7 +12,9 @@ constexpr std::int64_t most_points = std::int64_t(1) << 31;  // in one step: a f
 constexpr int point_side = 16;
 
 /// Memory for the blocks at hand: enough of them to fill any machine, and at least one of the largest.
-std::size_t block_memory(const Queue& queue) { return std::max(queue.block_bytes(max_strata), std::size_t(256) << 20); }
+std::size_t block_memory(const Queue& queue) {
+    return std::max(queue.block_size(max_strata - more_strata, true).bytes, std::size_t(256) << 20);
+}
 
 /// Renders blocks, a part of them at a time.
 class Renderer {
@@ -23,7 +25,7 @@ class Renderer {
         frame_.directions = *tile.directions;
         frame_.tile = tile;
         frame_.tile.texels = panel.texels();
-        frame_.tile.levels = panel.levels();
+        frame_.tile.levels.level = panel.levels();
     }
     Frame& frame() { return frame_; }
 
@@ -65,8 +67,9 @@ class Renderer {
             t.block_side = point_side;
             return;
         }
-        const int most = t.strata + more_strata;
-        frame_.bytes_per_block = queue_.block_bytes(most);
+        const BlockSize block = queue_.block_size(t.strata, frame_.scene.by_lens);
+        frame_.bytes_per_block = block.bytes;
+        bundles_per_block_ = block.bundles;
         if (!memory_.get()) {
             even_ = Buffer<std::byte>(queue_, queue_.even_bytes());
             memory_bytes_ = block_memory(queue_);
@@ -94,9 +97,8 @@ class Renderer {
 
     void run_filtered(std::int64_t blocks, std::int64_t pixels) {
         const Tile& t = frame_.tile;
-        const std::int64_t most = t.strata + more_strata;
         queue_.run(Step::blocks, frame_, blocks);
-        queue_.run(Step::bundles, frame_, blocks * most * most);
+        queue_.run(Step::bundles, frame_, blocks * bundles_per_block_);
         queue_.run(Step::survey, frame_, blocks);
         if (const std::int64_t places = queue_.places_per_axis(t)) queue_.run(Step::places, frame_, blocks * places * places);
         queue_.run(Step::pixels, frame_, blocks * pixels);
@@ -106,6 +108,7 @@ class Renderer {
     Frame frame_{};
     Buffer<std::byte> even_, memory_;
     std::size_t memory_bytes_ = 0, listed_room_ = 0;
+    std::int64_t bundles_per_block_ = 0;
     Buffer<ListedBlock> listed_;
 };
 

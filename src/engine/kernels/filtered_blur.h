@@ -1,0 +1,69 @@
+// The filtered estimator: what the camera's pixel and pupil spread where pixels trace rays of their own.
+// Part of tile.h's source, compiled for each instruction set. Floor 2.
+#pragma once
+#include "engine/kernel.h"
+#include "engine/kernels/filtered_axis.h"
+#include "optics/bundle.h"
+
+namespace lfdsim {
+
+namespace {
+
+using SharedBundle = optics::SharedBundle<S>;
+
+/// Where pixels trace their own rays: by how much the camera's pixel and pupil spread one of them, through the middle of what
+/// the block sees of the lens; squared widths of boxes (optics::blur). `across` and `up` are the stratum along x
+/// and y; `rays` is overwritten.
+template <optics::Way through>
+LFDSIM_BOTH void blur_alone(const optics::Scene<S>& scene, const optics::PixelBlock<S>& block, const Axis* axis,
+                            const Stratum& across, const Stratum& up, optics::Probes<S>& rays, SharedBundle& b) {
+    b.blur_width = b.blur_height = 0;
+    const Stratum* const of[2] = {&across, &up};
+    S at[2], slope[2];
+    for (int a = 0; a < 2; ++a) {
+        const Gradient &first = axis[a].first, &last = axis[a].last;
+        const S low = optics::min(first.middle, last.middle) - first.reach() - of[a]->axis,
+                high = optics::max(first.middle, last.middle) + first.reach() - of[a]->axis;
+        at[a] = S(0.5) * (optics::max(of[a]->from, low) + optics::min(of[a]->to, high));
+    }
+    if (scene.hole_radius > 0) {
+        const S far = optics::sqrt(at[0] * at[0] + at[1] * at[1]), most = S(0.9) * scene.hole_radius;
+        for (int a = 0; a < 2 && far > most; ++a) at[a] = at[a] * (most / far);
+    }
+    for (int a = 0; a < 2; ++a) {
+        const S place = of[a]->axis + at[a], below = scene.holes_below[a];
+        slope[a] = scene.has_diffuser ? (place - block.sweep[a][0].at) / below : block.sweep[a][0].slope;
+        at[a] = place - slope[a] * below;
+    }
+    const S per = S(1) / S(block.reach);
+    for (int p = 0; p < 5; ++p) {  // the middle; a pixel to the right, and down; at the pupil's right and upper edge
+        for (int a = 0; a < 2; ++a) {
+            const optics::Sweep<S>* const sweep = block.sweep[a];
+            S moved = 0, turned = 0;
+            if (p == 1 || p == 2) {
+                moved = (sweep[p].at - sweep[0].at) * per;
+                turned = (sweep[p].slope - sweep[0].slope) * per;
+            } else if (p > 2 && scene.thin_lens) {
+                moved = block.pupil_at[p - 3][a];
+                turned = block.pupil_slope[p - 3][a];
+            }
+            (a == 0 ? rays.at_x : rays.at_y)[p] = at[a] + moved;
+            (a == 0 ? rays.x : rays.y)[p] = at[a] + moved + slope[a] + turned;
+        }
+    }
+    const S one_below[2] = {1, 1};
+    optics::trace_probes<through, F>(scene, block, rays, 5, one_below);
+    for (int p = 1; p < 5; ++p) {
+        const bool counts = p < 3 ? scene.box_filter && scene.has_diffuser : scene.thin_lens;
+        const bool same =
+            rays.weight[0] * rays.weight[p] > S(0) && rays.cell_i[p] == rays.cell_i[0] && rays.cell_j[p] == rays.cell_j[0];
+        if (!counts || !same) continue;
+        const S c = rays.column[p] - rays.column[0], r = rays.row[p] - rays.row[0], share = p < 3 ? S(1) : S(3);
+        b.blur_width = b.blur_width + share * c * c;
+        b.blur_height = b.blur_height + share * r * r;
+    }
+}
+
+}  // namespace
+
+}  // namespace lfdsim

@@ -1,0 +1,318 @@
+// The filtered estimator: how a block of pixels cuts what it sees lens by lens, where lenses do not stand in rows and columns along
+// the axes of the diffuser's angles.
+// Part of tile.h's source, compiled for each instruction set. Floor 2.
+//
+// Positions are in the plane of the holes, in the display's frame, mm from the axis of the block's base lens.
+#pragma once
+#include "engine/kernel.h"
+#include "engine/kernels/filtered_axis.h"
+#include "optics/bundle.h"
+#include "optics/outline.h"
+
+namespace lfdsim {
+
+namespace {
+
+/// The grids of a block, and the memory for their parts.
+struct Grids {
+    Grid* grid;
+    Cut* cut;
+    Stratum* stratum;
+    int count, strata;  // in all
+    // By how much the light of all pixels moves in the plane of the holes, mm along x and y: from the pupil's middle to its right
+    // and upper edge, and the change of the square's numbers for a place that stays; half a pixel to the right and upwards.
+    S aside[2][2], pupil[2][2], pixel[2][2];
+};
+
+constexpr int most_grids = 64;
+/// A grid of n strata has at most n + 3 cuts.
+constexpr int most_cuts = max_strata * max_strata + 3 * most_grids;
+
+/// How many of each a block of a tile may have, if its square is cut into `across` columns and rows.
+struct Room {
+    int grids, strata, cuts, an_axis;
+
+    LFDSIM_BOTH Room(int across, bool by_lens) {
+        const int more = by_lens ? few_strata : more_strata;
+        an_axis = optics::min(across + more_strata, max_strata);
+        strata = optics::min((across + more) * (across + more), max_strata * max_strata);
+        grids = by_lens ? optics::min(strata, most_grids) : 1;
+        cuts = by_lens ? strata + 3 * grids : 2 * (an_axis + 1);
+    }
+};
+
+class LensCutter {
+  public:
+    LFDSIM_BOTH LensCutter(const Tile& t, const optics::PixelBlock<S>& of, Grids& to)
+        : tile(t), scene(*t.scene), block(of), room(t.strata, true), grids(to) {
+        for (int a = 0; a < 2; ++a) {
+            S sine, cosine;
+            optics::sincos(optics::diffuser_angle(scene, a, S(1)), scene.small_angles, sine, cosine);
+            first[a] = place_of(a, -sine / cosine);
+            last[a] = place_of(a, sine / cosine);
+            span[a] = optics::abs(last[a].middle - first[a].middle);
+            along[a] = S(optics::sense(a));
+            const S reach = first[a].reach();
+            low[a] = optics::min(first[a].middle, last[a].middle) - reach;
+            high[a] = optics::max(first[a].middle, last[a].middle) + reach;
+            // Where the diffuser turns rays by less than a pixel sees, numbers are those of a diffuser of a quarter of a pixel.
+            const S least = S(0.25) * reach / S(block.reach);
+            linear[a] = !(span[a] > least);
+            per[a] = along[a] / optics::max(S(0.5) * least, S(1e-12));
+        }
+        if (!scene.has_diffuser) of_pixel();
+        for (int k = 0; k < 2; ++k) {
+            S aside[2] = {0, 0};
+            for (int a = 0; a < 2 && scene.thin_lens; ++a) {
+                aside[a] = block.pupil_at[k][a] + scene.holes_below[a] * block.pupil_slope[k][a];
+                low[a] = low[a] - optics::abs(aside[a]);
+                high[a] = high[a] + optics::abs(aside[a]);
+            }
+            numbers_for(-aside[0], -aside[1], grids.pupil[k]);
+            for (int a = 0; a < 2; ++a) grids.aside[k][a] = aside[a];
+        }
+    }
+
+    /// Cuts what the block sees of each lens; false: there are too many of them.
+    LFDSIM_BOTH bool cut() {
+        using optics::floor;
+        const Lattice<S>& lattice = scene.lattice;
+        grids.count = grids.strata = 0;
+        cuts = 0;
+        if (!scene.has_diffuser && scene.hole_radius > 0) {
+            // A pixel is to see an edge as straight.
+            const S(&to)[2][2] = grids.pixel;
+            const S most = S(0.5) * scene.hole_radius;
+            if (!(optics::abs(to[0][0]) + optics::abs(to[1][0]) < most && optics::abs(to[0][1]) + optics::abs(to[1][1]) < most))
+                return false;
+        }
+        // The block's view in the array's frame.
+        const S middle[2] = {S(0.5) * (low[0] + high[0]), S(0.5) * (low[1] + high[1])},
+                half[2] = {S(0.5) * (high[0] - low[0]), S(0.5) * (high[1] - low[1])};
+        const S c = optics::abs(lattice.cos_turn), s = optics::abs(lattice.sin_turn);
+        const optics::Place<S> at = optics::to_array(lattice, middle[0], middle[1]);
+        const S half_x = c * half[0] + s * half[1], half_y = s * half[0] + c * half[1];
+        reach_along = half_x + half_y;
+        const optics::Outline<S> cell = optics::outline_of(lattice, scene.hole_half, reach_along);
+        S extent[2] = {scene.hole_radius, scene.hole_radius};
+        if (scene.hole_radius == 0 || scene.leaky) {
+            extent[0] = extent[1] = 0;
+            for (int k = 0; k < cell.corners; ++k) {
+                extent[0] = optics::max(extent[0], cell.corner[k].x);
+                extent[1] = optics::max(extent[1], cell.corner[k].y);
+            }
+        }
+        const S reach_y = optics::reach_of_cell(lattice);
+        const S first_j = lattice.strips ? S(0) : floor((at.y - half_y - reach_y) * lattice.per_pitch[1] + S(1)),
+                last_j = lattice.strips ? S(0) : floor((at.y + half_y + reach_y) * lattice.per_pitch[1]);
+        const S rows = last_j - first_j + S(1), columns = S(2) * half_x * lattice.per_pitch[0] + S(2);
+        const bool near = optics::abs(at.x) * lattice.per_pitch[0] + optics::abs(first_j) < S(1e6);  // exact whole numbers
+        if (!(near && rows * columns < S(8 * room.grids))) return false;
+        for (S j = first_j; j <= last_j; ++j) {
+            const S beside = lattice.staggered ? optics::stagger(lattice, j) : S(0), from = at.x - beside;
+            const S first_i = floor((from - half_x) * lattice.per_pitch[0] + S(0.5)),
+                    last_i = floor((from + half_x) * lattice.per_pitch[0] + S(0.5));
+            for (S i = first_i; i <= last_i; ++i) {
+                const optics::Cell<S> lens{i, j};
+                if (!scene.leaky && !block.lens.extent.holds(lens)) continue;
+                optics::Place<S> axis = optics::axis_of(lattice, lens);
+                if (lattice.strips) axis.y = at.y;  // any point of it serves, here one in the middle of the block's view
+                axis = optics::to_display(lattice, axis.x, axis.y);
+                if (!(lattice.strips ? add_strip(axis, cell) : add(axis, cell, extent))) return false;
+            }
+        }
+        return true;
+    }
+
+  private:
+    /// Adds the grid of the lens whose axis is there, which reaches as far as `extent`; false: no room.
+    LFDSIM_BOTH bool add(optics::Place<S> axis, const optics::Outline<S>& cell, const S (&extent)[2]) {
+        const S at[2] = {axis.x, axis.y};
+        for (int a = 0; a < 2; ++a)
+            if (!(at[a] - extent[a] < high[a] && at[a] + extent[a] > low[a])) return true;
+        if (grids.count == room.grids) return false;
+        Grid& grid = grids.grid[grids.count];
+        grid.first = grids.strata;
+        grid.narrow = false;
+        grid.strip = -1;
+        for (int a = 0; a < 2; ++a) {
+            const S size = S(2) * extent[a],
+                    seen = optics::min(at[a] + extent[a], high[a]) - optics::max(at[a] - extent[a], low[a]);
+            S wanted = S(tile.strata) * optics::min(size, S(2) * seen) / optics::max(span[a], S(1e-12));
+            wanted = whole(wanted);
+            if (!cut_axis(grid.axis[a], a, at[a], extent[a], size / wanted)) return false;
+            grid.narrow = grid.narrow || S(2) * span[a] * wanted < size;
+        }
+        grid.corners = 0;
+        if (scene.hole_radius == 0 || scene.leaky) outline(grid, axis, cell);
+        return count(grid);
+    }
+
+    /// Adds the grid of the strip on whose axis that point lies; false: no room.
+    LFDSIM_BOTH bool add_strip(optics::Place<S> axis, const optics::Outline<S>& cell) {
+        const S c = scene.lattice.cos_turn, s = scene.lattice.sin_turn;
+        const int along = optics::abs(c) >= optics::abs(s) ? 1 : 0, across = 1 - along;
+        const S at[2] = {axis.x, axis.y}, lean = along == 1 ? -s / c : -c / s;
+        const S extent = scene.hole_half / optics::max(optics::abs(c), optics::abs(s));
+        const S sideways = optics::abs(lean) * (high[along] - low[along]);
+        if (!(at[across] - extent - sideways < high[across] && at[across] + extent + sideways > low[across])) return true;
+        if (grids.count == room.grids) return false;
+        Grid& grid = grids.grid[grids.count];
+        grid.first = grids.strata;
+        grid.strip = along;
+        grid.lean = lean;
+        grid.against = along == 1 ? c < 0 : s < 0;
+        // So many parts along the strip that a footprint, which leans as the strip does, is at most a panel pixel wide. On the
+        // panel a part is longer by as much as rays from a point of the diffuser diverge.
+        const S diverging = S(tile.view->start_z) / optics::max(scene.holes_below[along], S(1e-6));
+        const S rows = whole(optics::max(S(tile.strata), optics::abs(lean) * span[along] * diverging * scene.pixels_per_mm)),
+                columns = whole(S(tile.strata) * S(2) * extent / optics::max(span[across], S(1e-12)));
+        grid.narrow = S(2) * span[across] * columns < S(2) * extent;
+        if (cuts + int(rows) + int(columns) + 2 > room.cuts) return false;
+        Axis &length = take(grid.axis[along], along, int(rows)), &width = take(grid.axis[across], across, int(columns));
+        length.moving = true;
+        for (int k = 0; k <= length.strata; ++k) {
+            const S number = S(2 * k - length.strata) / rows;
+            S sine, cosine;
+            optics::sincos(optics::diffuser_angle(scene, along, number), scene.small_angles, sine, cosine);
+            length.cut[k] = {{number, 0, 0}, place_of(along, sine / cosine)};
+        }
+        for (int k = 0; k < length.strata; ++k) {
+            const S here = length.cut[k].place.middle - at[along], there = length.cut[k + 1].place.middle - at[along];
+            length.stratum[k] = {at[along], optics::min(here, there), optics::max(here, there), false, false};
+        }
+        const S reach = first[across].reach(), step = S(2) * extent / columns;
+        for (int k = 0; k < width.strata; ++k) {
+            const S from = S(k) * step - extent, to = from + step, here = at[across] + from - S(0.5) * sideways,
+                    there = at[across] + to + S(0.5) * sideways;
+            width.stratum[k] = {at[across], from, to, false,
+                                here < low[across] + S(2) * reach || there > high[across] - S(2) * reach};
+        }
+        outline(grid, axis, cell);
+        return count(grid);
+    }
+
+    /// Do pixels cut the whole square at the lens's outline?
+    LFDSIM_BOTH bool whole_square() const { return tile.weak && !(scene.hole_radius > 0 && scene.has_diffuser); }
+
+    /// A whole number of strata that an axis may have.
+    LFDSIM_BOTH S whole(S wanted) const {
+        if (tile.weak) return 1;
+        return optics::min(optics::max(-optics::floor(S(1e-3) - wanted), S(1)), S(room.an_axis));
+    }
+    /// Takes memory for an axis of so many strata.
+    LFDSIM_BOTH Axis& take(Axis& axis, int a, int strata) {
+        axis.strata = strata;
+        axis.moving = false;
+        axis.first = first[a];
+        axis.last = last[a];
+        axis.cut = grids.cut + cuts;
+        axis.stratum = grids.stratum + cuts;
+        cuts += strata + 1;
+        return axis;
+    }
+    /// The numbers of the corners of a cell about that axis.
+    LFDSIM_BOTH void outline(Grid& grid, optics::Place<S> axis, const optics::Outline<S>& cell) const {
+        grid.corners = cell.corners;
+        for (int k = 0; k < grid.corners; ++k) {
+            const S place[2] = {axis.x + cell.corner[k].x, axis.y + cell.corner[k].y};
+            if (scene.has_diffuser) {
+                for (int a = 0; a < 2; ++a) grid.corner[k][a] = number_of(a, place[a]);
+                continue;
+            }
+            S number[3][2];
+            for (int ray = 0; ray < 3; ++ray)
+                numbers_for(place[0] - block.sweep[0][ray].place(S(0)), place[1] - block.sweep[1][ray].place(S(0)), number[ray]);
+            for (int a = 0; a < 2; ++a) grid.corner[k][a] = Gradient::of(number[0][a], number[1][a], number[2][a]);
+        }
+    }
+    /// Counts a grid that is done; false: no room for its strata.
+    LFDSIM_BOTH bool count(const Grid& grid) {
+        if (grids.strata + grid.strata() > room.strata) return false;
+        grids.strata += grid.strata();
+        ++grids.count;
+        return true;
+    }
+    LFDSIM_BOTH Gradient place_of(int a, S tangent) const {
+        const optics::Sweep<S>* const sweep = block.sweep[a];
+        return Gradient::of(sweep[0].place(tangent), sweep[1].place(tangent), sweep[2].place(tangent));
+    }
+
+    /// Cuts an axis of a grid every `step` mm from the lens's rim on, as far as the block sees it.
+    LFDSIM_BOTH bool cut_axis(Axis& to, int a, S axis, S extent, S step) {
+        const S from = axis - along[a] * extent;  // where the numbers are least
+        const S start = along[a] > 0 ? low[a] : high[a], end = along[a] > 0 ? high[a] : low[a];
+        const S skipped = optics::max(optics::floor(along[a] * (start - from) / step), S(0));
+        const S stop = optics::min(-optics::floor(-along[a] * (end - from) / step), -optics::floor(S(1e-3) - S(2) * extent / step));
+        const int strata = optics::max(int(stop - skipped), 1);
+        if (strata > room.an_axis || cuts + strata + 1 > room.cuts) return false;
+        take(to, a, strata);
+        for (int k = 0; k <= strata; ++k) {
+            const S place = from + along[a] * (skipped + S(k)) * step;
+            Cut& cut = to.cut[k];
+            cut.place = {place, 0, 0};
+            if (whole_square())
+                cut.number = {S(2 * k - strata) / S(strata), 0, 0};
+            else
+                cut.number = number_of(a, place);
+        }
+        for (int k = 0; k < strata; ++k) {
+            const Gradient &lower = to.cut[k].number, &upper = to.cut[k + 1].number;
+            const S here = to.cut[k].place.middle - axis, there = to.cut[k + 1].place.middle - axis;
+            to.stratum[k] = {axis, optics::min(here, there), optics::max(here, there), false,
+                             lower.middle - lower.reach() < S(-1) || upper.middle + upper.reach() > S(1)};
+        }
+        return true;
+    }
+
+    /// Without a diffuser the square is that of the pixel's area: numbers are half pixels to the right and upwards from its centre.
+    LFDSIM_BOTH void of_pixel() {
+        const S half = S(0.5) / S(block.reach);
+        for (int a = 0; a < 2; ++a) {
+            grids.pixel[0][a] = first[a].right * half;
+            grids.pixel[1][a] = -first[a].down * half;
+        }
+        const S(&to)[2][2] = grids.pixel;
+        const S area = to[0][0] * to[1][1] - to[0][1] * to[1][0], per_area = area == S(0) ? S(0) : S(1) / area;
+        numbers[0][0] = to[1][1] * per_area;
+        numbers[0][1] = -to[1][0] * per_area;
+        numbers[1][0] = -to[0][1] * per_area;
+        numbers[1][1] = to[0][0] * per_area;
+    }
+    /// How the numbers change over a distance (x, y), near the middle of the square.
+    LFDSIM_BOTH void numbers_for(S x, S y, S (&number)[2]) const {
+        if (!scene.has_diffuser) {
+            for (int a = 0; a < 2; ++a) number[a] = numbers[a][0] * x + numbers[a][1] * y;
+            return;
+        }
+        const S by[2] = {x, y};
+        for (int a = 0; a < 2; ++a) number[a] = by[a] * (linear[a] ? per[a] : S(2) * along[a] / span[a]);
+    }
+
+    LFDSIM_BOTH Gradient number_of(int a, S place) const {
+        S number[3];
+        for (int k = 0; k < 3; ++k) {
+            const optics::Sweep<S>& sweep = block.sweep[a][k];
+            number[k] = linear[a] ? (place - sweep.place(S(0))) * per[a] : optics::diffuser_uniform(scene, a, sweep.tangent(place));
+        }
+        return Gradient::of(number[0], number[1], number[2]);
+    }
+
+    const Tile& tile;
+    const optics::Scene<S>& scene;
+    const optics::PixelBlock<S>& block;
+    const Room room;
+    Grids& grids;
+    int cuts = 0;
+    Gradient first[2], last[2];  // where the square begins and ends
+    S low[2], high[2];           // what the block sees
+    S span[2], along[2];         // what the middle sees; +1: numbers grow with the position, else -1
+    bool linear[2];
+    S per[2];
+    S numbers[2][2];  // of_pixel(): number a's change per mm along x and y
+    S reach_along = 0;
+};
+
+}  // namespace
+
+}  // namespace lfdsim

@@ -1,0 +1,200 @@
+// The filtered estimator: pixels that cut what they see of a lens by themselves, where the block's bundles do not hold, where the
+// diffuser is weak, and where there is none.
+// Part of tile.h's source, compiled for each instruction set. Floor 2.
+#pragma once
+#include "engine/kernel.h"
+#include "engine/kernels/filtered_axis.h"
+#include "engine/kernels/filtered_bundles.h"
+#include "engine/kernels/filtered_lens.h"
+#include "engine/kernels/filtered_own.h"
+#include "optics/outline.h"
+
+namespace lfdsim {
+
+namespace {
+
+/// A stratum, and what the pixels of a packet see of it.
+struct Seen {
+    const Bundles* bundles;
+    const Grid* grid;
+    const Span<F>*across, *up;
+    const optics::Corners<F>* corners;  // of the lens's cell, in the diffuser's numbers
+    int i, j;
+    std::uint32_t number;  // another for each stratum of a block
+
+    /// The share of the square that is the stratum's, and its lens's.
+    LFDSIM_BOTH F share() const {
+        if (corners->count == 0) return across->share * up->share;
+        return F(0.25f) * optics::area_within(*corners, optics::Box<F>{across->low, across->high, up->low, up->high});
+    }
+};
+
+/// The corners of stratum k across a strip, whose own are given: between (p, -) and (-p, -), and (p, +) and (-p, +).
+LFDSIM_BOTH optics::Corners<F> part_of_strip(const optics::Corners<F>& strip, const Grid& grid, int k) {
+    const Axis& axis = grid.axis[1 - grid.strip];
+    const S extent = axis.stratum[axis.strata - 1].to, per = S(0.5) / extent;
+    // Positions along the display's axis may run against those across the strip.
+    const Stratum& of = axis.stratum[k];
+    const bool against = grid.against;
+    const S right = (extent - (against ? -of.from : of.to)) * per, left = (extent - (against ? -of.to : of.from)) * per;
+    const auto between = [](F a, F b, S share) { return a + (b - a) * F(share); };
+    optics::Corners<F> part;
+    part.count = 4;
+    for (int end = 0; end < 2; ++end) {
+        const int first = end, second = 3 - end;
+        part.x[first] = between(strip.x[first], strip.x[second], right);
+        part.y[first] = between(strip.y[first], strip.y[second], right);
+        part.x[second] = between(strip.x[first], strip.x[second], left);
+        part.y[second] = between(strip.y[first], strip.y[second], left);
+    }
+    return part;
+}
+
+/// The corners of the seen lens's cell for pixels at (dx, dy) of the block, -1 .. 1; with a diffuser also between pixels.
+LFDSIM_BOTH optics::Corners<F> corners_at(const Grid& grid, F dx, F dy) {
+    optics::Corners<F> corners;
+    corners.count = grid.corners;
+    for (int k = 0; k < grid.corners; ++k) {
+        corners.x[k] = grid.corner[k][0].at(dx, dy);
+        corners.y[k] = grid.corner[k][1].at(dx, dy);
+    }
+    return corners;
+}
+
+/// The part of a pixel's area beside the edge of a round hole, which is taken as straight there: a square about it. The hole bulges
+/// beyond its chord by the mean of t^2 / 2r, t along the edge.
+LFDSIM_BOTH optics::Corners<F> inside_edge(const optics::Scene<S>& scene, const Grids& grids, const Grid& grid, F dx, F dy,
+                                           const Start& start) {
+    F at[2];
+    for (int a = 0; a < 2; ++a)
+        at[a] = grid.axis[a].first.at(dx, dy) + start.lens_x * F(grids.aside[0][a]) + start.lens_y * F(grids.aside[1][a]) -
+                F(grid.axis[a].stratum[0].axis);
+    const F far = optics::sqrt(at[0] * at[0] + at[1] * at[1]), per_far = F(1) / optics::max(far, F(1e-9f)),
+            n[2] = {optics::select(far > F(0), at[0] * per_far, F(1)), at[1] * per_far};
+    const S(&to)[2][2] = grids.pixel;
+    const F u = n[0] * F(to[0][0]) + n[1] * F(to[0][1]), v = n[0] * F(to[1][0]) + n[1] * F(to[1][1]);  // outwards per number
+    const F t_u = n[0] * F(to[0][1]) - n[1] * F(to[0][0]), t_v = n[0] * F(to[1][1]) - n[1] * F(to[1][0]);
+    const F edge = F(scene.hole_radius) - (t_u * t_u + t_v * t_v) * F(S(1.0 / 6) / scene.hole_radius) - far;
+    const F steep = optics::sqrt(u * u + v * v), per = F(1) / optics::max(steep, F(1e-12f)), x = u * per, y = v * per;
+    const F c = optics::min(optics::max(edge * per, F(-4)), F(4)), size = F(8);
+    optics::Corners<F> corners;
+    corners.count = 4;
+    for (int k = 0; k < 4; ++k) {
+        const F out = k < 2 ? c : c - size - size, side = k == 0 || k == 3 ? -size : size;
+        corners.x[k] = x * out - y * side;
+        corners.y[k] = y * out + x * side;
+    }
+    return corners;
+}
+
+/// Times this modulo n, neighbours among 0 .. n-1 go far from each other: a number near 0.618 n without common factor with n.
+LFDSIM_BOTH int far_step(int n) {
+    auto common = [](int a, int b) {
+        while (b != 0) {
+            const int rest = a % b;
+            a = b;
+            b = rest;
+        }
+        return a;
+    };
+    int step = int(S(0.618034) * S(n)) + 1;
+    while (common(step, n) != 1) ++step;
+    return step;
+}
+
+/// Part k of n of a span; positions, which may run against the numbers, only where they matter.
+LFDSIM_BOTH Span<F> part_of_span(const Span<F>& of, bool against, int k, int n, bool with_positions) {
+    if (n == 1) return of;
+    const F low = F(S(k) / S(n)), high = F(S(k + 1) / S(n)), from = against ? F(1) - high : low, to = against ? F(1) - low : high;
+    const F range = of.high - of.low, way = of.to - of.from;
+    Span<F> part = of;
+    part.low = of.low + low * range;
+    part.high = of.low + high * range;
+    part.share = F(0.5f) * (part.high - part.low);
+    if (!with_positions) return part;
+    part.from = of.from + from * way;
+    part.to = of.from + to * way;
+    part.part_from = optics::circle_part(part.from);
+    part.part_to = optics::circle_part(part.to);
+    return part;
+}
+
+/// Adds the light that pixels at (dx, dy) of the block see of a lens by rays of their own, four through each part of the stratum.
+/// The rays of a part start in one of as many cells of the pixel and of the pupil, in an order in which each column and row of
+/// cells goes with each column and row of parts (an orthogonal array) and neighbouring parts have cells far from each other; boxes
+/// are wider by what a cell spreads.
+template <optics::Way through>
+LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const optics::PixelRays<F>& pixels, const Seen& seen, F dx, F dy,
+                            S per_reach, const optics::Sampler<F>& sampler, optics::Light<F>& light) {
+    const optics::Scene<S>& scene = *tile.scene;
+    const Grid& grid = *seen.grid;
+    const SharedBundle& known = seen.bundles->through;
+    const bool spreads = scene.thin_lens || (scene.box_filter && scene.has_diffuser), round = scene.hole_radius > 0;
+    const int n = tile.weak ? (tile.strata + 1) / 2 : 1, all = n * n;
+    // Of the pixel's variance and, mapped to the disk, of the pupil's that lies within cells.
+    const S left = optics::min(S(scene.thin_lens ? 2 : 1) / S(all), S(1));
+    const int far = far_step(n);
+    for (int k = 0; k < all; ++k) {
+        FourRays rays;
+        if (spreads && tile.weak) {
+            rays.blur_width = F(known.blur_width * left);
+            rays.blur_height = F(known.blur_height * left);
+        }
+        if (spreads && !tile.weak) {
+            rays.start = random_start(scene, sampler);
+        } else if (spreads && all > 1) {
+            const auto cell = [&](int column, int row) {
+                return F(S(2 * (far * (column * (k % n) + row * (k / n)) % n) + 1 - n) / S(n));
+            };
+            if (scene.box_filter && scene.has_diffuser) {
+                rays.start.right = cell(2, 1);
+                rays.start.up = cell(1, 3);
+            }
+            if (scene.thin_lens) optics::disk(cell(1, 1), cell(1, 2), rays.start.lens_x, rays.start.lens_y);
+        }
+        const Start& start = rays.start;
+        const F right = dx + start.right * F(S(0.5) * per_reach), down = dy - start.up * F(S(0.5) * per_reach);
+        const bool with_holes = round && scene.has_diffuser;
+        const Span<F> x = part_of_span(*seen.across, true, k % n, n, with_holes),
+                      y = part_of_span(*seen.up, false, k / n, n, with_holes);
+        if (with_holes) {
+            add_own_probes<through>(tile, pixels, x, y, x.share * y.share, rays, light);
+            continue;
+        }
+        if (!round && all == 1) {
+            add_own_part<through>(tile, pixels, x, y, *seen.corners, rays, light);
+            continue;
+        }
+        optics::Corners<F> corners;
+        if (round) {
+            corners = inside_edge(scene, grids, grid, right, down, start);
+        } else {
+            corners = corners_at(grid, right, down);
+            for (int c = 0; c < corners.count; ++c) {
+                corners.x[c] = corners.x[c] + start.lens_x * F(grids.pupil[0][0]) + start.lens_y * F(grids.pupil[1][0]);
+                corners.y[c] = corners.y[c] + start.lens_x * F(grids.pupil[0][1]) + start.lens_y * F(grids.pupil[1][1]);
+            }
+        }
+        add_own_part<through>(tile, pixels, x, y, corners, rays, light);
+    }
+}
+
+/// The same where light also passes beside round lenses: through each part of the stratum one random ray, with two more beside it.
+template <optics::Way through>
+LFDSIM_APART void add_random_parts(const Tile& tile, const optics::PixelRays<F>& pixels, const Seen& seen,
+                                   optics::Sampler<F> sampler, optics::Light<F>& light) {
+    const int n = tile.weak ? tile.strata : 1;
+    const std::uint32_t first = sampler.sample;
+    for (int k = 0; k < n * n; ++k) {
+        const Span<F> x = part_of_span(*seen.across, true, k % n, n, true), y = part_of_span(*seen.up, false, k / n, n, true);
+        const optics::Box<F> box{x.low, x.high, y.low, y.high};
+        const F share = F(0.25f) * optics::area_within(*seen.corners, box);
+        if (optics::none(share > F(0))) continue;
+        sampler.sample = first + std::uint32_t(8 * k);
+        add_own_rays<through>(tile, pixels, x, y, *seen.corners, Own::all, share, sampler, light);
+    }
+}
+
+}  // namespace
+
+}  // namespace lfdsim
