@@ -1,6 +1,8 @@
 # Tests of the GPU's side on machines without one: what is linked with the stand-in takes it for CUDA's runtime.
 add_test(NAME cuda_code COMMAND ${PYTHON} ${CMAKE_CURRENT_LIST_DIR}/ptx.py "${CMAKE_CUDA_COMPILER}" ${PROJECT_SOURCE_DIR})
-set_tests_properties(cuda_code PROPERTIES SKIP_RETURN_CODE 77)
+add_test(NAME cuda_code_full COMMAND ${PYTHON} ${CMAKE_CURRENT_LIST_DIR}/ptx.py "${CMAKE_CUDA_COMPILER}" ${PROJECT_SOURCE_DIR} --full)
+set_tests_properties(cuda_code cuda_code_full PROPERTIES SKIP_RETURN_CODE 77)
+set_tests_properties(cuda_code_full PROPERTIES LABELS full)
 if(NOT LFDSIM_CUDA_STATE MATCHES "^CUDA")
   return()
 endif()
