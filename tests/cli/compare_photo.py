@@ -77,7 +77,7 @@ RENDER = ["render", "tiny.toml", "--panel-image", "colours.png", "--set", "diffu
 
 def views(name, *settings):
     """The view NAME.npy, whose pixels are means of 3 x 3 finer ones, as if with a box filter; and the finer one."""
-    program.must([*RENDER, "--size", f"{WIDTH * FINE}x{HEIGHT * FINE}", "--estimator", "point", "--samples", "256", "-o", "fine.npy", *settings])
+    program.must([*RENDER, "--size", f"{WIDTH * FINE}x{HEIGHT * FINE}", "--estimator", "point", "--samples", "64", "-o", "fine.npy", *settings])
     fine = np.load(folder / "fine.npy").astype(float)
     np.save(folder / f"{name}.npy", fine.reshape(HEIGHT, FINE, WIDTH, FINE, 3).mean((1, 3)).astype(np.float32))
     return fine

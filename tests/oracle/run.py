@@ -30,11 +30,14 @@ FALSE_ALARM = 5e-8  # probability that chance alone fails one blurred comparison
 @functools.lru_cache(maxsize=1)
 def panel_images(columns, rows):
     """checker, address (see golden/README.md) and waves (smooth, so that means over many pixels tell widths) as uint8 (rows, columns, 3)."""
-    r, c = np.mgrid[:rows, :columns]
-    checker = np.repeat((255 * ((r // 11 + c // 11) % 2 == 0))[:, :, None], 3, axis=2)
-    address = np.stack([c // 16, r // 16, c % 16 * 16 + r % 16], axis=2)
-    waves = np.stack([127.5 + 127.5 * np.cos(c / 9.0), 127.5 + 127.5 * np.cos(r / 9.0), 255 * ((r // 11 + c // 11) % 2)], axis=2)
-    return {"checker": checker.astype(np.uint8), "address": address.astype(np.uint8), "waves": waves.astype(np.uint8)}
+    r, c = np.ogrid[:rows, :columns]
+
+    def image(*colours):
+        return np.stack(np.broadcast_arrays(*(np.asarray(colour).astype(np.uint8) for colour in colours)), axis=2)
+
+    squares = 255 * ((r // 11 + c // 11) % 2)
+    return {"checker": image(*[255 - squares] * 3), "address": image(c // 16, r // 16, c % 16 * 16 + r % 16),
+            "waves": image(127.5 + 127.5 * np.cos(c / 9.0), 127.5 + 127.5 * np.cos(r / 9.0), squares)}
 
 
 class Harness:

@@ -124,7 +124,7 @@ def main():
         if columns * rows > (1_000_000 if options.full else 10_000):  # one display of a million lenses is enough: POV-Ray needs gigabytes for them
             continue
         over = {"render": {"fresnel": "none"}} if options.triangles else {}  # colours tell addresses
-        description = cases.merge(description, {"camera": {"resolution": [192, 108]}, **over})
+        description = cases.merge(description, {"camera": {"resolution": [192, 108] if options.full else [96, 54]}, **over})
         good, found = check(program, name, description, ["--triangles", options.triangles, "--normals", "smooth"] if options.triangles else [])
         wrong, done = wrong + (good is False), done + 1
         print({True: "pass   ", None: "refused", False: "FAIL   "}[good], name + ":", found, flush=True)
