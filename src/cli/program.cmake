@@ -13,7 +13,11 @@ set(build_facts "LFDSIM_COMPILER=\"${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER
   "LFDSIM_BUILD_TYPE=\"${CMAKE_BUILD_TYPE}\"")
 foreach(kernel scalar baseline avx2 avx512)
   string(TOUPPER ${kernel} name)
-  list(APPEND build_facts "LFDSIM_FLAGS_${name}=\"$<JOIN:$<TARGET_PROPERTY:lfdsim_kernel_${kernel},COMPILE_OPTIONS>, >\"")
+  set(of_kernel "")
+  if(TARGET lfdsim_kernel_${kernel})
+    set(of_kernel "$<JOIN:$<TARGET_PROPERTY:lfdsim_kernel_${kernel},COMPILE_OPTIONS>, >")
+  endif()
+  list(APPEND build_facts "LFDSIM_FLAGS_${name}=\"${of_kernel}\"")
 endforeach()
 set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/machine.cpp PROPERTIES COMPILE_DEFINITIONS "${build_facts}")
 set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/doctor.cpp PROPERTIES COMPILE_DEFINITIONS

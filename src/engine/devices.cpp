@@ -10,16 +10,22 @@ namespace lfdsim {
 namespace {
 
 bool always() { return true; }
-bool has_avx2() { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"); }
-bool has_avx512() {
+[[maybe_unused]] bool has_avx2() {
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+}
+[[maybe_unused]] bool has_avx512() {
     return has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
            __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
 }
 
 constexpr KernelEntry all_kernels[] = {
-    // best first
+// Best first. The option LFDSIM_KERNELS (kernels.cmake) may leave the first two out.
+#ifdef LFDSIM_WITH_AVX512
     {"avx512", 16, has_avx512, render_tile_avx512},
+#endif
+#ifdef LFDSIM_WITH_AVX2
     {"avx2", 8, has_avx2, render_tile_avx2},
+#endif
     {"baseline", 4, always, render_tile_baseline},
     {"scalar", 1, always, render_tile_scalar},
 };

@@ -1,3 +1,5 @@
+# Each takes the sanitizers a minute or more to compile.
+set(LFDSIM_KERNELS scalar baseline avx2 avx512 CACHE STRING "instruction sets to build kernels for; scalar and baseline at least")
 set(kernel_level -O3)
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   set(kernel_level -O1)
@@ -5,6 +7,9 @@ endif()
 # One object for each kernel: the same source for each instruction set. No errno and no traps in mathematics; contraction is off
 # everywhere.
 function(lfdsim_kernel name isa lanes)
+  if(NOT name IN_LIST LFDSIM_KERNELS)
+    return()
+  endif()
   add_library(lfdsim_kernel_${name} OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/engine/kernels/${name}.cpp)
   set_target_properties(lfdsim_kernel_${name} PROPERTIES UNITY_BUILD OFF)
   target_include_directories(lfdsim_kernel_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
@@ -13,6 +18,8 @@ function(lfdsim_kernel name isa lanes)
   target_compile_options(lfdsim_kernel_${name} PRIVATE ${kernel_level} -fno-math-errno -fno-trapping-math ${isa}
     "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-uninitialized>")
   target_sources(lfdsim_engine PRIVATE $<TARGET_OBJECTS:lfdsim_kernel_${name}>)
+  string(TOUPPER ${name} upper)
+  target_compile_definitions(lfdsim_engine PRIVATE LFDSIM_WITH_${upper})
 endfunction()
 
 lfdsim_kernel(scalar "" 1)
