@@ -23,25 +23,27 @@ constexpr double pixels_wanted = 8e5, most_pixels = 4e6;  // of all pictures of 
 
 }  // namespace
 
-EdgePlane::EdgePlane(const Subject& s, double depth_mm, bool horizontal, const Pyramid& white, const Job& job)
-    : s_(s), white_(white), job_(job), bars_{horizontal, s.geometry().vertex_plane_mm + depth_mm, 0, 0, 0} {}
+EdgePlane::EdgePlane(const Subject& s, double depth_mm, const Direction& direction, const Pyramid& white, const Job& job)
+    : s_(s),
+      white_(white),
+      job_(job),
+      pitch_mm_(s.display().array.pitch_mm[std::size_t(direction.axis)]),
+      bars_(bars_across(direction, s.geometry().vertex_plane_mm + depth_mm)) {}
 
 Eye EdgePlane::eye(double angle_deg) const { return {angle_deg, s_.viewing_distance_mm()}; }
 
 /// The lenses' pitch across the edges as seen in their plane.
-double EdgePlane::pitch_mm() const {
-    return s_.display().array.pitch_mm[bars_.upright ? 0 : 1] * scale_to_bars(s_.geometry(), bars_, eye(0));
-}
+double EdgePlane::pitch_mm() const { return pitch_mm_ * scale_to_plane(s_.geometry(), bars_.z_mm, eye(0)); }
 
 /// Makes bars wide enough to hold twice the blur, such that neighbouring edges meet the lenses in different phases, or as wide as
 /// fit on the screen.
 void EdgePlane::set_bars(double blur_mm, double angle_deg) {
-    const double pitch = pitch_mm(), tangent = std::tan(slant_deg * degree);
+    const double pitch = pitch_mm(), lean_rad = std::abs(bars_.lean_deg) * degree, tangent = std::tan(lean_rad);
     const auto [across, along] = seen_half_mm(s_.display(), s_.geometry(), bars_, eye(angle_deg));
     const double most = 1.2 * (across - along * tangent);
     bars_.width_mm = (std::max(1., std::ceil(2 * blur_mm / pitch - golden)) + golden) * pitch;
     bars_.width_mm = std::min(bars_.width_mm, most);
-    const double step = bars_.width_mm / std::cos(slant_deg * degree), lean = 2 * along * tangent;
+    const double step = bars_.width_mm / std::cos(lean_rad), lean = 2 * along * tangent;
     pictures_ = std::clamp(int(std::ceil(step / lean)), 4, most_pictures);
     const double least = std::min(lean, step / pictures_);
     bars_.length_mm = std::floor(lean / least) * least / tangent;

@@ -13,7 +13,7 @@ namespace lfdsim {
 class EdgePlane {
   public:
     /// Edges at a depth in front of the vertex plane. `white`: the panel that shows white all over.
-    EdgePlane(const Subject&, double depth_mm, bool horizontal, const Pyramid& white, const Job&);
+    EdgePlane(const Subject&, double depth_mm, const Direction&, const Pyramid& white, const Job&);
 
     /// Adds the edges to the curves of this plane and direction, from several angles, except where modulation is missing. Throws
     /// Stopped.
@@ -31,6 +31,7 @@ class EdgePlane {
     const Subject& s_;
     const Pyramid& white_;
     const Job& job_;
+    double pitch_mm_;  // the lenses' in the measured direction
     Bars bars_;
     std::unique_ptr<ShownPanel> panel_;  // that shows the bars
     int pictures_ = 1;                   // the bars move by 1/pictures_ of their width from one to the next

@@ -14,9 +14,6 @@
 namespace lfdsim {
 namespace {
 
-const double slant_sine = std::sin(slant_deg * degree), slant_cosine = std::cos(slant_deg * degree),
-             slant_tangent = slant_sine / slant_cosine;
-
 constexpr int samples_a_pixel = 16;
 
 struct Box {
@@ -43,9 +40,9 @@ Box screen_middle(const Display& d, const Geometry& g) {
 /// What the eye sees of the bars' plane through the middle of the screen; not so long that slanted edges would leave it sideways.
 Box seen_box(const Display& d, const Geometry& g, const Bars& bars, const Eye& eye) {
     const Box m = screen_middle(d, g);
-    const double k = scale_to_bars(g, bars, eye), x = eye.x_mm() + (m.a - eye.x_mm()) * k, y = m.b * k;
+    const double k = scale_to_plane(g, bars.z_mm, eye), x = eye.x_mm() + (m.a - eye.x_mm()) * k, y = m.b * k;
     Box box = bars.upright ? Box{x, -y, m.half_a * k, m.half_b * k} : Box{-y, x, m.half_b * k, m.half_a * k};
-    box.half_b = std::min(box.half_b, 0.5 * box.half_a / slant_tangent);
+    box.half_b = std::min(box.half_b, 0.5 * box.half_a / std::tan(std::abs(bars.lean_deg) * degree));
     return box;
 }
 
@@ -58,12 +55,30 @@ Image transposed(const Image& from) {
 
 }  // namespace
 
-double scale_to_bars(const Geometry& g, const Bars& bars, const Eye& eye) {
-    return (eye.z_mm() - bars.z_mm) / (eye.z_mm() - g.vertex_plane_mm);
+std::vector<Direction> directions(const Display& d) {
+    const double turn = d.array.turn_deg() * degree;
+    if (is_strips(d.array)) return {{"across", "across the strips", std::cos(turn), std::sin(turn), 0}};
+    return {{"horizontal", "horizontal", 1, 0, 0}, {"vertical", "vertical", 0, 1, 1}};
+}
+
+Bars bars_across(const Direction& direction, double z_mm) {
+    const bool upright = std::abs(direction.x) >= std::abs(direction.y);
+    // Edges that stand straight across the direction lean by this, within 45 degrees.
+    const double straight = (upright ? std::atan(-direction.y / direction.x) : std::atan(-direction.x / direction.y)) / degree;
+    // Not straight along the panel's rows or columns, where all parts of an edge would meet the pixels alike; not far from them
+    // either, since long edges then fit on the screen.
+    const double sign = straight < 0 ? -1 : 1,
+                 lean = std::abs(straight) <= 20 ? straight + sign * slant_deg : straight - sign * slant_deg;
+    return {upright, lean, z_mm, 1, 1, 0};
+}
+
+double scale_to_plane(const Geometry& g, double z_mm, const Eye& eye) {
+    return (eye.z_mm() - z_mm) / (eye.z_mm() - g.vertex_plane_mm);
 }
 
 double across_mm(const Bars& bars, double x, double y) {
-    return bars.upright ? x * slant_cosine - y * slant_sine : x * slant_sine - y * slant_cosine;
+    const double c = std::cos(bars.lean_deg * degree), s = std::sin(bars.lean_deg * degree);
+    return bars.upright ? x * c - y * s : x * s - y * c;
 }
 
 std::unique_ptr<ShownPanel> bars_panel(const Display& display, const Geometry& geometry, const std::optional<Bars>& bars,
@@ -96,18 +111,21 @@ std::array<double, 2> seen_half_mm(const Display& d, const Geometry& g, const Ba
 
 EdgeView edge_view(const Display& display, const Geometry& geometry, const Bars& bars, const Eye& eye, double pixel_mm) {
     EdgeView view{display, {}, {}};
+    const double sine = std::sin(bars.lean_deg * degree), cosine = std::cos(bars.lean_deg * degree), tangent = sine / cosine;
     // Point samples: filtered ones average the panel over boxes, which would count as blur. Noise does not bias the mean edge.
     view.seen.render.estimator = Estimator::point;
     view.seen.render.samples = samples_a_pixel;
     Box box = seen_box(display, geometry, bars, eye);
     box.half_b = 0.5 * bars.length_mm;
     const double margin =
-        box.half_b * slant_tangent + 0.5 * bars.width_mm / slant_cosine;  // from an edge's middle to its farthest pixel
-    const double pitch = display.array.pitch_mm[bars.upright ? 1 : 0];    // along the edges
-    const int per_edge = std::max(1, int(2 * box.half_b / (slant_cosine * scale_to_bars(geometry, bars, eye) * pitch)));
+        box.half_b * std::abs(tangent) + 0.5 * bars.width_mm / cosine;  // from an edge's middle to its farthest pixel
+    const Pitch& pitch = display.array.pitch_mm;
+    const double apart =  // along the edges from lens to lens; strips cross them at the slant
+        is_strips(display.array) ? pitch[0] / std::sin(slant_deg * degree) : pitch[bars.upright ? 1 : 0];
+    const int per_edge = std::max(1, int(2 * box.half_b / (cosine * scale_to_plane(geometry, bars.z_mm, eye) * apart)));
     // Edge k has its middle at this a.
-    const auto middle = [&](double k) { return (bars.offset_mm + k * bars.width_mm - box.b * slant_sine) / slant_cosine; };
-    const double nearest = std::round((box.a * slant_cosine + box.b * slant_sine - bars.offset_mm) / bars.width_mm);
+    const auto middle = [&](double k) { return (bars.offset_mm + k * bars.width_mm - box.b * sine) / cosine; };
+    const double nearest = std::round((box.a * cosine + box.b * sine - bars.offset_mm) / bars.width_mm);
     double first = nearest, last = nearest;
     const auto fits = [&](double k) { return std::abs(middle(k) - box.a) + margin <= box.half_a; };
     if (!fits(nearest)) return view;
@@ -131,10 +149,10 @@ EdgeView edge_view(const Display& display, const Geometry& geometry, const Bars&
     camera.resolution = {2 * (bars.upright ? half_a : half_b), 2 * (bars.upright ? half_b : half_a)};
     camera.frame_width_mm = double(camera.resolution[0]) * pixel_mm * eye.z_mm() / (eye.z_mm() - bars.z_mm);
 
-    view.edges.slope = -slant_tangent;
+    view.edges.slope = -tangent;
     view.edges.reach = 0.5 * bars.width_mm / pixel_mm;
     for (double k = first; k <= last; ++k) {
-        const double a = middle(k) - (axis_b + j0 * pixel_mm - box.b) * slant_tangent;  // in the crop's first row
+        const double a = middle(k) - (axis_b + j0 * pixel_mm - box.b) * tangent;  // in the crop's first row
         view.edges.lines.push_back({(a - axis_a) / pixel_mm - i0, std::fmod(k, 2) == 0});
     }
     return view;

@@ -3,18 +3,35 @@
 #include "analysis/slanted_edge.h"
 #include "analysis/subject.h"
 
+#include <vector>
+
 namespace lfdsim {
 
-inline constexpr double slant_deg = 7;  // of the edges from the vertical or the horizontal
+inline constexpr double slant_deg = 7;  // of the edges from the normal of the direction that they measure
+
+/// A direction, parallel to the panel, in which resolution is measured: a unit vector along the display's x and y.
+struct Direction {
+    const char* name;  // in figures and tables
+    const char* told;  // in sentences
+    double x, y;
+    int axis;  // of the array, 0 (x') or 1 (y'), whose pitch and aperture count along it
+};
+
+/// The display's x and y; of strips, which image along x' alone, that one.
+std::vector<Direction> directions(const Display&);
 
 /// White and black bars, side by side in a plane in front of or behind the display: each border is a slanted edge.
 struct Bars {
-    bool upright;      // edges near the vertical, which show what is resolved horizontally; else near the horizontal
+    bool upright;      // edges within 45 degrees of the vertical; else of the horizontal
+    double lean_deg;   // of the edges: from the vertical, upper ends to the right; or from the horizontal, left ends up
     double z_mm;       // of their plane, from the panel
     double width_mm;   // of a bar, across it
     double length_mm;  // of the part that is used
     double offset_mm;  // across, of one edge with white on the side that `across_mm` rises to
 };
+
+/// Bars whose edges stand across a direction but for `slant_deg`; without width and length yet.
+Bars bars_across(const Direction&, double z_mm);
 
 /// How far across the bars' direction a point of their plane lies, from the display's axis.
 double across_mm(const Bars&, double x, double y);
@@ -31,8 +48,8 @@ struct Eye {
     double z_mm() const;
 };
 
-/// The length in the bars' plane onto which the eye projects a unit length of the lenses' plane.
-double scale_to_bars(const Geometry&, const Bars&, const Eye&);
+/// The length in a plane at a height above the panel onto which the eye projects a unit length of the lenses' plane.
+double scale_to_plane(const Geometry&, double z_mm, const Eye&);
 
 /// A view of the edges that fit into the middle of the screen as an eye sees it. Its frame is parallel to the panel, so that the
 /// bars' plane appears at one scale, `pixel_mm` to a pixel.

@@ -97,14 +97,14 @@ SeenThroughLenses::SeenThroughLenses(const Subject& s, const Vec3d& eye)
     });
 }
 
-LineSpread SeenThroughLenses::spread(double z_mm, bool horizontal, Pixels pixels) const {
-    const std::size_t k = horizontal ? 0 : 1;
+LineSpread SeenThroughLenses::spread(double z_mm, const Direction& direction, Pixels pixels) const {
+    const auto along = [&](const std::array<double, 2>& v) { return direction.x * v[0] + direction.y * v[1]; };
     const Sets& seen = pixels == Pixels::as_described ? as_described_ : anywhere_;
     LineSpread::Sets sets;
     for (std::size_t set = 0; set < seen.size(); ++set)
         for (const Seen& s : seen[set]) {
-            const double shown = s.at[k] + (z_mm - principal_mm_) * s.slope[k],
-                         looked_at = s.aimed[k] + (z_mm - vertex_mm_) * s.straight[k];
+            const double shown = along(s.at) + (z_mm - principal_mm_) * along(s.slope),
+                         looked_at = along(s.aimed) + (z_mm - vertex_mm_) * along(s.straight);
             sets[set].push_back({shown - looked_at, s.light});
         }
     return LineSpread(std::move(sets));

@@ -5,6 +5,7 @@
 // looks through all the screen sees the mean over these distances: no edge needs to be drawn, and no phase of lenses against
 // pixels is left out.
 #pragma once
+#include "analysis/edge_view.h"
 #include "analysis/estimate.h"
 #include "analysis/subject.h"
 
@@ -47,8 +48,8 @@ class SeenThroughLenses {
     /// of many lenses the two agree; elsewhere their difference is part of the figure's stated error.
     enum class Pixels { as_described, anywhere };
 
-    /// In a plane at a height above the panel, below the eye; along x or, not horizontal, along y.
-    LineSpread spread(double z_mm, bool horizontal, Pixels) const;
+    /// In a plane at a height above the panel, below the eye; along a direction.
+    LineSpread spread(double z_mm, const Direction&, Pixels) const;
 
   private:
     struct Seen {

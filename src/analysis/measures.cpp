@@ -48,8 +48,6 @@ std::optional<Problem> refusal(const Measure& m, const Display& d) {
     if (of_images && d.lens.type() == LensType::pinhole)
         return Problem{"lens.type",
                        fmt::format("is \"pinhole\", which images no point: there is nothing for {} to measure", m.name)};
-    if (m.name == "mtf" && is_strips(d.array))
-        return Problem{"array.lattice", "is \"strips\", whose resolution mtf does not measure yet; spot shows their foci"};
     return {};
 }
 

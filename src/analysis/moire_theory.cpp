@@ -1,5 +1,6 @@
 #include "analysis/moire_theory.h"
 
+#include "analysis/aperture_wave.h"
 #include "analysis/eye_filter.h"
 #include "analysis/fourier.h"
 #include "model/numbers.h"
@@ -7,27 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 namespace lfdsim {
 namespace {
 
 constexpr int highest_order = 8;  // of the panel's harmonics; higher ones are weaker than 2/(pi 8)^2 of sharp lenses
-
-/// The mean of exp(-2 pi i nu q) over a polygon that is its own mirror image in the origin, so that the mean is real: by Green's
-/// theorem a sum over the edges.
-double polygon_mean(const std::vector<std::array<double, 2>>& corners, double nu_x, double nu_y) {
-    double area = 0, sum = 0;
-    const double nu2 = nu_x * nu_x + nu_y * nu_y;
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-        const auto &a = corners[k], &b = corners[(k + 1) % corners.size()];
-        const double ex = b[0] - a[0], ey = b[1] - a[1];
-        area += 0.5 * (a[0] * b[1] - b[0] * a[1]);
-        const double middle = 0.5 * (nu_x * (a[0] + b[0]) + nu_y * (a[1] + b[1]));
-        sum += (nu_x * ey - nu_y * ex) * sinc(nu_x * ex + nu_y * ey) * std::sin(2 * pi * middle);
-    }
-    return std::sqrt(nu2) * std::sqrt(std::abs(area)) < 1e-6 ? 1 : sum / (2 * pi * nu2 * area);
-}
 
 }  // namespace
 
@@ -95,22 +80,6 @@ Frequency MoireTheory::beat(int k, int l) const {
 /// Of the mask along one axis, whose mean is 1.
 double MoireTheory::matrix(int order) const { return sinc(order * std::sqrt(display_.panel.aperture_ratio)); }
 
-/// The mean of exp(-2 pi i nu q) over the lens's aperture.
-double MoireTheory::lens(Place nu) const {
-    const Lattice<double>& lattice = geometry_.lattice;
-    const std::array<double, 2>& wide = geometry_.clear_aperture_mm;
-    if (lattice.strips) return sinc(nu.x * wide[0]);
-    if (display_.array.aperture == Aperture::circle || display_.lens.stop_radius_mm) {
-        const double x = pi * wide[0] * std::hypot(nu.x, nu.y);
-        return x < 1e-6 ? 1 : 2 * std::cyl_bessel_j(1, x) / x;
-    }
-    if (!lattice.hexagonal) return sinc(nu.x * wide[0]) * sinc(nu.y * wide[1]);
-    const double half = lattice.half_pitch[0], corner = half * 2 / std::numbers::sqrt3;
-    return polygon_mean(
-        {{half, -corner / 2}, {half, corner / 2}, {0, corner}, {-half, corner / 2}, {-half, -corner / 2}, {0, -corner}}, nu.x,
-        nu.y);
-}
-
 /// The mean of exp(-2 pi i nu angle) over the diffuser's angles; its axes are the display's.
 double MoireTheory::diffuser(Place nu) const {
     if (!display_.diffuser) return 1;
@@ -127,6 +96,7 @@ double MoireTheory::diffuser(Place nu) const {
 std::optional<Beat> MoireTheory::strongest() const {
     if (display_.panel.aperture_ratio == 1) return {};
     const Lattice<double>& lattice = geometry_.lattice;
+    const ApertureShape aperture = aperture_shape(display_, geometry_);
     const double per_degree = mm_per_degree(eye_mm_ - geometry_.vertex_plane_mm), finest = eye_limit_cycles_per_degree / per_degree;
     const double above = geometry_.diffuser_z_mm.value_or(geometry_.rear_principal_mm) - geometry_.rear_principal_mm;
     std::optional<Beat> best;
@@ -148,7 +118,7 @@ std::optional<Beat> MoireTheory::strongest() const {
                                            (lattice.strips ? geometry_.reduced_vertex_plane_mm : geometry_.gap_mm) * panel.y};
                     Beat beat{to_display(f), most, 0};
                     beat.contrast *=
-                        std::abs(lens({glass_.x * panel.x - of_lens.x, glass_.y * panel.y - of_lens.y}) * diffuser(spread));
+                        std::abs(aperture.mean(glass_.x * panel.x - of_lens.x, glass_.y * panel.y - of_lens.y) * diffuser(spread));
                     beat.seen = beat.contrast * eye_filter(fine * per_degree);
                     const double lead = best ? beat.seen / best->seen - 1 : 1;
                     if (lead > 1e-6 ||

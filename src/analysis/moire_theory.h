@@ -49,7 +49,6 @@ class MoireTheory {
     Range lens_orders(int axis, double panel, double reach) const;
     Place lens_harmonic(int m, int n) const;
     double matrix(int order) const;
-    double lens(Place nu) const;
     double diffuser(Place nu) const;
 
     const Display& display_;

@@ -14,6 +14,8 @@ namespace lfdsim {
 namespace {
 
 constexpr std::array<const char*, 3> channels{"red", "green", "blue"};
+constexpr const char* across_alone =
+    "strips do not image along themselves: there a picture is as fine as the panel's pixels at any depth";
 constexpr std::array levels{std::pair{"mtf50", 0.5}, std::pair{"mtf10", 0.1}};
 
 /// Adds NAME and NAME_error of red, green and blue.
@@ -26,10 +28,8 @@ void add_channels(Json& json, const std::string& name, double scale, const Figur
     }
 }
 
-const char* direction(const MtfCurves& m) { return m.horizontal ? "horizontal" : "vertical"; }
-
 Json to_json(const MtfCurves& m, const Resolution& r) {
-    Json json{{"depth_mm", m.depth_mm}, {"angle_deg", m.angle_deg}, {"direction", direction(m)}};
+    Json json{{"depth_mm", m.depth_mm}, {"angle_deg", m.angle_deg}, {"direction", m.direction.name}};
     for (const auto& [unit, scale] : {std::pair{"_per_mm", 1.}, std::pair{"_per_deg", m.mm_per_deg}}) {
         add_figure(json, std::string("resolution") + unit, {r.per_mm.value * scale, r.per_mm.error * scale});
         json[std::string("lens_sampling_limit") + unit] = number_json(r.lens_limit_per_mm * scale);
@@ -76,9 +76,7 @@ double plotted_depth_mm(const Subject& s, const std::vector<double>& depths) {
     });
 }
 
-std::string label(bool horizontal, double angle) {
-    return fmt::format("{}, {:.3g} degrees", horizontal ? "horizontal" : "vertical", angle);
-}
+std::string label(const Direction& direction, double angle) { return fmt::format("{}, {:.3g} degrees", direction.told, angle); }
 
 void add_findings(const MtfCurves& m, const Resolution& r, Result& result) {
     const double mtf50 = m.below(0.5).value;
@@ -92,7 +90,7 @@ void add_findings(const MtfCurves& m, const Resolution& r, Result& result) {
         if (r.per_mm.value < 0.9 * r.theory_per_mm)
             remark += "; aberrations and light through other lenses blur more than paraxial theory predicts";
     }
-    result.findings.push_back({fmt::format("Resolution at {:.4g} mm, {}", m.depth_mm, label(m.horizontal, m.angle_deg)),
+    result.findings.push_back({fmt::format("Resolution at {:.4g} mm, {}", m.depth_mm, label(m.direction, m.angle_deg)),
                                "per mm",
                                {r.per_mm.value},
                                {r.theory_per_mm},
@@ -108,11 +106,12 @@ Plot curves(const Subject& s, const std::vector<MtfCurves>& all, double depth) {
         if (m.depth_mm != depth) continue;
         if (!first) first = &m;
         if (!m.missing.empty()) continue;
-        plot.series.push_back({label(m.horizontal, m.angle_deg), m.frequencies_per_mm, m.modulation.all});
+        plot.series.push_back({label(m.direction, m.angle_deg), m.frequencies_per_mm, m.modulation.all});
     }
     if (!first->edges[1].all.empty())
-        plot.series.push_back({"edges, horizontal, 0 degrees", first->frequencies_per_mm, first->edges[1].all, true});
-    plot.series.push_back({"theory, horizontal, 0 degrees", first->frequencies_per_mm, first->theory, true});
+        plot.series.push_back(
+            {"edges, " + label(first->direction, first->angle_deg), first->frequencies_per_mm, first->edges[1].all, true});
+    plot.series.push_back({"theory, " + label(first->direction, first->angle_deg), first->frequencies_per_mm, first->theory, true});
     plot.marks.push_back({"0.5", 0.5, false});
     const Resolution r = resolution(s, *first);
     const auto mark = [&](const char* text, const char* limit, double at) {
@@ -134,8 +133,8 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
 
     Plot plot{"mtf50", "Resolution: MTF50, or the limit below it", "depth in front of the lenses, mm", "cycles per mm", {}};
     DataTable table{"mtf50", {{"depth_mm", depths}}};
-    for (const bool horizontal : {true, false}) {
-        DataTable all_curves{horizontal ? "mtf_horizontal" : "mtf_vertical",
+    for (const Direction& direction : directions(s.display())) {
+        DataTable all_curves{std::string("mtf_") + direction.name,
                              {{"depth_mm", {}},
                               {"angle_deg", {}},
                               {"frequency_per_mm", {}},
@@ -146,12 +145,12 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
                               {"theory", {}}}};
         for (const double angle : angles) {
             const auto column = [&](const char* what) {
-                return Column{fmt::format("{}_{:.3g}_deg_{}_per_mm", horizontal ? "horizontal" : "vertical", angle, what), {}};
+                return Column{fmt::format("{}_{:.3g}_deg_{}_per_mm", direction.name, angle, what), {}};
             };
             Column mtf50 = column("mtf50"), edges = column("edge_mtf50"), theory = column("theory"),
                    resolved = column("resolution");
             for (const MtfCurves& m : all) {
-                if (m.horizontal != horizontal || m.angle_deg != angle) continue;
+                if (m.direction.axis != direction.axis || m.angle_deg != angle) continue;
                 mtf50.values.push_back(m.below(0.5).value);
                 edges.values.push_back(m.edges_below(1, 0.5).value);
                 theory.values.push_back(m.theory_below(0.5));
@@ -169,8 +168,9 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
                     for (std::size_t c = 0; c < row.size(); ++c) all_curves.columns[c].values.push_back(row[c]);
                 }
             }
-            plot.series.push_back({label(horizontal, angle), depths, resolved.values});
-            if (horizontal && angle == 0) plot.series.push_back({"theory's MTF50, " + label(true, 0), depths, theory.values, true});
+            plot.series.push_back({label(direction, angle), depths, resolved.values});
+            if (direction.axis == 0 && angle == 0)
+                plot.series.push_back({"theory's MTF50, " + label(direction, 0), depths, theory.values, true});
             for (Column* c : {&mtf50, &edges, &theory, &resolved}) table.columns.push_back(std::move(*c));
         }
         result.tables.push_back(std::move(all_curves));
@@ -198,6 +198,8 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
         "MTF is that of lines of sight through all of the screen; edges in pictures, which are a sample of places, stand beside "
         "it. Lenses that show a point of the plane at different places blur the mean edge; how the picture breaks up at lens "
         "borders is not included.");
+    if (is_strips(s.display().array))
+        result.remarks.push_back(fmt::format("Resolution is that across the strips: {}.", across_alone));
     result.remarks.push_back("Red, green and blue are alike: the model has neither dispersion nor subpixels.");
 }
 
@@ -221,7 +223,7 @@ void check(const Subject& s, const std::vector<double>& depths, const std::vecto
 }  // namespace
 
 std::vector<double> mtf_angles_deg(const Subject& s) {
-    const double fov_deg = s.theory(0).fov_deg;
+    const double fov_deg = is_strips(s.display().array) ? s.theory().fov_horizontal_deg : s.theory(0).fov_deg;
     return {0, std::min(30., 0.25 * fov_deg), std::min(45., 0.4 * fov_deg)};
 }
 
@@ -243,7 +245,9 @@ std::vector<double> mtf_depths_mm(const Subject& s) {
     return depths;
 }
 
-std::int64_t mtf_steps(const Subject& s) { return 2 * std::int64_t(mtf_depths_mm(s).size()); }
+std::int64_t mtf_steps(const Subject& s) {
+    return std::int64_t(directions(s.display()).size()) * std::int64_t(mtf_depths_mm(s).size());
+}
 
 Result measure_mtf(Subject& s, Job& job) {
     const std::vector<double> depths = mtf_depths_mm(s), angles = mtf_angles_deg(s);
@@ -257,10 +261,10 @@ Result measure_mtf(Subject& s, Job& job) {
     }
     std::vector<MtfCurves> all;
     for (const double depth : depths)
-        for (const bool horizontal : {true, false}) {
+        for (const Direction& direction : directions(s.display())) {
             std::vector<MtfCurves> plane;
-            for (std::size_t k = 0; k < angles.size(); ++k) plane.push_back(mtf_curves(s, seen[k], depth, angles[k], horizontal));
-            EdgePlane(s, depth, horizontal, white->pyramid(), job).measure(plane);
+            for (std::size_t k = 0; k < angles.size(); ++k) plane.push_back(mtf_curves(s, seen[k], depth, angles[k], direction));
+            EdgePlane(s, depth, direction, white->pyramid(), job).measure(plane);
             std::move(plane.begin(), plane.end(), std::back_inserter(all));
             job.advance(1);
         }
@@ -275,6 +279,10 @@ Result measure_mtf(Subject& s, Job& job) {
         const Resolution r = resolution(s, all[n]);
         result.figures["measurements"].push_back(to_json(all[n], r));
         add_notes(all[n], r, n, result);
+    }
+    if (is_strips(s.display().array)) {
+        result.figures["along"] = nullptr;
+        result.note("along", across_alone);
     }
     report(s, depths, angles, all, result);
     return result;

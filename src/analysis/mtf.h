@@ -10,7 +10,8 @@ namespace lfdsim {
 /// way to the eye; where the plane itself is farther, nine from the lenses to there.
 std::vector<double> mtf_depths_mm(const Subject&);
 
-/// Angles of the views, to the right: 0, a quarter and two fifths of the field of view, the last 45 at most.
+/// Angles of the views, to the right: 0, a quarter and two fifths of the field of view (of strips, along the panel's rows), the
+/// last 45 at most.
 std::vector<double> mtf_angles_deg(const Subject&);
 
 std::int64_t mtf_steps(const Subject&);

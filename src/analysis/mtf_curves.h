@@ -1,5 +1,6 @@
 // What a display resolves in one plane and direction, seen from one angle: the figures and curves of `analyze mtf`. Floor 3.
 #pragma once
+#include "analysis/edge_view.h"
 #include "analysis/line_spread.h"
 #include "analysis/subject.h"
 
@@ -11,7 +12,7 @@ namespace lfdsim {
 
 struct MtfCurves {
     double depth_mm, angle_deg;
-    bool horizontal;                         // the direction that is resolved
+    Direction direction;                     // that is resolved
     double mm_per_deg;                       // in that plane, as the eye sees it
     double astray;                           // share of the light that theory leaves out
     std::string missing;                     // why there is no modulation; else empty
@@ -36,6 +37,6 @@ struct MtfCurves {
 };
 
 /// All but the edges, for a plane at a depth in front of the vertex plane and an eye at an angle.
-MtfCurves mtf_curves(const Subject&, const SeenThroughLenses&, double depth_mm, double angle_deg, bool horizontal);
+MtfCurves mtf_curves(const Subject&, const SeenThroughLenses&, double depth_mm, double angle_deg, const Direction&);
 
 }  // namespace lfdsim

@@ -9,14 +9,13 @@ namespace lfdsim {
 
 Resolution resolution(const Subject& s, const MtfCurves& m) {
     const Geometry& g = s.geometry();
-    const Bars plane{m.horizontal, g.vertex_plane_mm + m.depth_mm, 1, 1, 0};
-    const double pixel = pixel_image_mm(s.display(), g, plane.z_mm), theory = m.theory_below(0.5);
-    Resolution r{lens_limit_per_mm(s, plane, m.angle_deg), pixel > 0 ? 0.5 / pixel : infinity, {nan, nan}, "", "", nan};
+    const double z = g.vertex_plane_mm + m.depth_mm, theory = m.theory_below(0.5);
+    Resolution r{lens_limit_per_mm(s, m.direction, z, m.angle_deg), pixel_limit_per_mm(s, m.direction, z), {nan, nan}, "", "", nan};
     const double limit = std::min(r.lens_limit_per_mm, r.pixel_limit_per_mm);
     if (m.has_theory()) r.theory_per_mm = std::isnan(theory) ? limit : std::min(theory, limit);
     if (!m.missing.empty()) {
         r.missing = m.missing;
-        if (at_the_lenses(s.display(), g, plane.z_mm)) r.theory_per_mm = nan;
+        if (at_the_lenses(s.display(), g, z)) r.theory_per_mm = nan;
     } else {
         const Estimate mtf50 = m.below(0.5);
         const bool limited =

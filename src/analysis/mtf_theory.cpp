@@ -1,18 +1,57 @@
 #include "analysis/mtf_theory.h"
 
-#include "analysis/slanted_edge.h"
+#include "analysis/eye_rays.h"
+#include "analysis/fourier.h"
 #include "analysis/slope_spread.h"
 #include "model/numbers.h"
+#include "optics/elementary.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace lfdsim {
 namespace {
 
 const double fwhm_per_sigma = 2 * std::sqrt(2 * std::log(2.));
 
-double disk(double x) { return x == 0 ? 1 : 2 * std::cyl_bessel_j(1, pi * x) / (pi * x); }
+/// Of slanted strips' light: the sum over lines of sight of paraxial theory, across the strips. One closed form of
+/// SlopeSpread's kind does not do: a diffuser's and a pixel's widths along x and y both count across.
+double strips_astray(const Subject& s, double angle_deg, double distance_mm) {
+    const Display& d = s.display();
+    const Geometry& g = s.geometry();
+    const Lattice<double>& l = g.lattice;
+    const double eye_mm = distance_mm * std::cos(angle_deg * degree) - g.rear_principal_mm,
+                 aside_mm = distance_mm * std::sin(angle_deg * degree);
+    const double image = s.theory(0).elemental_pitch_mm, scale = image / l.pitch[0];
+    const double above = d.diffuser ? *g.diffuser_z_mm - g.rear_principal_mm : 0;
+    const double power = std::isfinite(g.focal_length_mm) ? g.gap_mm / g.focal_length_mm : 0;
+    const auto turned = [&](double slope, double number, std::size_t k) {
+        if (!d.diffuser) return slope;
+        const double full = d.diffuser->angle_deg[k] * degree;
+        const double angle = d.diffuser->profile == Profile::box
+                                 ? 0.5 * full * number
+                                 : full / fwhm_per_sigma * std::numbers::sqrt2 * optics::erfinv(number);
+        return std::tan(std::clamp(std::atan(slope) + angle, -1.55, 1.55));
+    };
+    int own = 0, all = 0;
+    for (const Choice& c : even_choices(1 << 14)) {
+        const double x = 0.5 * g.panel_width_mm * c[4], y = 0.5 * g.panel_height_mm * c[5];
+        const double mx = (aside_mm - x) / eye_mm, my = -y / eye_mm, tx = turned(mx, c[2], 0), ty = turned(my, c[3], 1);
+        const double at = (x + above * (mx - tx) - l.offset[0]) * l.cos_turn + (y + above * (my - ty) - l.offset[1]) * l.sin_turn;
+        const double number = std::floor(at / l.pitch[0] + 0.5 * l.count[0]);
+        if (number < 0 || number >= l.count[0]) continue;
+        const double axis = (number + 0.5 - 0.5 * l.count[0]) * l.pitch[0], q = at - axis;
+        if (std::abs(q) > 0.5 * g.clear_aperture_mm[0]) continue;
+        const double half_pixel = 0.5 * d.panel.pixel_pitch_mm;
+        const double seen = at - g.gap_mm * (tx * l.cos_turn + ty * l.sin_turn) - power * q +
+                            half_pixel * (c[0] * l.cos_turn + c[1] * l.sin_turn);  // the middle of the pixel
+        const double off = l.offset[0] * l.cos_turn + l.offset[1] * l.sin_turn;  // elemental images spread from the panel's middle
+        ++all;
+        own += std::abs(seen + off - scale * (axis + off)) <= 0.5 * image;
+    }
+    return all > 0 ? 1 - double(own) / all : 1;
+}
 
 }  // namespace
 
@@ -20,9 +59,14 @@ double pixel_image_mm(const Display& d, const Geometry& g, double z_mm) {
     return d.panel.pixel_pitch_mm * std::abs(z_mm - g.rear_principal_mm) / g.gap_mm;
 }
 
-double lens_limit_per_mm(const Subject& s, const Bars& plane, double angle_deg) {
-    return s.theory(plane.upright ? 0 : 1).lens_sampling_limit_per_mm /
-           scale_to_bars(s.geometry(), plane, {angle_deg, s.viewing_distance_mm()});
+double lens_limit_per_mm(const Subject& s, const Direction& direction, double z_mm, double angle_deg) {
+    return s.theory(direction.axis).lens_sampling_limit_per_mm /
+           scale_to_plane(s.geometry(), z_mm, {angle_deg, s.viewing_distance_mm()});
+}
+
+double pixel_limit_per_mm(const Subject& s, const Direction& direction, double z_mm) {
+    const double pixel = pixel_image_mm(s.display(), s.geometry(), z_mm) * std::max(std::abs(direction.x), std::abs(direction.y));
+    return pixel > 0 ? 0.5 / pixel : infinity;
 }
 
 bool at_the_lenses(const Display& d, const Geometry& g, double z_mm) {
@@ -31,12 +75,7 @@ bool at_the_lenses(const Display& d, const Geometry& g, double z_mm) {
 
 Blur blur(const Display& d, const Geometry& g, const Theory& t, double z_mm, double angle_deg) {
     const double defocus = std::abs(1 - (z_mm - g.rear_principal_mm) / t.central_depth_mm);
-    Blur b{pixel_image_mm(d, g, z_mm),
-           {g.clear_aperture_mm[0] * defocus, g.clear_aperture_mm[1] * defocus},
-           d.array.aperture == Aperture::circle || d.lens.stop_radius_mm,
-           d.array.turn_deg() * degree,
-           {0, 0},
-           false};
+    Blur b{pixel_image_mm(d, g, z_mm), aperture_shape(d, g), defocus, d.array.turn_deg() * degree, {0, 0}, false};
     if (!d.diffuser) return b;
     const double away = std::abs(z_mm - *g.diffuser_z_mm), angle = angle_deg * degree;
     const auto half = [&](std::size_t axis) { return 0.5 * d.diffuser->angle_deg[axis] * degree; };
@@ -50,24 +89,27 @@ Blur blur(const Display& d, const Geometry& g, const Theory& t, double z_mm, dou
 
 double light_astray(const Subject& s, double angle_deg, double distance_mm) {
     const double eye = distance_mm * std::cos(angle_deg * degree) - s.geometry().rear_principal_mm;
+    if (is_strips(s.display().array)) return strips_astray(s, angle_deg, distance_mm);
     const auto half = [&](int axis) { return 0.5 * s.theory(axis).elemental_pitch_mm / s.geometry().gap_mm; };
     if (!(eye > 0)) return 1;
     return 1 - SlopeSpread(s, eye, 0).within(distance_mm * std::sin(angle_deg * degree), -half(0), half(0)) *
                    SlopeSpread(s, eye, 1).within(0, -half(1), half(1));
 }
 
-double Blur::mtf(double f, bool horizontal) const {
-    // Of a turned array the axis near this direction counts with its cosine, the other with its sine.
-    const std::size_t near = horizontal ? 0 : 1;
-    const double c = std::cos(array_rad), s = std::sin(array_rad), w = f * diffuser_mm[horizontal ? 0 : 1];
-    const double sigma = pi / fwhm_per_sigma;
-    const double spot = round ? disk(f * spot_mm[0]) : sinc(f * spot_mm[near] * c) * sinc(f * spot_mm[1 - near] * s);
-    return std::abs(sinc(f * pixel_mm) * spot * (gaussian ? std::exp(-2 * sigma * sigma * w * w) : sinc(w)));
+double Blur::mtf(double f, const Direction& direction) const {
+    const double c = std::cos(array_rad), s = std::sin(array_rad), x = f * direction.x, y = f * direction.y;
+    const double spot = aperture.mean(defocus * (c * x + s * y), defocus * (c * y - s * x));
+    const auto spread = [&](double waves) {
+        const double sigma = pi / fwhm_per_sigma;
+        return gaussian ? std::exp(-2 * sigma * sigma * waves * waves) : sinc(waves);
+    };
+    return std::abs(sinc(x * pixel_mm) * sinc(y * pixel_mm) * spot * spread(x * diffuser_mm[0]) * spread(y * diffuser_mm[1]));
 }
 
-double Blur::width_mm(bool horizontal) const {
+double Blur::width_mm(const Direction& direction) const {
     // A gaussian's tails reach two half widths farther.
-    return pixel_mm + spot_mm[horizontal ? 0 : 1] + (gaussian ? 2 : 1) * diffuser_mm[horizontal ? 0 : 1];
+    return pixel_mm + defocus * aperture.width_mm[std::size_t(direction.axis)] +
+           (gaussian ? 2 : 1) * (std::abs(direction.x) * diffuser_mm[0] + std::abs(direction.y) * diffuser_mm[1]);
 }
 
 }  // namespace lfdsim

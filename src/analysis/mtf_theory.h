@@ -1,5 +1,6 @@
 // The blur of what is shown at a depth, by paraxial theory. Floor 3.
 #pragma once
+#include "analysis/aperture_wave.h"
 #include "analysis/edge_view.h"
 #include "analysis/subject.h"
 
@@ -13,22 +14,26 @@ double pixel_image_mm(const Display&, const Geometry&, double z_mm);
 /// Whether a plane at this height above the panel is the lenses' own, where each of them shows only one point.
 bool at_the_lenses(const Display&, const Geometry&, double z_mm);
 
-/// Half a cycle per lens pitch, as an eye at an angle projects it into the plane of bars.
-double lens_limit_per_mm(const Subject&, const Bars& plane, double angle_deg);
+/// Half a cycle per lens pitch, as an eye at an angle projects it into a plane z_mm from the panel.
+double lens_limit_per_mm(const Subject&, const Direction&, double z_mm, double angle_deg);
+
+/// Half a cycle per image of a panel pixel. Along the direction that is resolved its images follow each other as pixels do along
+/// the panel's rows or, where those are nearer to it, columns. Infinite in the lenses' own plane.
+double pixel_limit_per_mm(const Subject&, const Direction&, double z_mm);
 
 /// The distance in a plane between a line of sight and the nodal line of the pixel that it sees: a sum of independent parts.
 struct Blur {
-    double pixel_mm;                // uniform over a square
-    std::array<double, 2> spot_mm;  // the lens's spot: uniform over a disk, or over a rectangle along the array's axes
-    bool round;
-    double array_rad;                   // the turn of that rectangle
+    double pixel_mm;                    // uniform over a square
+    ApertureShape aperture;             // the lens's spot is uniform over this ...
+    double defocus;                     // ... times this, |1 - z/L|
+    double array_rad;                   // the turn of the aperture's axes
     std::array<double, 2> diffuser_mm;  // along x and y: full widths, at half maximum if gaussian
     bool gaussian;
 
-    /// Modulation at a frequency per mm, 0 or more, along x or, not horizontal, along y.
-    double mtf(double per_mm, bool horizontal) const;
+    /// Modulation at a frequency per mm, 0 or more, along a direction.
+    double mtf(double per_mm, const Direction&) const;
     /// About the full width of an edge's blur.
-    double width_mm(bool horizontal) const;
+    double width_mm(const Direction&) const;
 };
 
 /// Share of the light that an eye at this angle and distance sees on other lenses' elemental images, which Blur leaves out.
