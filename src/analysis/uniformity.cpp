@@ -204,17 +204,14 @@ void add_angles(Result& result, Subject& s, const EyeRays& rays, double distance
     result.tables.push_back(std::move(table));
 }
 
-void add_budget(Result& result, const Geometry& g, const std::array<LightBudget, independent_sets>& budgets) {
-    if (g.layers_top_mm > 0 || g.glued) {  // which guide part of the light sideways
-        for (const char* name : {"efficiency", "efficiency_within_fov", "efficiency_of_panel", "share_reaching_array"})
-            result.figures["light"][name] = Json();
-        return result.note("light", "how much light enters what lies on the panel is not measured, only what leaves lenses in air");
-    }
+void add_budget(Result& result, const std::array<LightBudget, independent_sets>& budgets) {
     const auto share = [&](double LightBudget::*part, double LightBudget::*whole) {
-        return jackknife([&](int without) {
+        Estimate found = jackknife([&](int without) {
             const LightBudget b = mean_budget(budgets, without);
             return b.*whole > 0 ? b.*part / (b.*whole) : 0;
         });
+        found.value = std::min(found.value, 1.);  // both are sums over random rays, and no part is more than the whole
+        return found;
     };
     const Estimate efficiency = share(&LightBudget::leaves, &LightBudget::reaches_array),
                    within = share(&LightBudget::leaves_in_fov, &LightBudget::reaches_array);
@@ -253,7 +250,7 @@ Result measure_uniformity(Subject& s, Job& job) {
     add_screen(result, screen_luminance(rays, s.display(), eye, parts), s, distance);
     add_bands(result, pitch_luminance(rays, s.display(), eye, parts), s);
     add_angles(result, s, rays, distance, parts);
-    add_budget(result, s.geometry(), light_budgets(s.display(), s.geometry(), parts));
+    add_budget(result, light_budgets(s.display(), s.geometry(), parts));
     result.remarks.push_back(
         "A lens passes on the panel's radiance: luminance falls only by reflection and where lines of sight end beside a lens or "
         "the panel. Light efficiency is a different measure: light leaves in all directions, most of it to where no viewer is.");

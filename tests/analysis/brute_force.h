@@ -37,6 +37,11 @@ class PlanoConvexArray {
         const double root = std::sqrt(sphere_ * sphere_ - r_ * r_);
         const double thickness = d.lens.as<PlanoConvex>().cylinder_height_mm + sphere_ - root;
         flat_ = *d.array.gap_mm - thickness / index_;  // g counts to the principal plane T/n inside... from the flat face
+        for (const Layer& layer : d.panel.layers) {    // ... and layers by their thickness over the index
+            flat_ += layer.thickness_mm - layer.thickness_mm / layer.index;
+            layers_ += layer.thickness_mm;
+        }
+        glued_ = flat_ - layers_ < 1e-6;
         rim_ = flat_ + d.lens.as<PlanoConvex>().cylinder_height_mm;
         centre_ = rim_ - root;
         top_ = flat_ + thickness;
@@ -59,8 +64,8 @@ class PlanoConvexArray {
         return sum / rays;
     }
 
-    /// Of the light that leaves the panel: the shares that cross the array's rectangle at the height of the flat faces, and that
-    /// leave the lenses for good.
+    /// Of the light that leaves the panel into what lies on it: the shares that cross the array's rectangle at the height of the
+    /// flat faces, and that leave the lenses for good.
     struct Shares {
         double reaches, leaves;
     };
@@ -68,13 +73,25 @@ class PlanoConvexArray {
         double reaches = 0, leaves = 0;
         const double m = d_.panel.emission_exponent;
         for (int n = 0; n < rays; ++n) {
-            const Vec at{number(-width_ / 2, width_ / 2), number(-height_ / 2, height_ / 2), 0};
+            Vec at{number(-width_ / 2, width_ / 2), number(-height_ / 2, height_ / 2), 0};
             const double c = std::pow(number(0, 1), 1 / (m + 2)), s = std::sqrt(1 - c * c), phi = number(0, 2 * std::numbers::pi);
             Vec to{s * std::cos(phi), s * std::sin(phi), c};
-            const Vec in = along(at, to, flat_ / c);
-            reaches += std::abs(in[0]) < double(d_.array.count->at(0)) * pitch_ / 2 &&
-                       std::abs(in[1]) < double(d_.array.count->at(1)) * pitch_ / 2;
-            leaves += left(in, to);
+            double light = 1, medium = glued_ ? index_ : 1;
+            for (std::size_t k = 0; k < d_.panel.layers.size() && light > 0; ++k) {
+                medium = d_.panel.layers[k].index;
+                at = along(at, to, d_.panel.layers[k].thickness_mm / to[2]);
+                const bool last = k + 1 == d_.panel.layers.size();
+                if (last && glued_) break;
+                const double next = last ? 1 : d_.panel.layers[k + 1].index;
+                light *= refract(to, {0, 0, -1}, medium, next);
+                medium = next;
+            }
+            if (light == 0) continue;
+            const Vec in = along(at, to, (flat_ - at[2]) / to[2]);
+            if (std::abs(in[0]) < double(d_.array.count->at(0)) * pitch_ / 2 &&
+                std::abs(in[1]) < double(d_.array.count->at(1)) * pitch_ / 2)
+                reaches += light;
+            leaves += light * left(in, to, medium);
         }
         return {reaches / rays, leaves / rays};
     }
@@ -125,10 +142,11 @@ class PlanoConvexArray {
     }
 
     /// Forwards from a point in the plane of the flat faces to the open.
-    double left(const Vec& in, Vec to) const {
+    double left(const Vec& in, Vec to, double medium) const {
         const auto lens = axis(in[0], in[1]);
         if (!lens || std::hypot(in[0] - (*lens)[0], in[1] - (*lens)[1]) > r_) return 0;
-        double light = refract(to, {0, 0, -1}, 1, index_);
+        double light = refract(to, {0, 0, -1}, medium, index_);
+        if (light == 0) return 0;
         const Vec p = along(in, to, ball(in, to, *lens)[1]);
         if (!on_cap(p, *lens)) return 0;
         Vec n = normal(p, *lens);
@@ -146,7 +164,8 @@ class PlanoConvexArray {
 
     Display d_;
     std::mt19937_64 engine_;
-    double r_, sphere_, index_, pitch_, flat_, rim_, centre_, top_, width_, height_;
+    double r_, sphere_, index_, pitch_, flat_, rim_, centre_, top_, width_, height_, layers_ = 0;
+    bool glued_ = false;
 };
 
 }  // namespace lfdsim::brute

@@ -74,6 +74,57 @@ TEST(Uniformity, EfficiencyAgreesWithBruteForce) {
     }
 }
 
+// Cover glass with air above it, lenses glued onto it and onto the panel itself: what goes up at random, by Snell and Fresnel.
+TEST(Uniformity, EfficiencyThroughLayersAgreesWithBruteForce) {
+    const Display plain = wide_panel(example());
+    const double lens = resolve(plain).front_principal_mm - resolve(plain).base_z_mm;  // reduced: T/n, of a flat face below
+    Display covered = plain, glued = plain, bare = plain, denser = plain;
+    covered.panel.layers = {{1.1, 1.52}, {0.4, 1.6}};
+    covered.array.gap_mm = 1.1 / 1.52 + 0.4 / 1.6 + 0.7 + lens;
+    glued.panel.layers = {{1.1, 1.52}, {0.9, 1.4}};
+    glued.array.gap_mm = 1.1 / 1.52 + 0.9 / 1.4 + lens;
+    denser.panel.layers = {{1.5, 1.9}};
+    denser.array.gap_mm = 1.5 / 1.9 + lens;
+    bare.array.gap_mm = lens;
+    for (Display d : {covered, glued, denser, bare}) {
+        d.panel.emission_exponent = d.panel.layers.size() == 2 ? 0 : 1;
+        const Geometry g = resolve(d);
+        ASSERT_EQ(g.glued, d != covered) << g.base_z_mm;
+        const brute::PlanoConvexArray::Shares expected = brute::PlanoConvexArray(d, 9).forward(4000000);
+        const LightBudget found = budget(d);
+        std::printf("%zu layers: %.4f of the panel's light leaves, by brute force %.4f; %.4f and %.4f reach the array\n",
+                    d.panel.layers.size(), found.leaves / found.emitted, expected.leaves, found.reaches_array / found.emitted,
+                    expected.reaches);
+        EXPECT_GT(expected.leaves, 0.02);
+        EXPECT_NEAR(found.leaves / found.emitted / expected.leaves, 1, 0.006);
+        EXPECT_NEAR(found.reaches_array / found.emitted / expected.reaches, 1, 0.006);
+    }
+}
+
+// Glass without losses lets 1/n^2 of the light out into air, all of which passes ideal lenses of any lattice, of power or not.
+TEST(Uniformity, IdealLensesPassWhatLeavesTheLayers) {
+    Display d = wide_panel(ideal_example());
+    d.render.fresnel = Fresnel::none;
+    d.panel.pixels = {6000, 6000};
+    d.panel.layers = {{0.8, 1.7}, {0.5, 1.5}};
+    for (const LatticeKind lattice : {LatticeKind::square, LatticeKind::strips, LatticeKind::hexagon})
+        for (const double f : {1e6, 6.}) {
+            d.array.lattice = lattice;
+            d.array.count = {16, lattice == LatticeKind::strips ? 1 : 12};
+            d.lens.as<IdealLens>().focal_length_mm = f;
+            const Geometry g = resolve(d);
+            const LightBudget light = budget(d);
+            const double area = g.array_width_mm * g.array_height_mm / (g.panel_width_mm * g.panel_height_mm);
+            const double cells = g.lattice.count[0] * g.lattice.pitch[0] * g.lattice.count[1] * g.lattice.pitch[1] /
+                                 (g.array_width_mm * g.array_height_mm);
+            EXPECT_NEAR(light.reaches_array / light.emitted, area / (1.7 * 1.7), 0.004 * area) << int(lattice);
+            if (lattice != LatticeKind::strips)
+                EXPECT_NEAR(light.leaves / light.reaches_array, cells, 0.004) << int(lattice) << " " << f;
+            else  // long as the panel, which their light leaves at the ends
+                EXPECT_GT(light.leaves / light.reaches_array, 0.97);
+        }
+}
+
 // All that reaches square ideal lenses passes them, of whatever power; where they have none, what leaves within the field of view
 // is the form factor of the square of those slopes.
 TEST(Uniformity, IdealLensesLetAllLightPass) {
