@@ -33,6 +33,21 @@ ApertureShape aperture_shape(const Display& d, const Geometry& g) {
     return {form, g.clear_aperture_mm};
 }
 
+bool ApertureShape::holds(double x, double y) const {
+    const double half_x = 0.5 * width_mm[0], half_y = 0.5 * width_mm[1];
+    switch (form) {
+        case Form::slit:
+            return std::abs(x) <= half_x;
+        case Form::disk:
+            return x * x + y * y <= half_x * half_x;
+        case Form::rectangle:
+            return std::abs(x) <= half_x && std::abs(y) <= half_y;
+        case Form::hexagon:
+            break;
+    }
+    return std::abs(x) <= half_x && 0.5 * std::abs(x) + 0.5 * std::numbers::sqrt3 * std::abs(y) <= half_x;
+}
+
 double ApertureShape::mean(double nu_x, double nu_y) const {
     switch (form) {
         case Form::slit:

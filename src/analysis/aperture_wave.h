@@ -17,6 +17,9 @@ struct ApertureShape {
     /// rectangle, 2 J1(x)/x of a disk, of a hexagon a sum over its edges by Green's theorem. A slit is as if of no width along y':
     /// strips move light along x' alone.
     double mean(double nu_x, double nu_y) const;
+
+    /// Whether a place, from the lens's axis, lies within.
+    bool holds(double x, double y) const;
 };
 
 ApertureShape aperture_shape(const Display&, const Geometry&);

@@ -1,14 +1,12 @@
 #include "analysis/mtf_theory.h"
 
-#include "analysis/eye_rays.h"
 #include "analysis/fourier.h"
+#include "analysis/paraxial_lines.h"
 #include "analysis/slope_spread.h"
 #include "model/numbers.h"
-#include "optics/elementary.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace lfdsim {
 namespace {
@@ -21,34 +19,17 @@ double strips_astray(const Subject& s, double angle_deg, double distance_mm) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();
     const Lattice<double>& l = g.lattice;
-    const double eye_mm = distance_mm * std::cos(angle_deg * degree) - g.rear_principal_mm,
-                 aside_mm = distance_mm * std::sin(angle_deg * degree);
+    const ParaxialLines lines(d, g, {distance_mm * std::sin(angle_deg * degree), 0, distance_mm * std::cos(angle_deg * degree)});
     const double image = s.theory(0).elemental_pitch_mm, scale = image / l.pitch[0];
-    const double above = d.diffuser ? *g.diffuser_z_mm - g.rear_principal_mm : 0;
-    const double power = std::isfinite(g.focal_length_mm) ? g.gap_mm / g.focal_length_mm : 0;
-    const auto turned = [&](double slope, double number, std::size_t k) {
-        if (!d.diffuser) return slope;
-        const double full = d.diffuser->angle_deg[k] * degree;
-        const double angle = d.diffuser->profile == Profile::box
-                                 ? 0.5 * full * number
-                                 : full / fwhm_per_sigma * std::numbers::sqrt2 * optics::erfinv(number);
-        return std::tan(std::clamp(std::atan(slope) + angle, -1.55, 1.55));
-    };
+    const double off = optics::to_array(l, l.offset[0], l.offset[1]).x;  // elemental images spread from the panel's middle
     int own = 0, all = 0;
     for (const Choice& c : even_choices(1 << 14)) {
-        const double x = 0.5 * g.panel_width_mm * c[4], y = 0.5 * g.panel_height_mm * c[5];
-        const double mx = (aside_mm - x) / eye_mm, my = -y / eye_mm, tx = turned(mx, c[2], 0), ty = turned(my, c[3], 1);
-        const double at = (x + above * (mx - tx) - l.offset[0]) * l.cos_turn + (y + above * (my - ty) - l.offset[1]) * l.sin_turn;
-        const double number = std::floor(at / l.pitch[0] + 0.5 * l.count[0]);
-        if (number < 0 || number >= l.count[0]) continue;
-        const double axis = (number + 0.5 - 0.5 * l.count[0]) * l.pitch[0], q = at - axis;
-        if (std::abs(q) > 0.5 * g.clear_aperture_mm[0]) continue;
+        const auto line = lines.look(0.5 * g.panel_width_mm * c[4], 0.5 * g.panel_height_mm * c[5], c[2], c[3]);
+        if (!line || !line->through) continue;
         const double half_pixel = 0.5 * d.panel.pixel_pitch_mm;
-        const double seen = at - g.gap_mm * (tx * l.cos_turn + ty * l.sin_turn) - power * q +
-                            half_pixel * (c[0] * l.cos_turn + c[1] * l.sin_turn);  // the middle of the pixel
-        const double off = l.offset[0] * l.cos_turn + l.offset[1] * l.sin_turn;  // elemental images spread from the panel's middle
+        const double middle = line->seen.x + half_pixel * (c[0] * l.cos_turn + c[1] * l.sin_turn);  // of the pixel
         ++all;
-        own += std::abs(seen + off - scale * (axis + off)) <= 0.5 * image;
+        own += std::abs(middle + off - scale * (line->axis.x + off)) <= 0.5 * image;
     }
     return all > 0 ? 1 - double(own) / all : 1;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "model/numbers.h"
@@ -54,6 +55,92 @@ double spread_transform(const Diffuser& diffuser, int axis, double height_mm, do
     return sinc(x);
 }
 
+/// The diffuser's transfer factor for a wave over the array's own x and y, periods per mm.
+class Spread {
+  public:
+    Spread(const Display& d, const Geometry& g, std::size_t axis)
+        : diffuser_(d.diffuser),
+          height_mm_(d.diffuser ? *g.diffuser_z_mm - aperture_plane_mm(d, g, axis) : 0),
+          cosine_(std::cos(d.array.turn_deg() * degree)),
+          sine_(std::sin(d.array.turn_deg() * degree)) {}
+
+    double operator()(double across, double up) const {
+        if (!diffuser_) return 1;
+        return spread_transform(*diffuser_, 0, height_mm_, across * cosine_ - up * sine_) *
+               spread_transform(*diffuser_, 1, height_mm_, across * sine_ + up * cosine_);
+    }
+
+  private:
+    const std::optional<Diffuser>& diffuser_;
+    double height_mm_, cosine_, sine_;
+};
+
+/// Strips that are lit for |x| < radius: waves from joint to joint, after the diffuser.
+std::vector<double> strip_waves(double pitch, double radius, const Spread& spread) {
+    std::vector<double> waves(harmonics);
+    waves[0] = std::min(2 * radius / pitch, 1.);
+    for (std::size_t k = 1; k < waves.size(); ++k) {
+        const double order = double(k), lit = 2 * std::sin(2 * pi * order * std::min(radius / pitch, 0.5)) / (pi * order);
+        waves[k] = (k % 2 == 0 ? 1 : -1) * lit * spread(order / pitch, 0);
+    }
+    return waves;
+}
+
+/// Lenses in staggered rows, lit within `radius` in their cells: their light has the waves (m/px, n/2py) with m + n even.
+class StaggeredLight {
+  public:
+    StaggeredLight(const Lattice<double>& lattice, double radius) : lattice_(lattice), wave_(2 * places) {
+        for (std::size_t m = 0; m < wave_.size(); ++m) wave_[m] = std::cos(pi * double(m) / places);
+        for (std::size_t n = 0; n < places; ++n) {
+            const double x = lattice.pitch[0] * ((double(n) + 0.5) / places - 0.5), p = lattice.pitch[0];
+            const double cell = lattice.hexagonal ? (p - std::abs(x)) / std::numbers::sqrt3 : 0.5 * lattice.pitch[1];
+            lit_half_[n] = std::abs(x) < radius ? std::min(std::sqrt(radius * radius - x * x), cell) : 0;
+        }
+    }
+
+    /// The mean along one row of what is seen across a pitch, from joint to joint.
+    std::vector<double> across(const Spread& spread) const {
+        constexpr int most_m = 128, most_n = 63;
+        std::vector<double> waves(harmonics);
+        const double px = lattice_.pitch[0], py = lattice_.pitch[1];
+        for (int m = 0; m <= most_m; m += 2) waves[std::size_t(m)] = (m == 0 ? 1 : 2) * amplitude(m, chords(0)) * spread(m / px, 0);
+        for (int n = 1; n <= most_n; n += 2) {  // waves of an even order along y vanish in the mean over a row
+            const std::vector<double> of_n = chords(n);
+            const double mean = sinc(0.5 * pi * n), up = 0.5 * n / py;
+            for (int m = 1; m <= most_m; m += 2)
+                waves[std::size_t(m)] += 2 * amplitude(m, of_n) * mean * (spread(m / px, up) + spread(m / px, -up));
+        }
+        return waves;
+    }
+
+    /// The mean along x of what is seen from row to row.
+    std::vector<double> up(const Spread& spread) const {
+        std::vector<double> waves(harmonics);
+        for (int k = 0; k < 128; ++k)
+            waves[std::size_t(k)] = (k == 0 ? 1 : 2) * amplitude(0, chords(2 * k)) * spread(0, k / lattice_.pitch[1]);
+        return waves;
+    }
+
+  private:
+    /// The integral of cos(2 pi n y / 2py) over the lit chord at each place across, in units of py.
+    std::vector<double> chords(int n) const {
+        std::vector<double> all(places);
+        const double wave = pi * n / lattice_.pitch[1];
+        for (std::size_t k = 0; k < places; ++k) all[k] = 2 * lit_half_[k] * sinc(wave * lit_half_[k]) / lattice_.pitch[1];
+        return all;
+    }
+    /// Of the wave cos(2 pi m x / px), x from a joint.
+    double amplitude(int m, const std::vector<double>& chord) const {
+        double sum = 0;
+        for (std::size_t n = 0; n < places; ++n) sum += chord[n] * wave_[std::size_t(m) * (2 * n + 1) % wave_.size()];
+        return sum / places;
+    }
+
+    const Lattice<double>& lattice_;
+    std::vector<double> wave_;
+    std::array<double, places> lit_half_{};
+};
+
 double michelson_of(const std::vector<double>& waves) {
     double least = std::numeric_limits<double>::infinity(), greatest = 0;
     for (int b = 0; b < bins; ++b) {
@@ -76,13 +163,27 @@ double aperture_plane_mm(const Display& d, const Geometry& g, std::size_t axis) 
                               filled ? std::min(d.array.pitch_mm[axis] / 2, last.semi_aperture_mm) : last.semi_aperture_mm);
 }
 
+std::array<double, 2> joining_spread_mm(const Geometry& g) {
+    const Lattice<double>& l = g.lattice;
+    if (!l.strips) return {l.pitch[0], l.pitch[1]};
+    const double c = std::abs(l.cos_turn), s = std::abs(l.sin_turn);
+    return c >= s ? std::array{l.pitch[0] / c, 0.} : std::array{0., l.pitch[0] / s};
+}
+
 double gap_closing_angle_deg(double pitch_mm, double height_mm) { return 2 * std::atan(pitch_mm / (2 * height_mm)) / degree; }
 
 std::array<double, 2> band_contrast(const Display& d, const Geometry& g) {
-    if (is_staggered(d.array) || is_strips(d.array)) return {nan, nan};  // the waves are those of rows and columns
     // Without an opaque surround light passes between the lenses too; a sheet of stops is black in any case.
-    if (d.array.surround != Surround::opaque && !d.lens.stop_radius_mm) return {0, 0};
+    const bool strips = is_strips(d.array);
+    if (d.array.surround != Surround::opaque && !d.lens.stop_radius_mm) return {0, strips ? nan : 0};
     const double turn = d.array.turn_deg() * degree, radius = pupil_radius_mm(d, g);
+    if (strips)
+        return {radius < 0.5 * g.lattice.pitch[0] ? michelson_of(strip_waves(g.lattice.pitch[0], radius, {d, g, 0})) : 0, nan};
+    if (is_staggered(d.array)) {
+        if (radius >= outer_radius_mm(d.array)) return {0, 0};
+        const StaggeredLight light(g.lattice, radius);
+        return {michelson_of(light.across({d, g, 0})), michelson_of(light.up({d, g, 1}))};
+    }
     std::array<double, 2> contrast{};
     for (const std::size_t axis : {0u, 1u}) {
         const double height = d.diffuser ? *g.diffuser_z_mm - aperture_plane_mm(d, g, axis) : 0, pitch = d.array.pitch_mm[axis];
