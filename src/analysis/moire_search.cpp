@@ -125,10 +125,10 @@ MoireSearch find_moire(const WhiteLines& lines, double mm_per_degree, Parts& par
     // Of waves of the same period that may be equally strong, as symmetry makes them, that of the least direction
     const auto strongest = std::ranges::max_element(all, {}, [](const MeasuredBeat& m) { return m.seen.value; });
     for (const MeasuredBeat& m : all) {
-        const auto may_equal = [&](const Estimate& a, const Estimate& b) {
-            return std::abs(a.value - b.value) <= a.error + b.error;
+        const auto may_equal = [&](const Estimate& a, const Estimate& b, double most) {
+            return std::abs(a.value - b.value) <= std::min(std::hypot(a.error, b.error), most * b.value);
         };
-        if (!may_equal(m.seen, strongest->seen) || !may_equal(m.period_mm, strongest->period_mm)) continue;
+        if (!may_equal(m.seen, strongest->seen, 0.25) || !may_equal(m.period_mm, strongest->period_mm, 0.02)) continue;
         if (!search.strongest || rank_deg(m.direction_deg.value) < rank_deg(search.strongest->direction_deg.value))
             search.strongest = m;
     }

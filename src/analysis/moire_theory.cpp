@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace lfdsim {
 namespace {
 
+constexpr double tied = 0.99;     // of the strongest wave's contrast: no measurement tells such twins apart
 constexpr int highest_order = 8;  // of the panel's harmonics; higher ones are weaker than 2/(pi 8)^2 of sharp lenses
 
 }  // namespace
@@ -99,11 +101,12 @@ std::optional<Beat> MoireTheory::strongest() const {
     const ApertureShape aperture = aperture_shape(display_, geometry_);
     const double per_degree = mm_per_degree(eye_mm_ - geometry_.vertex_plane_mm), finest = eye_limit_cycles_per_degree / per_degree;
     const double above = geometry_.diffuser_z_mm.value_or(geometry_.rear_principal_mm) - geometry_.rear_principal_mm;
-    std::optional<Beat> best;
+    std::vector<Beat> strong;  // within `tied` of the strongest so far
+    double greatest = 0;
     for (int k = 0; k <= highest_order; ++k)
         for (int l = k == 0 ? 1 : -highest_order; l <= highest_order; ++l) {
             const double most = 2 * std::abs(matrix(k) * matrix(l));
-            if (best && most < best->seen) continue;
+            if (most < tied * greatest) continue;
             const Place seen = seen_harmonic(k, l), panel{seen.x / scale_.x, seen.y / scale_.y};
             const Range across = lens_orders(0, seen.x, finest), up = lens_orders(1, seen.y, finest);
             for (int m = across.from; m <= across.to; ++m)
@@ -120,12 +123,20 @@ std::optional<Beat> MoireTheory::strongest() const {
                     beat.contrast *=
                         std::abs(aperture.mean(glass_.x * panel.x - of_lens.x, glass_.y * panel.y - of_lens.y) * diffuser(spread));
                     beat.seen = beat.contrast * eye_filter(fine * per_degree);
-                    const double lead = best ? beat.seen / best->seen - 1 : 1;
-                    if (lead > 1e-6 ||
-                        (lead > -1e-6 && rank_deg(direction_deg(beat.frequency)) < rank_deg(direction_deg(best->frequency))))
-                        best = beat;
+                    if (beat.seen <= 0 || beat.seen < tied * greatest) continue;
+                    greatest = std::max(greatest, beat.seen);
+                    strong.push_back(beat);
                 }
         }
+    const auto first = std::ranges::max_element(strong, {}, &Beat::seen);
+    if (first == strong.end()) return {};
+    const auto rank = [](const Beat& b) { return rank_deg(direction_deg(b.frequency)); };
+    Beat best = *first;
+    for (const Beat& b : strong) {
+        const bool equal = b.seen >= (1 - 1e-6) * first->seen;
+        const bool twin = b.seen >= tied * first->seen && std::abs(period_mm(b.frequency) / period_mm(first->frequency) - 1) < 1e-3;
+        if ((equal || twin) && rank(b) < rank(best)) best = b;
+    }
     return best;
 }
 

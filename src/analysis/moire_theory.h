@@ -32,7 +32,8 @@ class MoireTheory {
     /// The coarsest beat of the panel's harmonic (k, l) with the lens lattice.
     Frequency beat(int k, int l) const;
 
-    /// The strongest beat after the eye's filter; of equally strong ones that of the least direction. None where the panel has no
+    /// The strongest beat after the eye's filter; of those of its period that are within 1 % as strong, as symmetry
+    /// makes them (and of all that are exactly as strong), that of the least direction. None where the panel has no
     /// black matrix, or where all are too fine for the eye.
     std::optional<Beat> strongest() const;
 
