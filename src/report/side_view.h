@@ -17,7 +17,7 @@ struct SideFrame {
 std::string side_view_svg(const Subject&, SideFrame* = nullptr);
 
 /// A few lenses near the middle, with their true surfaces, the gap, what is between them, and the same rays. In the array's own
-/// frame where the array is turned.
+/// frame where the array is turned. Beside it their cells as the viewer sees them.
 std::string lens_view_svg(const Subject&, SideFrame* = nullptr);
 
 }  // namespace lfdsim

@@ -1,4 +1,5 @@
 #include "model/numbers.h"
+#include "report/front_view.h"
 #include "report/section.h"
 #include "report/side_scale.h"
 #include "report/side_view.h"
@@ -10,7 +11,7 @@ namespace lfdsim {
 namespace {
 
 constexpr double lens_page_width = 960, left = 76, top = 16, notes_width = 220, lens_drawn = lens_page_width - left - notes_width,
-                 lens_most_height = 440;
+                 lens_most_height = 440, front_side = 130;
 
 double rim_z(const PlacedSurface& f, double rim) { return f.z_mm + sag_mm(f.curvature_per_mm, f.conic, f.even_asphere, rim); }
 
@@ -135,8 +136,9 @@ std::vector<std::string> notes_of(const Subject& s) {
         std::isfinite(g.focal_length_mm) ? fmt::format("f = {}: focal length", mm(g.focal_length_mm)) : std::string("f: infinite"),
         fmt::format("D = {}: aperture", mm(g.clear_aperture_mm[1])),
         fmt::format("a = {}: pixel", mm(d.panel.pixel_pitch_mm)),
-        std::isfinite(t.central_depth_mm) ? fmt::format("L = {}: central depth", mm(t.central_depth_mm))
-                                          : std::string("L: at infinity"),
+        d.lens.type() == LensType::pinhole  ? std::string("L: none, pinholes image nothing")
+        : std::isfinite(t.central_depth_mm) ? fmt::format("L = {}: central depth", mm(t.central_depth_mm))
+                                            : std::string("L: at infinity"),
         fmt::format("{:.4g}\u00b0: field of view, dashed", t.along[1].fov_deg)};
     if (d.diffuser) lines.push_back(fmt::format("\u03c9 = {:.4g}\u00b0: diffuser, vertical", d.diffuser->angle_deg[1]));
     if (d.array.turn_deg() != 0) lines.push_back("in the frame of the turned array");
@@ -154,7 +156,11 @@ std::string lens_view_svg(const Subject& display, SideFrame* frame) {
                  high = per_y * (w.high - w.low);
     const SideScale scale{0, 0.5 * high, w.from, 0.5 * (w.low + w.high), per_z, per_y};
     if (frame) *frame = {w.low, w.high, w.from, w.to, left, top, lens_drawn, high};
-    Drawing drawing(lens_page_width, std::max(top + high + 60, 60 + 21. * 12),
+    std::vector<std::string> notes = notes_of(s);
+    if (shows_a_row(display.display())) notes.push_back("section along a row of the array");
+    // Below the notes and the rays' names, the lenses from the front
+    const double front_top = top + 16 + 21. * (double(notes.size()) + 2) + (scale.true_to_scale() ? 0 : 21) + 26;
+    Drawing drawing(lens_page_width, std::max(top + high + 60, front_top + front_side + 10),
                     "Lenses of the display from the side, with their rays");
     drawing.add(fmt::format("<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"0 0 {2} {3}\" overflow=\"hidden\">\n",
                             px(left), px(top), px(lens_drawn), px(high)));
@@ -207,8 +213,6 @@ std::string lens_view_svg(const Subject& display, SideFrame* frame) {
         drawing.line(at(y, g.stop_z_mm), {at(y, beside)[0] + 6, at(y, beside)[1]}, "stroke-opacity=\"0.5\"");
     drawing.dimension(at(upper - half, beside), at(upper + half, beside), "D = " + mm(g.clear_aperture_mm[1]));
     double row = top + 16;
-    std::vector<std::string> notes = notes_of(s);
-    if (shows_a_row(display.display())) notes.push_back("section along a row of the array");
     for (const std::string& line : notes) {
         drawing.text({lens_page_width - notes_width + 18, row}, line, "font-size=\"12\"");
         row += 21;
@@ -219,6 +223,8 @@ std::string lens_view_svg(const Subject& display, SideFrame* frame) {
     if (!scale.true_to_scale())
         drawing.text({lens_page_width - notes_width + 18, row + 48}, fmt::format("heights drawn {:.3g} times", per_y / per_z),
                      "font-size=\"11\"");
+    drawing.text({lens_page_width - notes_width + 18, front_top - 9}, "as the viewer sees them", "font-size=\"12\"");
+    draw_front(drawing, {lens_page_width - notes_width + 18, front_top}, front_side, display.display(), display.geometry());
     return drawing.svg();
 }
 
