@@ -5,6 +5,7 @@ k a/g.
 """
 import numpy as np
 
+import oracle
 from edges import error_of
 from sight import per_set
 from white import radiance
@@ -13,10 +14,8 @@ from white import radiance
 def slopes(sight, eye):
     """s of each line of sight from an eye, and its light; light on no lens's image does not count."""
     d, hits = sight.display, sight.see(eye)
-    count = np.array(d.array.count)
-    lens = np.floor((hits.at / sight.stretch - d.array.offset_mm) @ sight.axes.T / sight.pitch + count / 2)
-    owned = (lens >= 0).all(axis=1) & (lens < count).all(axis=1)
-    return (sight.centres(lens) - hits.at)[:, 0] / d.paraxial.front, np.where(owned, radiance(d, hits), 0.0)
+    meant = oracle.nodal_lines(d, hits.at)
+    return (sight.centres(meant.lens) - hits.at)[:, 0] / d.gap, np.where(meant.owned, radiance(d, hits), 0.0)
 
 
 def over(leak, signal):
@@ -31,7 +30,7 @@ def over(leak, signal):
 def middle_view_percent(sight, distance):
     """Of an eye before the middle at z = distance: all other light over that of view 0."""
     s, light = slopes(sight, [0.0, 0.0, distance])
-    step = sight.display.panel.pixel_pitch_mm / sight.display.paraxial.front
+    step = sight.display.panel.pixel_pitch_mm / sight.display.gap
     meant = np.abs(s) <= 0.5 * step
     return over(light * ~meant, light * meant)
 

@@ -51,7 +51,40 @@ def draw(number, most_pixels):
     }
     if rng.random() < 0.5:
         description["diffuser"] = draw_diffuser(rng, pitch, eye)
+    as_others_are_built(np.random.default_rng([2026, number]), description)
     return description
+
+
+def as_others_are_built(rng, description):
+    """Of one display in three hexagons, bricks or slanted strips, of one in four layers under the lenses or glued to them, of thin round lenses some pinholes.
+
+    With numbers of its own: the others stay as they are.
+    """
+    array, lens = description["array"], description["lens"]
+    lattice, layers, hole = rng.random(), rng.random(), rng.random()
+    slant, share, indices, holes = rng.uniform(-40, 40), rng.uniform(0.2, 0.8), rng.uniform(1.3, 1.7, 2), rng.uniform(0.3, 0.9)
+    if lattice < 0.35:
+        kind = ("hexagon", "brick", "strips")[int(lattice * 20) % 3]
+        across, up = np.broadcast_to(np.asarray(array["pitch_mm"], float), 2)
+        array["lattice"] = kind
+        array["pitch_mm"] = [float(across), float(up)] if kind == "brick" else float(min(across, up))
+        if kind == "hexagon":
+            array["count"][1] = math.ceil(array["count"][1] * 2 / math.sqrt(3))
+        if kind == "strips":
+            array["count"][1] = 1
+            array.pop("rotation_deg", None)
+            array["slant_deg"] = float(slant)
+    if lens["type"] == "ideal" and array["aperture"] == "circle" and "stop_radius_mm" not in lens and hole < 0.6:
+        description["lens"] = {"type": "pinhole", "aperture_radius_mm": float(holes * lens["aperture_radius_mm"])}
+    space = oracle.resolve({"lens": description["lens"], "array": array})  # under the lenses
+    space = space.lens_z if space.ideal else min(s.z_min for s in space.surfaces)
+    glued = layers < 0.08 and lens["type"] == "plano_convex" and lens["facing"] == "viewer"
+    if layers < 0.25 and space > 0:  # by their reduced thickness they leave theory as it is
+        reduced = (1.0 if glued else share) * space * np.array([0.7, 0.3])
+        description["panel"]["layer"] = [{"thickness_mm": float(t * n), "index": float(n)} for t, n in zip(reduced, indices)]
+        if glued:
+            del array["gap_mm"]
+            array["base_z_mm"] = float(reduced @ indices)
 
 
 def draw_sides(number, aperture):

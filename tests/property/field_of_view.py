@@ -10,8 +10,8 @@ from sight import Sight, per_set
 def own_share(sight, eye):
     """For each set the share, by transmitted light, of rays that end on their own lens's image: of those that end on the panel through lenses whose images are whole."""
     hits = sight.see(eye)
-    light = np.where((hits.column >= 0) & sight.whole(hits.lens), hits.weight, 0.0)
-    own = (np.abs(hits.off) <= 0.5 * sight.stretch * sight.pitch).all(axis=1)
+    light = np.where((hits.column >= 0) & sight.whole(hits), hits.weight, 0.0)
+    own = sight.holds(hits.off)
     with np.errstate(invalid="ignore"):
         return per_set(light * own) / per_set(light)
 

@@ -8,7 +8,8 @@ ROUNDING = 1e-9
 
 def forms(display, description):
     """Paths with (value, error); along y', where that differs, in paths of their own. Depths in dioptres, also those that are printed in mm."""
-    g, f, p, a = display.paraxial.front, display.paraxial.f, display.array.pitch_mm, display.panel.pixel_pitch_mm
+    g, f, p, a = display.gap, display.paraxial.f, display.cell.width, display.panel.pixel_pitch_mm
+    along_row = np.abs(oracle.Lattice(display).turn[0, 0]) if display.strips else 1.0  # a pixel's step across slanted strips, in pixels
     made_for = description["content"]["viewing_distance_mm"] - display.paraxial.rear
     eye = description["camera"]["position_mm"][2] - display.paraxial.rear
     central, half = 1 / f - 1 / g, a / (g * max(display.clear_aperture))
@@ -22,8 +23,8 @@ def forms(display, description):
         "theory.fov_deg": seen(p / (2 * g)),
         "theory.fov_elemental_deg": seen(images / (2 * g)),
         "theory.elemental_pitch_mm": images,
-        "theory.views": p / a,
-        "theory.view_step_deg": seen(p / (2 * g)) * a / p,
+        "theory.views": p / (a * along_row),
+        "theory.view_step_deg": seen(p / (2 * g)) * a * along_row / p,
         "theory.viewing_zone_deg": seen(images / (2 * g) - outermost * abs(1 / eye - 1 / made_for)),
         "theory.viewing_zone_parallel_deg": seen(p / (2 * g) - outermost / eye),
         "theory.eyebox_mm": eye * images / g,
@@ -44,6 +45,8 @@ def forms(display, description):
             out[path], out[along_y(path)] = told(figures[0]), told(figures[1])
         else:
             out[path] = told(figures)
+    if display.lens.type == "pinhole":  # which images nothing
+        return {path: form for path, form in out.items() if path not in ("theory.focal_length_mm", "theory.gap_closing_diffuser_deg")}
     return out | {path: (value, ROUNDING * 1000 / f) for path, value in dioptres.items()}
 
 

@@ -116,7 +116,7 @@ def display_cases(harness, only, index):
     description, path, checked, refused = harness.drawn(index)
     forms = Forms(oracle.resolve(description), description, index)
     found, failed = list(cases_of("check", index, checked, forms.check(checked))) if only in "check" else [], []
-    measures = [measure for measure in EVERY if only in measure and harness.takes(index, measure)]
+    measures = [measure for measure in EVERY if only in measure and harness.takes(index, measure) and forms.takes(measure)]
 
     @functools.cache
     def measured(command):

@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 
+import oracle
 from edges import Unsure, error_of
 from sight import SETS
 
@@ -20,13 +21,9 @@ def differences(sight, eye, depth):
     """
     d, hits = sight.display, sight.see(eye)
     pixel = np.column_stack([hits.column + 0.5, -(hits.row + 0.5)]) * d.panel.pixel_pitch_mm + [-sight.half_panel[0], sight.half_panel[1]]
-    count = np.array(d.array.count)
-    lens = np.floor((pixel / sight.stretch - d.array.offset_mm) @ sight.axes.T / sight.pitch + count / 2)  # whose elemental image has the pixel
-    owned = (hits.column >= 0) & (lens >= 0).all(axis=1) & (lens < count).all(axis=1)
-    axis = sight.centres(lens) / sight.stretch
-    slope = (axis - pixel) / d.paraxial.front
-    plane = d.vertex_plane + depth
-    shown = axis + slope * (plane - d.paraxial.rear)
+    line, plane = oracle.nodal_lines(d, pixel), d.vertex_plane + depth
+    owned = (hits.column >= 0) & line.owned
+    shown = line.start[:, :2] + line.slope * (plane - d.paraxial.rear)
     seen = eye[:2] + (sight.aim[:, :2] - eye[:2]) * ((eye[2] - plane) / (eye[2] - d.vertex_plane))
     return shown - seen, np.where(owned, hits.weight * hits.cosine**d.panel.emission_exponent, 0.0)
 
@@ -35,8 +32,12 @@ MOST_OF_SCREEN = 0.2  # that a line may be spread over for its edges to stand cl
 
 
 def mtf50(sight, eye, depth, axis, greatest):
-    """(the least frequency per mm at which modulation falls below a half, its error), None if it does not up to `greatest`."""
+    """(the least frequency per mm at which modulation falls below a half, its error), None if it does not up to `greatest`.
+
+    Along the display's x (axis 0) or y (1), of strips along their x'.
+    """
     by, light = differences(sight, np.asarray(eye, float), depth)
+    by = by @ sight.axes.T if sight.display.strips else by
     low, high = np.quantile(by[light > 0][:, axis], [0.05, 0.95]) if light.any() else (0.0, math.inf)
     if high - low > MOST_OF_SCREEN * sight.display.array.count[axis] * sight.pitch[axis] * (1 - depth / eye[2]):
         raise Unsure

@@ -27,33 +27,45 @@ class Sight:
         self.display = display if with_diffuser else without_diffuser(display)
         d = self.display
         u = even_points(n, 6, seed).reshape(-1, 6)
-        turn = np.radians(d.array.rotation_deg)
-        self.axes = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])  # rows: x' and y' in x and y
-        count, self.pitch = np.array(d.array.count), d.array.pitch_mm
-        first = count // 4 if middle_half else np.zeros(2)
-        self.in_cell = u[:, 2:4]  # places within a cell, from its corner, in pitches
-        places = (first + np.floor(u[:, :2] * (count - 2 * first)) + self.in_cell - count / 2) * self.pitch
-        self.aim = np.column_stack([places @ self.axes + d.array.offset_mm, np.full(len(u), d.vertex_plane)])
-        self.turns = diffuser_turns(d.diffuser, u[:, 4:]) if d.diffuser else None
-        self.stretch = 1 + d.paraxial.front / (viewing_distance - d.paraxial.rear)  # of elemental images against lenses
         self.half_panel = np.array(d.panel.pixels) * d.panel.pixel_pitch_mm / 2
+        self.lattice = oracle.Lattice(d)
+        self.axes = self.lattice.turn[:2, :2].T  # rows: x' and y' in x and y
+        count, self.pitch = np.array(d.array.count), np.array(d.array.pitch_mm)
+        if d.strips:  # one row, as long as the panel reaches along it
+            self.pitch[1] = 2 * np.abs(self.axes[1]) @ self.half_panel
+        first = count // 4 if middle_half else np.zeros(2)
+        self.in_cell = u[:, 2:4]  # places within a cell's box, from its corner, in pitches
+        lens = (first + np.floor(u[:, :2] * (count - 2 * first))).astype(np.int64)
+        axis, within = self.lattice.axis(lens[:, 0], lens[:, 1]), np.column_stack([(self.in_cell - 0.5) * self.pitch, np.zeros(len(u))])
+        if d.array.lattice == "hexagon" and not middle_half:  # the box's corners are other hexagons': the same place in this one
+            i, j, _ = self.lattice.cell(axis + within)
+            within = axis + within - self.lattice.axis(i, j)
+        self.aim = self.lattice.leave(axis + within, np.zeros_like(within))[0]
+        self.aim[:, 2] = d.vertex_plane
+        self.turns = diffuser_turns(d.diffuser, u[:, 4:]) if d.diffuser else None
+        self.stretch = 1 + d.gap / (viewing_distance - d.paraxial.rear)  # of elemental images against lenses
 
     def centres(self, lens):
         """(n, 2) centres of the elemental images of lenses (n, 2), counted from 0, on the panel."""
-        places = (lens + 0.5 - np.array(self.display.array.count) / 2) * self.pitch
-        return self.stretch * (places @ self.axes + self.display.array.offset_mm)
+        axis = self.lattice.axis(lens[:, 0], lens[:, 1])
+        return self.stretch * self.lattice.leave(axis, np.zeros_like(axis))[0][:, :2]
 
-    def whole(self, lens):
-        """Whether the elemental images of these lenses lie on the panel as a whole."""
-        half = 0.5 * self.stretch * self.pitch @ np.abs(self.axes)  # of the box about the turned image
-        return (lens[:, 0] >= 0) & (np.abs(self.centres(lens)) + half <= self.half_panel * (1 + 1e-12)).all(axis=1)
+    def whole(self, hits):
+        """Whether the elemental images of the lenses met lie on the panel as a whole; of strips the part beside the place that is seen."""
+        centre = self.centres(hits.lens) if not self.display.strips else hits.at - hits.off[:, :1] * self.axes[0]
+        half = self.stretch * self.display.cell.extent @ np.abs(self.axes)  # of the box about the turned image
+        return (hits.lens[:, 0] >= 0) & (np.abs(centre) + half <= self.half_panel * (1 + 1e-12)).all(axis=1)
+
+    def holds(self, off):
+        """Whether places (n, 2), along x' and y' from the centre of an elemental image, lie in that image."""
+        return self.lattice.in_cell(off / self.stretch, 0.0)
 
     def see(self, eye):
         """The rays from an eye (x, y, z): the tracer's hits with `at`, where they end on the panel (n, 2), and `off`, at from the centre along x' and y'."""
         hits = oracle.trace(self.display, np.broadcast_to(np.asarray(eye, float), self.aim.shape), self.aim - eye, self.turns)
         pitch = self.display.panel.pixel_pitch_mm
         hits.at = np.column_stack([hits.x, -hits.y]) * pitch + [-self.half_panel[0], self.half_panel[1]]
-        hits.off = (hits.at - self.centres(hits.lens)) @ self.axes.T
+        hits.off = (hits.at - self.centres(hits.lens)) @ self.axes.T * self.lattice.across
         return hits
 
     def on_arc(self, angle, axis, radius):

@@ -14,7 +14,7 @@ def right_share(sight, eye):
     passed = ((hits.status == oracle.PANEL) | (hits.status == oracle.OFF_PANEL)) & (hits.lens[:, 0] >= 0)
     centre = np.column_stack([hits.column + 0.5, -(hits.row + 0.5)]) * panel.pixel_pitch_mm + [-sight.half_panel[0], sight.half_panel[1]]
     off = (centre - sight.centres(hits.lens)) @ sight.axes.T
-    own = (hits.column >= 0) & (np.abs(off) <= 0.5 * sight.stretch * sight.pitch).all(axis=1)
+    own = (hits.column >= 0) & sight.holds(off)
     with np.errstate(invalid="ignore"):
         return per_set((passed & own).astype(float)) / per_set(passed.astype(float))
 
