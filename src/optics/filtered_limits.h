@@ -31,6 +31,14 @@ struct FilteredLimits {
     // A stratum (kernels/filtered_axis.h). Half pitches from a lens's axis up to which it counts as that lens's alone.
     static constexpr double straddling = 1.02;
 
+    // A block that cuts what it sees lens by lens (kernels/filtered_lens.h).
+    // Share of a stratum: where pixels see less of it along an axis, a footprint wider than `soft` is not shared.
+    static constexpr double narrow = 0.5;
+    // Picture pixels: a diffuser that turns rays along an axis by less is taken to turn them by as much.
+    static constexpr double least_span = 0.25;
+    // Radii of a round hole: up to this half width of a picture pixel its edge counts as straight.
+    static constexpr double straight = 0.5;
+
     // A bundle (optics/bundle.h, kernels/filtered_bundles.h).
     // Panel pixels: a wider footprint is the mean over boxes around its probes, not one box.
     static constexpr double soft = 1;

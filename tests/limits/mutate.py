@@ -17,7 +17,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HEADER = "optics/filtered_limits.h"
-TESTS = ["FilteredEstimator.KeepsItsBits*", "FilteredExtremes.LightStaysLight", "*HasTheSameBitsEverywhere*"]
+TESTS = ["FilteredEstimator.KeepsItsBits*", "FilteredExtremes.LightStaysLight", "*HasTheSameBitsEverywhere*", "*OfEveryLatticeAndCamera*"]
 
 
 def limits(text):

@@ -224,6 +224,12 @@ class BlockWork {
         return optics::min(whole / optics::max(share, F(1e-12f)), F(1));
     }
 
+    /// Does no pixel of the packet see the lens from its centre, through the middle of the pupil, where that is all that counts?
+    LFDSIM_BOTH bool unseen(const Seen& seen) const {
+        if (seen.corners->count == 0 || (spreads() && parts_an_axis(tile) > 1)) return false;
+        return optics::none(reaches(*seen.corners, {seen.across->low, seen.across->high, seen.up->low, seen.up->high}));
+    }
+
     LFDSIM_BOTH static void make_broken(Bundles& b) {
         b.through.state = SharedBundle::State::broken;
         b.beside.state = SharedBundle::State::dark;
@@ -284,11 +290,11 @@ class BlockWork {
                        own = b.through.state == SharedBundle::State::broken;
             if (at.per_axis > 0 && !own && !own_beside) return;
             if (own && by_lens()) {
+                if (unseen(seen)) return;
                 ready();
-                optics::Sampler<F> sampler(Sampling::random, 6, tile.view->seed, number + optics::Uint<F>(first));
-                sampler.sample = seen.number * 8;
-                if (scene.leaky && scene.hole_radius > 0) return add_random_parts<through>(tile, pixels, seen, sampler, to.boxes);
-                return add_parts<through>(tile, at.grids, pixels, seen, dx, dy, per_reach, sampler, to.boxes);
+                const OwnPixels own_pixels{pixels, number + optics::Uint<F>(first), dx, dy, per_reach};
+                if (scene.leaky && scene.hole_radius > 0) return add_random_parts<through>(tile, own_pixels, seen, to.boxes);
+                return add_parts<through>(tile, at.grids, own_pixels, seen, to.boxes);
             }
             const F share = seen.share();
             if (optics::none(share > F(0))) return;  // what only other pixels of the block see

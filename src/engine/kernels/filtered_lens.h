@@ -7,6 +7,7 @@
 #include "engine/kernel.h"
 #include "engine/kernels/filtered_axis.h"
 #include "optics/bundle.h"
+#include "optics/filtered_limits.h"
 #include "optics/outline.h"
 
 namespace lfdsim {
@@ -55,8 +56,8 @@ class LensCutter {
             const S reach = first[a].reach();
             low[a] = optics::min(first[a].middle, last[a].middle) - reach;
             high[a] = optics::max(first[a].middle, last[a].middle) + reach;
-            // Where the diffuser turns rays by less than a pixel sees, numbers are those of a diffuser of a quarter of a pixel.
-            const S least = S(0.25) * reach / S(block.reach);
+            // Where the diffuser turns rays by less than a pixel sees, numbers are those of a diffuser of a part of a pixel.
+            const S least = S(FilteredLimits::least_span) * reach / S(block.reach);
             linear[a] = !(span[a] > least);
             per[a] = along[a] / optics::max(S(0.5) * least, S(1e-12));
         }
@@ -82,7 +83,7 @@ class LensCutter {
         if (!scene.has_diffuser && scene.hole_radius > 0) {
             // A pixel is to see an edge as straight.
             const S(&to)[2][2] = grids.pixel;
-            const S most = S(0.5) * scene.hole_radius;
+            const S most = S(FilteredLimits::straight) * scene.hole_radius;
             if (!(optics::abs(to[0][0]) + optics::abs(to[1][0]) < most && optics::abs(to[0][1]) + optics::abs(to[1][1]) < most))
                 return false;
         }
@@ -141,7 +142,7 @@ class LensCutter {
             S wanted = S(tile.strata) * optics::min(size, S(2) * seen) / optics::max(span[a], S(1e-12));
             wanted = whole(wanted);
             if (!cut_axis(grid.axis[a], a, at[a], extent[a], size / wanted)) return false;
-            grid.narrow = grid.narrow || S(2) * span[a] * wanted < size;
+            grid.narrow = grid.narrow || span[a] * wanted < S(FilteredLimits::narrow) * size;
         }
         grid.corners = 0;
         if (scene.hole_radius == 0 || scene.leaky) outline(grid, axis, cell);
@@ -167,7 +168,7 @@ class LensCutter {
         const S diverging = S(tile.view->start_z) / optics::max(scene.holes_below[along], S(1e-6));
         const S rows = whole(optics::max(S(tile.strata), optics::abs(lean) * span[along] * diverging * scene.pixels_per_mm)),
                 columns = whole(S(tile.strata) * S(2) * extent / optics::max(span[across], S(1e-12)));
-        grid.narrow = S(2) * span[across] * columns < S(2) * extent;
+        grid.narrow = span[across] * columns < S(FilteredLimits::narrow) * S(2) * extent;
         if (cuts + int(rows) + int(columns) + 2 > room.cuts) return false;
         Axis &length = take(grid.axis[along], along, int(rows)), &width = take(grid.axis[across], across, int(columns));
         length.moving = true;

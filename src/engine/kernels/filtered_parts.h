@@ -119,18 +119,35 @@ LFDSIM_BOTH Span<F> part_of_span(const Span<F>& of, bool against, int k, int n, 
     return part;
 }
 
-/// Adds the light that pixels at (dx, dy) of the block see of a lens by rays of their own, four through each part of the stratum.
+/// The pixels of a packet: their numbers in the frame, and where they are in the block, -1 .. 1, which is so many pixels wide.
+struct OwnPixels {
+    const optics::PixelRays<F>& rays;
+    optics::Uint<F> number;
+    F dx, dy;
+    S per_reach;
+
+    LFDSIM_BOTH optics::Sampler<F> sampler(const Tile& tile, std::uint32_t sample) const {
+        optics::Sampler<F> own(Sampling::random, 6, tile.view->seed, number);
+        own.sample = sample;
+        return own;
+    }
+};
+
+/// Into how many parts along each axis a pixel that finds out what it sees of a lens divides the square: each takes four rays.
+LFDSIM_BOTH int parts_an_axis(const Tile& tile) { return tile.weak ? (tile.strata + 1) / 2 : 1; }
+
+/// Adds the light that pixels see of a lens by rays of their own, four through each part of the stratum.
 /// The rays of a part start in one of as many cells of the pixel and of the pupil, in an order in which each column and row of
 /// cells goes with each column and row of parts (an orthogonal array) and neighbouring parts have cells far from each other; boxes
 /// are wider by what a cell spreads.
 template <optics::Way through>
-LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const optics::PixelRays<F>& pixels, const Seen& seen, F dx, F dy,
-                            S per_reach, const optics::Sampler<F>& sampler, optics::Light<F>& light) {
+LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const OwnPixels& pixels, const Seen& seen,
+                            optics::Light<F>& light) {
     const optics::Scene<S>& scene = *tile.scene;
     const Grid& grid = *seen.grid;
     const SharedBundle& known = seen.bundles->through;
     const bool spreads = scene.thin_lens || (scene.box_filter && scene.has_diffuser), round = scene.hole_radius > 0;
-    const int n = tile.weak ? (tile.strata + 1) / 2 : 1, all = n * n;
+    const int n = parts_an_axis(tile), all = n * n;
     // Of the pixel's variance and, mapped to the disk, of the pupil's that lies within cells.
     const S left = optics::min(S(scene.thin_lens ? 2 : 1) / S(all), S(1));
     const int far = far_step(n);
@@ -141,7 +158,7 @@ LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const optics::
             rays.blur_height = F(known.blur_height * left);
         }
         if (spreads && !tile.weak) {
-            rays.start = random_start(scene, sampler);
+            rays.start = random_start(scene, pixels.sampler(tile, seen.number * 8));
         } else if (spreads && all > 1) {
             const auto cell = [&](int column, int row) {
                 return F(S(2 * (far * (column * (k % n) + row * (k / n)) % n) + 1 - n) / S(n));
@@ -153,16 +170,17 @@ LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const optics::
             if (scene.thin_lens) optics::disk(cell(1, 1), cell(1, 2), rays.start.lens_x, rays.start.lens_y);
         }
         const Start& start = rays.start;
-        const F right = dx + start.right * F(S(0.5) * per_reach), down = dy - start.up * F(S(0.5) * per_reach);
+        const F half_pixel = F(S(0.5) * pixels.per_reach), right = pixels.dx + start.right * half_pixel,
+                down = pixels.dy - start.up * half_pixel;
         const bool with_holes = round && scene.has_diffuser;
         const Span<F> x = part_of_span(*seen.across, true, k % n, n, with_holes),
                       y = part_of_span(*seen.up, false, k / n, n, with_holes);
         if (with_holes) {
-            add_own_probes<through>(tile, pixels, x, y, x.share * y.share, rays, light);
+            add_own_probes<through>(tile, pixels.rays, x, y, x.share * y.share, rays, light);
             continue;
         }
         if (!round && all == 1) {
-            add_own_part<through>(tile, pixels, x, y, *seen.corners, rays, light);
+            add_own_part<through>(tile, pixels.rays, x, y, *seen.corners, rays, light);
             continue;
         }
         optics::Corners<F> corners;
@@ -175,23 +193,22 @@ LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const optics::
                 corners.y[c] = corners.y[c] + start.lens_x * F(grids.pupil[0][1]) + start.lens_y * F(grids.pupil[1][1]);
             }
         }
-        add_own_part<through>(tile, pixels, x, y, corners, rays, light);
+        add_own_part<through>(tile, pixels.rays, x, y, corners, rays, light);
     }
 }
 
 /// The same where light also passes beside round lenses: through each part of the stratum one random ray, with two more beside it.
 template <optics::Way through>
-LFDSIM_APART void add_random_parts(const Tile& tile, const optics::PixelRays<F>& pixels, const Seen& seen,
-                                   optics::Sampler<F> sampler, optics::Light<F>& light) {
+LFDSIM_APART void add_random_parts(const Tile& tile, const OwnPixels& pixels, const Seen& seen, optics::Light<F>& light) {
     const int n = tile.weak ? tile.strata : 1;
-    const std::uint32_t first = sampler.sample;
+    optics::Sampler<F> sampler = pixels.sampler(tile, 0);
     for (int k = 0; k < n * n; ++k) {
         const Span<F> x = part_of_span(*seen.across, true, k % n, n, true), y = part_of_span(*seen.up, false, k / n, n, true);
         const optics::Box<F> box{x.low, x.high, y.low, y.high};
         const F share = F(0.25f) * optics::area_within(*seen.corners, box);
         if (optics::none(share > F(0))) continue;
-        sampler.sample = first + std::uint32_t(8 * k);
-        add_own_rays<through>(tile, pixels, x, y, *seen.corners, Own::all, share, sampler, light);
+        sampler.sample = (seen.number + std::uint32_t(k * max_strata * max_strata)) * 8;
+        add_own_rays<through>(tile, pixels.rays, x, y, *seen.corners, Own::all, share, sampler, light);
     }
 }
 
