@@ -38,6 +38,8 @@ struct FilteredLimits {
     static constexpr double least_span = 0.25;
     // Radii of a round hole: up to this half width of a picture pixel its edge counts as straight.
     static constexpr double straight = 0.5;
+    // Radii of a lens, or half widths of a strip: rays up to here from its axis tell how the camera's pupil spreads all of them.
+    static constexpr double well_inside = 0.7;
 
     // A bundle (optics/bundle.h, kernels/filtered_bundles.h).
     // Panel pixels: a wider footprint is the mean over boxes around its probes, not one box.

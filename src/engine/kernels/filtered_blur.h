@@ -4,6 +4,7 @@
 #include "engine/kernel.h"
 #include "engine/kernels/filtered_axis.h"
 #include "optics/bundle.h"
+#include "optics/filtered_limits.h"
 
 namespace lfdsim {
 
@@ -11,25 +12,27 @@ namespace {
 
 using SharedBundle = optics::SharedBundle<S>;
 
-/// Where pixels trace their own rays: by how much the camera's pixel and pupil spread one of them, through the middle of what
-/// the block sees of the lens; squared widths of boxes (optics::blur). `across` and `up` are the stratum along x
+/// Where pixels trace their own rays: by how much the camera's pixel and pupil spread one of them; squared widths of boxes
+/// (optics::blur). That ray goes through the middle of what the block sees of the lens, or as near to it as lies well inside the
+/// lens: near its edge rays may end far from each other that start close together. `across` and `up` are the grid's stratum along x
 /// and y; `rays` is overwritten.
 template <optics::Way through>
-LFDSIM_BOTH void blur_alone(const optics::Scene<S>& scene, const optics::PixelBlock<S>& block, const Axis* axis,
+LFDSIM_BOTH void blur_alone(const optics::Scene<S>& scene, const optics::PixelBlock<S>& block, const Grid& grid,
                             const Stratum& across, const Stratum& up, optics::Probes<S>& rays, SharedBundle& b) {
     b.blur_width = b.blur_height = 0;
     const Stratum* const of[2] = {&across, &up};
     S at[2], slope[2];
     for (int a = 0; a < 2; ++a) {
-        const Gradient &first = axis[a].first, &last = axis[a].last;
+        const Gradient &first = grid.axis[a].first, &last = grid.axis[a].last;
         const S low = optics::min(first.middle, last.middle) - first.reach() - of[a]->axis,
                 high = optics::max(first.middle, last.middle) + first.reach() - of[a]->axis;
-        at[a] = S(0.5) * (optics::max(of[a]->from, low) + optics::min(of[a]->to, high));
+        at[a] = a == grid.strip ? S(0) : S(0.5) * (optics::max(of[a]->from, low) + optics::min(of[a]->to, high));
     }
-    if (scene.hole_radius > 0) {
-        const S far = optics::sqrt(at[0] * at[0] + at[1] * at[1]), most = S(0.9) * scene.hole_radius;
-        for (int a = 0; a < 2 && far > most; ++a) at[a] = at[a] * (most / far);
-    }
+    const S radius =
+        scene.hole_radius > 0 ? scene.hole_radius : optics::min(scene.lattice.half_pitch[0], scene.lattice.half_pitch[1]);
+    const S far = optics::sqrt(at[0] * at[0] + at[1] * at[1]),
+            most = S(FilteredLimits::well_inside) * (grid.strip < 0 ? radius : scene.hole_half);
+    for (int a = 0; a < 2 && far > most; ++a) at[a] = at[a] * (most / far);
     for (int a = 0; a < 2; ++a) {
         const S place = of[a]->axis + at[a], below = scene.holes_below[a];
         slope[a] = scene.has_diffuser ? (place - block.sweep[a][0].at) / below : block.sweep[a][0].slope;

@@ -113,7 +113,7 @@ class BundleMaker {
         if (scene.by_lens && tile.weak) {
             b.through.state = SharedBundle::State::broken;
             if (scene.thin_lens || (scene.box_filter && scene.has_diffuser))
-                blur_alone<through>(scene, block, axis, across, up, rays, b.through);
+                blur_alone<through>(scene, block, *grid, across, up, rays, b.through);
             return;
         }
         if (b.straddles || (r > 0 && hole_edge_near(x, y))) {
