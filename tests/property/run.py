@@ -3,7 +3,7 @@
 
 The forms are rays of tests/oracle's tracer and equations of docs/model.md; none shares a line with src/. Prints a table with a row for each measure; the exit
 code is 1 if fewer than 95 % of its figures lie within their own stated error, if more than 10 % are null where the form is defined, if the median stated error
-is above 2 % (0.1 degrees for the field of view), or if a null has no reason.
+of five and more is above 2 % (0.1 degrees for the field of view), or if a null has no reason.
 """
 import argparse
 import functools

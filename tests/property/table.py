@@ -10,6 +10,7 @@ MOST_ERROR = 0.02        # median of stated errors, of the figure
 MOST_ERROR_DEG = 0.1     # the same for the field of view
 MOST_ERROR_CONTRAST = 0.01  # the same for contrasts, which are shares of 1: bands of less are not seen
 FEW = 20                 # of fewer cases one may disagree: 19 of 20 is the rate that is stated
+A_MEDIAN = 5             # of fewer cases the median of the stated errors tells one display, not the measure
 FORM_ERRORS = 3          # as many standard errors of the form are added to the stated error
 
 
@@ -89,7 +90,7 @@ class Row:
             return found
         if self.nulls > MOST_NULL:
             found.append("null")
-        if self.error > self.goal:
+        if self.error > self.goal and len(self.cases) >= A_MEDIAN:
             found.append("stated error")
         return found
 
