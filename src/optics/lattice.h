@@ -46,18 +46,19 @@ LFDSIM_FN Place<F> axis_of(const Lattice<Scalar<F>>& lattice, Cell<F> cell) {
 template <class F>
 LFDSIM_FN Cell<F> cell_at(const Lattice<Scalar<F>>& lattice, F x, F y) {
     if (!lattice.staggered) return {cell_along(lattice, 0, x), cell_along(lattice, 1, y)};
-    const auto in_row = [&](F j) { return Cell<F>{cell_along(lattice, 0, x - stagger(lattice, j)), j}; };
-    if (!lattice.hexagonal) return in_row(cell_along(lattice, 1, y));
+    if (!lattice.hexagonal) {
+        const F j = cell_along(lattice, 1, y);
+        return {cell_along(lattice, 0, x - stagger(lattice, j)), j};
+    }
     // A hexagon holds the points that are nearest to its axis, and its corners do not reach the next row's axes: the point is in
-    // the row below it or in the one above.
-    const F row = floor(y * F(lattice.per_pitch[1]));
-    const Cell<F> below = in_row(row), above = in_row(row + F(1));
-    const auto distance2 = [&](Cell<F> cell) {
-        const Place<F> axis = axis_of(lattice, cell);
-        return (x - axis.x) * (x - axis.x) + (y - axis.y) * (y - axis.y);
-    };
-    const Mask<F> lower = distance2(below) <= distance2(above);
-    return {select(lower, below.i, above.i), select(lower, below.j, above.j)};
+    // the row below it or in the one above, of which one is staggered.
+    const F below = floor(y * F(lattice.per_pitch[1])), above = below + F(1);
+    const F aside = stagger(lattice, below), aside_above = F(lattice.half_pitch[0]) - aside;
+    const F i = cell_along(lattice, 0, x - aside), i_above = cell_along(lattice, 0, x - aside_above);
+    const F dx = x - (i * F(lattice.pitch[0]) + aside), dx_above = x - (i_above * F(lattice.pitch[0]) + aside_above),
+            dy = y - below * F(lattice.pitch[1]), dy_above = y - above * F(lattice.pitch[1]);
+    const Mask<F> lower = dx * dx + dy * dy <= dx_above * dx_above + dy_above * dy_above;
+    return {select(lower, i, i_above), select(lower, below, above)};
 }
 
 /// A pair of opposite borders of a cell: the lines at +-half from its axis along the unit vector (x, y).

@@ -19,25 +19,39 @@ struct Passage {
 };
 
 /// The forms of surface that a kernel is compiled for, so that the 2019 paper's lens without a stop does not pay for the others:
-/// that lens's; any of revolution, in rows and columns with air under them; those in other lattices, cylinders and glued ones too.
-/// For triangles in place of surfaces (src/meshed) the caller supplies meet_mesh(scene, k, ray).
-enum class Shapes { plano_convex, any, other, meshed };
+/// that lens's in rows and columns, as strips, and in staggered rows; any of revolution in rows and columns; all of them in all
+/// lattices, glued too. All but the last have air under them. For triangles in place of surfaces (src/meshed) the caller supplies
+/// meet_mesh(scene, k, ray).
+enum class Shapes { plano_convex, plano_convex_strips, plano_convex_staggered, any, all, meshed };
 
-/// Tells the compiler, which leaves out what cannot be, that a display has rows and columns of lenses with air under them. It takes
+template <Shapes shapes>
+constexpr bool are_plano_convex =
+    shapes == Shapes::plano_convex || shapes == Shapes::plano_convex_strips || shapes == Shapes::plano_convex_staggered;
+
+/// Tells the compiler, which leaves out what cannot be, which lattices and what under the lenses a kernel is compiled for. It takes
 /// these one by one only, and forgets them where a function is called.
-template <class S>
-LFDSIM_FN void has_rows_in_air(const Scene<S>& scene) {
-    if (scene.lattice.staggered) __builtin_unreachable();
-    if (scene.lattice.hexagonal) __builtin_unreachable();
-    if (scene.lattice.strips) __builtin_unreachable();
+template <Shapes shapes, class S>
+LFDSIM_FN void assume(const Scene<S>& scene) {
+    if constexpr (shapes == Shapes::all) return;
     if (scene.glued) __builtin_unreachable();
     if (scene.layer_count != 0) __builtin_unreachable();
+    if constexpr (shapes == Shapes::plano_convex_staggered) {
+        if (!scene.lattice.staggered) __builtin_unreachable();
+    } else {
+        if (scene.lattice.staggered) __builtin_unreachable();
+        if (scene.lattice.hexagonal) __builtin_unreachable();
+    }
+    if constexpr (shapes == Shapes::plano_convex_strips) {
+        if (!scene.lattice.strips) __builtin_unreachable();
+    } else {
+        if (scene.lattice.strips) __builtin_unreachable();
+    }
 }
 
 /// Surface k, counted from the viewer's side.
 template <Shapes shapes, class S>
 LFDSIM_FN Shape shape_of(const Scene<S>& scene, int k) {
-    if (shapes == Shapes::plano_convex) return k == 0 ? Shape::sphere : Shape::plane;
+    if (are_plano_convex<shapes>) return k == 0 ? Shape::sphere : Shape::plane;
     return scene.surface[k].shape;
 }
 
@@ -55,7 +69,14 @@ LFDSIM_FN Hit<F> meet(Shape shape, const SurfaceData<Scalar<F>>& surface, Ray<F>
 template <class F>
 LFDSIM_FN Hit<F> meet_cylinder(Shape shape, const SurfaceData<Scalar<F>>& surface, const Ray<F>& in_vertex_plane) {
     const Vec3<F>&at = in_vertex_plane.at, &to = in_vertex_plane.to;
-    const F length2 = to.x * to.x + to.z * to.z, length = sqrt(length2), per = F(1) / length;
+    if (shape == Shape::plane) {
+        Hit<F> hit = meet(shape, surface, Ray<F>{{at.x, F(0), F(0)}, to});
+        hit.at.y = at.y;
+        return hit;
+    }
+    const F length2 = to.x * to.x + to.z * to.z;
+    if (shape == Shape::sphere) return meet_round_cylinder(surface, in_vertex_plane, length2);
+    const F length = sqrt(length2), per = F(1) / length;
     Hit<F> hit = meet(shape, surface, Ray<F>{{at.x, F(0), F(0)}, {to.x * per, F(0), to.z * per}});
     hit.at.y = at.y + to.y * (hit.at.z / to.z);
     hit.cos = hit.cos * length;
@@ -69,7 +90,7 @@ LFDSIM_FN Hit<F> meet(const Scene<Scalar<F>>& scene, int k, Ray<F> in_vertex_pla
     if constexpr (shapes == Shapes::meshed)
         return meet_mesh(scene, k, in_vertex_plane);
     else
-        return shapes == Shapes::other && scene.lattice.strips
+        return (shapes == Shapes::all || shapes == Shapes::plano_convex_strips) && scene.lattice.strips
                    ? meet_cylinder(scene.surface[k].shape, scene.surface[k], in_vertex_plane)
                    : meet(shape_of<shapes>(scene, k), scene.surface[k], in_vertex_plane);
 }
@@ -138,8 +159,8 @@ LFDSIM_FN Place<F> bend(const Scene<Scalar<F>>& scene, Place<F> q, Place<F> slop
 template <Shapes shapes, class F, class Rules>
 LFDSIM_FN void pass_lens(const Scene<Scalar<F>>& scene, Rules&& rules, const Ray<F>& entering, Hit<F> hit, Passage<F>& way) {
     using S = Scalar<F>;
-    const int count = shapes == Shapes::plano_convex ? 2 : scene.surface_count;
-    const bool has_stop = shapes != Shapes::plano_convex && scene.has_stop;
+    const int count = are_plano_convex<shapes> ? 2 : scene.surface_count;
+    const bool has_stop = !are_plano_convex<shapes> && scene.has_stop;
     // The stop is tested where the ray first crosses its plane: before the first surface or after any. z from the panel.
     Mask<F> stop_ahead = way.alive;
     auto stop_between = [&](F from_z, F to_z, Vec3<F> at, Vec3<F> to, F at_z) {
@@ -178,7 +199,7 @@ LFDSIM_FN void pass_lens(const Scene<Scalar<F>>& scene, Rules&& rules, const Ray
     if (has_stop) stop_between(z, -above_all, way.ray.at, way.ray.to, z);
     rules.leaves(way);
     if (shape_of<shapes>(scene, count - 1) != Shape::plane) way.alive = way.alive && (way.ray.to.z < F(0));
-    if (shapes != Shapes::plano_convex && scene.hollow_back) {  // the way out is the hole in the black part's lower face
+    if (!are_plano_convex<shapes> && scene.hollow_back) {  // the way out is the hole in the black part's lower face
         const F down = (F(scene.wall_bottom) - z) / way.ray.to.z;
         const F x = way.ray.at.x + way.ray.to.x * down, y = way.ray.at.y + way.ray.to.y * down;
         way.alive = way.alive && (rules.passes_back(x, y) || (down < F(0)));

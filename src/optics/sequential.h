@@ -60,16 +60,15 @@ template <class F>
 LFDSIM_FN Mask<F> may_meet_neighbours(const Lattice<Scalar<F>>& lattice, Cell<F> cell, F x, F y, F ex, F ey, F r) {
     const Place<F> axis = axis_of(lattice, cell);
     const F reach2 = r * r + (ex * ex + ey * ey);
+    const F ux = abs(x - axis.x + ex), uy = abs(y - axis.y + ey), px = F(lattice.pitch[0]), py = F(lattice.pitch[1]);
     if (lattice.staggered) {
-        const F ux = x - axis.x + ex, uy = y - axis.y + ey;
-        const Mask<F> leaves = !in_cell(lattice, ux, uy);
-        if (!lattice.hexagonal) return leaves;  // a brick's axis need not be the nearest to the points in it
-        const Place<F> nearest = axis_of(lattice, cell_at(lattice, x + ex, y + ey));
-        const F ax = x + ex - nearest.x, ay = y + ey - nearest.y;
-        return leaves && (ax * ax + ay * ay <= reach2);
+        // Of the neighbours in its row, in the next one and in the one after that; beyond them any may be near.
+        const F ax = ux - px, bx = ux - F(lattice.half_pitch[0]), by = uy - py, cy = by - py;
+        F nearest = min(ax * ax + uy * uy, bx * bx + by * by);
+        if (!lattice.hexagonal) nearest = min(nearest, ux * ux + cy * cy);  // low bricks
+        return !in_cell(lattice, ux, uy) && ((nearest <= reach2) || (ux > px) || (uy > py));
     }
     // Of the neighbour across the one border that it crosses; where it crosses more, any may be near.
-    const F ux = abs(x - axis.x + ex), uy = abs(y - axis.y + ey), px = F(lattice.pitch[0]), py = F(lattice.pitch[1]);
     const Mask<F> out_x = ux > F(lattice.half_pitch[0]), out_y = uy > F(lattice.half_pitch[1]);
     const F ax = min(ux, px - ux), ay = min(across(lattice, uy), across(lattice, py - uy));
     const Mask<F> near = (ax * ax + ay * ay <= reach2) || (out_x && out_y) || (ux > px) || (uy > py);
@@ -94,7 +93,7 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<
     const F fall = F(1) / ray.to.z;  // dx/dz = to.x fall
     // The cell is that at the point where the ray enters the zone of the caps (the plane of the rims, if they are the highest).
     F x = ray.at.x, y = ray.at.y;
-    if (shapes != Shapes::plano_convex && scene.zone_top != first.z) {
+    if (!are_plano_convex<shapes> && scene.zone_top != first.z) {
         const F up = F(scene.zone_top - first.z) * fall;
         x = x + ray.to.x * up;
         y = y + ray.to.y * up;
@@ -102,11 +101,11 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<
     way.cell = cell_at(scene.lattice, x, y);
     Hit<F> hit = meet_first<shapes>(scene, ray, way.cell);
     hit.ok = hit.ok && extent.holds(way.cell);
-    if (shapes != Shapes::plano_convex && scene.dimple) {  // the entrance is the rim's circle or cell
+    if (!are_plano_convex<shapes> && scene.dimple) {  // the entrance is the rim's circle or cell
         const Place<F> axis = axis_of(scene.lattice, way.cell);
         const F lx = x - axis.x, ly = across(scene.lattice, y - axis.y), r = F(first.semi_aperture);
         hit.ok = hit.ok && (lx * lx + ly * ly <= r * r);
-    } else if (shapes == Shapes::plano_convex || scene.zone_top > scene.zone_bottom) {
+    } else if (are_plano_convex<shapes> || scene.zone_top > scene.zone_bottom) {
         const F kd = F(scene.zone_bottom - scene.zone_top) * fall;
         Mask<F> astray = way.alive && !hit.ok &&
                          may_meet_neighbours(scene.lattice, way.cell, x, y, ray.to.x * kd, ray.to.y * kd, F(first.semi_aperture));
@@ -151,14 +150,14 @@ template <Shapes shapes, class F>
 LFDSIM_FN PanelPoint<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
                                      const PanelBase<Scalar<F>>& base, Passage<F> way) {
     using S = Scalar<F>;
-    const int count = shapes == Shapes::plano_convex ? 2 : scene.surface_count;
+    const int count = are_plano_convex<shapes> ? 2 : scene.surface_count;
     const Ray<F> entering = way.ray;
     const Hit<F> hit = enter_array<shapes>(scene, extent, entering, way);
-    if constexpr (shapes != Shapes::other) has_rows_in_air(scene);
+    assume<shapes>(scene);
     pass_lens<shapes>(scene, InArray<F>{scene, extent, way.cell}, entering, hit, way);
     const Vec3<F> leaves{way.ray.at.x, way.ray.at.y, way.ray.at.z + F(scene.surface[count - 1].z)};
     Place<F> end;
-    if constexpr (shapes != Shapes::other) {
+    if constexpr (shapes != Shapes::all) {
         const F t = -leaves.z / way.ray.to.z;
         end = {leaves.x + way.ray.to.x * t, leaves.y + way.ray.to.y * t};
     } else {

@@ -67,6 +67,23 @@ LFDSIM_FN Hit<F> meet_sphere(const SurfaceData<Scalar<F>>& surface, Ray<F> ray) 
     return hit;
 }
 
+/// The same for a circular cylinder along y'. Seen along y' the ray meets a circle; length2 is the square of its direction's part
+/// in that plane, and the discriminant that of the ray in space.
+template <class F>
+LFDSIM_FN Hit<F> meet_round_cylinder(const SurfaceData<Scalar<F>>& surface, Ray<F> ray, F length2) {
+    const F c = surface.curvature;
+    const F cs2 = c * (ray.at.x * ray.at.x);
+    const F g = ray.to.z - c * (ray.at.x * ray.to.x);
+    const F cos2 = g * g - length2 * (c * cs2);
+    const F cosine = sqrt(max(cos2, F(0)));
+    const F t = cs2 / (g - cosine);
+    const F x = ray.at.x + ray.to.x * t, y = ray.at.y + ray.to.y * t, z = ray.to.z * t;
+    const F cz = c * z;
+    Hit<F> hit{{x, y, z}, {-(c * x), F(0), F(1) - cz}, cosine, cos2, {}};
+    hit.ok = (cos2 > F(0)) && (cz <= F(surface.c_rim));
+    return hit;
+}
+
 /// The same for conics (closed form, then the normal) and even aspheres (Newton's method from the conic; each lane stops by itself,
 /// so that its bits do not depend on its neighbours).
 template <class F>

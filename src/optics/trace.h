@@ -8,20 +8,28 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// The ways through an array, one of which a display uses: chosen outside the loop over samples, so that none pays for another. The
-/// first three are for rows and columns of lenses with air under them, `glass` is for light between the lenses, `other` for the
-/// rest. A new one takes a name here, a line in each of the functions below, and a function that traces it.
-enum class Way { plano_convex, opaque, ideal, glass, other };
+/// The ways through an array, one of which a display uses: chosen outside the loop over samples, so that none pays for another.
+/// Three are for plano-convex lenses, in rows and columns, as strips, and in staggered rows, the next two for rows and columns, all
+/// with air under them; `glass` is for light between the lenses, `other` for the rest. A new one takes a name here, a line in each
+/// of the functions below, and a function that traces it.
+enum class Way { plano_convex, strips, staggered, opaque, ideal, glass, other };
 
 template <class S>
 LFDSIM_FN Way way_through(const Scene<S>& scene) {
     if (!scene.thin && scene.surround != Surround::opaque) return Way::glass;
-    if (scene.lattice.staggered || scene.lattice.strips || scene.glued || scene.layer_count > 0) return Way::other;
-    if (scene.thin) return Way::ideal;
-    const bool plain =
-        scene.surface_count == 2 && scene.surface[0].shape == Shape::sphere && scene.surface[1].shape == Shape::plane;
-    return plain && !scene.has_stop && !scene.dimple ? Way::plano_convex : Way::opaque;
+    if (scene.glued || scene.layer_count > 0) return Way::other;
+    const Way other = scene.lattice.strips ? Way::strips : scene.lattice.staggered ? Way::staggered : Way::other;
+    const bool rows = other == Way::other;
+    if (scene.thin) return rows ? Way::ideal : Way::other;
+    const bool plain = scene.surface_count == 2 && scene.surface[0].shape == Shape::sphere &&
+                       scene.surface[1].shape == Shape::plane && !scene.has_stop && !scene.dimple;
+    if (plain) return rows ? Way::plano_convex : other;
+    return rows ? Way::opaque : Way::other;
 }
+
+/// The way that the filtered estimator takes, which traces few rays: `other` has the same bits, and each way is much code to
+/// compile.
+constexpr Way for_few_rays(Way way) { return way == Way::plano_convex || way == Way::glass ? way : Way::other; }
 
 /// do_it.operator()<way>() for the way through a display.
 template <class S, class Do>
@@ -29,6 +37,10 @@ inline decltype(auto) with_way(const Scene<S>& scene, const Do& do_it) {
     switch (way_through(scene)) {
         case Way::plano_convex:
             return do_it.template operator()<Way::plano_convex>();
+        case Way::strips:
+            return do_it.template operator()<Way::strips>();
+        case Way::staggered:
+            return do_it.template operator()<Way::staggered>();
         case Way::opaque:
             return do_it.template operator()<Way::opaque>();
         case Way::ideal:
@@ -45,6 +57,8 @@ inline decltype(auto) with_way(const Scene<S>& scene, const Do& do_it) {
 template <class Do>
 inline void for_all_ways(const Do& do_it) {
     do_it.template operator()<Way::plano_convex>();
+    do_it.template operator()<Way::strips>();
+    do_it.template operator()<Way::staggered>();
     do_it.template operator()<Way::opaque>();
     do_it.template operator()<Way::ideal>();
     do_it.template operator()<Way::glass>();
@@ -77,15 +91,23 @@ LFDSIM_FN void to_first_vertex(const Scene<Scalar<F>>& scene, Passage<F>& way) {
 template <Way through, class F>
 LFDSIM_FN PanelPoint<F> trace_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
                                     const PanelBase<Scalar<F>>& base, Ray<F> ray, Mask<F> alive) {
-    if constexpr (through == Way::plano_convex || through == Way::opaque || through == Way::ideal) has_rows_in_air(scene);
+    constexpr Shapes shapes = through == Way::plano_convex ? Shapes::plano_convex
+                              : through == Way::strips     ? Shapes::plano_convex_strips
+                              : through == Way::staggered  ? Shapes::plano_convex_staggered
+                              : through == Way::opaque     ? Shapes::any
+                              : through == Way::ideal      ? Shapes::any
+                                                           : Shapes::all;
+    assume<shapes>(scene);
     Passage<F> way{ray, {F(0), F(0)}, F(1), alive};
     to_first_vertex(scene, way);
-    if constexpr (through == Way::ideal) return trace_ideal(scene, extent, base, way);
-    if constexpr (through == Way::plano_convex) return trace_opaque<Shapes::plano_convex>(scene, extent, base, way);
-    if constexpr (through == Way::opaque) return trace_opaque<Shapes::any>(scene, extent, base, way);
-    if constexpr (through == Way::glass) return trace_glass(scene, extent, base, way);
-    if constexpr (through == Way::other)
-        return scene.thin ? trace_ideal(scene, extent, base, way) : trace_opaque<Shapes::other>(scene, extent, base, way);
+    if constexpr (through == Way::glass) {
+        return trace_glass(scene, extent, base, way);
+    } else if constexpr (through == Way::ideal) {
+        return trace_ideal(scene, extent, base, way);
+    } else {
+        if (through == Way::other && scene.thin) return trace_ideal(scene, extent, base, way);
+        return trace_opaque<shapes>(scene, extent, base, way);
+    }
 }
 
 /// The ray of one sample of each pixel of a packet, in the first plane and after the diffuser; sampler(d) is the sample's number of

@@ -69,7 +69,7 @@ std::string told(int n, const Display& d) {
 TEST(WhiteLattices, LuminanceIsThatOfTheory) {
     DrawLattices draw(31);
     int glass = 0;
-    for (int n = 0; n < 24; ++n) {
+    for (int n = 0; n < 12; ++n) {
         const Display d = draw.display(n);
         if (!validate(d).empty()) continue;
         const Geometry g = resolve(d);
@@ -82,12 +82,12 @@ TEST(WhiteLattices, LuminanceIsThatOfTheory) {
         // Glass that is thick or steep at the rim passes less, and its oblique light lands elsewhere.
         EXPECT_NEAR(found.value / theory.value, 1, (d.lens.is_thin() ? 0.005 : 0.02) + found.error / theory.value) << told(n, d);
     }
-    EXPECT_GT(glass, 6);
+    EXPECT_GT(glass, 2);
 }
 
 TEST(WhiteLattices, BandsAreThoseOfTheory) {
     DrawLattices draw(32);
-    constexpr int displays = 28;
+    constexpr int displays = 14;
     int with_bands = 0, measured = 0;
     std::vector<double> differences;
     for (int n = 0; n < displays; ++n) {
@@ -115,7 +115,7 @@ TEST(WhiteLattices, BandsAreThoseOfTheory) {
                 differences[differences.size() / 2], differences.back());
     EXPECT_LT(differences[differences.size() / 2], 0.006);
     EXPECT_GT(with_bands, measured / 4);
-    EXPECT_LT(with_bands, measured - 5);
+    EXPECT_LT(with_bands, measured - 2);
 }
 
 // What advice suggests leaves no bands, on arrays that are not turned and on strips of any slant.

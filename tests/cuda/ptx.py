@@ -8,7 +8,7 @@ import sys
 import tempfile
 
 ARCHITECTURES = [75, 86, 90]
-WAYS = ["plano_convex", "opaque", "ideal", "glass", "other"]
+WAYS = ["plano_convex", "strips", "staggered", "opaque", "ideal", "glass", "other"]
 
 
 def functions(ptx):

@@ -94,5 +94,41 @@ TEST_P(Accuracy, FloatIsAsGoodAsDouble) {
     }
 }
 
+// Where more than one way through an array fits they do the same, bit by bit.
+TEST(Ways, HaveTheBitsOfTheMostGeneral) {
+    for (const LatticeKind lattice : {LatticeKind::square, LatticeKind::hexagon, LatticeKind::brick, LatticeKind::strips}) {
+        for (const bool ideal : {false, true}) {
+            Display d = example();
+            d.array.lattice = lattice;
+            d.array.count.reset();
+            if (ideal) d.lens.kind = IdealLens{2, 8};
+            d.diffuser = Diffuser{40, {8, 8}, Profile::box};
+            look_from(d, 20, 400);
+            ASSERT_TRUE(validate(d).empty());
+            const Geometry g = resolve(d);
+            const Scene<float> scene = make_scene<float>(d, g);
+            const View view = make_view(d, g);
+            EXPECT_EQ(optics::way_through(scene) == Way::other, ideal && lattice != LatticeKind::square);
+            int lit = 0;
+            for (int row = 1; row < view.height; row += 7) {
+                for (int column = 2; column < view.width; column += 7) {
+                    const auto pixel = optics::pixel_rays<float>(view, column, row);
+                    Sampler<float> sampler(Sampling::random, optics::sampler_dimensions, 5,
+                                           std::uint32_t(row * view.width + column));
+                    const PanelHit<float> a = optics::with_way(
+                                              scene, [&]<Way way>() { return optics::trace<way>(scene, view, pixel, sampler); }),
+                                          b = optics::trace<Way::other>(scene, view, pixel, sampler);
+                    ASSERT_EQ(a.lit, b.lit);
+                    if (!a.lit) continue;
+                    ++lit;
+                    ASSERT_EQ(a.pixel, b.pixel);
+                    ASSERT_EQ(a.weight, b.weight);
+                }
+            }
+            EXPECT_GT(lit, 100);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace lfdsim

@@ -160,9 +160,10 @@ class CudaQueue : public wide::Queue {
         optics::for_all_ways([&]<optics::Way way>() {
             look.template operator()<Step::points, way, true>();
             look.template operator()<Step::points, way, false>();
-            look.template operator()<Step::bundles, way, true>();
-            look.template operator()<Step::pixels, way, true>();
-            look.template operator()<Step::pixels, way, false>();
+            constexpr optics::Way few = optics::for_few_rays(way);
+            look.template operator()<Step::bundles, few, true>();
+            look.template operator()<Step::pixels, few, true>();
+            look.template operator()<Step::pixels, few, false>();
         });
         return most;
     }

@@ -51,7 +51,7 @@ void render_points(const Tile& tile) {
 
 template <optics::Way through>
 void render_tile(const Tile& tile) {
-    tile.strata > 0 ? render_filtered<through>(tile) : render_points<through>(tile);
+    tile.strata > 0 ? render_filtered<optics::for_few_rays(through)>(tile) : render_points<through>(tile);
 }
 
 }  // namespace

@@ -174,7 +174,9 @@ LFDSIM_FN void item(const Frame& frame, std::int64_t i) {
 template <class Do>
 void choose_item(Step step, const Frame& frame, Do do_it) {
     auto by_way = [&]<Step s, bool simple>() {
-        optics::with_way(frame.scene, [&]<optics::Way way>() { do_it.template operator()<s, way, simple>(); });
+        optics::with_way(frame.scene, [&]<optics::Way way>() {
+            do_it.template operator()<s, s == Step::points ? way : optics::for_few_rays(way), simple>();
+        });
     };
     switch (step) {
         case Step::points:
