@@ -124,6 +124,12 @@ void add_layers(optics::Scene<S>& scene, const Display& display, const Geometry&
     }
 }
 
+template <class S>
+optics::Opening<S> make_opening(const Panel& panel) {
+    const double side = std::sqrt(panel.aperture_ratio);
+    return {panel.aperture_ratio == 1, S((1 - side) / 2), S((1 + side) / 2), S(1 / side)};
+}
+
 }  // namespace
 
 template <class S>
@@ -134,11 +140,7 @@ optics::Scene<S> make_scene(const Display& display, const Geometry& geometry) {
     scene.rows = std::uint32_t(display.panel.pixels[1]);
     scene.pixels_per_mm = S(1 / display.panel.pixel_pitch_mm);
     scene.emission_exponent = S(display.panel.emission_exponent);
-    const double q = display.panel.aperture_ratio;
-    scene.masked = q < 1;
-    scene.opening[0] = S((1 - std::sqrt(q)) / 2);
-    scene.opening[1] = S((1 + std::sqrt(q)) / 2);
-    scene.gain = S(1 / q);
+    scene.opening = make_opening<S>(display.panel);
 
     scene.aperture = array.aperture;
     scene.aperture_radius = S(geometry.glass_radius_mm);
@@ -209,8 +211,7 @@ optics::View make_view(const Display& display, const Geometry& geometry) {
 
 Estimator estimator_of(const Display& display) {
     const bool spreads = display.diffuser || display.camera.pixel_filter == PixelFilter::box;
-    const bool applies = spreads && display.panel.aperture_ratio == 1;
-    return applies ? display.render.estimator : Estimator::point;
+    return spreads ? display.render.estimator : Estimator::point;
 }
 
 std::int64_t samples_of(const Display& display) {

@@ -15,7 +15,7 @@ optics::Scene<S> make_scene(const Display&, const Geometry&);
 optics::View make_view(const Display&, const Geometry&);
 
 /// The estimator that a display is rendered with: the one it asks for, but points where the filtered one does not apply (neither a
-/// diffuser nor a pixel filter; a black matrix).
+/// diffuser nor a pixel filter).
 Estimator estimator_of(const Display&);
 
 /// Samples per pixel: what the display asks for, or the default; for the filtered estimator rounded up to a square number, rows

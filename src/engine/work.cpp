@@ -24,9 +24,10 @@ Rect checked_crop(const std::optional<Rect>& crop, const Camera& camera) {
 }
 
 /// Of point samples there may be the panel alone.
-optics::PanelLevels panel_levels(const Geometry& geometry, const std::vector<optics::PanelLevel>& levels) {
+optics::PanelLevels panel_levels(const Geometry& geometry, const std::vector<optics::PanelLevel>& levels,
+                                 const optics::Opening<float>& opening) {
     const Long along = levels.size() > 1 ? long_footprints(geometry) : Long::none;
-    return {levels.data(), int(levels.size()) / (along == Long::none ? 1 : 2), along != Long::none, along == Long::down};
+    return {levels.data(), int(levels.size()) / (along == Long::none ? 1 : 2), along != Long::none, along == Long::down, opening};
 }
 
 }  // namespace
@@ -59,7 +60,7 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
             &view,
             &sobol_directions(),
             levels[0].texels,
-            panel_levels(geometry, levels),
+            panel_levels(geometry, levels, scene.opening),
             nullptr,
             crop.x0,
             crop.y0,

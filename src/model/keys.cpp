@@ -145,7 +145,7 @@ constexpr Key<Content> content_keys[] = {
 constexpr Key<Render> render_keys[] = {
     {"estimator", &Render::estimator, no_range, false,
      "Each sample averages the panel over a lens's footprint, or, by brute force, reads one panel pixel. Without a diffuser "
-     "and pixel filter, or over a black matrix, samples are points in any case."},
+     "and pixel filter, samples are points in any case."},
     {"samples", &Render::samples, Range{1, 16777216}, false,
      "Per picture pixel, where a diffuser, filter or pupil spreads the light. Filtered ones are rounded up to a square number, "
      "3844 at most.",

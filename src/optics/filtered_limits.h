@@ -44,6 +44,9 @@ struct FilteredLimits {
     // A bundle (optics/bundle.h, kernels/filtered_bundles.h).
     // Panel pixels: a wider footprint is the mean over boxes around its probes, not one box.
     static constexpr double soft = 1;
+    // Panel pixels, where they do not shine all over: of narrower boxes the light changes from pixel to pixel of the picture, and
+    // is not interpolated.
+    static constexpr double masked = 4;
     // How far the fourth ray may be from where the other three predict it: panel pixels, plus a share of the footprint's width.
     static constexpr double least_uneven = 0.02, uneven = 0.05;
     // Share of the footprint's width, plus `least_uneven`: one that moves less over the block is treated as still.

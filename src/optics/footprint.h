@@ -80,6 +80,23 @@ struct LevelReader {
 /// A box wider or narrower than this, in cells, is read as if it were as wide.
 constexpr float least_box = 1.0f / 64, most_box = 1;
 
+/// Where pixels do not shine all over: turns one side of a box, panel pixels from a pixel's border, into that of a box of the same
+/// pixels' light on a panel whose pixels do, and multiplies `weight` by the light in the one over that in the other. A point's
+/// place is then the light before it: it stands still in the dark between two pixels and moves faster where they shine.
+template <class F>
+LFDSIM_FN void squeeze(const Opening<Scalar<F>>& opening, F& middle, F& width, F& weight) {
+    using S = Scalar<F>;
+    const auto light_before = [&](F place) {
+        const F whole = floor(place);
+        return whole + min(max((place - whole - F(opening.from)) * F(opening.per), F(0)), F(1));
+    };
+    const F wide = max(width, F(S(1.0 / 4096))), half = F(S(0.5)) * wide, pixel = floor(middle), place = middle - pixel;
+    const F first = light_before(place - half), last = light_before(place + half);
+    middle = pixel + F(S(0.5)) * (first + last);
+    width = last - first;
+    weight = weight * (width / wide);
+}
+
 /// The least level whose cells are at least `size` panel pixels wide, or the last one.
 template <class F>
 LFDSIM_FN Uint<F> level_of(F size, int count) {
@@ -144,6 +161,10 @@ LFDSIM_FN void light_of_boxes(const PanelLevels& levels, const PanelBase<Scalar<
                               F weight, Scalar<F> (*light)[4]) {
     using S = Scalar<F>;
     constexpr int lanes = LaneTraits<F>::width;
+    if (!levels.opening.whole) {
+        squeeze(levels.opening, column, wide, weight);
+        squeeze(levels.opening, row, high, weight);
+    }
     const bool any_long = levels.sums && any((levels.tall ? high : wide) > F(S(most_box)));
     S long_light[lanes][4];
     if (any_long) {
@@ -200,6 +221,7 @@ struct Footprint {
     LevelReader<S> level;
     S width, height, per_width, per_height;  // cells
     bool point;                              // too small to matter: one cell is read
+    Opening<S> opening;
 
     Footprint() = default;
     /// wide x high panel pixels.
@@ -211,14 +233,29 @@ struct Footprint {
         height = min(max(high * level.cells_per_pixel, S(least_box)), S(most_box));
         per_width = S(1) / width;
         per_height = S(1) / height;
-        point = max(wide, high) < S(least_box);
+        opening = levels.opening;
+        point = opening.whole && max(wide, high) < S(least_box);
     }
     template <class F>
     LFDSIM_FN void add(Light<F>& light, F column, F row, F weight) const {
         if (point)
             level.add_point(light, column, row, weight);
-        else
+        else if (opening.whole)
             level.add_box(light, column, row, weight, F(width), F(height), F(per_width), F(per_height));
+        else
+            add_squeezed(light, column, row, weight);
+    }
+
+  private:
+    template <class F>
+    LFDSIM_FN void add_squeezed(Light<F>& light, F column, F row, F weight) const {
+        const F cell = F(S(1) / level.cells_per_pixel), per_cell = F(level.cells_per_pixel), least = F(S(least_box));
+        F wide = F(width) * cell, high = F(height) * cell;
+        squeeze(opening, column, wide, weight);
+        squeeze(opening, row, high, weight);
+        wide = max(wide * per_cell, least);
+        high = max(high * per_cell, least);
+        level.add_box(light, column, row, weight, wide, high, F(1) / wide, F(1) / high);
     }
 };
 

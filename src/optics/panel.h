@@ -46,7 +46,7 @@ LFDSIM_FN PanelPoint<F> panel_point(const Scene<Scalar<F>>& scene, const PanelBa
 /// Whether a point, in panel pixels from the panel's corner or from any other pixel's, lies where its pixel shines.
 template <class F>
 LFDSIM_FN Mask<F> in_opening(const Scene<Scalar<F>>& scene, F column, F row) {
-    const F from = F(scene.opening[0]), to = F(scene.opening[1]), across = column - floor(column), down = row - floor(row);
+    const F from = F(scene.opening.from), to = F(scene.opening.to), across = column - floor(column), down = row - floor(row);
     return (across >= from) && (across < to) && (down >= from) && (down < to);
 }
 
@@ -57,9 +57,9 @@ LFDSIM_FN PanelHit<F> panel_pixel(const Scene<Scalar<F>>& scene, const PanelBase
     const Uint<F> row = Uint<F>(base.row) + to_int(floor(point.row));
     const Mask<F> lit = point.alive && (column < Uint<F>(scene.columns)) && (row < Uint<F>(scene.rows));
     PanelHit<F> hit{row * Uint<F>(scene.columns) + column, point.weight, lit};
-    if (scene.masked) [[unlikely]] {
+    if (!scene.opening.whole) [[unlikely]] {
         hit.lit = hit.lit && in_opening(scene, point.column, point.row);
-        hit.weight = hit.weight * F(scene.gain);
+        hit.weight = hit.weight * F(scene.opening.per * scene.opening.per);
     }
     return hit;
 }

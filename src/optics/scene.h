@@ -44,15 +44,21 @@ struct LayerData {
     Interface<S> media;  // at its upper face: of the top one air above it, however the lens lies on it
 };
 
+/// The part of a pixel that shines: from here to there of its width, and the same of its height.
+template <class S>
+struct Opening {
+    bool whole;  // all of it
+    S from, to;
+    S per;  // 1 / (to - from)
+};
+
 template <class S>
 struct Scene {
     // panel
     std::uint32_t columns, rows;
     S pixels_per_mm;
     S emission_exponent;
-    bool masked;   // each pixel shines only in the middle, in the same part of its width and height:
-    S opening[2];  // from here to before there, in pixels from its border,
-    S gain;        // and so many times as bright
+    Opening<S> opening;  // dark around it, and so much brighter in it that the pixel's mean is its light
     std::int32_t layer_count;
     LayerData<S> layer[max_layers];  // from the top one downwards
     S layers_top;
@@ -118,12 +124,14 @@ struct PanelLevel {
     std::uint32_t columns, rows;
 };
 
-/// The panel's levels: `count` of its pyramid and, where footprints are long, as many of sums (engine/pyramid.h).
+/// The panel's levels, of pixels that shine all over: `count` of its pyramid and, where footprints are long, as many of sums
+/// (engine/pyramid.h).
 struct PanelLevels {
     const PanelLevel* level;
     int count;
     bool sums;
     bool tall;  // footprints are long along columns, not along rows
+    Opening<float> opening;
 };
 
 /// Dimensions 0, 1: diffuser; 2, 3: position in the pixel; 4, 5: position in the pupil.

@@ -205,6 +205,14 @@ inline std::vector<std::pair<std::string, Display>> diffused() {
     all.back().second.diffuser.reset();
     all.back().second.camera.pixel_filter = PixelFilter::box;
     all.back().second.camera.pupil_diameter_mm = 2;
+    add("black matrix", ideal_example(), closing);
+    all.back().second.panel.aperture_ratio = 0.5;
+    add("black matrix, weak", example(), {40, {0.5, 0.3}, Profile::box});
+    all.back().second.panel.aperture_ratio = 0.6;
+    add("black matrix, strips, no diffuser", glued_strips(), closing);
+    all.back().second.diffuser.reset();
+    all.back().second.camera.pixel_filter = PixelFilter::box;
+    all.back().second.panel.aperture_ratio = 0.4;
     return all;
 }
 

@@ -92,16 +92,6 @@ TEST(WhitePanel, TheBlackMatrixKeepsTheMean) {
     }
 }
 
-// Footprints on the panel take each pixel for evenly bright.
-TEST(WhitePanel, TheBlackMatrixIsSeenByPoints) {
-    Display d = example();
-    d.diffuser = Diffuser{40, {3, 3}, Profile::box};
-    d.render.estimator = Estimator::filtered;
-    EXPECT_EQ(estimator_of(d), Estimator::filtered);
-    d.panel.aperture_ratio = 0.9;
-    EXPECT_EQ(estimator_of(d), Estimator::point);
-}
-
 // Square cells without a lens between them: the panel, larger than the array by far, is seen everywhere.
 TEST(WhitePanel, IdealSquareLensesHaveNoGaps) {
     Display d = ideal_example();

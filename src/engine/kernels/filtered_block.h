@@ -308,14 +308,14 @@ class BlockWork {
                         const F part = part_x.share * part_y.share;
                         if (optics::none(part > F(0))) continue;
                         ready();
-                        add_own_probes<through>(tile, pixels, part_x, part_y, part, FourRays(), to.boxes);
+                        add_own_probes<through>(tile, pixels, part_x, part_y, part, Spread(), to.boxes);
                     }
                 }
                 return;
             }
             if (own && at.block.alive && !b.straddles && fine_alone(tile, scene)) {
                 ready();
-                return add_own_probes<through>(tile, pixels, across, up, share, FourRays(), to.boxes);
+                return add_own_probes<through>(tile, pixels, across, up, share, Spread(), to.boxes);
             }
             if (own) {
                 const bool covered = scene.hole_radius > 0 && !scene.leaky && at.block.alive && !b.straddles;

@@ -135,23 +135,28 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
     light.add(tile.texels, optics::Fetch<F>(hit));
 }
 
+/// Where rays start, and what the camera's pixel and pupil add to the width and height of each box; squared.
+struct Spread {
+    Start start;
+    F width = F(0), height = F(0);
+};
+
 /// Four rays of each pixel, two by two at the diffuser's numbers (a, b), of which those that count carry `weight` each.
 struct FourRays {
     F a[4], b[4];
     optics::Mask<F> counts[4];
     F weight;
-    Start start;
-    F blur_width = F(0), blur_height = F(0);  // squared: of what the camera's pixel and pupil add to each box
 };
 
 /// Adds their light: the panel's mean over a box around the end of each, as wide as the distance to the ends of the next ones.
 template <optics::Way through>
-LFDSIM_FN void add_boxes(const Tile& tile, const optics::PixelRays<F>& pixels, const FourRays& rays, optics::Light<F>& light) {
+LFDSIM_FN void add_boxes(const Tile& tile, const optics::PixelRays<F>& pixels, const FourRays& rays, const Spread& spread,
+                         optics::Light<F>& light) {
     const F none = F(0);
     optics::PanelPoint<F> end[4];
-    for (int p = 0; p < 4; ++p) end[p] = trace_own<through>(tile, pixels, rays.start, rays.a[p], rays.b[p]);
+    for (int p = 0; p < 4; ++p) end[p] = trace_own<through>(tile, pixels, spread.start, rays.a[p], rays.b[p]);
     for (int p = 0; p < 4; ++p) {
-        F wide = rays.blur_width, high = rays.blur_height;  // squared: the spreads of two directions add up like variances
+        F wide = spread.width, high = spread.height;  // squared: the spreads of two directions add up like variances
         for (int step = 1; step <= 2; ++step) {
             const optics::PanelPoint<F>& next = end[p ^ step];
             const optics::Mask<F> lit =
@@ -193,7 +198,7 @@ LFDSIM_BOTH optics::Moments<F> choose(optics::Mask<F> first, const optics::Momen
 /// rays around its middle.
 template <optics::Way through>
 LFDSIM_APART void add_own_part(const Tile& tile, const optics::PixelRays<F>& pixels, const Span<F>& x, const Span<F>& y,
-                               const optics::Corners<F>& cell, FourRays rays, optics::Light<F>& light) {
+                               const optics::Corners<F>& cell, const Spread& spread, optics::Light<F>& light) {
     const optics::Box<F> box{x.low, x.high, y.low, y.high};
     const optics::Mask<F> near = reaches(cell, box);
     if (optics::none(near)) return;
@@ -202,6 +207,7 @@ LFDSIM_APART void add_own_part(const Tile& tile, const optics::PixelRays<F>& pix
     if (optics::any(near && !whole)) part = choose(whole, part, optics::part_within(cell, box));
     const optics::Mask<F> seen = near && (part.area > F(0));
     if (optics::none(seen)) return;
+    FourRays rays;
     rays.weight = F(S(1.0 / 16)) * part.area;  // a quarter each, of the square's area of 4
     for (int p = 0; p < 4; ++p) {
         rays.a[p] = part.x + F(p % 2 == 0 ? -0.5f : 0.5f) * part.half_width;
@@ -213,7 +219,7 @@ LFDSIM_APART void add_own_part(const Tile& tile, const optics::PixelRays<F>& pix
         rays.a[p] = optics::select(inside, rays.a[p], part.x);
         rays.b[p] = optics::select(inside, rays.b[p], part.y);
     }
-    add_boxes<through>(tile, pixels, rays, light);
+    add_boxes<through>(tile, pixels, rays, spread, light);
 }
 
 /// Adds the light that pixels see through a part (x, y) of a stratum that looks through one lens, by probes of their own: 2 x 2
@@ -221,7 +227,7 @@ LFDSIM_APART void add_own_part(const Tile& tile, const optics::PixelRays<F>& pix
 /// ends of the next ones. `weight` is the part's share of the pixel's light.
 template <optics::Way through>
 LFDSIM_APART void add_own_probes(const Tile& tile, const optics::PixelRays<F>& pixels, const Span<F>& x, const Span<F>& y, F weight,
-                                 FourRays rays, optics::Light<F>& light) {
+                                 const Spread& spread, optics::Light<F>& light) {
     const optics::Scene<S>& scene = *tile.scene;
     const F none = F(0), one = F(1), quarter = F(0.25f);
     const bool round = scene.hole_radius > 0;
@@ -254,6 +260,7 @@ LFDSIM_APART void add_own_probes(const Tile& tile, const optics::PixelRays<F>& p
         place[k][1] = optics::select(low_first, high, low);
     }
 
+    FourRays rays;
     F count = none;
     for (int p = 0; p < 4; ++p) {
         const F px = place[0][p % 2], py = place[1][p / 2];
@@ -264,7 +271,7 @@ LFDSIM_APART void add_own_probes(const Tile& tile, const optics::PixelRays<F>& p
         rays.b[p] = y.low + (py - first[1]) * per[1];
     }
     rays.weight = weight / optics::max(count, one);
-    add_boxes<through>(tile, pixels, rays, light);
+    add_boxes<through>(tile, pixels, rays, spread, light);
 }
 
 }  // namespace

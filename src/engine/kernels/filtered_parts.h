@@ -152,35 +152,35 @@ LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const OwnPixel
     const S left = optics::min(S(scene.thin_lens ? 2 : 1) / S(all), S(1));
     const int far = far_step(n);
     for (int k = 0; k < all; ++k) {
-        FourRays rays;
+        Spread spread;
         if (spreads && tile.weak) {
-            rays.blur_width = F(known.blur_width * left);
-            rays.blur_height = F(known.blur_height * left);
+            spread.width = F(known.blur_width * left);
+            spread.height = F(known.blur_height * left);
         }
         if (spreads && !tile.weak) {
-            rays.start = random_start(scene, pixels.sampler(tile, seen.number * 8));
+            spread.start = random_start(scene, pixels.sampler(tile, seen.number * 8));
         } else if (spreads && all > 1) {
             const auto cell = [&](int column, int row) {
                 return F(S(2 * (far * (column * (k % n) + row * (k / n)) % n) + 1 - n) / S(n));
             };
             if (scene.box_filter && scene.has_diffuser) {
-                rays.start.right = cell(2, 1);
-                rays.start.up = cell(1, 3);
+                spread.start.right = cell(2, 1);
+                spread.start.up = cell(1, 3);
             }
-            if (scene.thin_lens) optics::disk(cell(1, 1), cell(1, 2), rays.start.lens_x, rays.start.lens_y);
+            if (scene.thin_lens) optics::disk(cell(1, 1), cell(1, 2), spread.start.lens_x, spread.start.lens_y);
         }
-        const Start& start = rays.start;
+        const Start& start = spread.start;
         const F half_pixel = F(S(0.5) * pixels.per_reach), right = pixels.dx + start.right * half_pixel,
                 down = pixels.dy - start.up * half_pixel;
         const bool with_holes = round && scene.has_diffuser;
         const Span<F> x = part_of_span(*seen.across, true, k % n, n, with_holes),
                       y = part_of_span(*seen.up, false, k / n, n, with_holes);
         if (with_holes) {
-            add_own_probes<through>(tile, pixels.rays, x, y, x.share * y.share, rays, light);
+            add_own_probes<through>(tile, pixels.rays, x, y, x.share * y.share, spread, light);
             continue;
         }
         if (!round && all == 1) {
-            add_own_part<through>(tile, pixels.rays, x, y, *seen.corners, rays, light);
+            add_own_part<through>(tile, pixels.rays, x, y, *seen.corners, spread, light);
             continue;
         }
         optics::Corners<F> corners;
@@ -193,7 +193,7 @@ LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const OwnPixel
                 corners.y[c] = corners.y[c] + start.lens_x * F(grids.pupil[0][1]) + start.lens_y * F(grids.pupil[1][1]);
             }
         }
-        add_own_part<through>(tile, pixels.rays, x, y, corners, rays, light);
+        add_own_part<through>(tile, pixels.rays, x, y, corners, spread, light);
     }
 }
 
