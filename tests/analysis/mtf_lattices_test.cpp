@@ -130,12 +130,15 @@ TEST(MtfOfStrips, IsThatOfTheNodalRaysDifferencesAndOfTheory) {
                     const double f = m.frequencies_per_mm[n];
                     if (f > last) break;
                     EXPECT_NEAR(m.modulation.all[n], transform(expected, -*d.array.slant_deg, f), 0.012) << where() << ", " << f;
-                    if (m.has_theory()) EXPECT_NEAR(m.modulation.all[n], m.theory[n], 0.03) << where() << ", " << f;
+                    if (m.has_theory()) {
+                        EXPECT_NEAR(m.modulation.all[n], m.theory[n], 0.03) << where() << ", " << f;
+                    }
                 }
                 with_theory += m.has_theory();
-                if (m.has_theory() && std::isfinite(m.below(0.5).value))
+                if (m.has_theory() && std::isfinite(m.below(0.5).value)) {
                     EXPECT_NEAR(m.below(0.5).value, m.theory_below(0.5), m.below(0.5).error + 0.01 * m.theory_below(0.5))
                         << where();
+                }
             }
         }
     }

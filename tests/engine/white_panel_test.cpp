@@ -77,14 +77,14 @@ TEST(WhitePanel, PixelsShineInTheirMiddles) {
 TEST(WhitePanel, TheBlackMatrixKeepsTheMean) {
     for (auto [name, d] : every_kind()) {
         d.render.samples = 8;
-        const auto light = [](Display d, double ratio) {
-            d.panel.aperture_ratio = ratio;
+        const auto light = [](Display shown, double ratio) {
+            shown.panel.aperture_ratio = ratio;
             double sum = 0;
-            const std::array<double, 2> described = d.array.offset_mm;
+            const std::array<double, 2> described = shown.array.offset_mm;
             for (int k = 0; k < 16; ++k) {
-                d.array.offset_mm = {described[0] + 0.25 * d.panel.pixel_pitch_mm * (k % 4),
-                                     described[1] + 0.25 * d.panel.pixel_pitch_mm * (k / 4)};
-                for (const float x : picture(d, uniform_panel(d, 1)).rgb) sum += x;
+                shown.array.offset_mm = {described[0] + 0.25 * shown.panel.pixel_pitch_mm * (k % 4),
+                                         described[1] + 0.25 * shown.panel.pixel_pitch_mm * (k / 4)};
+                for (const float x : picture(shown, uniform_panel(shown, 1)).rgb) sum += x;
             }
             return sum;
         };

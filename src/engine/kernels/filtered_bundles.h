@@ -272,7 +272,7 @@ class BundleMaker {
     }
 
     /// Multiplies `seen` of each probe by the share of its part of a range along axis a that a pixel at (dx, dy) of the block sees.
-    LFDSIM_BOTH void narrow(int a, int stratum, Range r, const S* grid, S dx, S dy, S* seen) const {
+    LFDSIM_BOTH void narrow(int a, int stratum, Range r, const S* places, S dx, S dy, S* seen) const {
         const Gradient &first = axis[a].first, &last = axis[a].last;
         const S start = first.middle + first.right * dx + first.down * dy, end = last.middle + last.right * dx + last.down * dy,
                 at = axis[a].stratum[stratum].axis + aside[a], low = optics::min(start, end) - at,
@@ -282,7 +282,7 @@ class BundleMaker {
         const S per = S(0.5) / half,
                 least = S(FilteredLimits::least_seen);  // where nothing is seen, the mean over all of it serves interpolation
         for (int p = 0; p < optics::most_probes; ++p) {
-            const S middle = r.from + grid[p] * range, part = optics::min(high, middle + half) - optics::max(low, middle - half);
+            const S middle = r.from + places[p] * range, part = optics::min(high, middle + half) - optics::max(low, middle - half);
             seen[p] = seen[p] * optics::min(optics::max(part * per, least), S(1));
         }
     }

@@ -52,14 +52,14 @@ class LensCutter {
             first[a] = place_of(a, -sine / cosine);
             last[a] = place_of(a, sine / cosine);
             span[a] = optics::abs(last[a].middle - first[a].middle);
-            along[a] = S(optics::sense(a));
+            rising[a] = S(optics::sense(a));
             const S reach = first[a].reach();
             low[a] = optics::min(first[a].middle, last[a].middle) - reach;
             high[a] = optics::max(first[a].middle, last[a].middle) + reach;
             // Where the diffuser turns rays by less than a pixel sees, numbers are those of a diffuser of a part of a pixel.
             const S least = S(FilteredLimits::least_span) * reach / S(block.reach);
             linear[a] = !(span[a] > least);
-            per[a] = along[a] / optics::max(S(0.5) * least, S(1e-12));
+            per[a] = rising[a] / optics::max(S(0.5) * least, S(1e-12));
         }
         if (!scene.has_diffuser) of_pixel();
         for (int k = 0; k < 2; ++k) {
@@ -241,15 +241,16 @@ class LensCutter {
 
     /// Cuts an axis of a grid every `step` mm from the lens's rim on, as far as the block sees it.
     LFDSIM_BOTH bool cut_axis(Axis& to, int a, S axis, S extent, S step) {
-        const S from = axis - along[a] * extent;  // where the numbers are least
-        const S start = along[a] > 0 ? low[a] : high[a], end = along[a] > 0 ? high[a] : low[a];
-        const S skipped = optics::max(optics::floor(along[a] * (start - from) / step), S(0));
-        const S stop = optics::min(-optics::floor(-along[a] * (end - from) / step), -optics::floor(S(1e-3) - S(2) * extent / step));
+        const S from = axis - rising[a] * extent;  // where the numbers are least
+        const S start = rising[a] > 0 ? low[a] : high[a], end = rising[a] > 0 ? high[a] : low[a];
+        const S skipped = optics::max(optics::floor(rising[a] * (start - from) / step), S(0));
+        const S stop =
+            optics::min(-optics::floor(-rising[a] * (end - from) / step), -optics::floor(S(1e-3) - S(2) * extent / step));
         const int strata = optics::max(int(stop - skipped), 1);
         if (strata > room.an_axis || cuts + strata + 1 > room.cuts) return false;
         take(to, a, strata);
         for (int k = 0; k <= strata; ++k) {
-            const S place = from + along[a] * (skipped + S(k)) * step;
+            const S place = from + rising[a] * (skipped + S(k)) * step;
             Cut& cut = to.cut[k];
             cut.place = {place, 0, 0};
             if (whole_square())
@@ -287,7 +288,7 @@ class LensCutter {
             return;
         }
         const S by[2] = {x, y};
-        for (int a = 0; a < 2; ++a) number[a] = by[a] * (linear[a] ? per[a] : S(2) * along[a] / span[a]);
+        for (int a = 0; a < 2; ++a) number[a] = by[a] * (linear[a] ? per[a] : S(2) * rising[a] / span[a]);
     }
 
     LFDSIM_BOTH Gradient number_of(int a, S place) const {
@@ -307,7 +308,7 @@ class LensCutter {
     int cuts = 0;
     Gradient first[2], last[2];  // where the square begins and ends
     S low[2], high[2];           // what the block sees
-    S span[2], along[2];         // what the middle sees; +1: numbers grow with the position, else -1
+    S span[2], rising[2];        // what the middle sees; +1: numbers rise with the position, else -1
     bool linear[2];
     S per[2];
     S numbers[2][2];  // of_pixel(): number a's change per mm along x and y
