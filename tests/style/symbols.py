@@ -1,9 +1,9 @@
-"""No kernel shares a function with the rest of the program.
+"""No kernel shares a function with the rest of the program, and none contracts a product and a sum.
 
 The kernel's source is compiled once per instruction set, and the linker keeps one copy of each weak symbol: were a function shared, an
 old machine could meet AVX-512 code in it. So each weak symbol of kernel ISA must sit in a namespace called ISA. Looked at are the
 objects of the build and, since optimisation inlines most such functions away, the scalar one compiled without it: the source is the
-same for all.
+same for all. Contracted sums (fused multiply and add), which not every instruction set has, would round differently.
 
 Usage: symbols.py BUILD_DIRECTORY
 """
@@ -24,8 +24,14 @@ def foreign(kernel, isa):
     return [name for name in weak if f"::{isa}::" not in name and not name.startswith("DW.ref.")]
 
 
+def contracted(kernel):
+    """How many instructions multiply and add in one."""
+    code = subprocess.run(["objdump", "-d", "--no-show-raw-insn", kernel], capture_output=True, text=True, check=True).stdout
+    return len(re.findall(r"\tvfn?m(?:add|sub)", code))
+
+
 build = pathlib.Path(sys.argv[1])
-checked = bad = 0
+checked = bad = fused = 0
 for command in json.loads((build / "compile_commands.json").read_text()):
     found = re.search(r"-o (\S*kernel_(\w+)\.dir\S+)", command["command"])
     if not found:
@@ -38,8 +44,12 @@ for command in json.loads((build / "compile_commands.json").read_text()):
             kernels.append(unoptimised.name)
         for kernel in kernels:
             checked += 1
+            count = contracted(kernel)
+            if count:
+                fused += count
+                print(f"{isa}: {count} contracted sums")
             for name in foreign(kernel, isa):
                 bad += 1
                 print(f"{isa}: {name}" + (" (without optimisation)" if kernel == unoptimised.name else ""))
-print(f"{checked} objects, {bad} weak symbols outside their kernel's namespace")
-sys.exit(bad > 0 or checked == 0)
+print(f"{checked} objects, {bad} weak symbols outside their kernel's namespace, {fused} contracted sums")
+sys.exit(bad > 0 or fused > 0 or checked == 0)
