@@ -14,10 +14,10 @@ function(lfdsim_kernel name isa lanes)
   set_target_properties(lfdsim_kernel_${name} PROPERTIES UNITY_BUILD OFF)
   target_include_directories(lfdsim_kernel_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_compile_definitions(lfdsim_kernel_${name} PRIVATE LFDSIM_ISA=${name} LFDSIM_LANES=${lanes} LFDSIM_KERNEL=render_tile_${name})
-  # GCC 12 takes the undefined vectors of its own AVX-512 headers for a mistake. Where it makes vectors of neighbouring statements it
-  # contracts sums and differences of products though contraction is off.
+  # GCC 12 takes the undefined vectors of its own AVX-512 headers for a mistake. Where it makes vectors of its own it contracts sums and
+  # differences of products though contraction is off; lanes are vectors anyway.
   target_compile_options(lfdsim_kernel_${name} PRIVATE ${kernel_level} -fno-math-errno -fno-trapping-math ${isa}
-    "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-uninitialized;-fno-tree-slp-vectorize>")
+    "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-uninitialized;-fno-tree-vectorize>")
   target_sources(lfdsim_engine PRIVATE $<TARGET_OBJECTS:lfdsim_kernel_${name}>)
   string(TOUPPER ${name} upper)
   target_compile_definitions(lfdsim_engine PRIVATE LFDSIM_WITH_${upper})
