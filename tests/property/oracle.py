@@ -20,7 +20,7 @@ class SmoothSurface(Surface):
     """An asphere that differs little from its conic: Newton's steps from there are a fortieth of the work of a search for every root."""
 
     def _asphere_roots(self, o, d):
-        conic = Surface(self.z, self.c, self.k, [], 1.2 * self.semi, self.n_below, self.n_above)
+        conic = Surface(self.z, self.c, self.k, [], 1.2 * self.semi, self.n_below, self.n_above, self.across[1] == 0)
         return [self._polished(t, o, d) for t in conic.roots(o, d)]
 
     def _polished(self, t, o, d):
@@ -30,9 +30,9 @@ class SmoothSurface(Surface):
             p = o + t[:, None] * d
             with np.errstate(divide="ignore", invalid="ignore"):
                 n = self.normal(p)
-                t = t - (p[:, 2] - self.height(p[:, 0] ** 2 + p[:, 1] ** 2)) * n[:, 2] / np.sum(n * d, axis=1)
+                t = t - (p[:, 2] - self.height(self.squared(p))) * n[:, 2] / np.sum(n * d, axis=1)
         p = o + t[:, None] * d
-        s2 = p[:, 0] ** 2 + p[:, 1] ** 2
+        s2 = self.squared(p)
         met = on & (np.abs(p[:, 2] - self.height(s2)) < 1e-9) & (s2 <= self.semi**2)
         return np.where(met, t, np.inf)
 
