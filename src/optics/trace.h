@@ -18,12 +18,11 @@ template <class S>
 LFDSIM_FN Way way_through(const Scene<S>& scene) {
     if (!scene.thin && scene.surround != Surround::opaque) return Way::glass;
     if (scene.glued || scene.layer_count > 0) return Way::other;
-    const Way other = scene.lattice.strips ? Way::strips : scene.lattice.staggered ? Way::staggered : Way::other;
-    const bool rows = other == Way::other;
+    const bool rows = !scene.lattice.strips && !scene.lattice.staggered;
     if (scene.thin) return rows ? Way::ideal : Way::other;
     const bool plain = scene.surface_count == 2 && scene.surface[0].shape == Shape::sphere &&
                        scene.surface[1].shape == Shape::plane && !scene.has_stop && !scene.dimple;
-    if (plain) return rows ? Way::plano_convex : other;
+    if (plain) return rows ? Way::plano_convex : scene.lattice.strips ? Way::strips : Way::staggered;
     return rows ? Way::opaque : Way::other;
 }
 
