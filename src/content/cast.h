@@ -13,11 +13,13 @@
 
 namespace lfdsim {
 
-/// The rays to cast: `samples` for each pixel of `crop`, in a frame of width x height pixels. Their mean is the pixel's light.
+/// The rays to cast: `samples` for each pixel of `crop`, in a frame of width x height pixels. Their mean is the pixel's light. Or
+/// three by channel: the red of the first, the green of the second and the blue of the third.
 struct Wanted {
     int width, height;
     Rect crop;
     std::int64_t samples = 1;
+    bool by_channel = false;
 };
 
 /// Casts the rays. fill(column, row, block) sets those of the 4 x 4 pixels from there on, for the sample number in the block;
@@ -29,7 +31,8 @@ Picture cast(const ContentScene::Impl& scene, const Beam& beam, const Wanted& fr
              const Fill& fill) {
     const int width = frame.width, height = frame.height;
     const Rect& crop = frame.crop;
-    const std::int64_t samples = frame.samples;
+    const std::int64_t samples = frame.by_channel ? 3 : frame.samples;
+    const double summed = frame.by_channel ? 1 : double(samples);
     if (crop.x0 < 0 || crop.y0 < 0 || crop.x1 > width || crop.y1 > height || crop.x0 >= crop.x1 || crop.y0 >= crop.y1)
         throw InputError("crop", "it must lie inside the frame, which has " + std::to_string(width) + " x " +
                                      std::to_string(height) + " pixels");
@@ -75,13 +78,14 @@ Picture cast(const ContentScene::Impl& scene, const Beam& beam, const Wanted& fr
                     if (!lit) std::fill_n(sum[0], 3 * RayBlock::lanes, 0.);
                     lit = true;
                     for (int k = 0; k < RayBlock::lanes; ++k)
-                        for (int c = 0; c < 3 && block.hit.of[k]; ++c) sum[c][k] += double(block.light[c].of[k]);
+                        for (int c = 0; c < 3 && block.hit.of[k]; ++c)
+                            if (!frame.by_channel || c == block.sample) sum[c][k] += double(block.light[c].of[k]);
                 }
                 if (!lit) continue;
                 for (int k = 0; k < RayBlock::lanes; ++k) {
                     if (!inside && !wanted.of[k]) continue;
                     float* to = out.image.at(x + k % RayBlock::side - crop.x0, y + k / RayBlock::side - crop.y0);
-                    for (int c = 0; c < 3; ++c) to[c] = float(sum[c][k] / double(samples));
+                    for (int c = 0; c < 3; ++c) to[c] = float(sum[c][k] / summed);
                 }
             }
         }

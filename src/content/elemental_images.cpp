@@ -1,8 +1,43 @@
 #include "content/cast.h"
 #include "content/pickup.h"
 
+#include "model/subpixels.h"
+
 namespace lfdsim {
 namespace {
+
+/// For which point of a pixel a channel of it is made: pixels from its centre to the right and down, for each pixel of a cell.
+/// Nothing where the channel does not shine.
+class ShownPoints {
+  public:
+    using Point = std::array<double, 2>;
+
+    ShownPoints(const Panel& panel, bool by_channel, int channel) {
+        if (by_channel) cell_ = subpixel_cell(panel).size;
+        for (std::int64_t row = 0; row < cell_[1]; ++row)
+            for (std::int64_t column = 0; column < cell_[0]; ++column)
+                of_.push_back(by_channel ? centroid(panel, channel, column, row) : Point{});
+    }
+    std::optional<Point> of(std::int64_t column, std::int64_t row) const {
+        return of_[std::size_t(row % cell_[1] * cell_[0] + column % cell_[0])];
+    }
+    /// The point that all pixels have in common that have one.
+    std::optional<Point> common() const {
+        std::optional<Point> first;
+        for (const std::optional<Point>& each : of_) {
+            if (each && first && *each != *first) return {};
+            if (each) first = each;
+        }
+        return first;
+    }
+    bool everywhere() const {
+        return std::all_of(of_.begin(), of_.end(), [](const std::optional<Point>& each) { return each.has_value(); });
+    }
+
+  private:
+    std::array<std::int64_t, 2> cell_{1, 1};
+    std::vector<std::optional<Point>> of_;
+};
 
 /// The rays of the nodal pick-up, a block at a time. They must hit the surface that the viewer sees first along the line: they
 /// start in the plane z = top, just above the scene on the viewer's side, and travel towards the panel and beyond it. Their
@@ -17,19 +52,13 @@ class PickupRays {
           half_depth_(half_mm_[2] * 1.0001 + 1e-3),
           rise_(centre_mm_[2] + half_depth_ - pickup_.z_rear),
           width_per_t_(float(display.panel.pixel_pitch_mm / geometry.gap_mm)) {
-        if (apart_) return;
-        // (x, y): the middle of the array, where a lens owns the panel.
-        const double x = display.array.offset_mm[0] * pickup_.scale, y = display.array.offset_mm[1] * pickup_.scale;
-        for (std::int64_t i = 0; i < display.panel.pixels[0]; ++i) {
-            const NodalLine line = pickup_.line(pickup_.x_mm(double(i)), y);
-            columns_.add(part(line.x, line.mx, 0), line.owned);
-        }
-        for (std::int64_t j = 0; j < display.panel.pixels[1]; ++j) {
-            const NodalLine line = pickup_.line(x, pickup_.y_mm(double(j)));
-            rows_.add(part(line.y, line.my, 1), line.owned);
-        }
-        columns_.pad();
-        rows_.pad();
+        for (int channel = 0; channel < (by_channel(display) ? 3 : 1); ++channel)
+            channels_.push_back(channel_of(display, ShownPoints(display.panel, by_channel(display), channel)));
+    }
+
+    /// Whether a pixel's colours are made for different points.
+    static bool by_channel(const Display& display) {
+        return display.panel.subpixels != SubpixelLayout::none && display.content.sampling == ContentSampling::subpixel;
     }
 
     Beam beam() const { return {width_per_t_, float(rise_)}; }
@@ -40,7 +69,13 @@ class PickupRays {
             ray.org_z[k] = float(half_depth_);
             ray.dir_z[k] = -1;
         }
-        apart_ ? each_alone(column, row, block) : by_column_and_row(column, row, block);
+        const ChannelRays& channel = channels_[channels_.size() > 1 ? std::size_t(block.sample) : 0];
+        channel.common ? by_column_and_row(channel, column, row, block) : each_alone(channel.points, column, row, block);
+        if (channel.everywhere) return;
+        for (int k = 0; k < RayBlock::lanes; ++k) {
+            if (channel.points.of(column + k % RayBlock::side, row + k / RayBlock::side)) continue;
+            block.exists.of[k] = block.may_hit.of[k] = 0;
+        }
     }
 
   private:
@@ -63,6 +98,31 @@ class PickupRays {
         }
     };
 
+    struct ChannelRays {
+        ShownPoints points;
+        bool common, everywhere;  // x depends on the column alone and y on the row; all pixels have a point
+        Shares columns, rows;     // where they do
+    };
+
+    ChannelRays channel_of(const Display& display, const ShownPoints& points) const {
+        const std::optional<ShownPoints::Point> shown = points.common();
+        ChannelRays rays{points, !apart_ && shown, points.everywhere(), {}, {}};
+        if (!rays.common) return rays;
+        // (x, y): the middle of the array, where a lens owns the panel.
+        const double x = display.array.offset_mm[0] * pickup_.scale, y = display.array.offset_mm[1] * pickup_.scale;
+        for (std::int64_t i = 0; i < display.panel.pixels[0]; ++i) {
+            const NodalLine line = pickup_.line(pickup_.x_mm(double(i) + (*shown)[0]), y);
+            rays.columns.add(part(line.x, line.mx, 0), line.owned);
+        }
+        for (std::int64_t j = 0; j < display.panel.pixels[1]; ++j) {
+            const NodalLine line = pickup_.line(x, pickup_.y_mm(double(j) + (*shown)[1]));
+            rays.rows.add(part(line.y, line.my, 1), line.owned);
+        }
+        rays.columns.pad();
+        rays.rows.pad();
+        return rays;
+    }
+
     Part part(double axis, double slope, std::size_t k) const {
         const float origin = float(axis + slope * rise_ - centre_mm_[k]), direction = float(-slope),
                     end = origin + float(2 * half_depth_) * direction;
@@ -72,30 +132,32 @@ class PickupRays {
     }
 
     /// Where the array is not turned against the panel, x depends on the column alone and y on the row.
-    void by_column_and_row(int column, int row, RayBlock& block) const {
+    static void by_column_and_row(const ChannelRays& of, int column, int row, RayBlock& block) {
         constexpr int side = RayBlock::side;
         RTCRay16& ray = block.packet.ray;
         for (int j = 0; j < side; ++j) {
             const auto r = std::size_t(row + j);
-            const float origin = rows_.origin[r], direction = rows_.direction[r];
-            const int exists = rows_.exists[r], may_hit = rows_.may_hit[r];
+            const float origin = of.rows.origin[r], direction = of.rows.direction[r];
+            const int exists = of.rows.exists[r], may_hit = of.rows.may_hit[r];
             for (int i = 0; i < side; ++i) {
                 const auto c = std::size_t(column + i);
                 const int k = j * side + i;
-                ray.org_x[k] = columns_.origin[c];
+                ray.org_x[k] = of.columns.origin[c];
                 ray.org_y[k] = origin;
-                ray.dir_x[k] = columns_.direction[c];
+                ray.dir_x[k] = of.columns.direction[c];
                 ray.dir_y[k] = direction;
-                block.exists.of[k] = columns_.exists[c] & exists;
-                block.may_hit.of[k] = columns_.may_hit[c] & may_hit;
+                block.exists.of[k] = of.columns.exists[c] & exists;
+                block.may_hit.of[k] = of.columns.may_hit[c] & may_hit;
             }
         }
     }
 
-    void each_alone(int column, int row, RayBlock& block) const {
+    void each_alone(const ShownPoints& points, int column, int row, RayBlock& block) const {
         RTCRay16& ray = block.packet.ray;
         for (int k = 0; k < RayBlock::lanes; ++k) {
-            const NodalLine line = pickup_.line(pickup_.x_mm(column + k % RayBlock::side), pickup_.y_mm(row + k / RayBlock::side));
+            const int i = column + k % RayBlock::side, j = row + k / RayBlock::side;
+            const ShownPoints::Point shown = points.of(i, j).value_or(ShownPoints::Point{});
+            const NodalLine line = pickup_.line(pickup_.x_mm(i + shown[0]), pickup_.y_mm(j + shown[1]));
             const Part x = part(line.x, line.mx, 0), y = part(line.y, line.my, 1);
             ray.org_x[k] = x.origin;
             ray.org_y[k] = y.origin;
@@ -111,7 +173,7 @@ class PickupRays {
     Vec3d half_mm_, centre_mm_;  // of the scene's box
     double half_depth_, rise_;   // rise: of the rays' first plane over the rear nodal points
     float width_per_t_;
-    Shares columns_, rows_;
+    std::vector<ChannelRays> channels_;
 };
 
 }  // namespace
@@ -119,7 +181,8 @@ class PickupRays {
 Picture elemental_images(const Display& display, const Geometry& geometry, const ContentScene& scene, int threads, Job& job) {
     const PickupRays rays(display, geometry, scene);
     const int width = int(display.panel.pixels[0]), height = int(display.panel.pixels[1]);
-    return cast(scene.impl(), rays.beam(), {width, height, {0, 0, width, height}}, threads, "elemental images", job, rays);
+    const Wanted panel{width, height, {0, 0, width, height}, 1, PickupRays::by_channel(display)};
+    return cast(scene.impl(), rays.beam(), panel, threads, "elemental images", job, rays);
 }
 
 }  // namespace lfdsim

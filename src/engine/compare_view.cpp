@@ -21,7 +21,7 @@ ComparedView compare_view(const Display& display, const Geometry& geometry, cons
     if (options.target_error) throw std::invalid_argument("views are compared without a target error");
     const auto start = std::chrono::steady_clock::now();
     const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-    const std::vector<optics::PanelLevel>& levels = panel.levels(long_footprints(geometry));
+    const std::vector<optics::PanelLevel>& levels = panel.levels(panel_reading(display, geometry));
     const Work work(display, geometry, levels, options);
     const Image& photograph = expected.photograph();
     const int width = work.tile.x1 - work.tile.x0, height = work.tile.y1 - work.tile.y0;

@@ -9,6 +9,7 @@
 #include <tbb/task_arena.h>
 
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <stdexcept>
 
@@ -36,6 +37,26 @@ Texels halved(const optics::PanelLevel& from, tbb::task_arena& arena) {
                 const bool whole = 2 * r + 1 < std::int64_t(from.rows);
                 average_rows(upper, whole ? upper + std::int64_t(from.columns) * 4 : nullptr, from.columns, to.row(r));
             }
+        });
+    });
+    return to;
+}
+
+// One pixel of each cell of a panel; black where that lies outside of it.
+Texels picked(const optics::PanelLevel& from, const PanelPlane& plane, tbb::task_arena& arena) {
+    const std::int64_t columns = from.columns, rows = from.rows, across = plane.cell[0], down = plane.cell[1];
+    Texels to((columns + across - 1) / across, (rows + down - 1) / down);
+    const auto pick_row = [&](std::int64_t r) {
+        const std::int64_t row = r * down + plane.pixel[1];
+        for (std::int64_t c = 0; c < to.columns(); ++c) {
+            const std::int64_t column = c * across + plane.pixel[0];
+            const bool there = column >= 0 && column < columns && row >= 0 && row < rows;
+            for (int k = 0; k < 4; ++k) to.row(r)[4 * c + k] = there ? from.texels[4 * (row * columns + column) + k] : 0;
+        }
+    };
+    arena.execute([&] {
+        tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, to.rows(), 16), [&](const tbb::blocked_range<std::int64_t>& some) {
+            for (std::int64_t r = some.begin(); r < some.end(); ++r) pick_row(r);
         });
     });
     return to;
@@ -85,10 +106,20 @@ Long long_footprints(const Geometry& geometry) {
     return std::abs(geometry.lattice.cos_turn) >= std::abs(geometry.lattice.sin_turn) ? Long::down : Long::across;
 }
 
+PanelReading panel_reading(const Display& display, const Geometry& geometry) {
+    return {long_footprints(geometry), planes(display.panel)};
+}
+
 struct Pyramid::Parts {
     tbb::task_arena arena;
     std::mutex mutex;
-    Levels of[3];
+    std::map<PanelReading, Levels> of;
+
+    /// Adds a plane's levels, as many as the panel itself has.
+    void add_plane(const PanelPlane& plane, std::size_t count, Levels& to) {
+        to.add(picked(to.all[0], plane, arena));
+        for (std::size_t k = 1; k < count; ++k) to.add(halved(to.all.back(), arena));
+    }
 };
 
 Pyramid::~Pyramid() = default;
@@ -97,25 +128,33 @@ Pyramid& Pyramid::operator=(Pyramid&&) noexcept = default;
 
 Pyramid::Pyramid(const Texels& panel, int threads) : parts_(std::make_unique<Parts>()) {
     parts_->arena.initialize(threads > 0 ? threads : tbb::task_arena::automatic);
-    Levels& plain = parts_->of[0];
+    Levels& plain = parts_->of[PanelReading()];
     plain.all.push_back(level(panel));
     while (plain.all.back().columns > 1 || plain.all.back().rows > 1) plain.add(halved(plain.all.back(), parts_->arena));
 }
 
-const std::vector<optics::PanelLevel>& Pyramid::levels(Long along) const {
+const std::vector<optics::PanelLevel>& Pyramid::levels(const PanelReading& reading) const {
     const std::lock_guard lock(parts_->mutex);
-    Levels &plain = parts_->of[0], &wanted = parts_->of[int(along)];
-    if (wanted.all.empty()) {
-        Levels with_sums;
-        with_sums.all = plain.all;
-        for (const optics::PanelLevel& of : plain.all) with_sums.add(sums(of, along, parts_->arena));
-        wanted = std::move(with_sums);
+    Levels& wanted = parts_->of[reading];
+    if (!wanted.all.empty()) return wanted.all;
+    const std::vector<optics::PanelLevel>& plain = parts_->of[PanelReading()].all;
+    Levels made;
+    for (std::size_t p = 0; p < reading.planes.size(); ++p) {
+        const std::size_t first = made.all.size();
+        if (p == 0)
+            made.all = plain;
+        else
+            parts_->add_plane(reading.planes[p], plain.size(), made);
+        if (reading.footprints == Long::none) continue;
+        for (std::size_t k = 0; k < plain.size(); ++k) made.add(sums(made.all[first + k], reading.footprints, parts_->arena));
     }
+    wanted = std::move(made);
     return wanted.all;
 }
 
 GpuPanels& Pyramid::on_gpus(const std::vector<optics::PanelLevel>& levels) const {
-    for (const Levels& of : parts_->of)
+    const std::lock_guard lock(parts_->mutex);
+    for (const auto& [reading, of] : parts_->of)
         if (&of.all == &levels) return *of.on_gpus;
     throw std::logic_error("levels of another pyramid");
 }

@@ -119,7 +119,7 @@ Rendering render_with(const Tracer& tracer, const Display& display, const Geomet
 
 Rendering render(const Display& display, const Geometry& geometry, const Pyramid& panel, const RenderOptions& options, Job& job) {
     check_threads(options);
-    return render(display, geometry, panel.levels(long_footprints(geometry)), &panel, options, job);
+    return render(display, geometry, panel.levels(panel_reading(display, geometry)), &panel, options, job);
 }
 
 Rendering render(const Display& display, const Geometry& geometry, const Texels& panel, const RenderOptions& options, Job& job) {
@@ -128,7 +128,7 @@ Rendering render(const Display& display, const Geometry& geometry, const Texels&
     if (estimator_of(display) == Estimator::point) return render(display, geometry, std::vector{level}, nullptr, options, job);
     const auto start = std::chrono::steady_clock::now();
     const Pyramid pyramid(panel, options.threads);
-    const std::vector<optics::PanelLevel>& levels = pyramid.levels(long_footprints(geometry));
+    const std::vector<optics::PanelLevel>& levels = pyramid.levels(panel_reading(display, geometry));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     Rendering result = render(display, geometry, levels, nullptr, options, job);
     result.prepare_seconds = seconds;

@@ -7,6 +7,7 @@
 
 #include "engine/kernel.h"
 #include "model/prescription.h"
+#include "model/subpixels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -125,9 +126,29 @@ void add_layers(optics::Scene<S>& scene, const Display& display, const Geometry&
 }
 
 template <class S>
-optics::Opening<S> make_opening(const Panel& panel) {
-    const double side = std::sqrt(panel.aperture_ratio);
-    return {panel.aperture_ratio == 1, S((1 - side) / 2), S((1 + side) / 2), S(1 / side)};
+optics::Emission<S> make_emission(const Panel& panel) {
+    optics::Emission<S> to{};
+    to.whole = shines_all_over(panel);
+    if (to.whole) return to;
+    const std::vector<PanelPlane> all = planes(panel);
+    for (const LitPart& from : lit_parts(panel)) {
+        if (to.count == max_subpixel_parts)
+            throw InputError("panel.subpixel", "comes to more than the " + std::to_string(max_subpixel_parts) + " parts allowed");
+        optics::SubpixelPart<S>& part = to.part[to.count++];
+        part.channel = from.channel;
+        part.plane = std::int32_t(std::ranges::find(all, from.plane) - all.begin());
+        part.share = S(from.share);
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double cell = from.plane.cell[k];
+            part.cell[k] = from.plane.cell[k];
+            part.per_cell[k] = S(1 / cell);
+            part.pixel[k] = from.plane.pixel[k];
+            part.from[k] = S(from.from[k] / cell);
+            part.to[k] = S(from.to[k] / cell);
+            part.per[k] = S(cell / (from.to[k] - from.from[k]));
+        }
+    }
+    return to;
 }
 
 }  // namespace
@@ -140,7 +161,7 @@ optics::Scene<S> make_scene(const Display& display, const Geometry& geometry) {
     scene.rows = std::uint32_t(display.panel.pixels[1]);
     scene.pixels_per_mm = S(1 / display.panel.pixel_pitch_mm);
     scene.emission_exponent = S(display.panel.emission_exponent);
-    scene.opening = make_opening<S>(display.panel);
+    scene.emission = make_emission<S>(display.panel);
 
     scene.aperture = array.aperture;
     scene.aperture_radius = S(geometry.glass_radius_mm);

@@ -2,6 +2,7 @@
 
 #include "engine/pyramid.h"
 #include "engine/scene.h"
+#include "model/subpixels.h"
 
 #include <fmt/format.h>
 #include <cmath>
@@ -24,10 +25,12 @@ Rect checked_crop(const std::optional<Rect>& crop, const Camera& camera) {
 }
 
 /// Of point samples there may be the panel alone.
-optics::PanelLevels panel_levels(const Geometry& geometry, const std::vector<optics::PanelLevel>& levels,
-                                 const optics::Opening<float>& opening) {
-    const Long along = levels.size() > 1 ? long_footprints(geometry) : Long::none;
-    return {levels.data(), int(levels.size()) / (along == Long::none ? 1 : 2), along != Long::none, along == Long::down, opening};
+optics::PanelLevels panel_levels(const Display& display, const Geometry& geometry, const std::vector<optics::PanelLevel>& levels,
+                                 const optics::Emission<float>& emission) {
+    const bool alone = levels.size() == 1;
+    const Long along = alone ? Long::none : long_footprints(geometry);
+    const int lists = (along == Long::none ? 1 : 2) * (alone ? 1 : int(planes(display.panel).size()));
+    return {levels.data(), int(levels.size()) / lists, along != Long::none, along == Long::down, &emission};
 }
 
 }  // namespace
@@ -60,7 +63,7 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
             &view,
             &sobol_directions(),
             levels[0].texels,
-            panel_levels(geometry, levels, scene.opening),
+            panel_levels(display, geometry, levels, scene.emission),
             nullptr,
             crop.x0,
             crop.y0,

@@ -17,6 +17,7 @@ std::string_view type_text(const std::vector<double>&) { return "list of numbers
 std::string_view type_text(const Pitch&) { return "number or 2 numbers"; }
 std::string_view type_text(const std::array<double, 2>&) { return "2 numbers"; }
 std::string_view type_text(const std::array<double, 3>&) { return "3 numbers"; }
+std::string_view type_text(const std::array<double, 4>&) { return "4 numbers"; }
 std::string_view type_text(const std::array<std::int64_t, 2>&) { return "2 integers"; }
 std::string_view type_text(const std::optional<std::array<std::int64_t, 2>>&) { return "2 integers"; }
 template <class E>

@@ -5,6 +5,7 @@
 #include "meshed/mesh_surfaces.h"
 #include "model/keys.h"
 #include "optics/camera.h"
+#include "optics/light.h"
 #include "optics/trace.h"
 
 #include <fmt/format.h>
@@ -26,9 +27,10 @@ void render_tile(const Tile& tile) {
                 optics::sample_ray(scene, *tile.view, pixel, sampler, way.ray);
                 optics::to_first_vertex(scene, way);
                 if (!way.alive) continue;
-                const auto hit = optics::panel_pixel(
-                    scene, pixel.base, optics::trace_opaque<optics::Shapes::meshed>(scene, pixel.extent, pixel.base, way));
-                for (int c = 0; c < 3 && hit.lit; ++c) sum[c] += double(hit.weight * tile.texels[std::size_t(hit.pixel) * 4 + c]);
+                const auto point = optics::trace_opaque<optics::Shapes::meshed>(scene, pixel.extent, pixel.base, way);
+                optics::Light<float> light;
+                light.add(scene.emission, tile.texels, optics::Fetch<float>(optics::panel_pixel(scene, pixel.base, point)));
+                for (int c = 0; c < 3; ++c) sum[c] += double(light(0, c));
             }
             float* const out = tile.out + (std::int64_t(y - tile.crop_y) * tile.crop_width + (x - tile.crop_x)) * 3;
             for (int c = 0; c < 3; ++c) out[c] = float(sum[c] / tile.samples);

@@ -23,13 +23,24 @@ struct Layer {
     bool operator==(const Layer&) const = default;
 };
 
+/// A rectangle of the panel that shines in one colour.
+struct Subpixel {
+    Channel channel = Channel::r;
+    std::array<std::int64_t, 2> pixel{};  // whose value it shows: column and row in the cell
+    std::array<double, 4> rect{};         // left, top, right, bottom in pixels from the cell's top left corner
+    bool operator==(const Subpixel&) const = default;
+};
+
 struct Panel {
     std::array<std::int64_t, 2> pixels{};  // columns, rows
     double pixel_pitch_mm = 0;
     Encoding encoding = Encoding::srgb;
     double emission_exponent = 0;  // m of cos(theta)^m, 0 = Lambertian
-    double aperture_ratio = 1;     // q, the share of each pixel that shines; in the black matrix around it there is no light
-    std::vector<Layer> layers;     // on the panel, from it upwards: cover glass, polariser, adhesive
+    double aperture_ratio = 1;     // q, the share of each subpixel that shines; in the black matrix around it there is no light
+    SubpixelLayout subpixels = SubpixelLayout::none;           // none: a pixel shines in all colours at once
+    std::optional<std::array<std::int64_t, 2>> subpixel_cell;  // of a custom layout: the columns and rows after which it repeats
+    std::vector<Layer> layers;                                 // on the panel, from it upwards: cover glass, polariser, adhesive
+    std::vector<Subpixel> custom;                              // of a custom layout
     bool operator==(const Panel&) const = default;
 };
 
@@ -142,6 +153,7 @@ struct Content {
     double tilt_deg = 0;                // about x, before the yaw; positive raises the front
     double yaw_deg = 0;                 // counter-clockwise seen from above
     double viewing_distance_mm = 2000;  // from the panel; infinity allowed
+    ContentSampling sampling = ContentSampling::subpixel;
     bool operator==(const Content&) const = default;
 };
 

@@ -22,9 +22,26 @@ constexpr Key<Panel> panel_keys[] = {
     {"emission_exponent", &Panel::emission_exponent, Range{0, 100}, false,
      "m: radiance falls as cos(theta)^m from the normal, in what lies on the panel. 0 is a Lambertian panel."},
     {"aperture_ratio", &Panel::aperture_ratio, Range{0, 1, true, false}, false,
-     "q: each pixel shines in a square about its centre, sqrt(q) as wide, 1/q times as bright, so that white is white in the mean. "
-     "Around it is a black matrix."},
+     "q: each subpixel (without subpixels each pixel) shines in a rectangle about its centre, sqrt(q) as wide and high. Around it "
+     "is "
+     "a black matrix. What shines is so much brighter that white is white in the mean."},
+    {"subpixels", &Panel::subpixels, no_range, false,
+     "Of each pixel: none, all of it shines in its colour; stripes from the left, or rows from the top; RGBG of OLED panels, in "
+     "cells "
+     "of 2 x 2 pixels; thirds whose odd rows stand half a pixel to the right; or the rectangles of [[panel.subpixel]]."},
+    {"subpixel_cell", &Panel::subpixel_cell, Range{1, 16}, false,
+     "Of custom subpixels: columns and rows of pixels after which they repeat, from the panel's top left corner.",
+     "required of custom subpixels"},
     {"layer", &Panel::layers, no_range, false, ""},
+    {"subpixel", &Panel::custom, no_range, false, ""},
+};
+
+constexpr Key<Subpixel> subpixel_keys[] = {
+    {"channel", &Subpixel::channel, no_range, true, "The colour in which it shines."},
+    {"pixel", &Subpixel::pixel, Range{0, 15}, true, "The pixel of the cell whose value it shows: column and row, from 0."},
+    {"rect", &Subpixel::rect, Range{-16, 32}, true,
+     "Left, top, right and bottom, in pixels from the cell's top left corner. It may hang over the cell's border, and repeats with "
+     "the cell. Rectangles do not overlap."},
 };
 
 constexpr Key<Layer> layer_keys[] = {
@@ -140,6 +157,8 @@ constexpr Key<Content> content_keys[] = {
     {"viewing_distance_mm", &Content::viewing_distance_mm, Range{shortest_mm, infinity}, false,
      "From the panel to the viewer that the elemental images are made for. inf: elemental images stand straight behind their "
      "lenses."},
+    {"sampling", &Content::sampling, no_range, false,
+     "On a panel with subpixels: each colour of a pixel is made for the place where it shines, or all for the pixel's middle."},
 };
 
 constexpr Key<Render> render_keys[] = {
@@ -193,6 +212,13 @@ template <>
 const Table<Layer>& table_of<Layer>() {
     static constexpr Table<Layer> table{
         "layer", "A plane plate on the panel, the first one lying on it: cover glass, polariser, adhesive. At most 8.", layer_keys};
+    return table;
+}
+template <>
+const Table<Subpixel>& table_of<Subpixel>() {
+    static constexpr Table<Subpixel> table{
+        "subpixel", "A rectangle that shines in one colour; every colour needs one. At most 32, for subpixels = \"custom\".",
+        subpixel_keys};
     return table;
 }
 template <>
@@ -262,6 +288,8 @@ std::string Range::text() const {
 
 // clang-format off
 template <> std::span<const std::string_view> words<Encoding>() { static constexpr std::string_view w[] = {"srgb", "linear"}; return w; }
+template <> std::span<const std::string_view> words<SubpixelLayout>() { static constexpr std::string_view w[] = {"none", "rgb_stripe", "bgr_stripe", "rgb_rows", "pentile_rgbg", "delta", "custom"}; return w; }
+template <> std::span<const std::string_view> words<Channel>() { static constexpr std::string_view w[] = {"r", "g", "b"}; return w; }
 template <> std::span<const std::string_view> words<LensType>() { static constexpr std::string_view w[] = {"plano_convex", "surfaces", "ideal", "pinhole"}; return w; }
 template <> std::span<const std::string_view> words<LensKind>() { return words<LensType>(); }
 template <> std::span<const std::string_view> words<Facing>() { static constexpr std::string_view w[] = {"viewer", "panel"}; return w; }
@@ -269,6 +297,7 @@ template <> std::span<const std::string_view> words<Surround>() { static constex
 template <> std::span<const std::string_view> words<LatticeKind>() { static constexpr std::string_view w[] = {"square", "rectangle", "hexagon", "brick", "strips"}; return w; }
 template <> std::span<const std::string_view> words<Aperture>() { static constexpr std::string_view w[] = {"circle", "cell"}; return w; }
 template <> std::span<const std::string_view> words<Profile>() { static constexpr std::string_view w[] = {"box", "gaussian"}; return w; }
+template <> std::span<const std::string_view> words<ContentSampling>() { static constexpr std::string_view w[] = {"subpixel", "pixel"}; return w; }
 template <> std::span<const std::string_view> words<PixelFilter>() { static constexpr std::string_view w[] = {"center", "box"}; return w; }
 template <> std::span<const std::string_view> words<Estimator>() { static constexpr std::string_view w[] = {"filtered", "point"}; return w; }
 template <> std::span<const std::string_view> words<Sampling>() { static constexpr std::string_view w[] = {"sobol", "random"}; return w; }

@@ -30,11 +30,12 @@ inline constexpr double two_to_31 = 2147483648.0;
 
 /// One of all the types of a value, Of<V> being a pointer to it or to a member.
 template <template <class> class Of>
-using ValuesOf = std::variant<Of<double>, Of<std::optional<double>>, Of<std::int64_t>, Of<std::optional<std::int64_t>>,
-                              Of<std::string>, Of<std::array<double, 2>>, Of<Vec3d>, Of<std::array<std::int64_t, 2>>,
-                              Of<std::optional<std::array<std::int64_t, 2>>>, Of<std::vector<double>>, Of<Pitch>, Of<Encoding>,
-                              Of<LensKind>, Of<Facing>, Of<Surround>, Of<LatticeKind>, Of<Aperture>, Of<Profile>, Of<PixelFilter>,
-                              Of<Estimator>, Of<Sampling>, Of<Fresnel>>;
+using ValuesOf =
+    std::variant<Of<double>, Of<std::optional<double>>, Of<std::int64_t>, Of<std::optional<std::int64_t>>, Of<std::string>,
+                 Of<std::array<double, 2>>, Of<Vec3d>, Of<std::array<std::int64_t, 2>>, Of<std::array<double, 4>>,
+                 Of<std::optional<std::array<std::int64_t, 2>>>, Of<std::vector<double>>, Of<Pitch>, Of<Encoding>,
+                 Of<SubpixelLayout>, Of<Channel>, Of<LensKind>, Of<Facing>, Of<Surround>, Of<LatticeKind>, Of<Aperture>,
+                 Of<Profile>, Of<PixelFilter>, Of<ContentSampling>, Of<Estimator>, Of<Sampling>, Of<Fresnel>>;
 
 /// What a key fills. Only Display, Panel and SurfaceLens contain tables: one that is always there, one that may be absent, or a
 /// list; the keys of a kind stand beside its word.
@@ -51,8 +52,9 @@ struct MemberOf<Display> {
 };
 template <>
 struct MemberOf<Panel> {
-    using Type =
-        std::variant<std::array<std::int64_t, 2> Panel::*, double Panel::*, Encoding Panel::*, std::vector<Layer> Panel::*>;
+    using Type = std::variant<std::array<std::int64_t, 2> Panel::*, double Panel::*, Encoding Panel::*, SubpixelLayout Panel::*,
+                              std::optional<std::array<std::int64_t, 2>> Panel::*, std::vector<Layer> Panel::*,
+                              std::vector<Subpixel> Panel::*>;
 };
 template <>
 struct MemberOf<SurfaceLens> {
@@ -83,6 +85,7 @@ const Table<T>& table_of();
 template <> const Table<Display>& table_of<Display>();
 template <> const Table<Panel>& table_of<Panel>();
 template <> const Table<Layer>& table_of<Layer>();
+template <> const Table<Subpixel>& table_of<Subpixel>();
 template <> const Table<Lens>& table_of<Lens>();
 template <> const Table<PlanoConvex>& table_of<PlanoConvex>();
 template <> const Table<SurfaceLens>& table_of<SurfaceLens>();
@@ -99,8 +102,8 @@ template <> const Table<Render>& table_of<Render>();
 template <class T, class... Structs>
 inline constexpr bool is_one_of = (std::is_same_v<T, Structs> || ...);
 template <class T>
-inline constexpr bool has_table = is_one_of<T, Display, Panel, Layer, Lens, PlanoConvex, SurfaceLens, IdealLens, Pinhole, Surface,
-                                            LensArray, Diffuser, Camera, Content, Render>;
+inline constexpr bool has_table = is_one_of<T, Display, Panel, Layer, Subpixel, Lens, PlanoConvex, SurfaceLens, IdealLens, Pinhole,
+                                            Surface, LensArray, Diffuser, Camera, Content, Render>;
 
 /// How a field of a struct is a table within it.
 enum class PartKind { value, table, optional, list, kinds };

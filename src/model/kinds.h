@@ -5,14 +5,19 @@ namespace lfdsim {
 
 // Enough for any lens maker's prescription, and the most that the kernels hold.
 inline constexpr decltype(sizeof 0) max_surfaces = 16, max_asphere_terms = 8, max_layers = 8;
+// Of a panel's cell; a rectangle that hangs over the border of its cell is stored in parts.
+inline constexpr int max_subpixels = 32, max_subpixel_parts = 64;
 
 enum class Encoding { srgb, linear };  // of the panel image's code values
+enum class SubpixelLayout { none, rgb_stripe, bgr_stripe, rgb_rows, pentile_rgbg, delta, custom };
+enum class Channel { r, g, b };
 enum class LensType { plano_convex, surfaces, ideal, pinhole };
 enum class Facing { viewer, panel };                                   // which way the convex side of a plano-convex lens faces
 enum class Surround { opaque, clear, plate };                          // what is between the lenses
 enum class LatticeKind { square, rectangle, hexagon, brick, strips };  // of the cells in which lenses stand
 enum class Aperture { circle, cell };                                  // cell: the lens fills it
 enum class Profile { box, gaussian };                                  // of the diffuser, per axis
+enum class ContentSampling { subpixel, pixel };                        // for what place elemental images are made
 enum class PixelFilter { center, box };
 enum class Estimator { filtered, point };
 enum class Sampling { sobol, random };

@@ -80,21 +80,55 @@ struct LevelReader {
 /// A box wider or narrower than this, in cells, is read as if it were as wide.
 constexpr float least_box = 1.0f / 64, most_box = 1;
 
-/// Where pixels do not shine all over: turns one side of a box, panel pixels from a pixel's border, into that of a box of the same
-/// pixels' light on a panel whose pixels do, and multiplies `weight` by the light in the one over that in the other. A point's
-/// place is then the light before it: it stands still in the dark between two pixels and moves faster where they shine.
+/// Turns one side of a box, in cells of a subpixel's part, into that of a box over its plane with the same light, and multiplies
+/// `weight` by the light in the one over that in the other. A point's place is then the light before it: it stands still in the
+/// dark between two parts and moves faster where they shine.
 template <class F>
-LFDSIM_FN void squeeze(const Opening<Scalar<F>>& opening, F& middle, F& width, F& weight) {
+LFDSIM_FN void squeeze(const SubpixelPart<Scalar<F>>& part, int axis, F& middle, F& width, F& weight) {
     using S = Scalar<F>;
     const auto light_before = [&](F place) {
         const F whole = floor(place);
-        return whole + min(max((place - whole - F(opening.from)) * F(opening.per), F(0)), F(1));
+        return whole + min(max((place - whole - F(part.from[axis])) * F(part.per[axis]), F(0)), F(1));
     };
     const F wide = max(width, F(S(1.0 / 4096))), half = F(S(0.5)) * wide, pixel = floor(middle), place = middle - pixel;
     const F first = light_before(place - half), last = light_before(place + half);
     middle = pixel + F(S(0.5)) * (first + last);
     width = last - first;
     weight = weight * (width / wide);
+}
+
+/// A box of the panel as a box of the plane in which a subpixel's part repeats.
+template <class F>
+struct PlaneBox {
+    PanelBase<Scalar<F>> base;
+    F column, row, wide, high, weight;  // of the plane, from its base
+
+    LFDSIM_FN PlaneBox(const SubpixelPart<Scalar<F>>& part, const PanelBase<Scalar<F>>& from, F c, F r, F w, F h, F share) {
+        const F column_rest = start(part, 0, from.column, base.column), row_rest = start(part, 1, from.row, base.row);
+        column = (c + column_rest) * F(part.per_cell[0]);
+        row = (r + row_rest) * F(part.per_cell[1]);
+        wide = w * F(part.per_cell[0]);
+        high = h * F(part.per_cell[1]);
+        weight = share * F(part.share);
+    }
+    LFDSIM_FN void squeeze(const SubpixelPart<Scalar<F>>& part) {
+        optics::squeeze(part, 0, column, wide, weight);
+        optics::squeeze(part, 1, row, high, weight);
+    }
+
+  private:
+    /// The cell that holds the base's pixel, and how many pixels before that one it begins.
+    LFDSIM_FN static F start(const SubpixelPart<Scalar<F>>& part, int axis, std::uint32_t number, std::uint32_t& cell) {
+        const std::int32_t rest = InCell<F>::rest_of(std::int32_t(number), part.cell[axis]);
+        cell = std::uint32_t((std::int32_t(number) - rest) / part.cell[axis]);
+        return F(Scalar<F>(rest));
+    }
+};
+
+/// The levels of a plane.
+LFDSIM_FN PanelLevels plane_of(PanelLevels levels, int plane) {
+    levels.level += plane * levels.count * (levels.sums ? 2 : 1);
+    return levels;
 }
 
 /// The least level whose cells are at least `size` panel pixels wide, or the last one.
@@ -105,7 +139,7 @@ LFDSIM_FN Uint<F> level_of(F size, int count) {
     return select(fitting < top, fitting, top);
 }
 
-/// light_of_boxes() for boxes that are long where there are sums: at the level at which a box is at most two cells wide, of which
+/// light_of_plane() for boxes that are long where there are sums: at the level at which a box is at most two cells wide, of which
 /// one is read, and along its whole length. Between the sums before and after a cell the sum is linear.
 template <class F>
 LFDSIM_FN void light_of_long_boxes(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, F column, F row, F wide, F high,
@@ -152,19 +186,15 @@ LFDSIM_FN void light_of_long_boxes(const PanelLevels& levels, const PanelBase<Sc
     }
 }
 
-/// The same for boxes that differ from lane to lane, each on a level of its own: weight x the light of each lane; R, G, B and an
-/// unused number. A box's level is that at which it is at most two cells wide, and one cell's width of it is read: the light that a
-/// coarser cell would add from outside the box is the larger error. Positions are measured from the panel's corner in single
-/// precision: on a panel of 16384 columns accurate to 1/1000 of a pixel.
+/// The mean over boxes of a plane that differ from lane to lane, each on a level of its own: weight x the light of each lane; R, G,
+/// B and an unused number. A box's level is that at which it is at most two cells wide, and one cell's width of it is read: the
+/// light that a coarser cell would add from outside the box is the larger error. Positions are measured from the panel's corner in
+/// single precision: on a panel of 16384 columns accurate to 1/1000 of a pixel.
 template <class F>
-LFDSIM_FN void light_of_boxes(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, F column, F row, F wide, F high,
+LFDSIM_FN void light_of_plane(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, F column, F row, F wide, F high,
                               F weight, Scalar<F> (*light)[4]) {
     using S = Scalar<F>;
     constexpr int lanes = LaneTraits<F>::width;
-    if (!levels.opening.whole) {
-        squeeze(levels.opening, column, wide, weight);
-        squeeze(levels.opening, row, high, weight);
-    }
     const bool any_long = levels.sums && any((levels.tall ? high : wide) > F(S(most_box)));
     S long_light[lanes][4];
     if (any_long) {
@@ -215,16 +245,51 @@ LFDSIM_FN void light_of_boxes(const PanelLevels& levels, const PanelBase<Scalar<
     }
 }
 
+/// The mean over boxes of the panel, each lane's own: of all that shines in them.
+template <class F>
+LFDSIM_FN void light_of_boxes(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, F column, F row, F wide, F high,
+                              F weight, Scalar<F> (*light)[4]) {
+    using S = Scalar<F>;
+    constexpr int lanes = LaneTraits<F>::width;
+    const Emission<S>& emission = *levels.emission;
+    const int parts = emission.whole ? 1 : emission.count;
+    for (int k = 0; k < parts; ++k) {
+        PanelLevels plane = levels;
+        PanelBase<S> from = base;
+        F c = column, r = row, w = wide, h = high, share = weight;
+        if (!emission.whole) {
+            PlaneBox<F> box(emission.part[k], base, column, row, wide, high, weight);
+            box.squeeze(emission.part[k]);
+            plane = plane_of(levels, emission.part[k].plane);
+            from = box.base;
+            c = box.column;
+            r = box.row;
+            w = box.wide;
+            h = box.high;
+            share = box.weight;
+        }
+        S of_part[lanes][4];
+        light_of_plane(plane, from, c, r, w, h, share, k == 0 ? light : of_part);
+        if (emission.whole) return;
+        const int channel = emission.part[k].channel;
+        for (int n = 0; n < lanes; ++n)
+            for (int colour = 0; colour < 4; ++colour) {
+                const bool shows = channel == 3 || channel == colour;
+                light[n][colour] =
+                    k == 0 ? (shows ? light[n][colour] : S(0)) : light[n][colour] + (shows ? of_part[n][colour] : S(0));
+            }
+    }
+}
+
 /// A box on the level that suits its size, the same for all pixels of a block except for its position.
 template <class S>
 struct Footprint {
     LevelReader<S> level;
     S width, height, per_width, per_height;  // cells
     bool point;                              // too small to matter: one cell is read
-    Opening<S> opening;
 
     Footprint() = default;
-    /// wide x high panel pixels.
+    /// wide x high cells of the finest level.
     LFDSIM_FN Footprint(const PanelLevels& levels, const PanelBase<S>& base, S wide, S high) {
         int l = 0;
         for (S most = max(wide, high); most > S(most_box) && l + 1 < levels.count; most = most * S(0.5)) ++l;
@@ -233,30 +298,36 @@ struct Footprint {
         height = min(max(high * level.cells_per_pixel, S(least_box)), S(most_box));
         per_width = S(1) / width;
         per_height = S(1) / height;
-        opening = levels.opening;
-        point = opening.whole && max(wide, high) < S(least_box);
+        point = max(wide, high) < S(least_box);
     }
     template <class F>
     LFDSIM_FN void add(Light<F>& light, F column, F row, F weight) const {
         if (point)
             level.add_point(light, column, row, weight);
-        else if (opening.whole)
-            level.add_box(light, column, row, weight, F(width), F(height), F(per_width), F(per_height));
         else
-            add_squeezed(light, column, row, weight);
-    }
-
-  private:
-    template <class F>
-    LFDSIM_FN void add_squeezed(Light<F>& light, F column, F row, F weight) const {
-        const F cell = F(S(1) / level.cells_per_pixel), per_cell = F(level.cells_per_pixel), least = F(S(least_box));
-        F wide = F(width) * cell, high = F(height) * cell;
-        squeeze(opening, column, wide, weight);
-        squeeze(opening, row, high, weight);
-        wide = max(wide * per_cell, least);
-        high = max(high * per_cell, least);
-        level.add_box(light, column, row, weight, wide, high, F(1) / wide, F(1) / high);
+            level.add_box(light, column, row, weight, F(width), F(height), F(per_width), F(per_height));
     }
 };
+
+/// The same on a panel with subpixels: a box of wide x high panel pixels.
+template <class F>
+LFDSIM_APART void add_subpixels(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, Scalar<F> wide, Scalar<F> high,
+                                F column, F row, F weight, Light<F>& light) {
+    using S = Scalar<F>;
+    for (int k = 0; k < levels.emission->count; ++k) {
+        const SubpixelPart<S>& part = levels.emission->part[k];
+        PlaneBox<F> box(part, base, column, row, F(wide), F(high), weight);
+        const Footprint<S> footprint(plane_of(levels, part.plane), box.base, wide * part.per_cell[0], high * part.per_cell[1]);
+        const LevelReader<S>& level = footprint.level;
+        const F pixels_per_cell = F(S(1) / level.cells_per_pixel), per_pixel = F(level.cells_per_pixel), least = F(S(least_box));
+        box.wide = F(footprint.width) * pixels_per_cell;
+        box.high = F(footprint.height) * pixels_per_cell;
+        box.squeeze(part);
+        const F w = max(box.wide * per_pixel, least), h = max(box.high * per_pixel, least);
+        Light<F> of_part;
+        level.add_box(of_part, box.column, box.row, box.weight, w, h, F(1) / w, F(1) / h);
+        light.add(of_part, part.channel);
+    }
+}
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

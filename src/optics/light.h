@@ -19,6 +19,30 @@ struct Fetch {
         : pairs(select(hit.lit, hit.pixel, Uint<F>(0u)) << 1), weight(select(hit.lit, hit.weight, F(0))) {}
 };
 
+/// The light of subpixels, one of which each ray of a packet meets: R, G, B and an unused number of each lane.
+template <class F>
+struct SubpixelLight {
+    Scalar<F> lane[LaneTraits<F>::width][4];
+
+    LFDSIM_FN SubpixelLight(const float* texels, const Fetch<F>& fetch) {
+        // Through arrays of its own, so that the Fetch of panels without subpixels stays in registers.
+        std::uint32_t code[LaneTraits<F>::width];
+        Scalar<F> weight[LaneTraits<F>::width];
+        store(fetch.pairs >> 1, code);
+        store(fetch.weight, weight);
+        load_all(texels, code, weight);
+    }
+
+  private:
+    LFDSIM_APART void load_all(const float* texels, const std::uint32_t* code, const Scalar<F>* weight) {
+        for (int k = 0; k < LaneTraits<F>::width; ++k) {
+            const float* const texel = texels + std::size_t(code[k] >> 2) * 4;
+            const std::uint32_t channel = code[k] & 3;
+            for (std::uint32_t c = 0; c < 4; ++c) lane[k][c] = channel == 3 || channel == c ? Scalar<F>(texel[c]) * weight[k] : 0;
+        }
+    }
+};
+
 /// Loads the texels of a Fetch. A register of N lanes holds N/4 whole texels, so its lanes are then colours, four to a pixel, and
 /// four registers hold the texels of all N pixels. Offsets are kept in memory, one for each pixel.
 template <class F>
@@ -80,6 +104,29 @@ struct Light {
         sum[1] = sum[1] + (a.template light<1>(texels) + b.template light<1>(texels));
         sum[2] = sum[2] + (a.template light<2>(texels) + b.template light<2>(texels));
         sum[3] = sum[3] + (a.template light<3>(texels) + b.template light<3>(texels));
+    }
+    /// The same of panels with or without subpixels.
+    LFDSIM_FN void add(const Emission<Scalar<F>>& emission, const float* texels, const Fetch<F>& fetch) {
+        if (emission.whole) [[likely]]
+            add(texels, fetch);
+        else
+            add(SubpixelLight<F>(texels, fetch).lane);
+    }
+    LFDSIM_FN void add(const Emission<Scalar<F>>& emission, const float* texels, const Fetch<F>& first, const Fetch<F>& second) {
+        if (emission.whole) [[likely]] {
+            add(texels, first, second);
+        } else {
+            Light both;
+            both.add(SubpixelLight<F>(texels, first).lane);
+            both.add(SubpixelLight<F>(texels, second).lane);
+            add(both);
+        }
+    }
+    /// Adds one channel of another, or all of them (3).
+    LFDSIM_FN void add(const Light& other, int channel) {
+        Scalar<F> shown[4 * N];
+        for (int k = 0; k < 4 * N; ++k) shown[k] = channel == 3 || channel == k % 4 ? Scalar<F>(1) : Scalar<F>(0);
+        for (int r = 0; r < 4; ++r) sum[r] = sum[r] + other.sum[r] * load<F>(shown + r * N);
     }
     LFDSIM_FN void add(const Light& other) {
         for (int r = 0; r < 4; ++r) sum[r] = sum[r] + other.sum[r];

@@ -23,7 +23,8 @@ struct PanelPoint {
     Cell<F> cell;
 };
 
-/// A panel pixel: its number row x columns + column where `lit`, and the share of its light that the ray carries.
+/// A panel pixel: its number row x columns + column where `lit`, and the share of its light that the ray carries. On a panel with
+/// subpixels four times that number, plus the channel, of which alone there is light (3: all).
 template <class F>
 struct PanelHit {
     Uint<F> pixel;
@@ -43,11 +44,43 @@ LFDSIM_FN PanelPoint<F> panel_point(const Scene<Scalar<F>>& scene, const PanelBa
     return {F(base.column_rest) + at.x, F(base.row_rest) - at.y, weight, alive, cell};
 }
 
-/// Whether a point, in panel pixels from the panel's corner or from any other pixel's, lies where its pixel shines.
+/// A place along one axis of the panel, in panel pixels from the base's whole pixel `number`, in its cell.
 template <class F>
-LFDSIM_FN Mask<F> in_opening(const Scene<Scalar<F>>& scene, F column, F row) {
-    const F from = F(scene.opening.from), to = F(scene.opening.to), across = column - floor(column), down = row - floor(row);
-    return (across >= from) && (across < to) && (down >= from) && (down < to);
+struct InCell {
+    F at;      // the place, as a share of the cell
+    F before;  // pixels from the cell's first to the one that holds the place
+
+    LFDSIM_FN InCell(const SubpixelPart<Scalar<F>>& part, int axis, std::uint32_t number, F place) {
+        using S = Scalar<F>;
+        const S size = S(part.cell[axis]);
+        const F whole = floor(place), from_cell = whole + F(S(rest_of(std::int32_t(number), part.cell[axis])));
+        before = from_cell - floor((from_cell + F(S(0.5))) * F(part.per_cell[axis])) * F(size);
+        at = (before + (place - whole)) * F(part.per_cell[axis]);
+    }
+    LFDSIM_FN static std::int32_t rest_of(std::int32_t number, std::int32_t cell) { return (number % cell + cell) % cell; }
+    LFDSIM_FN Mask<F> inside(const SubpixelPart<Scalar<F>>& part, int axis) const {
+        return (at >= F(part.from[axis])) && (at < F(part.to[axis]));
+    }
+};
+
+/// What a subpixel under a point shows, if there is one: the pixel's number x 4 + the channel.
+template <class F>
+LFDSIM_FN PanelHit<F> subpixel_under(const Scene<Scalar<F>>& scene, const PanelBase<Scalar<F>>& base, const PanelPoint<F>& point,
+                                     Uint<F> column, Uint<F> row, Mask<F> lit) {
+    PanelHit<F> hit{Uint<F>(0u), F(0), F(1) < F(0)};
+    for (int k = 0; k < scene.emission.count; ++k) {
+        const SubpixelPart<Scalar<F>>& part = scene.emission.part[k];
+        const InCell<F> across(part, 0, base.column, point.column), down(part, 1, base.row, point.row);
+        const Uint<F> shown_column = column + to_int(F(Scalar<F>(part.pixel[0])) - across.before),
+                      shown_row = row + to_int(F(Scalar<F>(part.pixel[1])) - down.before);
+        const Mask<F> here = lit && across.inside(part, 0) && down.inside(part, 1) && (shown_column < Uint<F>(scene.columns)) &&
+                             (shown_row < Uint<F>(scene.rows));
+        const Uint<F> pixel = shown_row * Uint<F>(scene.columns) + shown_column;
+        hit.pixel = select(here, (pixel << 2) + Uint<F>(std::uint32_t(part.channel)), hit.pixel);
+        hit.weight = select(here, point.weight * F(part.share * (part.per[0] * part.per[1])), hit.weight);
+        hit.lit = hit.lit || here;
+    }
+    return hit;
 }
 
 /// The pixel under a point.
@@ -56,12 +89,9 @@ LFDSIM_FN PanelHit<F> panel_pixel(const Scene<Scalar<F>>& scene, const PanelBase
     const Uint<F> column = Uint<F>(base.column) + to_int(floor(point.column));
     const Uint<F> row = Uint<F>(base.row) + to_int(floor(point.row));
     const Mask<F> lit = point.alive && (column < Uint<F>(scene.columns)) && (row < Uint<F>(scene.rows));
-    PanelHit<F> hit{row * Uint<F>(scene.columns) + column, point.weight, lit};
-    if (!scene.opening.whole) [[unlikely]] {
-        hit.lit = hit.lit && in_opening(scene, point.column, point.row);
-        hit.weight = hit.weight * F(scene.opening.per * scene.opening.per);
-    }
-    return hit;
+    if (!scene.emission.whole) [[unlikely]]
+        return subpixel_under(scene, base, point, column, row, lit);
+    return {row * Uint<F>(scene.columns) + column, point.weight, lit};
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

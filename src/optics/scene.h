@@ -44,12 +44,25 @@ struct LayerData {
     Interface<S> media;  // at its upper face: of the top one air above it, however the lens lies on it
 };
 
-/// The part of a pixel that shines: from here to there of its width, and the same of its height.
+/// A part of a panel's subpixel, in a cell of some pixels that repeats over the panel. Places are shares of the cell's width and
+/// height, from its left and top (x, y).
 template <class S>
-struct Opening {
-    bool whole;  // all of it
-    S from, to;
-    S per;  // 1 / (to - from)
+struct SubpixelPart {
+    std::int32_t channel;      // 0, 1, 2; 3: all colours
+    std::int32_t cell[2];      // pixels
+    S per_cell[2];             // 1 / cell
+    std::int32_t pixel[2];     // whose light it shows, from the cell's first
+    std::int32_t plane;        // the number of the picture of those pixels of all cells (engine/pyramid.h)
+    S from[2], to[2], per[2];  // per: 1 / (to - from)
+    S share;                   // of the channel's light
+};
+
+/// The parts of a panel that shine; dark around them, and so much brighter in them that a cell's mean is its pixels' light.
+template <class S>
+struct Emission {
+    bool whole;  // all of each pixel, in its own colour: no parts
+    std::int32_t count;
+    SubpixelPart<S> part[max_subpixel_parts];
 };
 
 template <class S>
@@ -58,7 +71,7 @@ struct Scene {
     std::uint32_t columns, rows;
     S pixels_per_mm;
     S emission_exponent;
-    Opening<S> opening;  // dark around it, and so much brighter in it that the pixel's mean is its light
+    Emission<S> emission;
     std::int32_t layer_count;
     LayerData<S> layer[max_layers];  // from the top one downwards
     S layers_top;
@@ -124,14 +137,14 @@ struct PanelLevel {
     std::uint32_t columns, rows;
 };
 
-/// The panel's levels, of pixels that shine all over: `count` of its pyramid and, where footprints are long, as many of sums
-/// (engine/pyramid.h).
+/// The panel's levels: `count` of its pyramid and, where footprints are long, as many of sums; then those of the further planes of
+/// subpixels, as many each (engine/pyramid.h).
 struct PanelLevels {
     const PanelLevel* level;
     int count;
     bool sums;
     bool tall;  // footprints are long along columns, not along rows
-    Opening<float> opening;
+    const Emission<float>* emission;
 };
 
 /// Dimensions 0, 1: diffuser; 2, 3: position in the pixel; 4, 5: position in the pupil.

@@ -16,7 +16,7 @@ namespace lfdsim::view {
 namespace {
 
 // Other parts of a message decide these.
-constexpr std::string_view left_out[] = {"name", "content.model", "camera.position_mm", "camera.resolution"};
+constexpr std::string_view left_out[] = {"name", "content.model", "camera.position_mm", "camera.resolution", "panel.subpixel_cell"};
 
 std::string label(std::string_view key) {
     for (const std::string_view unit : {"_per_mm", "_mm", "_deg"})
@@ -245,7 +245,7 @@ class Lister {
     }
 
     template <class List>
-    requires std::is_same_v<List, Vec3d> || std::is_same_v<List, std::vector<double>>
+    requires std::is_same_v<List, Vec3d> || std::is_same_v<List, std::array<double, 4>> || std::is_same_v<List, std::vector<double>>
     void add(Json& control, const std::string&, const Range&, List& field, const List*) {
         control["value"] = control_json(field);
         control["form"] = "list";

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "engine/scene.h"
+#include "model/subpixels.h"
 #include "pictures.h"
 
 namespace lfdsim {
@@ -52,7 +53,8 @@ TEST_P(Filtered, TendsToBruteForce) {
     const double wanted = rmse(papers, truth);
     EXPECT_LT(rmse(filtered(16), truth), 2.5 * wanted) << name;
     const Image fine = filtered(1024);
-    EXPECT_LT(rmse(fine, truth), 1.0 / 100) << name;
+    // Single rays see subpixels at their full brightness: the truth is as much noisier.
+    EXPECT_LT(rmse(fine, truth), std::sqrt(peak(display.panel)) / 100) << name;
     EXPECT_NEAR(mean_light(fine) / mean_light(truth), 1, 8e-3) << name;
 }
 
@@ -96,7 +98,8 @@ constexpr std::uint64_t kept_bits[] = {
     0xe08a0aff131fbca4, 0xaf4e7826986d3b3e, 0x44f97c85a44c26ec, 0xf9c2b20b8763fef8, 0x79dc1c0db756f768, 0xa7a485297b495dc9,
     0xf74dadf8d20bfa04, 0x5fae646c19ae51da, 0xc36e141c74fc66cd, 0xfecad94b0c447d74, 0xbe0c67ff88e3452e, 0x562927faa0479af1,
     0x6682ea83b1165008, 0xce2f428158e0cde4, 0x2eedac16d3ba3d04, 0x46758edd0c5be139, 0xcee1468c9c7c9d8d, 0x8c49b0230fef0098,
-    0x778eb3480f55b6da, 0x02e85f65784abe4a, 0x39789d93b9c920a6};
+    0xddfe5ed2f42473b7, 0x836156dea7d07343, 0x39789d93b9c920a6, 0xa645472b6d98edea, 0x3e70eda4bc02b7d1, 0xa88a5003214b5d1e,
+    0x5cd811a7ddfcab11};
 
 TEST_P(Filtered, HasTheSameBitsEverywhere) {
     Bits bits;

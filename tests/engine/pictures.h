@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "../model/panels.h"
 #include "../optics/example.h"
 #include "engine/render.h"
 
@@ -141,6 +142,12 @@ inline std::vector<std::pair<std::string, Display>> every_kind() {
     all.emplace_back("black matrix", example());
     all.back().second.panel.aperture_ratio = 0.6;
     all.back().second.diffuser = Diffuser{40, {4, 4}, Profile::box};
+    all.emplace_back("stripes", example());
+    all.back().second.panel.subpixels = SubpixelLayout::rgb_stripe;
+    all.back().second.camera.pixel_filter = PixelFilter::box;
+    all.emplace_back("hexagons over custom subpixels", in_lattice(example(), LatticeKind::hexagon));
+    all.back().second.panel = with_subpixels(all.back().second.panel, SubpixelLayout::custom);
+    all.back().second.diffuser = Diffuser{40, {4, 4}, Profile::box};
     for (auto& [name, d] : all) {
         look_from(d, 20, 400);
         d.camera.position_mm[1] = 60;
@@ -213,6 +220,16 @@ inline std::vector<std::pair<std::string, Display>> diffused() {
     all.back().second.diffuser.reset();
     all.back().second.camera.pixel_filter = PixelFilter::box;
     all.back().second.panel.aperture_ratio = 0.4;
+    add("stripes", ideal_example(), closing);
+    all.back().second.panel.subpixels = SubpixelLayout::rgb_stripe;
+    add("PenTile, weak", example(), {40, {0.5, 0.3}, Profile::box});
+    all.back().second.panel.subpixels = SubpixelLayout::pentile_rgbg;
+    add("delta, slanted strips, glued", glued_strips(), {40, {4, 2}, Profile::box});
+    all.back().second.panel.subpixels = SubpixelLayout::delta;
+    add("custom subpixels, box filter and pupil", example(), closing);
+    all.back().second.panel = with_subpixels(all.back().second.panel, SubpixelLayout::custom);
+    all.back().second.camera.pixel_filter = PixelFilter::box;
+    all.back().second.camera.pupil_diameter_mm = 2;
     return all;
 }
 

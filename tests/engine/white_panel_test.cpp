@@ -13,6 +13,9 @@ TEST(WhitePanel, EachRayIsWhiteOrBlack) {
         d.render.fresnel = Fresnel::none;
         d.panel.emission_exponent = 0;
         d.panel.aperture_ratio = 1;
+        d.panel.subpixels = SubpixelLayout::none;
+        d.panel.subpixel_cell.reset();
+        d.panel.custom.clear();
         d.diffuser.reset();
         d.camera.pixel_filter = PixelFilter::center;
         d.camera.pupil_diameter_mm.reset();
@@ -35,6 +38,9 @@ TEST(WhitePanel, MeansAreWholeNumbersOfRays) {
         d.render.fresnel = Fresnel::none;
         d.panel.emission_exponent = 0;
         d.panel.aperture_ratio = 1;
+        d.panel.subpixels = SubpixelLayout::none;
+        d.panel.subpixel_cell.reset();
+        d.panel.custom.clear();
         d.render.samples = 7;
         const Texels white = uniform_panel(d, 1);
         for (double angle : angles) {

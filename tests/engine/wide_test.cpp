@@ -31,7 +31,7 @@ Rendering by_host(const Display& d, const Texels& panel, const RenderOptions& op
     Job job;
     const Pyramid pyramid(panel);
     const Geometry geometry = resolve(d);
-    const auto& levels = pyramid.levels(long_footprints(geometry));
+    const auto& levels = pyramid.levels(panel_reading(d, geometry));
     Work work(d, geometry, levels, options);
     work.make_pictures(options.target_error.has_value());
     const wide::DevicePanel there(queue, levels);

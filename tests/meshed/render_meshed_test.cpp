@@ -176,6 +176,9 @@ TEST(RenderMeshed, WhiteIsWhiteOrBlack) {
         d.render.fresnel = Fresnel::none;
         d.panel.emission_exponent = 0;
         d.panel.aperture_ratio = 1;
+        d.panel.subpixels = SubpixelLayout::none;
+        d.panel.subpixel_cell.reset();
+        d.panel.custom.clear();
         d.diffuser.reset();
         d.camera.pixel_filter = PixelFilter::center;
         const Texels white = uniform_panel(d, 1);

@@ -10,6 +10,7 @@
 #include "model/geometry.h"
 #include "model/keys.h"
 #include "model/numbers.h"
+#include "panels.h"
 
 namespace lfdsim {
 namespace {
@@ -58,6 +59,18 @@ INSTANTIATE_TEST_SUITE_P(Ranges, Fault, testing::Values(
     Case{"panel.emission_exponent", "is 101", [](Display& d) { d.panel.emission_exponent = 101; }},
     Case{"panel.aperture_ratio", "is 0, allowed is more than 0 to 1", [](Display& d) { d.panel.aperture_ratio = 0; }},
     Case{"panel.aperture_ratio", "is 1.01", [](Display& d) { d.panel.aperture_ratio = 1.01; }},
+    Case{"panel.subpixel_cell", "but panel.subpixels is \"rgb_stripe\"", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.subpixels = SubpixelLayout::rgb_stripe; d.panel.custom.clear(); }},
+    Case{"panel.subpixel", "but panel.subpixels is \"none\"", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.subpixels = SubpixelLayout::none; d.panel.subpixel_cell.reset(); }},
+    Case{"panel.subpixel_cell", "is missing", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.subpixel_cell.reset(); }},
+    Case{"panel.subpixel", "is missing", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.custom.clear(); }},
+    Case{"panel.subpixel", "no rectangle shines in \"g\"", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.custom.erase(d.panel.custom.begin() + 1); }},
+    Case{"panel.subpixel.1.rect", "has no area", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.custom[1].rect[2] = 0.7; }},
+    Case{"panel.subpixel.1.pixel", "outside of the cell of 3 x 2", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.custom[1].pixel = {3, 0}; }},
+    Case{"panel.subpixel.1.rect", "overlaps panel.subpixel.0", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.custom[1].rect[0] = 0.4; }},
+    Case{"panel.subpixel.1.rect", "overlaps itself", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.custom.erase(d.panel.custom.begin() + 4); d.panel.custom[1].rect = {0.7, 1.2, 1.4, 3.5}; }},
+    Case{"panel.subpixel.3.rect[1]", "is nan", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.custom[3].rect[1] = nan; }},
+    Case{"panel.subpixel", "has 33, allowed are 32", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.custom.resize(33, d.panel.custom[0]); }},
+    Case{"panel.pixels", "allowed is a product below 2^29", [](Display& d) { d.panel.subpixels = SubpixelLayout::delta; d.panel.pixels = {32768, 16384}; d.panel.pixel_pitch_mm = 0.01; d.array.count.reset(); }},
     Case{"lens.index", "is 0.9, allowed is 1 to 4", [](Display& d) { d.lens.as<PlanoConvex>().index = 0.9; }},
     Case{"lens.index", "is inf", [](Display& d) { d.lens.as<PlanoConvex>().index = inf; }},
     Case{"lens.cylinder_height_mm", "is -0.5", [](Display& d) { d.lens.as<PlanoConvex>().cylinder_height_mm = -0.5; }},
@@ -77,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(Ranges, Fault, testing::Values(
     Case{"array.pitch_mm", "is [12, 9], but array.lattice is \"hexagon\"; take \"brick\"", [](Display& d) { d.array.lattice = LatticeKind::hexagon; d.array.pitch_mm = {12, 9}; }},
     Case{"array.pitch_mm", "is [12, 9], but array.lattice is \"strips\"", [](Display& d) { d.array.lattice = LatticeKind::strips; d.array.count.reset(); d.array.pitch_mm = {12, 9}; }},
     Case{"array.count", "is [43, 24], but strips are one row; give [43, 1]", [](Display& d) { d.array.lattice = LatticeKind::strips; }},
-    Case{"array.count", "5000000000 x 9000000000 = 45", [](Display& d) { d.array.count.reset(); d.array.pitch_mm = 1e-6; d.panel = {{500, 900}, 10, {}, 0, 1, {}}; d.lens.kind = IdealLens{{}, 15.7}; d.array.aperture = Aperture::cell; }},
+    Case{"array.count", "5000000000 x 9000000000 = 45", [](Display& d) { d.array.count.reset(); d.array.pitch_mm = 1e-6; d.panel.pixels = {500, 900}; d.panel.pixel_pitch_mm = 10; d.lens.kind = IdealLens{{}, 15.7}; d.array.aperture = Aperture::cell; }},
     Case{"array.slant_deg", "is 90, allowed is more than -90 to below 90", [](Display& d) { d.array.lattice = LatticeKind::strips; d.array.count.reset(); d.array.slant_deg = 90; }},
     Case{"array.slant_deg", "turn such an array by array.rotation_deg", [](Display& d) { d.array.slant_deg = 9; }},
     Case{"array.slant_deg", "both array.slant_deg and array.rotation_deg", [](Display& d) { d.array.lattice = LatticeKind::strips; d.array.count.reset(); d.array.slant_deg = 9; d.array.rotation_deg = -9; }},

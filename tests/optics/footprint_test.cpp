@@ -26,7 +26,8 @@ Texels panel(Light light) {
 std::array<float, 4> light_of(const Pyramid& pyramid, double column, double row, double wide, double high) {
     const PanelBase<float> base{40, 30, 0, 0};
     float light[1][4];
-    const PanelLevels levels{pyramid.levels().data(), int(pyramid.levels().size()), false, true, {true, 0, 1, 1}};
+    static const Emission<float> whole{true, 0, {}};
+    const PanelLevels levels{pyramid.levels().data(), int(pyramid.levels().size()), false, true, &whole};
     light_of_boxes<float>(levels, base, float(column - 40), float(row - 30), float(wide), float(high), 1.0f, light);
     return {light[0][0], light[0][1], light[0][2], light[0][3]};
 }

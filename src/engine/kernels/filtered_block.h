@@ -256,8 +256,10 @@ class BlockWork {
     LFDSIM_BOTH void add_box(const SharedBundle& b, F dx, F dy, F weight, PacketLight& to) const {
         const F column = F(b.column) + F(b.column_right) * dx + F(b.column_down) * dy,
                 row = F(b.row) + F(b.row_right) * dx + F(b.row_down) * dy;
-        if (!tile.levels.sums || optics::max(b.width, b.height) <= S(optics::most_box))
-            return b.footprint.add(to.boxes, column, row, weight);
+        const bool small = !tile.levels.sums || optics::max(b.width, b.height) <= S(optics::most_box);
+        if (small && !scene.emission.whole)
+            return optics::add_subpixels(tile.levels, at.block.lens.panel, b.width, b.height, column, row, weight, to.boxes);
+        if (small) return b.footprint.add(to.boxes, column, row, weight);
         S in_box[Packet::lanes][4];
         optics::light_of_boxes(tile.levels, at.block.lens.panel, column, row, F(b.width), F(b.height), weight, in_box);
         to.boxes.add(in_box);

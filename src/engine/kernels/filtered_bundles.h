@@ -169,7 +169,7 @@ class BundleMaker {
             lean(b, i, x, j, y);
             return b;
         }
-        const bool uneven = !scene.opening.whole && optics::max(b.width, b.height) < S(FilteredLimits::masked);
+        const bool uneven = !scene.emission.whole && optics::max(b.width, b.height) < S(FilteredLimits::masked);
         if (fine_alone(tile, scene) || grid->narrow || uneven) {
             b.state = SharedBundle::State::broken;
             return b;

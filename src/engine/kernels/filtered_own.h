@@ -130,9 +130,8 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
         one.alive = one.alive && !together;
     }
     if (optics::none(one.alive)) return;
-    optics::PanelHit<F> hit = optics::panel_pixel(scene, pixels.base, one);
-    hit.weight = weight;
-    light.add(tile.texels, optics::Fetch<F>(hit));
+    one.weight = weight;
+    light.add(scene.emission, tile.texels, optics::Fetch<F>(optics::panel_pixel(scene, pixels.base, one)));
 }
 
 /// Where rays start, and what the camera's pixel and pupil add to the width and height of each box; squared.

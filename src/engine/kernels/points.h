@@ -45,7 +45,7 @@ LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& 
                 a = {hit.pixel.a, hit.weight.a, hit.lit.a};
                 b = {hit.pixel.b, hit.weight.b, hit.lit.b};
             }
-            block.add(tile.texels, first, second);
+            block.add(scene.emission, tile.texels, first, second);
             first = optics::Fetch<F>(a);
             second = optics::Fetch<F>(b);
             even.next(*tile.directions);
@@ -53,14 +53,15 @@ LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& 
             odd.next(*tile.directions);
             odd.next(*tile.directions);
         }
-        block.add(tile.texels, first, second);
+        block.add(scene.emission, tile.texels, first, second);
         total.add(block);
     }
     if (tile.samples % 2 == 1) {
         if constexpr (one_lane)
-            total.add(tile.texels, optics::Fetch<F>(optics::trace<through, pinhole>(scene, *tile.view, pixels, even)));
+            total.add(scene.emission, tile.texels,
+                      optics::Fetch<F>(optics::trace<through, pinhole>(scene, *tile.view, pixels, even)));
         else
-            total.add(tile.texels, optics::Fetch<F>(trace_one<through, pinhole>(tile, pixels, even)));
+            total.add(scene.emission, tile.texels, optics::Fetch<F>(trace_one<through, pinhole>(tile, pixels, even)));
     }
     return total;
 }

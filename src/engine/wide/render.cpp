@@ -25,7 +25,7 @@ class Renderer {
         frame_.directions = *tile.directions;
         frame_.tile = tile;
         frame_.tile.texels = panel.texels();
-        frame_.tile.levels.level = panel.levels();
+        frame_.tile.levels.level = panel.levels();  // the emission is that of the frame's scene
     }
     Frame& frame() { return frame_; }
 

@@ -1,0 +1,210 @@
+#include "model/subpixels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+namespace {
+
+constexpr double same = 1e-9;  // pixels: places closer than this are one
+constexpr double third = 1.0 / 3;
+
+struct Rect {
+    std::array<double, 2> from, to;
+    double area() const { return (to[0] - from[0]) * (to[1] - from[1]); }
+};
+
+Rect rect_of(const Subpixel& s) { return {{s.rect[0], s.rect[1]}, {s.rect[2], s.rect[3]}}; }
+
+Rect shrunk(const Rect& r, double aperture_ratio) {
+    const double half = 0.5 * std::sqrt(aperture_ratio);
+    Rect out{};
+    for (std::size_t k = 0; k < 2; ++k) {
+        const double middle = 0.5 * (r.from[k] + r.to[k]), reach = half * (r.to[k] - r.from[k]);
+        out.from[k] = middle - reach;
+        out.to[k] = middle + reach;
+    }
+    return out;
+}
+
+std::int64_t floor_mod(std::int64_t a, std::int64_t n) { return (a % n + n) % n; }
+
+// The subpixel moved by whole cells, so that its pixel is in the first cell.
+Subpixel in_first_cell(Subpixel s, const std::array<std::int64_t, 2>& cell) {
+    for (std::size_t k = 0; k < 2; ++k) {
+        const std::int64_t home = floor_mod(s.pixel[k], cell[k]), move = home - s.pixel[k];
+        s.pixel[k] = home;
+        s.rect[k] += double(move);
+        s.rect[k + 2] += double(move);
+    }
+    return s;
+}
+
+bool alike(const Subpixel& a, const Subpixel& b) {
+    if (a.channel != b.channel || a.pixel != b.pixel) return false;
+    for (std::size_t k = 0; k < 4; ++k)
+        if (std::abs(a.rect[k] - b.rect[k]) > same) return false;
+    return true;
+}
+
+// Whether subpixels in such a cell repeat after fewer pixels already.
+bool repeat_after(const std::vector<Subpixel>& all, const std::array<std::int64_t, 2>& cell,
+                  const std::array<std::int64_t, 2>& period) {
+    for (std::size_t k = 0; k < 2; ++k)
+        for (Subpixel s : all) {
+            s.pixel[k] += period[k];
+            s.rect[k] += double(period[k]);
+            s.rect[k + 2] += double(period[k]);
+            s = in_first_cell(s, cell);
+            if (std::none_of(all.begin(), all.end(), [&](const Subpixel& other) { return alike(s, other); })) return false;
+        }
+    return true;
+}
+
+std::array<std::int64_t, 2> least_cell(const std::vector<Subpixel>& all, const std::array<std::int64_t, 2>& cell) {
+    std::array<std::int64_t, 2> least = cell;
+    for (std::int64_t x = 1; x <= cell[0]; ++x)
+        for (std::int64_t y = 1; y <= cell[1]; ++y)
+            if (cell[0] % x == 0 && cell[1] % y == 0 && x * y < least[0] * least[1] && repeat_after(all, cell, {x, y}))
+                least = {x, y};
+    return least;
+}
+
+// The parts of a subpixel in the cells that it lies in, all of which are the same cell.
+void add_parts(const Subpixel& s, const Rect& lit, const std::array<std::int64_t, 2>& cell, double share,
+               std::vector<LitPart>& to) {
+    const double width = double(cell[0]), height = double(cell[1]);
+    for (double y = std::floor(lit.from[1] / height); y * height < lit.to[1] - same; ++y)
+        for (double x = std::floor(lit.from[0] / width); x * width < lit.to[0] - same; ++x) {
+            const std::array<double, 2> corner{x * width, y * height};
+            LitPart part{int(s.channel), {{int(cell[0]), int(cell[1])}, {}}, {}, {}, 0};
+            for (std::size_t k = 0; k < 2; ++k) {
+                part.plane.pixel[k] = int(s.pixel[k]) - int(corner[k]);
+                part.from[k] = std::max(lit.from[k] - corner[k], 0.);
+                part.to[k] = std::min(lit.to[k] - corner[k], double(cell[k]));
+            }
+            const Rect here{part.from, part.to};
+            if (here.to[0] - here.from[0] <= same || here.to[1] - here.from[1] <= same) continue;
+            part.share = share * here.area() / lit.area();
+            to.push_back(part);
+        }
+}
+
+}  // namespace
+
+SubpixelCell subpixel_cell(const Panel& panel) {
+    SubpixelCell out{{1, 1}, {}};
+    const auto add = [&](Channel channel, std::int64_t column, std::int64_t row, double left, double top, double right,
+                         double bottom) {
+        out.subpixels.push_back({channel, {column, row}, {left, top, right, bottom}});
+    };
+    constexpr Channel rgb[] = {Channel::r, Channel::g, Channel::b};
+    switch (panel.subpixels) {
+        case SubpixelLayout::none:
+            break;
+        case SubpixelLayout::rgb_stripe:
+            for (int k = 0; k < 3; ++k) add(rgb[k], 0, 0, k * third, 0, (k + 1) * third, 1);
+            break;
+        case SubpixelLayout::bgr_stripe:
+            for (int k = 0; k < 3; ++k) add(rgb[2 - k], 0, 0, k * third, 0, (k + 1) * third, 1);
+            break;
+        case SubpixelLayout::rgb_rows:
+            for (int k = 0; k < 3; ++k) add(rgb[k], 0, 0, 0, k * third, 1, (k + 1) * third);
+            break;
+        case SubpixelLayout::pentile_rgbg:
+            out.size = {2, 2};
+            for (int row = 0; row < 2; ++row)
+                for (int column = 0; column < 2; ++column) {
+                    add(row == column ? Channel::r : Channel::b, column, row, column, row, column + 0.5, row + 1);
+                    add(Channel::g, column, row, column + 0.5, row, column + 1, row + 1);
+                }
+            break;
+        case SubpixelLayout::delta:
+            out.size = {1, 2};
+            for (int row = 0; row < 2; ++row)
+                for (int k = 0; k < 3; ++k) add(rgb[k], 0, row, k * third + 0.5 * row, row, (k + 1) * third + 0.5 * row, row + 1);
+            break;
+        case SubpixelLayout::custom:
+            out = {panel.subpixel_cell.value_or(std::array<std::int64_t, 2>{1, 1}), panel.custom};
+            break;
+    }
+    return out;
+}
+
+std::vector<LitPart> lit_parts(const Panel& panel) {
+    std::vector<LitPart> parts;
+    if (panel.subpixels == SubpixelLayout::none) {
+        const Rect lit = shrunk({{0, 0}, {1, 1}}, panel.aperture_ratio);
+        return {{3, {}, lit.from, lit.to, 1}};
+    }
+    const SubpixelCell cell = subpixel_cell(panel);
+    for (const Channel channel : {Channel::r, Channel::g, Channel::b}) {
+        std::vector<Subpixel> all;
+        for (const Subpixel& s : cell.subpixels)
+            if (s.channel == channel) all.push_back(in_first_cell(s, cell.size));
+        const std::array<std::int64_t, 2> least = least_cell(all, cell.size);
+        std::erase_if(all, [&](const Subpixel& s) { return s.pixel[0] >= least[0] || s.pixel[1] >= least[1]; });
+        double area = 0;
+        for (const Subpixel& s : all) area += rect_of(s).area();
+        for (const Subpixel& s : all)
+            add_parts(s, shrunk(rect_of(s), panel.aperture_ratio), least, rect_of(s).area() / area, parts);
+    }
+    return parts;
+}
+
+std::optional<std::pair<std::size_t, std::size_t>> overlapping(const Panel& panel) {
+    struct Part {
+        std::size_t of;
+        Rect rect;
+    };
+    std::vector<Part> parts;
+    for (std::size_t k = 0; k < panel.custom.size(); ++k) {
+        std::vector<LitPart> of_one;
+        add_parts(panel.custom[k], rect_of(panel.custom[k]), subpixel_cell(panel).size, 1, of_one);
+        for (const LitPart& p : of_one) {
+            for (const Part& other : parts)
+                if (std::min(p.to[0], other.rect.to[0]) - std::max(p.from[0], other.rect.from[0]) > same &&
+                    std::min(p.to[1], other.rect.to[1]) - std::max(p.from[1], other.rect.from[1]) > same)
+                    return std::pair(other.of, k);
+            parts.push_back({k, {p.from, p.to}});
+        }
+    }
+    return {};
+}
+
+std::vector<PanelPlane> planes(const Panel& panel) {
+    std::vector<PanelPlane> all{PanelPlane()};
+    for (const LitPart& part : lit_parts(panel))
+        if (std::find(all.begin(), all.end(), part.plane) == all.end()) all.push_back(part.plane);
+    return all;
+}
+
+bool shines_all_over(const Panel& panel) { return panel.subpixels == SubpixelLayout::none && panel.aperture_ratio == 1; }
+
+double gain(const Panel& panel, int channel) {
+    const SubpixelCell cell = subpixel_cell(panel);
+    double area = cell.subpixels.empty() ? 1 : 0;
+    for (const Subpixel& s : cell.subpixels)
+        if (int(s.channel) == channel) area += rect_of(s).area();
+    return double(cell.size[0]) * double(cell.size[1]) / (area * panel.aperture_ratio);
+}
+
+double peak(const Panel& panel) { return std::max({gain(panel, 0), gain(panel, 1), gain(panel, 2)}); }
+
+std::optional<std::array<double, 2>> centroid(const Panel& panel, int channel, std::int64_t column, std::int64_t row) {
+    if (panel.subpixels == SubpixelLayout::none) return std::array<double, 2>{};
+    const SubpixelCell cell = subpixel_cell(panel);
+    const std::array<std::int64_t, 2> pixel{floor_mod(column, cell.size[0]), floor_mod(row, cell.size[1])};
+    double area = 0;
+    std::array<double, 2> sum{};
+    for (const Subpixel& s : cell.subpixels) {
+        if (int(s.channel) != channel || s.pixel != pixel) continue;
+        const Rect r = rect_of(s);
+        area += r.area();
+        for (std::size_t k = 0; k < 2; ++k) sum[k] += r.area() * (0.5 * (r.from[k] + r.to[k]) - (double(pixel[k]) + 0.5));
+    }
+    if (area == 0) return {};
+    return std::array<double, 2>{sum[0] / area, sum[1] / area};
+}
+
+}  // namespace lfdsim

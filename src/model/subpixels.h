@@ -1,0 +1,61 @@
+// Where each colour of a panel shines. Floor 0.
+//
+// The panel is a grid of pixels, and a cell of some pixels repeats over it. Positions are in pixels to the right of and below the
+// cell's top left corner. docs/model.md, "Subpixels".
+#pragma once
+#include "model/display.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace lfdsim {
+
+/// One pixel of each cell of so many columns and rows, counted from the cell's first; a neighbouring cell's where that lies
+/// outside.
+struct PanelPlane {
+    std::array<int, 2> cell{1, 1}, pixel{0, 0};
+    auto operator<=>(const PanelPlane&) const = default;
+};
+
+/// A part of a subpixel that lies in one cell. Where a subpixel hangs over the cell's border it has several parts.
+struct LitPart {
+    int channel;                     // 0, 1, 2; 3: all colours
+    PanelPlane plane;                // the cell after which it repeats, and the pixel whose light it shows
+    std::array<double, 2> from, to;  // x and y
+    double share;                    // of its channel's light: areas of the panel over that of all parts of the channel
+};
+
+/// The parts of all subpixels of a valid panel, shrunk to its aperture ratio, each in the least cell after which its channel
+/// repeats.
+std::vector<LitPart> lit_parts(const Panel&);
+
+/// The planes of a panel's parts, each once; the first is the panel itself.
+std::vector<PanelPlane> planes(const Panel&);
+
+/// Whether every point of a pixel shines in the pixel's own colour.
+bool shines_all_over(const Panel&);
+
+/// How much brighter than the pixel's light a point shines that shines at all in a channel (0, 1, 2), so that white is white in the
+/// mean: the cell's area over that of the channel's subpixels in it.
+double gain(const Panel&, int channel);
+
+/// The largest gain.
+double peak(const Panel&);
+
+/// The middle of a channel's light of the pixel (column, row), from the pixel's centre: pixels to the right and down. Nothing where
+/// the channel has no subpixel there.
+std::optional<std::array<double, 2>> centroid(const Panel&, int channel, std::int64_t column, std::int64_t row);
+
+/// The cell and the subpixels of a layout before they are shrunk. Of `none` there are none, in a cell of one pixel.
+struct SubpixelCell {
+    std::array<std::int64_t, 2> size;
+    std::vector<Subpixel> subpixels;
+};
+SubpixelCell subpixel_cell(const Panel&);
+
+/// The numbers of two subpixels of a custom layout that overlap, here or in a cell repeated; twice the same one where it overlaps
+/// its own repetition.
+std::optional<std::pair<std::size_t, std::size_t>> overlapping(const Panel&);
+
+}  // namespace lfdsim

@@ -1,0 +1,115 @@
+// Subpixels in pictures: single rays against a search over the described rectangles, means over boxes against sums of such rays.
+#include "model/subpixels.h"
+
+#include <gtest/gtest.h>
+
+#include "../model/panels.h"
+#include "engine/scene.h"
+#include "optics/footprint.h"
+#include "pictures.h"
+
+namespace lfdsim {
+namespace {
+
+/// The light of channel c at a point of the panel, in pixels from its corner, as the description says.
+double light_at(const Panel& panel, const Texels& shown, double x, double y, int c) {
+    if (x < 0 || y < 0 || x >= double(panel.pixels[0]) || y >= double(panel.pixels[1])) return 0;
+    const SubpixelCell cell = subpixel_cell(panel);
+    const double across = double(cell.size[0]), down = double(cell.size[1]), side = 0.5 * std::sqrt(panel.aperture_ratio);
+    for (const Subpixel& s : cell.subpixels) {
+        if (int(s.channel) != c) continue;
+        for (int i = -2; i <= 2; ++i)
+            for (int j = -2; j <= 2; ++j) {
+                const double left = (std::floor(x / across) + i) * across, top = (std::floor(y / down) + j) * down;
+                const auto inside = [&](double at, double from, double to) {
+                    return at >= 0.5 * (from + to) - side * (to - from) && at < 0.5 * (from + to) + side * (to - from);
+                };
+                if (!inside(x - left, s.rect[0], s.rect[2]) || !inside(y - top, s.rect[1], s.rect[3])) continue;
+                const double column = left + double(s.pixel[0]), row = top + double(s.pixel[1]);
+                if (column < 0 || row < 0 || column >= double(panel.pixels[0]) || row >= double(panel.pixels[1])) return 0;
+                return gain(panel, c) * double(shown.data()[4 * (std::int64_t(row) * shown.columns() + std::int64_t(column)) + c]);
+            }
+    }
+    return 0;
+}
+
+class OfLayout : public testing::TestWithParam<SubpixelLayout> {
+  protected:
+    static Display display() {
+        Display d = ideal_example();
+        d.panel = with_subpixels(d.panel, GetParam());
+        return d;
+    }
+};
+
+// Behind lenses that bend nothing a camera's rays end at the points of the frame, which lies in the panel's plane.
+TEST_P(OfLayout, RaysMeetTheDescribedRectangles) {
+    Display d = display();
+    d.lens.as<IdealLens>().focal_length_mm = 1e6;
+    const Texels shown = noise_panel(d);
+    const int width = 311, height = 211;
+    d.camera.resolution = {width, height};
+    for (const double frame : {3.0, 1.05 * double(d.panel.pixels[0]) * d.panel.pixel_pitch_mm}) {  // a few pixels; all of the panel
+        d.camera.frame_width_mm = frame;
+        const Image seen = picture(d, shown);
+        const double step = frame / width / d.panel.pixel_pitch_mm;
+        std::array<int, 3> lit{};
+        int compared = 0;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                for (int c = 0; c < 3; ++c) {
+                    const double column = 0.5 * double(d.panel.pixels[0]) + (x - 155) * step,
+                                 row = 0.5 * double(d.panel.pixels[1]) + (y - 105) * step;
+                    const double wanted = light_at(d.panel, shown, column, row, c);
+                    bool border = false;
+                    for (const double off : {-2e-3, 2e-3})
+                        border = border || light_at(d.panel, shown, column + off, row, c) != wanted ||
+                                 light_at(d.panel, shown, column, row + off, c) != wanted;
+                    if (border) continue;
+                    ASSERT_NEAR(seen.at(x, y)[c], wanted, 1e-5) << x << " " << y << " " << c;
+                    ++compared;
+                    lit[std::size_t(c)] += wanted > 0;
+                }
+        EXPECT_GT(compared, 2.8 * width * height);
+        for (const int each : lit) EXPECT_GT(each, 1000);
+    }
+}
+
+TEST_P(OfLayout, MeansOverBoxesAreThoseOfTheirPoints) {
+    const Display d = display();
+    const Texels shown = noise_panel(d);
+    const Pyramid pyramid(shown);
+    const PanelReading reading{Long::none, planes(d.panel)};
+    const auto& levels = pyramid.levels(reading);
+    const optics::Scene<float> scene = make_scene<float>(d, resolve(d));
+    const optics::PanelLevels read{levels.data(), int(levels.size() / reading.planes.size()), false, false, &scene.emission};
+    Random random(7);
+    for (int n = 0; n < 300; ++n) {
+        // Up to a pixel wide, where a box is read at the finest level and its mean is exact.
+        const double wide = random(0.05, 1), high = random(0.05, 1), x = random(-1, double(d.panel.pixels[0]) + 1),
+                     y = random(2, double(d.panel.pixels[1]) - 2);
+        const optics::PanelBase<float> base{std::uint32_t(40), std::uint32_t(30), 0, 0};
+        float light[1][4];
+        optics::light_of_boxes<float>(read, base, float(x - 40), float(y - 30), float(wide), float(high), 1.0f, light);
+        optics::Light<float> same;
+        optics::add_subpixels<float>(read, base, float(wide), float(high), float(x - 40), float(y - 30), 1.0f, same);
+        constexpr int points = 64;
+        for (int c = 0; c < 3; ++c) {
+            double sum = 0;
+            for (int i = 0; i < points; ++i)
+                for (int j = 0; j < points; ++j)
+                    sum +=
+                        light_at(d.panel, shown, x + ((i + 0.5) / points - 0.5) * wide, y + ((j + 0.5) / points - 0.5) * high, c);
+            EXPECT_NEAR(light[0][c], sum / (points * points), 0.05 * gain(d.panel, c)) << x << " " << y << " " << c;
+            EXPECT_NEAR(same(0, c), light[0][c], 1e-4 * gain(d.panel, c));
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Subpixels, OfLayout,
+                         testing::Values(SubpixelLayout::rgb_stripe, SubpixelLayout::bgr_stripe, SubpixelLayout::rgb_rows,
+                                         SubpixelLayout::pentile_rgbg, SubpixelLayout::delta, SubpixelLayout::custom),
+                         [](const auto& info) { return std::string(word(info.param)); });
+
+}  // namespace
+}  // namespace lfdsim
