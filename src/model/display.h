@@ -19,7 +19,7 @@ using Vec3d = std::array<double, 3>;
 /// A plane plate, wide without end.
 struct Layer {
     double thickness_mm = 0;
-    double index = 0;
+    std::optional<double> index = {};
     bool operator==(const Layer&) const = default;
 };
 
@@ -39,8 +39,8 @@ struct Surface {
     double conic = 0;                  // k
     std::vector<double> even_asphere;  // a4, a6, ... (1/mm^3, 1/mm^5, ...)
     double semi_aperture_mm = 0;
-    double distance_mm = 0;  // vertex to vertex, to the next surface; ignored on the last
-    double index = 1;        // of the medium up to the next surface; ignored on the last
+    double distance_mm = 0;            // vertex to vertex, to the next surface; ignored on the last
+    std::optional<double> index = {};  // of the medium up to the next surface; absent: air; ignored on the last
     bool operator==(const Surface&) const = default;
 };
 
@@ -48,7 +48,7 @@ struct PlanoConvex {
     double sphere_radius_mm = 0;               // R
     std::optional<double> aperture_radius_mm;  // r; may be absent of a lens that fills its cell
     double cylinder_height_mm = 0;             // h
-    double index = 0;                          // n
+    std::optional<double> index = {};          // n
     Facing facing = Facing::viewer;
     bool operator==(const PlanoConvex&) const = default;
 };

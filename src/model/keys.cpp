@@ -78,7 +78,8 @@ constexpr Key<Surface> surface_keys[] = {
     {"semi_aperture_mm", &Surface::semi_aperture_mm, positive_length, true, "A ray further than this from the axis is absorbed."},
     {"distance_mm", &Surface::distance_mm, length_or_zero, false,
      "From vertex to vertex, to the next surface. Ignored on the last."},
-    {"index", &Surface::index, index_range, false, "Of the medium up to the next surface. Ignored on the last: air follows."},
+    {"index", &Surface::index, index_range, false, "Of the medium up to the next surface. Ignored on the last: air follows.",
+     "1, air"},
 };
 
 constexpr Key<LensArray> array_keys[] = {

@@ -82,7 +82,7 @@ double glass_radius_mm(const std::optional<double>& aperture_radius_mm, const Le
 namespace {
 
 std::vector<PlacedSurface> placed(const PlanoConvex& lens, const LensArray& array) {
-    const double R = lens.sphere_radius_mm, r = glass_radius_mm(lens.aperture_radius_mm, array), n = lens.index;
+    const double R = lens.sphere_radius_mm, r = glass_radius_mm(lens.aperture_radius_mm, array), n = lens.index.value_or(1);
     // The ball's centre lies sqrt(R^2 - r^2) below the wall's end, its apex R above the centre; (R - r)(R + r) avoids cancellation.
     const double thickness = lens.cylinder_height_mm + R - std::sqrt((R - r) * (R + r));
     if (lens.facing == Facing::viewer) return {{0, 0, 0, {}, r, 1, n}, {thickness, -1 / R, 0, {}, r, n, 1}};
@@ -94,7 +94,7 @@ std::vector<PlacedSurface> placed(const SurfaceLens& lens, const LensArray&) {
     double z = 0, below = 1;
     for (const Surface& s : lens.surfaces) {
         const bool last = &s == &lens.surfaces.back();
-        const double above = last ? 1 : s.index;
+        const double above = last ? 1 : s.index.value_or(1);
         placed.push_back({z, s.curvature_per_mm, s.conic, s.even_asphere, s.semi_aperture_mm, below, above});
         z += s.distance_mm;
         below = above;

@@ -11,9 +11,9 @@ namespace {
 constexpr double glue_mm = 1e-6;  // a flat face so near to what lies under it borders on it
 
 /// Sum of thickness / index.
-double reduced_mm(const std::vector<Layer>& layers) {
+double reduced_mm(const std::vector<PlacedLayer>& layers) {
     double sum = 0;
-    for (const Layer& layer : layers) sum += layer.thickness_mm / layer.index;
+    for (const PlacedLayer& layer : layers) sum += layer.thickness_mm / layer.index;
     return sum;
 }
 
@@ -24,8 +24,11 @@ bool is_flat(const PlacedSurface& s) {
 
 // Places the lens along z: its surfaces and planes, from gap or base.
 void place_lens(const Lens& lens, const LensArray& array, const Panel& panel, Geometry& g) {
-    for (const Layer& layer : panel.layers) g.layers_top_mm += layer.thickness_mm;
-    const double T = g.layers_top_mm, reduced_T = reduced_mm(panel.layers);
+    for (const Layer& layer : panel.layers) {
+        g.layers.push_back({layer.thickness_mm, layer.index.value_or(1)});
+        g.layers_top_mm += layer.thickness_mm;
+    }
+    const double T = g.layers_top_mm, reduced_T = reduced_mm(g.layers);
     g.surfaces = prescription(lens, array);
     const Cardinal paraxial = cardinal_points(g.surfaces);
     double lowest = 0, highest = 0, vertex = 0, widest = 0, narrowest = g.surfaces.front().semi_aperture_mm;
@@ -65,7 +68,7 @@ void place_lens(const Lens& lens, const LensArray& array, const Panel& panel, Ge
     g.gap_mm = array.gap_mm.value_or(reduced_T + (g.front_principal_mm - T));
     PlacedSurface& lowest_surface = g.surfaces.front();
     g.glued = is_flat(lowest_surface) && std::abs(g.base_z_mm - T) <= glue_mm && std::abs(lowest_surface.z_mm - T) <= glue_mm;
-    if (g.glued) lowest_surface.index_below = panel.layers.empty() ? lowest_surface.index_above : panel.layers.back().index;
+    if (g.glued) lowest_surface.index_below = g.layers.empty() ? lowest_surface.index_above : g.layers.back().index;
     if (array.aperture == Aperture::cell) g.clear_aperture_mm = array.pitch_mm;
     if (lens.stop_radius_mm) g.clear_aperture_mm.fill(2 * *lens.stop_radius_mm);
 }
