@@ -94,8 +94,11 @@ struct Theory {
 /// All problems of a description, each with its TOML key ("lens.index") as `where`. Empty: valid.
 std::vector<Problem> validate(const Display&);
 
-/// Resolves a valid description. Throws InputError with validate()'s problems otherwise.
+/// Resolves a valid description, in the light of the green channel. Throws InputError with validate()'s problems otherwise.
 Geometry resolve(const Display&);
+/// The same things in the same places in light of another wavelength: indices, focal length, principal points, gap and reduced
+/// lengths are those of that light.
+Geometry resolve(const Display&, double wavelength_nm);
 
 Theory theory(const Display&, const Geometry&);
 

@@ -96,16 +96,6 @@ void check_view(const Camera& camera, Findings& findings) {
                      "lies along the line of sight from camera.position_mm to camera.target_mm; take another direction");
 }
 
-// The index of a lens's glass, and of each layer.
-void check_indices(const Display& d, Findings& findings) {
-    const auto check = [&](const std::string& where, const std::optional<double>& index) {
-        if (!index && findings.sound(where)) findings.add(where, "is missing");
-    };
-    if (const auto* ball = std::get_if<PlanoConvex>(&d.lens.kind); ball && findings.sound("lens.type"))
-        check("lens.index", ball->index);
-    for (std::size_t k = 0; k < d.panel.layers.size(); ++k) check(fmt::format("panel.layer.{}.index", k), d.panel.layers[k].index);
-}
-
 // What the lattice asks of the other keys of the array.
 void check_lattice(const LensArray& array, Findings& findings) {
     if (!findings.sound("array.lattice")) return;
@@ -153,7 +143,6 @@ void validate_values(const Display& d, Findings& findings) {
     if (d.panel.layers.size() > max_layers) findings.add("panel.layer", "has more than the {} layers allowed", max_layers);
     check_lattice(d.array, findings);
     check_choices(d, findings);
-    check_indices(d, findings);
     if (type_known) check_surround(d, findings);
     if (findings.sound("camera.position_mm") && findings.sound("camera.target_mm") && findings.sound("camera.up"))
         check_view(d.camera, findings);
