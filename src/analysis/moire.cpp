@@ -1,7 +1,9 @@
 #include "analysis/moire.h"
 
 #include "analysis/eye_filter.h"
+#include "model/colour.h"
 #include "model/numbers.h"
+#include "model/subpixels.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -14,7 +16,7 @@ namespace {
 constexpr int map_side = 64, map_lines = 256;  // squares along each axis, and lines in each
 
 /// The screen's middle as it is seen, over some periods. Takes map_side parts.
-ColourMap moire_map(const EyeRays& rays, const Display& d, const Vec3d& eye, double side, Parts& parts) {
+ColourMap moire_map(const WhiteSeen& screen, const Vec3d& eye, double side, Parts& parts) {
     const std::vector<Choice> choices = even_choices(map_lines);
     std::vector<double> values(std::size_t(map_side) * map_side);
     const double square = side / map_side;
@@ -22,8 +24,9 @@ ColourMap moire_map(const EyeRays& rays, const Display& d, const Vec3d& eye, dou
         for (int column = 0; column < map_side; ++column) {
             double sum = 0;
             for (const Choice& c : choices)
-                sum += white_light(rays, d.panel, eye, (column + 0.5 + 0.5 * c[0]) * square - side / 2,
-                                   side / 2 - (row + 0.5 + 0.5 * c[1]) * square, c[2], c[3])
+                sum += screen
+                           .light(eye, (column + 0.5 + 0.5 * c[0]) * square - side / 2,
+                                  side / 2 - (row + 0.5 + 0.5 * c[1]) * square, c[2], c[3])
                            .seen;
             values[std::size_t(row) * map_side + std::size_t(column)] = sum / map_lines;
         }
@@ -50,11 +53,19 @@ struct Wave {
     Estimate period_mm, direction_deg, seen, contrast;
 };
 
-void add_wave(Result& result, const std::string& name, const Wave& wave, bool with_errors, const std::string& missing) {
-    Json& json = result.figures[name];
+/// Of the luminance, or of the channel "r", "g" or "b" within it.
+struct WaveNames {
+    std::string channel;
+    Json& in(Json& figures, const std::string& whose) const { return channel.empty() ? figures[whose] : figures[whose][channel]; }
+    std::string path(const std::string& whose) const { return channel.empty() ? whose : whose + "." + channel; }
+};
+
+void add_wave(Result& result, const std::string& whose, const WaveNames& names, const Wave& wave, bool with_errors,
+              const std::string& missing) {
+    Json& json = names.in(result.figures, whose);
     const auto add = [&](const std::string& figure, const Estimate& e) {
         with_errors ? add_figure(json, figure, e) : void(json[figure] = number_json(e.value));
-        if (std::isnan(e.value)) result.note(name + "." + figure, missing);
+        if (std::isnan(e.value)) result.note(names.path(whose) + "." + figure, missing);
     };
     add("period_mm", wave.period_mm);
     add("direction_deg", wave.direction_deg);
@@ -86,39 +97,35 @@ Wave theory_wave(const std::optional<Beat>& beat) {
     return {{period_mm(beat->frequency), 0}, {direction_deg(beat->frequency), 0}, {beat->seen, 0}, {beat->contrast, 0}};
 }
 
-}  // namespace
-
-std::int64_t moire_steps(const Subject& s) { return pictures_worth(s, s.display().panel.aperture_ratio < 1 ? 9'000'000 : 1); }
-
-Result measure_moire(Subject& s, Job& job) {
-    const double distance = checked_viewing_distance_mm(s);
-    const Display& d = s.display();
-    Result result;
-    result.figures["viewing_distance_mm"] = distance;
-    result.remarks.push_back(
-        "A grey screen has the same pattern: all of its pixels shine alike, so period, direction and contrast are those of white.");
-    const std::optional<Beat> theory = MoireTheory(d, s.geometry(), distance).strongest();
+/// The pattern in the luminance or in one channel.
+struct Pattern {
     Wave found{{nan, nan}, {nan, nan}, {0, 0}, {0, 0}};
-    if (d.panel.aperture_ratio == 1) {
-        const std::string none = "the panel has no pixel structure: panel.aperture_ratio is 1";
-        add_wave(result, "white", found, true, none);
-        add_wave(result, "theory", theory_wave(theory), false, none);
-        add_findings(result, found, theory_wave(theory), none);
-        job.advance(moire_steps(s));
-        return result;
-    }
-    const EyeRays rays(d, s.geometry());
-    const Vec3d eye{0, 0, distance};
-    const Window window = middle_of_screen(d, s.geometry(), distance);
-    Parts parts(job, s.threads(), window.rows + moire_search_parts + map_side, moire_steps(s));
-    const WhiteLines lines(rays, d, eye, window, parts);
+    MoireSearch search;
+    std::string missing;  // why there is no period
+};
+
+Pattern pattern_of(const WhiteSeen& screen, const Subject& s, const Vec3d& eye, const Window& window, Parts& parts) {
+    const WhiteLines lines(screen, s.display().render.seed, eye, window, parts);
     if (!(lines.mean() > 0)) throw InputError("camera", "sees no light of a white panel from straight in front of it");
-    result.figures["window_mm"] = {window.width_mm(), window.height_mm()};
-    const MoireSearch search = find_moire(lines, mm_per_degree(distance - s.geometry().vertex_plane_mm), parts);
-    std::string missing;
-    double side = std::min(window.width_mm(), window.height_mm());
+    Pattern pattern;
+    pattern.search = find_moire(lines, mm_per_degree(eye[2] - s.geometry().vertex_plane_mm), parts);
+    if (const std::optional<MeasuredBeat>& m = pattern.search.strongest) {
+        pattern.found = {m->period_mm, m->direction_deg, m->seen, m->contrast};
+        return pattern;
+    }
+    pattern.found.seen.error = pattern.found.contrast.error = pattern.search.least;
+    pattern.missing = fmt::format(
+        "no wave with 3 periods or more in the middle of the screen, {:.3g} x {:.3g} mm, has more than the contrast {:.2g}, which "
+        "the "
+        "noise of the lines of sight allows to see",
+        window.width_mm(), window.height_mm(), pattern.search.least);
+    return pattern;
+}
+
+/// Waves that are about as strong, and what cannot be measured.
+void remark_on(const Pattern& pattern, const std::optional<Beat>& theory, double side, Result& result) {
     Json& others = result.figures["as_strong"] = Json::array();
-    for (const MeasuredBeat& m : search.as_strong) {
+    for (const MeasuredBeat& m : pattern.search.as_strong) {
         Json& json = others.emplace_back(Json::object());
         add_figure(json, "period_mm", m.period_mm);
         add_figure(json, "direction_deg", m.direction_deg);
@@ -130,22 +137,60 @@ Result measure_moire(Subject& s, Job& job) {
         result.remarks.push_back(
             "Theory's wave is too long to be measured: less than three of its periods are in the part of the screen that is looked "
             "at.");
-    if (search.strongest) {
-        found = {search.strongest->period_mm, search.strongest->direction_deg, search.strongest->seen, search.strongest->contrast};
-        side = std::min(side, 6 * found.period_mm.value);
-    } else {
-        found.seen.error = found.contrast.error = search.least;
-        missing = fmt::format(
-            "no wave with 3 periods or more in the middle of the screen, {:.3g} x {:.3g} mm, has more than the "
-            "contrast {:.2g}, which the noise of the lines of sight allows to see",
-            window.width_mm(), window.height_mm(), search.least);
+}
+
+/// Do colours have patterns of their own?
+bool by_channel(const Display& d) { return d.panel.subpixels != SubpixelLayout::none || disperses(d); }
+
+int colours(const Display& d) { return by_channel(d) ? 4 : 1; }
+
+}  // namespace
+
+std::int64_t moire_steps(const Subject& s) {
+    return pictures_worth(s, shines_all_over(s.display().panel) ? 1 : colours(s.display()) * 9'000'000);
+}
+
+Result measure_moire(Subject& s, Job& job) {
+    const double distance = checked_viewing_distance_mm(s);
+    const Display& d = s.display();
+    Result result;
+    result.figures["viewing_distance_mm"] = distance;
+    result.remarks.push_back(
+        "A grey screen has the same pattern: all of its pixels shine alike, so period, direction and contrast are those of white.");
+    if (shines_all_over(d.panel)) {
+        const std::string none = "the panel has no pixel structure: it has no subpixels, and panel.aperture_ratio is 1";
+        const Wave found = Pattern().found, theory = theory_wave({});
+        add_wave(result, "white", {}, found, true, none);
+        add_wave(result, "theory", {}, theory, false, none);
+        add_findings(result, found, theory, none);
+        job.advance(moire_steps(s));
+        return result;
     }
-    add_wave(result, "white", found, true, missing);
-    add_wave(
-        result, "theory", theory_wave(theory), false,
-        fmt::format("all beats are finer than {:g} cycles per degree, which eyes do not resolve", eye_limit_cycles_per_degree));
-    add_findings(result, found, theory_wave(theory), missing);
-    result.maps.push_back(moire_map(rays, d, eye, side, parts));
+    const Vec3d eye{0, 0, distance};
+    const Window window = middle_of_screen(d, s.geometry(), distance);
+    result.figures["window_mm"] = {window.width_mm(), window.height_mm()};
+    Parts parts(job, s.threads(), colours(d) * (window.rows + moire_search_parts) + map_side, moire_steps(s));
+    for (int colour = 0; colour < colours(d); ++colour) {
+        const bool all = colour == 0;
+        const auto channel = std::size_t(colour - 1);
+        const WaveNames names{all ? "" : std::string(1, "rgb"[channel])};
+        const Geometry geometry = all ? s.geometry() : resolve(d, d.panel.wavelengths_nm[channel]);
+        const ChannelWeights weights = all ? luminance_weights : only(channel);
+        const EyeRays rays(d, geometry);
+        const WhiteSeen screen{rays, d.panel, {d.panel, weights}};
+        const std::optional<Beat> theory = MoireTheory(d, geometry, distance, weights).strongest();
+        const Pattern pattern = pattern_of(screen, s, eye, window, parts);
+        add_wave(result, "white", names, pattern.found, true, pattern.missing);
+        add_wave(
+            result, "theory", names, theory_wave(theory), false,
+            fmt::format("all beats are finer than {:g} cycles per degree, which eyes do not resolve", eye_limit_cycles_per_degree));
+        if (!all) continue;
+        double side = std::min(window.width_mm(), window.height_mm());
+        remark_on(pattern, theory, side, result);
+        add_findings(result, pattern.found, theory_wave(theory), pattern.missing);
+        if (pattern.search.strongest) side = std::min(side, 6 * pattern.found.period_mm.value);
+        result.maps.push_back(moire_map(screen, eye, side, parts));
+    }
     return result;
 }
 

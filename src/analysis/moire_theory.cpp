@@ -13,8 +13,8 @@
 namespace lfdsim {
 namespace {
 
-constexpr double tied = 0.99;     // of the strongest wave's contrast: no measurement tells such twins apart
-constexpr int highest_order = 8;  // of the panel's harmonics; higher ones are weaker than 2/(pi 8)^2 of sharp lenses
+constexpr double least_contrast = 1e-6;  // below it a harmonic is rounding
+constexpr double tied = 0.99;            // of the strongest wave's contrast: no measurement tells such twins apart
 
 }  // namespace
 
@@ -26,7 +26,8 @@ double direction_deg(const Frequency& f) {
     return half < 180 ? half + 0. : 0;  // not -0
 }
 
-MoireTheory::MoireTheory(const Display& d, const Geometry& g, double eye_mm) : display_(d), geometry_(g), eye_mm_(eye_mm) {
+MoireTheory::MoireTheory(const Display& d, const Geometry& g, double eye_mm, const ChannelWeights& weights)
+    : display_(d), geometry_(g), panel_(d.panel, weights), eye_mm_(eye_mm) {
     const double e = 1 + g.gap_mm / (eye_mm - g.rear_principal_mm),
                  power = std::isfinite(g.focal_length_mm) ? g.gap_mm / g.focal_length_mm : 0;
     // Along strips light passes plane plates.
@@ -46,7 +47,9 @@ Frequency MoireTheory::to_display(Place v) const {
 
 /// A harmonic of the panel as it lies in the vertex plane before the lenses sample it, in the array's frame.
 MoireTheory::Place MoireTheory::seen_harmonic(int k, int l) const {
-    const Place panel = to_array({k / display_.panel.pixel_pitch_mm, l / display_.panel.pixel_pitch_mm});
+    // Rows count downwards.
+    const double pixel = display_.panel.pixel_pitch_mm;
+    const Place panel = to_array({k / (panel_.cell()[0] * pixel), -l / (panel_.cell()[1] * pixel)});
     return {scale_.x * panel.x, scale_.y * panel.y};
 }
 
@@ -79,9 +82,6 @@ Frequency MoireTheory::beat(int k, int l) const {
     return to_display(best);
 }
 
-/// Of the mask along one axis, whose mean is 1.
-double MoireTheory::matrix(int order) const { return sinc(order * std::sqrt(display_.panel.aperture_ratio)); }
-
 /// The mean of exp(-2 pi i nu angle) over the diffuser's angles; its axes are the display's.
 double MoireTheory::diffuser(Place nu) const {
     if (!display_.diffuser) return 1;
@@ -96,16 +96,18 @@ double MoireTheory::diffuser(Place nu) const {
 }
 
 std::optional<Beat> MoireTheory::strongest() const {
-    if (display_.panel.aperture_ratio == 1) return {};
+    if (shines_all_over(display_.panel)) return {};
     const Lattice<double>& lattice = geometry_.lattice;
     const ApertureShape aperture = aperture_shape(display_, geometry_);
     const double per_degree = mm_per_degree(eye_mm_ - geometry_.vertex_plane_mm), finest = eye_limit_cycles_per_degree / per_degree;
     const double above = geometry_.diffuser_z_mm.value_or(geometry_.rear_principal_mm) - geometry_.rear_principal_mm;
     std::vector<Beat> strong;  // within `tied` of the strongest so far
     double greatest = 0;
-    for (int k = 0; k <= highest_order; ++k)
-        for (int l = k == 0 ? 1 : -highest_order; l <= highest_order; ++l) {
-            const double most = 2 * std::abs(matrix(k) * matrix(l));
+    const auto [highest_k, highest_l] = panel_.highest_order();
+    for (int k = 0; k <= highest_k; ++k)
+        for (int l = k == 0 ? 1 : -highest_l; l <= highest_l; ++l) {
+            const double most = 2 * std::abs(panel_.harmonic(k, l));
+            if (most < least_contrast) continue;
             if (most < tied * greatest) continue;
             const Place seen = seen_harmonic(k, l), panel{seen.x / scale_.x, seen.y / scale_.y};
             const Range across = lens_orders(0, seen.x, finest), up = lens_orders(1, seen.y, finest);

@@ -2,6 +2,7 @@
 #pragma once
 #include "model/display.h"
 #include "model/geometry.h"
+#include "model/subpixels.h"
 
 #include <array>
 #include <optional>
@@ -27,14 +28,14 @@ struct Beat {
 /// White panels as an eye on axis sees them through paraxial lenses, `eye_mm` from the panel.
 class MoireTheory {
   public:
-    MoireTheory(const Display&, const Geometry&, double eye_mm);
+    MoireTheory(const Display&, const Geometry&, double eye_mm, const ChannelWeights& = luminance_weights);
 
-    /// The coarsest beat of the panel's harmonic (k, l) with the lens lattice.
+    /// The coarsest beat of the harmonic with (k, l) periods in a cell of the panel's with the lens lattice.
     Frequency beat(int k, int l) const;
 
     /// The strongest beat after the eye's filter; of those of its period that are within 1 % as strong, as symmetry
     /// makes them (and of all that are exactly as strong), that of the least direction. None where the panel has no
-    /// black matrix, or where all are too fine for the eye.
+    /// structure, or where all are too fine for the eye.
     std::optional<Beat> strongest() const;
 
   private:
@@ -49,11 +50,11 @@ class MoireTheory {
     Place seen_harmonic(int k, int l) const;
     Range lens_orders(int axis, double panel, double reach) const;
     Place lens_harmonic(int m, int n) const;
-    double matrix(int order) const;
     double diffuser(Place nu) const;
 
     const Display& display_;
     const Geometry& geometry_;
+    WhitePanel panel_;
     double eye_mm_;
     Place scale_;  // panel places per place of the vertex plane, along the array's x' and y'
     Place glass_;  // g/f, by how much a lens moves the panel place with the place in the lens

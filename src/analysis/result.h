@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,7 +53,8 @@ struct DataTable {
 struct Series {
     std::string label;
     std::vector<double> x, y;
-    bool dots = false;  // points alone, no line
+    bool dots = false;                        // points alone, no line
+    std::optional<std::size_t> channel = {};  // 0, 1, 2: drawn in red, green, blue
 };
 /// A line across the plot: at a threshold (horizontal), or at theory's value (vertical).
 struct PlotMark {

@@ -1,5 +1,7 @@
 #include "analysis/spot.h"
 
+#include "analysis/spot_colour.h"
+
 #include "model/numbers.h"
 #include "optics/lattice.h"
 
@@ -312,6 +314,9 @@ Result measure_spot(Subject& s, Job& job) {
     result.figures["pixel_image_mm"] = number_json(s.theory().pixel_image_mm);
     tell_spots(s, fields, depths, from_vertex, result);
     for (const Field& f : fields) result.plots.push_back(diagram(s, lens, f, depths, from_vertex));
+    std::vector<SpotField> coloured;
+    for (const Field& f : fields) coloured.push_back({f.name, f.title, f.panel});
+    tell_colours(s, coloured, result);
     tell_focus(s, fields, depths, from_vertex, result);
     if (job.cancelled()) throw Stopped{};
     job.advance(1);

@@ -24,22 +24,14 @@ double counted_random(std::uint64_t counter) {
     return double((z ^ (z >> 31)) >> 11) * 0x1p-53;
 }
 
-/// The light at a place of the panel, mm from its middle, over its mean there.
-double light_over_mean(const Panel& panel, double x, double y) {
-    const double half = 0.5 * std::sqrt(panel.aperture_ratio);
-    const auto off_middle = [&](double place, std::int64_t pixels) {
-        const double at = place / panel.pixel_pitch_mm + 0.5 * double(pixels);
-        return std::abs(at - std::floor(at) - 0.5);
-    };
-    const bool lit = off_middle(x, panel.pixels[0]) < half && off_middle(y, panel.pixels[1]) < half;
-    return lit ? 1 / panel.aperture_ratio : 0;
-}
-
 }  // namespace
 
-WhiteLight white_light(const EyeRays& rays, const Panel& panel, const Vec3d& eye, double x, double y, double a, double b) {
+WhiteLight WhiteSeen::light(const Vec3d& eye, double x, double y, double a, double b) const {
     const Sight sight = rays.look_through(eye, {x, y, rays.point(0, 0)[2]}, a, b);
-    return {sight.light, sight.light > 0 ? sight.light * light_over_mean(panel, sight.x, sight.y) : 0};
+    if (!(sight.light > 0)) return {sight.light, 0};
+    const double column = sight.x / panel.pixel_pitch_mm + 0.5 * double(panel.pixels[0]),
+                 row = 0.5 * double(panel.pixels[1]) - sight.y / panel.pixel_pitch_mm;
+    return {sight.light, sight.light * white.at(column, row)};
 }
 
 WhiteLines::Line WhiteLines::line(int set, int column, int row) const {
@@ -51,8 +43,8 @@ WhiteLines::Line WhiteLines::line(int set, int column, int row) const {
             (row + random(1) - 0.5 * window_.rows) * window_.square_mm, 2 * random(2) - 1, 2 * random(3) - 1};
 }
 
-WhiteLines::WhiteLines(const EyeRays& rays, const Display& d, const Vec3d& eye, const Window& window, Parts& parts)
-    : window_(window), seed_(std::uint64_t(d.render.seed) << 32) {
+WhiteLines::WhiteLines(const WhiteSeen& screen, std::int64_t seed, const Vec3d& eye, const Window& window, Parts& parts)
+    : window_(window), seed_(std::uint64_t(seed) << 32) {
     const auto weights = [](int count) {
         std::vector<double> all;
         for (int k = 0; k < count; ++k) all.push_back(blackman((k + 0.5) / count));
@@ -67,7 +59,7 @@ WhiteLines::WhiteLines(const EyeRays& rays, const Display& d, const Vec3d& eye, 
         for (int set = 0; set < independent_sets; ++set)
             for (int column = 0; column < window.columns; ++column) {
                 const Line at = line(set, column, row);
-                const WhiteLight found = white_light(rays, d.panel, eye, at.x, at.y, at.a, at.b);
+                const WhiteLight found = screen.light(eye, at.x, at.y, at.a, at.b);
                 const double change = found.seen - found.plain;
                 const double weight = across_[std::size_t(column)] * up_[std::size_t(row)];
                 change_[std::size_t(set) * squares + std::size_t(row) * std::size_t(window.columns) + std::size_t(column)] =

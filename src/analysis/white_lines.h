@@ -23,24 +23,32 @@ struct Window {
 
 /// Light that a line of sight brings from a white panel, over the panel's own along its normal.
 struct WhiteLight {
-    double plain;  // of a panel without a black matrix: the mean
+    double plain;  // of a panel without subpixels and black matrix: the mean
     double seen;   // where the line ends
 };
-/// Of the line from an eye that aims at (x, y) of the vertex plane, with the diffuser's numbers a and b.
-WhiteLight white_light(const EyeRays&, const Panel&, const Vec3d& eye, double x, double y, double a, double b);
+
+/// A white panel behind the lenses, of which some channels count.
+struct WhiteSeen {
+    const EyeRays& rays;
+    const Panel& panel;
+    WhitePanel white;
+
+    /// Of the line from an eye that aims at (x, y) of the vertex plane, with the diffuser's numbers a and b.
+    WhiteLight light(const Vec3d& eye, double x, double y, double a, double b) const;
+};
 
 class WhiteLines {
   public:
     /// Takes rows parts.
-    WhiteLines(const EyeRays&, const Display&, const Vec3d& eye, const Window&, Parts&);
+    WhiteLines(const WhiteSeen&, std::int64_t seed, const Vec3d& eye, const Window&, Parts&);
 
     const Window& window() const { return window_; }
 
-    /// The mean luminance, weighted as waves are, of a panel without a black matrix.
+    /// The mean luminance, weighted as waves are, of a panel without structure.
     double mean() const;
 
-    /// By how much the black matrix changes the light in each square, all sets together, times weights that fall to 0 at the
-    /// window's border: Blackman's along both axes, 1 in the mean.
+    /// By how much subpixels and black matrix change the light in each square, all sets together, times weights that fall to 0 at
+    /// the window's border: Blackman's along both axes, 1 in the mean.
     std::vector<double> weighted_change() const;
 
     /// Standard deviation of |wave()| over mean(), all sets together, if each line's light were chance.

@@ -36,6 +36,7 @@ const std::vector<Rule>& contradictions() {
          "--pattern",
          "a test pattern shows no model; give one of them",
          "view"},
+        {{"--exposure"}, "--path", "all frames keep the panel's own brightness; give one of them"},
         {{"--camera-mm"}, "--path", "the camera is in one place or on a path; give one of them"},
         {{"--target-error", "--path", "--device cuda", "--kernel", "--estimator filtered"}, "--lens-mesh", one_way},
         {{"--samples"}, "--target-error", "the error determines the number of samples; give one of them"},

@@ -4,6 +4,7 @@
 #include "cli/commands.h"
 #include "cli/display_options.h"
 #include "cli/effects.h"
+#include "cli/exposure.h"
 #include "cli/lens_mesh_options.h"
 #include "cli/panel_source.h"
 #include "cli/render_path.h"
@@ -33,6 +34,7 @@ struct RenderArguments {
           output(command, ".png (sRGB), or linear .exr .npy (float32, H x W x 3); with --path a folder, created if missing"),
           path(command),
           lens_mesh(command),
+          exposure(command),
           device(command),
           work(command) {
         command
@@ -53,6 +55,7 @@ struct RenderArguments {
     OutputOptions output;
     PathOptions path;
     LensMeshOptions lens_mesh;
+    ExposureOption exposure;
     DeviceOption device;
     WorkOptions work;
     std::string kernel, target_error;
@@ -111,6 +114,7 @@ void run(const RenderArguments& args) {
     else
         faults.of([&] { args.output.check(); });
     faults.of([&] { args.lens_mesh.check(); });
+    faults.of([&] { args.exposure.check(); });
     faults.of([&] { check_effects(args.command); });
     faults.report();
     if (path) args.path.check(*path, display);
@@ -126,7 +130,13 @@ void run(const RenderArguments& args) {
     const PanelLight panel = light();
     Rendering r = lens ? render_meshed(display, geometry, panel.texels, *lens, options, progress)
                        : render(display, geometry, panel.texels, options, progress);
+    const std::optional<double> exposure = args.exposure.factor(display, geometry, options, progress);
+    if (exposure) ExposureOption::apply(*exposure, r);
     Rendered facts = rendered(r, target, keeps_layers(args.output.path()));
+    if (exposure) {
+        facts.about["exposure"] = fmt::format("{}", *exposure);
+        facts.more["exposure"] = *exposure;
+    }
     if (lens) {
         facts.about["lens_mesh"] = args.lens_mesh.text(*lens);
         facts.more["lens_mesh"] = args.lens_mesh.json(*lens);
@@ -148,6 +158,7 @@ void add_render(Command program) {
     command.footer(
         "Examples:\n  lfdsim render display.toml --panel-image eia.png --camera-mm -300,0,1800 -o view.png\n"
         "  lfdsim render display.toml --panel-image eia.png --target-error 0.005 -o view.exr\n"
+        "  lfdsim render display.toml --panel-image eia.png --set panel.subpixels=rgb_stripe --exposure auto -o stripes.png\n"
         "  lfdsim render display.toml --panel-image eia.png --path walk.json -o walk\n"
         "  lfdsim render display.toml --panel-image eia.png --lens-mesh 3386 --lens-normals smooth -o meshed.png\n"
         "  lfdsim render display.toml --model monkey.blend --set array.pitch_mm=8 lens.aperture_radius_mm=4 -o view.exr");

@@ -2,6 +2,7 @@
 
 #include "engine/gpu.h"
 #include "engine/work.h"
+#include "model/colour.h"
 #include "model/error.h"
 
 #include <fmt/format.h>
@@ -30,7 +31,7 @@ ComparedView compare_view(const Display& display, const Geometry& geometry, cons
                                          photograph.width, photograph.height, width, height));
     const ChosenDevice device = choose_device(options.device, options.kernel);
     RenderOptions on_cpu = options;
-    if (device.gpu) {
+    if (device.gpu && !disperses(display)) {
         if (const auto done = compare_on_gpu(device, panel, levels, expected, gain, work, job))
             return {done->likeness, done->run.done.complete, seconds(), done->run.seconds};
         on_cpu.device = "cpu";

@@ -6,6 +6,7 @@
 #include "engine/scene.h"
 #include "engine/tracer.h"
 #include "engine/work.h"
+#include "model/colour.h"
 
 #include <tbb/blocked_range2d.h>
 #include <tbb/global_control.h>
@@ -99,12 +100,43 @@ Rendering render(Work& work, const char* kernel_name, Kernel kernel, const Chose
     return std::move(result);
 }
 
+/// Adds weight x one channel of a picture at one wavelength.
+void add_channel(const Rendering& of, std::size_t channel, float weight, Rendering& to) {
+    for (std::size_t k = channel; k < to.image.rgb.size(); k += 3) to.image.rgb[k] += weight * of.image.rgb[k];
+    for (std::size_t k = channel; k < to.error.rgb.size(); k += 3)
+        to.error.rgb[k] = std::hypot(to.error.rgb[k], weight * of.error.rgb[k]);
+    to.complete = to.complete && of.complete;
+    to.samples += of.samples;
+    to.seconds += of.seconds;
+    to.gpu_seconds += of.gpu_seconds;
+}
+
 Rendering render(const Display& display, const Geometry& geometry, const std::vector<optics::PanelLevel>& levels,
                  const Pyramid* pyramid, const RenderOptions& options, Job& job) {
     const KernelEntry& kernel = choose_kernel(options.kernel);
     const ChosenDevice device = choose_device(options.device, options.kernel);
-    Work work(display, geometry, levels, options);
-    return render(work, kernel.name, kernel.run, device, pyramid, levels, options, job);
+    const auto at_once = [&](const Geometry& at_wavelength) {
+        Work work(display, at_wavelength, levels, options);
+        return render(work, kernel.name, kernel.run, device, pyramid, levels, options, job);
+    };
+    if (!disperses(display)) return at_once(geometry);
+    // Each channel is a picture of the display as it is at its wavelengths.
+    Rendering result;
+    for (int channel = 0; channel < 3; ++channel) {
+        for (const Node& node : wavelengths_of(display, channel)) {
+            Rendering one = at_once(resolve(display, node.wavelength_nm));
+            if (result.image.rgb.empty()) {
+                result = one;
+                result.samples = 0;
+                result.seconds = result.gpu_seconds = 0;
+                std::fill(result.image.rgb.begin(), result.image.rgb.end(), 0.f);
+                std::fill(result.error.rgb.begin(), result.error.rgb.end(), 0.f);
+            }
+            add_channel(one, std::size_t(channel), float(node.weight), result);
+            if (!result.complete) return result;
+        }
+    }
+    return result;
 }
 
 }  // namespace

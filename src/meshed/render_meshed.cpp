@@ -3,6 +3,7 @@
 #include "engine/scene.h"
 #include "engine/tracer.h"
 #include "meshed/mesh_surfaces.h"
+#include "model/colour.h"
 #include "model/keys.h"
 #include "optics/camera.h"
 #include "optics/light.h"
@@ -50,6 +51,9 @@ MeshedLens::MeshedLens(const Display& display, const Geometry& geometry, std::in
                                                       word(display.array.lattice)));
     if (!display.panel.layers.empty())
         throw InputError("panel.layer", "is given, but --lens-mesh does not cover layers; leave them out");
+    if (disperses(display))
+        throw InputError("lens.glass",
+                         "disperses, which --lens-mesh does not cover; give lens.index, or one wavelength three times");
     if (geometry.glued)
         throw InputError("array.base_z_mm",
                          "lets the lenses lie on the panel without air, which --lens-mesh does not cover; raise them");

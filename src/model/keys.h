@@ -34,8 +34,9 @@ using ValuesOf =
     std::variant<Of<double>, Of<std::optional<double>>, Of<std::int64_t>, Of<std::optional<std::int64_t>>, Of<std::string>,
                  Of<std::array<double, 2>>, Of<Vec3d>, Of<std::array<std::int64_t, 2>>, Of<std::array<double, 4>>,
                  Of<std::optional<std::array<std::int64_t, 2>>>, Of<std::vector<double>>, Of<Pitch>, Of<Encoding>,
-                 Of<SubpixelLayout>, Of<Channel>, Of<LensKind>, Of<Facing>, Of<Surround>, Of<LatticeKind>, Of<Aperture>,
-                 Of<Profile>, Of<PixelFilter>, Of<ContentSampling>, Of<Estimator>, Of<Sampling>, Of<Fresnel>>;
+                 Of<std::optional<Vec3d>>, Of<std::optional<Glass>>, Of<std::vector<std::string>>, Of<SubpixelLayout>, Of<Channel>,
+                 Of<LensKind>, Of<Facing>, Of<Surround>, Of<LatticeKind>, Of<Aperture>, Of<Profile>, Of<PixelFilter>,
+                 Of<ContentSampling>, Of<Estimator>, Of<Sampling>, Of<Fresnel>>;
 
 /// What a key fills. Only Display, Panel and SurfaceLens contain tables: one that is always there, one that may be absent, or a
 /// list; the keys of a kind stand beside its word.
@@ -47,14 +48,15 @@ struct MemberOf {
 };
 template <>
 struct MemberOf<Display> {
-    using Type = std::variant<std::string Display::*, Panel Display::*, Lens Display::*, LensArray Display::*,
-                              std::optional<Diffuser> Display::*, Camera Display::*, Content Display::*, Render Display::*>;
+    using Type = std::variant<std::string Display::*, std::vector<std::string> Display::*, Panel Display::*, Lens Display::*,
+                              LensArray Display::*, std::optional<Diffuser> Display::*, Camera Display::*, Content Display::*,
+                              Render Display::*>;
 };
 template <>
 struct MemberOf<Panel> {
-    using Type = std::variant<std::array<std::int64_t, 2> Panel::*, double Panel::*, Encoding Panel::*, SubpixelLayout Panel::*,
-                              std::optional<std::array<std::int64_t, 2>> Panel::*, std::vector<Layer> Panel::*,
-                              std::vector<Subpixel> Panel::*>;
+    using Type = std::variant<std::array<std::int64_t, 2> Panel::*, double Panel::*, Vec3d Panel::*, std::optional<Vec3d> Panel::*,
+                              Encoding Panel::*, SubpixelLayout Panel::*, std::optional<std::array<std::int64_t, 2>> Panel::*,
+                              std::vector<Layer> Panel::*, std::vector<Subpixel> Panel::*>;
 };
 template <>
 struct MemberOf<SurfaceLens> {

@@ -8,6 +8,9 @@ inline constexpr decltype(sizeof 0) max_surfaces = 16, max_asphere_terms = 8, ma
 // Of a panel's cell; a rectangle that hangs over the border of its cell is stored in parts.
 inline constexpr int max_subpixels = 32, max_subpixel_parts = 64;
 
+/// Of render.wavelength_samples, and of the files that glass_catalogues may name.
+inline constexpr decltype(sizeof 0) max_wavelength_samples = 32, max_catalogues = 8;
+
 enum class Encoding { srgb, linear };  // of the panel image's code values
 enum class SubpixelLayout { none, rgb_stripe, bgr_stripe, rgb_rows, pentile_rgbg, delta, custom };
 enum class Channel { r, g, b };

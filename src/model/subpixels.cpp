@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace lfdsim {
 namespace {
@@ -170,6 +171,52 @@ std::optional<std::pair<std::size_t, std::size_t>> overlapping(const Panel& pane
         }
     }
     return {};
+}
+
+WhitePanel::WhitePanel(const Panel& panel, const ChannelWeights& weights) : parts_(lit_parts(panel)), weights_(weights) {
+    constexpr double fine = 8;  // periods in a part; harmonics beyond are weaker than 1/(8 pi) of the first along each axis
+    for (std::size_t k = 0; k < 2; ++k) {
+        cell_[k] = int(subpixel_cell(panel).size[k]);
+        for (const LitPart& part : parts_)
+            if (weight(part) > 0)
+                highest_[k] = std::max(highest_[k], int(std::ceil(fine * cell_[k] / std::max(part.to[k] - part.from[k], 0.1))));
+    }
+}
+
+double WhitePanel::weight(const LitPart& part) const {
+    return part.channel == 3 ? weights_[0] + weights_[1] + weights_[2] : weights_[std::size_t(part.channel)];
+}
+
+double WhitePanel::at(double column, double row) const {
+    const std::array<double, 2> place{column, row};
+    double sum = 0;
+    for (const LitPart& part : parts_) {
+        bool inside = true;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double cell = part.plane.cell[k], in_cell = place[k] - std::floor(place[k] / cell) * cell;
+            inside = inside && in_cell >= part.from[k] && in_cell < part.to[k];
+        }
+        if (inside) sum += weight(part) * part.brightness();
+    }
+    return sum;
+}
+
+std::complex<double> WhitePanel::harmonic(int k, int l) const {
+    const auto sinc = [](double x) { return x == 0 ? 1 : std::sin(std::numbers::pi * x) / (std::numbers::pi * x); };
+    const std::array<int, 2> orders{k, l};
+    std::complex<double> sum = 0;
+    for (const LitPart& part : parts_) {
+        double size = weight(part) * part.share, turns = 0;
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            const int repeats = cell_[axis] / part.plane.cell[axis];
+            if (orders[axis] % repeats != 0) size = 0;
+            const double per_pixel = double(orders[axis]) / cell_[axis];
+            size *= sinc(per_pixel * (part.to[axis] - part.from[axis]));
+            turns += per_pixel * 0.5 * (part.from[axis] + part.to[axis]);
+        }
+        sum += std::polar(1., -2 * std::numbers::pi * turns) * size;
+    }
+    return sum;
 }
 
 std::vector<PanelPlane> planes(const Panel& panel) {

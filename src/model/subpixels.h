@@ -6,6 +6,7 @@
 #include "model/display.h"
 
 #include <array>
+#include <complex>
 #include <optional>
 #include <vector>
 
@@ -24,11 +25,43 @@ struct LitPart {
     PanelPlane plane;                // the cell after which it repeats, and the pixel whose light it shows
     std::array<double, 2> from, to;  // x and y
     double share;                    // of its channel's light: areas of the panel over that of all parts of the channel
+
+    /// How much brighter it is than its pixel's light.
+    double brightness() const { return share * plane.cell[0] * plane.cell[1] / ((to[0] - from[0]) * (to[1] - from[1])); }
 };
 
 /// The parts of all subpixels of a valid panel, shrunk to its aperture ratio, each in the least cell after which its channel
 /// repeats.
 std::vector<LitPart> lit_parts(const Panel&);
+
+/// What counts of red, green and blue in a figure; the sum is 1.
+using ChannelWeights = std::array<double, 3>;
+inline constexpr ChannelWeights luminance_weights{0.2126, 0.7152, 0.0722};  // of linear sRGB
+constexpr ChannelWeights only(std::size_t channel) {
+    ChannelWeights weights{};
+    weights[channel] = 1;
+    return weights;
+}
+
+/// A white panel in units of its mean.
+class WhitePanel {
+  public:
+    WhitePanel(const Panel&, const ChannelWeights&);
+    /// At a place, in pixels to the right of and below the panel's top left corner.
+    double at(double column, double row) const;
+    /// The amplitude of its wave with (k, l) periods in a cell().
+    std::complex<double> harmonic(int k, int l) const;
+    std::array<int, 2> cell() const { return cell_; }
+    /// Up to this order harmonics are not small.
+    std::array<int, 2> highest_order() const { return highest_; }
+
+  private:
+    double weight(const LitPart&) const;
+
+    std::vector<LitPart> parts_;
+    ChannelWeights weights_;
+    std::array<int, 2> cell_{1, 1}, highest_{};
+};
 
 /// The planes of a panel's parts, each once; the first is the panel itself.
 std::vector<PanelPlane> planes(const Panel&);

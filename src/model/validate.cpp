@@ -8,6 +8,7 @@ std::vector<Problem> validate(const Display& d) {
     Findings findings(problems);
     validate_values(d, findings);
     validate_panel(d, findings);
+    validate_glass(d, findings);
     validate_lens(d, findings);
     validate_layout(d, findings);
     return problems;

@@ -1,6 +1,7 @@
 #include "peers/peers.h"
 
 #include "meshed/lens_mesh.h"
+#include "model/colour.h"
 
 #include <fmt/format.h>
 #include <cmath>
@@ -24,6 +25,13 @@ class Refusals {
         array();
         if (d_.panel.aperture_ratio != 1)
             add("panel.aperture_ratio", "the scene's panel has no black matrix; add --set panel.aperture_ratio=1");
+        if (d_.panel.subpixels != SubpixelLayout::none)
+            add("panel.subpixels", "the scene's panel has whole pixels; add --set 'panel.subpixels=\"none\"'");
+        if (disperses(d_))
+            add("panel.wavelengths_nm",
+                fmt::format(
+                    "differ, and the scene's glass has one index; add --set 'panel.wavelengths_nm=[{0}, {0}, {0}]' for green's",
+                    d_.panel.wavelengths_nm[green_channel]));
         if (d_.camera.pupil_diameter_mm.value_or(0) > 0)
             add("camera.pupil_diameter_mm", "the scene's camera is a pinhole; add --set camera.pupil_diameter_mm=none");
         if (peer_ == Peer::pov) pov();

@@ -18,12 +18,19 @@ constexpr const char* colours[] = {"#1f7fc0", "#d55e00", "#009e73", "#b0508a", "
 constexpr const char* dashes[] = {"", " stroke-dasharray=\"8 4\"", " stroke-dasharray=\"2 3\"", " stroke-dasharray=\"9 3 2 3\""};
 constexpr const char* mark_style = "stroke=\"currentColor\" stroke-opacity=\"0.6\" stroke-dasharray=\"5 4\"";
 
-std::string line_style(std::size_t k) {
-    return fmt::format("stroke=\"{}\" stroke-width=\"2\"{}", colours[k % std::size(colours)], dashes[k % std::size(dashes)]);
+/// Of curves that are about a channel of the panel.
+constexpr const char* channel_colours[] = {"#d64545", "#2e9e55", "#3f78d8"};
+
+const char* colour_of(const Series& s, std::size_t k) {
+    return s.channel ? channel_colours[*s.channel] : colours[k % std::size(colours)];
+}
+
+std::string line_style(const Series& s, std::size_t k) {
+    return fmt::format("stroke=\"{}\" stroke-width=\"2\"{}", colour_of(s, k), dashes[k % std::size(dashes)]);
 }
 
 /// Disks (lines without length, their ends round), squares (lines as wide as long) and crosses.
-std::string dots(const std::vector<Point>& points, std::size_t k) {
+std::string dots(const Series& s, const std::vector<Point>& points, std::size_t k) {
     std::string d;
     for (const auto& [x, y] : points) {
         if (k % 3 == 0) d += fmt::format("M{} {}h0", px(x), px(y));
@@ -31,7 +38,7 @@ std::string dots(const std::vector<Point>& points, std::size_t k) {
         if (k % 3 == 2) d += fmt::format("M{} {}h5M{} {}v5", px(x - 2.5), px(y), px(x), px(y - 2.5));
     }
     const char* pens[] = {"stroke-width=\"4\" stroke-linecap=\"round\"", "stroke-width=\"3.6\"", "stroke-width=\"1.2\""};
-    return fmt::format("<path d=\"{}\" stroke=\"{}\" {}/>\n", d, colours[k % std::size(colours)], pens[k % 3]);
+    return fmt::format("<path d=\"{}\" stroke=\"{}\" {}/>\n", d, colour_of(s, k), pens[k % 3]);
 }
 
 struct Ranges {
@@ -122,7 +129,7 @@ void draw_series(Drawing& drawing, const Frame& frame, const Series& s, std::siz
         if (s.dots || run.size() == 1)
             alone.insert(alone.end(), run.begin(), run.end());
         else
-            drawing.path(run, line_style(k));
+            drawing.path(run, line_style(s, k));
         run.clear();
     };
     for (std::size_t i = 0; i < s.x.size(); ++i) {
@@ -132,7 +139,7 @@ void draw_series(Drawing& drawing, const Frame& frame, const Series& s, std::siz
             finish();
     }
     finish();
-    if (!alone.empty()) drawing.add(dots(alone, k));
+    if (!alone.empty()) drawing.add(dots(s, alone, k));
 }
 
 /// The same scale along both: the axis that would be shown larger is widened. Room is left at the borders.
@@ -179,9 +186,9 @@ std::string svg(const Plot& plot) {
         if (e.series < 0) continue;
         const std::size_t k = std::size_t(e.series);
         if (plot.series[k].dots)
-            drawing.add(dots({{e.x + 14, at_y - 4}}, k));
+            drawing.add(dots(plot.series[k], {{e.x + 14, at_y - 4}}, k));
         else
-            drawing.line({e.x, at_y - 4}, {e.x + 28, at_y - 4}, line_style(k));
+            drawing.line({e.x, at_y - 4}, {e.x + 28, at_y - 4}, line_style(plot.series[k], k));
     }
     frame.draw(drawing, plot.x_label, plot.y_label, true);
     for (std::size_t k = 0; k < marks.marks.size(); ++k) {
