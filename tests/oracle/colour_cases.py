@@ -127,9 +127,31 @@ BLURRED_SHORT = {
 BLURRED_MORE = {
     "subpixels pentile_rgbg, q 0.4, pixel area, hexagons": shown(ROUNDER, "pentile_rgbg", "opaque", "cell", (12,), HEXAGON, camera={**SMALL, "pixel_filter": "box"}, q=0.4),
     "subpixels delta, slanted strips, diffuser": shown(SPHERE, "delta", view=(15,), camera=SMALL, array=LEAN, diffuser={**DIFFUSER, "angle_deg": [1.0, 20.0]}),
-    "subpixels rgb_rows, thin-lens camera, plate": shown(SPHERE, "rgb_rows", "plate", view=(12, 5), camera={**SMALL, **PUPIL}),
+    "subpixels rgb_rows, thin-lens camera, plate": shown(SPHERE, "rgb_rows", "plate", view=(12, 5), camera={**SMALL, **PUPIL, "pixel_filter": "box"}),
     "glass, box diffuser, clear": shown(of(VIVID, SPHERE), "none", "clear", view=(15,), camera=SMALL, diffuser=DIFFUSER),
     "glass at three wavelengths a channel, subpixels bgr_stripe, box diffuser": shown(of(FLINT, SPHERE), "bgr_stripe", camera=SMALL, diffuser=DIFFUSER, panel=BROAD, render=NODES),
     "glass layers under ideal strips, subpixels rgb_stripe, pixel area": shown(IDEAL, "rgb_stripe", "opaque", "cell", (20,), LEAN, panel=layers(plate(3.0, VIVID)),
         camera={**SMALL, "pixel_filter": "box"}),
+}
+
+# Means over little: a picture pixel sees a few subpixels, or a part of one, of a panel full of noise.
+TINY = {**SMALL, "frame_width_mm": 2.4}
+AREA = {**TINY, "pixel_filter": "box"}
+WEAK = {"distance_mm": 20.0, "angle_deg": [0.8, 0.5], "profile": "box"}
+FINE_SHORT = {
+    "subpixels delta, q 0.8, hexagons, a small pixel area": shown(SPHERE, "delta", view=(3,), array=HEXAGON, camera=AREA, q=0.8),
+    "glass, subpixels rgb_stripe, a weak diffuser": shown(of(VIVID, SPHERE), "rgb_stripe", view=(3, 2), camera=TINY, diffuser=WEAK),
+}
+FINE_MORE = {
+    "subpixels, odd cell, a small pixel area": shown(SPHERE, ODD, view=(4, 3), camera=AREA),
+    "subpixels, odd cell, turned, a weak diffuser": shown(SPHERE, ODD, "opaque", "circle", (2, 2), TILTED, camera=TINY, diffuser=WEAK, q=0.6),
+    "subpixels pentile_rgbg, clear, a weak diffuser": shown(SPHERE, "pentile_rgbg", "clear", view=(3, 1), camera=TINY, diffuser=WEAK, q=0.5),
+    "subpixels bgr_stripe, slanted strips, a small pixel area": shown(SPHERE, "bgr_stripe", view=(3, 4), array=LEAN, camera=AREA),
+    "subpixels rgb_rows, strips, a weak diffuser, wide along them": shown(SPHERE, "rgb_rows", view=(3, 4), array=STRIPS, camera=TINY,
+        diffuser={**WEAK, "angle_deg": [0.5, 6.0]}),
+    "subpixels rgbg, layers, bricks, a small pupil": shown(SPHERE, RGBG, view=(3, 2), array=BRICK, panel=layers(GLASS),
+        camera={**AREA, "pupil_diameter_mm": 2.0, "focus_distance_mm": 650.0}),
+    "glass, no subpixels, a black matrix, a small pixel area": shown(of(VIVID, SPHERE), "none", view=(5,), camera=AREA, q=0.5),
+    "glass at three wavelengths a channel, subpixels delta, a weak diffuser": shown(of(VIVID, SPHERE), "delta", view=(3,), camera=TINY, diffuser=WEAK, panel=BROAD, render=NODES),
+    "glass layers, subpixels rgb_stripe, a small pixel area": shown(IDEAL, "rgb_stripe", "opaque", "cell", (12,), camera=AREA, panel=layers(plate(3.0, VIVID))),
 }

@@ -27,7 +27,7 @@ from display import resolve, theory
 
 GOLDEN = pathlib.Path(__file__).resolve().parent.parent / "golden"
 TOLERANCE = 1 / 255 + 1e-6
-FALSE_ALARM = 2e-8  # probability that chance alone fails one blurred comparison; less than fifty are made: below 1e-6 together
+FALSE_ALARM = 1e-8  # probability that chance alone fails one blurred comparison; less than a hundred are made: below 1e-6 together
 COMPARED = 0.5      # the least share of a coloured picture that must be off the edges, by a sample of its pixels
 MANY = 300          # so many pixels near edges that few directions do not find are something else
 NEAR_ENOUGH = 0.02  # root mean square over a picture by which filtered light may differ from exact means, beyond chance
@@ -156,7 +156,7 @@ def own_golden(name):
     return not wrong.any(), f"{wrong.sum()} panel pixels differ off the edges", {}
 
 
-def blurred(harness, description, count, sampling):
+def blurred(harness, description, count, sampling, pattern="waves"):
     """Means of `count` samples per pixel against `count` random ones of ours: z-tests per pixel, together and of the whole picture.
 
     With v our sample variance (its own uncertainty added), a difference of two means has variance (1 + s) v / count, s = 1 for random samples; scrambled
@@ -165,7 +165,7 @@ def blurred(harness, description, count, sampling):
     - together: the sum over the P pixels of the channels' mean z^2 is at most P + 2 sqrt(P L) + 2 L, L = ln(1 / probability) (Laurent and Massart 2000);
     - the picture's mean: as one figure, with count P samples.
     """
-    display, image, wanted, variance = exact_means(description, count)
+    display, image, wanted, variance = exact_means(description, count, pattern)
     got = harness.render(cases.to_toml(description), image, "--samples", count, "--sampling", sampling, "--seed", 7)
     brightest = display.subpixels.gain  # of each channel
     shape, got, wanted, variance = got.shape, got.reshape(-1, 3) / brightest, wanted / brightest, variance / brightest**2
@@ -186,16 +186,16 @@ def blurred(harness, description, count, sampling):
     return bool(max(ratios) <= 1), found, {"got": got.reshape(shape), "wanted": wanted.reshape(shape)}
 
 
-def exact_means(description, count):
+def exact_means(description, count, pattern):
     """(display, the panel image, our means of `count` samples (pixels, 3), the variance of one sample)."""
     display = resolve(description)
-    image = panel_images(*display.panel.pixels)["waves"]
+    image = panel_images(*display.panel.pixels)[pattern]
     return display, image, *colour.sampled(display, colour.decode(image, display.panel.encoding), count, seed=1)
 
 
-def filtered(harness, description, count):
+def filtered(harness, description, count, pattern):
     """The filtered estimator against our means: root mean square over the picture less what chance adds, at most NEAR_ENOUGH."""
-    _, image, wanted, variance = exact_means(description, count)
+    _, image, wanted, variance = exact_means(description, count, pattern)
     got = harness.render(cases.to_toml(description), image, "--samples", 1024, estimator="filtered")
     shape, got = got.shape, got.reshape(-1, 3)
     by_chance = variance.mean() / count
@@ -259,12 +259,16 @@ def main():
             description = cases.merge(description, {"camera": {"resolution": [96, 54]}})
         todo.append((f"{name}, noise", lambda d=description: single_rays(harness, d, "noise", 0.99, COMPARED)))
         todo.append((f"{name}, theory", lambda d=description: paraxial(harness, d)))
-    coloured = {**colour_cases.BLURRED_SHORT, **({} if options.quick else colour_cases.BLURRED_MORE)}
-    for name, description in coloured.items():
-        todo.append((f"{name}, filtered", lambda d=description: filtered(harness, d, 4096 if options.quick else 16384)))
+    count, samplings = (4096, ["sobol"]) if options.quick else (16384, ["random", "sobol"])
+    more = {} if options.quick else colour_cases.BLURRED_MORE
+    fine = {**colour_cases.FINE_SHORT, **({} if options.quick else colour_cases.FINE_MORE)}
+    coloured = {**colour_cases.BLURRED_SHORT, **more, **fine}
     for name, description in {**cases.BLURRED, **coloured}.items():
-        for sampling in ("sobol",) if options.quick else ("random", "sobol"):
-            todo.append((f"{name}, {sampling}", lambda d=description, s=sampling: blurred(harness, d, 4096 if options.quick else 16384, s)))
+        pattern = "noise" if name in fine else "waves"
+        for s in samplings:
+            todo.append((f"{name}, {s}", lambda d=description, s=s, p=pattern: blurred(harness, d, count, s, p)))
+        if name in coloured:
+            todo.append((f"{name}, filtered", lambda d=description, p=pattern: filtered(harness, d, count, p)))
     for name, compare in todo:
         if harness.wanted(name):
             harness.check(name, compare)
