@@ -10,6 +10,7 @@ import pickup
 from check_tools import FACING, IDEAL, LAYERS, LENS, PINHOLE, close, display, land
 from colour_cases import CORNERS, ODD, QUAD, RGBG, SPARSE, SWAPPED, VIVID, of
 from display import focus
+from lattice import Lattice
 from subpixels import PRESETS, Subpixels
 
 CUSTOM = {"odd": ODD, "corners": CORNERS, "swapped": SWAPPED, "sparse": SPARSE, "quads": QUAD, "rgbg": RGBG}
@@ -131,6 +132,29 @@ def shrunk_in_place(kind):
         if not close(off, (point * [1, -1])[shows], 1e-9)[0]:
             return False, "elsewhere"
     return True, "3 channels"
+
+
+def made_for_eyes(kind):
+    """Through a lens's centre an eye meets a subpixel whose content is made for a place beside it by at most half of what the subpixel's width covers there."""
+    d = display(IDEAL, aperture="cell", rotation_deg=14.0, panel=panel(kind, 1.0, (1000, 1000)), content={"viewing_distance_mm": 650.0})
+    lattice, rng, n = Lattice(d), np.random.default_rng(13), 2000
+    axis = lattice.axis(rng.integers(0, lattice.nx, n), rng.integers(0, lattice.ny, n)) + [0.0, 0.0, 9.0]
+    through = lattice.leave(axis, axis)[0]
+    eye = np.column_stack([rng.uniform(-60, 60, (n, 2)), np.full(n, 650.0)])
+    hits, tried = land(d, eye, through - eye), 0
+    for c in range(3):
+        number, column, row = met = d.subpixels.met(c, hits.x, hits.y)
+        on = np.flatnonzero(d.subpixels.shown(*met))
+        points, shows = pickup.subpixel_points(d, c, column[on], row[on])
+        lines = pickup.nodal_lines(d, points)
+        own = lines.owned & (np.abs(lines.start - through[on]) < 1e-9).all(axis=1)  # not those that belong to a neighbour
+        at = lines.start[:, :2] + lines.slope * (650.0 - 9.0)
+        mine = d.subpixels.channel == c
+        reach = (d.subpixels.high - d.subpixels.low)[mine].max(axis=0) / 2 * 0.1 / d.gap * (650.0 - 9.0)
+        if not shows.all() or (np.abs(at - eye[on, :2]) > reach + 1e-6)[own].any():
+            return False, f"channel {c}"
+        tried += own.sum()
+    return bool(tried > 0.7 * n), f"{tried} lines"
 
 
 FIGURES = {  # n_d, V_d

@@ -58,6 +58,8 @@ def checks():
             yield f"glasses, {label}: focal lengths", lambda z=lens, r=radii, t=thickness, g=glass: colour.lensmaker(z, r, t, g)
     for kind in colour.PICTURES:
         yield f"subpixels, {kind}: drawn", lambda k=kind: colour.drawn(k)
+    for kind in ("rgb_stripe", "bgr_stripe", "rgb_rows", "delta", "swapped"):
+        yield f"subpixels, {kind}: made for the eye that sees them", lambda k=kind: colour.made_for_eyes(k)
     for kind in colour.KINDS:
         yield f"subpixels, {kind}: shrunk in place", lambda k=kind: colour.shrunk_in_place(k)
         for q in (1.0, 0.5):
