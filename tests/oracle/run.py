@@ -2,9 +2,10 @@
 """Renders displays with lfdsim and with this folder's double-precision tracer, and compares: run.py LFDSIM_PROGRAM [--quick] [--only TEXT] [--out FOLDER].
 
 Single rays: away from edges every pixel agrees within 1/255 + 1e-6, and the panel pixel that each ray met (read from the address image)
-is the same for 99.9 % of all rays, 99.4 % through glass in air off axis. With subpixels and glasses each channel has its own edges and its own picture (`noise`),
-99.7 % of rays see the same light, and half of the picture is off the edges. Means over samples: see blurred() and filtered(). The last line counts passed and failed comparisons;
-the exit code is 1 if any failed, and the pictures of those are kept in FOLDER (default: a new temporary folder).
+is the same for 99.9 % of all rays, 99.4 % through glass in air off axis. With subpixels and glasses each channel has its own edges and its own
+picture (`noise`); 99.7 % of rays see the same light, and at least half of the picture is off the edges. Means over samples: see blurred() and
+filtered(). The last line counts passed and failed comparisons; the exit code is 1 if any failed, and the pictures of those are kept in FOLDER
+(default: a new temporary folder).
 """
 import argparse
 import functools
