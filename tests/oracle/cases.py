@@ -166,6 +166,8 @@ BLURRED = {
 def to_toml(value):
     """A description as TOML text. A list of tables ([[lens.surface]], [[panel.layer]]) stands in a table."""
     def text(v):
+        if isinstance(v, dict):  # a glass
+            return "{ " + ", ".join(f"{k} = {text(w)}" for k, w in v.items()) + " }"
         return {True: "true", False: "false"}[v] if isinstance(v, bool) else f'"{v}"' if isinstance(v, str) else repr(v)
     lines = [f"{k} = {text(v)}" for k, v in value.items() if not isinstance(v, dict)]
     for name, table in value.items():

@@ -5,17 +5,20 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from dispersion import has_glass, index_of, wavelengths
 from lattice import cell_shape, grid_pitch, least_count, turn_matrix
+from subpixels import Subpixels
 from surface import Surface
 
 DEFAULTS = {
-    "panel": {"encoding": "srgb", "emission_exponent": 0.0, "aperture_ratio": 1.0, "layer": []},
+    "panel": {"encoding": "srgb", "emission_exponent": 0.0, "aperture_ratio": 1.0, "subpixels": "none", "layer": [],
+              "wavelengths_nm": [611.4, 549.1, 464.2]},
     "lens": {"facing": "viewer"},
     "array": {"lattice": "square", "surround": "opaque", "aperture": "circle", "offset_mm": [0.0, 0.0], "rotation_deg": 0.0},
     "camera": {"position_mm": [0.0, 0.0, 2000.0], "target_mm": [0.0, 0.0, 0.0], "up": [0.0, 1.0, 0.0], "resolution": [3840, 2160],
                "pixel_filter": "center"},
     "content": {"viewing_distance_mm": 2000.0},
-    "render": {"samples": 100, "fresnel": "exact"},
+    "render": {"samples": 100, "fresnel": "exact", "wavelength_samples": 1},
 }
 TOUCHES = 1e-6  # mm: a flat face this close to what lies under it is glued on
 
@@ -27,7 +30,26 @@ def read(path):
 
 
 def resolve(text):
-    """A parsed description with defaults filled in: surfaces and layers in place, aperture, stop, diffuser and camera figures."""
+    """A parsed description in green light. Of other light it holds two lists.
+
+    primaries: the display in the light of each channel's middle wavelength. colours: (share of each channel (3,), the display in the light of one
+    wavelength). Heights follow from green's indices. Without glasses the display itself serves all channels.
+    """
+    panel = SimpleNamespace(**{**DEFAULTS["panel"], **text["panel"]})
+    d = _resolve(text, panel.wavelengths_nm[1])
+    d.primaries, d.colours = [d] * 3, [(np.ones(3), d)]
+    if has_glass(text):
+        array = {key: value for key, value in text["array"].items() if key != "gap_mm"}
+        in_place = {**text, "array": {**array, "base_z_mm": d.lowest}}
+        d.primaries = [_resolve(in_place, nm) for nm in panel.wavelengths_nm]
+        samples, widths = d.render.wavelength_samples, getattr(panel, "primary_widths_nm", [0.0] * 3)
+        d.colours = [(share * np.eye(3)[channel], _resolve(in_place, nm)) for channel in range(3)
+                     for nm, share in wavelengths(panel.wavelengths_nm[channel], widths[channel], samples)]
+    return d
+
+
+def _resolve(text, nm):
+    """A parsed description with defaults filled in: surfaces and layers in place, aperture, stop, diffuser and camera figures. nm: the light's wavelength."""
     d = SimpleNamespace(**{name: SimpleNamespace(**{**default, **text.get(name, {})}) for name, default in DEFAULTS.items()})
     if d.array.aperture not in ("circle", "cell"):
         raise ValueError(f"aperture is {d.array.aperture}, not circle or cell")
@@ -36,23 +58,25 @@ def resolve(text):
         d.array.count = least_count(d.array, d.panel)
     d.strips, d.fills_cell = d.array.lattice == "strips", d.array.aperture == "cell"
     d.cell = cell_shape(d.array.lattice, pitch)
-    d.layers = [(layer["thickness_mm"], layer["index"]) for layer in d.panel.layer]  # from the panel upwards
+    d.subpixels = Subpixels(d.panel)
+    d.layers = [(layer["thickness_mm"], index_of(layer, nm)) for layer in d.panel.layer]  # from the panel upwards
     d.layer_top = sum(thickness for thickness, _ in d.layers)
     reduced = sum(thickness / index for thickness, index in d.layers)
     d.ideal = d.lens.type in ("ideal", "pinhole")  # a pinhole is an ideal lens without power
     d.power = 1 / d.lens.focal_length_mm if d.lens.type == "ideal" else 0.0
-    d.surfaces = [] if d.ideal else _prescription(d)
+    d.surfaces = [] if d.ideal else _prescription(d, nm)
     d.paraxial = paraxial(d)
     low = 0.0 if d.ideal else min(s.z_min for s in d.surfaces)  # still about the first vertex as z = 0
     # Light from the panel reaches a height z in air as if it came through z - layer_top + reduced of air.
     shift = d.array.base_z_mm - low if hasattr(d.array, "base_z_mm") else d.array.gap_mm + d.layer_top - reduced - d.paraxial.front
+    d.lowest = low + shift
     for s in d.surfaces:
         for name in ("z", "z_min", "z_max", "z_rim"):
             setattr(s, name, getattr(s, name) + shift)
     d.paraxial.front += shift
     d.paraxial.rear += shift
     d.gap = d.paraxial.front - d.layer_top + reduced
-    d.glued = bool(d.surfaces) and d.surfaces[0].flat and abs(low + shift - d.layer_top) <= TOUCHES
+    d.glued = bool(d.surfaces) and d.surfaces[0].flat and abs(d.lowest - d.layer_top) <= TOUCHES
     if d.glued:  # on the bare panel nothing refracts: as if the panel were of the lens's glass
         d.surfaces[0].n_below = d.layers[-1][1] if d.layers else d.surfaces[0].n_above
     d.lens_z = shift  # of an ideal lens
@@ -71,21 +95,21 @@ def resolve(text):
     return d
 
 
-def _prescription(d):
+def _prescription(d, nm):
     """The lens's surfaces, panel side first, with the first vertex at z = 0 and air on both sides."""
     lens = d.lens
     if lens.type == "surfaces":
         out, z, below = [], 0.0, 1.0
         for number, s in enumerate(lens.surface):
-            above = 1.0 if number == len(lens.surface) - 1 else s["index"]
+            above = 1.0 if number == len(lens.surface) - 1 else index_of(s, nm)
             out.append(Surface(z, s["curvature_per_mm"], s.get("conic", 0.0), s.get("even_asphere", []), s["semi_aperture_mm"], below, above, d.strips))
             z, below = z + s.get("distance_mm", 0.0), above
         return out
     radius, height = lens.sphere_radius_mm, lens.cylinder_height_mm
     r = max(getattr(lens, "aperture_radius_mm", 0.0), d.cell.corner) if d.fills_cell else lens.aperture_radius_mm
-    thickness = height + radius - math.sqrt(radius**2 - r**2)
+    index, thickness = index_of(vars(lens), nm), height + radius - math.sqrt(radius**2 - r**2)
     lower, upper = (0.0, -1 / radius) if lens.facing == "viewer" else (1 / radius, 0.0)  # curvatures
-    return [Surface(0.0, lower, 0.0, [], r, 1.0, lens.index, d.strips), Surface(thickness, upper, 0.0, [], r, lens.index, 1.0, d.strips)]
+    return [Surface(0.0, lower, 0.0, [], r, 1.0, index, d.strips), Surface(thickness, upper, 0.0, [], r, index, 1.0, d.strips)]
 
 
 def paraxial(d):
@@ -124,6 +148,11 @@ def theory(d):
     image = pixel * abs(depth) / g
     return {**figures, "focal_length_mm": d.paraxial.f, "central_depth_mm": depth, "pixel_image_mm": image,
             "depth_of_field_mm": 2 * abs(depth) * image / max(d.clear_aperture)}
+
+
+def focus(d):
+    """(focal length, central depth) in mm for red, green and blue, each with its own colour's reduced gap. Not for pinholes."""
+    return [(at.paraxial.f, 1 / (1 / at.paraxial.f - 1 / at.gap)) for at in d.primaries]
 
 
 def turned_by(d):

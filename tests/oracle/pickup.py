@@ -14,6 +14,13 @@ def pixel_centres(d, columns, rows):
     return np.column_stack([(columns + 0.5 - width / 2) * a, (height / 2 - rows - 0.5) * a])
 
 
+def subpixel_points(d, channel, columns, rows):
+    """(centres (n, 2) of what a channel of these pixels shines from, whether there is such a thing): content is made for them."""
+    (width, height), a = d.panel.pixels, d.panel.pixel_pitch_mm
+    at, shows = d.subpixels.centroids(channel, columns, rows)
+    return (at - [width / 2, height / 2]) * [a, -a], shows
+
+
 def nodal_lines(d, points):
     """The lines of panel points (n, 2), for the viewer at content.viewing_distance_mm.
 

@@ -14,6 +14,7 @@ import numpy as np
 from PIL import Image
 
 import cases
+import colour
 import lattice_cases
 import tracer
 from display import resolve
@@ -134,11 +135,11 @@ def compare(name, description):
     image = panel_images(*d.panel.pixels)["address"]
     x, y = tracer.centers(d)
     hits = tracer.trace(d, *tracer.camera_rays(d, x, y))
-    ours = np.rint(255 * tracer.shade(d, hits, image / 255.0)).astype(int)
+    ours = np.rint(255 * colour.shade(d, [(np.ones(3), hits)], image / 255.0)).astype(int)
     differs = (picture(d, image).reshape(-1, 3) != ours).any(axis=1) & (hits.status != TOTAL)
     odd = np.flatnonzero(differs)
     if len(odd):
-        odd = odd[~tracer.near_edge(d, image / 255.0, x[odd], y[odd], spokes=16, rings=3)]
+        odd = odd[~colour.near_edge(d, image / 255.0, x[odd], y[odd], spokes=16, rings=3).any(axis=1)]
     print(f"{name}: {differs.sum()} of {len(x)} differ, {len(odd)} off the edges", [(int(x[k]), int(y[k]), int(hits.status[k]), int(hits.met[k])) for k in odd[:6]], flush=True)
 
 

@@ -2,8 +2,10 @@
 """Renders displays with lfdsim and with this folder's double-precision tracer, and compares: run.py LFDSIM_PROGRAM [--quick] [--only TEXT] [--out FOLDER].
 
 Single rays: away from edges every pixel agrees within 1/255 + 1e-6, and the panel pixel that each ray met (read from the address image)
-is the same for 99.9 % of all rays, 99.4 % through glass in air off axis. Means over samples: see blurred(). The last line counts passed and failed
-comparisons; the exit code is 1 if any failed, and the pictures of those are kept in FOLDER (default: a new temporary folder).
+is the same for 99.9 % of all rays, 99.4 % through glass in air off axis. With subpixels and glasses each channel has its own edges and its own
+picture (`noise`); 99.7 % of rays see the same light, and at least half of the picture is off the edges. Means over samples: see blurred() and
+filtered(). The last line counts passed and failed comparisons; the exit code is 1 if any failed, and the pictures of those are kept in FOLDER
+(default: a new temporary folder).
 """
 import argparse
 import functools
@@ -18,18 +20,25 @@ import numpy as np
 from PIL import Image
 
 import cases
+import colour
+import colour_cases
 import lattice_cases
 import tracer
 from display import resolve, theory
 
 GOLDEN = pathlib.Path(__file__).resolve().parent.parent / "golden"
 TOLERANCE = 1 / 255 + 1e-6
-FALSE_ALARM = 5e-8  # probability that chance alone fails one blurred comparison; eighteen are made: below 1e-6 together
+FALSE_ALARM = 1e-8   # probability that chance alone fails one blurred comparison; less than a hundred are made: below 1e-6 together
+COMPARED = 0.5       # the least share of a coloured picture that must be off the edges, by a sample of its pixels
+MANY = 300           # so many pixels near edges that few directions do not find are something else
+NEAR_ENOUGH = 0.015  # root mean square over a picture by which filtered light may differ from exact means, beyond chance
+MOST_STRATA = 3844   # samples of the filtered estimator
 
 
 @functools.lru_cache(maxsize=1)
 def panel_images(columns, rows):
-    """checker, address (see golden/README.md) and waves (smooth, so that means over many pixels tell widths) as uint8 (rows, columns, 3)."""
+    """As uint8 (rows, columns, 3): checker, address (see golden/README.md), waves (smooth, so that means over many pixels tell widths) and noise (unlike
+    in neighbours and channels)."""
     r, c = np.ogrid[:rows, :columns]
 
     def image(*colours):
@@ -37,7 +46,8 @@ def panel_images(columns, rows):
 
     squares = 255 * ((r // 11 + c // 11) % 2)
     return {"checker": image(*[255 - squares] * 3), "address": image(c // 16, r // 16, c % 16 * 16 + r % 16),
-            "waves": image(127.5 + 127.5 * np.cos(c / 9.0), 127.5 + 127.5 * np.cos(r / 9.0), squares)}
+            "waves": image(127.5 + 127.5 * np.cos(c / 9.0), 127.5 + 127.5 * np.cos(r / 9.0), squares),
+            "noise": np.random.default_rng(5).integers(0, 256, (rows, columns, 3), np.uint8)}
 
 
 class Harness:
@@ -54,13 +64,13 @@ class Harness:
             raise RuntimeError(f"lfdsim {arguments[0]} ended with {done.returncode}: {done.stderr.strip()[-600:]}")
         return done.stdout
 
-    def render(self, text, image, *options):
+    def render(self, text, image, *options, estimator="point"):
         """lfdsim's picture (rows, columns, 3) of a description (TOML text) with a panel image (uint8)."""
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             (folder / "display.toml").write_text(text)
             Image.fromarray(image).save(folder / "panel.png", compress_level=1)
-            self.lfdsim("render", folder / "display.toml", "--panel-image", folder / "panel.png", "--estimator", "point", *options, "-o", folder / "out.npy")
+            self.lfdsim("render", folder / "display.toml", "--panel-image", folder / "panel.png", "--estimator", estimator, *options, "-o", folder / "out.npy")
             return np.load(folder / "out.npy").astype(float)
 
     def check(self, name, compare):
@@ -79,32 +89,44 @@ class Harness:
                 Image.fromarray((255 * np.clip(picture, 0, 1)).astype(np.uint8)).save(folder / f"{label}.png")
 
 
-def single_rays(harness, description, pattern, share):
-    """One ray per pixel. share: of the rays that must meet the same panel pixel (pattern "address"), None for other patterns."""
+def single_rays(harness, description, pattern, share, compared=None):
+    """One ray per pixel. share: of the rays that must meet the same panel pixel (pattern "address") or see the same light (others), None for any.
+
+    compared: the least share of the picture, all channels, that must be off the edges.
+    """
     display = resolve(description)
     image = panel_images(*display.panel.pixels)[pattern]
-    linear = tracer.decode(image, display.panel.encoding)
+    linear = colour.decode(image, display.panel.encoding)
     x, y = tracer.centers(display)
-    hits = tracer.trace(display, *tracer.camera_rays(display, x, y))
-    wanted = tracer.shade(display, hits, linear)
+    traced = colour.trace(display, *tracer.camera_rays(display, x, y))
+    wanted = colour.shade(display, traced, linear)
     shape = (*display.camera.resolution[::-1], 3)
     got = harness.render(cases.to_toml(description), image, "--samples", 1).reshape(-1, 3)
-    error = np.abs(got - wanted).max(axis=1)
+    error = np.abs(got - wanted)
     differs = error > TOLERANCE
     note = f"largest error elsewhere {error[~differs].max():.1e}"
     good = True
     if share:
-        differs |= (np.rint(got * 255) != np.rint(wanted * 255)).any(axis=1)
-        good = 1 - differs.mean() >= share
-        note = f"same panel pixel {100 * (1 - differs.mean()):.3f} %"
-    odd = np.flatnonzero(differs)
+        if pattern == "address":
+            differs |= np.rint(got * 255) != np.rint(wanted * 255)
+        same = 1 - differs.any(axis=1).mean()
+        good = same >= share
+        note = f"same {'panel pixel' if pattern == 'address' else 'light'} {100 * same:.3f} %"
+    if compared:
+        some = np.random.default_rng(6).choice(len(x), min(400, len(x)), replace=False)
+        off_edges = 1 - colour.near_edge(display, linear, x[some], y[some]).mean()
+        good &= off_edges >= compared
+        note += f"; {100 * off_edges:.0f} % off the edges"
+    odd = np.flatnonzero(differs.any(axis=1))
     for spokes, rings in ((8, 2), (48, 5)):  # look closer only where few directions found no edge
-        odd = odd[~tracer.near_edge(display, linear, x[odd], y[odd], spokes=spokes, rings=rings)] if len(odd) else odd
+        if len(odd) and (rings == 2 or len(odd) < MANY):
+            differs[odd] &= ~colour.near_edge(display, linear, x[odd], y[odd], spokes=spokes, rings=rings)
+            odd = odd[differs[odd].any(axis=1)]
     if len(odd):
-        k = odd[np.argmax(error[odd])]
-        note += f"; {len(odd)} differ off the edges, first at column {x[k] - 0.5:.0f} row {y[k] - 0.5:.0f}: got {got[k]}, wanted {wanted[k]}, status {hits.status[k]}"
-    lit = f"{100 * (hits.column >= 0).mean():.0f} % lit, {differs.sum()} of {len(x)} pixels differ, at edges; "
-    return good and not len(odd), lit + note, {"got": got.reshape(shape), "wanted": wanted.reshape(shape)}
+        k = odd[np.argmax((error * differs)[odd].max(axis=1))]
+        note += f"; {len(odd)} differ off the edges, first at column {x[k] - 0.5:.0f} row {y[k] - 0.5:.0f}: got {got[k]}, wanted {wanted[k]}, status {traced[0][1].status[k]}"
+    lit = f"{100 * (traced[0][1].column >= 0).mean():.0f} % lit, {(error > TOLERANCE).any(axis=1).sum()} of {len(x)} pixels differ, at edges; "
+    return bool(good) and not len(odd), lit + note, {"got": got.reshape(shape), "wanted": wanted.reshape(shape)}
 
 
 def address_of(description):
@@ -136,7 +158,7 @@ def own_golden(name):
     return not wrong.any(), f"{wrong.sum()} panel pixels differ off the edges", {}
 
 
-def blurred(harness, description, count, sampling):
+def blurred(harness, description, count, sampling, pattern="waves"):
     """Means of `count` samples per pixel against `count` random ones of ours: z-tests per pixel, together and of the whole picture.
 
     With v our sample variance (its own uncertainty added), a difference of two means has variance (1 + s) v / count, s = 1 for random samples; scrambled
@@ -145,11 +167,10 @@ def blurred(harness, description, count, sampling):
     - together: the sum over the P pixels of the channels' mean z^2 is at most P + 2 sqrt(P L) + 2 L, L = ln(1 / probability) (Laurent and Massart 2000);
     - the picture's mean: as one figure, with count P samples.
     """
-    display = resolve(description)
-    image = panel_images(*display.panel.pixels)["waves"]
-    wanted, variance = tracer.sampled(display, tracer.decode(image, display.panel.encoding), count, seed=1)
+    display, image, wanted, variance = exact_means(description, count, pattern)
     got = harness.render(cases.to_toml(description), image, "--samples", count, "--sampling", sampling, "--seed", 7)
-    shape, got = got.shape, got.reshape(-1, 3)
+    brightest = display.subpixels.gain  # of each channel
+    shape, got, wanted, variance = got.shape, got.reshape(-1, 3) / brightest, wanted / brightest, variance / brightest**2
     chance, share = FALSE_ALARM / 3, 1 + (np.e if sampling == "sobol" else 1)
 
     def score(difference, v, n, figures):
@@ -165,6 +186,25 @@ def blurred(harness, description, count, sampling):
     ratios = pixel.max(), together, whole.max()
     found = "of what chance allows: one pixel {:.2f}, all together {:.2f}, the picture's mean {:.2f}".format(*ratios)
     return bool(max(ratios) <= 1), found, {"got": got.reshape(shape), "wanted": wanted.reshape(shape)}
+
+
+def exact_means(description, count, pattern):
+    """(display, the panel image, our means of `count` samples (pixels, 3), the variance of one sample)."""
+    display = resolve(description)
+    image = panel_images(*display.panel.pixels)[pattern]
+    return display, image, *colour.sampled(display, colour.decode(image, display.panel.encoding), count, seed=1)
+
+
+def filtered(harness, description, count, pattern):
+    """The filtered estimator against our means: root mean square over the picture, less what chance adds to ours, at most NEAR_ENOUGH and what as many
+    random samples would err."""
+    _, image, wanted, variance = exact_means(description, count, pattern)
+    got = harness.render(cases.to_toml(description), image, "--samples", MOST_STRATA, estimator="filtered")
+    shape, got = got.shape, got.reshape(-1, 3)
+    beyond = np.sqrt(max(((got - wanted) ** 2).mean() - variance.mean() / count, 0))
+    allowed = np.sqrt(NEAR_ENOUGH**2 + variance.mean() / MOST_STRATA)
+    found = f"root mean square {beyond:.4f} of {allowed:.4f} allowed, largest {np.abs(got - wanted).max():.3f}"
+    return bool(beyond <= allowed), found, {"got": got.reshape(shape), "wanted": wanted.reshape(shape)}
 
 
 def paraxial(harness, description):
@@ -217,9 +257,21 @@ def main():
         if not options.quick or description["render"]["fresnel"] != "none" or panel["emission_exponent"] or panel.get("aperture_ratio", 1) < 1:
             todo.append((f"{name}, checker", lambda d=description: single_rays(harness, d, "checker", None)))
         todo.append((f"{name}, theory", lambda d=description: paraxial(harness, d)))
-    for name, description in cases.BLURRED.items():
-        for sampling in ("sobol",) if options.quick else ("random", "sobol"):
-            todo.append((f"{name}, {sampling}", lambda d=description, s=sampling: blurred(harness, d, 4096 if options.quick else 16384, s)))
+    for name, description in {**colour_cases.SHORT, **({} if options.quick else colour_cases.MORE)}.items():
+        if options.quick:
+            description = cases.merge(description, {"camera": {"resolution": [96, 54]}})
+        todo.append((f"{name}, noise", lambda d=description: single_rays(harness, d, "noise", 0.997, COMPARED)))
+        todo.append((f"{name}, theory", lambda d=description: paraxial(harness, d)))
+    count, samplings = (4096, ["sobol"]) if options.quick else (16384, ["random", "sobol"])
+    more = {} if options.quick else colour_cases.BLURRED_MORE
+    fine = {**colour_cases.FINE_SHORT, **({} if options.quick else colour_cases.FINE_MORE)}
+    coloured = {**colour_cases.BLURRED_SHORT, **more, **fine}
+    for name, description in {**cases.BLURRED, **coloured}.items():
+        pattern = "noise" if name in fine else "waves"
+        for s in samplings:
+            todo.append((f"{name}, {s}", lambda d=description, s=s, p=pattern: blurred(harness, d, count, s, p)))
+        if name in coloured:
+            todo.append((f"{name}, filtered", lambda d=description, p=pattern: filtered(harness, d, count, p)))
     for name, compare in todo:
         if harness.wanted(name):
             harness.check(name, compare)

@@ -3,6 +3,7 @@
 import sys
 
 import check_arrays as arrays
+import check_colour as colour
 import check_light as light
 import check_paraxial as paraxial
 from check_tools import ASPHERE, FACING, IDEAL, LATTICES, LAYERS, LENS, PINHOLE
@@ -46,6 +47,27 @@ def checks():
             yield f"strips along themselves, {surround}, {aperture}", lambda s=surround, a=aperture: arrays.along_strips(s, a)
             yield f"one row of bricks, {surround}, {aperture}", lambda s=surround, a=aperture: arrays.one_row(s, a)
             yield f"hexagons by a sixth of a turn, {surround}, {aperture}", lambda s=surround, a=aperture: arrays.sixth_of_a_turn(FACING if s == "opaque" else LENS, s, a)
+    yield "glasses: n_d and V_d", colour.glasses
+    yield "wavelengths: Gauss-Hermite sums", colour.quadrature
+    yield "glasses of constant index", colour.one_colour
+    yield "glasses: each channel alone", colour.each_alone
+    yield "glasses: a gap is green's", colour.gap_of_green
+    yield "subpixels, rgb_rows: drawn", colour.rows_drawn
+    for label, (lens, radii, thickness) in colour.LENSES.items():
+        for glass in ("PMMA", colour.VIVID):
+            yield f"glasses, {label}: focal lengths", lambda z=lens, r=radii, t=thickness, g=glass: colour.lensmaker(z, r, t, g)
+    for kind in colour.PICTURES:
+        yield f"subpixels, {kind}: drawn", lambda k=kind: colour.drawn(k)
+    for kind in ("rgb_stripe", "bgr_stripe", "rgb_rows", "delta", "swapped"):
+        yield f"subpixels, {kind}: made for the eye that sees them", lambda k=kind: colour.made_for_eyes(k)
+    for kind in colour.KINDS:
+        yield f"subpixels, {kind}: shrunk in place", lambda k=kind: colour.shrunk_in_place(k)
+        for q in (1.0, 0.5):
+            yield f"subpixels, {kind}, q {q}: white", lambda k=kind, q=q: colour.white(k, q)
+            yield f"subpixels, {kind}, q {q}: white behind lenses", lambda k=kind, q=q: colour.behind_lenses(k, q)
+            yield f"subpixels, {kind}, q {q}: centroids", lambda k=kind, q=q: colour.centroids(k, q)
+            if kind != "none":
+                yield f"subpixels, {kind}, q {q}: by brute force", lambda k=kind, q=q: colour.by_brute_force(k, q)
     glued = {"layers": LAYERS, "base_z_mm": 2.2}
     for label, lens in (("plano-convex", LENS), ("panel facing", FACING), ("asphere", ASPHERE), ("ideal", IDEAL), ("pinhole", PINHOLE)):
         for where, given in (("in air", {}), ("over layers", {"layers": LAYERS}), ("on layers", glued), ("on the panel", {"base_z_mm": 0.0})):

@@ -1,4 +1,4 @@
-"""The whole way: camera rays, diffuser, lens array, layers, panel, colour; the edge rule; Monte Carlo means with their variance."""
+"""The whole way of rays of one wavelength: camera, diffuser, lens array, layers, panel."""
 from types import SimpleNamespace
 
 import numpy as np
@@ -54,24 +54,6 @@ def _diffuse(z, o, d, turn):
     return at, d, status
 
 
-def decode(image, encoding):
-    """Panel image (rows, columns, 3): uint8 or uint16 codes, or floats, to linear light."""
-    value = image / np.iinfo(image.dtype).max if image.dtype.kind == "u" else image.astype(float)
-    if encoding == "linear":
-        return value
-    return np.where(value <= 0.04045, value / 12.92, ((np.maximum(value, 0.04045) + 0.055) / 1.055) ** 2.4)  # IEC 61966-2-1
-
-
-def shade(display, hits, linear):
-    """Linear colours (n, 3) of traced rays; linear: the decoded panel image."""
-    light = hits.weight * hits.cosine**display.panel.emission_exponent
-    ratio = display.panel.aperture_ratio
-    if ratio < 1:  # a black matrix around a square in the middle of each pixel
-        off = np.maximum(np.abs(hits.x % 1 - 0.5), np.abs(hits.y % 1 - 0.5))
-        light = light * (off < np.sqrt(ratio) / 2) / ratio
-    return linear[hits.row, hits.column] * np.where(hits.column >= 0, light, 0.0)[:, None]
-
-
 def camera_rays(display, x, y, lens=None):
     """Rays through image points (x, y) in pixels, (0, 0) the image's top left corner; lens (n, 2): point of the unit pupil disk."""
     camera = display.camera
@@ -108,40 +90,6 @@ def centers(display):
     width, height = display.camera.resolution
     y, x = np.mgrid[:height, :width] + 0.5
     return x.ravel(), y.ravel()
-
-
-def near_edge(display, linear, x, y, radius=0.02, spokes=8, rings=2):
-    """Whether the exact picture changes by more than 1/255, or the panel pixel at all, within `radius` pixels of the image points."""
-    middle = trace(display, *camera_rays(display, x, y))
-    colour, edge = shade(display, middle, linear), np.zeros(len(x), bool)
-    for r in radius * np.arange(1, rings + 1) / rings:
-        for angle in 2 * np.pi * (np.arange(spokes) + 0.137) / spokes:
-            away = trace(display, *camera_rays(display, x + r * np.cos(angle), y + r * np.sin(angle)))
-            edge |= (away.column != middle.column) | (away.row != middle.row)
-            edge |= np.abs(shade(display, away, linear) - colour).max(axis=1) > 1 / 255
-    return edge
-
-
-def sampled(display, linear, count, seed):
-    """Monte Carlo means over diffuser angles, pupil and pixel area: (mean, variance of one sample), each (pixels, 3)."""
-    rng = np.random.default_rng(seed)
-    x0, y0 = centers(display)
-    total, squares, done = np.zeros((len(x0), 3)), np.zeros((len(x0), 3)), 0
-    while done < count:
-        k = min(count - done, max(BATCH // len(x0), 1))  # samples of every pixel at once
-        x, y = np.tile(x0, k), np.tile(y0, k)
-        n, lens, turn = len(x), None, None
-        if display.camera.pixel_filter == "box":
-            x, y = x + rng.random(n) - 0.5, y + rng.random(n) - 0.5
-        if getattr(display.camera, "pupil_diameter_mm", 0):
-            r, phi = np.sqrt(rng.random(n)), 2 * np.pi * rng.random(n)
-            lens = np.stack([r * np.cos(phi), r * np.sin(phi)], axis=1)
-        if display.diffuser:
-            turn = diffuser_angles(display.diffuser, rng, n)
-        colour = shade(display, trace(display, *camera_rays(display, x, y, lens), turn), linear).reshape(k, -1, 3)
-        total, squares, done = total + colour.sum(axis=0), squares + (colour**2).sum(axis=0), done + k
-    mean = total / count
-    return mean, np.maximum(squares / count - mean**2, 0) * count / max(count - 1, 1)
 
 
 def diffuser_angles(diffuser, rng, n):
