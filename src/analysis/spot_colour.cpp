@@ -10,7 +10,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr int bundle_rays = 256, shown_rays = 14;
+constexpr int colour_rays = 256, drawn_rays = 14;
 constexpr const char* channel_names[] = {"r", "g", "b"};
 constexpr const char* colour_names[] = {"red", "green", "blue"};
 
@@ -40,7 +40,7 @@ struct Coloured {
 double central_depth_mm(const Subject& s, const Coloured& c) { return theory(s.display(), c.geometry).central_depth_mm - c.lower; }
 
 /// The spots of a field in all colours at green's central depth plane.
-Plot diagram(const SpotField& field, const std::array<Bundle, 3>& light, double depth, double from_vertex) {
+Plot colour_diagram(const SpotField& field, const std::array<Bundle, 3>& light, double depth, double from_vertex) {
     Plot plot{fmt::format("spot_colour_{}", field.name),
               fmt::format("Colours of the spot, {}, {:.4g} mm in front of the lenses", field.title, depth + from_vertex),
               "mm",
@@ -88,8 +88,8 @@ void tell_colours(const Subject& s, const std::vector<SpotField>& fields, Result
         std::array<Centroid, 3> middle{};
         bool through = true;
         for (std::size_t c = 0; c < 3; ++c) {
-            light[c] = at[c].light(field.panel, bundle_rays);
-            shown[c] = at[c].light(field.panel, shown_rays);
+            light[c] = at[c].light(field.panel, colour_rays);
+            shown[c] = at[c].light(field.panel, drawn_rays);
             through = through && !light[c].rays.empty();
             middle[c] = light[c].rays.empty() ? Centroid{nan, nan, nan} : centroid_at(light[c], depth);
             const double row[] = {field.panel[0], field.panel[1], double(c), middle[c].x, middle[c].y, middle[c].rms};
@@ -108,7 +108,7 @@ void tell_colours(const Subject& s, const std::vector<SpotField>& fields, Result
                                    {told(from_green(0)), told(from_green(2))},
                                    {},
                                    fmt::format("centroids of spots {:.4g} mm in front of the lenses", depth + from_vertex)});
-        result.plots.push_back(diagram(field, shown, depth, from_vertex));
+        result.plots.push_back(colour_diagram(field, shown, depth, from_vertex));
     }
     result.tables.push_back(std::move(table));
 }

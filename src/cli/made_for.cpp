@@ -3,6 +3,7 @@
 #include "files/display_file.h"
 #include "model/geometry.h"
 #include "model/keys.h"
+#include "model/subpixels.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -94,6 +95,9 @@ void warn_if_for_another(const std::filesystem::path& panel_image, const Metadat
     const auto compare_words = [&](const char* key, std::string_view was, std::string_view is) {
         if (was != is) what += fmt::format("{}{} {}, not {}", what.empty() ? "" : "; ", key, was, is);
     };
+    if (shown_places(made->display) != shown_places(display))
+        what += fmt::format("{}panel.subpixels {}, not {}, or for other places of them", what.empty() ? "" : "; ",
+                            word(made->display.panel.subpixels), word(display.panel.subpixels));
     compare_words("array.lattice", word(made->display.array.lattice), word(display.array.lattice));
     if (holds_codes(panel_image)) compare_words("panel.encoding", word(made->display.panel.encoding), word(display.panel.encoding));
     if (!what.empty()) spdlog::warn("{}: was made for another display: {}", panel_image.string(), what);

@@ -254,4 +254,16 @@ std::optional<std::array<double, 2>> centroid(const Panel& panel, int channel, s
     return std::array<double, 2>{sum[0] / area, sum[1] / area};
 }
 
+std::vector<double> shown_places(const Display& d) {
+    if (d.panel.subpixels == SubpixelLayout::none || d.content.sampling == ContentSampling::pixel) return {};
+    const std::array<std::int64_t, 2> cell = subpixel_cell(d.panel).size;
+    std::vector<double> all{double(cell[0]), double(cell[1])};
+    for (std::int64_t row = 0; row < cell[1]; ++row)
+        for (std::int64_t column = 0; column < cell[0]; ++column)
+            for (int channel = 0; channel < 3; ++channel)
+                for (const double place : centroid(d.panel, channel, column, row).value_or(std::array{99., 99.}))
+                    all.push_back(place);
+    return all;
+}
+
 }  // namespace lfdsim

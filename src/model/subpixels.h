@@ -80,6 +80,10 @@ double peak(const Panel&);
 /// the channel has no subpixel there.
 std::optional<std::array<double, 2>> centroid(const Panel&, int channel, std::int64_t column, std::int64_t row);
 
+/// For what places of its pixels a display's elemental images are made, as numbers that can be compared: the cell's size, and
+/// centroid() of all of its pixels and channels; 99 where there is none. Empty: for the pixels' centres.
+std::vector<double> shown_places(const Display&);
+
 /// The cell and the subpixels of a layout before they are shrunk. Of `none` there are none, in a cell of one pixel.
 struct SubpixelCell {
     std::array<std::int64_t, 2> size;

@@ -2,6 +2,7 @@
 
 #include "engine/memory.h"
 #include "image/image_file.h"
+#include "model/subpixels.h"
 
 #include <algorithm>
 #include <chrono>
@@ -75,6 +76,8 @@ PanelKey panel_key(const Source& source, const Display& d, const Geometry& g) {
     if (source.kind != Shown::Kind::model) return key;
     for (const double x : pose_of(d, g)) key.lengths.push_back(x);
     key.lengths.push_back(g.content_depth_mm);
+    const std::vector<double> shown = shown_places(d);
+    key.lengths.insert(key.lengths.end(), shown.begin(), shown.end());
     return key;
 }
 

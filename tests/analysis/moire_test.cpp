@@ -52,7 +52,7 @@ TEST(MoireTheory, BeatsAreThoseOfFourierTransforms) {
 TEST(MoireTheory, HexagonsHaveTheirReciprocalLattice) {
     const double p = 1, pixel = 0.5 * std::sqrt(3.) * p / 4;  // pixels along y fit the rows but for the eye's distance
     const Display d = in_focus(LatticeKind::hexagon, p, 2, pixel, 1000);
-    const Frequency f = MoireTheory(d, resolve(d), 1002).beat(0, 1);
+    const Frequency f = MoireTheory(d, resolve(d), 1002).beat(0, -1);  // rows count downwards
     EXPECT_NEAR(f[0], 0, 1e-12);
     EXPECT_NEAR(f[1], 0.002 / pixel, 1e-9);
 }
@@ -121,6 +121,42 @@ TEST(Moire, RaysFindTheBeatsOfTheory) {
         EXPECT_LT(apart_deg(white["direction_deg"], theory["direction_deg"]), white["direction_deg_error"].get<double>()) << c.name;
         EXPECT_NEAR(white["contrast"], theory["contrast"].get<double>(), white["contrast_error"].get<double>()) << c.name;
         EXPECT_LT(white["period_mm_error"], 0.02 * theory["period_mm"].get<double>()) << c.name;
+    }
+}
+
+// Stripes behind a slanted sheet: each colour has the beat of the lattices' frequencies; where all beats of a colour are too fine
+// for the eye there is none.
+TEST(Moire, ColoursHaveTheBeatsOfTheory) {
+    struct Case {
+        double pitch, gap, pixel, eye, slant;
+        SubpixelLayout layout;
+        bool seen;
+    };
+    for (const Case& c : {Case{1.003, 2.5, 0.2451, 700, 2.5, SubpixelLayout::rgb_stripe, true},
+                          {0.83, 2.2, 0.24, 600, -5, SubpixelLayout::bgr_stripe, true},
+                          {0.6, 1.5, 0.05, 400, 40, SubpixelLayout::rgb_stripe, false}}) {
+        Display d = in_focus(LatticeKind::strips, c.pitch, c.gap, c.pixel, c.eye);
+        d.panel.subpixels = c.layout;
+        d.panel.aperture_ratio = 1;
+        d.array.slant_deg = c.slant;
+        const Json json = moire_of(d);
+        for (const char* channel : {"r", "g", "b"}) {
+            const Json &white = json["white"][channel], &theory = json["theory"][channel];
+            if (!c.seen) {
+                EXPECT_EQ(theory["contrast"], 0) << c.slant;
+                EXPECT_TRUE(white["period_mm"].is_null()) << c.slant << ": " << white.dump();
+                continue;
+            }
+            // Vertical stripes: only their waves' first component across the strips is sampled.
+            const double a = c.slant * degree, q = (1 + c.gap / (c.eye - resolve(d).rear_principal_mm)) / c.pixel,
+                         n = std::round(c.pitch * q * std::cos(a)),
+                         along = (1 + resolve(d).reduced_vertex_plane_mm / (c.eye - resolve(d).vertex_plane_mm)) / c.pixel;
+            const double period = 1 / std::hypot(q * std::cos(a) - n / c.pitch, along * std::sin(a));
+            EXPECT_NEAR(theory["period_mm"], period, 1e-3 * period) << c.slant;
+            EXPECT_NEAR(white["period_mm"], period, 0.02 * period) << c.slant << channel;
+            EXPECT_LT(apart_deg(white["direction_deg"], theory["direction_deg"]), 2) << c.slant << channel;
+            EXPECT_NEAR(white["contrast"], theory["contrast"].get<double>(), white["contrast_error"].get<double>() + 0.01);
+        }
     }
 }
 
