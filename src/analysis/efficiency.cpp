@@ -60,7 +60,8 @@ double coming_up(const Display& d, const Geometry& g, const optics::Scene<double
 std::array<LightBudget, independent_sets> light_budgets(const Display& display, const Geometry& geometry, Parts& parts) {
     Display bare = display;
     bare.diffuser.reset();
-    const Geometry bare_geometry = resolve(bare);
+    Geometry bare_geometry = geometry;
+    bare_geometry.diffuser_z_mm.reset();
     const EyeRays lenses(bare, bare_geometry);
     const auto scene = make_scene<double>(bare, bare_geometry);
     const Media media = media_of(geometry);
