@@ -37,8 +37,8 @@ double flux_per_radiance(const Geometry& g, const Vec3d& at, const Vec3d& to, co
 struct Media {
     double at_panel, at_lens;
 };
-Media media_of(const Display& d, const Geometry& g) {
-    const std::vector<Layer>& layers = d.panel.layers;
+Media media_of(const Geometry& g) {
+    const std::vector<PlacedLayer>& layers = g.layers;
     const double glass = g.glued ? g.surfaces.front().index_above : 1;
     if (layers.empty()) return {glass, glass};
     return {layers.front().index, g.glued ? layers.back().index : 1};
@@ -63,7 +63,7 @@ std::array<LightBudget, independent_sets> light_budgets(const Display& display, 
     const Geometry bare_geometry = resolve(bare);
     const EyeRays lenses(bare, bare_geometry);
     const auto scene = make_scene<double>(bare, bare_geometry);
-    const Media media = media_of(display, geometry);
+    const Media media = media_of(geometry);
     const double width = geometry.array_width_mm, height = geometry.array_height_mm;
     // Caps rise above their rims: light that leaves them obliquely at the border crosses the vertex plane beside the array. Where
     // no other light does, in black surrounds, it is counted.

@@ -16,7 +16,7 @@ double transmission(const Display& d, const Geometry& g) {
     double t = 1;
     const auto cross = [&](double below, double above) { t *= 4 * below * above / ((below + above) * (below + above)); };
     for (const PlacedSurface& s : g.surfaces) cross(s.index_below, s.index_above);
-    const std::vector<Layer>& layers = d.panel.layers;
+    const std::vector<PlacedLayer>& layers = g.layers;
     for (std::size_t k = 0; k < layers.size(); ++k) {
         const bool top = k + 1 == layers.size();
         if (!(top && g.glued)) cross(layers[k].index, top ? 1 : layers[k + 1].index);

@@ -110,15 +110,15 @@ void add_holes(optics::Scene<S>& scene, const Display& display, const Geometry& 
 }
 
 template <class S>
-void add_layers(optics::Scene<S>& scene, const Display& display, const Geometry& geometry) {
-    const std::vector<Layer>& layers = display.panel.layers;
+void add_layers(optics::Scene<S>& scene, const Geometry& geometry) {
+    const std::vector<PlacedLayer>& layers = geometry.layers;
     if (layers.size() > max_layers)
         throw InputError("panel.layer", "has more than the " + std::to_string(max_layers) + " layers allowed");
     scene.layer_count = std::int32_t(layers.size());
     scene.layers_top = S(geometry.layers_top_mm);
     double above = 1;
     for (std::size_t k = 0; k < layers.size(); ++k) {
-        const Layer& layer = layers[layers.size() - 1 - k];
+        const PlacedLayer& layer = layers[layers.size() - 1 - k];
         scene.layer[k] = {S(layer.thickness_mm), interface<S>(above, layer.index)};
         above = layer.index;
     }
@@ -149,7 +149,7 @@ optics::Scene<S> make_scene(const Display& display, const Geometry& geometry) {
     scene.stop_z = S(geometry.stop_z_mm);
     scene.stop_radius2 = S(stop * stop);
     add_lens(scene, geometry);
-    add_layers(scene, display, geometry);
+    add_layers(scene, geometry);
 
     scene.surround = array.surround;
     scene.lattice = make_lattice<S>(display.panel, array);

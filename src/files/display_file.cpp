@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "files/glasses.h"
 #include "files/nearest.h"
 #include "files/source.h"
 #include "files/text_file.h"
@@ -26,12 +27,13 @@ constexpr std::size_t most_problems_told = 50;
 // reported once. The faults are then sorted by place.
 class DisplayReader {
   public:
-    explicit DisplayReader(const Source& s) : source(s) {}
+    DisplayReader(const Source& s, const std::filesystem::path& f) : source(s), folder(f) {}
 
     Display read() {
         Display display;
         read_schema();
         read_table(source.root(), "", display, {"schema"});
+        look_up_glasses(display);
         judge(display);
         return display;
     }
@@ -39,8 +41,11 @@ class DisplayReader {
   private:
     // A value that is missing or cannot be read: `where` is its key's dotted path, as validate() has it.
     void add(std::string where, std::string what) {
-        if (any_kind && std::any_of(faults.begin(), faults.end(), [&](const Problem& p) { return p.where == where; })) return;
+        if (any_kind && is_wrong(where)) return;
         faults.push_back({std::move(where), std::move(what)});
+    }
+    bool is_wrong(std::string_view where) const {
+        return std::any_of(faults.begin(), faults.end(), [&](const Problem& p) { return p.where == where; });
     }
     // A key too many; it does not keep validate() from checking any value.
     void add_superfluous(Place place, std::string where, std::string what) {
@@ -180,13 +185,50 @@ class DisplayReader {
                            [&](const FormatTable::Value& value) { return value.key.name == name; });
     }
 
+    // A catalogue in a file is relative to where the file is, one on the command line to where it was typed.
+    std::vector<GlassCatalogue> read_catalogues(std::vector<std::string>& files) {
+        constexpr const char* key = "glass_catalogues";
+        std::vector<GlassCatalogue> catalogues;
+        if (is_wrong(key)) return catalogues;
+        if (files.size() > max_catalogues) {
+            add(key, fmt::format("has {} files, allowed are {}", files.size(), max_catalogues));
+            return catalogues;
+        }
+        for (std::string& file : files) {
+            if (!source.is_set(key)) file = (folder / file).lexically_normal().string();
+            try {
+                catalogues.push_back(read_agf(file));
+            } catch (const InputError& error) {
+                for (const Problem& p : error.problems) add(key, fmt::format("{}: {}", p.where, p.what));
+            }
+        }
+        return catalogues;
+    }
+
+    // Glasses that were given by name get their formulas.
+    void look_up_glasses(Display& display) {
+        const std::vector<GlassCatalogue> catalogues = read_catalogues(display.glass_catalogues);
+        visit_all(display, [&](const std::string& path, const KeyInfo&, ValueRef value) {
+            auto* const glass = std::get_if<std::optional<Glass>*>(&value);
+            if (!glass || !**glass || (**glass)->name.empty()) return;
+            const std::string& name = (**glass)->name;
+            if (const Glass* found = find_glass(name, catalogues))
+                **glass = *found;
+            else if (!is_wrong("glass_catalogues"))
+                add(path, unknown_glass(name, catalogues));
+        });
+    }
+
     // Validates the values that could be read, and throws if any fault has been found. Places without a line, of overrides, come
     // first: whoever gives a wrong option should not have to look for it below the file's own faults.
     void judge(const Display& display) {
         Findings findings(faults);
         validate_values(display, findings);
-        validate_lens(display, findings);
-        validate_layout(display, findings);
+        if (!is_wrong("glass_catalogues")) {  // else glasses are not known, and lenses cannot be placed
+            validate_glass(display, findings);
+            validate_lens(display, findings);
+            validate_layout(display, findings);
+        }
         std::vector<Located> all = std::move(superfluous);
         for (const Problem& fault : faults)  // an element's place is its list's
             all.push_back(
@@ -208,21 +250,23 @@ class DisplayReader {
     };
 
     const Source& source;
-    bool any_kind = false;        // the kind being read is not known
-    std::vector<Problem> faults;  // of keys that are missing or could not be read, by dotted path
+    const std::filesystem::path& folder;  // of the file
+    bool any_kind = false;                // the kind being read is not known
+    std::vector<Problem> faults;          // of keys that are missing or could not be read, by dotted path
     std::vector<Located> superfluous;
 };
 
 }  // namespace
 
-Display parse_display(std::string_view text, std::string_view name, const std::vector<std::string>& overrides) {
+Display parse_display(std::string_view text, std::string_view name, const std::vector<std::string>& overrides,
+                      const std::filesystem::path& folder) {
     check_text(text, name);
     const Source source(text, name, overrides);
-    return DisplayReader(source).read();
+    return DisplayReader(source, folder).read();
 }
 
 Display read_display(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-    Display display = parse_display(read_text(path), path.string(), overrides);
+    Display display = parse_display(read_text(path), path.string(), overrides, path.parent_path());
     // A path on the command line is relative to where it was typed, one in a file to where the file is.
     const bool overridden =
         std::any_of(overrides.begin(), overrides.end(), [](const std::string& o) { return o.starts_with("content.model="); });

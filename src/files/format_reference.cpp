@@ -14,6 +14,9 @@ std::string_view type_text(const std::optional<std::int64_t>&) { return "integer
 std::string_view type_text(const std::int64_t&) { return "integer"; }
 std::string_view type_text(const std::string&) { return "string"; }
 std::string_view type_text(const std::vector<double>&) { return "list of numbers"; }
+std::string_view type_text(const std::vector<std::string>&) { return "list of strings"; }
+std::string_view type_text(const std::optional<Glass>&) { return "string or table"; }
+std::string_view type_text(const std::optional<Vec3d>&) { return "3 numbers"; }
 std::string_view type_text(const Pitch&) { return "number or 2 numbers"; }
 std::string_view type_text(const std::array<double, 2>&) { return "2 numbers"; }
 std::string_view type_text(const std::array<double, 3>&) { return "3 numbers"; }
@@ -26,8 +29,10 @@ template <class Value>
 std::string allowed_text(const Range& range, const Value&) {
     if constexpr (has_words<Value>)
         return fmt::format("`\"{}\"`", fmt::join(words<Value>(), "\"`, `\""));
-    else if constexpr (std::is_same_v<Value, std::string>)
+    else if constexpr (std::is_same_v<Value, std::string> || std::is_same_v<Value, std::vector<std::string>>)
         return "any";
+    else if constexpr (std::is_same_v<Value, std::optional<Glass>>)
+        return "an index of 1 to 4";
     else
         return range.text();
 }
@@ -36,6 +41,7 @@ std::string allowed_text(const Range& range, const Value&) {
 std::string_view unit(std::string_view name) {
     if (name.ends_with("_per_mm")) return "1/mm";
     if (name.ends_with("_mm")) return "mm";
+    if (name.ends_with("_nm")) return "nm";
     return name.ends_with("_deg") ? "degrees" : "";
 }
 
@@ -70,6 +76,20 @@ On the command line `--set key=value` changes one value: the key with its table 
 quotes (`--set lens.facing=panel`), `none` removes a key or table (`--set diffuser=none`), and surfaces are counted from 0
 (`--set lens.surface.1.conic=-0.4`). A model given in this way is relative to the working directory, one named in the file to
 the file's folder. Files have at most 1 MiB and nest at most 16 levels.
+
+## Glass
+
+In place of `index`, which is the same for all colours, a medium may have `glass`, whose index depends on the wavelength. It is one of:
+
+- a name: of a glass in the files that `glass_catalogues` lists, or of one that ships (`lfdsim glass` lists those: PMMA, PC, N-BK7 ...).
+  Capitals do not matter.
+- `{ nd = 1.4918, vd = 57.4 }`: the index at 587.5618 nm and the Abbe number (n_d - 1)/(n_F - n_C), F and C at 486.1327 and
+  656.2725 nm; n = A + B/l^2 between and beyond.
+- `{ cauchy = [A, B, C] }`: n = A + B/l^2 + C/l^4, the wavelength l in micrometres.
+- `{ sellmeier = [B1, C1, B2, C2, B3, C3] }`: n^2 = 1 + the sum of B l^2/(l^2 - C), C in square micrometres.
+
+The index is 1 to 4 at every wavelength that is used, and each of these is in the range of the glass. On the command line:
+`--set lens.index=none lens.glass=PC`, or `--set lens.index=none "lens.glass={ nd = 1.4918, vd = 57.4 }"`.
 
 ## Top level
 

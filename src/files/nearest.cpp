@@ -25,16 +25,23 @@ std::size_t edits(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates) {
-    std::string_view best;
-    std::size_t least = word.size() / 2 + 2;
-    if (word.size() > 64) return best;  // no key is half as long
+std::vector<std::string_view> nearest(std::string_view word, std::span<const std::string_view> candidates, std::size_t count) {
+    std::vector<std::pair<std::size_t, std::string_view>> near;
+    if (word.size() > 64) return {};  // no key is half as long
     for (const std::string_view candidate : candidates) {
         // a name without its unit is the usual slip: sphere_radius for sphere_radius_mm
         const std::size_t changes = candidate.starts_with(word) && word.size() > 2 ? 1 : edits(word, candidate);
-        if (changes < least) least = changes, best = candidate;
+        if (changes < word.size() / 2 + 2) near.emplace_back(changes, candidate);
     }
+    std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<std::string_view> best;
+    for (std::size_t k = 0; k < std::min(near.size(), count); ++k) best.push_back(near[k].second);
     return best;
+}
+
+std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates) {
+    const std::vector<std::string_view> best = nearest(word, candidates, 1);
+    return best.empty() ? std::string_view() : best.front();
 }
 
 std::string shortened(std::string_view word) {

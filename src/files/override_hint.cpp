@@ -25,6 +25,10 @@ template <>
 constexpr Form form<Pitch> = Form::number;
 template <>
 constexpr Form form<std::string> = Form::other;
+template <>
+constexpr Form form<std::vector<std::string>> = Form::other;
+template <>
+constexpr Form form<Glass> = Form::other;
 
 Form form_of(std::string_view path) {
     const FormatTable::Value* found = key_at(path);
@@ -52,6 +56,7 @@ std::optional<std::string> decimal(std::string_view text, std::string_view& rest
 std::string_view unit_of_key(std::string_view path) {
     if (path.ends_with("_per_mm")) return "1/mm";
     if (path.ends_with("_mm")) return "mm";
+    if (path.ends_with("_nm")) return "nm";
     return path.ends_with("_deg") ? "deg" : "";
 }
 

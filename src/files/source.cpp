@@ -43,7 +43,7 @@ Node* child(Node& node, std::string_view part) {
 // The value of an override as a tree of its own, under the key "value".
 toml::table parse_value(std::string_view path, std::string_view value) {
     // Unquoted words save the user a second pair of quotes against the shell. The parser checks that they are UTF-8.
-    if (takes_word(path) && !value.starts_with('"') && !value.starts_with('\''))
+    if ((takes_word(path) || (takes_glass(path) && !value.starts_with('{'))) && !value.starts_with('"') && !value.starts_with('\''))
         return toml::parse("value = " + toml_text(std::string(value)));
     const std::string text = fmt::format("value = {}", value);
     check_text(text, "");  // nesting, as in a file
@@ -53,6 +53,11 @@ toml::table parse_value(std::string_view path, std::string_view value) {
 }
 
 }  // namespace
+
+bool takes_glass(std::string_view path) {
+    const FormatTable::Value* found = key_at(path);
+    return found && std::holds_alternative<const std::optional<Glass>*>(found->fresh);
+}
 
 bool takes_word(std::string_view path) {
     const FormatTable::Value* found = key_at(path);

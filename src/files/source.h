@@ -42,5 +42,7 @@ class Source {
 
 /// Whether the value at a dotted path is a word (a name, a file, a choice), which an override may give without quotes.
 bool takes_word(std::string_view path);
+/// Whether it is a glass: a name, which an override may give without quotes, or a table.
+bool takes_glass(std::string_view path);
 
 }  // namespace lfdsim

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int deepest = 16;  // the format needs 3
 
-[[noreturn]] void refuse_size(std::string_view name, std::uintmax_t bytes, std::string_view kind) {
-    throw InputError(std::string(name), fmt::format("has {} bytes, allowed are {}; is this {}?", bytes, largest_text_bytes, kind));
+[[noreturn]] void refuse_size(std::string_view name, std::uintmax_t bytes, std::size_t most, std::string_view kind) {
+    throw InputError(std::string(name), fmt::format("has {} bytes, allowed are {}; is this {}?", bytes, most, kind));
 }
 
 // Where a string that starts at `i` ends: behind its closing quotes or, without them, at the end of the line or text.
@@ -35,7 +35,7 @@ std::size_t skip_string(std::string_view text, std::size_t i) {
 
 }  // namespace
 
-std::string read_text(const std::filesystem::path& path, std::string_view kind) {
+std::string read_text(const std::filesystem::path& path, std::string_view kind, std::size_t most_bytes) {
     const std::string name = path.string();
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
@@ -43,10 +43,10 @@ std::string read_text(const std::filesystem::path& path, std::string_view kind) 
     if (std::filesystem::is_directory(status)) throw InputError(name, "is a folder; give the file in it");
     if (!std::filesystem::is_regular_file(status)) throw InputError(name, "is not a regular file");
     const std::uintmax_t bytes = std::filesystem::file_size(path, error);
-    if (!error && bytes > largest_text_bytes) refuse_size(name, bytes, kind);
+    if (!error && bytes > most_bytes) refuse_size(name, bytes, most_bytes, kind);
     std::ifstream file(path, std::ios::binary);
     if (!file) throw InputError(name, "cannot be opened for reading; check its permissions");
-    std::string text(largest_text_bytes + 1, '\0');  // no more is read, even if the file grows meanwhile
+    std::string text(most_bytes + 1, '\0');  // no more is read, even if the file grows meanwhile
     file.read(text.data(), std::streamsize(text.size()));
     text.resize(std::size_t(file.gcount()));
     if (file.bad()) throw InputError(name, "cannot be read to its end");
@@ -54,7 +54,7 @@ std::string read_text(const std::filesystem::path& path, std::string_view kind) 
 }
 
 void check_text(std::string_view text, std::string_view name) {
-    if (text.size() > largest_text_bytes) refuse_size(name, text.size(), "a display description");
+    if (text.size() > largest_text_bytes) refuse_size(name, text.size(), largest_text_bytes, "a display description");
     if (text.find('\0') != text.npos) throw InputError(std::string(name), "is a binary file, not a display description in TOML");
     if (text.find_first_not_of(" \t\r\n") == text.npos)
         throw InputError(std::string(name), "is empty; a display description starts with schema = 1");

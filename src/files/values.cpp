@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
 
 #include "files/nearest.h"
 
@@ -62,6 +63,52 @@ std::string read_value(const toml::node& node, std::vector<double>& values) {
     return {};
 }
 
+std::string read_value(const toml::node& node, std::vector<std::string>& values) {
+    const toml::array* array = node.as_array();
+    if (!array) return wrong_type(node, "a list of strings");
+    values.assign(array->size(), "");
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (std::string fault = read_value((*array)[i], values[i]); !fault.empty()) return fmt::format("element {} {}", i, fault);
+    return {};
+}
+
+std::string read_value(const toml::node& node, Glass& glass) {
+    constexpr const char* forms = "{ sellmeier = [B1, C1, B2, C2, B3, C3] }, { cauchy = [A, B, C] } or { nd = 1.4918, vd = 57.4 }";
+    glass = {};
+    if (node.is_string()) {
+        glass.name = node.as_string()->get();
+        return glass.name.empty() ? "is empty; give the name of a glass" : "";
+    }
+    const toml::table* table = node.as_table();
+    if (!table) return wrong_type(node, fmt::format("the name of a glass, {}", forms));
+    const auto has = [&](std::string_view key) { return table->contains(key); };
+    for (const auto& [key, value] : *table)
+        if (constexpr std::string_view keys[] = {"sellmeier", "cauchy", "nd", "vd"};
+            std::find(std::begin(keys), std::end(keys), key.str()) == std::end(keys))
+            return fmt::format("has the unknown key {}; give {}", shortened(key.str()), forms);
+    if (int(has("sellmeier")) + int(has("cauchy")) + int(has("nd") || has("vd")) != 1)
+        return fmt::format("{}; give {}", table->empty() ? "is an empty table" : "has more than one formula", forms);
+    const auto read = [&](const char* key, auto& to) {
+        const toml::node* value = table->get(key);
+        const std::string fault = value ? read_value(*value, to) : "is missing";
+        return fault.empty() ? fault : fmt::format("{} {}", key, fault);
+    };
+    const auto read_list = [&]<std::size_t n>(Formula formula, const char* key, std::array<double, n> numbers) {
+        std::string fault = read(key, numbers);
+        glass.formula = formula;
+        glass.coefficients.assign(numbers.begin(), numbers.end());
+        return fault;
+    };
+    if (has("sellmeier")) return read_list(Formula::sellmeier, "sellmeier", std::array<double, 6>());
+    if (has("cauchy")) return read_list(Formula::cauchy, "cauchy", std::array<double, 3>());
+    double nd = 0, vd = 0;
+    std::string fault = read("nd", nd);
+    if (fault.empty()) fault = read("vd", vd);
+    glass.formula = Formula::nd_vd;
+    glass.coefficients = {nd, vd};
+    return fault;
+}
+
 std::string read_value(const toml::node& node, Pitch& value) {
     if (const toml::array* both = node.as_array(); both && both->size() == 2) {
         std::array<double, 2> two{};
@@ -91,6 +138,19 @@ std::string toml_text(std::int64_t value) { return fmt::format("{}", value); }
 
 std::string toml_text(const Pitch& value) {
     return value.is_one() ? toml_text(value[0]) : toml_text(static_cast<const std::array<double, 2>&>(value));
+}
+
+std::string toml_text(const std::vector<std::string>& values) {
+    std::string text = "[";
+    for (const std::string& value : values) text += (text.size() > 1 ? ", " : "") + toml_text(value);
+    return text + "]";
+}
+
+std::string toml_text(const Glass& glass) {
+    if (!glass.name.empty()) return toml_text(glass.name);
+    const std::vector<double>& c = glass.coefficients;
+    if (glass.formula == Formula::nd_vd) return fmt::format("{{ nd = {}, vd = {} }}", toml_text(c[0]), toml_text(c[1]));
+    return fmt::format("{{ {} = {} }}", glass.formula == Formula::cauchy ? "cauchy" : "sellmeier", toml_text(c));
 }
 
 // A basic string. TOML allows any UTF-8 in it but quotes, backslashes and control characters.

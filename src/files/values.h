@@ -18,6 +18,8 @@ std::string read_value(const toml::node&, double&);
 std::string read_value(const toml::node&, std::int64_t&);
 std::string read_value(const toml::node&, std::string&);
 std::string read_value(const toml::node&, std::vector<double>&);
+std::string read_value(const toml::node&, std::vector<std::string>&);
+std::string read_value(const toml::node&, Glass&);  // a name is not looked up
 std::string read_value(const toml::node&, Pitch&);
 std::string read_word(const toml::node&, std::span<const std::string_view> words, std::size_t& index);
 
@@ -51,6 +53,8 @@ std::string toml_text(double);
 std::string toml_text(std::int64_t);
 std::string toml_text(const std::string&);
 std::string toml_text(const Pitch&);
+std::string toml_text(const std::vector<std::string>&);
+std::string toml_text(const Glass&);
 
 template <class E>
 requires has_words<E> std::string toml_text(const E& value) { return toml_text(std::string(word(value))); }

@@ -80,7 +80,7 @@ void write_lens(const FirstOrder& o, Text& text) {
     text.note("The wall under the cap, a quarter of the pitch or of the gap.");
     text.key("cylinder_height_mm", lens.cylinder_height_mm);
     text.note("PMMA at 589 nm");
-    text.key("index", lens.index);
+    text.key("index", *lens.index);
 }
 
 std::string pitch_reason(const FirstOrder& o) {

@@ -10,16 +10,20 @@
 #include <variant>
 #include <vector>
 
+#include "model/glass.h"
 #include "model/kinds.h"
 
 namespace lfdsim {
 
 using Vec3d = std::array<double, 3>;
 
+// A medium has an index that is the same for all wavelengths, or a glass.
+
 /// A plane plate, wide without end.
 struct Layer {
     double thickness_mm = 0;
-    double index = 0;
+    std::optional<double> index = {};
+    std::optional<Glass> glass = {};
     bool operator==(const Layer&) const = default;
 };
 
@@ -30,6 +34,8 @@ struct Panel {
     double emission_exponent = 0;  // m of cos(theta)^m, 0 = Lambertian
     double aperture_ratio = 1;     // q, the share of each pixel that shines; in the black matrix around it there is no light
     std::vector<Layer> layers;     // on the panel, from it upwards: cover glass, polariser, adhesive
+    Vec3d wavelengths_nm{611.4, 549.1, 464.2};    // of red, green and blue; dominant ones of the sRGB primaries
+    std::optional<Vec3d> primary_widths_nm = {};  // full widths at half maximum; absent: single wavelengths
     bool operator==(const Panel&) const = default;
 };
 
@@ -39,8 +45,9 @@ struct Surface {
     double conic = 0;                  // k
     std::vector<double> even_asphere;  // a4, a6, ... (1/mm^3, 1/mm^5, ...)
     double semi_aperture_mm = 0;
-    double distance_mm = 0;  // vertex to vertex, to the next surface; ignored on the last
-    double index = 1;        // of the medium up to the next surface; ignored on the last
+    double distance_mm = 0;            // vertex to vertex, to the next surface; ignored on the last
+    std::optional<double> index = {};  // of the medium up to the next surface; ignored on the last
+    std::optional<Glass> glass = {};   // without both: air
     bool operator==(const Surface&) const = default;
 };
 
@@ -48,8 +55,9 @@ struct PlanoConvex {
     double sphere_radius_mm = 0;               // R
     std::optional<double> aperture_radius_mm;  // r; may be absent of a lens that fills its cell
     double cylinder_height_mm = 0;             // h
-    double index = 0;                          // n
+    std::optional<double> index = {};          // n
     Facing facing = Facing::viewer;
+    std::optional<Glass> glass = {};
     bool operator==(const PlanoConvex&) const = default;
 };
 
@@ -154,11 +162,13 @@ struct Render {
     Sampling sampling = Sampling::sobol;
     Fresnel fresnel = Fresnel::exact;
     std::int64_t seed = 0;
+    std::int64_t wavelength_samples = 1;  // K, wavelengths at which each channel is traced
     bool operator==(const Render&) const = default;
 };
 
 struct Display {
     std::string name;
+    std::vector<std::string> glass_catalogues;  // AGF files, relative to the working directory; glasses are looked up already
     Panel panel;
     Lens lens;
     LensArray array;

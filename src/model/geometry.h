@@ -25,11 +25,17 @@ struct PlacedSurface {
     double focal_length_mm = 0;  // of a thin lens
 };
 
+/// A plate on the panel.
+struct PlacedLayer {
+    double thickness_mm, index;
+};
+
 /// A valid display resolved to lengths on the z axis. All z in mm from the panel.
 struct Geometry {
     Lattice<double> lattice;              // where the lenses stand
     std::vector<PlacedSurface> surfaces;  // panel side first; at least one
-    double layers_top_mm;                 // T, of the layers on the panel
+    std::vector<PlacedLayer> layers;      // on the panel, from it upwards
+    double layers_top_mm;                 // T, of the layers
     bool glued;                           // the lens's flat panel-side face lies on them, or on the panel, without air
     double base_z_mm;                     // lowest z of a lens, rims and sags included
     double top_z_mm;                      // highest z of a lens, rims and sags included
@@ -88,8 +94,11 @@ struct Theory {
 /// All problems of a description, each with its TOML key ("lens.index") as `where`. Empty: valid.
 std::vector<Problem> validate(const Display&);
 
-/// Resolves a valid description. Throws InputError with validate()'s problems otherwise.
+/// Resolves a valid description, in the light of the green channel. Throws InputError with validate()'s problems otherwise.
 Geometry resolve(const Display&);
+/// The same things in the same places in light of another wavelength: indices, focal length, principal points, gap and reduced
+/// lengths are those of that light.
+Geometry resolve(const Display&, double wavelength_nm);
 
 Theory theory(const Display&, const Geometry&);
 

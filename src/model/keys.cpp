@@ -11,6 +11,7 @@ namespace {
 
 constexpr double two_to_63 = 9223372036854775808.0;  // what the largest 64-bit integer, 2^63 - 1, rounds to
 constexpr Range no_range{-infinity, infinity}, count_range{1, two_to_31, false, true}, index_range{1, 4}, turn{-360, 360};
+constexpr Range wavelength_range{100, 10000}, width_range{0, 1000, true, false};
 constexpr Range angle{0, 180, false, true}, open_angle{0, 180, true, true}, slant_range{-90, 90, true, true};
 // Curvatures up to a nanometre's radius, and coefficients of any size: the sag that they give is checked instead.
 constexpr Range curvature_range{-1 / shortest_mm, 1 / shortest_mm}, coefficient_range{-1e6, 1e6};
@@ -24,12 +25,23 @@ constexpr Key<Panel> panel_keys[] = {
     {"aperture_ratio", &Panel::aperture_ratio, Range{0, 1, true, false}, false,
      "q: each pixel shines in a square about its centre, sqrt(q) as wide, 1/q times as bright, so that white is white in the mean. "
      "Around it is a black matrix."},
+    {"wavelengths_nm", &Panel::wavelengths_nm, wavelength_range, false,
+     "At which red, green and blue are traced, where glass disperses. The default: dominant ones of the sRGB primaries. Lengths "
+     "that "
+     "depend on an index are green's."},
+    {"primary_widths_nm", &Panel::primary_widths_nm, width_range, false,
+     "Full widths at half maximum of the primaries' spectra, for render.wavelength_samples.", "one wavelength each"},
     {"layer", &Panel::layers, no_range, false, ""},
 };
 
+constexpr std::string_view no_index = "given by glass; exactly one of the two is required";
+constexpr std::string_view glass_doc = "Glass, whose index depends on the wavelength: a name, or a table, as above.";
+constexpr std::string_view no_glass = "given by index; exactly one of the two is required";
+
 constexpr Key<Layer> layer_keys[] = {
     {"thickness_mm", &Layer::thickness_mm, positive_length, true, "From face to face."},
-    {"index", &Layer::index, index_range, true, "Refractive index."},
+    {"index", &Layer::index, index_range, false, "Refractive index, the same for all wavelengths.", no_index},
+    {"glass", &Layer::glass, no_range, false, glass_doc, no_glass},
 };
 
 constexpr std::string_view aperture_radius_doc =
@@ -52,7 +64,8 @@ constexpr Key<PlanoConvex> plano_convex_keys[] = {
     {"aperture_radius_mm", &PlanoConvex::aperture_radius_mm, positive_length, false, aperture_radius_doc, no_aperture_radius},
     {"cylinder_height_mm", &PlanoConvex::cylinder_height_mm, length_or_zero, false,
      "h of the wall under the cap. h <= 2 sqrt(R^2 - r^2)."},
-    {"index", &PlanoConvex::index, index_range, true, "Refractive index of the glass."},
+    {"index", &PlanoConvex::index, index_range, false, "Refractive index, the same for all wavelengths.", no_index},
+    {"glass", &PlanoConvex::glass, no_range, false, glass_doc, no_glass},
     {"facing", &PlanoConvex::facing, no_range, false, "Which way the convex side faces."},
 };
 
@@ -78,7 +91,9 @@ constexpr Key<Surface> surface_keys[] = {
     {"semi_aperture_mm", &Surface::semi_aperture_mm, positive_length, true, "A ray further than this from the axis is absorbed."},
     {"distance_mm", &Surface::distance_mm, length_or_zero, false,
      "From vertex to vertex, to the next surface. Ignored on the last."},
-    {"index", &Surface::index, index_range, false, "Of the medium up to the next surface. Ignored on the last: air follows."},
+    {"index", &Surface::index, index_range, false, "Of the medium up to the next surface. Ignored on the last: air follows.",
+     "1, air, or given by glass"},
+    {"glass", &Surface::glass, no_range, false, glass_doc, "given by index; not both"},
 };
 
 constexpr Key<LensArray> array_keys[] = {
@@ -154,10 +169,15 @@ constexpr Key<Render> render_keys[] = {
     {"fresnel", &Render::fresnel, no_range, false,
      "What each glass surface transmits: by Fresnel's equations, by Schlick's formula, or all light."},
     {"seed", &Render::seed, Range{0, two_to_63}, false, "Of the samples. The same seed gives the same picture."},
+    {"wavelength_samples", &Render::wavelength_samples, Range{1, double(max_wavelength_samples)}, false,
+     "K: each channel is the sum over so many wavelengths of its spectrum (Gauss-Hermite quadrature). More than 1 needs "
+     "panel.primary_widths_nm."},
 };
 
 constexpr Key<Display> display_keys[] = {
     {"name", &Display::name, no_range, false, "What reports and image files call the display."},
+    {"glass_catalogues", &Display::glass_catalogues, no_range, false,
+     "AGF files with glasses, relative to the description's folder; looked up before the glasses that ship. At most 8."},
     {"panel", &Display::panel, no_range, true, ""},
     {"lens", &Display::lens, no_range, true, ""},
     {"array", &Display::array, no_range, true, ""},

@@ -33,8 +33,9 @@ template <template <class> class Of>
 using ValuesOf = std::variant<Of<double>, Of<std::optional<double>>, Of<std::int64_t>, Of<std::optional<std::int64_t>>,
                               Of<std::string>, Of<std::array<double, 2>>, Of<Vec3d>, Of<std::array<std::int64_t, 2>>,
                               Of<std::optional<std::array<std::int64_t, 2>>>, Of<std::vector<double>>, Of<Pitch>, Of<Encoding>,
-                              Of<LensKind>, Of<Facing>, Of<Surround>, Of<LatticeKind>, Of<Aperture>, Of<Profile>, Of<PixelFilter>,
-                              Of<Estimator>, Of<Sampling>, Of<Fresnel>>;
+                              Of<std::optional<Vec3d>>, Of<std::optional<Glass>>, Of<std::vector<std::string>>, Of<LensKind>,
+                              Of<Facing>, Of<Surround>, Of<LatticeKind>, Of<Aperture>, Of<Profile>, Of<PixelFilter>, Of<Estimator>,
+                              Of<Sampling>, Of<Fresnel>>;
 
 /// What a key fills. Only Display, Panel and SurfaceLens contain tables: one that is always there, one that may be absent, or a
 /// list; the keys of a kind stand beside its word.
@@ -46,13 +47,14 @@ struct MemberOf {
 };
 template <>
 struct MemberOf<Display> {
-    using Type = std::variant<std::string Display::*, Panel Display::*, Lens Display::*, LensArray Display::*,
-                              std::optional<Diffuser> Display::*, Camera Display::*, Content Display::*, Render Display::*>;
+    using Type = std::variant<std::string Display::*, std::vector<std::string> Display::*, Panel Display::*, Lens Display::*,
+                              LensArray Display::*, std::optional<Diffuser> Display::*, Camera Display::*, Content Display::*,
+                              Render Display::*>;
 };
 template <>
 struct MemberOf<Panel> {
-    using Type =
-        std::variant<std::array<std::int64_t, 2> Panel::*, double Panel::*, Encoding Panel::*, std::vector<Layer> Panel::*>;
+    using Type = std::variant<std::array<std::int64_t, 2> Panel::*, double Panel::*, Vec3d Panel::*, std::optional<Vec3d> Panel::*,
+                              Encoding Panel::*, std::vector<Layer> Panel::*>;
 };
 template <>
 struct MemberOf<SurfaceLens> {

@@ -6,6 +6,9 @@ namespace lfdsim {
 // Enough for any lens maker's prescription, and the most that the kernels hold.
 inline constexpr decltype(sizeof 0) max_surfaces = 16, max_asphere_terms = 8, max_layers = 8;
 
+/// Of render.wavelength_samples, and of the files that glass_catalogues may name.
+inline constexpr decltype(sizeof 0) max_wavelength_samples = 32, max_catalogues = 8;
+
 enum class Encoding { srgb, linear };  // of the panel image's code values
 enum class LensType { plano_convex, surfaces, ideal, pinhole };
 enum class Facing { viewer, panel };                                   // which way the convex side of a plano-convex lens faces

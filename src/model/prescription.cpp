@@ -1,5 +1,6 @@
 #include "model/prescription.h"
 
+#include "model/colour.h"
 #include "model/lattice.h"
 
 #include <algorithm>
@@ -81,20 +82,21 @@ double glass_radius_mm(const std::optional<double>& aperture_radius_mm, const Le
 
 namespace {
 
-std::vector<PlacedSurface> placed(const PlanoConvex& lens, const LensArray& array) {
-    const double R = lens.sphere_radius_mm, r = glass_radius_mm(lens.aperture_radius_mm, array), n = lens.index;
+std::vector<PlacedSurface> placed(const PlanoConvex& lens, const LensArray& array, double wavelength_nm) {
+    const double R = lens.sphere_radius_mm, r = glass_radius_mm(lens.aperture_radius_mm, array);
+    const double n = index_at(lens.index, lens.glass, wavelength_nm);
     // The ball's centre lies sqrt(R^2 - r^2) below the wall's end, its apex R above the centre; (R - r)(R + r) avoids cancellation.
     const double thickness = lens.cylinder_height_mm + R - std::sqrt((R - r) * (R + r));
     if (lens.facing == Facing::viewer) return {{0, 0, 0, {}, r, 1, n}, {thickness, -1 / R, 0, {}, r, n, 1}};
     return {{0, 1 / R, 0, {}, r, 1, n}, {thickness, 0, 0, {}, r, n, 1}};
 }
 
-std::vector<PlacedSurface> placed(const SurfaceLens& lens, const LensArray&) {
+std::vector<PlacedSurface> placed(const SurfaceLens& lens, const LensArray&, double wavelength_nm) {
     std::vector<PlacedSurface> placed;
     double z = 0, below = 1;
     for (const Surface& s : lens.surfaces) {
         const bool last = &s == &lens.surfaces.back();
-        const double above = last ? 1 : s.index;
+        const double above = last ? 1 : index_at(s.index, s.glass, wavelength_nm);
         placed.push_back({z, s.curvature_per_mm, s.conic, s.even_asphere, s.semi_aperture_mm, below, above});
         z += s.distance_mm;
         below = above;
@@ -102,18 +104,18 @@ std::vector<PlacedSurface> placed(const SurfaceLens& lens, const LensArray&) {
     return placed;
 }
 
-std::vector<PlacedSurface> placed(const IdealLens& lens, const LensArray& array) {
+std::vector<PlacedSurface> placed(const IdealLens& lens, const LensArray& array, double) {
     return {{0, 0, 0, {}, glass_radius_mm(lens.aperture_radius_mm, array), 1, 1, SurfaceForm::thin, lens.focal_length_mm}};
 }
 
-std::vector<PlacedSurface> placed(const Pinhole& hole, const LensArray&) {
+std::vector<PlacedSurface> placed(const Pinhole& hole, const LensArray&, double) {
     return {{0, 0, 0, {}, hole.aperture_radius_mm, 1, 1, SurfaceForm::thin, std::numeric_limits<double>::infinity()}};
 }
 
 }  // namespace
 
-std::vector<PlacedSurface> prescription(const Lens& lens, const LensArray& array) {
-    return std::visit([&](const auto& kind) { return placed(kind, array); }, lens.kind);
+std::vector<PlacedSurface> prescription(const Lens& lens, const LensArray& array, double wavelength_nm) {
+    return std::visit([&](const auto& kind) { return placed(kind, array, wavelength_nm); }, lens.kind);
 }
 
 Geometry turned_over(Geometry g) {

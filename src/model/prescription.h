@@ -18,8 +18,8 @@ Cardinal cardinal_points(const std::vector<PlacedSurface>&);
 /// The radius r of a plano-convex or ideal lens: as given; of lenses that fill their cells at least as far as the corners.
 double glass_radius_mm(const std::optional<double>& aperture_radius_mm, const LensArray&);
 
-/// The lens's surfaces with the first vertex in z = 0, panel side first.
-std::vector<PlacedSurface> prescription(const Lens&, const LensArray&);
+/// The lens's surfaces with the first vertex in z = 0, panel side first, in light of a wavelength.
+std::vector<PlacedSurface> prescription(const Lens&, const LensArray&, double wavelength_nm);
 
 /// Lowest and highest sag within the semi-aperture. NaN where the sag is not real.
 std::array<double, 2> sag_range_mm(const PlacedSurface&);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/colour.h"
 #include "model/geometry.h"
 #include "model/numbers.h"
 #include "model/prescription.h"
@@ -11,9 +12,9 @@ namespace {
 constexpr double glue_mm = 1e-6;  // a flat face so near to what lies under it borders on it
 
 /// Sum of thickness / index.
-double reduced_mm(const std::vector<Layer>& layers) {
+double reduced_mm(const std::vector<PlacedLayer>& layers) {
     double sum = 0;
-    for (const Layer& layer : layers) sum += layer.thickness_mm / layer.index;
+    for (const PlacedLayer& layer : layers) sum += layer.thickness_mm / layer.index;
     return sum;
 }
 
@@ -22,11 +23,37 @@ bool is_flat(const PlacedSurface& s) {
            std::all_of(s.even_asphere.begin(), s.even_asphere.end(), [](double a) { return a == 0; });
 }
 
+std::vector<PlacedLayer> placed_layers(const Panel& panel, double wavelength_nm) {
+    std::vector<PlacedLayer> layers;
+    for (const Layer& layer : panel.layers)
+        layers.push_back({layer.thickness_mm, index_at(layer.index, layer.glass, wavelength_nm)});
+    return layers;
+}
+
+/// From the panel along a lens's axis to the vertex that an eye's rays meet first: sum of thickness / index.
+double reduced_entrance_mm(const Geometry& g) {
+    double sum = reduced_mm(g.layers), z = g.layers_top_mm, index = 1;
+    for (const PlacedSurface& s : g.surfaces) {
+        sum += (s.z_mm - z) / index;
+        z = s.z_mm;
+        index = s.index_above;
+    }
+    return sum;
+}
+
+/// The lens's lowest face borders on the top layer, or on the panel itself.
+void glue(Geometry& g) {
+    PlacedSurface& face = g.surfaces.front();
+    face.index_below = g.layers.empty() ? face.index_above : g.layers.back().index;
+}
+
 // Places the lens along z: its surfaces and planes, from gap or base.
 void place_lens(const Lens& lens, const LensArray& array, const Panel& panel, Geometry& g) {
-    for (const Layer& layer : panel.layers) g.layers_top_mm += layer.thickness_mm;
-    const double T = g.layers_top_mm, reduced_T = reduced_mm(panel.layers);
-    g.surfaces = prescription(lens, array);
+    const double green_nm = panel.wavelengths_nm[green_channel];
+    g.layers = placed_layers(panel, green_nm);
+    for (const PlacedLayer& layer : g.layers) g.layers_top_mm += layer.thickness_mm;
+    const double T = g.layers_top_mm, reduced_T = reduced_mm(g.layers);
+    g.surfaces = prescription(lens, array, green_nm);
     const Cardinal paraxial = cardinal_points(g.surfaces);
     double lowest = 0, highest = 0, vertex = 0, widest = 0, narrowest = g.surfaces.front().semi_aperture_mm;
     for (const PlacedSurface& s : g.surfaces) {
@@ -45,13 +72,7 @@ void place_lens(const Lens& lens, const LensArray& array, const Panel& panel, Ge
     g.top_z_mm = first + highest;
     g.vertex_plane_mm = first + vertex;
     g.entrance_z_mm = g.surfaces.back().z_mm;
-    double z = T, index = 1;
-    g.reduced_vertex_plane_mm = reduced_T;
-    for (const PlacedSurface& s : g.surfaces) {
-        g.reduced_vertex_plane_mm += (s.z_mm - z) / index;
-        z = s.z_mm;
-        index = s.index_above;
-    }
+    g.reduced_vertex_plane_mm = reduced_entrance_mm(g);
     g.front_principal_mm = first + paraxial.front_principal_mm;
     g.rear_principal_mm = first + paraxial.rear_principal_mm;
     g.focal_length_mm = paraxial.focal_length_mm;
@@ -63,9 +84,9 @@ void place_lens(const Lens& lens, const LensArray& array, const Panel& panel, Ge
     g.stop_z_mm = (first_curved ? g.surfaces.front() : g.surfaces.back()).z_mm;
     // To the last bit as given: g = f must stay exact. A flat face that is glued on has no power: g is the same without air.
     g.gap_mm = array.gap_mm.value_or(reduced_T + (g.front_principal_mm - T));
-    PlacedSurface& lowest_surface = g.surfaces.front();
+    const PlacedSurface& lowest_surface = g.surfaces.front();
     g.glued = is_flat(lowest_surface) && std::abs(g.base_z_mm - T) <= glue_mm && std::abs(lowest_surface.z_mm - T) <= glue_mm;
-    if (g.glued) lowest_surface.index_below = panel.layers.empty() ? lowest_surface.index_above : panel.layers.back().index;
+    if (g.glued) glue(g);
     if (array.aperture == Aperture::cell) g.clear_aperture_mm = array.pitch_mm;
     if (lens.stop_radius_mm) g.clear_aperture_mm.fill(2 * *lens.stop_radius_mm);
 }
@@ -104,6 +125,26 @@ Geometry resolve_unchecked(const Display& d) {
 Geometry resolve(const Display& d) {
     if (std::vector<Problem> problems = validate(d); !problems.empty()) throw InputError(std::move(problems));
     return resolve_unchecked(d);
+}
+
+Geometry resolve(const Display& d, double wavelength_nm) {
+    Geometry g = resolve(d);
+    const double reduced_T = reduced_mm(g.layers), front = g.front_principal_mm, first = g.surfaces.front().z_mm;
+    const std::vector<PlacedSurface> lens = prescription(d.lens, d.array, wavelength_nm);
+    for (std::size_t k = 0; k < lens.size(); ++k) {
+        g.surfaces[k].index_below = lens[k].index_below;
+        g.surfaces[k].index_above = lens[k].index_above;
+    }
+    g.layers = placed_layers(d.panel, wavelength_nm);
+    if (g.glued) glue(g);
+    g.reduced_vertex_plane_mm = reduced_entrance_mm(g);
+    const Cardinal paraxial = cardinal_points(lens);
+    g.front_principal_mm = first + paraxial.front_principal_mm;
+    g.rear_principal_mm = first + paraxial.rear_principal_mm;
+    g.focal_length_mm = paraxial.focal_length_mm;
+    // by what has changed: to the last bit the same where nothing has
+    g.gap_mm += (reduced_mm(g.layers) - reduced_T) + (g.front_principal_mm - front);
+    return g;
 }
 
 bool stop_at_entrance(const Display& d, const Geometry& g) {

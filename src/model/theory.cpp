@@ -13,10 +13,10 @@ namespace {
 
 /// The angle between the two lines to the axis at the principal point from the ends of a width on the panel, by Snell's law through
 /// layers and air. The ray of sine s in air passes sum of t s / sqrt(n^2 - s^2) sideways, which grows with s.
-double exact_angle_deg(const Display& d, const Geometry& g, double width_mm) {
+double exact_angle_deg(const Geometry& g, double width_mm) {
     const auto half_width = [&](double s) {
         double x = (g.front_principal_mm - g.layers_top_mm) * s / std::sqrt(1 - s * s);
-        for (const Layer& layer : d.panel.layers) x += layer.thickness_mm * s / std::sqrt(layer.index * layer.index - s * s);
+        for (const PlacedLayer& layer : g.layers) x += layer.thickness_mm * s / std::sqrt(layer.index * layer.index - s * s);
         return x;
     };
     double low = 0, high = 1;
@@ -42,7 +42,7 @@ AxisTheory theory_along(const Display& d, const Geometry& g, double L, std::size
     const double made_for = d.content.viewing_distance_mm - g.rear_principal_mm, eye = eye_distance_mm(d) - g.rear_principal_mm;
     t.elemental_pitch_mm = p * (1 + gap / made_for);
     t.fov_elemental_deg = 2 * std::atan(t.elemental_pitch_mm / (2 * gap)) / degree;
-    t.fov_exact_deg = d.lens.is_thin() ? exact_angle_deg(d, g, t.elemental_pitch_mm) : nan;
+    t.fov_exact_deg = d.lens.is_thin() ? exact_angle_deg(g, t.elemental_pitch_mm) : nan;
     const bool before = eye > 0;  // else the camera stands inside the display or behind it
     t.eyebox_mm = before ? eye * t.elemental_pitch_mm / gap : std::nan("");
     const auto zone_deg = [&](double e) {

@@ -7,6 +7,7 @@ std::vector<Problem> validate(const Display& d) {
     std::vector<Problem> problems;
     Findings findings(problems);
     validate_values(d, findings);
+    validate_glass(d, findings);
     validate_lens(d, findings);
     validate_layout(d, findings);
     return problems;

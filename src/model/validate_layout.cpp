@@ -53,7 +53,9 @@ void validate_layout(const Display& d, Findings& findings) {
     if (findings.sound("panel."))
         check_size("panel.pixels", double(d.panel.pixels[0]) * d.panel.pixel_pitch_mm,
                    double(d.panel.pixels[1]) * d.panel.pixel_pitch_mm, findings);
-    if (!findings.sound("lens.") || !findings.sound("array.")) return;  // a lens that cannot be made has no place
+    // a lens that cannot be made has no place, nor has one on layers that cannot
+    for (const char* needed : {"lens.", "array.", "panel.layer", "panel.wavelengths_nm"})
+        if (!findings.sound(needed)) return;
     const Geometry g = resolve_unchecked(d);
     check_heights(d, g, findings);
     check_size("array.count", g.array_width_mm, g.array_height_mm, findings);

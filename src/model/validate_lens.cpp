@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "model/colour.h"
 #include "model/findings.h"
 #include "model/keys.h"
 #include "model/lattice.h"
@@ -10,7 +11,7 @@ namespace {
 
 class LensCheck {
   public:
-    LensCheck(const Display& d, Findings& f) : lens(d.lens), array(d.array), findings(f) {}
+    LensCheck(const Display& d, Findings& f) : display(d), lens(d.lens), array(d.array), findings(f) {}
 
     void check() {
         std::visit([&](const auto& kind) { check(kind); }, lens.kind);
@@ -35,7 +36,7 @@ class LensCheck {
     }
     // Widths and sags one by one, then each pair of neighbours: the medium between them must have a thickness everywhere.
     void check(const SurfaceLens& given) {
-        const std::vector<PlacedSurface> surfaces = prescription(lens, array);
+        const std::vector<PlacedSurface> surfaces = prescription(lens, array, display.panel.wavelengths_nm[green_channel]);
         for (std::size_t i = 0; i < surfaces.size(); ++i) {
             if (!findings.sound(fmt::format("lens.surface.{}.", i))) continue;
             check_width(fmt::format("lens.surface.{}.semi_aperture_mm", i), surfaces[i].semi_aperture_mm);
@@ -104,6 +105,7 @@ class LensCheck {
                          high > -low ? high : low, any_length.text());
     }
 
+    const Display& display;
     const Lens& lens;
     const LensArray& array;
     Findings& findings;

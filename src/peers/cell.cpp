@@ -209,7 +209,7 @@ class ArrayBuilder {
         const PlacedSurface& s = geometry_.surfaces[k];
         const bool clear = display_.array.surround == Surround::clear, down = s.index_below == 1;
         const std::string name = fmt::format("surface-{}", k + 1);
-        if (geometry_.glued && k == 0 && display_.panel.layers.empty()) return;  // the panel itself lies there
+        if (geometry_.glued && k == 0 && geometry_.layers.empty()) return;  // the panel itself lies there
         if (is_plane(s) && !clear) {
             Patch face{name, false, s.index_above, s.index_below, {}, {}, {}};
             add_face(face, local(s.z_mm), sheet_half(display_, geometry_));
@@ -230,7 +230,7 @@ class ArrayBuilder {
 
     // The layers' upper faces, except where the lens's own face is that.
     void add_layers() {
-        const auto& layers = display_.panel.layers;
+        const std::vector<PlacedLayer>& layers = geometry_.layers;
         double z = geometry_.layers_top_mm, above = 1;
         for (std::size_t k = layers.size(); k-- > 0; z -= layers[k].thickness_mm) {
             Patch face{fmt::format("layer-{}", k + 1), false, above, layers[k].index, {}, {}, {}, false};

@@ -66,7 +66,7 @@ class Writer {
     // Hits on the way: all surfaces once, or up to 16, then the layers and the panel. A glued face, unless it vanishes between
     // equal indices, is one of both; beside a glued body of glass, light that meets as many surfaces may so be lost.
     int trace_levels() const {
-        const int below = int(d_.panel.layers.size()) + 1;
+        const int below = int(g_.layers.size()) + 1;
         if (d_.lens.is_thin()) return below;
         if (d_.array.surround == Surround::opaque) return below + int(g_.surfaces.size()) - (glued_ ? 1 : 0);
         return below + 16 - (glued_ && glued_->index_below != glued_->index_above ? 1 : 0);
@@ -98,10 +98,10 @@ class Writer {
     std::string layers() const {
         std::string all;
         double z = g_.layers_top_mm;
-        for (std::size_t k = d_.panel.layers.size(); k-- > 0; z -= d_.panel.layers[k].thickness_mm) {
-            const bool of_lens = glued_ && d_.array.surround == Surround::opaque && k + 1 == d_.panel.layers.size();
+        for (std::size_t k = g_.layers.size(); k-- > 0; z -= g_.layers[k].thickness_mm) {
+            const bool of_lens = glued_ && d_.array.surround == Surround::opaque && k + 1 == g_.layers.size();
             if (!of_lens)
-                all += fmt::format("{}{} interior_texture {{ Black }} scale {}{} }}\n", face(z), medium(d_.panel.layers[k].index),
+                all += fmt::format("{}{} interior_texture {{ Black }} scale {}{} }}\n", face(z), medium(g_.layers[k].index),
                                    text(units_per_mm_), fresnel() ? " no_reflection" : "");
         }
         return all;
@@ -155,7 +155,7 @@ class Writer {
     double above_panel(double z) const { return std::max(z, gap_mm_); }
 
     // Whether this surface is glued onto the bare panel: there is none.
-    bool on_panel(const PlacedSurface& s) const { return &s == glued_ && d_.panel.layers.empty(); }
+    bool on_panel(const PlacedSurface& s) const { return &s == glued_ && g_.layers.empty(); }
 
     std::string lens() const {
         std::string parts;

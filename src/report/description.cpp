@@ -21,6 +21,12 @@ Json json_of(const T& value) {
         return value;
 }
 Json json_of(const Pitch& value) { return value.is_one() ? json_of(value[0]) : Json(value); }
+Json json_of(const Glass& glass) {
+    const std::vector<double>& c = glass.coefficients;
+    if (!glass.name.empty()) return glass.name;
+    if (glass.formula == Formula::nd_vd) return {{"nd", c[0]}, {"vd", c[1]}};
+    return {{glass.formula == Formula::cauchy ? "cauchy" : "sellmeier", c}};
+}
 template <class T>
 Json json_of(const std::optional<T>& value) {
     return value ? json_of(*value) : Json();
@@ -136,7 +142,7 @@ Json to_json(const std::vector<Setting>& all) {
 
 /// "fov_y_deg" of "fov_deg": the figure along the array's own y.
 std::string name_along_y(std::string name) {
-    for (const std::string_view unit : {"_per_mm", "_mm", "_deg"})
+    for (const std::string_view unit : {"_per_mm", "_mm", "_nm", "_deg"})
         if (name.ends_with(unit)) return name.insert(name.size() - unit.size(), "_y");
     return name + "_y";
 }
@@ -159,6 +165,7 @@ void add_notes(const std::vector<Figure>& all, const std::string& part, Json& no
 std::string unit_of(const std::string& name) {
     if (name.ends_with("_per_mm")) return "1/mm";
     if (name.ends_with("_mm")) return "mm";
+    if (name.ends_with("_nm")) return "nm";
     if (name.ends_with("_deg")) return "degrees";
     if (name.ends_with("_diopters")) return "1/m";
     return "";

@@ -44,12 +44,12 @@ struct Pen : optics::Alone<double> {
 };
 
 /// On from where a ray has left the lens, going down, through the layers; in the lowest one afterwards.
-void down_through_layers(const Display& d, const Geometry& g, SidePath& path) {
+void down_through_layers(const Geometry& g, SidePath& path) {
     SideRay& ray = path.last;
-    if (d.panel.layers.empty() || !path.through) return;
-    double index = g.glued ? d.panel.layers.back().index : 1, z = g.layers_top_mm;
-    for (std::size_t k = d.panel.layers.size(); k-- > 0;) {
-        const Layer& layer = d.panel.layers[k];
+    if (g.layers.empty() || !path.through) return;
+    double index = g.glued ? g.layers.back().index : 1, z = g.layers_top_mm;
+    for (std::size_t k = g.layers.size(); k-- > 0;) {
+        const PlacedLayer& layer = g.layers[k];
         ray = {ray.y_at(z), z, ray.dy * index / layer.index, 0};
         path.points.push_back({ray.y, ray.z});
         path.through = std::abs(ray.dy) < 1;
@@ -61,15 +61,15 @@ void down_through_layers(const Display& d, const Geometry& g, SidePath& path) {
 }
 
 /// Up through the layers, for a ray whose direction is that in air; in what lies on them afterwards.
-SideRay up_through_layers(const Display& d, const Geometry& g, SideRay ray, SidePath& path) {
+SideRay up_through_layers(const Geometry& g, SideRay ray, SidePath& path) {
     const double sine = ray.dy;
-    for (const Layer& layer : d.panel.layers) {
+    for (const PlacedLayer& layer : g.layers) {
         const double dy = sine / layer.index;
         ray = {ray.y, ray.z, dy, std::sqrt(1 - dy * dy)};
         ray = {ray.y_at(ray.z + layer.thickness_mm), ray.z + layer.thickness_mm, ray.dy, ray.dz};
         path.points.push_back({ray.y, ray.z});
     }
-    if (!g.glued && !d.panel.layers.empty()) ray.dy = sine, ray.dz = std::sqrt(1 - sine * sine);
+    if (!g.glued && !g.layers.empty()) ray.dy = sine, ray.dz = std::sqrt(1 - sine * sine);
     return ray;
 }
 
@@ -85,7 +85,7 @@ SidePath through_lens(const Display& d, const Geometry& g, const SideRay& from) 
     const double sense = up ? -1 : 1;
     const auto scene = make_scene<double>(d, up ? turned_over(g) : g);
     SidePath path{{{from.y, from.z}}, from, true};
-    const SideRay start = up ? up_through_layers(d, g, from, path) : from;
+    const SideRay start = up ? up_through_layers(g, from, path) : from;
     const auto go_on = [&](double y, double z, double dy, double dz) { path.last = {y, sense * z, dy, sense * dz}; };
     if (scene.thin) {
         const double y = start.y_at(g.vertex_plane_mm);
@@ -93,7 +93,7 @@ SidePath through_lens(const Display& d, const Geometry& g, const SideRay& from) 
         path.points.push_back({y, g.vertex_plane_mm});
         path.through = std::abs(y) <= 0.5 * g.clear_aperture_mm[1];
         go_on(y, scene.ideal_z, -slope / length, -1 / length);
-        if (!up) down_through_layers(d, g, path);
+        if (!up) down_through_layers(g, path);
         return path;
     }
     const auto& first = scene.surface[0];
@@ -102,7 +102,7 @@ SidePath through_lens(const Display& d, const Geometry& g, const SideRay& from) 
     optics::pass_lens<optics::Shapes::any>(scene, Pen{{scene}, path, sense}, ray, optics::meet(first.shape, first, ray), way);
     path.through = way.alive;
     if (path.through) go_on(way.ray.at.y, way.ray.at.z + scene.surface[scene.surface_count - 1].z, way.ray.to.y, way.ray.to.z);
-    if (!up) down_through_layers(d, g, path);
+    if (!up) down_through_layers(g, path);
     return path;
 }
 

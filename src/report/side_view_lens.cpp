@@ -169,7 +169,7 @@ std::string lens_view_svg(const Subject& display, SideFrame* frame) {
         draw_between(drawing, scale, d, g, lens_at(g.lattice, row).y_mm - 0.5 * d.array.pitch_mm[1],
                      row<std::int64_t(g.lattice.count[1]), row> 0);
     double layer_z = 0;
-    for (const Layer& layer : d.panel.layers) {
+    for (const PlacedLayer& layer : g.layers) {
         drawing.rectangle(scale.at(w.high, layer_z), per_z * layer.thickness_mm, high, glass_style);
         layer_z += layer.thickness_mm;
     }

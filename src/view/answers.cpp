@@ -96,18 +96,22 @@ class Cancellable : public Job {
     const std::function<bool()>& cancelled_;
 };
 
-/// The current description, for a file in the folder: its model is named relative to that folder where it lies below it.
-std::string toml(const Library& library, const Wanted& wanted, const std::filesystem::path& folder) {
+/// A file's name for a description in the folder: relative to that where it lies below it.
+std::string name_in(const std::filesystem::path& folder, const std::string& file) {
     namespace fs = std::filesystem;
+    const fs::path full = fs::absolute(file).lexically_normal(),
+                   relative = full.lexically_relative(fs::absolute(folder).lexically_normal());
+    const bool below = !relative.empty() && *relative.begin() != "..";
+    return below ? relative.string() : full.string();
+}
+
+/// The current description, for a file in the folder.
+std::string toml(const Library& library, const Wanted& wanted, const std::filesystem::path& folder) {
     Display display = library.display(wanted);
+    for (std::string& catalogue : display.glass_catalogues) catalogue = name_in(folder, catalogue);
     const std::string file = model_file(library, wanted, display);
     if (file == model_of(display) && file == built_in_spheres) return write_display(display);  // given, or shown by default
-    display.content.model = file;
-    if (file != built_in_spheres) {
-        const fs::path relative = fs::absolute(file).lexically_normal().lexically_relative(fs::absolute(folder).lexically_normal());
-        const bool below = !relative.empty() && *relative.begin() != "..";
-        display.content.model = below ? relative.string() : fs::absolute(file).lexically_normal().string();
-    }
+    display.content.model = file == built_in_spheres ? file : name_in(folder, file);
     return write_display(display);
 }
 

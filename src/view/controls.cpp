@@ -16,10 +16,10 @@ namespace lfdsim::view {
 namespace {
 
 // Other parts of a message decide these.
-constexpr std::string_view left_out[] = {"name", "content.model", "camera.position_mm", "camera.resolution"};
+constexpr std::string_view left_out[] = {"name", "content.model", "glass_catalogues", "camera.position_mm", "camera.resolution"};
 
 std::string label(std::string_view key) {
-    for (const std::string_view unit : {"_per_mm", "_mm", "_deg"})
+    for (const std::string_view unit : {"_per_mm", "_mm", "_nm", "_deg"})
         if (key.ends_with(unit)) key.remove_suffix(unit.size());
     if (key == "fov") return "field of view";
     std::string words(key);
@@ -116,7 +116,7 @@ class Lister {
     void add_key(const std::string& path, const KeyInfo& key, Field& field) {
         const std::string table(table_of_path(path));
         const bool idle = table == last_surface() && (key.name == "distance_mm" || key.name == "index");  // no surface follows
-        if (idle || std::find(std::begin(left_out), std::end(left_out), path) != std::end(left_out)) return;
+        if (idle || gives_way(path) || std::find(std::begin(left_out), std::end(left_out), path) != std::end(left_out)) return;
         Json control{{"key", path}, {"table", table}, {"label", label(key.name)}, {"unit", unit_of(std::string(key.name))}};
         auto described = value_at(described_, path);
         if (!described && table == table_of<Diffuser>().name) described = value_at(trial_, path);
@@ -127,6 +127,14 @@ class Lister {
         list_.push_back(std::move(control));
     }
 
+    /// Of a medium's index and its glass the one that is not given.
+    bool gives_way(std::string_view path) const {
+        if (path.ends_with(".glass")) return !std::get<const std::optional<Glass>*>(*value_at(trial_, path))->has_value();
+        if (!path.ends_with(".index")) return false;
+        const auto glass = value_at(trial_, std::string(table_of_path(path)) + ".glass");
+        return std::get<const std::optional<Glass>*>(*glass)->has_value();
+    }
+
     std::string last_surface() const {
         const auto* lens = std::get_if<SurfaceLens>(&trial_.lens.kind);
         return lens ? fmt::format("lens.surface.{}", lens->surfaces.size() - 1) : "";
@@ -134,8 +142,9 @@ class Lister {
 
     // This takes most of the time, so it is skipped for keys that are limited only by their range.
     bool valid(std::string_view path) const {
-        const bool free = path.starts_with("render.") || (path.starts_with("content.") && path != "content.viewing_distance_mm") ||
-                          path == "panel.encoding" || path == "panel.emission_exponent" || path == "diffuser.profile";
+        const bool free = (path.starts_with("render.") && path != "render.wavelength_samples") ||
+                          (path.starts_with("content.") && path != "content.viewing_distance_mm") || path == "panel.encoding" ||
+                          path == "panel.emission_exponent" || path == "diffuser.profile";
         return free || validate(trial_).empty();
     }
 
@@ -266,7 +275,24 @@ class Lister {
         field = value;
     }
 
-    void add(Json&, const std::string&, const Range&, std::string&, const std::string*) {}  // content.model, which is left out
+    void add(Json& control, const std::string&, const Range&, std::optional<Vec3d>& field, const std::optional<Vec3d>*) {
+        control["value"] = field ? control_json(*field) : Json();
+        control["form"] = "list";
+    }
+
+    // The names that ship, and the one that is given. A glass that is given by its coefficients has none and cannot be changed.
+    void add(Json& control, const std::string&, const Range&, std::optional<Glass>& field, const std::optional<Glass>*) {
+        const std::string& name = field->name;
+        control["value"] = name.empty() ? "by its coefficients" : name;
+        control["form"] = "word";
+        control["words"] = Json::array();
+        if (!shipped_glass(name)) control["words"].push_back(control["value"]);
+        for (const ShippedGlass& shipped : shipped_glasses()) control["words"].push_back(shipped.glass.name);
+    }
+
+    // content.model and glass_catalogues, which are left out
+    void add(Json&, const std::string&, const Range&, std::string&, const std::string*) {}
+    void add(Json&, const std::string&, const Range&, std::vector<std::string>&, const std::vector<std::string>*) {}
 
     /// Radii that are limited to half the pitch. They shrink with the pitch, which could otherwise not be reduced.
     template <class Visit>

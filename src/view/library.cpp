@@ -71,6 +71,7 @@ void check_key(std::string_view override_text) {
     };
     const auto refuse = [&](const char* what) { throw InputError(std::string(key), what); };
     if (is_or_has("content.model")) refuse("is not for set: the message's \"shown\" says what is shown");
+    if (is_or_has("glass_catalogues")) refuse("is not for set: a visitor names no files");
     if (is_or_has("camera.position_mm")) refuse("is not for set: the message's \"eye_mm\" says where the eye is");
     if (is_or_has("camera.resolution")) refuse("is not for set: the message's \"size\" says how many pixels there are");
 }

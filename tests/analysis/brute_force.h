@@ -32,13 +32,13 @@ class PlanoConvexArray {
     PlanoConvexArray(const Display& d, unsigned seed) : d_(d), engine_(seed) {
         r_ = *d.lens.as<PlanoConvex>().aperture_radius_mm;
         sphere_ = d.lens.as<PlanoConvex>().sphere_radius_mm;
-        index_ = d.lens.as<PlanoConvex>().index;
+        index_ = *d.lens.as<PlanoConvex>().index;
         pitch_ = d.array.pitch_mm[0];
         const double root = std::sqrt(sphere_ * sphere_ - r_ * r_);
         const double thickness = d.lens.as<PlanoConvex>().cylinder_height_mm + sphere_ - root;
         flat_ = *d.array.gap_mm - thickness / index_;  // g counts to the principal plane T/n inside... from the flat face
         for (const Layer& layer : d.panel.layers) {    // ... and layers by their thickness over the index
-            flat_ += layer.thickness_mm - layer.thickness_mm / layer.index;
+            flat_ += layer.thickness_mm - layer.thickness_mm / *layer.index;
             layers_ += layer.thickness_mm;
         }
         glued_ = flat_ - layers_ < 1e-6;
@@ -78,11 +78,11 @@ class PlanoConvexArray {
             Vec to{s * std::cos(phi), s * std::sin(phi), c};
             double light = 1, medium = glued_ ? index_ : 1;
             for (std::size_t k = 0; k < d_.panel.layers.size() && light > 0; ++k) {
-                medium = d_.panel.layers[k].index;
+                medium = *d_.panel.layers[k].index;
                 at = along(at, to, d_.panel.layers[k].thickness_mm / to[2]);
                 const bool last = k + 1 == d_.panel.layers.size();
                 if (last && glued_) break;
-                const double next = last ? 1 : d_.panel.layers[k + 1].index;
+                const double next = last ? 1 : *d_.panel.layers[k + 1].index;
                 light *= refract(to, {0, 0, -1}, medium, next);
                 medium = next;
             }

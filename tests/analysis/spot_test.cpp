@@ -67,7 +67,7 @@ TEST(Spot, DistortionThroughAPinhole) {
     d.panel.pixel_pitch_mm *= 4;
     const Geometry g = resolve(d);
     const Theory t = theory(d, g);
-    const double n = d.lens.as<PlanoConvex>().index, base = g.base_z_mm, thickness = g.vertex_plane_mm - base;
+    const double n = *d.lens.as<PlanoConvex>().index, base = g.base_z_mm, thickness = g.vertex_plane_mm - base;
     const auto slope_from = [&](double x) {  // from the panel at -x to the apex on the axis
         double low = 0, high = 10;
         for (int k = 0; k < 200; ++k) {

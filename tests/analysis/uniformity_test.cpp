@@ -206,7 +206,7 @@ TEST(Uniformity, MeanLuminanceIsTheory) {
 TEST(Uniformity, TheoryOfRealLensesIsFillTimesFresnel) {
     Display d = wide_panel(example());
     d.lens.stop_radius_mm = 0.2 * d.array.pitch_mm[0];
-    const double n = d.lens.as<PlanoConvex>().index, passed = 4 * n / ((n + 1) * (n + 1)), fill = std::numbers::pi * 0.04;
+    const double n = *d.lens.as<PlanoConvex>().index, passed = 4 * n / ((n + 1) * (n + 1)), fill = std::numbers::pi * 0.04;
     const TheoryFigure theory = luminance_over_panel(d, resolve(d), 1e5);
     EXPECT_NEAR(theory.value, fill * passed * passed, 1e-3 * theory.value);
     EXPECT_NEAR(on_screen(d, {0, 0, 1e5}).mean().value, theory.value, 0.005 * theory.value);

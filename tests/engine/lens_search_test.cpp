@@ -31,7 +31,7 @@ bool within_cell(const Display& d, const V& q) {
 /// Panel pixel of a ray through plano-convex lenses facing the viewer in an opaque surround, or -1: the cap that it meets first is
 /// found by trying every lens near the ray's shadow, as the docs define the solid; strips are cylinders along y.
 std::int64_t search(const Display& d, const Geometry& g, const V& o, const V& i) {
-    const double R = d.lens.as<PlanoConvex>().sphere_radius_mm, r = g.glass_radius_mm, n = d.lens.as<PlanoConvex>().index;
+    const double R = d.lens.as<PlanoConvex>().sphere_radius_mm, r = g.glass_radius_mm, n = *d.lens.as<PlanoConvex>().index;
     const bool strips = d.array.lattice == LatticeKind::strips, filled = d.array.aperture == Aperture::cell;
     auto within = [&](const V& q) { return filled ? within_cell(d, q) : q[0] * q[0] + (strips ? 0 : q[1] * q[1]) <= r * r; };
     auto across = [&](V v) { return strips ? V{v[0], 0, v[2]} : v; };

@@ -49,10 +49,21 @@ template <class E>
 requires std::is_enum_v<E>
 void fill(E& x, const Range&) { x = E(*rc::gen::inRange<std::size_t>(0, words<E>().size())); }
 
-template <class T>
-void fill(std::optional<std::array<T, 2>>& x, const Range& range) {
+template <class T, std::size_t n>
+void fill(std::optional<std::array<T, n>>& x, const Range& range) {
     if (*rc::gen::arbitrary<bool>()) return x.reset();
-    for (T& n : x.emplace()) fill(n, range);
+    for (T& one : x.emplace()) fill(one, range);
+}
+
+void fill(std::vector<std::string>&, const Range&) {}  // files, which would be read
+void fill(std::optional<Glass>& x, const Range&) {
+    const auto near = [](double size) { return size * (1 + *rc::gen::inRange(0, 1 << 30) / double(1 << 30)); };
+    const auto& all = shipped_glasses();
+    const std::vector<Glass> forms{{"", Formula::nd_vd, {near(1.2), near(30)}},
+                                   {"", Formula::cauchy, {near(1.2), near(0.004), near(1e-5)}},
+                                   {"", Formula::sellmeier, {near(0.7), near(0.005), near(0.1), near(0.02), near(0.5), near(60)}},
+                                   all[*rc::gen::inRange<std::size_t>(0, all.size())].glass};
+    x = *rc::gen::elementOf(forms);
 }
 
 constexpr const char* start_texts[] = {
@@ -61,6 +72,10 @@ array = {count = [1, 1], pitch_mm = 2, gap_mm = 3})",
     R"(lens = {type = "plano_convex", sphere_radius_mm = 9, aperture_radius_mm = 3, index = 1.5}
 array = {count = [1, 1], pitch_mm = 6, gap_mm = 3})",
     R"(lens = {type = "surfaces", surface = [{semi_aperture_mm = 1, index = 2, distance_mm = 1}, {semi_aperture_mm = 1}]}
+array = {count = [1, 1], pitch_mm = 2, base_z_mm = 3})",
+    R"(lens = {type = "plano_convex", sphere_radius_mm = 9, aperture_radius_mm = 3, glass = "PC"}
+array = {count = [1, 1], pitch_mm = 6, gap_mm = 3})",
+    R"(lens = {type = "surfaces", surface = [{semi_aperture_mm = 1, glass = "F2", distance_mm = 1}, {semi_aperture_mm = 1}]}
 array = {count = [1, 1], pitch_mm = 2, base_z_mm = 3})"};
 
 // Starts from a small display of each lens type and changes it at random; changes that leave it valid stay.

@@ -38,12 +38,12 @@ TEST(Sag, ClearanceOfCrossingSurfaces) {
 TEST(Cardinal, PlanoConvexBothWays) {
     Display d = example();
     const double R = 7.28, n = 1.4918, T = 1 + R - std::sqrt(R * R - 36);
-    Cardinal c = cardinal_points(prescription(d.lens, d.array));
+    Cardinal c = cardinal_points(prescription(d.lens, d.array, 550));
     EXPECT_NEAR(c.focal_length_mm, R / (n - 1), 1e-12);
     EXPECT_NEAR(c.front_principal_mm, T / n, 1e-12);
     EXPECT_NEAR(c.rear_principal_mm, T, 1e-12);
     d.lens.as<PlanoConvex>().facing = Facing::panel;
-    c = cardinal_points(prescription(d.lens, d.array));
+    c = cardinal_points(prescription(d.lens, d.array, 550));
     EXPECT_NEAR(c.focal_length_mm, R / (n - 1), 1e-12);
     EXPECT_NEAR(c.front_principal_mm, 0, 1e-12);
     EXPECT_NEAR(c.rear_principal_mm, T - T / n, 1e-12);

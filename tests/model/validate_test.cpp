@@ -29,6 +29,12 @@ TEST(Validate, Examples) {
     EXPECT_TRUE(validate(d).empty());
 }
 
+Glass glass(const char* name) { return shipped_glass(name)->glass; }
+void set_glass(Display& d, Glass glass) {
+    d.lens.as<PlanoConvex>().index.reset();
+    d.lens.as<PlanoConvex>().glass = std::move(glass);
+}
+
 struct Case {
     const char* key;
     const char* says;
@@ -154,6 +160,26 @@ INSTANTIATE_TEST_SUITE_P(Layout, Fault, testing::Values(
     Case{"camera.focus_distance_mm", "a pinhole has no focus", [](Display& d) { d.camera.focus_distance_mm = 500; }},
     Case{"camera.pupil_diameter_mm", "is -4", [](Display& d) { d.camera.pupil_diameter_mm = -4; }},
     Case{"content.viewing_distance_mm", "inside the display", [](Display& d) { d.content.viewing_distance_mm = 17; }}));
+
+INSTANTIATE_TEST_SUITE_P(Glass, Fault, testing::Values(
+    Case{"lens.index", "is missing; give lens.index, or lens.glass", [](Display& d) { d.lens.as<PlanoConvex>().index.reset(); }},
+    Case{"panel.layer.0.index", "is missing; give panel.layer.0.index, or panel.layer.0.glass", [](Display& d) { d.panel.layers = {{1, {}, {}}}; }},
+    Case{"lens.glass", "both lens.index and lens.glass given", [](Display& d) { d.lens.as<PlanoConvex>().glass = glass("PC"); }},
+    Case{"lens.surface.0.glass", "both lens.surface.0.index and lens.surface.0.glass", [](Display& d) { d.lens.as<SurfaceLens>().surfaces[0].glass = glass("PC"); }, example_surfaces},
+    Case{"panel.layer.0.glass", "both panel.layer.0.index and", [](Display& d) { d.panel.layers = {{1, 1.5, glass("PC")}}; }},
+    Case{"lens.glass", "\"BK8\" has not been looked up", [](Display& d) { set_glass(d, {"BK8"}); }},
+    Case{"lens.glass", "has 3 coefficients", [](Display& d) { set_glass(d, {"", Formula::nd_vd, {1.5, 60, 1}}); }},
+    Case{"lens.glass", "vd = 0; an Abbe number is more than 0", [](Display& d) { set_glass(d, {"", Formula::nd_vd, {1.5, 0}}); }},
+    Case{"lens.glass", "has an index of 0.9", [](Display& d) { set_glass(d, {"", Formula::cauchy, {0.9, 0, 0}}); }},
+    Case{"lens.glass", "at 464.2 nm, allowed is 1 to 4", [](Display& d) { set_glass(d, {"", Formula::cauchy, {1.5, 0.55, 0}}); }},
+    Case{"lens.glass", "has an index of nan", [](Display& d) { set_glass(d, {"", Formula::cauchy, {nan, 0, 0}}); }},
+    Case{"lens.glass", "\"PMMA\" holds from 420 to 1620 nm, but is used at 405 nm; take another glass, or other panel.wavelengths_nm",
+         [](Display& d) { set_glass(d, glass("PMMA")); d.panel.wavelengths_nm[2] = 405; }},
+    Case{"lens.glass", "\"PMMA\" holds from 420 to 1620 nm, but is used at 41", [](Display& d) { set_glass(d, glass("PMMA")); d.panel.primary_widths_nm = {25, 25, 25}; d.render.wavelength_samples = 10; }},
+    Case{"panel.wavelengths_nm[1]", "is nan", [](Display& d) { set_glass(d, glass("PMMA")); d.panel.wavelengths_nm[1] = nan; }},
+    Case{"panel.primary_widths_nm[0]", "is 0, allowed is more than 0", [](Display& d) { d.panel.primary_widths_nm = {0, 20, 20}; }},
+    Case{"render.wavelength_samples", "is 3, but panel.primary_widths_nm is missing", [](Display& d) { d.render.wavelength_samples = 3; }},
+    Case{"render.wavelength_samples", "is 33, allowed is 1 to 32", [](Display& d) { d.render.wavelength_samples = 33; d.panel.primary_widths_nm = {20, 20, 20}; }}));
 // clang-format on
 
 TEST(Validate, FindsIndependentFaultsTogether) {

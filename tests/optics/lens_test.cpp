@@ -85,7 +85,7 @@ TEST(Lens, FocalLengthIsGaussInTheLimit) {
         Display d = example();
         d.lens.as<PlanoConvex>().facing = facing;
         const Bench bench(d);
-        const double f = d.lens.as<PlanoConvex>().sphere_radius_mm / (d.lens.as<PlanoConvex>().index - 1);
+        const double f = d.lens.as<PlanoConvex>().sphere_radius_mm / (*d.lens.as<PlanoConvex>().index - 1);
         auto error = [&](double height) {
             Ray<double> ray{{height, 0, 50}, {0, 0, -1}};
             EXPECT_TRUE(bench.follow(ray, 0));

@@ -1,0 +1,97 @@
+#include "model/colour.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lfdsim {
+namespace {
+
+/// Hermite polynomials of degrees 0 to K, orthonormal under the weight exp(-x^2) / sqrt(pi).
+std::vector<double> hermite(std::size_t K, double x) {
+    std::vector<double> h(K + 1, 1);
+    if (K > 0) h[1] = std::numbers::sqrt2 * x;
+    for (std::size_t k = 1; k < K; ++k)
+        h[k + 1] = (x * std::numbers::sqrt2 * h[k] - std::sqrt(double(k)) * h[k - 1]) / std::sqrt(double(k + 1));
+    return h;
+}
+
+/// The zero of the polynomial of degree K between two places where its signs differ, to the last bit.
+double zero_between(std::size_t K, double low, double high) {
+    const bool rises = hermite(K, high)[K] > 0;
+    while (true) {
+        const double middle = (low + high) / 2;
+        if (middle <= low || middle >= high) return middle;
+        ((hermite(K, middle)[K] > 0) == rises ? high : low) = middle;
+    }
+}
+
+using Zeros = std::array<std::vector<double>, max_wavelength_samples + 1>;
+
+/// Zeros of each polynomial, by degree: ascending, symmetric to the last bit. Between two of them is one of the next lower degree,
+/// and none is beyond sqrt(2 K + 1).
+Zeros hermite_zeros() {
+    Zeros all;
+    for (std::size_t degree = 1; degree < all.size(); ++degree) {
+        const std::vector<double>& zeros = all[degree - 1];
+        std::vector<double> next(degree, 0);
+        for (std::size_t i = degree / 2 + degree % 2; i < degree; ++i) {  // the positive ones
+            const double above = i < zeros.size() ? zeros[i] : std::sqrt(2. * double(degree) + 1);
+            next[i] = zero_between(degree, std::max(zeros[i - 1], 0.), above);
+            next[degree - 1 - i] = -next[i];
+        }
+        all[degree] = std::move(next);
+    }
+    return all;
+}
+
+}  // namespace
+
+std::vector<Node> wavelengths_of(const Display& d, int channel) {
+    const auto c = std::size_t(channel);
+    const double middle = d.panel.wavelengths_nm[c];
+    const auto K = std::size_t(std::clamp<std::int64_t>(d.render.wavelength_samples, 1, max_wavelength_samples));
+    if (K == 1 || !d.panel.primary_widths_nm) return {{middle, 1}};
+    const double sigma = (*d.panel.primary_widths_nm)[c] / (2 * std::sqrt(2 * std::numbers::ln2));
+    std::vector<Node> nodes;
+    static const Zeros zeros = hermite_zeros();
+    for (const double x : zeros[K]) {
+        double squares = 0;  // the weight is the inverse of their sum (Christoffel)
+        for (const double h : hermite(K - 1, x)) squares += h * h;
+        nodes.push_back({middle + std::numbers::sqrt2 * sigma * x, 1 / squares});
+    }
+    return nodes;
+}
+
+double index_at(const std::optional<double>& index, const std::optional<Glass>& glass, double wavelength_nm) {
+    return glass ? index_of(*glass, wavelength_nm) : index.value_or(1);
+}
+
+std::vector<Medium> media_of(const Display& d) {
+    std::vector<Medium> all;
+    for (std::size_t k = 0; k < d.panel.layers.size(); ++k) {
+        const Layer& layer = d.panel.layers[k];
+        all.push_back({"panel.layer." + std::to_string(k), layer.index, layer.glass, false, true});
+    }
+    if (const auto* ball = std::get_if<PlanoConvex>(&d.lens.kind)) all.push_back({"lens", ball->index, ball->glass, false, true});
+    if (const auto* lens = std::get_if<SurfaceLens>(&d.lens.kind))
+        for (std::size_t k = 0; k < lens->surfaces.size(); ++k) {
+            const Surface& s = lens->surfaces[k];
+            all.push_back({"lens.surface." + std::to_string(k), s.index, s.glass, true, k + 1 < lens->surfaces.size()});
+        }
+    return all;
+}
+
+bool disperses(const Display& d) {
+    const std::vector<Medium> media = media_of(d);
+    return std::any_of(media.begin(), media.end(), [&](const Medium& medium) {
+        if (!medium.is_passed || !medium.glass) return false;
+        const double first = index_of(*medium.glass, d.panel.wavelengths_nm[0]);
+        for (int channel = 0; channel < 3; ++channel)
+            for (const Node& node : wavelengths_of(d, channel))
+                if (index_of(*medium.glass, node.wavelength_nm) != first) return true;
+        return false;
+    });
+}
+
+}  // namespace lfdsim
