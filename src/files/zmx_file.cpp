@@ -253,7 +253,7 @@ class ZmxReader {
                 fmt::format("The coatings of surfaces {} are not read: all glass is bare.", fmt::join(coated, ", ")));
         if (!unread.empty())
             lens.notes.push_back(fmt::format("Words that are unknown and were not read: {}.", fmt::join(unread, ", ")));
-        if (field_is_angle && field > 0) lens.beam.field_deg = field;
+        if (field_is_angle) lens.beam.field_deg = field;
         if (wavelengths_um[primary] > 0) lens.beam.wavelength_nm = wavelengths_um[primary] * 1000;
         for (ZmxSurface& s : surfaces) lens.surfaces.push_back(std::move(s.drawn));
         if (unit_mm != 0 && unit_mm != 1) scale(lens, unit_mm);

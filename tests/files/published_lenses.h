@@ -121,6 +121,43 @@ SURF 4
   DISZ 0
 )";
 
+// The f/5 triplet of 50 mm with a field of 20 degrees that lens design programs show as their first example.
+inline const std::string triplet = R"(UNIT MM
+ENPD 10
+FTYP 0 0 3 3 0 0 0
+YFLN 0 14 20
+WAVM 1 0.55 1
+PWAV 1
+SURF 0
+  CURV 0
+  DISZ INFINITY
+SURF 1
+  CURV 0.0454264843
+  DISZ 3.25896
+  GLAS N-SK16 0 0 1.5 4.0E+1
+SURF 2
+  CURV -0.0022948389
+  DISZ 6.00755
+SURF 3
+  CURV -0.0450181153
+  DISZ 0.99997
+  GLAS F2 0 0 1.5 4.0E+1
+SURF 4
+  STOP
+  CURV 0.0492806989
+  DISZ 4.75041
+SURF 5
+  CURV 0.0125496338
+  DISZ 2.95208
+  GLAS N-SK16 0 0 1.5 4.0E+1
+SURF 6
+  CURV -0.0543616233
+  DISZ 42.20778
+SURF 7
+  CURV 0
+  DISZ 0
+)";
+
 // A flat face and a hyperboloid of conic constant -n^2 bring a parallel beam to one point, at any aperture: f = R / (n - 1). E.
 // Hecht, Optics, section 5.2.1. Here n = 1.5, R = 5 mm, f = 10 mm, f/1.25.
 inline const std::string hyperboloid = R"(UNIT MM
