@@ -18,7 +18,9 @@ namespace fs = std::filesystem;
 
 struct ImportArguments {
     explicit ImportArguments(Command command) : output(command) {
-        command.add_option("LENS", lens, "Lens of Zemax (.zmx) or Optiland (.json)").type_name("FILE").required();
+        command.add_option("LENS", lens, "Lens of Zemax (.zmx), Optiland (.json) or ray-optics (.roa)")
+            .type_name("FILE")
+            .required();
         command.add_flag("--flip", flip,
                          "Turn the lens over: the side of the file's object faces the panel, not that of its image");
         command.add_option("--scale", scale, "Factor for all lengths of the lens; default 1").type_name("S");

@@ -14,7 +14,9 @@ DrawnLens read_drawn_lens(const std::filesystem::path& path) {
     const std::string name = path.string();
     if (kind == ".zmx") return parse_zmx(read_text(path, "a lens in Zemax's format"), name);
     if (kind == ".json") return parse_optiland(read_text(path, "a lens in Optiland's format"), name);
-    throw InputError(name, fmt::format("is of kind \"{}\"; .zmx (Zemax) and .json (Optiland) can be read", kind));
+    if (kind == ".roa") return parse_rayoptics(read_text(path, "a lens in ray-optics's format"), name);
+    throw InputError(name,
+                     fmt::format("is of kind \"{}\"; .zmx (Zemax), .json (Optiland) and .roa (ray-optics) can be read", kind));
 }
 
 void scale(DrawnLens& lens, double factor) {

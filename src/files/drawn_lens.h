@@ -47,13 +47,14 @@ struct DrawnLens {
     std::vector<std::string> notes;  // what was assumed, or not read though it could matter
 };
 
-/// Reads .zmx (Zemax), or .json (Optiland). Throws InputError with every problem and its place; what cannot be traced here is named
-/// and refused.
+/// Reads .zmx (Zemax), .json (Optiland) or .roa (ray-optics). Throws InputError with every problem and its place; what cannot be
+/// traced here is named and refused.
 DrawnLens read_drawn_lens(const std::filesystem::path&);
 
 // The same from text or bytes; `name` stands for the file in messages.
 DrawnLens parse_zmx(std::string_view bytes, std::string_view name);
 DrawnLens parse_optiland(std::string_view text, std::string_view name);
+DrawnLens parse_rayoptics(std::string_view text, std::string_view name);
 
 /// All lengths of the lens times a factor.
 void scale(DrawnLens&, double factor);

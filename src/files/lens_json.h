@@ -36,7 +36,7 @@ class LensJsonReader {
     }
     /// 0 if there is none, which is then refused.
     double number(const LensJson&, const std::string& place, bool may_be_infinite = false);
-    /// The list itself, of least to 1000 elements.
+    /// The list itself, of so many elements to 1000.
     const LensJson& list(const LensJson&, const std::string& place, std::size_t least) const;
     /// The lens, or all that is wrong.
     DrawnLens done();

@@ -68,6 +68,7 @@ class ZmxReader {
         }
         if (words.empty()) return;
         const std::string_view key = words[0];
+        in_surface = key == "SURF" || (in_surface && (content[0] == ' ' || content[0] == '\t'));
         if (key == "SURF") return begin_surface();
         const bool of_surface =
             std::any_of(std::begin(surface_words), std::end(surface_words), [&](const Word& word) { return word.key == key; });
@@ -77,8 +78,7 @@ class ZmxReader {
         if (std::ranges::find(other_apertures, key) != std::end(other_apertures))
             return refuse(line, "{}{} is an aperture that is no circle about the axis; only those can be imported", here(), key);
         // Behind the surfaces stand the words of the merit function and the tolerances, which are many.
-        const bool behind = !surfaces.empty() && content[0] != ' ' && content[0] != '\t';
-        if (!behind && std::ranges::find(harmless, key) == std::end(harmless) && unread.size() < 20)
+        if ((surfaces.empty() || in_surface) && std::ranges::find(harmless, key) == std::end(harmless) && unread.size() < 20)
             unread.push_back(fmt::format("{} (line {})", shortened(key), line));
     }
 
@@ -237,8 +237,9 @@ class ZmxReader {
             refuse(1, "is no lens in Zemax's format: no line begins with SURF");
             return;
         }
-        const bool whole_line = text.ends_with('\n') || text.ends_with('\r');
-        if (!whole_line && text.starts_with("VERS")) refuse(line - 1, "ends in the middle of this line; the file is cut");
+        // A file that Zemax wrote goes on behind its surfaces; one that ends within them, and within a line, is cut.
+        const bool cut_line = in_surface && !text.ends_with('\n') && !text.ends_with('\r');
+        if (cut_line && text.starts_with("VERS")) refuse(line - 1, "ends in the middle of this line; the file is cut");
         for (ZmxSurface& s : surfaces) finish_surface(s, &s - surfaces.data());
         if (const ZmxSurface& last = surfaces.back(); last.has_distance && last.drawn.distance_mm != 0)
             refuse(last.line, "ends with surface {}, which is not the image: another one follows at DISZ {}; the file is cut",
@@ -246,7 +247,7 @@ class ZmxReader {
         else if (surfaces.size() < 3)
             refuse(last.line, "has {} surfaces; a lens stands between an object and an image", surfaces.size());
         if (unit_mm == 0) lens.notes.push_back("The file names no unit of length; taken as mm.");
-        if (!whole_line && !text.starts_with("VERS"))
+        if (cut_line && !text.starts_with("VERS"))
             lens.notes.push_back("The file's last line has no end; if it was cut there, something may be missing.");
         if (!coated.empty())
             lens.notes.push_back(
@@ -277,6 +278,7 @@ class ZmxReader {
     std::string_view text;
     std::string name;
     std::size_t line = 1;
+    bool in_surface = false;              // the line belongs to one
     std::vector<std::string_view> words;  // of the line
     std::vector<ZmxSurface> surfaces;
     double unit_mm = 0;  // 0: not given

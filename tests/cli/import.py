@@ -90,7 +90,7 @@ for name, arguments, *words in [
     ("missing", "import no.zmx -o x.toml", "no.zmx: there is no such file"),
     ("cut JSON", "import cut.json -o x.toml", "cut.json: is no lens in JSON: parse error at line 1"),
     ("other JSON", "import other.json -o x.toml", "is this a saved lens?"),
-    ("other kind", "import tiny.toml -o x.toml", "tiny.toml: is of kind \".toml\"; .zmx (Zemax) and .json (Optiland) can be read"),
+    ("other kind", "import tiny.toml -o x.toml", "tiny.toml: is of kind \".toml\"; .zmx (Zemax), .json (Optiland) and .roa (ray-optics) can be read"),
     ("an existing file", "import doublet.zmx --glass MYSF5=SF5 -o kept.toml", "kept.toml already exists"),
     ("no description", "import doublet.zmx --glass MYSF5=SF5 -o x.png", "ends in .toml"),
     ("too large a scale", "import doublet.zmx --glass MYSF5=SF5 --scale 1e7 -o x.toml", "--scale: is 1e7; allowed is 1e-6 to 1e6"),

@@ -142,6 +142,7 @@ TEST(Zmx, TellsWhereAFileIsCut) {
     EXPECT_EQ(zmx_refused(whole), "");
     for (std::size_t end = surfaces + 6; end < image; ++end)
         EXPECT_THAT(zmx_refused(whole.substr(0, end)), testing::AnyOf(HasSubstr("lens.zmx:"), HasSubstr("SURF"))) << end;
+    EXPECT_EQ(zmx_refused(whole + "TOL TOFF 0"), "");  // behind the surfaces nothing of the lens can be missing
     EXPECT_THAT(zmx_refused(whole.substr(0, image)), HasSubstr("ends with surface 8, which is not the image"));
     EXPECT_THAT(zmx_refused(whole.substr(0, whole.size() - 1)), HasSubstr("lens.zmx:44: ends in the middle of this line"));
 }
