@@ -2,7 +2,9 @@
 #include "cli/display_options.h"
 #include "cli/output.h"
 #include "content/content.h"
+#include "files/glasses.h"
 #include "model/advice.h"
+#include "report/colours.h"
 #include "report/description.h"
 
 #include <fmt/format.h>
@@ -41,10 +43,13 @@ std::string table_of(const Setting& s) {
 }
 
 // Seven digits: more than any length is made to, fewer than double arithmetic carries.
+std::string number_text(double x) {
+    return std::isfinite(x) ? fmt::format("{:.7g}", x) : std::isnan(x) ? "none" : x > 0 ? "infinite" : "-infinite";
+}
+
 std::string table_of(const Figure& f) {
     std::vector<std::string> numbers;
-    for (const double x : f.values)
-        numbers.push_back(std::isfinite(x) ? fmt::format("{:.7g}", x) : std::isnan(x) ? "none" : x > 0 ? "infinite" : "-infinite");
+    for (const double x : f.values) numbers.push_back(number_text(x));
     std::string value = fmt::format("{}", fmt::join(numbers, " x "));
     if (std::ranges::all_of(f.values, [](double x) { return std::isfinite(x); })) value += " " + unit_of(f.name);
     return fmt::format("  {:<28} {:<22} {}", f.name, value, f.meaning);
@@ -54,6 +59,28 @@ std::string table_of(const Figure& f) {
 void add_line(std::string& text, std::string line) {
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
+}
+
+/// A line for each figure, a column for each channel.
+std::string table_of(const std::vector<ChannelTheory>& colours) {
+    std::string text = "\nTheory by colour, where glass disperses; all things stand where green light has them\n";
+    const auto row = [&](const std::string& name, const char* meaning, const auto& value) {
+        std::string line = fmt::format("  {:<28}", name);
+        for (const ChannelTheory& c : colours) line += fmt::format(" {:<12}", value(c));
+        add_line(text, line + " " + meaning);
+    };
+    const auto figure = [&](const char* name, const char* meaning, double ChannelTheory::*member) {
+        row(name, meaning, [&](const ChannelTheory& c) { return number_text(c.*member); });
+    };
+    row("", "", [](const ChannelTheory& c) { return c.name; });
+    figure("wavelength_nm", "at which the channel shines", &ChannelTheory::wavelength_nm);
+    for (std::size_t k = 0; k < colours.front().indices.size(); ++k)
+        row(colours.front().indices[k].first, "n, index of the glass",
+            [&](const ChannelTheory& c) { return number_text(c.indices[k].second); });
+    figure("focal_length_mm", "f", &ChannelTheory::focal_length_mm);
+    figure("gap_mm", "g", &ChannelTheory::gap_mm);
+    figure("central_depth_mm", "L", &ChannelTheory::central_depth_mm);
+    return text;
 }
 
 /// With what only the model itself says: that it cannot be read, and its size.
@@ -74,14 +101,18 @@ void run(const CheckArguments& args) {
     const Geometry geometry = resolve(display);
     const Theory paraxial = theory(display, geometry);
     const std::vector<Setting> keys = settings(display);
-    const std::vector<std::string> warnings = all_advice(display, geometry, paraxial);
+    const std::vector<ChannelTheory> colours = theory_by_colour(display);
+    std::vector<std::string> warnings = all_advice(display, geometry, paraxial);
+    for (const Problem& doubt : doubts_of_glasses(display)) warnings.push_back(fmt::format("{}: {}", doubt.where, doubt.what));
     if (args.json) {
         Json notes = Json::object();
         add_notes(figures(display, geometry), "geometry", notes);
         add_notes(figures(display, paraxial), "theory", notes);
+        Json theory = to_json(figures(display, paraxial));
+        if (!colours.empty()) theory["colour"] = to_json(colours);
         return print_json(Json{{"display", to_json(keys)},
                                {"geometry", to_json(figures(display, geometry))},
-                               {"theory", to_json(figures(display, paraxial))},
+                               {"theory", theory},
                                {"notes", notes},
                                {"warnings", warnings}});
     }
@@ -96,6 +127,7 @@ void run(const CheckArguments& args) {
     for (const Figure& f : figures(display, geometry)) add_line(text, table_of(f));
     text += "\nParaxial theory\n";
     for (const Figure& f : figures(display, paraxial)) add_line(text, table_of(f));
+    if (!colours.empty()) text += table_of(colours);
     if (!warnings.empty()) text += "\nWorth knowing\n";
     for (const std::string& warning : warnings) text += "  - " + warning + "\n";
     print(text);

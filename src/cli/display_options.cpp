@@ -119,6 +119,7 @@ Display DisplayOptions::read(const std::string& path) const {
     faults.of([&, &set = overrides, &places = written] {
         try {
             display = read_display(path, set);
+            for (const std::string& file : display.glass_catalogues) remember_input("a glass catalogue", file);
         } catch (InputError& e) {
             for (Problem& p : e.problems)
                 if (const auto option = places.find(p.where); option != places.end()) p.where = option->second;

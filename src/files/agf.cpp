@@ -114,7 +114,10 @@ class AgfReader {
     void add_problem(std::string_view key, const std::string& what) {
         problems_.push_back(key.empty() ? Problem{read_.file, what} : Problem{place(line_), fmt::format("{}: {}", key, what)});
     }
-    void doubt(std::size_t line, std::string what) { read_.doubts.push_back({place(line), std::move(what)}); }
+    /// Of the glass whose lines have ended.
+    void doubt(const std::string& glass, const std::string& what) {
+        read_.doubts.push_back({glass, {place(entry_.line), fmt::format("{}{}", shortened(glass), what)}});
+    }
 
     void read_line(std::string_view line) {
         const std::vector<std::string_view> words = words_of(line);
@@ -161,9 +164,7 @@ class AgfReader {
         if (entry_.name.empty() || !problems_.empty()) return;
         Glass glass;
         glass.name = std::move(entry_.name);
-        const auto leave_out = [&](const char* why) {
-            doubt(entry_.line, fmt::format("{} is left out: {}", shortened(glass.name), why));
-        };
+        const auto leave_out = [&](const char* why) { doubt(glass.name, fmt::format(" is left out: {}", why)); };
         if (entry_.formula == 0) return leave_out("the format has formulas 1 to 13");
         if (entry_.c.empty()) return leave_out("it has no line CD with coefficients");
         entry_.c.resize(std::max<std::size_t>(entry_.c.size(), 10), 0);
@@ -176,8 +177,7 @@ class AgfReader {
             return leave_out("its coefficients give no index");
         if (const double nd = index_of(glass, d_line_nm);
             entry_.nd > 1 && glass.covers(d_line_nm) && !(std::abs(nd - entry_.nd) <= nd_tolerance))
-            doubt(entry_.line, fmt::format("{}: n_d is {:.6g} by its coefficients, {:.6g} by its line NM", shortened(glass.name),
-                                           nd, entry_.nd));
+            doubt(glass.name, fmt::format(": n_d is {:.6g} by its coefficients, {:.6g} by its line NM", nd, entry_.nd));
         read_.glasses.push_back(std::move(glass));
     }
 

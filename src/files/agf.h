@@ -10,10 +10,16 @@
 
 namespace lfdsim {
 
+/// Of a glass that was left out, or whose stated n_d is not that of its coefficients.
+struct GlassDoubt {
+    std::string glass;
+    Problem problem;  // where: "file:line"
+};
+
 struct GlassCatalogue {
     std::string file;
     std::vector<Glass> glasses;
-    std::vector<Problem> doubts;  // "file:line": glasses that were left out, or whose stated n_d is not that of their coefficients
+    std::vector<GlassDoubt> doubts;
 };
 
 inline constexpr std::size_t largest_agf_bytes = std::size_t(8) << 20, most_glasses = 10000;

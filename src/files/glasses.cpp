@@ -1,6 +1,7 @@
 #include "files/glasses.h"
 
 #include "files/nearest.h"
+#include "model/colour.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -45,6 +46,18 @@ std::string unknown_glass(std::string_view name, std::span<const GlassCatalogue>
     return fmt::format(
         "no catalogue has a glass \"{}\"; {}", shortened(name),
         near.empty() ? "`lfdsim glass` lists those that ship" : fmt::format("did you mean {}?", fmt::join(near, " or ")));
+}
+
+std::vector<Problem> doubts_of_glasses(const Display& d) {
+    std::vector<Problem> all;
+    for (const std::string& file : d.glass_catalogues)
+        for (const auto& [glass, problem] : read_agf(file).doubts)
+            for (const Medium& medium : media_of(d))
+                if (medium.glass && medium.glass->name == glass) {
+                    all.push_back(problem);
+                    break;
+                }
+    return all;
 }
 
 }  // namespace lfdsim

@@ -1,6 +1,7 @@
 // Glasses by their names, in catalogues of the user's and in the one that ships. Floor 2.
 #pragma once
 #include "files/agf.h"
+#include "model/display.h"
 
 #include <span>
 #include <string>
@@ -14,5 +15,8 @@ const Glass* find_glass(std::string_view name, std::span<const GlassCatalogue>);
 
 /// What is wrong with a name that find_glass() does not find, and which ones are near.
 std::string unknown_glass(std::string_view name, std::span<const GlassCatalogue>);
+
+/// What is doubtful of the glasses that a display takes from its own catalogues, which are read again.
+std::vector<Problem> doubts_of_glasses(const Display&);
 
 }  // namespace lfdsim

@@ -127,12 +127,13 @@ class Lister {
         list_.push_back(std::move(control));
     }
 
-    /// Of a medium's index and its glass the one that is not given.
+    /// A medium's glass is shown where it has a name, its index where it has no glass.
     bool gives_way(std::string_view path) const {
-        if (path.ends_with(".glass")) return !std::get<const std::optional<Glass>*>(*value_at(trial_, path))->has_value();
-        if (!path.ends_with(".index")) return false;
-        const auto glass = value_at(trial_, std::string(table_of_path(path)) + ".glass");
-        return std::get<const std::optional<Glass>*>(*glass)->has_value();
+        const bool of_glass = path.ends_with(".glass");
+        if (!of_glass && !path.ends_with(".index")) return false;
+        const auto value = value_at(trial_, std::string(table_of_path(path)) + ".glass");
+        const auto& glass = *std::get<const std::optional<Glass>*>(*value);
+        return of_glass ? !glass || glass->name.empty() : glass.has_value();
     }
 
     std::string last_surface() const {
@@ -280,13 +281,12 @@ class Lister {
         control["form"] = "list";
     }
 
-    // The names that ship, and the one that is given. A glass that is given by its coefficients has none and cannot be changed.
+    // The names that ship, and the one that is given.
     void add(Json& control, const std::string&, const Range&, std::optional<Glass>& field, const std::optional<Glass>*) {
-        const std::string& name = field->name;
-        control["value"] = name.empty() ? "by its coefficients" : name;
+        control["value"] = field->name;
         control["form"] = "word";
         control["words"] = Json::array();
-        if (!shipped_glass(name)) control["words"].push_back(control["value"]);
+        if (!shipped_glass(field->name)) control["words"].push_back(field->name);
         for (const ShippedGlass& shipped : shipped_glasses()) control["words"].push_back(shipped.glass.name);
     }
 

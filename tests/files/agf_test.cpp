@@ -21,7 +21,7 @@ const std::string bk7 =
 Glass only(const std::string& text) {
     const GlassCatalogue c = parse_agf(text, "f");
     EXPECT_EQ(c.glasses.size(), 1u);
-    EXPECT_TRUE(c.doubts.empty()) << (c.doubts.empty() ? "" : c.doubts[0].what);
+    EXPECT_TRUE(c.doubts.empty()) << (c.doubts.empty() ? "" : c.doubts[0].problem.what);
     return c.glasses.at(0);
 }
 std::string fault(const std::string& bytes) {
@@ -34,7 +34,7 @@ std::string fault(const std::string& bytes) {
 }
 std::string doubt(const std::string& text) {
     const GlassCatalogue c = parse_agf(text, "f.agf");
-    return c.doubts.size() == 1 ? c.doubts[0].where + ": " + c.doubts[0].what : "not one doubt";
+    return c.doubts.size() == 1 ? c.doubts[0].problem.where + ": " + c.doubts[0].problem.what : "not one doubt";
 }
 
 std::string utf16(const std::string& ascii, bool big_endian) {

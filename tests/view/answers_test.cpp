@@ -234,6 +234,21 @@ TEST_F(AnswersTest, PlotsAreDrawnAndStop) {
                 "panel.pixels");
 }
 
+// A medium has the control of what gives its index.
+TEST_F(AnswersTest, GlassIsAWord) {
+    const Json plain = resolved(library(), wanted());
+    for (const Json& c : plain["controls"]) EXPECT_FALSE(c["key"].get<std::string>().ends_with(".glass"));
+    EXPECT_EQ(control(plain, "lens.index")["form"], "number");
+    const Json glassy = resolved(library({"lens.index=none", "lens.glass=PMMA"}), wanted({"lens.glass=PC"}));
+    const Json glass = control(glassy, "lens.glass");
+    EXPECT_EQ(glass["value"], "PC");
+    EXPECT_EQ(glass["form"], "word");
+    EXPECT_THAT(glass["words"].dump(), HasSubstr("\"N-BK7\""));
+    EXPECT_EQ(control(glassy, "panel.wavelengths_nm")["unit"], "nm");
+    for (const Json& message : {glassy, resolved(library({"lens.index=none", "lens.glass={ nd = 1.5, vd = 60 }"}), wanted())})
+        for (const Json& c : message["controls"]) EXPECT_NE(c["key"], "lens.index");
+}
+
 TEST_F(AnswersTest, DescriptionsAreSaved) {
     const Library all = library({"array.rotation_deg=1"});
     Wanted changed = wanted({"array.gap_mm=10.5"});
