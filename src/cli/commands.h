@@ -7,6 +7,7 @@ namespace lfdsim::cli {
 // Each adds its command, which runs when the command line has been parsed. What a command throws becomes the exit code: see
 // main.cpp.
 void add_new(Command program);
+void add_import(Command program);
 void add_check(Command program);
 void add_eia(Command program);
 void add_photo(Command program);

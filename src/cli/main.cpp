@@ -31,6 +31,7 @@ void run(int argc, char** argv) {
         "-o view.png\nHelp for a command: lfdsim COMMAND --help");
     const cli::Command program = line.program();
     cli::add_new(program);
+    cli::add_import(program);
     cli::add_check(program);
     cli::add_eia(program);
     cli::add_photo(program);

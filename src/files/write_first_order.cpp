@@ -1,42 +1,12 @@
 #include "files/write_first_order.h"
 
-#include "files/values.h"
+#include "files/commented.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
 namespace lfdsim {
 namespace {
-
-/// A description being written: keys, and comments in lines of at most a hundred columns.
-class Text {
-  public:
-    template <class... Values>
-    void note(fmt::format_string<Values...> words, Values&&... values) {
-        std::string text = fmt::format(words, std::forward<Values>(values)...);
-        for (char& c : text)  // a file's name may contain a line break
-            if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-        std::string line = "#";
-        for (std::size_t start = 0; start < text.size();) {
-            const std::size_t end = std::min(text.find(' ', start), text.size());
-            if (line.size() > 1 && line.size() + 1 + end - start > 100) {
-                all += line + "\n";
-                line = "#";
-            }
-            line += " " + text.substr(start, end - start);
-            start = end + 1;
-        }
-        all += line + "\n";
-    }
-    template <class Value>
-    void key(const char* name, const Value& value) {
-        all += fmt::format("{} = {}\n", name, toml_text(value));
-    }
-    void table(const char* name) { all += fmt::format("\n[{}]\n", name); }
-
-    std::string all;
-};
 
 /// The depth whose inverse is given, in words.
 std::string end_of_depth(double per_mm) {
@@ -45,7 +15,7 @@ std::string end_of_depth(double per_mm) {
                       : fmt::format("{:.4g} mm behind the lenses", -1 / per_mm);
 }
 
-void write_panel(const FirstOrder& o, Text& text) {
+void write_panel(const FirstOrder& o, CommentedText& text) {
     const Panel& panel = o.display.panel;
     text.table("panel");
     text.key("pixels", panel.pixels);
@@ -53,7 +23,7 @@ void write_panel(const FirstOrder& o, Text& text) {
     text.key("pixel_pitch_mm", panel.pixel_pitch_mm);
 }
 
-void write_lens(const FirstOrder& o, Text& text) {
+void write_lens(const FirstOrder& o, CommentedText& text) {
     const double f = o.theory.focal_length_mm, g = *o.display.array.gap_mm;
     text.table("lens");
     text.note("f = 1 / (1/g + 1/L) = {:.5g} mm images the panel at the central depth plane, L = {:g} mm from the lenses{}.", f,
@@ -109,7 +79,7 @@ std::string pitch_reason(const FirstOrder& o) {
         "about equally with fewer.");
 }
 
-void write_array(const FirstOrder& o, Text& text) {
+void write_array(const FirstOrder& o, CommentedText& text) {
     const LensArray& array = o.display.array;
     const double t = std::tan(o.request.fov_deg * std::acos(-1.0) / 360);
     text.table("array");
@@ -128,7 +98,7 @@ void write_array(const FirstOrder& o, Text& text) {
     if (array.aperture != Aperture::circle) text.key("aperture", array.aperture);
 }
 
-void write_diffuser(const FirstOrder& o, Text& text) {
+void write_diffuser(const FirstOrder& o, CommentedText& text) {
     if (!o.display.diffuser) {
         text.all += "\n";
         text.note("No diffuser: near the eye the pupil mixes the light of neighbouring lenses.");
@@ -147,7 +117,7 @@ void write_diffuser(const FirstOrder& o, Text& text) {
     text.key("angle_deg", diffuser.angle_deg);
 }
 
-void write_camera_and_content(const FirstOrder& o, Text& text) {
+void write_camera_and_content(const FirstOrder& o, CommentedText& text) {
     const Camera& camera = o.display.camera;
     const Content& content = o.display.content;
     text.table("camera");
@@ -173,7 +143,7 @@ void write_camera_and_content(const FirstOrder& o, Text& text) {
 }  // namespace
 
 std::string write_first_order(const FirstOrder& o, const std::string& made_by) {
-    Text text;
+    CommentedText text;
     text.note("A first-order design, as a starting point. Made by: {}", made_by);
     text.note(
         "It follows from thin-lens arithmetic alone. `lfdsim check` reports what theory predicts, `lfdsim analyze` "

@@ -12,15 +12,15 @@
 #include <tuple>
 
 namespace lfdsim {
-namespace {
 
-/// Lengths are written to a nanometre: finer than lenses are made, and fine enough for a distant central depth plane.
 double to_nanometre(double mm) { return std::round(mm * 1e6) / 1e6; }
-/// To three digits, for lengths that need no more.
+
 double rounded(double x) {
     const double unit = std::pow(10, std::floor(std::log10(std::abs(x))) - 2);
     return unit < 1 ? std::round(x / unit) / std::round(1 / unit) : std::round(x / unit) * unit;
 }
+
+namespace {
 
 struct Limit {
     double DesignRequest::*field;

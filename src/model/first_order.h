@@ -54,6 +54,11 @@ inline constexpr double spherical_blur =
     (pmma_index * pmma_index - 2 * pmma_index + 2 / pmma_index) / (8 * (pmma_index - 1) * (pmma_index - 1));
 inline constexpr int fewest_views = 4, fewest_lenses = 10;
 
+/// Lengths are written to a nanometre: finer than lenses are made, and fine enough for a distant central depth plane.
+double to_nanometre(double mm);
+/// To three digits, for lengths that need no more.
+double rounded(double);
+
 /// A valid display that meets the request. Throws InputError with the option of `lfdsim new` as `where`, what is allowed, and the
 /// nearest possible values, each with the others unchanged.
 FirstOrder first_order(const DesignRequest&);

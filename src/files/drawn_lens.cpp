@@ -1,0 +1,44 @@
+#include "files/drawn_lens.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "files/text_file.h"
+
+namespace lfdsim {
+
+DrawnLens read_drawn_lens(const std::filesystem::path& path) {
+    std::string kind = path.extension();
+    for (char& c : kind) c = char(std::tolower(static_cast<unsigned char>(c)));
+    const std::string name = path.string();
+    if (kind == ".zmx") return parse_zmx(read_text(path, "a lens in Zemax's format"), name);
+    if (kind == ".json") return parse_optiland(read_text(path, "a lens in Optiland's format"), name);
+    if (kind == ".roa") return parse_rayoptics(read_text(path, "a lens in ray-optics's format"), name);
+    throw InputError(name,
+                     fmt::format("is of kind \"{}\"; .zmx (Zemax), .json (Optiland) and .roa (ray-optics) can be read", kind));
+}
+
+void scale(DrawnLens& lens, double factor) {
+    for (DrawnSurface& s : lens.surfaces) {
+        s.curvature_per_mm /= factor;
+        s.distance_mm *= factor;
+        if (s.semi_aperture_mm) *s.semi_aperture_mm *= factor;
+        double per_length = factor * factor * factor;  // of a4, whose unit is mm^-3
+        for (double& a : s.even_asphere) {
+            a /= per_length;
+            per_length *= factor * factor;
+        }
+    }
+    if (lens.beam.entrance_pupil_mm) *lens.beam.entrance_pupil_mm *= factor;
+}
+
+bool fold_r2(DrawnSurface& s, double a2) {
+    if (a2 == 0) return true;
+    if (s.curvature_per_mm != 0 && s.conic != -1) return false;
+    s.curvature_per_mm += 2 * a2;
+    s.conic = -1;
+    return true;
+}
+
+}  // namespace lfdsim

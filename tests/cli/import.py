@@ -1,0 +1,101 @@
+"""`lfdsim import` as a user runs it: lenses that check calls valid, glasses, catalogues, files that are kept, clear errors."""
+import json
+
+from program import Checks, Program
+
+program, checks = Program(), Checks()
+folder = program.folder
+
+
+def zmx(surfaces, head="UNIT MM\nENPD 10\nFTYP 0\nYFLN 0 3\n"):
+    """Surfaces as (curvature, distance, further lines...), between an object at infinity and an image."""
+    text = head + "SURF 0\n  CURV 0\n  DISZ INFINITY\n"
+    for i, (curvature, distance, *lines) in enumerate(surfaces, 1):
+        text += f"SURF {i}\n  CURV {curvature}\n  DISZ {distance}\n" + "".join(f"  {line}\n" for line in lines)
+    return text + f"SURF {len(surfaces) + 1}\n  CURV 0\n  DISZ 0\n"
+
+
+# An achromat of Thorlabs's catalogue, AC254-100-A: focal length 100.1 mm.
+DOUBLET = zmx([(1 / 62.8, 4, "STOP", "GLAS N-BK7 0 0 1.5 4.0E+1"), (-1 / 45.7, 2.5, "GLAS MYSF5 0 0 1.5 4.0E+1"), (-1 / 128.2, 97.1)])
+CATALOGUE = "CC a test\nNM MYSF5 2 0 1.6727 32.21 0 0\nCD 1.52481889 0.011254756 0.187085527 0.0588995392 1.42729015 129.141675\nLD 0.37 2.5\n"
+(folder / "doublet.zmx").write_text(DOUBLET)
+(folder / "doublet16.zmx").write_text("VERS 1\n" + DOUBLET, encoding="utf-16")
+(folder / "glass").mkdir()
+(folder / "glass" / "my.agf").write_text(CATALOGUE)
+
+RUNS = {  # options, focal length in green light, focal length / gap
+    "named": ("doublet.zmx --glass MYSF5=SF5", 100.1),
+    "model": ("doublet.zmx --glass MYSF5=1.6727,32.21", 100.1),
+    "catalogue": ("doublet.zmx --catalogue glass/my.agf", 100.1),
+    "utf16": ("doublet16.zmx --glass mysf5=SF5", 100.1),
+    "small": ("doublet.zmx --glass MYSF5=SF5 --scale 0.05", 5.005),
+    "flipped": ("doublet.zmx --glass MYSF5=SF5 --scale 0.05 --flip", 5.005),
+    "near-eye": ("doublet.zmx --glass MYSF5=SF5 --scale 0.05 --panel-inch 0.7 --pixels 1920x1080 --distance-mm 30", 5.005),
+}
+for name, (options, focal_length) in RUNS.items():
+    said = program.must(f"import {options} -o {name}.toml")
+    checks.that(f"lfdsim check {name}.toml" in said and "absorbs" in said, f"{name}: said {said!r}")
+    text = (folder / f"{name}.toml").read_text()
+    checks.that(f"lfdsim import {options}" in text.replace("\n# ", " "), f"{name}: does not say how it was made")
+    checks.that("surface 2" in text, f"{name}: does not say which surface is which")
+    checked = json.loads(program.must(f"check {name}.toml --json"))
+    theory, display = checked["theory"], checked["display"]
+    checks.that(abs(theory["focal_length_mm"] / focal_length - 1) < 2e-3, f"{name}: focal length {theory['focal_length_mm']}")
+    checks.that(abs(theory["gap_mm"] / focal_length - 1) < 4e-3, f"{name}: gap {theory['gap_mm']}")
+    checks.that(display["name"] == name, f"{name}: is called {display['name']}")
+checks.that('glass_catalogues = ["glass/my.agf"]' in (folder / "catalogue.toml").read_text(), "the catalogue is not named")
+program.must("import doublet.zmx --catalogue glass/my.agf -o glass/elsewhere.toml")
+checks.that('glass_catalogues = ["my.agf"]' in (folder / "glass" / "elsewhere.toml").read_text(), "the catalogue is not named from there")
+program.must("check glass/elsewhere.toml")
+
+# A picture through a lens whose stop stands between its glasses.
+TRIPLET = zmx([(1 / 22.01359, 3.25896, "GLAS N-SK16"), (-1 / 435.76044, 6.00755), (-1 / 22.21328, 0.99997, "GLAS F2"), (1 / 20.29192, 4.75041),
+               (0, 0, "STOP"), (1 / 79.6836, 2.95208, "GLAS N-SK16"), (-1 / 18.39533, 42.20778)])
+(folder / "triplet.zmx").write_text(TRIPLET)
+said = program.must("import triplet.zmx --scale 0.05 -o triplet.toml")
+checks.that("7 surfaces" in said, f"triplet: said {said!r}")
+program.must("render triplet.toml --model built-in:spheres --size 96x54 --samples 4 -o triplet.png")
+
+# What is refused, and nothing is written.
+(folder / "kept.toml").write_text("mine")
+FILES = {
+    "tilted": DOUBLET.replace("SURF 2\n", "SURF 2\n  TYPE COORDBRK\n"),
+    "mirror": DOUBLET.replace("GLAS N-BK7", "GLAS MIRROR"),
+    "cut": "VERS 1\n" + DOUBLET[:DOUBLET.index("SURF 3")],
+    "torus": DOUBLET.replace("SURF 2\n", "SURF 2\n  TYPE TOROIDAL\n"),
+    "nan": DOUBLET.replace("DISZ 2.5", "DISZ NaN"),
+    "huge": DOUBLET.replace("DISZ 2.5", "DISZ 1e200"),
+    "rubbish": "SURF \x01\xff" * 90000,
+    "large": "NOTE x\n" * 200000 + DOUBLET,
+    "empty": "",
+}
+for name, text in FILES.items():
+    (folder / f"{name}.zmx").write_text(text, encoding="latin-1")
+(folder / "cut.json").write_text('{"surface_group": {"surfaces": [')
+(folder / "other.json").write_text('{"schema": 1}')
+for name, arguments, *words in [
+    ("unknown glass", "import doublet.zmx -o x.toml", "doublet.zmx:13: surface 2: no catalogue has a glass \"MYSF5\"", "--glass MYSF5=OTHER"),
+    ("other glass unknown", "import doublet.zmx --glass MYSF5=N-SFX -o x.toml", "--glass: no catalogue has a glass \"N-SFX\"", "did you mean"),
+    ("no such catalogue", "import doublet.zmx --catalogue no.agf -o x.toml", "no.agf: there is no such file"),
+    ("glass without a value", "import doublet.zmx --glass MYSF5 -o x.toml", "--glass: \"MYSF5\" is not of the form"),
+    ("coordinate break", "import tilted.zmx -o x.toml", "tilted.zmx:13: surface 2 is of type COORDBRK"),
+    ("mirror", "import mirror.zmx -o x.toml", "mirror.zmx:12: surface 1: is a mirror"),
+    ("cut", "import cut.zmx -o x.toml", "cut.zmx:14: ends with surface 2, which is not the image", "the file is cut"),
+    ("toroid", "import torus.zmx -o x.toml", "surface 2 is of type TOROIDAL"),
+    ("no number", "import nan.zmx -o x.toml", "nan.zmx:15: surface 2: DISZ \"NaN\" is not a finite number"),
+    ("absurd number", "import huge.zmx --glass MYSF5=SF5 -o x.toml", "surface 2: the next surface stands 1e+200 mm behind it"),
+    ("rubbish", "import rubbish.zmx -o x.toml", "rubbish.zmx:1: SURF"),
+    ("large", "import large.zmx -o x.toml", "large.zmx: has 1400", "is this a lens in Zemax's format?"),
+    ("empty", "import empty.zmx -o x.toml", "empty.zmx:1: is no lens in Zemax's format"),
+    ("missing", "import no.zmx -o x.toml", "no.zmx: there is no such file"),
+    ("cut JSON", "import cut.json -o x.toml", "cut.json: is no lens in JSON: parse error at line 1"),
+    ("other JSON", "import other.json -o x.toml", "is this a saved lens?"),
+    ("other kind", "import tiny.toml -o x.toml", "tiny.toml: is of kind \".toml\"; .zmx (Zemax), .json (Optiland) and .roa (ray-optics) can be read"),
+    ("an existing file", "import doublet.zmx --glass MYSF5=SF5 -o kept.toml", "kept.toml already exists"),
+    ("no description", "import doublet.zmx --glass MYSF5=SF5 -o x.png", "ends in .toml"),
+    ("too large a scale", "import doublet.zmx --glass MYSF5=SF5 --scale 1e7 -o x.toml", "--scale: is 1e7; allowed is 1e-6 to 1e6"),
+    ("taller than the eye", "import doublet.zmx --glass MYSF5=SF5 --scale 30 -o x.toml", "--distance-mm and --scale change that"),
+    ("all at once", "import cut.zmx --scale x --pixels 9 -o x.png", "--scale", "--pixels", "ends in .toml", "cut.zmx:14"),
+]:
+    checks.refused(program, name, arguments, *words)
+checks.finish()
