@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <cctype>
 
 #include "files/text_file.h"
 

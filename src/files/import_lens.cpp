@@ -142,7 +142,11 @@ class LensImport {
         for (const std::size_t i : kept)
             if (!lens.surfaces[i].semi_aperture_mm) without.push_back(fmt::to_string(i));
         notes.push_back("Beyond its semi-aperture each surface absorbs; a lens design program may let such light pass.");
-        if (without.empty()) return;
+        if (without.empty()) {
+            if (request.semi_aperture_mm)
+                notes.push_back("--semi-aperture-mm has no effect: the file has semi-apertures of all surfaces.");
+            return;
+        }
         if (request.semi_aperture_mm) {
             for (const std::size_t i : kept)
                 if (std::optional<double>& semi = lens.surfaces[i].semi_aperture_mm; !semi) semi = request.semi_aperture_mm;
@@ -208,6 +212,9 @@ class LensImport {
         d.camera.resolution = {1280, 720};
         d.content.model = "built-in:spheres";
         d.content.viewing_distance_mm = request.distance_mm;
+        notes.push_back(fmt::format("Assumed: a panel of {:g} inches with {} x {} pixels, an eye at {:g} mm{}.", request.panel_inch,
+                                    request.pixels[0], request.pixels[1], request.distance_mm,
+                                    request.pitch_mm ? "" : ", a pitch as wide as the lens"));
         const Geometry g = resolve_unchecked(d);
         const double room = request.distance_mm - g.vertex_plane_mm, depth = theory(d, g).central_depth_mm;
         if (request.distance_mm < nearest_sight_mm) {

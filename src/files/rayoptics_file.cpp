@@ -1,7 +1,7 @@
 #include "files/lens_json.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
 
 // The .roa of ray-optics: objects are {"__instance_type__": [module, class], "attributes": {...}}. Interfaces and the gaps between
 // them are lists; the shape of an interface is that of its profile_id in a dictionary.

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "files/decode.h"
 #include "files/drawn_lens.h"

@@ -54,6 +54,7 @@ TRIPLET = zmx([(1 / 22.01359, 3.25896, "GLAS N-SK16"), (-1 / 435.76044, 6.00755)
 (folder / "triplet.zmx").write_text(TRIPLET)
 said = program.must("import triplet.zmx --scale 0.05 -o triplet.toml")
 checks.that("7 surfaces" in said, f"triplet: said {said!r}")
+checks.that("Assumed: a panel of 24 inches with 3840 x 2160 pixels, an eye at 600 mm, a pitch as wide as the lens" in said, f"said {said!r}")
 program.must("render triplet.toml --model built-in:spheres --size 96x54 --samples 4 -o triplet.png")
 
 # What is refused, and nothing is written.
