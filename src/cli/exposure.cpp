@@ -32,6 +32,8 @@ ExposureOption::ExposureOption(Command command) {
 
 void ExposureOption::check() const {
     if (text_.empty() || text_ == "auto") return;
+    const bool may_be_number = text_.find_first_not_of("0123456789.+-eE") == std::string::npos;
+    if (!may_be_number) throw InputError("--exposure", fmt::format("is \"{}\"; give a number such as 0.5, or auto", text_));
     if (!(number("--exposure", text_) > 0))
         throw InputError("--exposure", fmt::format("is {}, allowed is more than 0, or auto", text_));
 }
