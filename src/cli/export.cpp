@@ -12,6 +12,7 @@
 #include "files/shell.h"
 #include "files/text_file.h"
 #include "image/file.h"
+#include "peers/fine_panel.h"
 #include "peers/peers.h"
 
 #include <fmt/format.h>
@@ -134,16 +135,20 @@ void run(const ExportArguments& args) {
     faults.report();
 
     const Geometry geometry = resolve(display);
-    if (std::vector<Problem> problems = not_expressed(peer, display, geometry, options); !problems.empty())
+    const FinePanel fine = fine_panel(display);
+    const Geometry shown_geometry = resolve(fine.display);
+    if (std::vector<Problem> problems = not_expressed(peer, fine.display, shown_geometry, options); !problems.empty())
         throw InputError(std::move(problems));
     Progress progress(args.work.progress());
     const fs::path folder = args.folder;
-    PeerScene scene = peer_scene(peer, display, geometry, options);
+    PeerScene scene = peer_scene(peer, fine.display, shown_geometry, options);
+    scene.deviations.insert(scene.deviations.end(), fine.deviations.begin(), fine.deviations.end());
     Json files = Json::array({scene.panel_file, "display.toml", "README.txt"});
     for (const PeerFile& file : scene.files) files.push_back(file.name);
     for (const std::string file : files) refuse_input(folder / file);
-    const PanelLight panel =
+    PanelLight panel =
         shown_panel(args.panel_image, args.pattern, display, geometry, pattern_options, args.work.threads(), progress);
+    if (fine.times > 1) panel.texels = fine_image(fine, display.panel, panel.texels);
     if (const auto deviation = panel_deviation(scene, panel.texels)) scene.deviations.push_back(*deviation);
 
     scene.shown.content.model.clear();

@@ -23,10 +23,6 @@ class Refusals {
             return std::move(problems_);
         }
         array();
-        if (d_.panel.aperture_ratio != 1)
-            add("panel.aperture_ratio", "the scene's panel has no black matrix; add --set panel.aperture_ratio=1");
-        if (d_.panel.subpixels != SubpixelLayout::none)
-            add("panel.subpixels", "the scene's panel has whole pixels; add --set 'panel.subpixels=\"none\"'");
         if (disperses(d_))
             add("panel.wavelengths_nm",
                 fmt::format(

@@ -2,6 +2,7 @@
 
 #include "model/keys.h"
 #include "model/lattice.h"
+#include "model/subpixels.h"
 
 #include <fmt/format.h>
 #include <cctype>
@@ -69,6 +70,28 @@ std::vector<Figure> figures(const Display& d, const Geometry& g) {
             {"content_height_mm", {g.content_height_mm}, "height of the model"}};
 }
 
+namespace {
+
+/// Of each channel the largest of all pixels of a cell; none without subpixels.
+std::vector<double> colour_shifts_mm(const Display& d, const Theory& t) {
+    if (d.panel.subpixels == SubpixelLayout::none) return {};
+    const std::array<std::int64_t, 2> cell = subpixel_cell(d.panel).size;
+    // p' / p - 1 = g / (D - z_H')
+    const double gap_per_distance = t.along[0].elemental_pitch_mm / d.array.pitch_mm[0] - 1;
+    std::vector<double> shifts;
+    for (int channel = 0; channel < 3; ++channel) {
+        double most = 0;
+        for (std::int64_t row = 0; row < cell[1]; ++row)
+            for (std::int64_t column = 0; column < cell[0]; ++column)
+                if (const auto off = centroid(d.panel, channel, column, row))
+                    most = std::max(most, std::hypot((*off)[0], (*off)[1]));
+        shifts.push_back(most > 0 ? most * d.panel.pixel_pitch_mm / gap_per_distance : 0);
+    }
+    return shifts;
+}
+
+}  // namespace
+
 std::vector<Figure> figures(const Display& d, const Theory& t) {
     const bool by_axis = differs_by_axis(d.array);
     const auto along = [&](double AxisTheory::*figure) {
@@ -84,7 +107,7 @@ std::vector<Figure> figures(const Display& d, const Theory& t) {
         if (per_mm < 0) return near ? "where it ends far behind the lenses" : "where it begins, behind the lenses";
         return near ? "its end, at infinity" : "its other end, at infinity";
     };
-    return {
+    std::vector<Figure> all{
         {"fov_deg", along(&AxisTheory::fov_deg), "field of view", "2 atan(p / 2g)"},
         {"fov_exact_deg", along(&AxisTheory::fov_exact_deg), "the same through the layers on the panel, which theory has paraxial",
          "Snell's law, from p'/2 on the panel to the axis at the lens",
@@ -125,6 +148,11 @@ std::vector<Figure> figures(const Display& d, const Theory& t) {
          "diffuser at L that closes the gaps between lenses", "2 atan(p / 2 |L|)", pinhole},
         {"gap_closing_here_deg", along(&AxisTheory::gap_closing_here_deg), "angle that closes them from where the diffuser stands",
          "2 atan(p / 2d), d its height above the lenses' rims", "there is no diffuser"}};
+    if (const std::vector<double> shifts = colour_shifts_mm(d, t); !shifts.empty())
+        all.push_back({"subpixel_shift_mm", shifts,
+                       "how far aside red, green and blue of content made for whole pixels are seen at the viewing distance",
+                       "distance of its subpixels from the pixel's centre x (D - z_H') / g"});
+    return all;
 }
 
 Json to_json(const std::vector<Setting>& all) {
