@@ -75,6 +75,23 @@ TEST_P(OfLayout, RaysMeetTheDescribedRectangles) {
     }
 }
 
+// 12 rays along each axis of a pixel, over 24 x 16 pixels: all borders of the presets lie between rays.
+TEST_P(OfLayout, WhiteIsWhiteInTheMean) {
+    Display d = display();
+    if (GetParam() == SubpixelLayout::custom) {
+        d.panel.aperture_ratio = 1;
+        for (Subpixel& s : d.panel.custom)  // borders on twelfths
+            for (double& border : s.rect) border = std::round(12 * border) / 12;
+    }
+    d.lens.as<IdealLens>().focal_length_mm = 1e6;
+    d.camera.resolution = {24 * 12, 16 * 12};
+    d.camera.frame_width_mm = 24 * d.panel.pixel_pitch_mm;
+    const Image seen = picture(d, uniform_panel(d, 1));
+    double sum[3] = {};
+    for (std::size_t k = 0; k < seen.rgb.size(); ++k) sum[k % 3] += double(seen.rgb[k]);
+    for (const double each : sum) EXPECT_NEAR(each / double(seen.rgb.size() / 3), 1, 1e-6);
+}
+
 TEST_P(OfLayout, MeansOverBoxesAreThoseOfTheirPoints) {
     const Display d = display();
     const Texels shown = noise_panel(d);
