@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """What `lfdsim export pov` writes, rendered by POV-Ray, against lfdsim's own picture: povray.py LFDSIM [--full] [--only TEXT] [--triangles N].
 
-The displays of tests/oracle/cases.py and lattice_cases.py, each seen once a pixel. Away from edges all pixels agree within 1/255 (an edge is where the exact picture changes
+The displays of tests/oracle/cases.py, lattice_cases.py and some of colour_cases.py, each seen once a pixel. Away from edges all pixels agree within 1/255 (an edge is where the exact picture changes
 within 0.02 pixels: tests/oracle/README.md). The panel shows addresses, so that a wrong panel pixel is a wrong colour. Skipped without the program povray.
 """
 import argparse
@@ -18,6 +18,8 @@ from PIL import Image
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "oracle"))
 import cases  # noqa: E402
+import colour  # noqa: E402
+import colour_cases  # noqa: E402
 import lattice_cases  # noqa: E402
 import tracer  # noqa: E402
 from display import resolve  # noqa: E402
@@ -26,7 +28,8 @@ from run import panel_images  # noqa: E402
 TOLERANCE = 1 / 255 + 1e-5
 QUICK = ("opaque circle, on axis", "opaque circle, 15 degrees", "opaque circle, rotated", "opaque square, 15", "clear circle, 30", "plate circle, 45", "asphere, 15", "cemented", "spaced",
          "hexagon lattice, opaque cell, 30", "hexagon lattice, clear cell, rotated", "brick lattice, glued onto a layer, plate cell",
-         "slanted strips, opaque cell, on axis", "strips slanted to the left, plate cell", "three layers, clear", "glued onto two layers, clear", "pinhole, hexagon")
+         "slanted strips, opaque cell, on axis", "strips slanted to the left, plate cell", "three layers, clear", "glued onto two layers, clear", "pinhole, hexagon",
+         "subpixels rgb_stripe, on axis", "subpixels delta, clear")
 
 
 def refusal(d, meshed):
@@ -80,12 +83,13 @@ def check(program, name, description, options):
     if options:
         return check_meshed(name, *got)
     povs, ours = (picture.reshape(-1, 3) for picture in got)
-    differs = np.flatnonzero((np.abs(povs - ours) > TOLERANCE).any(axis=1))
+    wrong = np.abs(povs - ours) > TOLERANCE
+    differs = np.flatnonzero(wrong.any(axis=1))
     odd = differs
     if len(odd):
         display = resolve(description)
         x, y = tracer.centers(display)
-        odd = odd[~tracer.near_edge(display, image / 255, x[odd], y[odd], spokes=48, rings=5)]
+        odd = odd[(wrong[odd] & ~colour.near_edge(display, image / 255, x[odd], y[odd], spokes=48, rings=5)).any(axis=1)]
     places = [(int(k) % description["camera"]["resolution"][0], int(k) // description["camera"]["resolution"][0]) for k in odd[:5]]
     lit = (ours.max(axis=1) > 0).mean()
     return not len(odd) and lit > 0.01, f"{100 * lit:.0f} % lit, {len(differs)} of {len(ours)} pixels differ, {len(odd)} off the edges {places if len(odd) else ''}"
@@ -117,7 +121,9 @@ def main():
         print("SKIPPED: the program povray is not installed (Debian: povray)")
         sys.exit(77)
     program, wrong, done = os.path.abspath(options.program), 0, 0
-    for name, description in {**cases.SHARP, **lattice_cases.SHORT, **lattice_cases.MORE}.items():
+    # Where subpixels are shrunk, finer pixels round their borders.
+    coloured = {name: case for name, case in colour_cases.SHORT.items() if name.startswith("subpixels") and ", q " not in name}
+    for name, description in {**cases.SHARP, **lattice_cases.SHORT, **lattice_cases.MORE, **coloured}.items():
         if options.only not in name or not (options.full or options.only or any(name.startswith(part) for part in QUICK)):
             continue
         columns, rows = description["array"].get("count", [0, 0])
