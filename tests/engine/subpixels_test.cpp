@@ -126,7 +126,7 @@ TEST_P(OfLayout, MeansOverBoxesAreThoseOfTheirPoints) {
 INSTANTIATE_TEST_SUITE_P(Subpixels, OfLayout,
                          testing::Values(SubpixelLayout::rgb_stripe, SubpixelLayout::bgr_stripe, SubpixelLayout::rgb_rows,
                                          SubpixelLayout::pentile_rgbg, SubpixelLayout::delta, SubpixelLayout::custom),
-                         [](const auto& info) { return std::string(word(info.param)); });
+                         [](const auto& of) { return std::string(word(of.param)); });
 
 }  // namespace
 }  // namespace lfdsim
