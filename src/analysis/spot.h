@@ -1,6 +1,6 @@
 // Spot diagrams of one lens over field and depth, and the distortion of its elemental image. Floor 3.
 #pragma once
-#include "analysis/lens_trace.h"
+#include "analysis/bundle.h"
 #include "analysis/result.h"
 #include "analysis/subject.h"
 

@@ -3,7 +3,7 @@
 // Depths are intervals of 1/z, 1/mm, z from the lens's rear principal plane towards the viewer: there a lens has one interval,
 // whether its central depth plane is real, virtual or at infinity. 1/z = 0 is infinity, negative ones are behind the lens.
 #pragma once
-#include "analysis/lens_trace.h"
+#include "analysis/bundle.h"
 #include "analysis/result.h"
 #include "analysis/subject.h"
 

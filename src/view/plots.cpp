@@ -2,7 +2,7 @@
 
 #include "analysis/eye_rays.h"
 #include "analysis/fov.h"
-#include "analysis/lens_trace.h"
+#include "analysis/bundle.h"
 #include "analysis/views.h"
 #include "model/numbers.h"
 #include "model/vec.h"

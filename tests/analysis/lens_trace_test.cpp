@@ -1,5 +1,5 @@
 // Rays forward through one lens, against the backward tracer, closed forms and widths from another program.
-#include "analysis/lens_trace.h"
+#include "analysis/bundle.h"
 
 #include "engine/scene.h"
 #include "lenses.h"
