@@ -1,8 +1,8 @@
 #include "view/plots.h"
 
+#include "analysis/bundle.h"
 #include "analysis/eye_rays.h"
 #include "analysis/fov.h"
-#include "analysis/bundle.h"
 #include "analysis/views.h"
 #include "model/numbers.h"
 #include "model/vec.h"
