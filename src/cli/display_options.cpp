@@ -33,6 +33,8 @@ constexpr KeyOption content[] = {
     {"--tilt-deg", "content.tilt_deg", Form::number, "B",
      "Tilt of the model about the horizontal axis, before the yaw; positive raises the front"},
     {"--yaw-deg", "content.yaw_deg", Form::number, "A", "Rotation of the model, counter-clockwise seen from above"},
+    {"--pickup", "content.pickup", Form::word, "nodal|traced|integrated",
+     "Elemental images for a perfect lens, for where the real lens sends each pixel's light, or the mean of all that light"},
 };
 
 // The option's value in TOML syntax.

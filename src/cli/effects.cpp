@@ -27,12 +27,12 @@ const std::vector<Rule>& contradictions() {
         {{"--model", "--pattern"}, "--panel-image", one_thing},
         {{"--model"}, "--pattern", one_thing},
         // The viewer can photograph the model beside such a panel, or show it in place of that.
-        {{"--depth-mm", "--height-mm", "--tilt-deg", "--yaw-deg"},
+        {{"--depth-mm", "--height-mm", "--tilt-deg", "--yaw-deg", "--pickup"},
          "--panel-image",
          "an image is shown as it is, wherever the model was when it was made; give the first to lfdsim eia, which makes such "
          "images",
          "view"},
-        {{"--depth-mm", "--height-mm", "--tilt-deg", "--yaw-deg"},
+        {{"--depth-mm", "--height-mm", "--tilt-deg", "--yaw-deg", "--pickup"},
          "--pattern",
          "a test pattern shows no model; give one of them",
          "view"},

@@ -3,11 +3,13 @@
 #include "cli/display_options.h"
 #include "cli/effects.h"
 #include "cli/made_for.h"
+#include "cli/mapping_export.h"
 #include "cli/panel_source.h"
 #include "cli/work_options.h"
 #include "engine/memory.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 // lfdsim eia: elemental images or a test pattern, in a file that the panel can be fed with: code values by the panel's encoding.
 namespace lfdsim::cli {
@@ -20,12 +22,14 @@ struct EiaArguments {
           model(command),
           pattern(command),
           output(command, ".png with the panel's encoding, or linear .exr .npy"),
+          mapping(command),
           work(command) {}
     Command command;
     DisplayOptions display;
     ModelOption model;
     PatternOption pattern;
     OutputOptions output;
+    MappingOption mapping;
     WorkOptions work;
 };
 
@@ -43,6 +47,7 @@ void run(const EiaArguments& args) {
     faults.of([&] { args.model.apply(display); });
     faults.of([&] { args.work.check(); });
     faults.of([&] { args.output.check(); });
+    faults.of([&] { args.mapping.check(); });
     faults.of([&] { check_effects(args.command); });
     faults.report();
 
@@ -55,11 +60,15 @@ void run(const EiaArguments& args) {
         const ContentScene scene = load_scene(display, geometry);
         picture = elemental_images(display, geometry, scene, args.work.threads(), progress);
     }
+    if (args.mapping.given()) args.mapping.write(display, geometry, args.work.threads());
+    if (picture.dark > 0)
+        spdlog::warn("the light of {} {} never leaves its lens: they stay black", picture.dark,
+                     display.panel.subpixels == SubpixelLayout::none ? "pixels" : "subpixels");
     Metadata about{{"seconds", fmt::format("{:.3f}", picture.seconds)}};
     if (args.pattern.given()) about[pattern_mark] = args.pattern.name();
     args.output.write(picture.image, display.panel.encoding, display, std::move(about), picture.complete, progress);
     print_made(Made{args.output.path(), picture.image.width, picture.image.height, "rays", picture.rays, picture.seconds},
-               args.work.json());
+               args.work.json(), "", picture.dark > 0 ? Json{{"dark", picture.dark}} : Json::object());
 }
 
 }  // namespace

@@ -13,8 +13,8 @@
 
 namespace lfdsim {
 
-/// The rays to cast: `samples` for each pixel of `crop`, in a frame of width x height pixels. Their mean is the pixel's light. Or
-/// three by channel: the red of the first, the green of the second and the blue of the third.
+/// The rays to cast: `samples` for each pixel of `crop`, in a frame of width x height pixels. The mean of those that exist is the
+/// pixel's light. Or as many for each channel: the red of the first ones, then the green of others, then the blue.
 struct Wanted {
     int width, height;
     Rect crop;
@@ -31,8 +31,7 @@ Picture cast(const ContentScene::Impl& scene, const Beam& beam, const Wanted& fr
              const Fill& fill) {
     const int width = frame.width, height = frame.height;
     const Rect& crop = frame.crop;
-    const std::int64_t samples = frame.by_channel ? 3 : frame.samples;
-    const double summed = frame.by_channel ? 1 : double(samples);
+    const std::int64_t samples = frame.by_channel ? 3 * frame.samples : frame.samples;
     if (crop.x0 < 0 || crop.y0 < 0 || crop.x1 > width || crop.y1 > height || crop.x0 >= crop.x1 || crop.y0 >= crop.y1)
         throw InputError("crop", "it must lie inside the frame, which has " + std::to_string(width) + " x " +
                                      std::to_string(height) + " pixels");
@@ -41,14 +40,15 @@ Picture cast(const ContentScene::Impl& scene, const Beam& beam, const Wanted& fr
     const int columns = (crop.x1 + tile - 1) / tile - crop.x0 / tile, rows = (crop.y1 + tile - 1) / tile - crop.y0 / tile;
     const auto start = std::chrono::steady_clock::now();
     Picture out{Image(crop.x1 - crop.x0, crop.y1 - crop.y0), true, 0, 0};
-    std::atomic<std::int64_t> cast{0};
+    std::atomic<std::int64_t> cast{0}, dark{0};
     std::atomic<bool> stopped{false};
     const auto one_tile = [&](int tile_column, int tile_row) {
         const int x0 = (crop.x0 / tile + tile_column) * tile, y0 = (crop.y0 / tile + tile_row) * tile;
-        std::int64_t count = 0;
+        std::int64_t count = 0, count_dark = 0;
         RayBlock block;
         Lanes::Mask wanted;
-        double sum[3][RayBlock::lanes];  // of the samples' light
+        double sum[3][RayBlock::lanes];                            // of the samples' light
+        int summed[3][RayBlock::lanes], lost[3][RayBlock::lanes];  // samples that exist, that are dark
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
         context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
@@ -61,6 +61,8 @@ Picture cast(const ContentScene::Impl& scene, const Beam& beam, const Wanted& fr
                 if (y + RayBlock::side <= crop.y0 || y >= crop.y1 || x + RayBlock::side <= crop.x0 || x >= crop.x1) continue;
                 const bool inside = x >= crop.x0 && y >= crop.y0 && x + RayBlock::side <= crop.x1 && y + RayBlock::side <= crop.y1;
                 bool lit = false;
+                std::fill_n(summed[0], 3 * RayBlock::lanes, 0);
+                std::fill_n(lost[0], 3 * RayBlock::lanes, 0);
                 for (block.sample = 0; block.sample < samples; ++block.sample) {
                     fill(x, y, block);
                     if (!inside) {
@@ -68,28 +70,37 @@ Picture cast(const ContentScene::Impl& scene, const Beam& beam, const Wanted& fr
                             const int i = x + k % RayBlock::side, j = y + k / RayBlock::side;
                             block.exists.of[k] &= -(int(i < width) & int(j < height));
                             block.may_hit.of[k] &= block.exists.of[k];
+                            block.dark.of[k] &= -(int(i < width) & int(j < height));
                             wanted.of[k] = -(int(i >= crop.x0) & int(i < crop.x1) & int(j >= crop.y0) & int(j < crop.y1));
                         }
                     }
+                    const int first = frame.by_channel ? int(block.sample / frame.samples) : 0,
+                              last = frame.by_channel ? first + 1 : 3;  // channels that this ray is for
                     int number = 0;
-                    for (int k = 0; k < RayBlock::lanes; ++k) number -= block.exists.of[k] & (inside ? -1 : wanted.of[k]);
+                    for (int k = 0; k < RayBlock::lanes; ++k) {
+                        number -= block.exists.of[k] & (inside ? -1 : wanted.of[k]);
+                        for (int c = first; c < last; ++c) summed[c][k] -= block.exists.of[k], lost[c][k] -= block.dark.of[k];
+                    }
                     count += number;
                     if (!trace(scene, beam, context, block)) continue;
                     if (!lit) std::fill_n(sum[0], 3 * RayBlock::lanes, 0.);
                     lit = true;
                     for (int k = 0; k < RayBlock::lanes; ++k)
-                        for (int c = 0; c < 3 && block.hit.of[k]; ++c)
-                            if (!frame.by_channel || c == block.sample) sum[c][k] += double(block.light[c].of[k]);
+                        for (int c = first; c < last && block.hit.of[k]; ++c) sum[c][k] += double(block.light[c].of[k]);
                 }
+                for (int k = 0; k < RayBlock::lanes; ++k)
+                    for (int c = 0; c < (frame.by_channel ? 3 : 1); ++c)
+                        count_dark += (lost[c][k] > 0) & (summed[c][k] == 0) & (inside || wanted.of[k] != 0);
                 if (!lit) continue;
                 for (int k = 0; k < RayBlock::lanes; ++k) {
                     if (!inside && !wanted.of[k]) continue;
                     float* to = out.image.at(x + k % RayBlock::side - crop.x0, y + k / RayBlock::side - crop.y0);
-                    for (int c = 0; c < 3; ++c) to[c] = float(sum[c][k] / summed);
+                    for (int c = 0; c < 3; ++c) to[c] = float(sum[c][k] / std::max(summed[c][k], 1));
                 }
             }
         }
         cast += count;
+        dark += count_dark;
     };
     job.stage(stage, std::int64_t(columns) * rows);
     // More threads than processors are allowed, if asked for.
@@ -112,6 +123,7 @@ Picture cast(const ContentScene::Impl& scene, const Beam& beam, const Wanted& fr
     });
     out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     out.rays = cast;
+    out.dark = dark;
     out.complete = !stopped;
     return out;
 }

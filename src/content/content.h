@@ -74,11 +74,12 @@ struct Picture {
     Image image;            // linear light
     bool complete = true;   // false: cancelled
     std::int64_t rays = 0;  // cast (shaded or background)
+    std::int64_t dark = 0;  // panel pixels (subpixels, where each has rays of its own) whose light never leaves their lens: black
     double seconds = 0;
 };
 
-/// Elemental images by the nodal pick-up, one ray for each panel pixel that a lens owns; the panel's size. threads 0: all.
-/// The same bits for any number of threads. Throws InputError for a bad thread count.
+/// Elemental images by the display's pick-up, one ray (integrated: content.pickup_rays) for each panel pixel that a lens owns; the
+/// panel's size. threads 0: all. The same bits for any number of threads. Throws InputError for a bad thread count.
 Picture elemental_images(const Display&, const Geometry&, const ContentScene&, int threads, Job&);
 
 /// The scene seen directly by the display's camera: one ray through each pixel's centre, or, with a pupil or a pixel filter, the

@@ -1,22 +1,30 @@
 #include "content/cast.h"
+#include "content/lens_mapping.h"
 #include "content/pickup.h"
 
+#include "model/colour.h"
 #include "model/subpixels.h"
 
 namespace lfdsim {
 namespace {
 
-/// For which point of a pixel a channel of it is made: pixels from its centre to the right and down, for each pixel of a cell.
-/// Nothing where the channel does not shine.
+/// For which point of a pixel a ray of it is made: pixels from its centre to the right and down, for each pixel of a cell. Nothing
+/// where the ray's channel does not shine.
 class ShownPoints {
   public:
     using Point = std::array<double, 2>;
 
-    ShownPoints(const Panel& panel, bool by_channel, int channel) {
-        if (by_channel) cell_ = subpixel_cell(panel).size;
+    /// Without a place: for the middle of the pixel, or of the channel's light. Else for the point at that share of its width (0)
+    /// and height (1), of several rectangles one after the other.
+    ShownPoints(const Panel& panel, bool by_subpixel, int channel, const std::optional<LensMapping::RayPlace>& place) {
+        if (by_subpixel) cell_ = subpixel_cell(panel).size;
         for (std::int64_t row = 0; row < cell_[1]; ++row)
-            for (std::int64_t column = 0; column < cell_[0]; ++column)
-                of_.push_back(by_channel ? centroid(panel, channel, column, row) : Point{});
+            for (std::int64_t column = 0; column < cell_[0]; ++column) {
+                if (place)
+                    of_.push_back(point_at(by_subpixel ? lit_rects(panel, channel, column, row) : whole_pixel(), *place));
+                else
+                    of_.push_back(by_subpixel ? centroid(panel, channel, column, row) : Point{});
+            }
     }
     std::optional<Point> of(std::int64_t column, std::int64_t row) const {
         return of_[std::size_t(row % cell_[1] * cell_[0] + column % cell_[0])];
@@ -35,31 +43,52 @@ class ShownPoints {
     }
 
   private:
+    static std::vector<LitRect> whole_pixel() { return {{{-0.5, -0.5}, {0.5, 0.5}}}; }
+    static std::optional<Point> point_at(const std::vector<LitRect>& rects, const LensMapping::RayPlace& place) {
+        double area = 0;
+        for (const LitRect& r : rects) area += r.area();
+        double left = place[0] * area;
+        for (const LitRect& r : rects) {
+            if (left < r.area())
+                return Point{r.from[0] + left / r.area() * (r.to[0] - r.from[0]), r.from[1] + place[1] * (r.to[1] - r.from[1])};
+            left -= r.area();
+        }
+        return {};
+    }
+
     std::array<std::int64_t, 2> cell_{1, 1};
     std::vector<std::optional<Point>> of_;
 };
 
-/// The rays of the nodal pick-up, a block at a time. They must hit the surface that the viewer sees first along the line: they
-/// start in the plane z = top, just above the scene on the viewer's side, and travel towards the panel and beyond it. Their
-/// direction has dz = -1, so that t is the depth below the plane.
+/// Whether the colours of a pixel are made for different places.
+bool by_subpixel(const Display& d) {
+    return d.panel.subpixels != SubpixelLayout::none && d.content.sampling == ContentSampling::subpixel;
+}
+
+/// Whether they have rays of their own.
+bool by_channel(const Display& d) { return by_subpixel(d) || (d.content.pickup != PickupKind::nodal && disperses(d)); }
+
+/// The rays of the pick-up, a block at a time: of each pixel those of its red, then of green and blue, where they differ. They must
+/// hit the surface that the viewer sees first along the line: they start in the plane z = top, just above the scene on the viewer's
+/// side, and travel towards the panel and beyond it. Their direction has dz = -1, so that t is the depth below the plane.
 class PickupRays {
   public:
-    PickupRays(const Display& display, const Geometry& geometry, const ContentScene& scene)
+    PickupRays(const Display& display, const Geometry& geometry, const ContentScene& scene,
+               const std::vector<LensMapping>& mappings)
         : pickup_(display, geometry),
           apart_(display.array.turn_deg() != 0 || is_staggered(display.array) || is_strips(display.array)),
           half_mm_(scene.impl().half_mm),
           centre_mm_(scene.centre_mm()),
           half_depth_(half_mm_[2] * 1.0001 + 1e-3),
           rise_(centre_mm_[2] + half_depth_ - pickup_.z_rear),
-          width_per_t_(float(display.panel.pixel_pitch_mm / geometry.gap_mm)) {
+          rays_(rays_of(display)),
+          width_per_t_(float(display.panel.pixel_pitch_mm / (geometry.gap_mm * std::sqrt(double(rays_))))) {
         for (int channel = 0; channel < (by_channel(display) ? 3 : 1); ++channel)
-            channels_.push_back(channel_of(display, ShownPoints(display.panel, by_channel(display), channel)));
+            for (int ray = 0; ray < rays_; ++ray) sets_.push_back(set_of(display, mappings, channel, ray));
     }
 
-    /// Whether a pixel's colours are made for different points.
-    static bool by_channel(const Display& display) {
-        return display.panel.subpixels != SubpixelLayout::none && display.content.sampling == ContentSampling::subpixel;
-    }
+    /// For each pixel, or for each channel of it.
+    static int rays_of(const Display& d) { return d.content.pickup == PickupKind::integrated ? int(d.content.pickup_rays) : 1; }
 
     Beam beam() const { return {width_per_t_, float(rise_)}; }
 
@@ -69,12 +98,13 @@ class PickupRays {
             ray.org_z[k] = float(half_depth_);
             ray.dir_z[k] = -1;
         }
-        const ChannelRays& channel = channels_[channels_.size() > 1 ? std::size_t(block.sample) : 0];
-        channel.common ? by_column_and_row(channel, column, row, block) : each_alone(channel.points, column, row, block);
-        if (channel.everywhere) return;
+        const RaySet& set = sets_[std::size_t(block.sample)];
+        set.common ? by_column_and_row(set, column, row, block) : each_alone(set, column, row, block);
+        if (set.common && set.mapping) shift(set, column, row, block);
+        if (set.everywhere) return;
         for (int k = 0; k < RayBlock::lanes; ++k) {
-            if (channel.points.of(column + k % RayBlock::side, row + k / RayBlock::side)) continue;
-            block.exists.of[k] = block.may_hit.of[k] = 0;
+            if (set.points.of(column + k % RayBlock::side, row + k / RayBlock::side)) continue;
+            block.exists.of[k] = block.may_hit.of[k] = block.dark.of[k] = 0;
         }
     }
 
@@ -87,6 +117,7 @@ class PickupRays {
     struct Shares {
         std::vector<float> origin, direction;
         std::vector<int> exists, may_hit;  // -1 or 0
+        std::vector<LensMapping::Between> in_table;
         void add(const Part& part, bool owned) {
             origin.push_back(part.origin);
             direction.push_back(part.direction);
@@ -95,44 +126,58 @@ class PickupRays {
         }
         void pad() {  // to whole blocks
             while (origin.size() % RayBlock::side != 0) add({0, 0, false}, false);
+            in_table.resize(origin.size());
         }
     };
 
-    struct ChannelRays {
+    /// What the rays of all pixels for one sample have in common.
+    struct RaySet {
         ShownPoints points;
-        bool common, everywhere;  // x depends on the column alone and y on the row; all pixels have a point
-        Shares columns, rows;     // where they do
+        const LensMapping* mapping;  // none: nodal lines
+        int ray;                     // of the mapping; -1: its mean
+        bool common, everywhere;     // x depends on the column alone and y on the row; all pixels have a point
+        Shares columns, rows;        // where they do
     };
 
-    ChannelRays channel_of(const Display& display, const ShownPoints& points) const {
+    RaySet set_of(const Display& display, const std::vector<LensMapping>& mappings, int channel, int ray) const {
+        const LensMapping* const mapping = mappings.empty() ? nullptr : &mappings[mappings.size() > 1 ? std::size_t(channel) : 0];
+        const bool one_of_many = display.content.pickup == PickupKind::integrated && !mapping->places().empty();
+        // Where the aperture is so odd that fewer rays than asked for were found in it, they serve again.
+        const int of_mapping = one_of_many ? ray % int(mapping->places().size()) : -1;
+        const ShownPoints points(display.panel, by_subpixel(display), channel,
+                                 one_of_many ? std::optional(mapping->places()[std::size_t(of_mapping)]) : std::nullopt);
         const std::optional<ShownPoints::Point> shown = points.common();
-        ChannelRays rays{points, !apart_ && shown, points.everywhere(), {}, {}};
+        RaySet rays{points, mapping, of_mapping, !apart_ && shown, points.everywhere(), {}, {}};
         if (!rays.common) return rays;
         // (x, y): the middle of the array, where a lens owns the panel.
         const double x = display.array.offset_mm[0] * pickup_.scale, y = display.array.offset_mm[1] * pickup_.scale;
         for (std::int64_t i = 0; i < display.panel.pixels[0]; ++i) {
             const NodalLine line = pickup_.line(pickup_.x_mm(double(i) + (*shown)[0]), y);
             rays.columns.add(part(line.x, line.mx, 0), line.owned);
+            if (mapping) rays.columns.in_table.push_back(mapping->between(0, pickup_.x_mm(double(i) + (*shown)[0]) - line.x));
         }
         for (std::int64_t j = 0; j < display.panel.pixels[1]; ++j) {
             const NodalLine line = pickup_.line(x, pickup_.y_mm(double(j) + (*shown)[1]));
             rays.rows.add(part(line.y, line.my, 1), line.owned);
+            if (mapping) rays.rows.in_table.push_back(mapping->between(1, pickup_.y_mm(double(j) + (*shown)[1]) - line.y));
         }
         rays.columns.pad();
         rays.rows.pad();
         return rays;
     }
 
+    /// Half the scene's box. The slack covers the rounding of positions (about 1e-7 of the box) and of the arithmetic with rays.
+    float reach(std::size_t k) const { return float(half_mm_[k] * 1.0001 + 1e-6); }
+
     Part part(double axis, double slope, std::size_t k) const {
         const float origin = float(axis + slope * rise_ - centre_mm_[k]), direction = float(-slope),
                     end = origin + float(2 * half_depth_) * direction;
-        // The slack covers the rounding of positions (about 1e-7 of the box) and of the arithmetic here.
-        const float h = float(half_mm_[k] * 1.0001 + 1e-6);
+        const float h = reach(k);
         return {origin, direction, std::min(origin, end) <= h && std::max(origin, end) >= -h};
     }
 
     /// Where the array is not turned against the panel, x depends on the column alone and y on the row.
-    static void by_column_and_row(const ChannelRays& of, int column, int row, RayBlock& block) {
+    static void by_column_and_row(const RaySet& of, int column, int row, RayBlock& block) {
         constexpr int side = RayBlock::side;
         RTCRay16& ray = block.packet.ray;
         for (int j = 0; j < side; ++j) {
@@ -152,19 +197,53 @@ class PickupRays {
         }
     }
 
-    void each_alone(const ShownPoints& points, int column, int row, RayBlock& block) const {
+    /// Shifts the lines of a block.
+    void shift(const RaySet& of, int column, int row, RayBlock& block) const {
+        RTCRay16& ray = block.packet.ray;
+        const float rise = float(rise_), depth = float(2 * half_depth_), half_x = reach(0), half_y = reach(1);
+        const auto enters = [](float from, float to, float half) {
+            return std::min(from, to) <= half && std::max(from, to) >= -half;
+        };
+        for (int k = 0; k < RayBlock::lanes; ++k) {
+            LineShift line;
+            const bool lit = of.mapping->shift(of.ray, of.columns.in_table[std::size_t(column + k % RayBlock::side)],
+                                               of.rows.in_table[std::size_t(row + k / RayBlock::side)], line);
+            ray.org_x[k] += line.x + line.mx * rise;
+            ray.org_y[k] += line.y + line.my * rise;
+            ray.dir_x[k] -= line.mx;
+            ray.dir_y[k] -= line.my;
+            block.dark.of[k] = block.exists.of[k] & -int(!lit);
+            block.exists.of[k] &= -int(lit);
+        }
+        for (int k = 0; k < RayBlock::lanes; ++k)
+            block.may_hit.of[k] = block.exists.of[k] & -(int(enters(ray.org_x[k], ray.org_x[k] + depth * ray.dir_x[k], half_x)) &
+                                                         int(enters(ray.org_y[k], ray.org_y[k] + depth * ray.dir_y[k], half_y)));
+    }
+
+    NodalLine line(const RaySet& set, double x, double y) const {
+        if (!set.mapping) return pickup_.line(x, y);
+        return pickup_.line(x, y, [&](double ux, double uy, Pickup::Shift& out) {
+            LineShift shift;
+            const bool lit = set.mapping->shift(set.ray, ux, uy, shift);
+            out = {double(shift.x), double(shift.y), double(shift.mx), double(shift.my)};
+            return lit;
+        });
+    }
+
+    void each_alone(const RaySet& set, int column, int row, RayBlock& block) const {
         RTCRay16& ray = block.packet.ray;
         for (int k = 0; k < RayBlock::lanes; ++k) {
             const int i = column + k % RayBlock::side, j = row + k / RayBlock::side;
-            const ShownPoints::Point shown = points.of(i, j).value_or(ShownPoints::Point{});
-            const NodalLine line = pickup_.line(pickup_.x_mm(i + shown[0]), pickup_.y_mm(j + shown[1]));
-            const Part x = part(line.x, line.mx, 0), y = part(line.y, line.my, 1);
+            const ShownPoints::Point shown = set.points.of(i, j).value_or(ShownPoints::Point{});
+            const NodalLine l = line(set, pickup_.x_mm(i + shown[0]), pickup_.y_mm(j + shown[1]));
+            const Part x = part(l.x, l.mx, 0), y = part(l.y, l.my, 1);
             ray.org_x[k] = x.origin;
             ray.org_y[k] = y.origin;
             ray.dir_x[k] = x.direction;
             ray.dir_y[k] = y.direction;
-            block.exists.of[k] = -int(line.owned);
-            block.may_hit.of[k] = -(int(line.owned) & int(x.may_hit) & int(y.may_hit));
+            block.dark.of[k] = -(int(l.owned) & int(l.dark));
+            block.exists.of[k] = -(int(l.owned) & int(!l.dark));
+            block.may_hit.of[k] = block.exists.of[k] & -(int(x.may_hit) & int(y.may_hit));
         }
     }
 
@@ -172,16 +251,19 @@ class PickupRays {
     bool apart_;                 // no row or column has anything in common
     Vec3d half_mm_, centre_mm_;  // of the scene's box
     double half_depth_, rise_;   // rise: of the rays' first plane over the rear nodal points
+    int rays_;
     float width_per_t_;
-    std::vector<ChannelRays> channels_;
+    std::vector<RaySet> sets_;  // of each sample of a block
 };
 
 }  // namespace
 
 Picture elemental_images(const Display& display, const Geometry& geometry, const ContentScene& scene, int threads, Job& job) {
-    const PickupRays rays(display, geometry, scene);
+    const std::vector<LensMapping> mappings =
+        display.content.pickup == PickupKind::nodal ? std::vector<LensMapping>() : lens_mappings(display, geometry, threads);
+    const PickupRays rays(display, geometry, scene, mappings);
     const int width = int(display.panel.pixels[0]), height = int(display.panel.pixels[1]);
-    const Wanted panel{width, height, {0, 0, width, height}, 1, PickupRays::by_channel(display)};
+    const Wanted panel{width, height, {0, 0, width, height}, PickupRays::rays_of(display), by_channel(display)};
     return cast(scene.impl(), rays.beam(), panel, threads, "elemental images", job, rays);
 }
 

@@ -11,10 +11,11 @@
 namespace lfdsim {
 
 /// The line { (x, y) + (z - z_rear) (mx, my) } on the viewer's side of the lens: from panel point P through the front nodal point,
-/// then parallel to itself from the rear one. (x, y) is the lens's axis.
+/// then parallel to itself from the rear one. (x, y) is the lens's axis. Or a line that is shifted against it.
 struct NodalLine {
     double x, y, mx, my;
-    bool owned;  // false: the nearest elemental image belongs to no lens, the pixel stays black
+    bool owned;         // false: the nearest elemental image belongs to no lens, the pixel stays black
+    bool dark = false;  // none of its light leaves that lens: it stays black, too
 };
 
 class Pickup {
@@ -44,13 +45,34 @@ class Pickup {
     /// the panel at C scale, scale = 1 + g / (D - z_rear): the centre of its elemental image. The nearest centre is found in the
     /// array's own axes, where lens (i, j) covers the unit square from (i, j).
     NodalLine line(double x, double y) const {
+        return line(x, y, [](double, double, Shift&) { return true; });
+    }
+
+    /// How a line differs from the nodal one, in the array's frame: where it passes the rear principal plane, and in slope.
+    struct Shift {
+        double x = 0, y = 0, mx = 0, my = 0;
+    };
+
+    /// The same line, shifted by what shift(ux, uy, out) says of the panel point's place from its lens's axis, in the array's
+    /// frame. It answers whether light of that point leaves the lens. Of strips its x and mx count.
+    template <class ShiftOf>
+    NodalLine line(double x, double y, const ShiftOf& shift_of) const {
         const auto at =
             optics::to_array(lattice_, x * inverse_scale_ - lattice_.offset[0], y * inverse_scale_ - lattice_.offset[1]);
-        if (lattice_.strips) return line_of_strip(x, y, at.x);
+        if (lattice_.strips) return line_of_strip(x, y, at.x, shift_of);
         const optics::Cell<double> lens =
             lattice_.staggered ? optics::lens_at(lattice_, at.x, at.y) : optics::Cell<double>{number(at.x, 0), number(at.y, 1)};
         const auto c = optics::in_display(lattice_, optics::axis_in_array(lattice_, lens));
-        return {c.x, c.y, (c.x - x) * inverse_gap_, (c.y - y) * inverse_gap_, optics::holds(lattice_, lens)};
+        const auto u = optics::to_array(lattice_, x - c.x, y - c.y);
+        Shift shift;
+        const bool lit = shift_of(u.x, u.y, shift);
+        const auto place = optics::to_display(lattice_, shift.x, shift.y), slope = optics::to_display(lattice_, shift.mx, shift.my);
+        return {c.x + place.x,
+                c.y + place.y,
+                (c.x - x) * inverse_gap_ + slope.x,
+                (c.y - y) * inverse_gap_ + slope.y,
+                optics::holds(lattice_, lens),
+                !lit};
     }
 
     const Lattice<double>& lattice() const { return lattice_; }
@@ -71,11 +93,14 @@ class Pickup {
     /// Strips show a panel point in the plane through their rear nodal line, in which the viewer's eyes, on a level with the
     /// panel's middle at the distance D, see it from one place. Along the strip its light passes plane plates: in the array's frame
     /// it rises by m_y for each mm of their reduced thickness.
-    NodalLine line_of_strip(double x, double y, double owner_x) const {
+    template <class ShiftOf>
+    NodalLine line_of_strip(double x, double y, double owner_x, const ShiftOf& shift_of) const {
         const optics::Cell<double> lens{number(owner_x, 0), 0};
-        const double centre = optics::axis_in_array(lattice_, lens).x, c = lattice_.cos_turn, s = lattice_.sin_turn;
+        const double axis = optics::axis_in_array(lattice_, lens).x, c = lattice_.cos_turn, s = lattice_.sin_turn;
         const auto p = optics::to_array(lattice_, x - lattice_.offset[0], y - lattice_.offset[1]);
-        const double mx = (centre - p.x) * inverse_gap_;
+        Shift shift;
+        const bool lit = shift_of(p.x - axis, 0., shift);
+        const double centre = axis + shift.x, mx = (axis - p.x) * inverse_gap_ + shift.mx;
         double my = -s / c * mx;
         if (!std::isinf(viewer_)) {
             // The eye is on the display's line y = 0, where it crosses the strip's plane of light; from the array's middle.
@@ -86,7 +111,7 @@ class Pickup {
         const double rise = p.y + my * (reduced_top_ - top_z_ + z_rear);
         const auto at = optics::in_display(lattice_, optics::Place<double>{centre, rise});
         const auto slope = optics::to_display(lattice_, mx, my);
-        return {at.x, at.y, slope.x, slope.y, optics::holds(lattice_, lens)};
+        return {at.x, at.y, slope.x, slope.y, optics::holds(lattice_, lens), !lit};
     }
 
     // The column or row of the lens at a place, from the array's middle; outside the count where there is none. Rounding down

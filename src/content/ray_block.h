@@ -25,6 +25,7 @@ struct RayBlock {
     RTCRayHit16 packet;
     Lanes::Mask exists;   // a pixel without a lens has no ray
     Lanes::Mask may_hit;  // only these are traced
+    Lanes::Mask dark{};   // pixels whose light never leaves their lens: there is no ray, and it is counted
     Lanes::Mask hit;
     Lanes light[3];                              // of the rays that hit
     std::int64_t sample = 0;                     // which of its pixels' rays these are

@@ -145,6 +145,25 @@ std::optional<LensRay> LensTrace::ray(Point panel, Point cosines) const {
     return ray;
 }
 
+double LensTrace::index_below_lens() const { return scene_.surface_count > 0 ? scene_.surface[0].media.n_above : 1; }
+
+double LensTrace::index_at_panel() const {
+    return scene_.layer_count > 0 ? scene_.layer[scene_.layer_count - 1].media.n_below : index_below_lens();
+}
+
+Point LensTrace::towards(Point panel, Point at) const {
+    const double index = index_below_lens(), mx = (at[0] - panel[0]) / (index * gap_mm_),
+                 my = (at[1] - panel[1]) / (index * gap_mm_);
+    const double share = index / (index_at_panel() * std::sqrt(1 + mx * mx + my * my));  // n sin is the same in all plates
+    return {share * mx, share * my};
+}
+
+Point LensTrace::aim(Point panel, Point cosines) const {
+    const double index = index_below_lens(), share = index_at_panel() / index, x = share * cosines[0], y = share * cosines[1];
+    const double reach = index * gap_mm_ / std::sqrt(std::max(1 - x * x - y * y, 1e-12));
+    return {panel[0] + reach * x, panel[1] + reach * y};
+}
+
 std::optional<Directions> LensTrace::directions(Point panel) const {
     if (const auto found = search(panel, {-1, 1, -1, 1})) return found;
     // With many surfaces, stray light may have misled the search: start closer to the nodal ray.

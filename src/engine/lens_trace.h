@@ -33,6 +33,13 @@ class LensTrace {
     /// The ray that leaves the panel's point in the direction of these cosines; none where it does not get through.
     std::optional<LensRay> ray(Point panel, Point cosines) const;
 
+    /// The cosines, in the medium next to the panel, of the ray that by paraxial optics passes the lens's principal planes at the
+    /// point `at`: in the medium below the lens its slope is (at - panel) / (n g), g the gap. Real rays come close to it.
+    Point towards(Point panel, Point at) const;
+
+    /// The point of the principal planes that towards() would give these cosines for.
+    Point aim(Point panel, Point cosines) const;
+
     /// A rectangle not much larger than all directions that get through. None if none does, or less than 1e-10 of them.
     std::optional<Directions> directions(Point panel) const;
 
@@ -44,6 +51,7 @@ class LensTrace {
     bool leaves_layers(Point& at, Point& cosines) const;
     double blocked_by_ideal(Point panel, Point slope, LensRay& out) const;
     double outside(double x, double y, double radius) const;
+    double index_at_panel() const, index_below_lens() const;
     struct Aim;
 
     // The lens turned over, as the tracer's rays come down: the panel stays in z = 0, the lens is below it.

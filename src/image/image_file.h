@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,9 @@ bool keeps_layers(const std::filesystem::path& path);
 /// std::runtime_error (disk full).
 /// Large pictures, which take seconds, are a stage of the job, counted in rows; it does not cancel them.
 void write_image(const std::filesystem::path& path, const Image&, const WriteOptions& = {}, Job* = nullptr);
+
+/// Numbers in C order as .npy, float32; written beside, then renamed. Throws like write_image().
+void write_npy(const std::filesystem::path& path, std::span<const std::int64_t> shape, std::span<const float> values);
 
 /// The bytes of the file that write_image() would write for a name with this ending (".png", ".exr", ".npy"). Finished rows are
 /// reported to the job, if there is one, without a stage; an exception from its advance() ends the work. Throws like write_image().

@@ -1,9 +1,14 @@
 // NumPy's format: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html
+#include "image/file.h"
 #include "image/formats.h"
+#include "image/image_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <array>
 #include <bit>
 #include <regex>
+#include <span>
 #include <vector>
 
 namespace lfdsim::detail {
@@ -68,9 +73,9 @@ void read_npy(const InputFile& file, const Allocate& allocate) {
         read_rows<double>(file, rows, pixels);
 }
 
-void write_npy(Output& file, const Image& image, Job& job) {
-    std::string header =
-        fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, 3), }}", image.height, image.width);
+void write_npy_header(Output& file, std::span<const std::int64_t> shape) {
+    std::string header = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}{}), }}", fmt::join(shape, ", "),
+                                     shape.size() == 1 ? "," : "");
     // The data begin at a multiple of 64 bytes, after 10 bytes of preamble and the newline that ends the header.
     header.append(63 - (10 + header.size()) % 64, ' ');
     header += '\n';
@@ -78,6 +83,10 @@ void write_npy(Output& file, const Image& image, Job& job) {
     const std::uint16_t length = std::uint16_t(header.size());
     file.write(&length, 2);
     file.write(header.data(), header.size());
+}
+
+void write_npy(Output& file, const Image& image, Job& job) {
+    write_npy_header(file, std::array<std::int64_t, 3>{image.height, image.width, 3});
     for (int row = 0; row < image.height; ++row) {
         file.write(image.at(0, row), std::size_t(image.width) * 3 * sizeof(float));
         job.advance(1);
@@ -85,3 +94,14 @@ void write_npy(Output& file, const Image& image, Job& job) {
 }
 
 }  // namespace lfdsim::detail
+
+namespace lfdsim {
+
+void write_npy(const std::filesystem::path& path, std::span<const std::int64_t> shape, std::span<const float> values) {
+    detail::OutputFile file(path);
+    detail::write_npy_header(file, shape);
+    file.write(values.data(), values.size_bytes());
+    file.commit();
+}
+
+}  // namespace lfdsim

@@ -161,6 +161,8 @@ struct Content {
     double tilt_deg = 0;                // about x, before the yaw; positive raises the front
     double yaw_deg = 0;                 // counter-clockwise seen from above
     double viewing_distance_mm = 2000;  // from the panel; infinity allowed
+    PickupKind pickup = PickupKind::nodal;
+    std::int64_t pickup_rays = 16;  // of the integrated pick-up
     ContentSampling sampling = ContentSampling::subpixel;
     bool operator==(const Content&) const = default;
 };

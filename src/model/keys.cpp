@@ -170,6 +170,10 @@ constexpr Key<Content> content_keys[] = {
     {"viewing_distance_mm", &Content::viewing_distance_mm, Range{shortest_mm, infinity}, false,
      "From the panel to the viewer that the elemental images are made for. inf: elemental images stand straight behind their "
      "lenses."},
+    {"pickup", &Content::pickup, no_range, false,
+     "Along which lines elemental images are made: through the nodal points of a perfect lens; where the real lens sends each "
+     "pixel's light, in the mean; or the mean of what many of those rays see."},
+    {"pickup_rays", &Content::pickup_rays, Range{1, 1024}, false, "Of the integrated pick-up, for each pixel or subpixel."},
     {"sampling", &Content::sampling, no_range, false,
      "On a panel with subpixels: each colour of a pixel is made for the place where it shines, or all for the pixel's middle."},
 };
@@ -315,6 +319,7 @@ template <> std::span<const std::string_view> words<Surround>() { static constex
 template <> std::span<const std::string_view> words<LatticeKind>() { static constexpr std::string_view w[] = {"square", "rectangle", "hexagon", "brick", "strips"}; return w; }
 template <> std::span<const std::string_view> words<Aperture>() { static constexpr std::string_view w[] = {"circle", "cell"}; return w; }
 template <> std::span<const std::string_view> words<Profile>() { static constexpr std::string_view w[] = {"box", "gaussian"}; return w; }
+template <> std::span<const std::string_view> words<PickupKind>() { static constexpr std::string_view w[] = {"nodal", "traced", "integrated"}; return w; }
 template <> std::span<const std::string_view> words<ContentSampling>() { static constexpr std::string_view w[] = {"subpixel", "pixel"}; return w; }
 template <> std::span<const std::string_view> words<PixelFilter>() { static constexpr std::string_view w[] = {"center", "box"}; return w; }
 template <> std::span<const std::string_view> words<Estimator>() { static constexpr std::string_view w[] = {"filtered", "point"}; return w; }

@@ -36,7 +36,7 @@ using ValuesOf =
                  Of<std::optional<std::array<std::int64_t, 2>>>, Of<std::vector<double>>, Of<Pitch>, Of<Encoding>,
                  Of<std::optional<Vec3d>>, Of<std::optional<Glass>>, Of<std::vector<std::string>>, Of<SubpixelLayout>, Of<Channel>,
                  Of<LensKind>, Of<Facing>, Of<Surround>, Of<LatticeKind>, Of<Aperture>, Of<Profile>, Of<PixelFilter>,
-                 Of<ContentSampling>, Of<Estimator>, Of<Sampling>, Of<Fresnel>>;
+                 Of<ContentSampling>, Of<PickupKind>, Of<Estimator>, Of<Sampling>, Of<Fresnel>>;
 
 /// What a key fills. Only Display, Panel and SurfaceLens contain tables: one that is always there, one that may be absent, or a
 /// list; the keys of a kind stand beside its word.

@@ -20,6 +20,7 @@ enum class Surround { opaque, clear, plate };                          // what i
 enum class LatticeKind { square, rectangle, hexagon, brick, strips };  // of the cells in which lenses stand
 enum class Aperture { circle, cell };                                  // cell: the lens fills it
 enum class Profile { box, gaussian };                                  // of the diffuser, per axis
+enum class PickupKind { nodal, traced, integrated };                   // along which lines elemental images look
 enum class ContentSampling { subpixel, pixel };                        // for what place elemental images are made
 enum class PixelFilter { center, box };
 enum class Estimator { filtered, point };

@@ -238,17 +238,27 @@ double gain(const Panel& panel, int channel) {
 
 double peak(const Panel& panel) { return std::max({gain(panel, 0), gain(panel, 1), gain(panel, 2)}); }
 
-std::optional<std::array<double, 2>> centroid(const Panel& panel, int channel, std::int64_t column, std::int64_t row) {
-    if (panel.subpixels == SubpixelLayout::none) return std::array<double, 2>{};
+std::vector<LitRect> lit_rects(const Panel& panel, int channel, std::int64_t column, std::int64_t row) {
     const SubpixelCell cell = subpixel_cell(panel);
     const std::array<std::int64_t, 2> pixel{floor_mod(column, cell.size[0]), floor_mod(row, cell.size[1])};
+    std::vector<LitRect> rects;
+    const auto add = [&](const Rect& r) {
+        const Rect lit = shrunk(r, panel.aperture_ratio);
+        const std::array<double, 2> centre{double(pixel[0]) + 0.5, double(pixel[1]) + 0.5};
+        rects.push_back({{lit.from[0] - centre[0], lit.from[1] - centre[1]}, {lit.to[0] - centre[0], lit.to[1] - centre[1]}});
+    };
+    if (panel.subpixels == SubpixelLayout::none) add({{0, 0}, {1, 1}});
+    for (const Subpixel& s : cell.subpixels)
+        if (int(s.channel) == channel && s.pixel == pixel) add(rect_of(s));
+    return rects;
+}
+
+std::optional<std::array<double, 2>> centroid(const Panel& panel, int channel, std::int64_t column, std::int64_t row) {
     double area = 0;
     std::array<double, 2> sum{};
-    for (const Subpixel& s : cell.subpixels) {
-        if (int(s.channel) != channel || s.pixel != pixel) continue;
-        const Rect r = rect_of(s);
+    for (const LitRect& r : lit_rects(panel, channel, column, row)) {
         area += r.area();
-        for (std::size_t k = 0; k < 2; ++k) sum[k] += r.area() * (0.5 * (r.from[k] + r.to[k]) - (double(pixel[k]) + 0.5));
+        for (std::size_t k = 0; k < 2; ++k) sum[k] += r.area() * 0.5 * (r.from[k] + r.to[k]);
     }
     if (area == 0) return {};
     return std::array<double, 2>{sum[0] / area, sum[1] / area};

@@ -76,6 +76,14 @@ double gain(const Panel&, int channel);
 /// The largest gain.
 double peak(const Panel&);
 
+/// Where the pixel (column, row) shines in a channel: rectangles from its centre, pixels to the right and down. None where the
+/// channel has no subpixel there.
+struct LitRect {
+    std::array<double, 2> from, to;
+    double area() const { return (to[0] - from[0]) * (to[1] - from[1]); }
+};
+std::vector<LitRect> lit_rects(const Panel&, int channel, std::int64_t column, std::int64_t row);
+
 /// The middle of a channel's light of the pixel (column, row), from the pixel's centre: pixels to the right and down. Nothing where
 /// the channel has no subpixel there.
 std::optional<std::array<double, 2>> centroid(const Panel&, int channel, std::int64_t column, std::int64_t row);

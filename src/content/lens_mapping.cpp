@@ -1,0 +1,260 @@
+#include "content/lens_mapping.h"
+
+#include "engine/lens_trace.h"
+#include "model/colour.h"
+#include "optics/lattice.h"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace lfdsim {
+namespace {
+
+constexpr int nodes_per_pitch = 64, most_steps = 256, lattice_points = 32;
+constexpr double rounding = 1e-9;  // mm and slopes: what is smaller is taken for 0, so that ideal lenses keep their nodal lines
+
+/// How far from a lens's axis, along the array's axes, panel points are that belong to it: half an elemental image, and what the
+/// farthest lens's image is shifted against it. Lenses whose image lies beside the panel do not count.
+std::array<double, 2> farthest_points(const Display& d, const Geometry& g) {
+    const double away = d.content.viewing_distance_mm - g.rear_principal_mm, more = std::isinf(away) ? 0 : g.gap_mm / away;
+    const auto& l = g.lattice;
+    const double c = std::abs(l.cos_turn), s = std::abs(l.sin_turn);
+    const std::array<double, 2> offset{l.cos_turn * l.offset[0] + l.sin_turn * l.offset[1],
+                                       l.cos_turn * l.offset[1] - l.sin_turn * l.offset[0]},
+        panel{(c * g.panel_width_mm + s * g.panel_height_mm) / 2, (s * g.panel_width_mm + c * g.panel_height_mm) / 2},
+        array{g.array_width_mm / 2, g.array_height_mm / 2}, cell{l.half_pitch[0], optics::reach_of_cell(l)};
+    std::array<double, 2> reach{};
+    for (std::size_t k = 0; k < 2; ++k)
+        reach[k] = (1 + more) * cell[k] + more * std::min(std::abs(offset[k]) + array[k], panel[k] / (1 + more) + cell[k]);
+    return reach;
+}
+
+/// The k-th of evenly spread numbers in [0, 1)^4: an additive recurrence with the powers of the root of x^5 = x + 1 (M. Roberts,
+/// "The unreasonable effectiveness of quasirandom sequences", 2018).
+LensMapping::RayPlace spread(int k) {
+    constexpr double root = 1.1673039782614187;
+    LensMapping::RayPlace place{};
+    double step = 1;
+    for (double& x : place) {
+        step /= root;
+        x = 0.5 + (k + 1) * step;
+        x -= std::floor(x);
+    }
+    return place;
+}
+
+std::array<float, 4> cubic(float t) {  // Catmull and Rom 1974
+    const float t2 = t * t, t3 = t2 * t;
+    return {0.5f * (2 * t2 - t - t3), 0.5f * (2 - 5 * t2 + 3 * t3), 0.5f * (t + 4 * t2 - 3 * t3), 0.5f * (t3 - t2)};
+}
+
+}  // namespace
+
+/// The rays of one panel point after another. `at` are points of the lens's principal planes.
+class LensMapping::Tracing {
+  public:
+    Tracing(const Display& display, const Geometry& green, double wavelength_nm, const std::array<double, 2>& reach)
+        : geometry_(resolve(display, wavelength_nm)),
+          lens_(display, geometry_),
+          strips_(is_strips(display.array)),
+          inverse_gap_(1 / green.gap_mm),
+          green_plane_(green.rear_principal_mm - geometry_.rear_principal_mm) {
+        for (const double x : {0., 0.5, 1.})
+            for (const double y : {0., 0.5, 1.})
+                if (!strips_ || y == 0) see(Point{x * reach[0], y * reach[1]});
+    }
+
+    struct Box {
+        Point from, to;
+    };
+    struct Found {
+        LineShift mean{};
+        int rays = 0;
+        Box box{};  // of the rays
+    };
+    /// All rays of a lattice over the aperture, which is the same for all panel points.
+    Found from(Point u) const {
+        Found found;
+        double sum[4] = {};
+        for (int j = 0; j < (strips_ ? 1 : lattice_points); ++j) {
+            for (int i = 0; i < lattice_points; ++i) {
+                const Point half{widest_[0] / lattice_points, widest_[1] / lattice_points};
+                const Point at{(2 * i + 1 - lattice_points) * half[0], strips_ ? 0 : (2 * j + 1 - lattice_points) * half[1]};
+                const auto line = shift(u, at);
+                if (!line) continue;
+                for (int k = 0; k < 4; ++k) sum[k] += (*line)[std::size_t(k)];
+                for (std::size_t k = 0; k < 2; ++k) {
+                    const double low = at[k] - half[k], high = at[k] + half[k];
+                    found.box.from[k] = found.rays == 0 ? low : std::min(found.box.from[k], low);
+                    found.box.to[k] = found.rays == 0 ? high : std::max(found.box.to[k], high);
+                }
+                ++found.rays;
+            }
+        }
+        const auto mean = [&](int k) {
+            const double value = sum[k] / std::max(found.rays, 1);
+            return std::abs(value) < rounding ? 0.f : float(value);
+        };
+        found.mean = {mean(0), mean(1), mean(2), mean(3)};
+        return found;
+    }
+    std::optional<LineShift> one(Point u, const Box& box, const RayPlace& place) const {
+        const Point at{box.from[0] + place[2] * (box.to[0] - box.from[0]),
+                       strips_ ? 0 : box.from[1] + place[3] * (box.to[1] - box.from[1])};
+        const auto line = shift(u, at);
+        if (!line) return {};
+        return LineShift{float((*line)[0]), float((*line)[1]), float((*line)[2]), float((*line)[3])};
+    }
+
+  private:
+    /// Widens the lattice to where the point's rays pass.
+    void see(Point u) {
+        constexpr int across = 16;
+        const auto box = lens_.directions(u);
+        if (!box) return;
+        const Point step{(box->x1 - box->x0) / across, (box->y1 - box->y0) / across};
+        for (int j = 0; j < across; ++j)
+            for (int i = 0; i < across; ++i) {
+                const Point cosines{box->x0 + (i + 0.5) * step[0], box->y0 + (j + 0.5) * step[1]};
+                if (!lens_.ray(u, cosines)) continue;
+                const Point at = lens_.aim(u, cosines), next = lens_.aim(u, {cosines[0] + step[0], cosines[1] + step[1]});
+                for (std::size_t k = 0; k < 2; ++k) widest_[k] = std::max(widest_[k], std::abs(at[k]) + std::abs(next[k] - at[k]));
+            }
+    }
+
+    std::optional<std::array<double, 4>> shift(Point u, Point at) const {
+        const auto ray = lens_.ray(u, lens_.towards(u, at));
+        if (!ray) return {};
+        return std::array{ray->x + ray->mx * green_plane_, ray->y + ray->my * green_plane_, ray->mx + u[0] * inverse_gap_,
+                          ray->my + u[1] * inverse_gap_};
+    }
+
+    Geometry geometry_;
+    LensTrace lens_;
+    bool strips_;
+    double inverse_gap_, green_plane_;  // of green light: its gap, its rear principal plane from this light's
+    Point widest_{1e-9, 1e-9};          // half the lattice's extents
+};
+
+LensMapping::LensMapping(const Display& display, const Geometry& green, double wavelength_nm, int rays, int threads)
+    : reach_(farthest_points(display, green)) {
+    const bool strips = is_strips(display.array);
+    if (strips) reach_[1] = 0;
+    const Tracing tracing(display, green, wavelength_nm, reach_);
+    std::array<int, 2> steps{};  // from the axis to the end of the table; the rest is its mirror image
+    for (std::size_t k = 0; k < 2; ++k) {
+        steps[k] = k == 1 && strips
+                       ? 0
+                       : int(std::min(std::ceil(reach_[k] * nodes_per_pitch / green.lattice.pitch[k]), double(most_steps)));
+        nodes_[k] = 2 * steps[k] + 1;
+        per_mm_[k] = steps[k] > 0 ? steps[k] / reach_[k] : 0;
+    }
+    const Tracing::Found axis = tracing.from({0, 0});
+    for (int k = 0; axis.rays > 0 && int(places_.size()) < rays && k < 64 * rays; ++k)
+        if (const RayPlace place = spread(k); tracing.one({0, 0}, axis.box, place)) places_.push_back(place);
+
+    width_ = nodes_[0] + 2;
+    const std::size_t size =
+        std::size_t(width_) * std::size_t(nodes_[1] + 3);  // strips have one row of nodes, of four that are read
+    const Table empty{std::vector<LineShift>(size), std::vector<float>(size), true};
+    mean_ = empty;
+    rays_.assign(places_.size(), empty);
+    const auto set = [&](Table& table, int i, int j, const LineShift& line, float light) {
+        for (const int x : {-1, 1})
+            for (const int y : {-1, 1}) {
+                const std::size_t n = at(steps[0] + x * i, steps[1] + y * j);
+                table.shift[n] = {float(x) * line.x, float(y) * line.y, float(x) * line.mx, float(y) * line.my};
+                table.light[n] = light;
+            }
+    };
+    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+    arena.execute([&] {
+        tbb::parallel_for(0, steps[1] + 1, [&](int j) {
+            for (int i = 0; i <= steps[0]; ++i) {
+                const Point u{steps[0] > 0 ? i * reach_[0] / steps[0] : 0, steps[1] > 0 ? j * reach_[1] / steps[1] : 0};
+                const Tracing::Found found = tracing.from(u);
+                set(mean_, i, j, found.mean, float(found.rays) / float(std::max(axis.rays, 1)));
+                for (std::size_t k = 0; k < rays_.size(); ++k) {
+                    const auto line = found.rays > 0 ? tracing.one(u, found.box, places_[k]) : std::optional<LineShift>();
+                    set(rays_[k], i, j, line.value_or(LineShift{}), line ? 1 : 0);
+                }
+            }
+        });
+    });
+    complete(mean_);
+    for (Table& table : rays_) complete(table);
+}
+
+/// Extrapolates the lines around the table and into the dark, node by node from where there is light, so that they stay smooth up
+/// to its border.
+void LensMapping::complete(Table& table) const {
+    const int height = nodes_[1] + 2;
+    std::vector<char> known(table.light.size());
+    for (std::size_t n = 0; n < known.size(); ++n) known[n] = table.light[n] > 0;
+    table.all_lit = true;
+    for (int j = 0; j < nodes_[1]; ++j)
+        for (int i = 0; i < nodes_[0]; ++i) table.all_lit = table.all_lit && known[at(i, j)];
+    const auto is_known = [&](int i, int j) {
+        return i >= 0 && j >= 0 && i < width_ && j < height && known[std::size_t(j * width_ + i)];
+    };
+    constexpr int reach = 3;  // interpolation asks for no more
+    for (int round = 0; round < reach; ++round) {
+        std::vector<char> found = known;
+        for (int j = 0; j < height; ++j)
+            for (int i = 0; i < width_; ++i) {
+                const std::size_t n = std::size_t(j * width_ + i);
+                if (known[n]) continue;
+                LineShift sum{};
+                float count = 0;
+                for (const auto& [x, y] : {std::array{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+                    if (!is_known(i + x, j + y)) continue;
+                    const LineShift& a = table.shift[std::size_t((j + y) * width_ + i + x)];
+                    const bool two = is_known(i + 2 * x, j + 2 * y);
+                    const LineShift& b = two ? table.shift[std::size_t((j + 2 * y) * width_ + i + 2 * x)] : a;
+                    sum = {sum.x + 2 * a.x - b.x, sum.y + 2 * a.y - b.y, sum.mx + 2 * a.mx - b.mx, sum.my + 2 * a.my - b.my};
+                    ++count;
+                }
+                if (count == 0) continue;
+                table.shift[n] = {sum.x / count, sum.y / count, sum.mx / count, sum.my / count};
+                found[n] = 1;
+            }
+        known = found;
+    }
+}
+
+LensMapping::Between LensMapping::between(std::size_t axis, double u) const {
+    const double last = double(nodes_[axis] - 1), place = std::clamp((u + reach_[axis]) * per_mm_[axis], 0., last);
+    const int whole = std::max(std::min(int(place), nodes_[axis] - 2), 0);
+    return {whole, cubic(float(place - whole))};
+}
+
+bool LensMapping::Table::at(int width, const Between& ux, const Between& uy, LineShift& out) const {
+    // Node n of the mapping is n + 1 in the table: the first of the four is one before.
+    const std::size_t corner = std::size_t(uy.first * width + ux.first), step = std::size_t(width);
+    const auto lit = [&](std::size_t n) { return light[n] > 0; };
+    if (!all_lit && !lit(corner + step + 1) && !lit(corner + step + 2) && !lit(corner + 2 * step + 1) &&
+        !lit(corner + 2 * step + 2))
+        return false;
+    typedef float Four __attribute__((vector_size(16)));  // x, y, mx, my
+    static_assert(sizeof(LineShift) == sizeof(Four));
+    const Four* row = reinterpret_cast<const Four*>(&shift[corner]);
+    Four sum{};
+    for (std::size_t j = 0; j < 4; ++j, row += step)
+        sum += uy.weight[j] * (ux.weight[0] * row[0] + ux.weight[1] * row[1] + ux.weight[2] * row[2] + ux.weight[3] * row[3]);
+    out = {sum[0], sum[1], sum[2], sum[3]};
+    return true;
+}
+
+std::vector<LensMapping> lens_mappings(const Display& display, const Geometry& geometry, int threads) {
+    const int rays = display.content.pickup == PickupKind::integrated ? int(display.content.pickup_rays) : 0;
+    if (!disperses(display)) return {LensMapping(display, geometry, display.panel.wavelengths_nm[1], rays, threads)};
+    std::vector<LensMapping> all;
+    for (const double wavelength_nm : display.panel.wavelengths_nm)
+        all.emplace_back(display, geometry, wavelength_nm, rays, threads);
+    return all;
+}
+
+}  // namespace lfdsim
