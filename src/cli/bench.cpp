@@ -23,10 +23,10 @@ struct Group {
     void (*run)(Bench&);
 };
 constexpr Group groups[] = {
-    {"paper", bench_paper},           {"rendering", bench_rendering}, {"lenses", bench_lenses},
-    {"kernels", bench_kernels},       {"threads", bench_threads},     {"gpu", bench_gpu},
-    {"sweep", bench_sweep},           {"content", bench_content},     {"pictures", bench_pictures},
-    {"estimators", bench_estimators},
+    {"paper", bench_paper},       {"rendering", bench_rendering},   {"lenses", bench_lenses},
+    {"colour", bench_colour},     {"kernels", bench_kernels},       {"threads", bench_threads},
+    {"gpu", bench_gpu},           {"sweep", bench_sweep},           {"content", bench_content},
+    {"pictures", bench_pictures}, {"estimators", bench_estimators},
 };
 
 std::vector<std::string> group_names() {

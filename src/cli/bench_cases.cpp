@@ -3,9 +3,7 @@
 #include <algorithm>
 
 namespace lfdsim::cli {
-namespace {
 
-// The same lens as a prescription, its cap an asphere.
 void make_asphere(Display& d) {
     Surface flat, cap;
     flat.semi_aperture_mm = cap.semi_aperture_mm = 4.4;
@@ -16,6 +14,13 @@ void make_asphere(Display& d) {
     cap.even_asphere = {1e-5, 1e-7};
     d.lens = {SurfaceLens{{flat, cap}}, {}};
 }
+
+void make_strips(Display& d) {
+    d.array.lattice = LatticeKind::strips;
+    d.array.count.reset();
+}
+
+namespace {
 
 void make_ideal(Display& d) {
     d.lens = {IdealLens{4.4, 18.4}, {}};  // f = R/(n - 1)
@@ -56,11 +61,7 @@ constexpr Duty duty_table[] = {
          d.array.lattice = LatticeKind::hexagon;
          d.array.count.reset();
      }},
-    {"strips",
-     [](Display& d) {
-         d.array.lattice = LatticeKind::strips;
-         d.array.count.reset();
-     }},
+    {"strips", make_strips},
     {"a million lenses", make_tiny_lenses},
 };
 

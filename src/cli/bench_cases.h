@@ -20,6 +20,11 @@ struct Duty {
 extern const std::span<const Duty> duties;   // the first changes nothing
 extern const std::span<const Duty> glasses;  // every type of lens in every surround it can have; the first changes nothing
 
+/// The same lens as a prescription, its cap an asphere.
+void make_asphere(Display&);
+/// Cylindrical lenses in place of the round ones, as many as cover the panel.
+void make_strips(Display&);
+
 /// A panel image of which no pixel says anything about its neighbours: the worst case for caches, and the usual one under a
 /// diffuser.
 Texels noise_panel(const Display&);

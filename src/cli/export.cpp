@@ -43,11 +43,15 @@ struct ExportArguments {
                         fmt::format("Triangles per lens, 100 or more; default: true surfaces for pov, {} for the others",
                                     default_triangles))
             .type_name("N");
+        command
+            .add_option("--channel", channel,
+                        "A scene of red, green or blue alone, with the indices of its light; needed where glass disperses")
+            .type_name("r|g|b");
         command.add_option("--normals", normals, "The triangles' own, or the true surface's, interpolated; default flat")
             .type_name("flat|smooth");
     }
     Command command;
-    std::string peer, folder, triangles, normals;
+    std::string peer, folder, triangles, normals, channel;
     Option peer_option;
     DisplayOptions display;
     PanelImageOption panel_image;
@@ -65,6 +69,8 @@ PeerOptions options_of(const ExportArguments& args) {
     PeerOptions options;
     if (!args.triangles.empty())
         options.triangles = whole_number("--triangles", args.triangles, 1, std::numeric_limits<std::int32_t>::max());
+    if (!args.channel.empty())
+        options.channel = int(std::string_view("rgb").find(word("--channel", args.channel, {"r", "g", "b"})));
     if (args.normals.empty()) return options;
     if (args.peer == "pov" && !options.triangles) throw InputError("--normals", "are those of triangles; give --triangles N too");
     options.normals = word("--normals", args.normals, {"flat", "smooth"}) == "flat" ? MeshNormals::flat : MeshNormals::smooth;
@@ -148,6 +154,7 @@ void run(const ExportArguments& args) {
     for (const std::string file : files) refuse_input(folder / file);
     PanelLight panel =
         shown_panel(args.panel_image, args.pattern, display, geometry, pattern_options, args.work.threads(), progress);
+    panel.texels = light_of_channel(std::move(panel.texels), options.channel);
     if (fine.times > 1) panel.texels = fine_image(fine, display.panel, panel.texels);
     if (const auto deviation = panel_deviation(scene, panel.texels)) scene.deviations.push_back(*deviation);
 
@@ -184,7 +191,8 @@ void add_export(Command program) {
     const auto args = std::make_shared<ExportArguments>(command);
     command.footer(
         "Examples:\n  lfdsim export pov display.toml --panel-image eia.png --set diffuser=none -o scene\n"
-        "  lfdsim export cycles display.toml --panel-image eia.png --triangles 16380 --normals smooth -o scene");
+        "  lfdsim export cycles display.toml --panel-image eia.png --triangles 16380 --normals smooth -o scene\n"
+        "  lfdsim export mitsuba display.toml --panel-image eia.png --channel r -o red");
     command.callback([args] { run(*args); });
 }
 

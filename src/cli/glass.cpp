@@ -27,6 +27,11 @@ struct Sourced {
     std::string source;
 };
 
+Sourced sourced(const ShippedGlass& s) {
+    return {s.glass, s.successor.empty() ? std::string(s.source)
+                                         : fmt::format("{}, its successor of the same glass code: {}", s.successor, s.source)};
+}
+
 constexpr std::string_view channels[] = {"red", "green", "blue"};
 
 Json to_json(const Sourced& s) {
@@ -71,7 +76,7 @@ std::vector<Sourced> all_glasses(const std::vector<GlassCatalogue>& catalogues) 
     for (const GlassCatalogue& catalogue : catalogues)
         for (const Glass& glass : catalogue.glasses) all.push_back({glass, catalogue.file});
     if (catalogues.empty())
-        for (const auto& [glass, source] : shipped_glasses()) all.push_back({glass, std::string(source)});
+        for (const ShippedGlass& shipped : shipped_glasses()) all.push_back(sourced(shipped));
     return all;
 }
 
@@ -140,7 +145,7 @@ void run(const GlassArguments& args) {
     const Glass* found = find_glass(args.name, catalogues);
     if (!found) throw InputError("NAME", unknown_glass(args.name, catalogues));
     const ShippedGlass* shipped = shipped_glass(found->name);
-    const Sourced glass{*found, shipped && found == &shipped->glass ? std::string(shipped->source) : args.catalogue};
+    const Sourced glass = shipped && found == &shipped->glass ? sourced(*shipped) : Sourced{*found, args.catalogue};
     if (!args.plot.empty()) {
         detail::OutputFile file(args.plot);
         const std::string text = plot(glass.glass);

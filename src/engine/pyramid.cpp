@@ -42,15 +42,17 @@ Texels halved(const optics::PanelLevel& from, tbb::task_arena& arena) {
     return to;
 }
 
-// One pixel of each cell of a panel; black where that lies outside of it.
+// One pixel of each cell of a panel; black where that lies outside of it, or where only whole cells show it.
 Texels picked(const optics::PanelLevel& from, const PanelPlane& plane, tbb::task_arena& arena) {
     const std::int64_t columns = from.columns, rows = from.rows, across = plane.cell[0], down = plane.cell[1];
     Texels to((columns + across - 1) / across, (rows + down - 1) / down);
+    const std::int64_t last_column = plane.whole[0] ? columns / across : to.columns(),
+                       last_row = plane.whole[1] ? rows / down : to.rows();
     const auto pick_row = [&](std::int64_t r) {
         const std::int64_t row = r * down + plane.pixel[1];
         for (std::int64_t c = 0; c < to.columns(); ++c) {
             const std::int64_t column = c * across + plane.pixel[0];
-            const bool there = column >= 0 && column < columns && row >= 0 && row < rows;
+            const bool there = column >= 0 && column < columns && row >= 0 && row < rows && c < last_column && r < last_row;
             for (int k = 0; k < 4; ++k) to.row(r)[4 * c + k] = there ? from.texels[4 * (row * columns + column) + k] : 0;
         }
     };

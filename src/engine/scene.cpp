@@ -131,7 +131,7 @@ optics::Emission<S> make_emission(const Panel& panel) {
     to.whole = shines_all_over(panel);
     if (to.whole) return to;
     const std::vector<PanelPlane> all = planes(panel);
-    for (const LitPart& from : lit_parts(panel)) {
+    for (const LitPart& from : bounded_parts(panel)) {
         if (to.count == max_subpixel_parts)
             throw InputError("panel.subpixel", "comes to more than the " + std::to_string(max_subpixel_parts) + " parts allowed");
         optics::SubpixelPart<S>& part = to.part[to.count++];

@@ -210,7 +210,7 @@ class DisplayReader {
         const std::vector<GlassCatalogue> catalogues = read_catalogues(display.glass_catalogues);
         visit_all(display, [&](const std::string& path, const KeyInfo&, ValueRef value) {
             auto* const glass = std::get_if<std::optional<Glass>*>(&value);
-            if (!glass || !**glass || (**glass)->name.empty()) return;
+            if (!glass || !**glass || (**glass)->name.empty() || (**glass)->formula != Formula::unknown) return;
             const std::string& name = (**glass)->name;
             if (const Glass* found = find_glass(name, catalogues))
                 **glass = *found;

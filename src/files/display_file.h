@@ -21,7 +21,8 @@ Display read_display(const std::filesystem::path&, const std::vector<std::string
 Display parse_display(std::string_view text, std::string_view name, const std::vector<std::string>& overrides = {},
                       const std::filesystem::path& folder = {});
 
-/// A description that reads back as the same display; every key written.
+/// A description that reads back as the same display, wherever it lies: every key written, and glasses of catalogues by their
+/// coefficients, so that glass_catalogues is left out.
 std::string write_display(const Display&);
 
 /// Every key: name, type, unit, range, default, meaning; docs/format.md is generated from it.

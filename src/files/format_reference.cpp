@@ -87,7 +87,13 @@ In place of `index`, which is the same for all colours, a medium may have `glass
 - `{ nd = 1.4918, vd = 57.4 }`: the index at 587.5618 nm and the Abbe number (n_d - 1)/(n_F - n_C), F and C at 486.1327 and
   656.2725 nm; n = A + B/l^2 between and beyond.
 - `{ cauchy = [A, B, C] }`: n = A + B/l^2 + C/l^4, the wavelength l in micrometres.
-- `{ sellmeier = [B1, C1, B2, C2, B3, C3] }`: n^2 = 1 + the sum of B l^2/(l^2 - C), C in square micrometres.
+- `{ sellmeier = [B1, C1, B2, C2, B3, C3] }`: n^2 = 1 + the sum of B l^2/(l^2 - C), C in square micrometres; any number of pairs.
+- `{ power_series = [c1, p1, c2, p2, ...] }`: n^2 = the sum of c l^p; Schott's older formula has p = 0, 2, -2, -4, -6, -8.
+- `conrady`, `herzberger`, `resonances`, `sellmeier_2`, `handbook_1`, `handbook_2` in the same way: the coefficients of the formulas 5,
+  3, 9, 4, 7 and 8 of AGF ([model.md](model.md#colour)).
+
+A table may also have a `name`, and `range_nm = [400, 700]`, wavelengths for which it holds. That is how pictures and results keep the
+glasses of `glass_catalogues`, so that they can be read where the catalogue is not.
 
 The index is 1 to 4 at every wavelength that is used, and each of these is in the range of the glass. On the command line:
 `--set lens.index=none lens.glass=PC`, or `--set lens.index=none "lens.glass={ nd = 1.4918, vd = 57.4 }"`.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
+#include <array>
 
 #include "files/nearest.h"
 
@@ -12,6 +13,25 @@ namespace {
 std::string wrong_type(const toml::node& node, std::string_view wanted) {
     return fmt::format("is {}; give {}", kind_of(node), wanted);
 }
+
+/// A formula of a glass: its key in a table, and how many numbers it takes.
+struct GlassForm {
+    std::string_view key;
+    Formula formula;
+    std::string_view wanted;
+};
+constexpr std::size_t most_coefficients = 64, longest_name = 64;
+constexpr GlassForm glass_forms[] = {
+    {"sellmeier", Formula::sellmeier, "pairs B, C, as a list of 6 numbers"},
+    {"cauchy", Formula::cauchy, "a list of 3 numbers"},
+    {"conrady", Formula::conrady, "a list of 3 numbers"},
+    {"herzberger", Formula::herzberger, "a list of 6 numbers"},
+    {"resonances", Formula::resonances, "a number and pairs B, C, as a list of 5 numbers"},
+    {"sellmeier_2", Formula::sellmeier_2, "a list of 5 numbers"},
+    {"handbook_1", Formula::handbook_1, "a list of 4 numbers"},
+    {"handbook_2", Formula::handbook_2, "a list of 4 numbers"},
+    {"power_series", Formula::power_series, "pairs of a coefficient and a power, as a list of 12 numbers"},
+};
 
 }  // namespace
 
@@ -73,7 +93,9 @@ std::string read_value(const toml::node& node, std::vector<std::string>& values)
 }
 
 std::string read_value(const toml::node& node, Glass& glass) {
-    constexpr const char* forms = "{ sellmeier = [B1, C1, B2, C2, B3, C3] }, { cauchy = [A, B, C] } or { nd = 1.4918, vd = 57.4 }";
+    constexpr const char* forms =
+        "{ sellmeier = [B1, C1, B2, C2, B3, C3] }, { cauchy = [A, B, C] }, { nd = 1.4918, vd = 57.4 } or another formula of "
+        "docs/format.md";
     glass = {};
     if (node.is_string()) {
         glass.name = node.as_string()->get();
@@ -81,31 +103,46 @@ std::string read_value(const toml::node& node, Glass& glass) {
     }
     const toml::table* table = node.as_table();
     if (!table) return wrong_type(node, fmt::format("the name of a glass, {}", forms));
-    const auto has = [&](std::string_view key) { return table->contains(key); };
-    for (const auto& [key, value] : *table)
-        if (constexpr std::string_view keys[] = {"sellmeier", "cauchy", "nd", "vd"};
-            std::find(std::begin(keys), std::end(keys), key.str()) == std::end(keys))
-            return fmt::format("has the unknown key {}; give {}", shortened(key.str()), forms);
-    if (int(has("sellmeier")) + int(has("cauchy")) + int(has("nd") || has("vd")) != 1)
-        return fmt::format("{}; give {}", table->empty() ? "is an empty table" : "has more than one formula", forms);
     const auto read = [&](const char* key, auto& to) {
         const toml::node* value = table->get(key);
         const std::string fault = value ? read_value(*value, to) : "is missing";
         return fault.empty() ? fault : fmt::format("{} {}", key, fault);
     };
-    const auto read_list = [&]<std::size_t n>(Formula formula, const char* key, std::array<double, n> numbers) {
-        std::string fault = read(key, numbers);
-        glass.formula = formula;
-        glass.coefficients.assign(numbers.begin(), numbers.end());
-        return fault;
-    };
-    if (has("sellmeier")) return read_list(Formula::sellmeier, "sellmeier", std::array<double, 6>());
-    if (has("cauchy")) return read_list(Formula::cauchy, "cauchy", std::array<double, 3>());
-    double nd = 0, vd = 0;
-    std::string fault = read("nd", nd);
-    if (fault.empty()) fault = read("vd", vd);
-    glass.formula = Formula::nd_vd;
-    glass.coefficients = {nd, vd};
+    const auto has = [&](std::string_view key) { return table->contains(key); };
+    std::size_t formulas = has("nd") || has("vd");
+    for (const auto& entry : *table) {
+        const std::string_view key = entry.first.str();
+        const auto of_key = [&](const GlassForm& form) { return form.key == key; };
+        formulas += std::ranges::any_of(glass_forms, of_key);
+        if (std::ranges::none_of(std::array{"nd", "vd", "name", "range_nm"}, [&](auto* k) { return key == k; }) &&
+            std::ranges::none_of(glass_forms, of_key))
+            return fmt::format("has the unknown key {}; give {}", shortened(key), forms);
+    }
+    if (formulas != 1)
+        return fmt::format("{}; give {}",
+                           table->empty()  ? "is an empty table"
+                           : formulas == 0 ? "has no formula"
+                                           : "has more than one formula",
+                           forms);
+    std::string fault;
+    if (has("name") && (fault = read("name", glass.name)).empty() && glass.name.size() > longest_name)
+        fault = fmt::format("name has {} bytes, allowed are {}", glass.name.size(), longest_name);
+    if (fault.empty() && has("range_nm") && (fault = read("range_nm", glass.range_nm)).empty() &&
+        !(0 < glass.range_nm[0] && glass.range_nm[0] < glass.range_nm[1]))
+        fault = "range_nm is not two wavelengths, the shorter first";
+    if (!fault.empty()) return fault;
+    if (has("nd") || has("vd")) {
+        glass.formula = Formula::nd_vd;
+        glass.coefficients.assign(2, 0);
+        fault = read("nd", glass.coefficients[0]);
+        return fault.empty() ? read("vd", glass.coefficients[1]) : fault;
+    }
+    const GlassForm& form = *std::ranges::find_if(glass_forms, [&](const GlassForm& f) { return has(f.key); });
+    glass.formula = form.formula;
+    fault = read(form.key.data(), glass.coefficients);
+    const std::size_t count = glass.coefficients.size();
+    if (fault.empty() && (!takes(form.formula, count) || count > most_coefficients))
+        fault = fmt::format("{} has {} elements; give {}", form.key, count, form.wanted);
     return fault;
 }
 
@@ -146,11 +183,20 @@ std::string toml_text(const std::vector<std::string>& values) {
     return text + "]";
 }
 
+// By name where that says all: of a glass that ships, and of one not looked up yet.
 std::string toml_text(const Glass& glass) {
-    if (!glass.name.empty()) return toml_text(glass.name);
+    const ShippedGlass* shipped = shipped_glass(glass.name);
+    if (glass.formula == Formula::unknown || (shipped && shipped->glass == glass)) return toml_text(glass.name);
     const std::vector<double>& c = glass.coefficients;
-    if (glass.formula == Formula::nd_vd) return fmt::format("{{ nd = {}, vd = {} }}", toml_text(c[0]), toml_text(c[1]));
-    return fmt::format("{{ {} = {} }}", glass.formula == Formula::cauchy ? "cauchy" : "sellmeier", toml_text(c));
+    std::string text = glass.name.empty() ? "{ " : fmt::format("{{ name = {}, ", toml_text(glass.name));
+    if (glass.formula == Formula::nd_vd) {
+        text += fmt::format("nd = {}, vd = {}", toml_text(c[0]), toml_text(c[1]));
+    } else {
+        const auto& form = *std::ranges::find(glass_forms, glass.formula, &GlassForm::formula);
+        text += fmt::format("{} = {}", form.key, toml_text(c));
+    }
+    if (glass.range_nm != Glass().range_nm) text += fmt::format(", range_nm = {}", toml_text(glass.range_nm));
+    return text + " }";
 }
 
 // A basic string. TOML allows any UTF-8 in it but quotes, backslashes and control characters.

@@ -9,7 +9,7 @@ std::string write_display(const Display& display) {
     visit_all(display, [&](const std::string& path, const KeyInfo& key, ConstValueRef ref, ConstValueRef) {
         // an absent optional has no text, and a key without text is left out
         const std::string value = std::visit([](const auto* v) { return toml_text(*v); }, ref);
-        if (value.empty()) return;
+        if (value.empty() || path == "glass_catalogues") return;
         const std::string_view in = table_of_path(path);
         if (in != table) {  // an element of a list ("lens.surface.0") has its list's name in two brackets
             const std::size_t end = in.find_last_not_of("0123456789");

@@ -1,5 +1,7 @@
 #include "model/colour.h"
 
+#include "model/geometry.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -92,6 +94,23 @@ bool disperses(const Display& d) {
                 if (index_of(*medium.glass, node.wavelength_nm) != first) return true;
         return false;
     });
+}
+
+Display at_wavelength(Display d, double wavelength_nm) {
+    if (d.array.gap_mm) {  // to a principal plane, which is elsewhere in other light
+        d.array.base_z_mm = resolve(d).base_z_mm;
+        d.array.gap_mm.reset();
+    }
+    const auto settle = [&](auto& medium) {
+        if (medium.glass) medium.index = index_of(*medium.glass, wavelength_nm);
+        medium.glass.reset();
+    };
+    for (Layer& layer : d.panel.layers) settle(layer);
+    if (auto* ball = std::get_if<PlanoConvex>(&d.lens.kind)) settle(*ball);
+    if (auto* lens = std::get_if<SurfaceLens>(&d.lens.kind))
+        for (Surface& s : lens->surfaces) settle(s);
+    d.glass_catalogues.clear();
+    return d;
 }
 
 }  // namespace lfdsim

@@ -36,4 +36,8 @@ std::vector<Medium> media_of(const Display&);
 /// Whether the path of light depends on its wavelength: an index differs between those that are used.
 bool disperses(const Display&);
 
+/// What light of one wavelength meets of a valid display, as one that does not disperse: each glass has its index there, and lenses
+/// stand where green has put them.
+Display at_wavelength(Display, double wavelength_nm);
+
 }  // namespace lfdsim

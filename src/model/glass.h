@@ -55,6 +55,7 @@ double abbe_number(const Glass&);
 struct ShippedGlass {
     Glass glass;
     std::string_view source;
+    std::string_view successor = {};  // of an older glass: the one of the same glass code whose data stand for it
 };
 /// All of them: plastics first, then glasses by name.
 const std::vector<ShippedGlass>& shipped_glasses();

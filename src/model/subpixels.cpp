@@ -153,6 +153,31 @@ std::vector<LitPart> lit_parts(const Panel& panel) {
     return parts;
 }
 
+std::vector<LitPart> bounded_parts(const Panel& panel) {
+    std::vector<LitPart> parts = lit_parts(panel);
+    for (std::size_t k = 0; k < 2; ++k) {
+        std::vector<LitPart> cut;
+        for (const LitPart& part : parts) {
+            const double border = double(panel.pixels[k] % part.plane.cell[k]);  // in the cell that it cuts
+            if (border == 0 || part.to[k] <= border + same || part.plane.pixel[k] >= border) {
+                cut.push_back(part);
+                continue;
+            }
+            LitPart beyond = part;
+            beyond.plane.whole[k] = true;
+            beyond.from[k] = std::max(part.from[k], border);
+            beyond.share = part.share * (part.to[k] - beyond.from[k]) / (part.to[k] - part.from[k]);
+            cut.push_back(beyond);
+            if (part.from[k] >= border - same) continue;
+            cut.push_back(part);
+            cut.back().to[k] = border;
+            cut.back().share = part.share - beyond.share;
+        }
+        parts = std::move(cut);
+    }
+    return parts;
+}
+
 std::optional<std::pair<std::size_t, std::size_t>> overlapping(const Panel& panel) {
     struct Part {
         std::size_t of;
@@ -221,7 +246,7 @@ std::complex<double> WhitePanel::harmonic(int k, int l) const {
 
 std::vector<PanelPlane> planes(const Panel& panel) {
     std::vector<PanelPlane> all{PanelPlane()};
-    for (const LitPart& part : lit_parts(panel))
+    for (const LitPart& part : bounded_parts(panel))
         if (std::find(all.begin(), all.end(), part.plane) == all.end()) all.push_back(part.plane);
     return all;
 }

@@ -16,6 +16,7 @@ namespace lfdsim {
 /// outside.
 struct PanelPlane {
     std::array<int, 2> cell{1, 1}, pixel{0, 0};
+    std::array<bool, 2> whole{};  // black in cells that the panel's right border (x) or lower border (y) cuts
     auto operator<=>(const PanelPlane&) const = default;
 };
 
@@ -33,6 +34,11 @@ struct LitPart {
 /// The parts of all subpixels of a valid panel, shrunk to its aperture ratio, each in the least cell after which its channel
 /// repeats.
 std::vector<LitPart> lit_parts(const Panel&);
+
+/// The same for a panel that ends: beyond its right and lower border nothing shines, also where the border cuts a cell and a
+/// rectangle of a pixel on the panel lies there. What of a part lies beyond is a part of its own, whose plane is black in such
+/// cells.
+std::vector<LitPart> bounded_parts(const Panel&);
 
 /// What counts of red, green and blue in a figure; the sum is 1.
 using ChannelWeights = std::array<double, 3>;

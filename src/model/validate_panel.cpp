@@ -27,7 +27,7 @@ void check_custom(const Panel& panel, Findings& findings) {
         findings.add(where(two->first) + ".rect", "overlaps itself: the cell of {} x {} pixels repeats", cell[0], cell[1]);
     else if (two)
         findings.add(where(two->second) + ".rect", "overlaps panel.subpixel.{}", two->first);
-    else if (const std::size_t parts = lit_parts(panel).size(); parts > max_subpixel_parts)
+    else if (const std::size_t parts = bounded_parts(panel).size(); parts > max_subpixel_parts)
         findings.add("panel.subpixel", "come to {} parts where they hang over the cell's border; allowed are {}", parts,
                      max_subpixel_parts);
 }

@@ -23,11 +23,7 @@ class Refusals {
             return std::move(problems_);
         }
         array();
-        if (disperses(d_))
-            add("panel.wavelengths_nm",
-                fmt::format(
-                    "differ, and the scene's glass has one index; add --set 'panel.wavelengths_nm=[{0}, {0}, {0}]' for green's",
-                    d_.panel.wavelengths_nm[green_channel]));
+        if (disperses(d_)) colour();
         if (d_.camera.pupil_diameter_mm.value_or(0) > 0)
             add("camera.pupil_diameter_mm", "the scene's camera is a pinhole; add --set camera.pupil_diameter_mm=none");
         if (peer_ == Peer::pov) pov();
@@ -56,6 +52,15 @@ class Refusals {
             add("lens.surface.0.semi_aperture_mm",
                 fmt::format("differs from the other surface's, so that the wall of the glass would be a cone; make both {} mm",
                             g_.surfaces.back().semi_aperture_mm));
+    }
+
+    void colour() {
+        if (!options_.channel)
+            add("panel.wavelengths_nm",
+                "differ, and the scene's glass has one index; give --channel r, g or b for that colour alone");
+        else if (wavelengths_of(d_, *options_.channel).size() > 1)
+            add("render.wavelength_samples",
+                "are several of a colour, and the scene's glass has one index; add --set render.wavelength_samples=1");
     }
 
     void pov() {

@@ -1,5 +1,6 @@
 #include "peers/peers.h"
 
+#include "model/colour.h"
 #include "peers/pov.h"
 #include "peers/python.h"
 #include "peers/text.h"
@@ -14,12 +15,9 @@ std::string_view name_of(Peer peer) {
     return peer == Peer::pov ? "POV-Ray" : peer == Peer::cycles ? "Blender's Cycles" : "Mitsuba";
 }
 
-PeerScene peer_scene(Peer peer, const Display& display, const Geometry& geometry, const PeerOptions& given) {
-    if (std::vector<Problem> problems = not_expressed(peer, display, geometry, given); !problems.empty())
-        throw InputError(std::move(problems));
-    PeerOptions options = given;
-    if (peer != Peer::pov) options.triangles = given.triangles.value_or(default_triangles);
+namespace {
 
+PeerScene scene_of(Peer peer, const Display& display, const Geometry& geometry, const PeerOptions& options) {
     PeerScene scene;
     const auto& surfaces = geometry.surfaces;
     const bool even = std::all_of(surfaces.begin(), surfaces.end(),
@@ -38,6 +36,31 @@ PeerScene peer_scene(Peer peer, const Display& display, const Geometry& geometry
         write_python(peer, display, geometry, options, head, scene);
     scene.shown.render.estimator = Estimator::point;
     return scene;
+}
+
+}  // namespace
+
+PeerScene peer_scene(Peer peer, const Display& display, const Geometry& geometry, const PeerOptions& given) {
+    if (std::vector<Problem> problems = not_expressed(peer, display, geometry, given); !problems.empty())
+        throw InputError(std::move(problems));
+    PeerOptions options = given;
+    if (peer != Peer::pov) options.triangles = given.triangles.value_or(default_triangles);
+    if (!options.channel) return scene_of(peer, display, geometry, options);
+    const double nm = display.panel.wavelengths_nm[std::size_t(*options.channel)];
+    const Display seen = at_wavelength(display, nm);
+    PeerScene scene = scene_of(peer, seen, resolve(seen), options);
+    constexpr const char* names[] = {"red", "green", "blue"};
+    scene.deviations.push_back(fmt::format("Only {} shines, with the indices at {} nm.", names[*options.channel], nm));
+    return scene;
+}
+
+Texels light_of_channel(Texels panel, std::optional<int> channel) {
+    if (!channel) return panel;
+    float* const end = panel.data() + panel.columns() * panel.rows() * 4;
+    for (float* pixel = panel.data(); pixel != end; pixel += 4)
+        for (int c = 0; c < 3; ++c)
+            if (c != *channel) pixel[c] = 0;
+    return panel;
 }
 
 std::optional<std::string> panel_deviation(const PeerScene& scene, const Texels& panel) {

@@ -21,6 +21,7 @@ enum class MeshNormals { flat, smooth };
 struct PeerOptions {
     std::optional<std::int64_t> triangles;  // of a lens; absent: true surfaces for pov, default_triangles for the others
     MeshNormals normals = MeshNormals::flat;
+    std::optional<int> channel;  // 0, 1, 2: a scene of that channel's light alone; absent: of all three
 };
 
 /// As many as the lens of the 2019 paper has.
@@ -48,6 +49,9 @@ std::vector<Problem> not_expressed(Peer, const Display&, const Geometry&, const 
 
 /// Throws InputError with the problems of not_expressed().
 PeerScene peer_scene(Peer, const Display&, const Geometry&, const PeerOptions&);
+
+/// The panel's light as a scene of such a channel has it: the others are black.
+Texels light_of_channel(Texels, std::optional<int> channel);
 
 /// A further deviation of a scene, if its panel file cannot hold this light.
 std::optional<std::string> panel_deviation(const PeerScene&, const Texels&);

@@ -108,7 +108,6 @@ std::string name_in(const std::filesystem::path& folder, const std::string& file
 /// The current description, for a file in the folder.
 std::string toml(const Library& library, const Wanted& wanted, const std::filesystem::path& folder) {
     Display display = library.display(wanted);
-    for (std::string& catalogue : display.glass_catalogues) catalogue = name_in(folder, catalogue);
     const std::string file = model_file(library, wanted, display);
     if (file == model_of(display) && file == built_in_spheres) return write_display(display);  // given, or shown by default
     display.content.model = file == built_in_spheres ? file : name_in(folder, file);

@@ -55,6 +55,12 @@ checks.that(paper["the 2019 paper"]["seconds"] == 1, f"paper: {paper}")
 checks.that(0 < paper["of this, tracing"]["seconds"]["median"] < paper["start to picture"]["seconds"]["median"], f"paper: {paper}")
 checks.that(not list(temporary.iterdir()), f"left: {list(temporary.iterdir())}")
 
+# Three bands are as through glass of constant indices; white is white with stripes.
+colour = result("bench colour --quick")["colour"]
+checks.that([(row["name"].split(",")[0], row["estimator"]) for row in colour] == [(name, way) for name in ("asphere", "strips") for way in ("points", "filtered")], f"colour: {colour}")
+for row in colour:
+    checks.that(row["ratio"] > 0 and abs(row["error"]["value"]) < (1e-3 if "bands" in row["name"] else 0.01), f"colour: {row}")
+
 # Where there is a GPU it gives the CPU's likenesses, else it is told what is missing.
 gpu = json.loads(program.must("doctor --json"))["gpu"]
 made = {row["name"]: row for row in result("bench gpu sweep --quick")["sweep"]}

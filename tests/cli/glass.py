@@ -22,6 +22,8 @@ for at in [*found["lines"].values(), *found["panel"].values()]:
 checks.that({"F", "d", "C", "e", "g"} <= set(found["lines"]) and found["panel"]["blue"]["wavelength_nm"] == 464.2, f"N-BK7: {found}")
 checks.that(result("glass PMMA --json")["lines"]["i"]["index"] is None, "PMMA has an index outside its range")
 text = program.must("glass PMMA")
+older = program.must("glass sk16")
+checks.that("N-SK16, its successor of the same glass code" in older, f"glass sk16 does not name its successor: {older}")
 for words in ["PMMA", "Beadie", "420 to 1620 nm", "V_d 59.37", "1.492527", "464.2000 nm"]:
     checks.that(words in text, f"glass PMMA does not print {words!r}:\n{text}")
 

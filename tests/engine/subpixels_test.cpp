@@ -92,8 +92,9 @@ TEST_P(OfLayout, WhiteIsWhiteInTheMean) {
     for (const double each : sum) EXPECT_NEAR(each / double(seen.rgb.size() / 3), 1, 1e-6);
 }
 
-TEST_P(OfLayout, MeansOverBoxesAreThoseOfTheirPoints) {
-    const Display d = display();
+/// Boxes with their middles from..to, in pixels from the panel's corner. Up to a pixel wide, where a box is read at the finest
+/// level and its mean is exact.
+void expect_means_of_points(const Display& d, std::array<double, 2> from, std::array<double, 2> to) {
     const Texels shown = noise_panel(d);
     const Pyramid pyramid(shown);
     const PanelReading reading{Long::none, planes(d.panel)};
@@ -102,9 +103,7 @@ TEST_P(OfLayout, MeansOverBoxesAreThoseOfTheirPoints) {
     const optics::PanelLevels read{levels.data(), int(levels.size() / reading.planes.size()), false, false, &scene.emission};
     Random random(7);
     for (int n = 0; n < 300; ++n) {
-        // Up to a pixel wide, where a box is read at the finest level and its mean is exact.
-        const double wide = random(0.05, 1), high = random(0.05, 1), x = random(-1, double(d.panel.pixels[0]) + 1),
-                     y = random(2, double(d.panel.pixels[1]) - 2);
+        const double wide = random(0.05, 1), high = random(0.05, 1), x = random(from[0], to[0]), y = random(from[1], to[1]);
         const optics::PanelBase<float> base{std::uint32_t(40), std::uint32_t(30), 0, 0};
         float light[1][4];
         optics::light_of_boxes<float>(read, base, float(x - 40), float(y - 30), float(wide), float(high), 1.0f, light);
@@ -120,6 +119,28 @@ TEST_P(OfLayout, MeansOverBoxesAreThoseOfTheirPoints) {
             EXPECT_NEAR(light[0][c], sum / (points * points), 0.05 * gain(d.panel, c)) << x << " " << y << " " << c;
             EXPECT_NEAR(same(0, c), light[0][c], 1e-4 * gain(d.panel, c));
         }
+    }
+}
+
+TEST_P(OfLayout, MeansOverBoxesAreThoseOfTheirPoints) {
+    const Display d = display();
+    expect_means_of_points(d, {-1, -1}, {double(d.panel.pixels[0]) + 1, double(d.panel.pixels[1]) + 1});
+}
+
+// The border cuts the last cells, and of pixels on the panel there are rectangles beyond it, or on both sides of it.
+TEST(Subpixels, NothingShinesBeyondABorderThatCutsCells) {
+    Display d = ideal_example();
+    d.panel.subpixels = SubpixelLayout::custom;
+    d.panel.subpixel_cell = {{3, 2}};
+    d.panel.custom = {{Channel::r, {0, 0}, {1.1, 0, 2.4, 1}},
+                      {Channel::g, {0, 0}, {0.3, 0.2, 1.1, 1.7}},
+                      {Channel::b, {0, 0}, {2.4, 0.5, 2.9, 2}},
+                      {Channel::b, {2, 1}, {1.2, 1, 2.4, 1.4}}};
+    for (const std::int64_t columns : {121, 122}) {
+        d.panel.pixels = {columns, 81};
+        ASSERT_TRUE(validate(d).empty()) << validate(d).front().what;
+        expect_means_of_points(d, {double(columns) - 4, 40}, {double(columns) + 2, 83});
+        expect_means_of_points(d, {0, 77}, {double(columns) + 1, 83});
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include "files/display_file.h"
 #include "model/geometry.h"
+#include "model/numbers.h"
 
 namespace lfdsim {
 namespace {
@@ -40,9 +41,12 @@ TEST(Displays, OfOtherLatticesAreWhatTheirCommentsSay) {
     EXPECT_NEAR(g.focal_length_mm, g.gap_mm, 1e-3);
     const Theory t = theory(tablet, g);
     EXPECT_NEAR(t.along[0].elemental_pitch_mm / g.lattice.cos_turn / tablet.panel.pixel_pitch_mm, 8, 1e-3);
-    EXPECT_NEAR(t.along[0].fov_deg, 28, 0.1);
+    EXPECT_NEAR(t.along[0].fov_deg, 27, 0.1);
+    EXPECT_NEAR(std::tan(*tablet.array.slant_deg * degree), 1. / 3, 1e-5);
     EXPECT_NEAR(theory(hexagon, resolve(hexagon)).along[0].fov_deg, 25, 0.01);
     EXPECT_NEAR(theory(hexagon, resolve(hexagon)).central_depth_mm, 120, 0.1);
+    ASSERT_TRUE(hexagon.diffuser);
+    EXPECT_NEAR(hexagon.diffuser->angle_deg[0] * degree, std::atan(hexagon.panel.pixel_pitch_mm / 4.0596), 1e-4);
     const Theory slits = theory(barrier, resolve(barrier));
     EXPECT_NEAR(slits.along[0].elemental_pitch_mm / barrier.panel.pixel_pitch_mm, 2, 1e-3);
     EXPECT_NEAR(barrier.panel.pixel_pitch_mm / slits.gap_mm * 350, 62, 0.1);

@@ -104,6 +104,36 @@ TEST(Colour, PlanoConvexLensAtEachWavelength) {
     EXPECT_EQ(again.front_principal_mm, green.front_principal_mm);
 }
 
+// As a display of constant indices: the same surfaces at the same places, of layers and glued lenses, too.
+TEST(Colour, AtOneWavelengthNothingMoves) {
+    Display layered = glassy(named("PC"));
+    layered.panel.layers = {{1.1, {}, named("N-BK7")}, {0.3, 1.47, {}}};
+    layered.array.gap_mm = 17;
+    Display glued = layered;
+    glued.array.gap_mm.reset();
+    glued.array.base_z_mm = 1.4;
+    Display air = example_surfaces();
+    air.lens.as<SurfaceLens>().surfaces[0].index.reset();
+    air.lens.as<SurfaceLens>().surfaces[0].glass = named("F2");
+    air.glass_catalogues = {"none.agf"};
+    for (const Display& d : {glassy(named("PMMA")), layered, glued, air})
+        for (const double nm : {464.2, 549.1, 611.4}) {
+            const Display one = at_wavelength(d, nm);
+            EXPECT_FALSE(disperses(one));
+            EXPECT_TRUE(one.glass_catalogues.empty());
+            const Geometry wanted = resolve(d, nm), g = resolve(one);
+            EXPECT_EQ(g.glued, wanted.glued);
+            for (std::size_t k = 0; k < g.surfaces.size(); ++k) {
+                EXPECT_NEAR(g.surfaces[k].z_mm, wanted.surfaces[k].z_mm, 1e-12);
+                EXPECT_EQ(g.surfaces[k].index_below, wanted.surfaces[k].index_below);
+                EXPECT_EQ(g.surfaces[k].index_above, wanted.surfaces[k].index_above);
+            }
+            for (std::size_t k = 0; k < g.layers.size(); ++k) EXPECT_EQ(g.layers[k].index, wanted.layers[k].index);
+            EXPECT_NEAR(g.focal_length_mm, wanted.focal_length_mm, 1e-12);
+            EXPECT_NEAR(g.gap_mm, wanted.gap_mm, 1e-12);
+        }
+}
+
 // 1/f of two touching lenses of N-BK7 and F2, thick: the lensmaker's equation for each, and the distance of their principal planes.
 TEST(Colour, DoubletAtEachWavelength) {
     Display d = example_surfaces();

@@ -2,16 +2,19 @@
 """What `lfdsim export pov` writes, rendered by POV-Ray, against lfdsim's own picture: povray.py LFDSIM [--full] [--only TEXT] [--triangles N].
 
 The displays of tests/oracle/cases.py, lattice_cases.py and some of colour_cases.py, each seen once a pixel. Away from edges all pixels agree within 1/255 (an edge is where the exact picture changes
-within 0.02 pixels: tests/oracle/README.md). The panel shows addresses, so that a wrong panel pixel is a wrong colour. Skipped without the program povray.
+within 0.02 pixels: tests/oracle/README.md). The panel shows addresses, so that a wrong panel pixel is a wrong colour. Displays whose glass disperses are exported one channel
+at a time, of a panel with noise, and each is held against that channel of lfdsim's picture of the display. Skipped without the program povray.
 """
 import argparse
 import os
 import pathlib
+import re
 import shlex
 import shutil
 import subprocess
 import sys
 import tempfile
+import tomllib
 
 import numpy as np
 from PIL import Image
@@ -31,6 +34,8 @@ QUICK = ("opaque circle, on axis", "opaque circle, 15 degrees", "opaque circle, 
          "slanted strips, opaque cell, on axis", "strips slanted to the left, plate cell", "three layers, clear", "glued onto two layers, clear", "pinhole, hexagon",
          "subpixels rgb_stripe, on axis", "subpixels delta, clear")
 
+CHANNELS = {"glass of Sellmeier, opaque, oblique": "r", "glass by name, asphere, gap, subpixels delta, hexagons": "b"}  # where time is short
+
 
 def refusal(d, meshed):
     """A word of the message with which the export refuses a display, None where it must not."""
@@ -42,6 +47,11 @@ def refusal(d, meshed):
         return "a pinhole"
     filled, surround = d["array"].get("aperture") == "cell", d["array"].get("surround")
     return {"clear": "no defined order", "plate": "as triangles"}.get(surround) if filled and meshed else None
+
+
+def whole(description):
+    """Without a black matrix, whose borders finer pixels would round, and of one wavelength a channel."""
+    return cases.merge(description, {"panel": {"aperture_ratio": 1.0, "encoding": "linear"}, "render": {"wavelength_samples": 1}})
 
 
 def run(command, folder):
@@ -66,6 +76,36 @@ def pictures(program, description, image, folder, options):
     code, said = run([program, "render", "display.toml", "--panel-image", "panel.png", "-o", "lfdsim.npy"], scene)
     assert code == 0, said
     return np.asarray(Image.open(scene / "view.png").convert("RGB")) / 255, np.load(scene / "lfdsim.npy").astype(float)
+
+
+def check_channel(program, description, channel):
+    """The same of one channel's scene, against the picture of the display itself, whose colours part."""
+    image = panel_images(*description["panel"]["pixels"])["noise"]
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        got = pictures(program, description, image, folder, ["--channel", channel])
+        if isinstance(got, str):
+            return False, got.strip()
+        scene = tomllib.loads((folder / "scene/display.toml").read_text())
+        dimmed = [float(word) for word in re.findall(r"light is ([0-9.]+) times", (folder / "scene/README.txt").read_text())] or [1.0]
+        code, said = run([program, "render", "given.toml", "--panel-image", "given.png", "--estimator", "point", "--set", f"render.fresnel={scene['render']['fresnel']}",
+                          "-o", "all.npy"], folder)
+        assert code == 0, said
+        ours = np.load(folder / "all.npy").astype(float) * dimmed[0]
+    k = "rgb".index(channel)
+    povs, alone = (picture.reshape(-1, 3) for picture in got)
+    ours = ours.reshape(-1, 3)
+    others = [c for c in range(3) if c != k]
+    if povs[:, others].any() or alone[:, others].any():
+        return False, "another channel shines, too"
+    differs = np.flatnonzero(np.abs(povs[:, k] - ours[:, k]) > TOLERANCE)
+    odd = differs
+    if len(odd):
+        display = resolve(description)
+        x, y = tracer.centers(display)
+        odd = odd[~colour.near_edge(display, image / 255, x[odd], y[odd], spokes=48, rings=5)[:, k]]
+    lit = (ours[:, k] > 0).mean()
+    return not len(odd) and lit > 0.01, f"{100 * lit:.0f} % lit, {len(differs)} of {len(ours)} pixels differ, {len(odd)} off the edges"
 
 
 def check(program, name, description, options):
@@ -121,8 +161,9 @@ def main():
         print("SKIPPED: the program povray is not installed (Debian: povray)")
         sys.exit(77)
     program, wrong, done = os.path.abspath(options.program), 0, 0
-    # Where subpixels are shrunk, finer pixels round their borders.
+    # Where subpixels are shrunk, or of odd sizes, finer pixels round their borders.
     coloured = {name: case for name, case in colour_cases.SHORT.items() if name.startswith("subpixels") and ", q " not in name}
+    glassy = {name: case for name, case in {**colour_cases.SHORT, **colour_cases.MORE}.items() if name.startswith("glass") and "odd cell" not in name and not refusal(case, False)}
     for name, description in {**cases.SHARP, **lattice_cases.SHORT, **lattice_cases.MORE, **coloured}.items():
         if options.only not in name or not (options.full or options.only or any(name.startswith(part) for part in QUICK)):
             continue
@@ -134,6 +175,13 @@ def main():
         good, found = check(program, name, description, ["--triangles", options.triangles, "--normals", "smooth"] if options.triangles else [])
         wrong, done = wrong + (good is False), done + 1
         print({True: "pass   ", None: "refused", False: "FAIL   "}[good], name + ":", found, flush=True)
+    for name, description in {} if options.triangles else glassy.items():
+        channels = "rgb" if options.full or options.only else CHANNELS.get(name, "")
+        for channel in channels if options.only in name else "":
+            size = [192, 108] if options.full else [96, 54]
+            good, found = check_channel(program, cases.merge(whole(description), {"camera": {"resolution": size}}), channel)
+            wrong, done = wrong + (not good), done + 1
+            print({True: "pass   ", False: "FAIL   "}[good], f"{name}, channel {channel}:", found, flush=True)
     print(f"{done} displays, {wrong} failed")
     sys.exit(1 if wrong or not done else 0)
 

@@ -67,6 +67,8 @@ for name, arguments, *words in [
     ("unknown normals", f"export cycles tiny.toml --pattern white {BARE} --normals bumpy -o out", "--normals"),
     ("ideal lenses", f"export mitsuba tiny.toml --pattern white {BARE} --set lens.type=\"ideal\" lens.focal_length_mm=5 lens.sphere_radius_mm=none "
                      "lens.cylinder_height_mm=none lens.index=none -o out", "lens.type", "a real lens"),
+    ("dispersing glass", f"export pov tiny.toml --pattern white {BARE} --set lens.index=none lens.glass=PMMA -o out", "panel.wavelengths_nm", "--channel r, g or b"),
+    ("unknown channel", f"export pov tiny.toml --pattern white {BARE} --channel x -o out", "--channel", "r, g, b"),
     ("pupil", f"export cycles tiny.toml --pattern white {BARE} --set camera.pupil_diameter_mm=3 -o out", "camera.pupil_diameter_mm=none"),
     ("two contents", f"export pov tiny.toml --pattern white --panel-image panel.png {BARE} -o out", "give one of them"),
     ("wrong panel image", f"export pov tiny.toml --panel-image tiny.toml {BARE} -o out", "tiny.toml"),
