@@ -1,43 +1,9 @@
 #include "content/cast.h"
 #include "content/pickup.h"
-
-#include "model/subpixels.h"
+#include "content/shown_points.h"
 
 namespace lfdsim {
 namespace {
-
-/// For which point of a pixel a channel of it is made: pixels from its centre to the right and down, for each pixel of a cell.
-/// Nothing where the channel does not shine.
-class ShownPoints {
-  public:
-    using Point = std::array<double, 2>;
-
-    ShownPoints(const Panel& panel, bool by_channel, int channel) {
-        if (by_channel) cell_ = subpixel_cell(panel).size;
-        for (std::int64_t row = 0; row < cell_[1]; ++row)
-            for (std::int64_t column = 0; column < cell_[0]; ++column)
-                of_.push_back(by_channel ? centroid(panel, channel, column, row) : Point{});
-    }
-    std::optional<Point> of(std::int64_t column, std::int64_t row) const {
-        return of_[std::size_t(row % cell_[1] * cell_[0] + column % cell_[0])];
-    }
-    /// The point that all pixels have in common that have one.
-    std::optional<Point> common() const {
-        std::optional<Point> first;
-        for (const std::optional<Point>& each : of_) {
-            if (each && first && *each != *first) return {};
-            if (each) first = each;
-        }
-        return first;
-    }
-    bool everywhere() const {
-        return std::all_of(of_.begin(), of_.end(), [](const std::optional<Point>& each) { return each.has_value(); });
-    }
-
-  private:
-    std::array<std::int64_t, 2> cell_{1, 1};
-    std::vector<std::optional<Point>> of_;
-};
 
 /// The rays of the nodal pick-up, a block at a time. They must hit the surface that the viewer sees first along the line: they
 /// start in the plane z = top, just above the scene on the viewer's side, and travel towards the panel and beyond it. Their
@@ -52,13 +18,7 @@ class PickupRays {
           half_depth_(half_mm_[2] * 1.0001 + 1e-3),
           rise_(centre_mm_[2] + half_depth_ - pickup_.z_rear),
           width_per_t_(float(display.panel.pixel_pitch_mm / geometry.gap_mm)) {
-        for (int channel = 0; channel < (by_channel(display) ? 3 : 1); ++channel)
-            channels_.push_back(channel_of(display, ShownPoints(display.panel, by_channel(display), channel)));
-    }
-
-    /// Whether a pixel's colours are made for different points.
-    static bool by_channel(const Display& display) {
-        return display.panel.subpixels != SubpixelLayout::none && display.content.sampling == ContentSampling::subpixel;
+        for (const ShownPoints& points : shown_points(display)) channels_.push_back(channel_of(display, points));
     }
 
     Beam beam() const { return {width_per_t_, float(rise_)}; }
@@ -181,7 +141,7 @@ class PickupRays {
 Picture elemental_images(const Display& display, const Geometry& geometry, const ContentScene& scene, int threads, Job& job) {
     const PickupRays rays(display, geometry, scene);
     const int width = int(display.panel.pixels[0]), height = int(display.panel.pixels[1]);
-    const Wanted panel{width, height, {0, 0, width, height}, 1, PickupRays::by_channel(display)};
+    const Wanted panel{width, height, {0, 0, width, height}, 1, made_by_channel(display)};
     return cast(scene.impl(), rays.beam(), panel, threads, "elemental images", job, rays);
 }
 
