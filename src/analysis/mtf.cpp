@@ -2,6 +2,7 @@
 
 #include "analysis/channel_pixels.h"
 #include "analysis/edge_plane.h"
+#include "analysis/fringes.h"
 #include "analysis/mtf_colour.h"
 #include "analysis/mtf_resolution.h"
 #include "model/numbers.h"
@@ -306,6 +307,7 @@ Result measure_mtf(Subject& s, Job& job) {
         result.note("along", across_alone);
     }
     report(s, depths, angles, all, result);
+    show_edge_fringes(s, plotted_depth_mm(s, depths), angles, job, result);
     return result;
 }
 

@@ -1,6 +1,7 @@
 #include "analysis/uniformity.h"
 
 #include "analysis/efficiency.h"
+#include "analysis/fringes.h"
 #include "analysis/luminance_theory.h"
 #include "analysis/uniformity_colour.h"
 #include "model/bands.h"
@@ -254,6 +255,7 @@ Result measure_uniformity(Subject& s, Job& job) {
     add_angles(result, s, rays, distance, parts);
     add_budget(result, light_budgets(s.display(), s.geometry(), parts));
     tell_colour_uniformity(s, distance, parts, result);
+    show_white_fringes(s, job, result);
     result.remarks.push_back(
         "A lens passes on the panel's radiance: luminance falls only by reflection and where lines of sight end beside a lens or "
         "the panel. Light efficiency is a different measure: light leaves in all directions, most of it to where no viewer is.");
