@@ -12,13 +12,13 @@ namespace lfdsim {
 namespace {
 
 constexpr int most_colour_parts_along = 48;
-constexpr std::int64_t colour_lines_of_screen = std::int64_t(1) << 24;
+constexpr std::int64_t colour_lines_of_screen = std::int64_t(1) << 23;
 constexpr int colour_lines_of_angle = 1 << 13, most_colour_angles = 257;
 
 /// Lines of sight of each set in each part.
 int lines_a_set(const ScreenParts& screen) {
     const std::int64_t each = colour_lines_of_screen / (screen.count() * independent_sets);
-    return int(std::bit_floor(std::uint64_t(std::clamp<std::int64_t>(each, 64, 4096))));
+    return int(std::bit_floor(std::uint64_t(std::clamp<std::int64_t>(each, 64, 2048))));
 }
 
 /// Light of a block of lenses by all sets, their choices from `first_set` on.
