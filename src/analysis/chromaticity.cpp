@@ -9,7 +9,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr double dark_share = 0.1;  // of the mean luminance
+constexpr double dark_part = 0.1;  // of the mean luminance
 
 std::array<double, 3> light_of(const ColourSums& part, int without) {
     return {total(part[0], without), total(part[1], without), total(part[2], without)};
@@ -60,7 +60,7 @@ ColourSpread colour_spread(const std::vector<ColourSums>& parts, const std::vect
     std::vector<double> share;
     std::vector<std::size_t> number;
     for (std::size_t k = 0; k < parts.size(); ++k)
-        if (light > 0 && luminance_of(light_of(parts[k], -1)) >= dark_share * light / whole) {
+        if (light > 0 && luminance_of(light_of(parts[k], -1)) >= dark_part * light / whole) {
             lit.push_back(parts[k]);
             share.push_back(weights[k]);
             number.push_back(k);

@@ -15,7 +15,8 @@ namespace lfdsim {
 namespace {
 
 constexpr double lenses_across = 16;  // of a picture from near by
-constexpr int near_columns = 480, near_rows = 300, fringe_samples = 64;
+constexpr int near_columns = 480, near_rows = 300, fringe_samples = 36;
+constexpr std::int64_t most_screen_columns = 960;
 
 /// A picture whose pixels are means over their area: single rays would beat with lenses and subpixels.
 Image mean_picture(Display d, const Subject& s, const Pyramid& panel, const Job& job) {
@@ -84,7 +85,13 @@ Image bars_picture(const Display& d, const Bars& bars, double white) {
 void show_white_fringes(const Subject& s, const Job& job, Result& result) {
     if (!has_colours(s.display())) return;
     const auto white = bars_panel(s.display(), s.geometry(), {}, s.threads());
-    Image screen = mean_picture(seen_from(s.display(), 0, 0), s, white->pyramid(), job);
+    Display whole = seen_from(s.display(), 0, 0);
+    auto& [columns, rows] = whole.camera.resolution;
+    if (columns > most_screen_columns) {
+        rows = std::max<std::int64_t>(1, std::llround(double(rows) * double(most_screen_columns) / double(columns)));
+        columns = most_screen_columns;
+    }
+    Image screen = mean_picture(whole, s, white->pyramid(), job);
     const double exposure = expose_together({&screen});
     result.pictures.push_back(
         {"uniformity-white", fmt::format("A white screen, seen on axis; its light times {:.3g}", exposure), std::move(screen)});

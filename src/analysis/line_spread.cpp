@@ -83,11 +83,11 @@ Modulation LineSpread::mtf(double step_per_mm, int count) const {
 }
 
 template <class ShownAt>
-void SeenThroughLenses::trace(const Subject& s, const Geometry& g, const Vec3d& eye, int lines_a_set, const ShownAt& shown) {
+void SeenThroughLenses::trace(const Subject& s, const Geometry& g, const Vec3d& eye, int lines, const ShownAt& shown) {
     const Display& d = s.display();
     const EyeRays rays(d, g);
     const Pickup pickup(d, s.geometry());
-    const int count = lines_a_set * rays.more_for(eye);
+    const int count = lines * rays.more_for(eye);
     const double pixel = d.panel.pixel_pitch_mm, down = vertex_mm_ - eye[2];
     tbb::parallel_for(0, independent_sets, [&](int set) {
         std::array<double, 2> phase{};

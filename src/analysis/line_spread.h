@@ -72,7 +72,7 @@ class SeenThroughLenses {
     };
     /// Lines of sight through the display in light of one wavelength; `shown` of a place, in pixels from the panel's corner.
     template <class ShownAt>
-    void trace(const Subject&, const Geometry&, const Vec3d& eye, int lines_a_set, const ShownAt& shown);
+    void trace(const Subject&, const Geometry&, const Vec3d& eye, int lines, const ShownAt& shown);
     double principal_mm_, vertex_mm_;
     Sets as_described_, anywhere_;
 };

@@ -16,7 +16,7 @@ constexpr std::int64_t colour_lines_of_screen = std::int64_t(1) << 23;
 constexpr int colour_lines_of_angle = 1 << 13, most_colour_angles = 257;
 
 /// Lines of sight of each set in each part.
-int lines_a_set(const ScreenParts& screen) {
+int colour_lines_a_set(const ScreenParts& screen) {
     const std::int64_t each = colour_lines_of_screen / (screen.count() * independent_sets);
     return int(std::bit_floor(std::uint64_t(std::clamp<std::int64_t>(each, 64, 2048))));
 }
@@ -64,7 +64,7 @@ void add_spread_findings(const std::string& of, const ColourSpread& spread, Resu
 void add_colour_of_screen(const ColouredWhite& white, const Subject& s, double distance, Parts& parts, Result& result) {
     const Vec3d eye{0, 0, distance};
     const ScreenParts screen(s.display(), most_colour_parts_along);
-    const int lines = lines_a_set(screen) * white.more_for(eye);
+    const int lines = colour_lines_a_set(screen) * white.more_for(eye);
     std::vector<ColourSums> light(std::size_t(screen.count()));
     std::vector<double> lenses;
     for (int k = 0; k < screen.count(); ++k) lenses.push_back(screen.block(k).lenses());
@@ -178,7 +178,7 @@ ColourWork colour_work(const Subject& s) {
     const ScreenParts screen(s.display(), most_colour_parts_along);
     const int angles = 2 * int(eyes_deg(s).size());
     const std::int64_t paths = disperses(s.display()) ? 3 * s.display().render.wavelength_samples : 1;
-    return {screen.count() + angles, paths * (std::int64_t(lines_a_set(screen)) * independent_sets * screen.count() +
+    return {screen.count() + angles, paths * (std::int64_t(colour_lines_a_set(screen)) * independent_sets * screen.count() +
                                               std::int64_t(angles) * colour_lines_of_angle)};
 }
 
