@@ -51,10 +51,10 @@ double mean_of(const Image& image) {
 double expose_together(const std::vector<Image*>& images) {
     float most = 0;
     for (const Image* image : images) most = std::max(most, *std::max_element(image->rgb.begin(), image->rgb.end()));
-    const float exposure = most > 0 ? 1 / most : 1;
+    if (!(most > 0)) return 1;
     for (Image* image : images)
-        for (float& x : image->rgb) x *= exposure;
-    return double(exposure);
+        for (float& x : image->rgb) x /= most;
+    return 1 / double(most);
 }
 
 /// The bars themselves, white as bright as given, through the same camera.
