@@ -1,6 +1,7 @@
 #include "analysis/edge_view.h"
 
 #include "content/pickup.h"
+#include "content/shown_points.h"
 #include "engine/render.h"
 #include "model/numbers.h"
 
@@ -86,17 +87,22 @@ std::unique_ptr<ShownPanel> bars_panel(const Display& display, const Geometry& g
     const Pickup pickup(display, geometry);
     Texels texels(display.panel.pixels[0], display.panel.pixels[1]);
     const double height = bars ? bars->z_mm - pickup.z_rear : 0;
+    const std::vector<ShownPoints> points = shown_points(display);
+    const std::size_t alike = 3 / points.size();  // channels that are made for the same points
     tbb::parallel_for(std::int64_t(0), texels.rows(), [&](std::int64_t row) {
         float* texel = texels.row(row);
-        for (std::int64_t k = 0; k < texels.columns(); ++k, texel += 4) {
-            const NodalLine l = pickup.line(pickup.x_mm(double(k)), pickup.y_mm(double(row)));
-            if (!l.owned) continue;
-            if (bars) {
-                const double u = across_mm(*bars, l.x + height * l.mx, l.y + height * l.my) - bars->offset_mm;
-                if (std::fmod(std::floor(u / bars->width_mm), 2) != 0) continue;
+        for (std::int64_t k = 0; k < texels.columns(); ++k, texel += 4)
+            for (std::size_t channel = 0; channel < points.size(); ++channel) {
+                const auto shown = points[channel].of(k, row);
+                if (!shown) continue;
+                const NodalLine l = pickup.line(pickup.x_mm(double(k) + (*shown)[0]), pickup.y_mm(double(row) + (*shown)[1]));
+                if (!l.owned) continue;
+                if (bars) {
+                    const double u = across_mm(*bars, l.x + height * l.mx, l.y + height * l.my) - bars->offset_mm;
+                    if (std::fmod(std::floor(u / bars->width_mm), 2) != 0) continue;
+                }
+                std::fill_n(texel + channel, alike, 1.f);
             }
-            std::fill_n(texel, 3, 1.f);
-        }
     });
     return std::make_unique<ShownPanel>(std::move(texels), threads);
 }

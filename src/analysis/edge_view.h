@@ -36,8 +36,9 @@ Bars bars_across(const Direction&, double z_mm);
 /// How far across the bars' direction a point of their plane lies, from the display's axis.
 double across_mm(const Bars&, double x, double y);
 
-/// The panel that shows the bars by the nodal pick-up. A pixel is white or black as the point is that its centre's nodal line
-/// meets, as elemental images of scenes are made: no pixel is grey at an edge. Without bars: white all over.
+/// The panel that shows the bars by the nodal pick-up. A pixel, or a channel of it, is white or black as the point is that its
+/// nodal line meets, from its centre or its subpixel's, as elemental images of scenes are made: none is grey at an edge. Without
+/// bars: white all over.
 std::unique_ptr<ShownPanel> bars_panel(const Display&, const Geometry&, const std::optional<Bars>&, int threads);
 
 /// The eye that looks at edges: a pinhole at `distance_mm` from the panel's centre, `angle_deg` to the right (within +-80).

@@ -1,5 +1,6 @@
 #include "analysis/line_spread.h"
 
+#include "analysis/channel_pixels.h"
 #include "analysis/eye_rays.h"
 #include "content/pickup.h"
 #include "model/numbers.h"
@@ -7,6 +8,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -32,6 +34,20 @@ double LineSpread::width_mm(double share) const {
     for (const Line& line : all)
         if ((within += line.light) >= share * light) return 2 * line.off_mm;
     return std::numeric_limits<double>::quiet_NaN();
+}
+
+Estimate LineSpread::middle_mm() const {
+    return jackknife([&](int without) {
+        double light = 0, sum = 0;
+        for (std::size_t set = 0; set < sets_.size(); ++set) {
+            if (int(set) == without) continue;
+            for (const Line& line : sets_[set]) {
+                light += line.light;
+                sum += line.light * line.off_mm;
+            }
+        }
+        return sum / light;
+    });
 }
 
 Modulation LineSpread::mtf(double step_per_mm, int count) const {
@@ -66,12 +82,12 @@ Modulation LineSpread::mtf(double step_per_mm, int count) const {
     return m;
 }
 
-SeenThroughLenses::SeenThroughLenses(const Subject& s, const Vec3d& eye)
-    : principal_mm_(s.geometry().rear_principal_mm), vertex_mm_(s.geometry().vertex_plane_mm) {
+template <class ShownAt>
+void SeenThroughLenses::trace(const Subject& s, const Geometry& g, const Vec3d& eye, int lines, const ShownAt& shown) {
     const Display& d = s.display();
-    const EyeRays rays(d, s.geometry());
+    const EyeRays rays(d, g);
     const Pickup pickup(d, s.geometry());
-    const int count = spread_lines_a_set * rays.more_for(eye);
+    const int count = lines * rays.more_for(eye);
     const double pixel = d.panel.pixel_pitch_mm, down = vertex_mm_ - eye[2];
     tbb::parallel_for(0, independent_sets, [&](int set) {
         std::array<double, 2> phase{};
@@ -81,20 +97,53 @@ SeenThroughLenses::SeenThroughLenses(const Subject& s, const Vec3d& eye)
             const Sight sight = rays.look_through(eye, aimed, choice[2], choice[3]);
             if (!(sight.light > 0)) continue;
             const auto add = [&](Sets& to, const std::array<double, 2>& shift) {
-                const double column = std::floor(sight.x / pixel + 0.5 * double(d.panel.pixels[0]) + shift[0]) - shift[0],
-                             row = std::floor(0.5 * double(d.panel.pixels[1]) - sight.y / pixel + shift[1]) - shift[1];
-                const NodalLine line = pickup.line(pickup.x_mm(column), pickup.y_mm(row));
+                const std::optional<Shown> seen = shown({sight.x / pixel + 0.5 * double(d.panel.pixels[0]) + shift[0],
+                                                         0.5 * double(d.panel.pixels[1]) - sight.y / pixel + shift[1]});
+                if (!seen) return;
+                const NodalLine line = pickup.line(pickup.x_mm(seen->column - shift[0]), pickup.y_mm(seen->row - shift[1]));
                 if (!line.owned) return;  // black, whatever is shown
                 to[std::size_t(set)].push_back({{line.x, line.y},
                                                 {line.mx, line.my},
                                                 {aimed[0], aimed[1]},
                                                 {(aimed[0] - eye[0]) / down, (aimed[1] - eye[1]) / down},
-                                                sight.light});
+                                                sight.light * seen->light});
             };
             add(as_described_, {0, 0});
             add(anywhere_, phase);
         }
     });
+}
+
+SeenThroughLenses::SeenThroughLenses(const Subject& s, const Vec3d& eye)
+    : principal_mm_(s.geometry().rear_principal_mm), vertex_mm_(s.geometry().vertex_plane_mm) {
+    trace(s, s.geometry(), eye, spread_lines_a_set, [](const std::array<double, 2>& place) {
+        return std::optional(Shown{std::floor(place[0]), std::floor(place[1]), 1});
+    });
+}
+
+SeenThroughLenses::SeenThroughLenses(const Subject& s, const Vec3d& eye, std::size_t channel)
+    : principal_mm_(s.geometry().rear_principal_mm), vertex_mm_(s.geometry().vertex_plane_mm) {
+    const Display& d = s.display();
+    const ChannelPixels pixels(d, channel);
+    // Most lines end where the channel does not shine: so many more are needed.
+    const int more = std::min(8, int(std::bit_ceil(unsigned(std::ceil(std::min(pixels.gain(), 8.))))));
+    for (const auto& [geometry, weight] : light_paths(d, s.geometry(), channel))
+        trace(s, geometry, eye, more * spread_lines_a_set, [&, share = weight](const std::array<double, 2>& place) {
+            const std::optional<ChannelPixels::Shining> found = pixels.at(place);
+            return found ? std::optional(Shown{found->shown[0] - 0.5, found->shown[1] - 0.5, share * found->brightness})
+                         : std::nullopt;
+        });
+}
+
+SeenThroughLenses::SeenThroughLenses(const std::array<SeenThroughLenses, 3>& channels)
+    : principal_mm_(channels[0].principal_mm_), vertex_mm_(channels[0].vertex_mm_) {
+    for (std::size_t c = 0; c < 3; ++c)
+        for (auto [from, to] : {std::pair{&channels[c].as_described_, &as_described_}, {&channels[c].anywhere_, &anywhere_}})
+            for (std::size_t set = 0; set < independent_sets; ++set)
+                for (Seen seen : (*from)[set]) {
+                    seen.light *= luminance_weights[c];
+                    (*to)[set].push_back(seen);
+                }
 }
 
 LineSpread SeenThroughLenses::spread(double z_mm, const Direction& direction, Pixels pixels) const {

@@ -32,6 +32,9 @@ class LineSpread {
     /// Width of the strip about 0 that contains this share of the light; NaN where there is none.
     double width_mm(double share) const;
 
+    /// The mean distance, weighted by light.
+    Estimate middle_mm() const;
+
     /// The modulus of the transform at `count` frequencies from 0 on in equal steps.
     Modulation mtf(double step_per_mm, int count) const;
 
@@ -42,7 +45,12 @@ class LineSpread {
 /// What one eye sees of a display whose elemental images are those of the nodal pick-up.
 class SeenThroughLenses {
   public:
+    /// In green light, of pixels that shine all over.
     SeenThroughLenses(const Subject&, const Vec3d& eye_mm);
+    /// Of one channel, where it shines and at its wavelengths.
+    SeenThroughLenses(const Subject&, const Vec3d& eye_mm, std::size_t channel);
+    /// Of red, green and blue together, as luminance counts them.
+    explicit SeenThroughLenses(const std::array<SeenThroughLenses, 3>&);
 
     /// Where the panel's pixels lie: as described, or shifted at random by up to a pixel, as assembly may leave them. On a screen
     /// of many lenses the two agree; elsewhere their difference is part of the figure's stated error.
@@ -58,6 +66,13 @@ class SeenThroughLenses {
         double light;
     };
     using Sets = std::array<std::vector<Seen>, independent_sets>;
+    /// What a line of sight meets: for which point it is made, columns and rows of the panel, and its light on a white panel.
+    struct Shown {
+        double column, row, light;
+    };
+    /// Lines of sight through the display in light of one wavelength; `shown` of a place, in pixels from the panel's corner.
+    template <class ShownAt>
+    void trace(const Subject&, const Geometry&, const Vec3d& eye, int lines, const ShownAt& shown);
     double principal_mm_, vertex_mm_;
     Sets as_described_, anywhere_;
 };

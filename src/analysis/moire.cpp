@@ -1,7 +1,7 @@
 #include "analysis/moire.h"
 
+#include "analysis/channel_pixels.h"
 #include "analysis/eye_filter.h"
-#include "model/colour.h"
 #include "model/numbers.h"
 #include "model/subpixels.h"
 
@@ -139,10 +139,7 @@ void remark_on(const Pattern& pattern, const std::optional<Beat>& theory, double
             "at.");
 }
 
-/// Do colours have patterns of their own?
-bool by_channel(const Display& d) { return d.panel.subpixels != SubpixelLayout::none || disperses(d); }
-
-int colours(const Display& d) { return by_channel(d) ? 4 : 1; }
+int colours(const Display& d) { return has_colours(d) ? 4 : 1; }
 
 }  // namespace
 

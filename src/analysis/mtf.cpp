@@ -1,6 +1,9 @@
 #include "analysis/mtf.h"
 
+#include "analysis/channel_pixels.h"
 #include "analysis/edge_plane.h"
+#include "analysis/fringes.h"
+#include "analysis/mtf_colour.h"
 #include "analysis/mtf_resolution.h"
 #include "model/numbers.h"
 
@@ -13,7 +16,6 @@
 namespace lfdsim {
 namespace {
 
-constexpr std::array<const char*, 3> channels{"red", "green", "blue"};
 constexpr const char* across_alone =
     "strips do not image along themselves: there a picture is as fine as the panel's pixels at any depth";
 constexpr std::array levels{std::pair{"mtf50", 0.5}, std::pair{"mtf10", 0.1}};
@@ -23,8 +25,8 @@ template <class Figure>
 void add_channels(Json& json, const std::string& name, double scale, const Figure& figure) {
     for (std::size_t c = 0; c < 3; ++c) {
         const Estimate found = figure(c);
-        json[name][channels[c]] = number_json(found.value * scale);
-        json[name + "_error"][channels[c]] = number_json(found.error * scale);
+        json[name][colour_of_channel[c]] = number_json(found.value * scale);
+        json[name + "_error"][colour_of_channel[c]] = number_json(found.error * scale);
     }
 }
 
@@ -35,7 +37,12 @@ Json to_json(const MtfCurves& m, const Resolution& r) {
         json[std::string("lens_sampling_limit") + unit] = number_json(r.lens_limit_per_mm * scale);
         json[std::string("pixel_image_limit") + unit] = number_json(r.pixel_limit_per_mm * scale);
         for (const auto& [name, level] : levels) {
-            add_channels(json, std::string(name) + unit, scale, [&, at = level](std::size_t) { return m.below(at); });
+            add_channels(json, std::string(name) + unit, scale, [&, at = level](std::size_t c) { return m.below(at, c); });
+            if (!m.channels.empty()) {
+                const Estimate luminance = m.below(level);
+                json[std::string(name) + unit]["luminance"] = number_json(luminance.value * scale);
+                json[std::string(name) + unit + "_error"]["luminance"] = number_json(luminance.error * scale);
+            }
             add_channels(json, std::string("edge_") + name + unit, scale,
                          [&, at = level](std::size_t c) { return m.edges_below(c, at); });
         }
@@ -45,6 +52,7 @@ Json to_json(const MtfCurves& m, const Resolution& r) {
     json["limited_by"] = r.missing.empty() ? Json(r.limited_by) : Json();
     json["astray_share"] = m.astray;
     json["lenses_crossed"] = m.lenses;
+    if (const Json colour = colours_json(m); !colour.is_null()) json["colour"] = colour;
     return json;
 }
 
@@ -60,8 +68,12 @@ void add_notes(const MtfCurves& m, const Resolution& r, std::size_t n, Result& r
     for (const auto& [name, level] : levels) {
         const std::string never = fmt::format("modulation is never below {:.0f} % as far as was measured, {:.4g} per mm",
                                               100 * level, m.frequencies_per_mm.back());
-        if (std::isnan(m.below(level).value)) result.note(fmt::format("{}.{}", path, name), never);
-        if (std::isnan(m.edges_below(1, level).value))
+        const auto misses = [&, at = level](auto&& figure) {
+            return std::isnan(figure(0, at)) || std::isnan(figure(1, at)) || std::isnan(figure(2, at));
+        };
+        if (misses([&](std::size_t c, double at) { return m.below(at, c).value; }))
+            result.note(fmt::format("{}.{}", path, name), never);
+        if (misses([&](std::size_t c, double at) { return m.edges_below(c, at).value; }))
             result.note(
                 fmt::format("{}.edge_{}", path, name),
                 m.edges[1].all.empty() ? "the screen shows too little of the plane about an edge for the edge's light" : never);
@@ -127,9 +139,14 @@ Plot curves(const Subject& s, const std::vector<MtfCurves>& all, double depth) {
 void report(const Subject& s, const std::vector<double>& depths, const std::vector<double>& angles,
             const std::vector<MtfCurves>& all, Result& result) {
     const double plotted = plotted_depth_mm(s, depths);
-    for (const MtfCurves& m : all)
-        if (m.depth_mm == plotted) add_findings(m, resolution(s, m), result);
+    std::vector<const MtfCurves*> at_plotted;
+    for (const MtfCurves& m : all) {
+        if (m.depth_mm != plotted) continue;
+        add_findings(m, resolution(s, m), result);
+        at_plotted.push_back(&m);
+    }
     result.plots.push_back(curves(s, all, plotted));
+    tell_mtf_of_colours(at_plotted, result);
 
     Plot plot{"mtf50", "Resolution: MTF50, or the limit below it", "depth in front of the lenses, mm", "cycles per mm", {}};
     DataTable table{"mtf50", {{"depth_mm", depths}}};
@@ -143,6 +160,9 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
                               {"edge_green", {}},
                               {"edge_blue", {}},
                               {"theory", {}}}};
+        if (has_colours(s.display()))
+            for (const char* kind : {"", "theory_"})
+                for (const char* colour : colour_of_channel) all_curves.columns.push_back({std::string(kind) + colour, {}});
         for (const double angle : angles) {
             const auto column = [&](const char* what) {
                 return Column{fmt::format("{}_{:.3g}_deg_{}_per_mm", direction.name, angle, what), {}};
@@ -157,14 +177,16 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
                 resolved.values.push_back(resolution(s, m).per_mm.value);
                 for (std::size_t k = 0; k < m.frequencies_per_mm.size(); ++k) {
                     const auto value = [&](const Modulation& of) { return of.all.empty() ? nan : of.all[k]; };
-                    const std::array row{m.depth_mm,
-                                         angle,
-                                         m.frequencies_per_mm[k],
-                                         value(m.modulation),
-                                         value(m.edges[0]),
-                                         value(m.edges[1]),
-                                         value(m.edges[2]),
-                                         m.theory[k]};
+                    std::vector row{m.depth_mm,
+                                    angle,
+                                    m.frequencies_per_mm[k],
+                                    value(m.modulation),
+                                    value(m.edges[0]),
+                                    value(m.edges[1]),
+                                    value(m.edges[2]),
+                                    m.theory[k]};
+                    for (const ChannelMtf& channel : m.channels) row.push_back(value(channel.modulation));
+                    for (const ChannelMtf& channel : m.channels) row.push_back(channel.theory[k]);
                     for (std::size_t c = 0; c < row.size(); ++c) all_curves.columns[c].values.push_back(row[c]);
                 }
             }
@@ -200,7 +222,7 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
         "borders is not included.");
     if (is_strips(s.display().array))
         result.remarks.push_back(fmt::format("Resolution is that across the strips: {}.", across_alone));
-    result.remarks.push_back("Red, green and blue are alike: the model has neither dispersion nor subpixels.");
+    result.remarks.push_back(remark_on_channels(all));
 }
 
 void check(const Subject& s, const std::vector<double>& depths, const std::vector<double>& angles) {
@@ -253,11 +275,11 @@ Result measure_mtf(Subject& s, Job& job) {
     const std::vector<double> depths = mtf_depths_mm(s), angles = mtf_angles_deg(s);
     check(s, depths, angles);
     const auto white = bars_panel(s.display(), s.geometry(), {}, s.threads());
-    std::vector<SeenThroughLenses> seen;
+    std::vector<SeenInColours> seen;
     for (const double angle : angles) {
         if (job.cancelled()) throw Stopped{};
         const Eye eye{angle, s.viewing_distance_mm()};
-        seen.emplace_back(s, Vec3d{eye.x_mm(), 0, eye.z_mm()});
+        seen.push_back(seen_in_colours(s, {eye.x_mm(), 0, eye.z_mm()}));
     }
     std::vector<MtfCurves> all;
     for (const double depth : depths)
@@ -285,6 +307,7 @@ Result measure_mtf(Subject& s, Job& job) {
         result.note("along", across_alone);
     }
     report(s, depths, angles, all, result);
+    show_edge_fringes(s, plotted_depth_mm(s, depths), angles, job, result);
     return result;
 }
 

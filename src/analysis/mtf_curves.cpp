@@ -1,5 +1,6 @@
 #include "analysis/mtf_curves.h"
 
+#include "analysis/channel_pixels.h"
 #include "analysis/mtf_theory.h"
 #include "analysis/slanted_edge.h"
 #include "model/numbers.h"
@@ -15,31 +16,58 @@ Estimate crossing(const std::vector<double>& frequencies, const Modulation& m, d
     return jackknife([&](int k) { return falls_below(frequencies, k < 0 ? m.all : m.without[std::size_t(k)], level); });
 }
 
-}  // namespace
-
-Estimate MtfCurves::below(double level) const {
-    Estimate found = crossing(frequencies_per_mm, modulation, level);
-    if (const double anywhere = falls_below(frequencies_per_mm, pixels_anywhere, level); std::isfinite(anywhere))
+/// Where modulation crosses a level, and the error by chance and by the pixels' phases.
+Estimate crossing(const std::vector<double>& frequencies, const Modulation& m, const std::vector<double>& pixels_anywhere,
+                  double level) {
+    Estimate found = crossing(frequencies, m, level);
+    if (const double anywhere = falls_below(frequencies, pixels_anywhere, level); std::isfinite(anywhere))
         found.error = std::hypot(found.error, found.value - anywhere);
     return found;
 }
 
+/// The mean of exp(2 pi i nu off) in luminance, as theory has it.
+std::complex<double> luminance_wave(const std::vector<ChannelBlur>& channels, double per_mm, const Direction& direction) {
+    std::complex<double> sum = 0;
+    for (std::size_t c = 0; c < channels.size(); ++c) sum += luminance_weights[c] * channels[c].wave(per_mm, direction);
+    return sum;
+}
+
+}  // namespace
+
+Estimate MtfCurves::below(double level) const { return crossing(frequencies_per_mm, modulation, pixels_anywhere, level); }
+
+Estimate MtfCurves::below(double level, std::size_t channel) const {
+    if (channels.empty()) return below(level);
+    const ChannelMtf& of = channels[channel];
+    return crossing(frequencies_per_mm, of.modulation, of.pixels_anywhere, level);
+}
+
 Estimate MtfCurves::edges_below(std::size_t channel, double level) const {
     Estimate found = crossing(frequencies_per_mm, edges[channel], level);
-    found.error = std::hypot(found.error, found.value - below(level).value);
+    found.error = std::hypot(found.error, found.value - below(level, channel).value);
     return found;
 }
 
 double MtfCurves::theory_below(double level) const { return has_theory() ? falls_below(frequencies_per_mm, theory, level) : nan; }
 
-MtfCurves mtf_curves(const Subject& s, const SeenThroughLenses& seen, double depth_mm, double angle_deg,
-                     const Direction& direction) {
+double MtfCurves::theory_below(double level, std::size_t channel) const {
+    if (channels.empty()) return theory_below(level);
+    return has_theory() ? falls_below(frequencies_per_mm, channels[channel].theory, level) : nan;
+}
+
+SeenInColours seen_in_colours(const Subject& s, const Vec3d& eye) {
+    if (!has_colours(s.display())) return {SeenThroughLenses(s, eye), {}};
+    const std::array channels{SeenThroughLenses(s, eye, 0), SeenThroughLenses(s, eye, 1), SeenThroughLenses(s, eye, 2)};
+    return {SeenThroughLenses(channels), {channels.begin(), channels.end()}};
+}
+
+MtfCurves mtf_curves(const Subject& s, const SeenInColours& seen, double depth_mm, double angle_deg, const Direction& direction) {
     constexpr int steps = 160;
     constexpr double most_lost = 0.2;  // of the light, beyond what the screen shows of the plane
     const Eye eye{angle_deg, s.viewing_distance_mm()};
     const Bars plane = bars_across(direction, s.geometry().vertex_plane_mm + depth_mm);
     using Pixels = SeenThroughLenses::Pixels;
-    const LineSpread spread = seen.spread(plane.z_mm, direction, Pixels::as_described);
+    const LineSpread spread = seen.luminance.spread(plane.z_mm, direction, Pixels::as_described);
     // Seen from the side the plane is foreshortened, most along x.
     const double aside = direction.x * std::sin(angle_deg * degree), foreshortened = std::sqrt(1 - aside * aside);
     MtfCurves m{};
@@ -57,20 +85,33 @@ MtfCurves mtf_curves(const Subject& s, const SeenThroughLenses& seen, double dep
     // To the first zero of a pixel's image or, where the blur is far wider, to where next to nothing is left
     const Blur by_theory = blur(s.display(), s.geometry(), s.theory(), plane.z_mm, angle_deg);
     const double width = m.spread_mm > 0 ? m.spread_mm : by_theory.width_mm(direction);
-    double step = 1 / std::max(by_theory.pixel_mm, 0.25 * width) / steps;
+    std::vector<ChannelBlur> blurs;
+    for (std::size_t c = 0; c < seen.channels.size(); ++c) blurs.emplace_back(s, c, plane.z_mm, angle_deg);
+    double finest = by_theory.pixel_mm;
+    for (const ChannelBlur& channel : blurs) finest = std::min(finest, channel.narrowest_mm(direction));
+    double step = 1 / std::max(finest, 0.25 * width) / steps;
     if (m.missing.empty()) {
         // A narrow core within a wide halo keeps its modulation longer: it is followed as far as the lenses can show it.
         const double limit = lens_limit_per_mm(s, direction, plane.z_mm, angle_deg);
         const auto lowest = [&] { return *std::min_element(m.modulation.all.begin(), m.modulation.all.end()); };
         m.modulation = spread.mtf(step, steps + 1);
-        for (; lowest() >= 0.5 && step * steps < std::min(limit, 1 / by_theory.pixel_mm);
-             m.modulation = spread.mtf(step, steps + 1))
-            step *= 2;
-        m.pixels_anywhere = seen.spread(plane.z_mm, direction, Pixels::anywhere).mtf(step, steps + 1).all;
+        for (; lowest() >= 0.5 && step * steps < std::min(limit, 1 / finest); m.modulation = spread.mtf(step, steps + 1)) step *= 2;
+        m.pixels_anywhere = seen.luminance.spread(plane.z_mm, direction, Pixels::anywhere).mtf(step, steps + 1).all;
     }
     for (int k = 0; k <= steps; ++k) {
         m.frequencies_per_mm.push_back(step * k);
-        m.theory.push_back(by_theory.mtf(step * k, direction));
+        m.theory.push_back(blurs.empty() ? by_theory.mtf(step * k, direction)
+                                         : std::abs(luminance_wave(blurs, step * k, direction)));
+    }
+    for (std::size_t c = 0; c < seen.channels.size(); ++c) {
+        ChannelMtf& channel = m.channels.emplace_back();
+        for (const double f : m.frequencies_per_mm) channel.theory.push_back(std::abs(blurs[c].wave(f, direction)));
+        channel.theory_middle_mm = blurs[c].middle_mm(direction);
+        if (!m.missing.empty()) continue;
+        const LineSpread of_channel = seen.channels[c].spread(plane.z_mm, direction, Pixels::as_described);
+        channel.modulation = of_channel.mtf(step, steps + 1);
+        channel.middle_mm = of_channel.middle_mm();
+        channel.pixels_anywhere = seen.channels[c].spread(plane.z_mm, direction, Pixels::anywhere).mtf(step, steps + 1).all;
     }
     return m;
 }

@@ -10,6 +10,15 @@
 
 namespace lfdsim {
 
+/// What lines of sight of one channel find, and theory; at the frequencies of all.
+struct ChannelMtf {
+    Modulation modulation;                // empty if it is missing
+    std::vector<double> pixels_anywhere;  // as in MtfCurves
+    std::vector<double> theory;
+    Estimate middle_mm;  // mean distance from the point looked at to the one shown; differs by colour: fringes
+    double theory_middle_mm;
+};
+
 struct MtfCurves {
     double depth_mm, angle_deg;
     Direction direction;                     // that is resolved
@@ -18,9 +27,10 @@ struct MtfCurves {
     std::string missing;                     // why there is no modulation; else empty
     std::vector<double> frequencies_per_mm;  // in that plane, in equal steps from 0
     std::vector<double> theory;              // at these
-    Modulation modulation;                   // at these, by lines of sight; empty if it is missing
+    Modulation modulation;                   // at these, by lines of sight, of the luminance; empty if it is missing
     std::vector<double> pixels_anywhere;     // the same with the panel's pixels shifted by any part of one
     double spread_mm;                        // width of the strip that contains 95 % of the light; NaN: no light
+    std::vector<ChannelMtf> channels;        // red, green and blue; empty: all are as the luminance
 
     /// By pictures of slanted edges: red, green, blue; empty: no edge was seen, or too much light lies too far from it.
     std::array<Modulation, 3> edges;
@@ -30,13 +40,22 @@ struct MtfCurves {
     /// The frequency at which modulation first falls below a level; NaN: it never does. The error includes the effect of the phases
     /// in which this screen's pixels happen to meet its lenses.
     Estimate below(double level) const;
+    Estimate below(double level, std::size_t channel) const;
     /// The same of a colour's edges. They are a sample of all the places where edges may be, so the error is at least their
     /// difference from lines of sight.
     Estimate edges_below(std::size_t channel, double level) const;
     double theory_below(double level) const;
+    double theory_below(double level, std::size_t channel) const;
 };
 
+/// What an eye sees through the lenses, of the luminance and of each channel.
+struct SeenInColours {
+    SeenThroughLenses luminance;
+    std::vector<SeenThroughLenses> channels;  // red, green and blue; empty: all are as the luminance
+};
+SeenInColours seen_in_colours(const Subject&, const Vec3d& eye_mm);
+
 /// All but the edges, for a plane at a depth in front of the vertex plane and an eye at an angle.
-MtfCurves mtf_curves(const Subject&, const SeenThroughLenses&, double depth_mm, double angle_deg, const Direction&);
+MtfCurves mtf_curves(const Subject&, const SeenInColours&, double depth_mm, double angle_deg, const Direction&);
 
 }  // namespace lfdsim

@@ -77,14 +77,60 @@ double light_astray(const Subject& s, double angle_deg, double distance_mm) {
                    SlopeSpread(s, eye, 1).within(0, -half(1), half(1));
 }
 
-double Blur::mtf(double f, const Direction& direction) const {
+std::complex<double> Blur::wave(std::complex<double> pixel, double f, const Direction& direction) const {
     const double c = std::cos(array_rad), s = std::sin(array_rad), x = f * direction.x, y = f * direction.y;
     const double spot = aperture.mean(defocus * (c * x + s * y), defocus * (c * y - s * x));
     const auto spread = [&](double waves) {
         const double sigma = pi / fwhm_per_sigma;
         return gaussian ? std::exp(-2 * sigma * sigma * waves * waves) : sinc(waves);
     };
-    return std::abs(sinc(x * pixel_mm) * sinc(y * pixel_mm) * spot * spread(x * diffuser_mm[0]) * spread(y * diffuser_mm[1]));
+    return pixel * spot * spread(x * diffuser_mm[0]) * spread(y * diffuser_mm[1]);
+}
+
+double Blur::mtf(double f, const Direction& direction) const {
+    return std::abs(wave(sinc(f * direction.x * pixel_mm) * sinc(f * direction.y * pixel_mm), f, direction));
+}
+
+// A line of sight of slope m that meets a lens at q from its axis C ends, in this light, on P = C - q g/L - g m. By its nodal line
+// in green light (g', from H') P shows C + (z - z_H') (C - P)/g'. The line itself is at C + q + (z - z_H) m.
+ChannelBlur::ChannelBlur(const Subject& s, std::size_t channel, double z_mm, double angle_deg) : pixels_(s.display(), channel) {
+    const Display& d = s.display();
+    const Geometry& green = s.geometry();
+    const double shown = (z_mm - green.rear_principal_mm) / green.gap_mm;  // height of the plane in gaps
+    image_ = d.panel.pixel_pitch_mm * shown;
+    for (const auto& [g, weight] : light_paths(d, green, channel)) {
+        const Theory t = theory(d, g);
+        Path path{weight, blur(d, green, t, z_mm, angle_deg), {}, {}};
+        const double lateral = shown * g.gap_mm - (z_mm - g.rear_principal_mm);  // off per slope
+        path.blur.defocus = std::abs(1 - shown * g.gap_mm / t.central_depth_mm);
+        if (d.diffuser) {
+            const double away = z_mm - *green.diffuser_z_mm;
+            for (double& width : path.blur.diffuser_mm) width *= std::abs(away) > 0 ? std::abs(1 + lateral / away) : 0;
+        }
+        const double eye = s.viewing_distance_mm() * std::cos(angle_deg * degree) - g.rear_principal_mm,
+                     aside = s.viewing_distance_mm() * std::sin(angle_deg * degree);
+        path.lateral_mm = {green.array_width_mm * lateral / eye, green.array_height_mm * lateral / eye};
+        path.middle_mm = {(aside - d.array.offset_mm[0]) * lateral / eye, -d.array.offset_mm[1] * lateral / eye};
+        paths_.push_back(std::move(path));
+    }
+}
+
+std::complex<double> ChannelBlur::wave(double f, const Direction& direction) const {
+    const std::complex<double> pixel = pixels_.wave(f * image_ * direction.x, -f * image_ * direction.y);
+    std::complex<double> sum = 0;
+    for (const auto& [weight, blur, lateral, middle] : paths_) {
+        const double c = std::cos(blur.array_rad), s = std::sin(blur.array_rad), x = f * direction.x, y = f * direction.y;
+        const double screen = sinc((c * x + s * y) * lateral[0]) * sinc((c * y - s * x) * lateral[1]);
+        sum += weight * screen * blur.wave(pixel, f, direction) * std::polar(1., 2 * pi * (x * middle[0] + y * middle[1]));
+    }
+    return sum;
+}
+
+double ChannelBlur::middle_mm(const Direction& direction) const {
+    double sum = 0;
+    for (const Path& path : paths_) sum += path.weight * (direction.x * path.middle_mm[0] + direction.y * path.middle_mm[1]);
+    const auto [x, y] = pixels_.middle();
+    return sum + image_ * (direction.x * x - direction.y * y);
 }
 
 double Blur::width_mm(const Direction& direction) const {

@@ -1,10 +1,13 @@
 // The blur of what is shown at a depth, by paraxial theory. Floor 3.
 #pragma once
 #include "analysis/aperture_wave.h"
+#include "analysis/channel_pixels.h"
 #include "analysis/edge_view.h"
 #include "analysis/subject.h"
 
 #include <array>
+#include <cmath>
+#include <complex>
 
 namespace lfdsim {
 
@@ -32,6 +35,8 @@ struct Blur {
 
     /// Modulation at a frequency per mm, 0 or more, along a direction.
     double mtf(double per_mm, const Direction&) const;
+    /// The mean of exp(2 pi i nu off) over all parts but the pixel, times that over the pixel.
+    std::complex<double> wave(std::complex<double> pixel, double per_mm, const Direction&) const;
     /// About the full width of an edge's blur.
     double width_mm(const Direction&) const;
 };
@@ -41,5 +46,28 @@ double light_astray(const Subject&, double angle_deg, double distance_mm);
 
 /// For an angle of view to the right.
 Blur blur(const Display&, const Geometry&, const Theory&, double z_mm, double angle_deg);
+
+/// The same of one channel, in light of its wavelengths, of content that is made for green light.
+class ChannelBlur {
+  public:
+    ChannelBlur(const Subject&, std::size_t channel, double z_mm, double angle_deg);
+    /// The mean of exp(2 pi i nu off), off the distance from the point looked at to the one shown.
+    std::complex<double> wave(double per_mm, const Direction&) const;
+    /// The mean distance.
+    double middle_mm(const Direction&) const;
+    /// Width of the image of the channel's narrowest rectangle.
+    double narrowest_mm(const Direction& d) const { return std::abs(image_) * pixels_.narrowest(d.x, d.y); }
+
+  private:
+    struct Path {
+        double weight;
+        Blur blur;                         // of a lens in this light
+        std::array<double, 2> lateral_mm;  // full widths along x' and y': off differs from lens to lens
+        std::array<double, 2> middle_mm;   // along x and y
+    };
+    std::vector<Path> paths_;
+    ChannelPixels pixels_;
+    double image_;  // of a panel pixel, negative behind the lenses
+};
 
 }  // namespace lfdsim

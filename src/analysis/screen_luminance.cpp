@@ -1,3 +1,4 @@
+#include "analysis/screen_parts.h"
 #include "analysis/uniformity.h"
 
 #include <algorithm>
@@ -9,43 +10,22 @@ namespace {
 
 constexpr int most_parts_along = 16, rays_a_part = 1 << 14;
 
-/// Columns and rows of parts. A part has as few lenses, the same number along both axes, as give no more than most_parts_along.
-std::array<int, 2> parts_along(const std::array<std::int64_t, 2>& lenses) {
-    const std::int64_t together = (std::max(lenses[0], lenses[1]) + most_parts_along - 1) / most_parts_along;
-    return {int(std::max<std::int64_t>(lenses[0] / together, 1)), int(std::max<std::int64_t>(lenses[1] / together, 1))};
-}
-
-double lenses_of(int part, int parts, std::int64_t lenses) { return double((part + 1) * lenses / parts - part * lenses / parts); }
-
-/// Maps a number in [-1, 1] that chooses a lens to one that chooses a lens of part `k` of `parts`.
-double within_part(double number, int k, int parts, std::int64_t lenses) {
-    const double first = double(k * lenses / parts), end = double((k + 1) * lenses / parts);
-    return 2 * (first + (0.5 + 0.5 * number) * (end - first)) / double(lenses) - 1;
-}
-
 }  // namespace
 
-int screen_luminance_parts(const Display& d) {
-    const auto [columns, rows] = parts_along(lens_count(d.panel, d.array));
-    return columns * rows;
-}
+int screen_luminance_parts(const Display& d) { return ScreenParts(d, most_parts_along).count(); }
 
 ScreenLuminance screen_luminance(const EyeRays& rays, const Display& d, const Vec3d& eye, Parts& parts) {
-    const std::array<std::int64_t, 2> lenses = lens_count(d.panel, d.array);
-    const auto [columns, rows] = parts_along(lenses);
-    ScreenLuminance screen{columns, rows, {}, {}};
-    screen.parts.resize(std::size_t(columns) * std::size_t(rows));
-    for (int k = 0; k < columns * rows; ++k)
-        screen.lenses.push_back(lenses_of(k % columns, columns, lenses[0]) * lenses_of(rows - 1 - k / columns, rows, lenses[1]));
+    const ScreenParts all(d, most_parts_along);
+    ScreenLuminance screen{all.columns(), all.rows(), {}, {}};
+    screen.parts.resize(std::size_t(all.count()));
+    for (int k = 0; k < all.count(); ++k) screen.lenses.push_back(all.block(k).lenses());
     const int rays_each = rays_a_part / independent_sets * rays.more_for(eye);
-    parts.run(columns * rows, [&](int part) {
+    parts.run(all.count(), [&](int part) {
+        const LensBlock block = all.block(part);
         for (int set = 0; set < independent_sets; ++set) {
             double sum = 0;
-            for (Choice choice : even_choices(rays_each, set_number(d.render.seed, independent_sets * part + set))) {
-                choice[4] = within_part(choice[4], part % screen.columns, screen.columns, lenses[0]);
-                choice[5] = within_part(choice[5], screen.rows - 1 - part / screen.columns, screen.rows, lenses[1]);
-                sum += rays.look(eye, choice).light;
-            }
+            for (const Choice& choice : even_choices(rays_each, set_number(d.render.seed, independent_sets * part + set)))
+                sum += rays.look(eye, all.within(block, choice)).light;
             screen.parts[std::size_t(part)][std::size_t(set)] = sum / rays_each;
         }
     });

@@ -1,7 +1,9 @@
 #include "analysis/uniformity.h"
 
 #include "analysis/efficiency.h"
+#include "analysis/fringes.h"
 #include "analysis/luminance_theory.h"
+#include "analysis/uniformity_colour.h"
 #include "model/bands.h"
 #include "model/numbers.h"
 
@@ -235,14 +237,16 @@ void add_budget(Result& result, const std::array<LightBudget, independent_sets>&
 
 }  // namespace
 
-std::int64_t uniformity_steps(const Subject& s) { return pictures_worth(s, 7'000'000); }
+std::int64_t uniformity_steps(const Subject& s) { return pictures_worth(s, 7'000'000 + colour_work(s).lines); }
 
 Result measure_uniformity(Subject& s, Job& job) {
     const double distance = checked_viewing_distance_mm(s);
     const EyeRays rays(s.display(), s.geometry());
     const int angles = int(angles_deg().size());
-    Parts parts(job, s.threads(), screen_luminance_parts(s.display()) + pitch_luminance_parts + 2 * angles + light_budget_parts,
-                uniformity_steps(s));
+    Parts parts(
+        job, s.threads(),
+        screen_luminance_parts(s.display()) + pitch_luminance_parts + 2 * angles + light_budget_parts + colour_work(s).parts,
+        uniformity_steps(s));
     const Vec3d eye{0, 0, distance};
     Result result;
     result.figures["viewing_distance_mm"] = distance;
@@ -250,6 +254,8 @@ Result measure_uniformity(Subject& s, Job& job) {
     add_bands(result, pitch_luminance(rays, s.display(), eye, parts), s);
     add_angles(result, s, rays, distance, parts);
     add_budget(result, light_budgets(s.display(), s.geometry(), parts));
+    tell_colour_uniformity(s, distance, parts, result);
+    show_white_fringes(s, job, result);
     result.remarks.push_back(
         "A lens passes on the panel's radiance: luminance falls only by reflection and where lines of sight end beside a lens or "
         "the panel. Light efficiency is a different measure: light leaves in all directions, most of it to where no viewer is.");

@@ -1,76 +1,24 @@
 #include "content/cast.h"
 #include "content/lens_mapping.h"
 #include "content/pickup.h"
+#include "content/shown_points.h"
 
 #include "model/colour.h"
-#include "model/subpixels.h"
 
 namespace lfdsim {
 namespace {
 
-/// For which point of a pixel a ray of it is made: pixels from its centre to the right and down, for each pixel of a cell. Nothing
-/// where the ray's channel does not shine.
-class ShownPoints {
-  public:
-    using Point = std::array<double, 2>;
-
-    /// Without a place: for the middle of the pixel, or of the channel's light. Else for the point at that share of its width (0)
-    /// and height (1), of several rectangles one after the other.
-    ShownPoints(const Panel& panel, bool by_subpixel, int channel, const std::optional<LensMapping::RayPlace>& place) {
-        if (by_subpixel) cell_ = subpixel_cell(panel).size;
-        for (std::int64_t row = 0; row < cell_[1]; ++row)
-            for (std::int64_t column = 0; column < cell_[0]; ++column) {
-                if (place)
-                    of_.push_back(point_at(by_subpixel ? lit_rects(panel, channel, column, row) : whole_pixel(), *place));
-                else
-                    of_.push_back(by_subpixel ? centroid(panel, channel, column, row) : Point{});
-            }
-    }
-    std::optional<Point> of(std::int64_t column, std::int64_t row) const {
-        return of_[std::size_t(row % cell_[1] * cell_[0] + column % cell_[0])];
-    }
-    /// The point that all pixels have in common that have one.
-    std::optional<Point> common() const {
-        std::optional<Point> first;
-        for (const std::optional<Point>& each : of_) {
-            if (each && first && *each != *first) return {};
-            if (each) first = each;
-        }
-        return first;
-    }
-    bool everywhere() const {
-        return std::all_of(of_.begin(), of_.end(), [](const std::optional<Point>& each) { return each.has_value(); });
-    }
-
-  private:
-    static std::vector<LitRect> whole_pixel() { return {{{-0.5, -0.5}, {0.5, 0.5}}}; }
-    static std::optional<Point> point_at(const std::vector<LitRect>& rects, const LensMapping::RayPlace& place) {
-        double area = 0;
-        for (const LitRect& r : rects) area += r.area();
-        double left = place[0] * area;
-        for (const LitRect& r : rects) {
-            if (left < r.area())
-                return Point{r.from[0] + left / r.area() * (r.to[0] - r.from[0]), r.from[1] + place[1] * (r.to[1] - r.from[1])};
-            left -= r.area();
-        }
-        return {};
-    }
-
-    std::array<std::int64_t, 2> cell_{1, 1};
-    std::vector<std::optional<Point>> of_;
-};
-
-/// Whether the colours of a pixel are made for different places.
-bool by_subpixel(const Display& d) {
-    return d.panel.subpixels != SubpixelLayout::none && d.content.sampling == ContentSampling::subpixel;
-}
-
-/// Whether they have rays of their own.
-bool by_channel(const Display& d) { return by_subpixel(d) || (d.content.pickup != PickupKind::nodal && disperses(d)); }
+/// Whether the colours of a pixel have rays of their own.
+bool by_channel(const Display& d) { return made_by_channel(d) || (d.content.pickup != PickupKind::nodal && disperses(d)); }
 
 /// The rays of the pick-up, a block at a time: of each pixel those of its red, then of green and blue, where they differ. They must
 /// hit the surface that the viewer sees first along the line: they start in the plane z = top, just above the scene on the viewer's
 /// side, and travel towards the panel and beyond it. Their direction has dz = -1, so that t is the depth below the plane.
+=======
+/// The rays of the nodal pick-up, a block at a time. They must hit the surface that the viewer sees first along the line: they
+/// start in the plane z = top, just above the scene on the viewer's side, and travel towards the panel and beyond it. Their
+/// direction has dz = -1, so that t is the depth below the plane.
+>>>>>>> colour
 class PickupRays {
   public:
     PickupRays(const Display& display, const Geometry& geometry, const ContentScene& scene,
@@ -144,7 +92,7 @@ class PickupRays {
         const bool one_of_many = display.content.pickup == PickupKind::integrated && !mapping->places().empty();
         // Where the aperture is so odd that fewer rays than asked for were found in it, they serve again.
         const int of_mapping = one_of_many ? ray % int(mapping->places().size()) : -1;
-        const ShownPoints points(display.panel, by_subpixel(display), channel,
+        const ShownPoints points(display.panel, made_by_channel(display), channel,
                                  one_of_many ? std::optional(mapping->places()[std::size_t(of_mapping)]) : std::nullopt);
         const std::optional<ShownPoints::Point> shown = points.common();
         RaySet rays{points, mapping, of_mapping, !apart_ && shown, points.everywhere(), {}, {}};

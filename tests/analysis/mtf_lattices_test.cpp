@@ -116,7 +116,7 @@ TEST(MtfOfStrips, IsThatOfTheNodalRaysDifferencesAndOfTheory) {
         const Display& d = s.display();
         for (const double angle : mtf_angles_deg(s)) {
             const Vec3d eye{1200 * std::sin(angle * degree), 0, 1200 * std::cos(angle * degree)};
-            const SeenThroughLenses seen(s, eye);
+            const SeenInColours seen = seen_in_colours(s, eye);
             for (const double depth : {0.7 * central, central, 1.4 * central}) {
                 const auto where = [&] {
                     return fmt::format("display {}: pitch {}, slant {}, {} mm, {} degrees", k, d.array.pitch_mm[0],
@@ -191,7 +191,7 @@ TEST(MtfOfHexagons, IsThatOfTheory) {
         d.lens.kind = IdealLens{{}, 1 / (1 / 8. + 1 / 100.)};
         d.diffuser.reset();
         const Subject s = subject_of(d, {});
-        const SeenThroughLenses seen(s, {0, 0, 1200});
+        const SeenInColours seen = seen_in_colours(s, {0, 0, 1200});
         for (const Direction& direction : directions(d)) {
             const MtfCurves m = mtf_curves(s, seen, 160, 0, direction);
             ASSERT_TRUE(m.has_theory() && m.missing.empty());

@@ -1,0 +1,38 @@
+// The screen in parts of whole lenses. Floor 3.
+#pragma once
+#include "analysis/eye_rays.h"
+#include "model/lattice.h"
+
+#include <array>
+#include <cstdint>
+
+namespace lfdsim {
+
+/// Some lenses next to each other, all in their columns and rows.
+struct LensBlock {
+    std::array<std::int64_t, 2> first, end;  // along the array's own x and y, from its left and its lower border
+    double lenses() const { return double(end[0] - first[0]) * double(end[1] - first[1]); }
+};
+
+/// Columns and rows of blocks as equal as lenses allow. A block has as few lenses, the same number along both axes, as give no more
+/// than `most_along` blocks along the longer side.
+class ScreenParts {
+  public:
+    ScreenParts(const Display&, int most_along);
+    int columns() const { return count_[0]; }
+    int rows() const { return count_[1]; }
+    int count() const { return count_[0] * count_[1]; }
+    /// Row 0 is at the top.
+    LensBlock block(int part) const;
+    /// One as large in the middle of the array.
+    LensBlock middle() const;
+    /// The line of sight of a choice among all lenses, among those of a block.
+    Choice within(const LensBlock&, Choice) const;
+
+  private:
+    std::array<std::int64_t, 2> lenses_;
+    std::int64_t together_;
+    std::array<int, 2> count_;
+};
+
+}  // namespace lfdsim
