@@ -62,7 +62,7 @@ double suggested(std::string_view path, const Display& d, const Geometry& g) {
         {"camera.pupil_diameter_mm", 4},  // of an eye indoors
         {"camera.focus_distance_mm", g.focus_distance_mm},
         {"content.depth_mm", g.content_depth_mm},
-        {"content.height_mm", g.content_height_mm},
+        {"content.height_mm", g.content_height_mm.value_or(0.5 * g.panel_height_mm)},
         {"render.samples", double(samples_of(d))},
     };
     for (const auto& [key, value] : all)

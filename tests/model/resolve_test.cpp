@@ -106,7 +106,7 @@ TEST(Resolve, CameraDefaults) {
 TEST(Resolve, ContentStandsOnTheCentralDepthPlaneWithinReach) {
     Display d = example_ideal();
     EXPECT_NEAR(resolve(d).content_depth_mm, 15.7 * gap / (gap - 15.7), 1e-9);
-    EXPECT_NEAR(resolve(d).content_height_mm, 2160 * 0.13636 / 2, 1e-12);
+    EXPECT_NEAR(resolve(d).content_height_mm.value(), 2160 * 0.13636 / 2, 1e-12);
     d.array.gap_mm = 15;  // virtual: behind the lenses
     EXPECT_NEAR(resolve(d).content_depth_mm, 15.7 * 15 / (15 - 15.7), 1e-9);
     d.array.gap_mm = 15.7;  // collimated

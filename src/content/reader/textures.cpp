@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <cstring>
+#include <stdexcept>
 
 // One well-maintained decoder for the formats that models use; it runs in this confined process only.
 #define STB_IMAGE_IMPLEMENTATION
@@ -53,6 +54,12 @@ bool decode(const std::filesystem::path& file, Texture& out) {
 }
 
 }  // namespace
+
+Texture read_texture(const std::filesystem::path& file) {
+    Texture texture;
+    if (!decode(file, texture)) throw std::runtime_error(stbi_failure_reason());
+    return texture;
+}
 
 int Textures::index(const std::string& name) {
     const auto [entry, fresh] = known_.try_emplace(name, -1);

@@ -11,6 +11,9 @@
 
 namespace lfdsim::reader {
 
+/// A picture file's texels. Throws std::runtime_error that says why it cannot be decoded.
+Texture read_texture(const std::filesystem::path&);
+
 class Textures {
   public:
     Textures(const aiScene& scene, const Folder& folder) : scene_(scene), folder_(folder) {}
