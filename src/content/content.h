@@ -59,18 +59,18 @@ std::shared_ptr<const Model> load_picture(const std::filesystem::path&, const Lo
 ModelInfo info(const Model&);
 
 /// The models and pictures of content_files(), which are read once each. The limits hold for all of them together.
-using Parts = std::vector<std::shared_ptr<const Model>>;
-Parts load_parts(const std::vector<ContentFile>&, const LoadOptions& = {});
+using ContentParts = std::vector<std::shared_ptr<const Model>>;
+ContentParts load_parts(const std::vector<ContentFile>&, const LoadOptions& = {});
 
 /// What a display shows, posed in front of the display (docs/model.md, "Pose"), with its ray-tracing structure. Copies share both.
 class ContentScene {
   public:
     /// Throws InputError for a model without height (lying flat) or millions of times wider than high. `parts`: those of the
     /// display's content_files().
-    ContentScene(const Parts&, const Display&, const Geometry&);
+    ContentScene(const ContentParts&, const Display&, const Geometry&);
     /// Of a display without objects.
     ContentScene(std::shared_ptr<const Model> model, const Display& d, const Geometry& g)
-        : ContentScene(Parts{std::move(model)}, d, g) {}
+        : ContentScene(ContentParts{std::move(model)}, d, g) {}
 
     /// The same at another depth (content.depth_mm) of the same display: nothing is read, posed or built again, and pictures
     /// have the bits of a scene made there. Throws InputError for a depth that a display could not have.

@@ -114,7 +114,7 @@ class Joining {
 
 }  // namespace
 
-std::shared_ptr<const Model> joined(const Parts& parts, const std::vector<SceneObject>& objects) {
+std::shared_ptr<const Model> joined(const ContentParts& parts, const std::vector<SceneObject>& objects) {
     Joining joining(middle_z_mm(objects));
     for (std::size_t i = 0; i < objects.size(); ++i) joining.add(*parts[i], objects[i], i);
     return joining.model();

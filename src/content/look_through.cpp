@@ -3,6 +3,9 @@
 namespace lfdsim {
 namespace {
 
+// Rays start again a little behind what they met, by more than rounding: else they would meet it for ever.
+constexpr float beyond = 1 + 4e-7f, least = 1e-20f;
+
 std::uint32_t material_at(const ContentScene::Impl& scene, const RTCHit16& hit, int k) {
     return scene.model->material_of[hit.primID[k]];
 }
@@ -23,7 +26,7 @@ void look_through(const ContentScene::Impl& scene, const Beam& beam, RTCIntersec
     }
     while (goes_on.any()) {
         for (int k = 0; k < lanes; ++k) {
-            packet.ray.tnear[k] = packet.ray.tfar[k];
+            packet.ray.tnear[k] = packet.ray.tfar[k] * beyond + least;
             packet.ray.tfar[k] = INFINITY;
             packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
         }

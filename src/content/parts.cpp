@@ -33,11 +33,11 @@ std::string model_of(const Display& display) {
     return content.model.empty() ? std::string(built_in_spheres) : content.model;
 }
 
-Parts load_parts(const std::vector<ContentFile>& files, const LoadOptions& options) {
+ContentParts load_parts(const std::vector<ContentFile>& files, const LoadOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     std::map<ContentFile, std::shared_ptr<const Model>> read;
     LoadOptions left = options;
-    Parts parts;
+    ContentParts parts;
     for (const ContentFile& file : files) {
         std::shared_ptr<const Model>& model = read[file];
         if (!model) {

@@ -121,7 +121,7 @@ void build(ContentScene::Impl& scene) {
 
 }  // namespace
 
-ContentScene::ContentScene(const Parts& parts, const Display& display, const Geometry& geometry)
+ContentScene::ContentScene(const ContentParts& parts, const Display& display, const Geometry& geometry)
     : vertex_plane_mm_(geometry.vertex_plane_mm), depth_mm_(geometry.content_depth_mm) {
     const auto made = std::make_shared<Impl>();
     made->model = display.content.objects.empty() ? parts.at(0) : joined(parts, display.content.objects);

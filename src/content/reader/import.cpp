@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 namespace lfdsim::reader {
@@ -26,8 +27,8 @@ constexpr float crease_deg = 60;
 
 // Everything comes as triangles in one frame: node transforms applied, instances copied, points and lines dropped.
 constexpr unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices |
-                           aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices | aiProcess_GenUVCoords |
-                           aiProcess_TransformUVCoords;
+                           aiProcess_JoinIdenticalVertices | aiProcess_GenUVCoords | aiProcess_TransformUVCoords;
+constexpr float grey = 0.5f;  // linear light, of what cannot be shown as it is
 
 Wrap wrap(aiTextureMapMode mode) {
     switch (mode) {
@@ -41,11 +42,10 @@ Wrap wrap(aiTextureMapMode mode) {
     }
 }
 
-// Some loaders (Blender) hand over colours where the file has none, all black.
-bool coloured(const aiMesh& mesh) {
-    if (!mesh.HasVertexColors(0)) return false;
-    const aiColor4D* first = mesh.mColors[0];
-    return std::any_of(first, first + mesh.mNumVertices, [](const aiColor4D& c) { return c.r > 0 || c.g > 0 || c.b > 0; });
+bool shines(const aiMaterial& material) {
+    aiColor4D light(0, 0, 0, 0);
+    material.Get(AI_MATKEY_COLOR_EMISSIVE, light);
+    return light.r > 0 || light.g > 0 || light.b > 0;
 }
 
 class Conversion {
@@ -61,13 +61,24 @@ class Conversion {
         model_.files = std::move(textures_.files);
         model_.notes.insert(model_.notes.end(), textures_.notes.begin(), textures_.notes.end());
         if (dropped_ > 0) model_.notes.push_back(std::to_string(dropped_) + " faces left out: degenerate");
+        if (!linear_ && std::any_of(model_.textures.begin(), model_.textures.end(), has_alpha)) transparent_ = true;
         if (transparent_) model_.notes.push_back("transparent materials are shown opaque");
+        if (scene_.mNumAnimations > 0) left_out_.insert("animations");
+        for (const std::string& what : left_out_) model_.notes.push_back(what + " are not shown");
         show_black();
         if (model_.indices.empty()) throw std::runtime_error("has no triangles: nothing to show");
         return std::move(model_);
     }
 
   private:
+    // Some loaders (Blender) hand over colours where the file has none, all black.
+    bool coloured(const aiMesh& mesh) const {
+        if (!mesh.HasVertexColors(0)) return false;
+        const aiColor4D* first = mesh.mColors[0];
+        return linear_ ||
+               std::any_of(first, first + mesh.mNumVertices, [](const aiColor4D& c) { return c.r > 0 || c.g > 0 || c.b > 0; });
+    }
+
     float light(float colour) const {
         const double c = std::isfinite(colour) ? std::clamp(double(colour), 0., 1.) : 0;
         return float(linear_ ? c : srgb_to_linear(c));
@@ -83,10 +94,15 @@ class Conversion {
         aiString name;
         unsigned uv = 0;
         aiTextureMapMode modes[2] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
+        bool wants_texture = false;
         for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
-            if (to.texture >= 0 || !mesh.HasTextureCoords(0)) break;
-            if (from.GetTexture(type, 0, &name, nullptr, &uv, nullptr, nullptr, modes) == aiReturn_SUCCESS)
+            if (to.texture >= 0) break;
+            if (from.GetTexture(type, 0, &name, nullptr, &uv, nullptr, nullptr, modes) != aiReturn_SUCCESS) continue;
+            wants_texture = true;
+            if (mesh.HasTextureCoords(0))
                 to.texture = textures_.index(name.C_Str());
+            else
+                textures_.leave_out(name.C_Str(), "a mesh has no texture coordinates");
         }
         channel = uv < AI_MAX_NUMBER_OF_TEXTURECOORDS && mesh.HasTextureCoords(uv) ? int(uv) : 0;
         to.wrap_u = wrap(modes[0]);
@@ -95,15 +111,29 @@ class Conversion {
         if (linear_ || (to.texture < 0 && !coloured(mesh))) {
             if (from.Get(AI_MATKEY_BASE_COLOR, colour) != aiReturn_SUCCESS) from.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
         }
-        for (int c = 0; c < 3; ++c) to.colour[c] = light(colour[unsigned(c)]);
+        if (wants_texture && to.texture < 0 && !linear_) colour = aiColor4D(1, 1, 1, 1);
+        for (unsigned c = 0; c < 3; ++c) to.colour[c] = light(colour[c]) * (wants_texture && to.texture < 0 ? grey : 1);
         const auto [entry, fresh] = known_.try_emplace(key, std::uint32_t(model_.materials.size()));
         if (fresh) model_.materials.push_back(to);
         float opacity = 1;
         aiString alpha("OPAQUE");
         from.Get(AI_MATKEY_OPACITY, opacity);
         from.Get(AI_MATKEY_GLTF_ALPHAMODE, alpha);
-        transparent_ = transparent_ || opacity < 0.99f || alpha != aiString("OPAQUE");
+        transparent_ = transparent_ || opacity < 0.99f || alpha != aiString("OPAQUE") || has(from, aiTextureType_OPACITY);
+        if (has(from, aiTextureType_NORMALS) || has(from, aiTextureType_HEIGHT) || has(from, aiTextureType_NORMAL_CAMERA))
+            left_out_.insert("normal and bump maps");
+        if (shines(from) || has(from, aiTextureType_EMISSIVE)) left_out_.insert("emissive materials' own lights");
+        if (!linear_ && to.texture >= 0 && is_tinted(from)) left_out_.insert("tints of textures (Kd)");
         return entry->second;
+    }
+
+    static bool has(const aiMaterial& material, aiTextureType type) { return material.GetTextureCount(type) > 0; }
+
+    // Greys are what exporters and loaders fill in.
+    static bool is_tinted(const aiMaterial& material) {
+        aiColor4D c(1, 1, 1, 1);
+        material.Get(AI_MATKEY_COLOR_DIFFUSE, c);
+        return std::max({c.r, c.g, c.b}) - std::min({c.r, c.g, c.b}) > 0.01f;
     }
 
     void add(const aiMesh& mesh) {
@@ -148,7 +178,7 @@ class Conversion {
             return m.texture < 0 && std::max({m.colour[0], m.colour[1], m.colour[2]}) < 1e-3f;
         };
         if (!std::all_of(model_.materials.begin(), model_.materials.end(), black)) return;
-        for (Material& m : model_.materials) std::fill_n(m.colour, 3, 0.5f);
+        for (Material& m : model_.materials) std::fill_n(m.colour, 3, grey);
         model_.notes.push_back("every material is black: shown in grey");
     }
 
@@ -160,6 +190,7 @@ class Conversion {
     bool linear_;
     std::map<std::tuple<unsigned, bool, bool>, std::uint32_t> known_;
     Model model_;
+    std::set<std::string> left_out_;  // what is not shown, in words
     std::int64_t dropped_ = 0;
     bool transparent_ = false;
 };
@@ -203,7 +234,8 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     const std::string format = used ? used->mName : "";
     if (scene && scene->mRootNode) {
         repair(const_cast<aiScene&>(*scene), file, format);  // the importer's own, handed out as const
-        scene = importer.ApplyPostProcessing(steps);
+        const bool flat = flat_without_normals(file, format);
+        scene = importer.ApplyPostProcessing(steps | unsigned(flat ? aiProcess_GenNormals : aiProcess_GenSmoothNormals));
     }
     if (!scene) {
         if (std::string(importer.GetErrorString()) == "std::bad_alloc") throw std::bad_alloc();

@@ -7,12 +7,6 @@
 namespace lfdsim::reader {
 namespace {
 
-bool has_alpha(const Texture& t) {
-    for (std::size_t i = 3; i < t.rgba.size(); i += 4)
-        if (t.rgba[i] != 255) return true;
-    return false;
-}
-
 Texture read(const std::filesystem::path& file) {
     try {
         return read_texture(file);
