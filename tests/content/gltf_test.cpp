@@ -129,13 +129,13 @@ void expect_colour(const std::array<double, 3>& got, const std::array<double, 3>
 }
 
 // Texels of 2 x 2 in four colours: red, green above; blue, white below.
-constexpr std::array<double, 3> red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1}, white{1, 1, 1};
+constexpr std::array<double, 3> only_red{1, 0, 0}, only_green{0, 1, 0}, only_blue{0, 0, 1}, all_white{1, 1, 1};
 std::string four_colours(const Folder& folder, const std::string& name = "four.png") {
     Image texels(2, 2);
-    std::copy_n(red.begin(), 3, texels.at(0, 0));
-    std::copy_n(green.begin(), 3, texels.at(1, 0));
-    std::copy_n(blue.begin(), 3, texels.at(0, 1));
-    std::copy_n(white.begin(), 3, texels.at(1, 1));
+    std::copy_n(only_red.begin(), 3, texels.at(0, 0));
+    std::copy_n(only_green.begin(), 3, texels.at(1, 0));
+    std::copy_n(only_blue.begin(), 3, texels.at(0, 1));
+    std::copy_n(all_white.begin(), 3, texels.at(1, 1));
     write_image(folder.path() / name, texels);
     return read_bytes(folder.path() / name);
 }
@@ -143,10 +143,10 @@ std::string four_colours(const Folder& folder, const std::string& name = "four.p
 // The centres of the four texels of an upright texture.
 void expect_upright(const fs::path& file) {
     const Image image = photo(load_model(file));
-    expect_colour(at(image, -0.5, 0.5), red, 0.03);
-    expect_colour(at(image, 0.5, 0.5), green, 0.03);
-    expect_colour(at(image, -0.5, -0.5), blue, 0.03);
-    expect_colour(at(image, 0.5, -0.5), white, 0.03);
+    expect_colour(at(image, -0.5, 0.5), only_red, 0.03);
+    expect_colour(at(image, 0.5, 0.5), only_green, 0.03);
+    expect_colour(at(image, -0.5, -0.5), only_blue, 0.03);
+    expect_colour(at(image, 0.5, -0.5), all_white, 0.03);
 }
 
 TEST(Gltf, TexturesFromEveryPlaceStandUpright) {
@@ -201,12 +201,12 @@ TEST(Gltf, SamplersWrap) {
         const Image image = photo(load_model(file));
         return std::array{at(image, 0.25, 0.5), at(image, 0.75, 0.5)};  // u = 1.25 and 1.75, in the upper row
     };
-    expect_colour(second_period("10497")[0], red, 0.05);  // repeat
-    expect_colour(second_period("10497")[1], green, 0.05);
-    expect_colour(second_period("33071")[0], green, 0.05);  // clamp to edge
-    expect_colour(second_period("33071")[1], green, 0.05);
-    expect_colour(second_period("33648")[0], green, 0.05);  // mirrored repeat
-    expect_colour(second_period("33648")[1], red, 0.05);
+    expect_colour(second_period("10497")[0], only_red, 0.05);  // repeat
+    expect_colour(second_period("10497")[1], only_green, 0.05);
+    expect_colour(second_period("33071")[0], only_green, 0.05);  // clamp to edge
+    expect_colour(second_period("33071")[1], only_green, 0.05);
+    expect_colour(second_period("33648")[0], only_green, 0.05);  // mirrored repeat
+    expect_colour(second_period("33648")[1], only_red, 0.05);
 }
 
 // KHR_texture_transform: uv' = offset + rotation(scale uv), counter-clockwise in the picture's u, v, in that order.
@@ -224,14 +224,14 @@ TEST(Gltf, TextureTransforms) {
                               .write(folder);
         return at(photo(load_model(file)), x, y);
     };
-    expect_colour(corner(R"("offset":[0.5,0])", -0.5, 0.5), green, 0.05);
-    expect_colour(corner(R"("offset":[0,0.5])", -0.5, 0.5), blue, 0.05);
+    expect_colour(corner(R"("offset":[0.5,0])", -0.5, 0.5), only_green, 0.05);
+    expect_colour(corner(R"("offset":[0,0.5])", -0.5, 0.5), only_blue, 0.05);
     // Half of the texture's width over the square: its upper left texel covers x < 0 to x = 1, the middle is at u = 0.25.
-    expect_colour(corner(R"("scale":[0.5,0.5])", 0.01, -0.01), red, 0.05);
+    expect_colour(corner(R"("scale":[0.5,0.5])", 0.01, -0.01), only_red, 0.05);
     // u' = cos u + sin v, v' = -sin u + cos v: a quarter turn takes (0.25, 0.75), the lower left, to (0.75, -0.25), the lower
     // right.
-    expect_colour(corner(R"("rotation":1.5707963)", -0.5, -0.5), white, 0.05);
-    expect_colour(corner(R"("rotation":1.5707963)", 0.5, -0.5), green, 0.05);  // (0.75, 0.75) to (0.75, -0.75)
+    expect_colour(corner(R"("rotation":1.5707963)", -0.5, -0.5), all_white, 0.05);
+    expect_colour(corner(R"("rotation":1.5707963)", 0.5, -0.5), only_green, 0.05);  // (0.75, 0.75) to (0.75, -0.75)
 }
 
 TEST(Gltf, TheMaterialChoosesTheTextureCoordinates) {
