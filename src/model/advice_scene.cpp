@@ -45,30 +45,20 @@ bool advise_near_eye(Advised& a, double eye) {
 
 void advise_on_size(Advised& a, double eye) {
     const Geometry& g = a.geometry;
-    const std::optional<Vec3d>& half = a.model_half_size_mm;
-    if (!half && !g.content_height_mm) return;
+    if (!a.display.content.objects.empty()) return;  // a wall behind a scene may well be larger
+    const double full_height = g.content_height_mm.value();
     // Seen from the eye, the scene's middle plane covers this much of the vertex plane.
-    const double projected = eye / (eye - g.content_depth_mm),
-                 full_height = g.content_height_mm ? *g.content_height_mm : 2 * (*half)[1], height = full_height * projected,
-                 width = half ? 2 * (*half)[0] * projected : 0;
+    const double projected = eye / (eye - g.content_depth_mm), height = full_height * projected,
+                 width = a.model_half_size_mm ? 2 * (*a.model_half_size_mm)[0] * projected : 0;
     const double screen_width = std::min(g.array_width_mm, g.panel_width_mm),
                  screen_height = std::min(g.array_height_mm, g.panel_height_mm);
     const double excess = std::max(width / screen_width, height / screen_height);
-    if (!(excess > 1)) return;
-    const std::string covered =
-        fmt::format("{}{:.5g} mm of the screen's {:.5g} x {:.5g} mm", width > 0 ? fmt::format("{:.5g} x ", width) : "a height of ",
-                    height, screen_width, screen_height);
-    if (a.display.content.objects.empty())
+    if (excess > 1)
         a.say(
-            "the scene is larger than the display: from the eye it covers {}. Make it smaller (--set content.height_mm={:.3g}), or "
-            "move it farther behind (--set content.depth_mm)",
-            covered, 0.9 * full_height / excess);
-    else
-        a.say(
-            "the scene reaches beyond the display: from the eye its objects cover {}, counted from the middle. Make them smaller, "
-            "or "
-            "move them nearer to the middle or farther behind (content.object.N.position_mm)",
-            covered);
+            "the scene is larger than the display: from the eye it covers {}{:.5g} mm of the screen's {:.5g} x {:.5g} mm. "
+            "Make it smaller (--set content.height_mm={:.3g}), or move it farther behind (--set content.depth_mm)",
+            width > 0 ? fmt::format("{:.5g} x ", width) : "a height of ", height, screen_width, screen_height,
+            0.9 * full_height / excess);
 }
 
 }  // namespace
