@@ -161,22 +161,19 @@ constexpr Key<Camera> camera_keys[] = {
 constexpr Key<Content> content_keys[] = {
     {"model", &Content::model, no_range, false,
      "Mesh file, relative to the description's folder, or built-in:spheres. Not together with [[content.object]].",
-     "the objects, or built-in:spheres, five chequered spheres"},
+     "built-in:spheres, five chequered spheres, or the objects"},
     {"depth_mm", &Content::depth_mm, any_length, false,
-     "Of the model's centre, from the array's viewer-side vertex plane. All objects move together, so that the depth midway "
-     "between "
-     "the nearest and the furthest one's middle is this.",
-     "the central depth plane, or 0 where that is further from the lenses than half the viewer's distance; objects stand where "
-     "they "
-     "say"},
+     "Of the model's centre, from the array's viewer-side vertex plane; of objects, which it moves together, of the point midway "
+     "in "
+     "depth between the nearest and the furthest one's middle.",
+     "the central depth plane, or 0 where that is further from the lenses than half the viewer's distance; objects stay"},
     {"height_mm", &Content::height_mm, positive_length, false,
-     "Of the model. Objects are scaled together about the point on the display's axis that depth_mm is of.",
-     "half the panel's height; objects are as large as they say"},
+     "Of the model; of objects the height of their common box, scaled about the point of depth_mm, on the display's axis.",
+     "half the panel's height; objects stay"},
     {"tilt_deg", &Content::tilt_deg, turn, false,
-     "The model's rotation about the horizontal axis, before the yaw; positive raises its front. Objects turn together about that "
-     "point."},
+     "The model's rotation about the horizontal axis, before the yaw; positive raises its front. Objects turn about that point."},
     {"yaw_deg", &Content::yaw_deg, turn, false,
-     "The model's rotation, counter-clockwise seen from above; the same holds for objects."},
+     "The model's rotation, counter-clockwise seen from above. Objects turn about that point."},
     {"viewing_distance_mm", &Content::viewing_distance_mm, Range{shortest_mm, infinity}, false,
      "From the panel to the viewer that the elemental images are made for. inf: elemental images stand straight behind their "
      "lenses."},
@@ -199,9 +196,9 @@ constexpr Key<SceneObject> object_keys[] = {
     {"model", &SceneObject::model, no_range, false,
      "Mesh file, relative to the description's folder, or built-in:spheres. Each object has this or image."},
     {"image", &SceneObject::image, no_range, false,
-     "Picture file (PNG, JPEG, BMP, TGA), likewise: it stands on a rectangle that faces the viewer until it is turned. It has its "
-     "own "
-     "light, is seen from both sides (mirrored from behind), and where its alpha says so one sees through it."},
+     "Picture file (PNG, JPEG, BMP, TGA, GIF), likewise, on a rectangle that faces the viewer until it is turned. The light does "
+     "not "
+     "matter to it; it is seen from both sides, mirrored from behind, and through where its alpha says so."},
     {"position_mm", &SceneObject::position_mm, any_length, false,
      "Where the middle of the image, or of the turned model's bounding box, stands: x and y from the panel's middle, z from the "
      "array's viewer-side vertex plane, towards the viewer."},

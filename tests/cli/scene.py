@@ -52,7 +52,7 @@ plain = TINY.replace("depth_mm = 20.0\nheight_mm = 18.0\n", "")
 same = shown("photo things/scene.toml --model pyramid.obj") == shown("photo plain.toml --model pyramid.obj")
 checks.that(same.all(), "--model does not replace the objects")
 # A measure shows the scene; a file that changes makes a result another's.
-QUICK = "--size 48x27 --depths-mm -10,0,10"
+QUICK = "--size 48x27 --depths-mm 10,40,10"
 program.must(f"analyze dof things/scene.toml {QUICK} -o measured")
 checks.that(json.loads((program.folder / "measured/dof.json").read_text()), "dof.json is empty")
 program.must(f"analyze dof things/scene.toml {QUICK} --resume -o measured")
