@@ -2,6 +2,7 @@
 
 #include "content/normals.h"
 #include "content/turn.h"
+#include "engine/memory.h"
 #include "image/encoding.h"
 #include "model/geometry.h"
 #include "model/keys.h"
@@ -15,6 +16,25 @@ namespace {
 
 std::string key_of(std::size_t object, const char* key) { return fmt::format("content.object.{}.{}", object, key); }
 
+// A file that many objects show is read once, but its mesh is there for each. Flat triangles have vertices of their own.
+void check_size(const ContentParts& parts, const std::vector<SceneObject>& objects) {
+    constexpr double vertex_bytes = 4 * (3 + 3 + 2 + 3), triangle_bytes = 4 * (3 + 1);
+    constexpr double posed_bytes = 4 * 3, tree_bytes = 120;  // of the scene: a vertex, and about what Embree needs for a triangle
+    double vertices = 0, triangles = 0;
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const auto own = double(parts[i]->triangles());
+        triangles += own;
+        vertices += objects[i].shading == Shading::flat ? 3 * own : double(parts[i]->vertices());
+    }
+    if (std::max(vertices, triangles) >= two_to_31)
+        throw InputError("content.object",
+                         fmt::format("the objects together have {:.0f} triangles and {:.0f} vertices, allowed are "
+                                     "2^31 of each; show fewer, or coarser ones",
+                                     triangles, vertices));
+    require_memory("content.object", fmt::format("the objects' {:.0f} triangles", triangles),
+                   vertices * (vertex_bytes + posed_bytes) + triangles * (triangle_bytes + tree_bytes));
+}
+
 // Adds one object after the other.
 class Joining {
   public:
@@ -27,7 +47,6 @@ class Joining {
             object.shading == Shading::flat ? make_flat(own) : make_smooth(own);
         }
         const Model& from = object.shading == Shading::file ? read : own;
-        check_size(from);
         add_surfaces(from, object);
         add_materials(read, object);
         add_vertices(from, object, number);
@@ -35,15 +54,6 @@ class Joining {
     std::shared_ptr<const Model> model() { return std::make_shared<Model>(std::move(all_)); }
 
   private:
-    void check_size(const Model& from) {
-        bytes_ += 4. * double(from.positions.size() + from.normals.size() + from.uvs.size() + from.colours.size() +
-                              from.indices.size() + from.material_of.size());
-        if (all_.vertices() + from.vertices() >= std::size_t(1) << 32 || bytes_ > double(LoadOptions{}.bytes))
-            throw InputError(
-                "content.object",
-                fmt::format("the objects together need more than {} MiB; show fewer, or coarser ones", LoadOptions{}.bytes >> 20));
-    }
-
     void add_surfaces(const Model& from, const SceneObject& object) {
         const auto vertex = std::uint32_t(all_.vertices()), material = std::uint32_t(all_.materials.size());
         for (const std::uint32_t i : from.indices) all_.indices.push_back(vertex + i);
@@ -107,7 +117,7 @@ class Joining {
                                      extent, by_height ? "high" : "wide", wanted));
     }
 
-    double middle_z_mm_, bytes_ = 0;
+    double middle_z_mm_;
     Model all_;
     std::map<const Model*, std::int32_t> textures_of_;  // index of each model's first one
 };
@@ -115,6 +125,7 @@ class Joining {
 }  // namespace
 
 std::shared_ptr<const Model> joined(const ContentParts& parts, const std::vector<SceneObject>& objects) {
+    check_size(parts, objects);
     Joining joining(middle_z_mm(objects));
     for (std::size_t i = 0; i < objects.size(); ++i) joining.add(*parts[i], objects[i], i);
     return joining.model();
