@@ -24,7 +24,7 @@ struct Reach {
 Reach reach(const Subject& s) {
     const Geometry& g = s.geometry();
     const Display& d = s.display();
-    const double size = 0.5 * g.content_height_mm;
+    const double size = 0.5 * g.content_height_mm.value_or(0);  // objects without a common height are in a scene
     const Vec3d half = s.has_scene() ? s.scene().half_size_mm() : Vec3d{size, size, size};
     const double rear = g.rear_principal_mm, from_panel = eye_distance_mm(d), eye = from_panel - rear;
     const double rows_per_mm = double(d.camera.resolution[0]) / g.frame_width_mm;  // in the plane of the camera's target

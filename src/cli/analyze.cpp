@@ -249,7 +249,7 @@ Outcome measure(const AnalyzeArguments& args, const Request& request, const Disp
     const FolderLock lock(place);
     const ResultFolder folder(place, Json{{"lfdsim", LFDSIM_VERSION},
                                           {"display", description},
-                                          {"model", stamp(model_of(display))},
+                                          {"model", content_stamp(display)},
                                           {"angles_deg", ends(options.angles_deg)},
                                           {"depths_mm", ends(options.depths_mm)},
                                           {"viewing_distance_mm", subject.viewing_distance_mm()},

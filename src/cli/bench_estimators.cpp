@@ -220,6 +220,7 @@ std::vector<Display> bench_displays(const BenchSettings& settings) {
 void bench_estimators(Bench& bench) {
     for (Display& display : bench_displays(bench.settings)) {
         if (bench.settings.model_given || display.content.model.empty()) display.content.model = bench.settings.model;
+        display.content.objects.clear();
         const Geometry geometry = resolve(display);
         const Rect crop = crop_of(display, bench.settings);
         const auto compare_with = [&](const std::string& content, const Image& shown) {

@@ -85,13 +85,13 @@ std::string table_of(const std::vector<ChannelTheory>& colours) {
 
 /// With what only the model itself says: that it cannot be read, and its size.
 std::vector<std::string> all_advice(const Display& display, const Geometry& geometry, const Theory& paraxial) {
-    const std::string& model = display.content.model;
     try {
-        const ContentScene scene(model.empty() ? built_in_model() : load_model(model), display, geometry);
+        const ContentScene scene(load_parts(content_files(display)), display, geometry);
         return advice(display, geometry, paraxial, scene.half_size_mm());
     } catch (const InputError& error) {
         std::vector<std::string> warnings = advice(display, geometry, paraxial);
-        warnings.push_back(fmt::format("content.model cannot be shown: {}", error.what()));
+        warnings.push_back(fmt::format("{} cannot be shown: {}",
+                                       display.content.objects.empty() ? "content.model" : "content.object", error.what()));
         return warnings;
     }
 }

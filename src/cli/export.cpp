@@ -159,6 +159,7 @@ void run(const ExportArguments& args) {
     if (const auto deviation = panel_deviation(scene, panel.texels)) scene.deviations.push_back(*deviation);
 
     scene.shown.content.model.clear();
+    scene.shown.content.objects.clear();
     const std::string description = write_display(scene.shown);
     const FolderLock lock(folder);
     keep_apart(folder, description);

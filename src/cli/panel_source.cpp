@@ -37,25 +37,28 @@ ModelOption::ModelOption(Command command)
     : option_(command
                   .add_option("--model", path_,
                               "Mesh file to show (any format Assimp reads), or built-in:spheres; default: the description's "
-                              "content.model, or the "
-                              "spheres where it has none")
+                              "content.model or its objects, or the spheres where it has none")
                   .type_name("FILE")) {}
 
 void ModelOption::apply(Display& display) const {
-    remember_input("the model", display.content.model);
+    for (const ContentFile& file : content_files(display)) remember_input(file.image ? "an image" : "the model", file.path);
     if (!given()) return;
     if (path_.empty()) throw InputError("--model", "the name is empty; give a mesh file or built-in:spheres");
     remember_input("the model", path_);
     display.content.model = path_;
+    display.content.objects.clear();
 }
 
 ContentScene load_scene(const Display& display, const Geometry& geometry) {
-    const std::string name = model_of(display);
-    const std::shared_ptr<const Model> model = load_model(name);
-    const ModelInfo about = info(*model);
-    for (const std::string& note : about.notes) spdlog::warn("{}: {}", name, note);
-    for (const std::string& file : about.files) remember_input("a file of the model", file);
-    return ContentScene(model, display, geometry);
+    const std::vector<ContentFile> files = content_files(display);
+    const ContentParts parts = load_parts(files);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (std::find(parts.begin(), parts.begin() + std::ptrdiff_t(i), parts[i]) != parts.begin() + std::ptrdiff_t(i)) continue;
+        const ModelInfo about = info(*parts[i]);
+        for (const std::string& note : about.notes) spdlog::warn("{}: {}", files[i].path, note);
+        for (const std::string& file : about.files) remember_input("a file of the model", file);
+    }
+    return ContentScene(parts, display, geometry);
 }
 
 Json stamp(const std::string& file) {
@@ -63,6 +66,13 @@ Json stamp(const std::string& file) {
     const auto changed = std::filesystem::last_write_time(file, error);
     if (error) return {{"file", file}};
     return {{"file", file}, {"bytes", std::filesystem::file_size(file, error)}, {"changed", changed.time_since_epoch().count()}};
+}
+
+Json content_stamp(const Display& display) {
+    if (display.content.objects.empty()) return stamp(model_of(display));
+    Json all = Json::array();
+    for (const ContentFile& file : content_files(display)) all.push_back(stamp(file.path));
+    return all;
 }
 
 PatternOption::PatternOption(Command command)

@@ -35,13 +35,13 @@ class PanelImageOption {
     Option option_;
 };
 
-/// --model, which stands in for content.model.
+/// --model, which stands in for content.model and objects.
 class ModelOption {
   public:
     explicit ModelOption(Command command);
     bool given() const { return option_.count() > 0; }
-    /// Puts the option's file, if it is given, which no output may replace, into the display. Throws InputError if it is given
-    /// without a name.
+    /// Puts the option's file, if it is given, into the display in place of what that shows; no output may replace either. Throws
+    /// InputError if it is given without a name.
     void apply(Display&) const;
     const std::string& path() const { return path_; }
 
@@ -50,11 +50,13 @@ class ModelOption {
     Option option_;
 };
 
-/// The display's model in its place; says on standard error what was dropped or repaired. Throws InputError.
+/// The display's model, or its objects, in place; says on standard error what was dropped or repaired. Throws InputError.
 ContentScene load_scene(const Display&, const Geometry&);
 
 /// What tells that a file has changed since; of a name that is no file's, the name alone.
 Json stamp(const std::string& file);
+/// The same of what a display shows: of its model, or a list of its objects' files.
+Json content_stamp(const Display&);
 
 /// --pattern and the options that belong to it.
 class PatternOption {

@@ -63,13 +63,15 @@ struct RenderArguments {
 
 void render_frames(const RenderArguments& args, const Display& display, const CameraPath& path, const RenderOptions& options,
                    const std::function<PanelLight()>& light, Progress& progress) {
-    const std::string shown = args.panel_image.given() ? args.panel_image.path() : args.pattern.given() ? "" : model_of(display);
+    const Json shown = args.panel_image.given() ? stamp(args.panel_image.path())
+                       : args.pattern.given()   ? stamp("")
+                                                : content_stamp(display);
     PanelLight panel;
     const auto texels = [&]() -> const Texels& {
         panel = light();
         return panel.texels;
     };
-    PathMade made = render_path({args.path, args.output, path, display, options, stamp(shown).dump()}, texels, progress);
+    PathMade made = render_path({args.path, args.output, path, display, options, shown.dump()}, texels, progress);
     const auto [columns, rows] = display.camera.resolution;
     made.more.update({{"frames", made.frames}, {"rendered", made.rendered}});
     made.more.update(panel.made);

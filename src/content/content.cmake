@@ -1,8 +1,9 @@
 # The reader of model files is a program of its own: see content/reader/main.cpp.
 include(GNUInstallDirs)
 add_executable(lfdsim-model-reader
-  content/reader/main.cpp content/reader/import.cpp content/reader/axes.cpp content/reader/folder.cpp content/reader/limits.cpp
-  content/reader/repairs.cpp content/reader/textures.cpp)
+  content/reader/main.cpp content/reader/import.cpp content/reader/axes.cpp content/reader/folder.cpp content/reader/gltf_transforms.cpp
+  content/reader/limits.cpp
+  content/reader/picture.cpp content/reader/repairs.cpp content/reader/textures.cpp)
 target_include_directories(lfdsim-model-reader PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(lfdsim-model-reader PRIVATE assimp::assimp lfdsim_image nlohmann_json::nlohmann_json)
 install(TARGETS lfdsim-model-reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/lfdsim)

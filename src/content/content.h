@@ -36,33 +36,54 @@ struct LoadOptions {
 inline constexpr std::string_view built_in_spheres = "built-in:spheres";
 std::shared_ptr<const Model> built_in_model();
 
-/// The model that a display shows: content.model, or the one that is built in where the description names none.
+/// A file that content comes from.
+struct ContentFile {
+    std::string path;    // or built-in:spheres
+    bool image = false;  // a picture, not a model
+    auto operator<=>(const ContentFile&) const = default;
+};
+/// What a display shows: the file of each object in their order; without objects that of content.model, or of the built-in one.
+std::vector<ContentFile> content_files(const Display&);
+
+/// What stands for the name of a model where a description has objects.
+inline constexpr std::string_view scene_of_objects = "content.object";
+/// The name of what a display shows: the model's, or that.
 std::string model_of(const Display&);
 
 /// The built-in model, or that of a file. Throws InputError that names the file if it is missing or unreadable, has an unknown
 /// format or no triangles, or crashes or exhausts the reader; std::runtime_error if the reader program lfdsim-model-reader is
 /// missing.
 std::shared_ptr<const Model> load_model(const std::filesystem::path&, const LoadOptions& = {});
+/// A picture on a rectangle of height 1 about the origin, facing +z, by the same rules: PNG, JPEG, BMP, TGA, GIF (its first frame).
+std::shared_ptr<const Model> load_picture(const std::filesystem::path&, const LoadOptions& = {});
 ModelInfo info(const Model&);
 
-/// A model posed in front of the display (docs/model.md, "Pose"), with its ray-tracing structure. Copies share both.
+/// The models and pictures of content_files(), which are read once each. The limits hold for all of them together.
+using ContentParts = std::vector<std::shared_ptr<const Model>>;
+ContentParts load_parts(const std::vector<ContentFile>&, const LoadOptions& = {});
+
+/// What a display shows, posed in front of the display (docs/model.md, "Pose"), with its ray-tracing structure. Copies share both.
 class ContentScene {
   public:
-    /// Throws InputError for a model without height (lying flat) or millions of times wider than high.
-    ContentScene(std::shared_ptr<const Model>, const Display&, const Geometry&);
+    /// Throws InputError for a model without height (lying flat) or millions of times wider than high. `parts`: those of the
+    /// display's content_files().
+    ContentScene(const ContentParts&, const Display&, const Geometry&);
+    /// Of a display without objects.
+    ContentScene(std::shared_ptr<const Model> model, const Display& d, const Geometry& g)
+        : ContentScene(ContentParts{std::move(model)}, d, g) {}
 
     /// The same at another depth (content.depth_mm) of the same display: nothing is read, posed or built again, and pictures
     /// have the bits of a scene made there. Throws InputError for a depth that a display could not have.
     ContentScene at_depth(double depth_mm) const;
 
-    /// The same in front of another display, resolved, that gives it the same height, tilt and yaw.
+    /// The same in front of another display, resolved, with the same content at perhaps another depth.
     ContentScene before(const Geometry&) const;
 
     struct Impl;
     const Impl& impl() const { return *impl_; }
-    /// The middle of the model's box, from the middle of the panel.
+    /// The middle of the model's box, from the middle of the panel; of objects the point that content.depth_mm is of.
     Vec3d centre_mm() const { return {0, 0, vertex_plane_mm_ + depth_mm_}; }
-    /// Half its extents.
+    /// How far it reaches from there along x, y and z: half the extents of the model's box.
     Vec3d half_size_mm() const;
 
   private:

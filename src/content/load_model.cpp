@@ -48,27 +48,26 @@ const char* fault(const Model& m) {
     return nullptr;
 }
 
-void check_file(const fs::path& path) {
+void check_file(const fs::path& path, const std::string& what) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
-    if (!fs::exists(status)) throw InputError(path.string(), "no such model file");
-    if (!fs::is_regular_file(status)) throw InputError(path.string(), "not a file that can hold a model");
-    if (fs::file_size(path, error) == 0 && !error) throw InputError(path.string(), "the model file is empty");
+    if (!fs::exists(status)) throw InputError(path.string(), fmt::format("no such {} file", what));
+    if (!fs::is_regular_file(status)) throw InputError(path.string(), fmt::format("not a file that can hold a {}", what));
+    if (fs::file_size(path, error) == 0 && !error) throw InputError(path.string(), fmt::format("the {} file is empty", what));
 }
 
-}  // namespace
-
-std::shared_ptr<const Model> load_model(const fs::path& path, const LoadOptions& options) {
-    if (!options.up.empty() && options.up != "y" && options.up != "z")
-        throw InputError("up", fmt::format("\"{}\" given; allowed are \"y\" and \"z\"", options.up));
+void check_limits(const LoadOptions& options) {
     if (!(options.seconds > 0 && options.seconds <= 86400))
         throw InputError("seconds", fmt::format("{} given; allowed is up to 86400", options.seconds));
     if (options.bytes < 1) throw InputError("bytes", fmt::format("{} given; allowed is 1 or more", options.bytes));
-    if (path == built_in_spheres) return built_in_model();
-    check_file(path);
-    ReaderProcess reader(path, options);
+}
+
+/// `what`: "model" or "picture".
+std::shared_ptr<const Model> load(const std::string& what, const fs::path& path, const LoadOptions& options) {
+    check_file(path, what);
+    ReaderProcess reader(what, path, options);
     const auto refuse = [&](const std::string& why) -> void {
-        throw InputError(path.string(), "cannot be read as a model: " + why);
+        throw InputError(path.string(), fmt::format("cannot be read as a {}: {}", what, why));
     };
     auto model = std::make_shared<Model>();
     try {
@@ -85,12 +84,22 @@ std::shared_ptr<const Model> load_model(const fs::path& path, const LoadOptions&
     } catch (const ReaderProcess::Failure& failure) {
         refuse(failure.what());
     }
-    if (const char* what = fault(*model)) refuse(what);
+    if (const char* what_is_wrong = fault(*model)) refuse(what_is_wrong);
     return model;
 }
 
-std::string model_of(const Display& display) {
-    return display.content.model.empty() ? std::string(built_in_spheres) : display.content.model;
+}  // namespace
+
+std::shared_ptr<const Model> load_model(const fs::path& path, const LoadOptions& options) {
+    if (!options.up.empty() && options.up != "y" && options.up != "z")
+        throw InputError("up", fmt::format("\"{}\" given; allowed are \"y\" and \"z\"", options.up));
+    check_limits(options);
+    return path == built_in_spheres ? built_in_model() : load("model", path, options);
+}
+
+std::shared_ptr<const Model> load_picture(const fs::path& path, const LoadOptions& options) {
+    check_limits(options);
+    return load("picture", path, options);
 }
 
 ModelInfo info(const Model& m) {

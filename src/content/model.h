@@ -13,6 +13,9 @@ struct Material {
     float colour[3] = {1, 1, 1};  // linear light
     std::int32_t texture = -1;    // index, -1: none
     Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
+    std::int32_t lit = 1;          // 0: shines in its own colour, whatever the light
+    std::int32_t see_through = 0;  // 1: the texture's alpha is the share of light that it adds, and hides; such triangles of one
+                                   // material lie in one plane
 };
 
 /// sRGB codes, RGBA, row 0 at the top; v of a texture coordinate points up, (0, 0) is the lower left corner.

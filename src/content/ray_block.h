@@ -32,7 +32,7 @@ struct RayBlock {
     std::vector<optics::Sampler<float>> points;  // of the pixels' samples, kept from one sample to the next where needed
 
     RayBlock() {
-        // Embree requires these and never changes them.
+        // Embree requires these and never changes them; look_through() sets tnear, and back.
         for (int k = 0; k < lanes; ++k) {
             packet.ray.tnear[k] = 0;
             packet.ray.time[k] = 0;
@@ -45,6 +45,10 @@ struct RayBlock {
         }
     }
 };
+
+/// Shades a block whose rays have met the scene, `width_mm` wide there, and follows them through images: adds what stands behind,
+/// each time weighted by what all in front of it let through.
+void look_through(const ContentScene::Impl&, const Beam&, RTCIntersectContext&, RayBlock&, const Lanes& width_mm);
 
 /// Traces and shades a block: `hit` and `light`. False: no ray meets the scene, and nothing is set.
 inline bool trace(const ContentScene::Impl& scene, const Beam& beam, RTCIntersectContext& context, RayBlock& block) {
@@ -61,7 +65,10 @@ inline bool trace(const ContentScene::Impl& scene, const Beam& beam, RTCIntersec
         width_mm.of[k] = beam.width_per_t * std::abs(packet.ray.tfar[k] - beam.waist_t);
     }
     if (!block.hit.any()) return false;
-    scene.shade(packet.hit, block.hit, width_mm, block.light);
+    if (scene.see_through)
+        look_through(scene, beam, context, block, width_mm);
+    else
+        scene.shade(packet.hit, block.hit, width_mm, block.light);
     return true;
 }
 

@@ -25,12 +25,13 @@ std::string timeout_text(double seconds) { return fmt::format("reading it took m
 
 }  // namespace
 
-ReaderProcess::ReaderProcess(const std::filesystem::path& model, const LoadOptions& options)
+ReaderProcess::ReaderProcess(const std::string& what, const std::filesystem::path& path, const LoadOptions& options)
     : options_(options), left_(options.bytes) {
     const std::string program = reader_path().string(), bytes = std::to_string(options.bytes),
                       seconds = fmt::format("{}", options.seconds);
-    const std::string file = std::filesystem::canonical(model).string();
-    const char* arguments[] = {program.c_str(), file.c_str(), bytes.c_str(), seconds.c_str(), options.up.c_str(), nullptr};
+    const std::string file = std::filesystem::canonical(path).string();
+    const char* arguments[] = {program.c_str(), what.c_str(),       file.c_str(), bytes.c_str(),
+                               seconds.c_str(), options.up.c_str(), nullptr};
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe to the model reader");
     pipe_ = ends[0];

@@ -16,8 +16,8 @@ class ReaderProcess {
         using std::runtime_error::runtime_error;
     };
 
-    /// Throws std::runtime_error if the reader program is missing or cannot start.
-    ReaderProcess(const std::filesystem::path& model, const LoadOptions&);
+    /// `what`: "model" or "picture". Throws std::runtime_error if the reader program is missing or cannot start.
+    ReaderProcess(const std::string& what, const std::filesystem::path&, const LoadOptions&);
     ~ReaderProcess();  // ends the reader if it still runs
     ReaderProcess(const ReaderProcess&) = delete;
 

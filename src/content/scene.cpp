@@ -1,6 +1,8 @@
 #include "content/scene.h"
+
+#include "content/join.h"
+#include "content/turn.h"
 #include "model/keys.h"
-#include "model/numbers.h"
 #include "model/vec.h"
 
 #include <fmt/format.h>
@@ -12,65 +14,71 @@
 namespace lfdsim {
 namespace {
 
-struct Box {
-    Vec3d low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-    void add(const Vec3d& p) {
-        for (int k = 0; k < 3; ++k) {
-            low[k] = std::min(low[k], p[k]);
-            high[k] = std::max(high[k], p[k]);
-        }
-    }
+/// How a turned model is scaled, and what then becomes the origin.
+struct Placing {
+    double scale;
+    Vec3d origin;  // in the model's units, turned
 };
 
-// Tilt about x (positive raises the front, +z towards +y), then yaw about +y, counter-clockwise seen from above (the front goes
-// towards +x).
-struct Turn {
-    double ct, st, cy, sy;
-    explicit Turn(const Content& c)
-        : ct(std::cos(c.tilt_deg * degree)),
-          st(std::sin(c.tilt_deg * degree)),
-          cy(std::cos(c.yaw_deg * degree)),
-          sy(std::sin(c.yaw_deg * degree)) {}
-    Vec3d operator()(const float* p) const {
-        const double y = ct * p[1] + st * p[2], z = ct * p[2] - st * p[1];
-        return {cy * p[0] + sy * z, y, cy * z - sy * p[0]};
-    }
-    Vec3d inverse(const Vec3d& p) const {
-        const double z = cy * p[2] + sy * p[0];
-        return {cy * p[0] - sy * p[2], ct * p[1] - st * z, ct * z + st * p[1]};
-    }
-};
-
-void pose(ContentScene::Impl& scene, const Display& display, const Geometry& geometry) {
-    const Model& model = *scene.model;
-    const Turn turn(display.content);
-    Box box;
-    for (const std::uint32_t i : model.indices) box.add(turn(&model.positions[3 * std::size_t(i)]));
-    const double extent = box.high[1] - box.low[1];
-    const double scale = geometry.content_height_mm / extent;
+// The middle of its box, whose height is given.
+Placing of_model(const Box& box, double height_mm) {
+    const double extent = box.extent(1), scale = height_mm / extent;
     if (!(extent > 0) || !std::isfinite(scale))
         throw InputError(
             "content.model",
             fmt::format("the model is {} units high and cannot be scaled to {} mm; if it lies flat, raise it with tilt_deg", extent,
-                        geometry.content_height_mm));
-    for (int k = 0; k < 3; ++k) scene.half_mm[k] = 0.5 * scale * (box.high[k] - box.low[k]);
-    if (const double longest = 2 * *std::max_element(scene.half_mm.begin(), scene.half_mm.end()); longest > 1e6)
-        throw InputError("content.model",
-                         fmt::format("{} mm high, the model would be {:g} mm wide or deep; allowed is 1e6 mm; is it lying flat?",
-                                     geometry.content_height_mm, longest));
+                        height_mm));
+    return {scale, {box.middle(0), box.middle(1), box.middle(2)}};
+}
+
+// Objects keep their places and sizes about their own origin unless they are scaled together.
+Placing of_objects(const Box& box, const std::optional<double>& height_mm) {
+    const double scale = height_mm ? *height_mm / box.extent(1) : 1;
+    if (!(scale > 0) || !std::isfinite(scale))
+        throw InputError("content.height_mm",
+                         fmt::format("the objects together are {} mm high and cannot be scaled to {} mm; leave it out",
+                                     box.extent(1), height_mm.value_or(0)));
+    return {scale, {}};
+}
+
+void pose(ContentScene::Impl& scene, const Display& display, const Geometry& geometry) {
+    const Model& model = *scene.model;
+    const Content& content = display.content;
+    const Turn turn(0, content.tilt_deg, content.yaw_deg);
+    Box box;
+    for (const std::uint32_t i : model.indices) box.add(turn(&model.positions[3 * std::size_t(i)]));
+    const bool together = !content.objects.empty();
+    const auto [scale, origin] =
+        together ? of_objects(box, geometry.content_height_mm) : of_model(box, geometry.content_height_mm.value());
+    for (std::size_t k = 0; k < 3; ++k)
+        scene.half_mm[k] = together ? scale * std::max(std::abs(box.low[k]), std::abs(box.high[k])) : 0.5 * scale * box.extent(k);
+    if (const double longest = 2 * *std::max_element(scene.half_mm.begin(), scene.half_mm.end()); longest > (together ? 4e6 : 1e6))
+        throw InputError(
+            together ? "content.height_mm" : "content.model",
+            fmt::format("{} mm high, {} would be {:g} mm wide or deep; allowed is {}",
+                        geometry.content_height_mm.value_or(scale * box.extent(1)), together ? "the objects together" : "the model",
+                        longest, together ? "4e6 mm" : "1e6 mm; is it lying flat?"));
     scene.positions_mm.resize(model.positions.size() + 1);
     for (std::size_t v = 0; v < model.vertices(); ++v) {
         const Vec3d p = turn(&model.positions[3 * v]);
-        for (int k = 0; k < 3; ++k) scene.positions_mm[3 * v + k] = float(scale * (p[k] - 0.5 * (box.low[k] + box.high[k])));
+        for (std::size_t k = 0; k < 3; ++k) scene.positions_mm[3 * v + k] = float(scale * (p[k] - origin[k]));
     }
-    const Vec3d light = normalised(turn.inverse({0.3, 0.5, 0.81}));
-    for (int k = 0; k < 3; ++k) scene.light[k] = float(light[k]);
+    const Vec3d light = normalised(turn.inverse(content.light.direction));
+    for (std::size_t k = 0; k < 3; ++k) scene.light[k] = float(light[k]);
+    scene.ambient = float(content.light.ambient);
+    scene.strength = float(content.light.strength);
 }
 
 // Texels per millimetre: the square root of (area in texels / area in mm^2).
 void measure_textures(ContentScene::Impl& scene) {
     const Model& m = *scene.model;
-    for (const Texture& t : m.textures) scene.textures.emplace_back(t);
+    std::vector<bool> with_alpha(m.textures.size());
+    for (const Material& material : m.materials) {
+        if (!material.see_through || material.texture < 0) continue;
+        with_alpha[std::size_t(material.texture)] = true;
+        scene.see_through = true;
+    }
+    for (std::size_t i = 0; i < m.textures.size(); ++i) scene.textures.emplace_back(m.textures[i], with_alpha[i]);
     if (m.textures.empty()) return;
     scene.texels_per_mm.resize(m.triangles());
     for (std::size_t t = 0; t < m.triangles(); ++t) {
@@ -113,10 +121,10 @@ void build(ContentScene::Impl& scene) {
 
 }  // namespace
 
-ContentScene::ContentScene(std::shared_ptr<const Model> model, const Display& display, const Geometry& geometry)
+ContentScene::ContentScene(const ContentParts& parts, const Display& display, const Geometry& geometry)
     : vertex_plane_mm_(geometry.vertex_plane_mm), depth_mm_(geometry.content_depth_mm) {
     const auto made = std::make_shared<Impl>();
-    made->model = std::move(model);
+    made->model = display.content.objects.empty() ? parts.at(0) : joined(parts, display.content.objects);
     pose(*made, display, geometry);
     measure_textures(*made);
     build(*made);

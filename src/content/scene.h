@@ -29,12 +29,14 @@ struct alignas(64) Lanes {
 struct ContentScene::Impl {
     std::shared_ptr<const Model> model;
 
-    // The frame of rays has its origin at the centre of the posed bounding box: there float32 is most precise, and nothing here
-    // changes when the scene moves.
-    Vec3d half_mm{};                  // half the box's extents
+    // The frame of rays has its origin at centre_mm(), the middle of the posed model's box: there float32 is most precise, and
+    // nothing here changes when the scene moves.
+    Vec3d half_mm{};                  // of the least box about the origin that holds all: half its extents
     std::vector<float> positions_mm;  // posed, about the centre; one float more than the vertices need, as Embree requires
 
     std::array<float, 3> light{};  // unit vector towards the light, in the model's own axes
+    float ambient = 0, strength = 0;
+    bool see_through = false;  // some material is
     std::vector<MipMap> textures;
     std::vector<float> texels_per_mm;  // of each triangle, a mean over directions; 0: no texture
 
@@ -46,8 +48,9 @@ struct ContentScene::Impl {
     std::unique_ptr<RTCSceneTy, Release> tree;
 
     /// Linear light (red, green, blue) of the points that a packet of rays has hit, seen by rays `width_mm` wide. Depends on
-    /// nothing else: a surface looks the same from everywhere. Lanes without a hit get meaningless numbers.
-    void shade(const RTCHit16&, const Lanes::Mask& hit, const Lanes& width_mm, Lanes* light) const;
+    /// nothing else: a surface looks the same from everywhere. Lanes without a hit get meaningless numbers. `through`, if not null:
+    /// the share of light from behind that passes, 0 of what cannot be seen through.
+    void shade(const RTCHit16&, const Lanes::Mask& hit, const Lanes& width_mm, Lanes* light, Lanes* through = nullptr) const;
 };
 
 }  // namespace lfdsim

@@ -47,7 +47,8 @@ struct Place {
 
 }  // namespace
 
-void ContentScene::Impl::shade(const RTCHit16& hit, const Lanes::Mask& valid, const Lanes& width_mm, Lanes* out) const {
+void ContentScene::Impl::shade(const RTCHit16& hit, const Lanes::Mask& valid, const Lanes& width_mm, Lanes* out,
+                               Lanes* through) const {
     const Model& m = *model;
     const Place place(m, hit, valid);
     Lanes n[3], shine;
@@ -55,15 +56,17 @@ void ContentScene::Impl::shade(const RTCHit16& hit, const Lanes::Mask& valid, co
     for (int k = 0; k < lanes; ++k) {
         const float x = n[0].of[k], y = n[1].of[k], z = n[2].of[k], length = std::sqrt(x * x + y * y + z * z);
         const float cosine = (x * light[0] + y * light[1] + z * light[2]) / length;
-        shine.of[k] = 0.2f + 0.8f * (length > 0 && cosine > 0 ? cosine : 0.f);
+        shine.of[k] = ambient + strength * (length > 0 && cosine > 0 ? cosine : 0.f);
     }
     for (int k = 0; k < lanes; ++k) {
         const Material& material = m.materials[m.material_of[place.triangle[k]]];
         for (int c = 0; c < 3; ++c) out[c].of[k] = material.colour[c];
+        if (!material.lit) shine.of[k] = 1;
     }
     for (int c = 0; c < 3; ++c)
         for (int k = 0; k < lanes; ++k) out[c].of[k] *= shine.of[k];
 
+    if (through) std::fill_n(through->of, lanes, 0.f);
     if (!textures.empty()) {
         Lanes uv[2], level;
         place.interpolate<2>(m.uvs, uv);
@@ -80,6 +83,7 @@ void ContentScene::Impl::shade(const RTCHit16& hit, const Lanes::Mask& valid, co
             const Texel texel = textures[std::size_t(material.texture)].sample(uv[0].of[k], uv[1].of[k], level.of[k],
                                                                                material.wrap_u, material.wrap_v);
             for (int c = 0; c < 3; ++c) out[c].of[k] *= texel[c];
+            if (through && material.see_through) through->of[k] = 1 - texel[3];
         }
     }
     if (!m.colours.empty()) {

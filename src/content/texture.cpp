@@ -13,6 +13,8 @@ using Four = optics::Lane<4>;
 
 Texel mix(Texel a, Texel b, float t) { return a + (b - a) * t; }
 
+float alpha_of(std::uint32_t code) { return float(code >> 24) / 255; }
+
 int wrapped(int i, int size, Wrap how) {
     if (unsigned(i) < unsigned(size)) return i;
     switch (how) {
@@ -37,29 +39,36 @@ float folded(float x, Wrap how) {
 
 }  // namespace
 
-MipMap::MipMap(const Texture& t) : light_(decode_table(Encoding::srgb, 8).data()) {
+MipMap::MipMap(const Texture& t, bool with_alpha) : with_alpha_(with_alpha), light_(decode_table(Encoding::srgb, 8).data()) {
     Level base{t.width, t.height, {}};
     base.codes.resize(std::size_t(t.width) * t.height);
     for (std::size_t i = 0; i < base.codes.size(); ++i)
-        base.codes[i] = t.rgba[4 * i] | std::uint32_t(t.rgba[4 * i + 1]) << 8 | std::uint32_t(t.rgba[4 * i + 2]) << 16;
+        base.codes[i] = t.rgba[4 * i] | std::uint32_t(t.rgba[4 * i + 1]) << 8 | std::uint32_t(t.rgba[4 * i + 2]) << 16 |
+                        (with_alpha ? std::uint32_t(t.rgba[4 * i + 3]) << 24 : 0xff000000u);
     levels_.push_back(std::move(base));
     while (levels_.back().width > 1 || levels_.back().height > 1) {
         const Level& fine = levels_.back();
         Level coarse{std::max(1, fine.width / 2), std::max(1, fine.height / 2), {}};
         coarse.codes.resize(std::size_t(coarse.width) * coarse.height);
         for (int y = 0; y < coarse.height; ++y) {
-            Image mean(coarse.width, 1);
+            Image mean(coarse.width, 1);  // of the light, weighted by alpha: what is clear has no colour
+            std::vector<float> alpha(std::size_t(coarse.width));
             for (int x = 0; x < coarse.width; ++x) {
+                float& whole = alpha[std::size_t(x)];
                 for (int k = 0; k < 4; ++k) {
                     const int fx = std::min(2 * x + (k & 1), fine.width - 1), fy = std::min(2 * y + (k >> 1), fine.height - 1);
                     const std::uint32_t code = fine.codes[std::size_t(fy) * fine.width + fx];
-                    for (int c = 0; c < 3; ++c) mean.at(x, 0)[c] += 0.25f * light_[code >> (8 * c) & 255];
+                    const float share = 0.25f * alpha_of(code);
+                    whole += share;
+                    for (int c = 0; c < 3; ++c) mean.at(x, 0)[c] += share * light_[code >> (8 * c) & 255];
                 }
+                for (int c = 0; c < 3 && whole > 0; ++c) mean.at(x, 0)[c] /= whole;
             }
             const std::vector<std::uint8_t> codes = encode8(mean, Encoding::srgb);
             for (std::size_t x = 0; x < std::size_t(coarse.width); ++x)
-                coarse.codes[std::size_t(y) * coarse.width + x] =
-                    codes[3 * x] | std::uint32_t(codes[3 * x + 1]) << 8 | std::uint32_t(codes[3 * x + 2]) << 16;
+                coarse.codes[std::size_t(y) * coarse.width + x] = codes[3 * x] | std::uint32_t(codes[3 * x + 1]) << 8 |
+                                                                  std::uint32_t(codes[3 * x + 2]) << 16 |
+                                                                  std::uint32_t(255 * alpha[x] + 0.5f) << 24;
         }
         levels_.push_back(std::move(coarse));
     }
@@ -70,7 +79,8 @@ MipMap::MipMap(const Texture& t) : light_(decode_table(Encoding::srgb, 8).data()
 Texel MipMap::bilinear(const Level& l, int x0, int y0, int x1, int y1, float right, float down) const {
     const auto texel = [&](int i, int j) {
         const std::uint32_t code = l.codes[std::size_t(j) * std::size_t(l.width) + std::size_t(i)];
-        return Texel{light_[code & 255], light_[code >> 8 & 255], light_[code >> 16 & 255], 0};
+        const Texel light{light_[code & 255], light_[code >> 8 & 255], light_[code >> 16 & 255], with_alpha_ ? 1.f : 0.f};
+        return with_alpha_ ? light * alpha_of(code) : light;
     };
     return mix(mix(texel(x0, y0), texel(x1, y0), right), mix(texel(x0, y1), texel(x1, y1), right), down);
 }

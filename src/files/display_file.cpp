@@ -22,6 +22,9 @@ constexpr std::int64_t known_schema = 1;
 // More than a person fixes at once: a file of another kind in TOML can hold a hundred thousand unknown keys.
 constexpr std::size_t most_problems_told = 50;
 
+// Of any list of tables.
+constexpr std::size_t most_elements = std::max({max_surfaces, max_layers, std::size_t(max_subpixels), max_objects});
+
 // Fills a display from a parsed description, by the tables of keys. It continues after a fault: a value that cannot be read keeps
 // its default, and its key is passed to validate()'s steps as known to be wrong, so that they check all others and each fault is
 // reported once. The faults are then sorted by place.
@@ -34,6 +37,7 @@ class DisplayReader {
         read_schema();
         read_table(source.root(), "", display, {"schema"});
         look_up_glasses(display);
+        place_files(display.content);
         judge(display);
         return display;
     }
@@ -163,7 +167,7 @@ class DisplayReader {
         const toml::array* array = node.as_array();
         if (!array || (!array->empty() && !array->is_array_of_tables()))
             return add(path, fmt::format("is {}; give a list of tables: [[{}]]", kind_of(node), path));
-        list.resize(std::min(array->size(), max_surfaces + 1));  // validate() will refuse one too many
+        list.resize(std::min(array->size(), most_elements + 1));  // validate() will refuse one too many
         for (std::size_t i = 0; i < list.size(); ++i) read_table(*(*array)[i].as_table(), fmt::format("{}.{}.", path, i), list[i]);
     }
 
@@ -185,7 +189,20 @@ class DisplayReader {
                            [&](const FormatTable::Value& value) { return value.key.name == name; });
     }
 
-    // A catalogue in a file is relative to where the file is, one on the command line to where it was typed.
+    // A path in a file is relative to where the file is, one on the command line to where it was typed.
+    void place(const std::string& key, std::string& path) const {
+        if (folder.empty() || path.empty() || path.starts_with("built-in:") || source.is_set(key)) return;
+        path = (folder / path).lexically_normal().string();
+    }
+
+    void place_files(Content& content) const {
+        place("content.model", content.model);
+        for (std::size_t i = 0; i < content.objects.size(); ++i) {
+            place(fmt::format("content.object.{}.model", i), content.objects[i].model);
+            place(fmt::format("content.object.{}.image", i), content.objects[i].image);
+        }
+    }
+
     std::vector<GlassCatalogue> read_catalogues(std::vector<std::string>& files) {
         constexpr const char* key = "glass_catalogues";
         std::vector<GlassCatalogue> catalogues;
@@ -195,7 +212,7 @@ class DisplayReader {
             return catalogues;
         }
         for (std::string& file : files) {
-            if (!source.is_set(key)) file = (folder / file).lexically_normal().string();
+            place(key, file);
             try {
                 catalogues.push_back(read_agf(file));
             } catch (const InputError& error) {
@@ -224,6 +241,7 @@ class DisplayReader {
     void judge(const Display& display) {
         Findings findings(faults);
         validate_values(display, findings);
+        validate_content(display, findings);
         if (!is_wrong("glass_catalogues")) {  // else glasses are not known, and lenses cannot be placed
             validate_glass(display, findings);
             validate_lens(display, findings);
@@ -266,13 +284,7 @@ Display parse_display(std::string_view text, std::string_view name, const std::v
 }
 
 Display read_display(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-    Display display = parse_display(read_text(path), path.string(), overrides, path.parent_path());
-    // A path on the command line is relative to where it was typed, one in a file to where the file is.
-    const bool overridden =
-        std::any_of(overrides.begin(), overrides.end(), [](const std::string& o) { return o.starts_with("content.model="); });
-    if (!display.content.model.empty() && !overridden && !display.content.model.starts_with("built-in:"))
-        display.content.model = (path.parent_path() / display.content.model).lexically_normal().string();
-    return display;
+    return parse_display(read_text(path), path.string(), overrides, path.parent_path());
 }
 
 }  // namespace lfdsim

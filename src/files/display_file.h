@@ -12,11 +12,11 @@ namespace lfdsim {
 
 /// Reads and validates a description. `overrides` are "dotted.key=value" with the value in TOML syntax, applied before validation.
 /// Throws InputError with every problem found, each as file:line:column (or --set key) with what was given and what is allowed;
-/// an unknown key names the nearest known one. content.model and glass_catalogues become relative to the working directory; glasses
-/// are looked up.
+/// an unknown key names the nearest known one. Files that it names (content.model, those of content.object, glass_catalogues)
+/// become relative to the working directory; glasses are looked up.
 Display read_display(const std::filesystem::path&, const std::vector<std::string>& overrides = {});
 
-/// The same from text; `name` stands for the file in messages, and catalogues that the text names are relative to `folder`. Limits:
+/// The same from text; `name` stands for the file in messages, and files that the text names are relative to `folder`. Limits:
 /// 1 MiB of text, 16 levels.
 Display parse_display(std::string_view text, std::string_view name, const std::vector<std::string>& overrides = {},
                       const std::filesystem::path& folder = {});

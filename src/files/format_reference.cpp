@@ -75,8 +75,8 @@ outside what is allowed; an integer may stand for a number. All errors are repor
 
 On the command line `--set key=value` changes one value: the key with its table before a dot, the value as in TOML. Words need no
 quotes (`--set lens.facing=panel`), `none` removes a key or table (`--set diffuser=none`), and surfaces are counted from 0
-(`--set lens.surface.1.conic=-0.4`). A model or glass catalogue given in this way is relative to the working directory, one named in
-the file to the file's folder. Files have at most 1 MiB and nest at most 16 levels.
+(`--set lens.surface.1.conic=-0.4`), as are objects. A model, image or glass catalogue given in this way is relative to the working
+directory, one named in the file to the file's folder. Files have at most 1 MiB and nest at most 16 levels.
 
 ## Glass
 

@@ -45,8 +45,10 @@ bool advise_near_eye(Advised& a, double eye) {
 
 void advise_on_size(Advised& a, double eye) {
     const Geometry& g = a.geometry;
+    if (!a.display.content.objects.empty()) return;  // a wall behind a scene may well be larger
+    const double full_height = g.content_height_mm.value();
     // Seen from the eye, the scene's middle plane covers this much of the vertex plane.
-    const double projected = eye / (eye - g.content_depth_mm), height = g.content_height_mm * projected,
+    const double projected = eye / (eye - g.content_depth_mm), height = full_height * projected,
                  width = a.model_half_size_mm ? 2 * (*a.model_half_size_mm)[0] * projected : 0;
     const double screen_width = std::min(g.array_width_mm, g.panel_width_mm),
                  screen_height = std::min(g.array_height_mm, g.panel_height_mm);
@@ -56,7 +58,7 @@ void advise_on_size(Advised& a, double eye) {
             "the scene is larger than the display: from the eye it covers {}{:.5g} mm of the screen's {:.5g} x {:.5g} mm. "
             "Make it smaller (--set content.height_mm={:.3g}), or move it farther behind (--set content.depth_mm)",
             width > 0 ? fmt::format("{:.5g} x ", width) : "a height of ", height, screen_width, screen_height,
-            0.9 * g.content_height_mm / excess);
+            0.9 * full_height / excess);
 }
 
 }  // namespace

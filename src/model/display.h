@@ -154,16 +154,42 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
+/// Of everything that is shown.
+struct Light {
+    Vec3d direction{0.3, 0.5, 0.81};  // towards it; only the direction counts
+    double strength = 0.8;            // added to the ambient term where a surface faces it
+    double ambient = 0.2;
+    bool operator==(const Light&) const = default;
+};
+
+/// One thing of a scene: a mesh, or a picture on a rectangle.
+struct SceneObject {
+    std::string model;                // mesh file, as content.model; one of the two is given, the other empty
+    std::string image;                // picture file
+    Vec3d position_mm{};              // of its middle: x and y from the panel's, z from the viewer-side vertex plane
+    std::optional<double> height_mm;  // exactly one of these three
+    std::optional<double> width_mm;
+    std::optional<double> unit_mm;  // length of a model file's unit
+    double roll_deg = 0;            // about z, first; counter-clockwise as the viewer sees it
+    double tilt_deg = 0;            // about x, then; positive raises the front
+    double yaw_deg = 0;             // about y, last; counter-clockwise seen from above
+    std::optional<Vec3d> colour;    // sRGB, in place of a model file's colours and textures
+    Shading shading = Shading::file;
+    bool operator==(const SceneObject&) const = default;
+};
+
 struct Content {
     std::string model;               // mesh file; relative to the description file; empty: none
     std::optional<double> depth_mm;  // of the model's centre, from the viewer-side vertex plane; default L, or 0 where L is too far
-    std::optional<double> height_mm;    // default half the panel's height
+    std::optional<double> height_mm;    // default half the panel's height; of objects as they are
     double tilt_deg = 0;                // about x, before the yaw; positive raises the front
     double yaw_deg = 0;                 // counter-clockwise seen from above
     double viewing_distance_mm = 2000;  // from the panel; infinity allowed
     PickupKind pickup = PickupKind::nodal;
     std::int64_t pickup_rays = 16;  // of the integrated pick-up
     ContentSampling sampling = ContentSampling::subpixel;
+    Light light;
+    std::vector<SceneObject> objects;  // in place of the model; depth, height, tilt and yaw are then of them all together
     bool operator==(const Content&) const = default;
 };
 

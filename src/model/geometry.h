@@ -52,11 +52,15 @@ struct Geometry {
     double stop_z_mm;                         // plane of the curved vertex (last vertex for surfaces, lens for ideal)
     std::optional<double> diffuser_z_mm;
     double panel_width_mm, panel_height_mm;
-    double array_width_mm, array_height_mm;  // of the box about all cells, in the array's frame
-    double frame_width_mm;                   // of the camera, resolved from frame_width_mm | fov_deg | default
-    double focus_distance_mm;                // of the camera
-    double content_depth_mm, content_height_mm;
+    double array_width_mm, array_height_mm;   // of the box about all cells, in the array's frame
+    double frame_width_mm;                    // of the camera, resolved from frame_width_mm | fov_deg | default
+    double focus_distance_mm;                 // of the camera
+    double content_depth_mm;                  // of the model's centre; of objects midway between the nearest and the furthest
+    std::optional<double> content_height_mm;  // absent: as high as the objects make it
 };
+
+/// Midway between the nearest and the furthest object's middle, from the viewer-side vertex plane as they; of one or more.
+double middle_z_mm(const std::vector<SceneObject>&);
 
 /// Along one of the array's own axes, p its pitch there.
 struct AxisTheory {

@@ -159,14 +159,21 @@ constexpr Key<Camera> camera_keys[] = {
 };
 
 constexpr Key<Content> content_keys[] = {
-    {"model", &Content::model, no_range, false, "Mesh file, relative to the description's folder, or built-in:spheres.",
-     "built-in:spheres, five chequered spheres"},
-    {"depth_mm", &Content::depth_mm, any_length, false, "Of the model's centre, from the array's viewer-side vertex plane.",
-     "the central depth plane, or 0 where that is further from the lenses than half the viewer's distance"},
-    {"height_mm", &Content::height_mm, positive_length, false, "Of the model.", "half the panel's height"},
+    {"model", &Content::model, no_range, false,
+     "Mesh file, relative to the description's folder, or built-in:spheres. Not together with [[content.object]].",
+     "built-in:spheres, five chequered spheres, or the objects"},
+    {"depth_mm", &Content::depth_mm, any_length, false,
+     "Of the model's centre, from the array's viewer-side vertex plane; of objects, which it moves together, of the point midway "
+     "in "
+     "depth between the nearest and the furthest one's middle.",
+     "the central depth plane, or 0 where that is further from the lenses than half the viewer's distance; objects stay"},
+    {"height_mm", &Content::height_mm, positive_length, false,
+     "Of the model; of objects the height of their common box, scaled about the point of depth_mm, on the display's axis.",
+     "half the panel's height; objects stay"},
     {"tilt_deg", &Content::tilt_deg, turn, false,
-     "The model's rotation about the horizontal axis, before the yaw; positive raises its front."},
-    {"yaw_deg", &Content::yaw_deg, turn, false, "The model's rotation, counter-clockwise seen from above."},
+     "The model's rotation about the horizontal axis, before the yaw; positive raises its front. Objects turn about that point."},
+    {"yaw_deg", &Content::yaw_deg, turn, false,
+     "The model's rotation, counter-clockwise seen from above. Objects turn about that point."},
     {"viewing_distance_mm", &Content::viewing_distance_mm, Range{shortest_mm, infinity}, false,
      "From the panel to the viewer that the elemental images are made for. inf: elemental images stand straight behind their "
      "lenses."},
@@ -176,6 +183,42 @@ constexpr Key<Content> content_keys[] = {
     {"pickup_rays", &Content::pickup_rays, Range{1, 1024}, false, "Of the integrated pick-up, for each pixel or subpixel."},
     {"sampling", &Content::sampling, no_range, false,
      "On a panel with subpixels: each colour of a pixel is made for the place where it shines, or all for the pixel's middle."},
+    {"light", &Content::light, no_range, false, ""},
+    {"object", &Content::objects, no_range, false, ""},
+};
+
+constexpr Key<Light> light_keys[] = {
+    {"direction", &Light::direction, any_length, false,
+     "Towards the light, which is far away: x to the viewer's right, y up, z to the viewer. Of any length but 0."},
+    {"strength", &Light::strength, Range{0, 100}, false, "What a surface that faces the light adds to the ambient term."},
+    {"ambient", &Light::ambient, Range{0, 100}, false, "Share of its colour that a surface turned away from the light shows."},
+};
+
+constexpr std::string_view no_size = "given by another size; exactly one of height_mm, width_mm and unit_mm is required";
+
+constexpr Key<SceneObject> object_keys[] = {
+    {"model", &SceneObject::model, no_range, false,
+     "Mesh file, relative to the description's folder, or built-in:spheres. Each object has this or image."},
+    {"image", &SceneObject::image, no_range, false,
+     "Picture file (PNG, JPEG, BMP, TGA, GIF), likewise, on a rectangle that faces the viewer until it is turned. The light does "
+     "not "
+     "matter to it; it is seen from both sides, mirrored from behind, and through where its alpha says so."},
+    {"position_mm", &SceneObject::position_mm, any_length, false,
+     "Where the middle of the image, or of the turned model's bounding box, stands: x and y from the panel's middle, z from the "
+     "array's viewer-side vertex plane, towards the viewer."},
+    {"height_mm", &SceneObject::height_mm, positive_length, false,
+     "Of the turned model's box, or of the image before it is turned.", no_size},
+    {"width_mm", &SceneObject::width_mm, positive_length, false, "Likewise.", no_size},
+    {"unit_mm", &SceneObject::unit_mm, positive_length, false, "Length of the model file's unit.", no_size},
+    {"roll_deg", &SceneObject::roll_deg, turn, false, "Rotation about the z axis, the first one; counter-clockwise to the viewer."},
+    {"tilt_deg", &SceneObject::tilt_deg, turn, false, "Rotation about the x axis, after the roll; positive raises the front."},
+    {"yaw_deg", &SceneObject::yaw_deg, turn, false,
+     "Rotation about the y axis, after the tilt; counter-clockwise seen from above. All three axes are the display's."},
+    {"colour", &SceneObject::colour, Range{0, 1}, false,
+     "Red, green, blue as a screen shows them (sRGB), in place of the model file's colours, textures and vertex colours.",
+     "as the model file says"},
+    {"shading", &SceneObject::shading, no_range, false,
+     "A model's normals: those of its file, or new ones, smoothed over all edges or one for each triangle."},
 };
 
 constexpr Key<Render> render_keys[] = {
@@ -298,6 +341,22 @@ const Table<Content>& table_of<Content>() {
     return table;
 }
 template <>
+const Table<Light>& table_of<Light>() {
+    static constexpr Table<Light> table{
+        "light", "What lights models: their colour times (ambient + strength x cosine of the angle to the light, if positive).",
+        light_keys};
+    return table;
+}
+template <>
+const Table<SceneObject>& table_of<SceneObject>() {
+    static constexpr Table<SceneObject> table{
+        "object",
+        "A thing of the scene that is shown in place of content.model: a model or an image. At most 64; what is nearer "
+        "hides what is behind it.",
+        object_keys};
+    return table;
+}
+template <>
 const Table<Render>& table_of<Render>() {
     static constexpr Table<Render> table{"render", "How pictures are computed.", render_keys};
     return table;
@@ -321,6 +380,7 @@ template <> std::span<const std::string_view> words<Aperture>() { static constex
 template <> std::span<const std::string_view> words<Profile>() { static constexpr std::string_view w[] = {"box", "gaussian"}; return w; }
 template <> std::span<const std::string_view> words<PickupKind>() { static constexpr std::string_view w[] = {"nodal", "traced", "integrated"}; return w; }
 template <> std::span<const std::string_view> words<ContentSampling>() { static constexpr std::string_view w[] = {"subpixel", "pixel"}; return w; }
+template <> std::span<const std::string_view> words<Shading>() { static constexpr std::string_view w[] = {"file", "smooth", "flat"}; return w; }
 template <> std::span<const std::string_view> words<PixelFilter>() { static constexpr std::string_view w[] = {"center", "box"}; return w; }
 template <> std::span<const std::string_view> words<Estimator>() { static constexpr std::string_view w[] = {"filtered", "point"}; return w; }
 template <> std::span<const std::string_view> words<Sampling>() { static constexpr std::string_view w[] = {"sobol", "random"}; return w; }

@@ -36,10 +36,10 @@ using ValuesOf =
                  Of<std::optional<std::array<std::int64_t, 2>>>, Of<std::vector<double>>, Of<Pitch>, Of<Encoding>,
                  Of<std::optional<Vec3d>>, Of<std::optional<Glass>>, Of<std::vector<std::string>>, Of<SubpixelLayout>, Of<Channel>,
                  Of<LensKind>, Of<Facing>, Of<Surround>, Of<LatticeKind>, Of<Aperture>, Of<Profile>, Of<PixelFilter>,
-                 Of<ContentSampling>, Of<PickupKind>, Of<Estimator>, Of<Sampling>, Of<Fresnel>>;
+                 Of<ContentSampling>, Of<PickupKind>, Of<Shading>, Of<Estimator>, Of<Sampling>, Of<Fresnel>>;
 
-/// What a key fills. Only Display, Panel and SurfaceLens contain tables: one that is always there, one that may be absent, or a
-/// list; the keys of a kind stand beside its word.
+/// What a key fills. Only Display, Panel, SurfaceLens and Content contain tables: one that is always there, one that may be absent,
+/// or a list; the keys of a kind stand beside its word.
 template <class T>
 struct MemberOf {
     template <class V>
@@ -61,6 +61,11 @@ struct MemberOf<Panel> {
 template <>
 struct MemberOf<SurfaceLens> {
     using Type = std::variant<std::vector<Surface> SurfaceLens::*>;
+};
+template <>
+struct MemberOf<Content> {
+    using Type = std::variant<std::string Content::*, double Content::*, std::optional<double> Content::*,
+                              ContentSampling Content::*, Light Content::*, std::vector<SceneObject> Content::*>;
 };
 
 template <class T>
@@ -98,6 +103,8 @@ template <> const Table<LensArray>& table_of<LensArray>();
 template <> const Table<Diffuser>& table_of<Diffuser>();
 template <> const Table<Camera>& table_of<Camera>();
 template <> const Table<Content>& table_of<Content>();
+template <> const Table<Light>& table_of<Light>();
+template <> const Table<SceneObject>& table_of<SceneObject>();
 template <> const Table<Render>& table_of<Render>();
 // clang-format on
 
@@ -105,7 +112,7 @@ template <class T, class... Structs>
 inline constexpr bool is_one_of = (std::is_same_v<T, Structs> || ...);
 template <class T>
 inline constexpr bool has_table = is_one_of<T, Display, Panel, Layer, Subpixel, Lens, PlanoConvex, SurfaceLens, IdealLens, Pinhole,
-                                            Surface, LensArray, Diffuser, Camera, Content, Render>;
+                                            Surface, LensArray, Diffuser, Camera, Content, Light, SceneObject, Render>;
 
 /// How a field of a struct is a table within it.
 enum class PartKind { value, table, optional, list, kinds };

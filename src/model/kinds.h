@@ -10,6 +10,8 @@ inline constexpr int max_subpixels = 32, max_subpixel_parts = 64;
 
 /// Of render.wavelength_samples, and of the files that glass_catalogues may name.
 inline constexpr decltype(sizeof 0) max_wavelength_samples = 32, max_catalogues = 8;
+/// Of content.object.
+inline constexpr decltype(sizeof 0) max_objects = 64;
 
 enum class Encoding { srgb, linear };  // of the panel image's code values
 enum class SubpixelLayout { none, rgb_stripe, bgr_stripe, rgb_rows, pentile_rgbg, delta, custom };
@@ -22,6 +24,7 @@ enum class Aperture { circle, cell };                                  // cell: 
 enum class Profile { box, gaussian };                                  // of the diffuser, per axis
 enum class PickupKind { nodal, traced, integrated };                   // along which lines elemental images look
 enum class ContentSampling { subpixel, pixel };                        // for what place elemental images are made
+enum class Shading { file, smooth, flat };                             // whose normals a mesh is lit by
 enum class PixelFilter { center, box };
 enum class Estimator { filtered, point };
 enum class Sampling { sobol, random };

@@ -95,6 +95,13 @@ double distance_mm(const Vec3d& a, const Vec3d& b) { return std::hypot(a[0] - b[
 
 }  // namespace
 
+double middle_z_mm(const std::vector<SceneObject>& objects) {
+    const auto [far, near] = std::minmax_element(objects.begin(), objects.end(), [](const SceneObject& a, const SceneObject& b) {
+        return a.position_mm[2] < b.position_mm[2];
+    });
+    return 0.5 * (far->position_mm[2] + near->position_mm[2]);
+}
+
 Geometry resolve_unchecked(const Display& d) {
     Geometry g{};
     g.lattice = make_lattice<double>(d.panel, d.array);
@@ -119,6 +126,10 @@ Geometry resolve_unchecked(const Display& d) {
     const double viewer = std::min(d.content.viewing_distance_mm, d.camera.position_mm[2]) - g.vertex_plane_mm;
     g.content_depth_mm = d.content.depth_mm.value_or(std::abs(central) <= viewer / 2 ? central : 0);
     g.content_height_mm = d.content.height_mm.value_or(g.panel_height_mm / 2);
+    if (!d.content.objects.empty()) {  // these stand where they say, and are as large
+        g.content_depth_mm = d.content.depth_mm.value_or(middle_z_mm(d.content.objects));
+        g.content_height_mm = d.content.height_mm;
+    }
     return g;
 }
 

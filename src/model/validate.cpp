@@ -10,6 +10,7 @@ std::vector<Problem> validate(const Display& d) {
     validate_panel(d, findings);
     validate_glass(d, findings);
     validate_lens(d, findings);
+    validate_content(d, findings);
     validate_layout(d, findings);
     return problems;
 }

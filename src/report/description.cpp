@@ -66,8 +66,10 @@ std::vector<Figure> figures(const Display& d, const Geometry& g) {
             {"array_height_mm", {g.array_height_mm}, "lens array, height"},
             {"frame_width_mm", {g.frame_width_mm}, "camera's frame in the plane through its target, width"},
             {"focus_distance_mm", {g.focus_distance_mm}, "camera's focus along the line of sight"},
-            {"content_depth_mm", {g.content_depth_mm}, "depth of the model's centre"},
-            {"content_height_mm", {g.content_height_mm}, "height of the model"}};
+            {"content_depth_mm",
+             {g.content_depth_mm},
+             "depth of the model's centre, of objects midway between the nearest and the furthest"},
+            {"content_height_mm", {g.content_height_mm.value_or(none)}, "height of the model", "", "each object has its own"}};
 }
 
 namespace {

@@ -80,7 +80,7 @@ Json side(const Display& display, const std::string& name) {
               {"box", {f.left, f.top, f.width, f.height}}}}};
 }
 
-/// The file of the model that is shown, or would be if nothing else were; or built-in:spheres.
+/// The file of the model that is shown, or would be if nothing else were; or built-in:spheres, or scene_of_objects.
 std::string model_file(const Library& library, const Wanted& wanted, const Display& display) {
     if (wanted.shown.kind == Shown::Kind::model)
         return wanted.shown.name == built_in_spheres ? wanted.shown.name : library.file(wanted.shown.name).string();
@@ -108,7 +108,11 @@ std::string name_in(const std::filesystem::path& folder, const std::string& file
 /// The current description, for a file in the folder.
 std::string toml(const Library& library, const Wanted& wanted, const std::filesystem::path& folder) {
     Display display = library.display(wanted);
+    for (SceneObject& object : display.content.objects)
+        for (std::string* const name : {&object.model, &object.image})
+            if (!name->empty() && *name != built_in_spheres) *name = name_in(folder, *name);
     const std::string file = model_file(library, wanted, display);
+    if (file == scene_of_objects) return write_display(display);
     if (file == model_of(display) && file == built_in_spheres) return write_display(display);  // given, or shown by default
     display.content.model = file == built_in_spheres ? file : name_in(folder, file);
     return write_display(display);
@@ -125,8 +129,8 @@ Json answer_to(const Library& library, Panels& panels, const Wanted& wanted, con
             const Display display = library.display(wanted);
             if (ask.name == "spot") return {{"svg", svg(spot_plot(display))}};
             Cancellable job(cancelled);
-            const std::shared_ptr<const Model> model = panels.model(model_source(model_file(library, wanted, display)), job);
-            return {{"svg", svg(fov_plot(display, model, job))}};
+            const ContentParts parts = panels.parts(model_source(model_file(library, wanted, display), display), display, job);
+            return {{"svg", svg(fov_plot(display, parts, job))}};
         }
         case Ask::What::files: {
             const Library::Files files = library.files();

@@ -62,7 +62,7 @@ double suggested(std::string_view path, const Display& d, const Geometry& g) {
         {"camera.pupil_diameter_mm", 4},  // of an eye indoors
         {"camera.focus_distance_mm", g.focus_distance_mm},
         {"content.depth_mm", g.content_depth_mm},
-        {"content.height_mm", g.content_height_mm},
+        {"content.height_mm", g.content_height_mm.value_or(0.5 * g.panel_height_mm)},
         {"render.samples", double(samples_of(d))},
     };
     for (const auto& [key, value] : all)
@@ -117,7 +117,9 @@ class Lister {
     void add_key(const std::string& path, const KeyInfo& key, Field& field) {
         const std::string table(table_of_path(path));
         const bool idle = table == last_surface() && (key.name == "distance_mm" || key.name == "index");  // no surface follows
-        if (idle || gives_way(path) || std::find(std::begin(left_out), std::end(left_out), path) != std::end(left_out)) return;
+        if (idle || gives_way(path) || of_no_object(path, field) ||
+            std::find(std::begin(left_out), std::end(left_out), path) != std::end(left_out))
+            return;
         Json control{{"key", path}, {"table", table}, {"label", label(key.name)}, {"unit", unit_of(std::string(key.name))}};
         auto described = value_at(described_, path);
         if (!described && table == table_of<Diffuser>().name) described = value_at(trial_, path);
@@ -126,6 +128,16 @@ class Lister {
         if (!key.absent.empty()) control["absent"] = key.absent;  // such a key may be removed
         control["doc"] = key.doc;
         list_.push_back(std::move(control));
+    }
+
+    /// An object's files, and sizes and colours that it does not have.
+    template <class Field>
+    static bool of_no_object(std::string_view path, const Field& field) {
+        if (!path.starts_with("content.object.")) return false;
+        if constexpr (std::is_same_v<Field, std::optional<double>> || std::is_same_v<Field, std::optional<Vec3d>>)
+            return !field.has_value();
+        else
+            return std::is_same_v<Field, std::string>;
     }
 
     /// A medium's glass is shown where it has a name, its index where it has no glass.

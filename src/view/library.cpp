@@ -2,6 +2,7 @@
 
 #include "content/content.h"
 #include "files/display_file.h"
+#include "model/keys.h"
 #include "model/vec.h"
 
 #include <nlohmann/json.hpp>
@@ -71,6 +72,8 @@ void check_key(std::string_view override_text) {
     };
     const auto refuse = [&](const char* what) { throw InputError(std::string(key), what); };
     if (is_or_has("content.model")) refuse("is not for set: the message's \"shown\" says what is shown");
+    if (is_or_has("content.object") && (key.ends_with("model") || key.ends_with("image") || !key_at(key)))
+        refuse("is not for set: a visitor names no files, and adds and removes no objects");
     if (is_or_has("glass_catalogues")) refuse("is not for set: a visitor names no files");
     if (is_or_has("camera.position_mm")) refuse("is not for set: the message's \"eye_mm\" says where the eye is");
     if (is_or_has("camera.resolution")) refuse("is not for set: the message's \"size\" says how many pixels there are");
@@ -171,10 +174,16 @@ Library::Description Library::description(const Wanted& wanted, int eye) const {
     return description;
 }
 
+bool Library::shows_another_model(const Shown& shown) const {
+    return shown.kind == Shown::Kind::model || (shown.kind == Shown::Kind::start && !start_.model.empty());
+}
+
 Display Library::display(const Wanted& wanted, int eye) const {
     const Description wanted_one = description(wanted, eye);
     try {
-        return read_display(wanted_one.file, wanted_one.set);
+        Display display = read_display(wanted_one.file, wanted_one.set);
+        if (shows_another_model(wanted.shown)) display.content.objects.clear();
+        return display;
     } catch (InputError& error) {
         std::transform(error.problems.begin(), error.problems.end(), error.problems.begin(), by_key);
         throw InputError(std::move(error.problems));

@@ -24,7 +24,7 @@ class Library {
     Library(Start, std::filesystem::path folder);
 
     const Start& start() const { return start_; }
-    /// The model that is shown with a description unless a page names another: --model, or the description's.
+    /// The model that is shown with a description unless a page names another: --model, or the description's, or scene_of_objects.
     std::string model(const Display&) const;
 
     /// The file that a page names, inside the folder. Throws InputError if it is outside (.., absolute, links that lead out), is
@@ -46,10 +46,13 @@ class Library {
         std::vector<std::string> set;
     };
     Description description(const Wanted&, int eye = 0) const;
-    /// The description, read and validated. Throws InputError, which names keys where possible ("array.gap_mm").
+    /// The description, read and validated, without its objects where a model is shown in their place. Throws InputError, which
+    /// names keys where possible ("array.gap_mm").
     Display display(const Wanted&, int eye = 0) const;
 
   private:
+    bool shows_another_model(const Shown&) const;
+
     Start start_;
     std::filesystem::path folder_;
 };

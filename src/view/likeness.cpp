@@ -17,6 +17,7 @@ double WhiteField::of(const Display& seen, const Geometry& geometry, bool quick,
     Display d = seen;
     d.name.clear();
     d.content.model.clear();
+    d.content.objects.clear();
     d.camera.fov_deg.reset();
     d.camera.frame_width_mm = geometry.frame_width_mm;
     d.camera.position_mm = {0, 0, length(d.camera.position_mm)};

@@ -37,22 +37,33 @@ bool drawn_for_lenses(const Source& source) {
            (source.kind == Shown::Kind::pattern && (source.name == "view" || source.name == "edge"));
 }
 
-std::array<double, 3> pose_of(const Display& d, const Geometry& g) {
-    return {d.content.tilt_deg, d.content.yaw_deg, g.content_height_mm};
+/// All that a posed scene depends on but its files and depth.
+Content pose_of(const Display& d, const Geometry& g) {
+    Content pose = d.content;
+    const Content fresh;
+    pose.model.clear();  // a source says it
+    pose.depth_mm.reset();
+    pose.height_mm = g.content_height_mm;
+    pose.viewing_distance_mm = fresh.viewing_distance_mm;
+    pose.sampling = fresh.sampling;
+    return pose;
 }
 
 }  // namespace
 
-Source model_source(const std::string& name) {
+Source model_source(const std::string& name, const Display& display) {
     if (name.empty() || name == built_in_spheres) return {Shown::Kind::model, name};
-    return of_file(Shown::Kind::model, name);
+    if (name != scene_of_objects) return of_file(Shown::Kind::model, name);
+    Source scene{Shown::Kind::model, name};
+    for (const ContentFile& file : content_files(display)) scene.objects.push_back(of_file(Shown::Kind::model, file.path));
+    return scene;
 }
 
 Source source_of(const Library& library, const Shown& shown, const Display& display) {
     const Start& start = library.start();
     switch (shown.kind) {
         case Shown::Kind::model:
-            return model_source(shown.name == built_in_spheres ? shown.name : library.file(shown.name).string());
+            return model_source(shown.name == built_in_spheres ? shown.name : library.file(shown.name).string(), display);
         case Shown::Kind::panel_image:
             return of_file(shown.kind, library.file(shown.name).string());
         case Shown::Kind::pattern:
@@ -62,19 +73,19 @@ Source source_of(const Library& library, const Shown& shown, const Display& disp
     }
     if (!start.pattern.empty()) return {Shown::Kind::pattern, start.pattern};
     if (!start.panel_image.empty()) return of_file(Shown::Kind::panel_image, start.panel_image.string());
-    return model_source(library.model(display));
+    return model_source(library.model(display), display);
 }
 
 // The nodal pick-up (content/pickup.h) and the model's pose (content/scene.cpp) depend on these resolved numbers only.
 PanelKey panel_key(const Source& source, const Display& d, const Geometry& g) {
-    PanelKey key{source, d.panel.pixels, d.panel.encoding, {}};
+    PanelKey key{source, d.panel.pixels, d.panel.encoding, {}, {}};
     if (!drawn_for_lenses(source)) return key;
     key.lengths = {
         double(d.array.lattice), d.panel.pixel_pitch_mm, g.lattice.count[0],           g.lattice.count[1], d.array.pitch_mm[1],
         d.array.pitch_mm[0],     d.array.offset_mm[0],   d.array.offset_mm[1],         d.array.turn_deg(), g.gap_mm,
         g.rear_principal_mm,     g.vertex_plane_mm,      d.content.viewing_distance_mm};
     if (source.kind != Shown::Kind::model) return key;
-    for (const double x : pose_of(d, g)) key.lengths.push_back(x);
+    key.content = pose_of(d, g);
     key.lengths.push_back(g.content_depth_mm);
     const std::vector<double> shown = shown_places(d);
     key.lengths.insert(key.lengths.end(), shown.begin(), shown.end());
@@ -131,22 +142,22 @@ void Panels::prepare(const Source& source, const Display& display, const Geometr
 ContentScene Panels::scene(const Source& source, const Display& display, const Geometry& geometry, Job& job) {
     if (source.kind != Shown::Kind::model || source.name.empty())
         throw InputError("shown", "is not a model: name a mesh file, or built-in:spheres");
-    const std::array<double, 3> pose = pose_of(display, geometry);
+    const Content pose = pose_of(display, geometry);
     {
         const std::lock_guard lock(mutex_);
         const auto is = [&](const Posed& p) { return p.source == source && p.pose == pose; };
         if (const Posed* const posed = used(scenes_, is)) return posed->scene.before(geometry);
     }
-    const ContentScene made(model(source, job), display, geometry);
+    const ContentScene made(parts(source, display, job), display, geometry);
     const std::lock_guard lock(mutex_);
     scenes_.push_front({source, pose, made});
     if (scenes_.size() > most_scenes) scenes_.pop_back();
     return made;
 }
 
-std::shared_ptr<const Model> Panels::model(const Source& source, Job& job) {
-    if (source.name == built_in_spheres) return built_in_model();
-    const ModelFuture future = reading(source);
+ContentParts Panels::parts(const Source& source, const Display& display, Job& job) {
+    if (source.name == built_in_spheres) return {built_in_model()};
+    const PartsFuture future = reading(source, display);
     job.stage("model", 1);
     while (future.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
         job.advance(0);
@@ -161,17 +172,20 @@ std::shared_ptr<const Model> Panels::model(const Source& source, Job& job) {
     }
 }
 
-// A separate process reads the model, in a thread that continues when nobody waits any more: the next caller wants the same model.
-Panels::ModelFuture Panels::reading(const Source& source) {
+// A separate process reads each file, in a thread that continues when nobody waits any more: the next caller wants the same ones.
+Panels::PartsFuture Panels::reading(const Source& source, const Display& display) {
     const std::lock_guard lock(mutex_);
-    if (const Loaded* const loaded = used(models_, [&](const Loaded& l) { return l.source == source; })) return loaded->model;
-    const auto load = [name = source.name] { return load_model(name); };
+    if (const Loaded* const loaded = used(models_, [&](const Loaded& l) { return l.source == source; })) return loaded->parts;
+    const bool scene = source.name == scene_of_objects;
+    const auto load = [files = scene ? content_files(display) : std::vector{ContentFile{source.name}}] {
+        return load_parts(files);
+    };
     models_.push_front({source, std::async(std::launch::async, load).share()});
     std::size_t count = 0;
     models_.remove_if([&](const Loaded& l) {  // removing one that is being read would wait for its end
-        return ++count > most_models && l.model.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+        return ++count > most_models && l.parts.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
     });
-    return models_.front().model;
+    return models_.front().parts;
 }
 
 Panels::Kept Panels::kept() const {

@@ -19,11 +19,12 @@ struct Source {
     Shown::Kind kind = Shown::Kind::model;  // never start
     std::string name;                     // path, built-in:spheres, or a pattern's name; empty: no model is known, as with an image
     std::int64_t changed = 0, bytes = 0;  // of a file, at the last check
+    std::vector<Source> objects = {};     // of scene_of_objects: each one's file
     bool operator==(const Source&) const = default;
 };
 
-/// A mesh file by its path, or built-in:spheres.
-Source model_source(const std::string& name);
+/// A mesh file by its path, built-in:spheres, or the display's scene_of_objects.
+Source model_source(const std::string& name, const Display&);
 
 /// Throws InputError for names that a page may not use.
 Source source_of(const Library&, const Shown&, const Display&);
@@ -33,6 +34,7 @@ struct PanelKey {
     Source source;
     std::array<std::int64_t, 2> pixels{};
     Encoding encoding{};
+    Content content;              // of a model or scene: how it stands and what lights it; else a fresh one
     std::vector<double> lengths;  // the display's numbers that elemental images and drawn patterns depend on; empty for others
     bool operator==(const PanelKey&) const = default;
 };
@@ -53,11 +55,11 @@ class Panels {
     /// get().
     void prepare(const Source&, const Display&, const Geometry&, int threads, Job&);
 
-    /// The model of a source, placed at its depth in the display. Throws like get().
+    /// The model or scene of a source, placed at its depth in the display. Throws like get().
     ContentScene scene(const Source&, const Display&, const Geometry&, Job&);
 
-    /// The model itself, read only once for all callers, without blocking other calls. Throws like get().
-    std::shared_ptr<const Model> model(const Source&, Job&);
+    /// Its files alone, read only once for all callers, without blocking other calls. Throws like get().
+    ContentParts parts(const Source&, const Display&, Job&);
 
     /// What is kept now; at most 3 panels, and 2 GiB unless a single one takes more.
     struct Kept {
@@ -67,8 +69,8 @@ class Panels {
     Kept kept() const;
 
   private:
-    using ModelFuture = std::shared_future<std::shared_ptr<const Model>>;
-    ModelFuture reading(const Source&);
+    using PartsFuture = std::shared_future<ContentParts>;
+    PartsFuture reading(const Source&, const Display&);
 
     struct Made {
         PanelKey key;
@@ -77,12 +79,12 @@ class Panels {
     };
     struct Posed {
         Source source;
-        std::array<double, 3> pose;  // tilt, yaw, height
+        Content pose;
         ContentScene scene;
     };
     struct Loaded {
         Source source;
-        ModelFuture model;
+        PartsFuture parts;
     };
     mutable std::mutex mutex_;  // of the lists; never held while something is made
     // Newest use first.

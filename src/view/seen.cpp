@@ -9,6 +9,11 @@
 namespace lfdsim::view {
 namespace {
 
+/// What a panel image was made from, if from anything that the description names.
+std::string described_model(const Display& display) {
+    return display.content.objects.empty() ? display.content.model : std::string(scene_of_objects);
+}
+
 Seen of_eye(const Library& library, const Wanted& wanted, const char* lane, int eye) {
     const Display display = library.display(wanted, eye);
     const Geometry geometry = resolve(display);
@@ -26,8 +31,7 @@ Seen of_eye(const Library& library, const Wanted& wanted, const char* lane, int 
     one.key = panel_key(one.source, one.made_for, one.made_for_geometry);
     one.model = one.source;
     if (one.source.kind == Shown::Kind::pattern) one.model = {};
-    // A panel image was made from the description's model, if from any known one.
-    if (one.source.kind == Shown::Kind::panel_image) one.model = model_source(display.content.model);
+    if (one.source.kind == Shown::Kind::panel_image) one.model = model_source(described_model(display), display);
     return one;
 }
 

@@ -21,6 +21,7 @@ Slider ends_of(std::string_view path, const Range& range, double described, cons
     if (path == "render.seed") return {0, 100, 0};
     if (path == "array.offset_mm") return about(described, d.array.pitch_mm[0]);
     if (path == "content.depth_mm") return about(described, g.panel_height_mm);
+    if (path.starts_with("content.light.")) return {0, std::max(1., 2 * described), 0};
     if (path.ends_with("curvature_per_mm")) return about(described, std::max(std::abs(described), 0.25 / g.clear_aperture_mm[0]));
     if (path.ends_with("conic")) return about(described, 3);
     if (range.low > 0 || range.low_open) return {described / 4, described * 4, 0};

@@ -182,4 +182,56 @@ TEST(Material, TexturesComeFromTheModelsFolderOnly) {
     EXPECT_EQ(info(*load_model(write_square(inner_model, "map_Kd C:\\art\\Secret.PNG"))).textures, 1);
 }
 
+// What has no texture to show is grey, and it is said once.
+TEST(Material, MissingTexturesAreGrey) {
+    Folder folder;
+    expect_colour(middle(shoot(write_square(folder, "Kd 1 0 0\nmap_Kd nowhere.png"))), 0.5, 0.5, 0.5);
+    write_image(folder.path() / "t.png", Image(2, 2));
+    folder.write("m.mtl", "newmtl m\nmap_Kd t.png\n");
+    const auto bare = folder.write("bare.obj",
+                                   "mtllib m.mtl\nusemtl m\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\no b\n"
+                                   "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nusemtl m\nf 5 6 7\n");
+    expect_colour(middle(shoot(bare)), 0.5, 0.5, 0.5);
+    EXPECT_THAT(info(*load_model(bare)).notes, testing::Contains(testing::HasSubstr("no texture coordinates")).Times(1));
+}
+
+// A tint of a texture is left out, which is said; greys are what exporters fill in.
+TEST(Material, TintsOfObjTexturesAreNoted) {
+    Folder folder;
+    Image texel(1, 1);
+    texel.rgb = {1, 1, 1};
+    write_image(folder.path() / "t.png", texel);
+    const auto tinted = write_square(folder, "Kd 1 0 0\nmap_Kd t.png");
+    expect_colour(middle(shoot(tinted)), 1, 1, 1);
+    EXPECT_THAT(info(*load_model(tinted)).notes, testing::ElementsAre(testing::HasSubstr("tints")));
+    EXPECT_THAT(info(*load_model(write_square(folder, "Kd 0.8 0.8 0.8\nmap_Kd t.png"))).notes, testing::IsEmpty());
+}
+
+TEST(Material, ObjVertexColoursAreDisplayColours) {
+    Folder folder;
+    std::ostringstream obj;
+    for (const char* corner : {"-1 -1", "1 -1", "1 1", "-1 1"}) obj << "v " << corner << " 0 0.5 1 0.25\n";
+    obj << "f 1 2 3 4\n";
+    expect_colour(middle(shoot(folder.write("c.obj", obj.str()))), srgb_to_linear(0.5), 1, srgb_to_linear(0.25));
+}
+
+// A fold of 40 degrees without normals: smoothed in general, flat where the file says so; sharper ones stay edges; and the file's
+// own normals hold.
+TEST(Material, ObjNormals) {
+    Folder folder;
+    const auto slope = [&](const std::string& smoothing, const std::string& normals, const std::string& face) {
+        const double h = std::tan(20 * M_PI / 180);
+        std::ostringstream obj;
+        obj << "v -1 -1 0\nv 0 -1 " << h << "\nv 0 1 " << h << "\nv -1 1 0\nv 1 -1 0\nv 1 1 0\n" << normals << smoothing << face;
+        const Image image = shoot(folder.write("f.obj", obj.str()));
+        return std::abs(image.at(121, 80)[0] - image.at(118, 80)[0]) / image.at(120, 80)[0];
+    };
+    const std::string faces = "f 1 2 3 4\nf 2 5 6 3\n";
+    EXPECT_LT(slope("", "", faces), 0.03);
+    EXPECT_LT(slope("s 1\n", "", faces), 0.03);
+    EXPECT_GT(slope("s off\n", "", faces), 0.15);
+    EXPECT_GT(slope("s 0\n", "", faces), 0.15);
+    EXPECT_LT(slope("s off\n", "vn 0 0 1\n", "f 1//1 2//1 3//1 4//1\nf 2//1 5//1 6//1 3//1\n"), 1e-6);
+}
+
 }  // namespace

@@ -25,7 +25,7 @@ TEST(Displays, AllAreValidAndNamedAsTheirFiles) {
         EXPECT_NEAR(t.along[0].fov_deg, 40.0, 0.05) << d.name;
         EXPECT_NEAR(t.along[0].views, 88, 0.01) << d.name;
         // the content stands inside the published depth of field
-        EXPECT_LT(std::abs(g.content_depth_mm - t.central_depth_mm) + g.content_height_mm / 2, t.depth_of_field_mm / 2 + 8)
+        EXPECT_LT(std::abs(g.content_depth_mm - t.central_depth_mm) + g.content_height_mm.value() / 2, t.depth_of_field_mm / 2 + 8)
             << d.name;
         ++count;
     }

@@ -117,5 +117,33 @@ TEST(Override, ModelPaths) {
     EXPECT_EQ(read_display(folder / "e.toml").content.model, "/meshes/a.glb");
 }
 
+TEST(Override, ObjectPaths) {
+    const std::filesystem::path folder = std::filesystem::path(LFDSIM_BINARY_DIR) / "object-paths";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "d.toml")
+        << example_text
+        << "[[content.object]]\nmodel = \"a.glb\"\nheight_mm = 1\n[[content.object]]\nimage = "
+           "\"../b.png\"\nwidth_mm = 2\n[[content.object]]\nmodel = \"built-in:spheres\"\nunit_mm = 3\n";
+    const auto objects = [&](const std::vector<std::string>& set) { return read_display(folder / "d.toml", set).content.objects; };
+    EXPECT_EQ(objects({})[0].model, (folder / "a.glb").string());
+    EXPECT_EQ(objects({})[0].image, "");
+    EXPECT_EQ(objects({})[1].image, (folder.parent_path() / "b.png").string());
+    EXPECT_EQ(objects({})[2].model, "built-in:spheres");
+    EXPECT_EQ(objects({"content.object.0.model=c.glb"})[0].model, "c.glb");
+    EXPECT_EQ(objects({"content.object.1.image=/d.png"})[1].image, "/d.png");
+    EXPECT_EQ(objects({"content.object.2.position_mm=[1, 2, 3]"})[2].position_mm, (Vec3d{1, 2, 3}));
+    EXPECT_TRUE(objects({"content.object=none"}).empty());
+}
+
+// Lists are read to their own ends, not to that of the shortest.
+TEST(Override, LongListsAreReadWhole) {
+    std::string text = example_text;
+    for (int k = 0; k < 64; ++k) text += "[[content.object]]\nmodel = \"a.obj\"\nheight_mm = " + std::to_string(k + 1) + "\n";
+    ASSERT_EQ(parse_display(text, "d").content.objects.size(), 64u);
+    EXPECT_EQ(parse_display(text, "d").content.objects[63].height_mm, 64);
+    text += "[[content.object]]\nmodel = \"a.obj\"\nheight_mm = 65\n";
+    EXPECT_THROW(parse_display(text, "d"), InputError);
+}
+
 }  // namespace
 }  // namespace lfdsim

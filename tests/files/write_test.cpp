@@ -76,7 +76,10 @@ array = {count = [1, 1], pitch_mm = 2, base_z_mm = 3})",
     R"(lens = {type = "plano_convex", sphere_radius_mm = 9, aperture_radius_mm = 3, glass = "PC"}
 array = {count = [1, 1], pitch_mm = 6, gap_mm = 3})",
     R"(lens = {type = "surfaces", surface = [{semi_aperture_mm = 1, glass = "F2", distance_mm = 1}, {semi_aperture_mm = 1}]}
-array = {count = [1, 1], pitch_mm = 2, base_z_mm = 3})"};
+array = {count = [1, 1], pitch_mm = 2, base_z_mm = 3})",
+    R"(lens = {type = "ideal", focal_length_mm = 2, aperture_radius_mm = 1}
+array = {count = [1, 1], pitch_mm = 2, gap_mm = 3}
+content = {light = {ambient = 0}, object = [{image = "a.png", width_mm = 2}, {model = "b", unit_mm = 3, colour = [0, 1, 0.5]}]})"};
 
 // Starts from a small display of each lens type and changes it at random; changes that leave it valid stay.
 TEST(WriteDisplay, ReadsBackTheSame) {

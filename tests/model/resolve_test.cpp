@@ -106,13 +106,21 @@ TEST(Resolve, CameraDefaults) {
 TEST(Resolve, ContentStandsOnTheCentralDepthPlaneWithinReach) {
     Display d = example_ideal();
     EXPECT_NEAR(resolve(d).content_depth_mm, 15.7 * gap / (gap - 15.7), 1e-9);
-    EXPECT_NEAR(resolve(d).content_height_mm, 2160 * 0.13636 / 2, 1e-12);
+    EXPECT_NEAR(resolve(d).content_height_mm.value(), 2160 * 0.13636 / 2, 1e-12);
     d.array.gap_mm = 15;  // virtual: behind the lenses
     EXPECT_NEAR(resolve(d).content_depth_mm, 15.7 * 15 / (15 - 15.7), 1e-9);
     d.array.gap_mm = 15.7;  // collimated
     EXPECT_EQ(resolve(d).content_depth_mm, 0);
     d.array.gap_mm = 15.8;  // 2480 mm, behind the viewer
     EXPECT_EQ(resolve(d).content_depth_mm, 0);
+    SceneObject object;
+    object.model = "a.obj";
+    object.height_mm = 3;
+    for (const double z : {-40., 100., 7.}) d.content.objects.push_back(object), d.content.objects.back().position_mm[2] = z;
+    EXPECT_EQ(resolve(d).content_depth_mm, 30);  // objects stand where they say
+    EXPECT_FALSE(resolve(d).content_height_mm);
+    d.content.height_mm = 12;
+    EXPECT_EQ(resolve(d).content_height_mm, 12);
     d.content.depth_mm = -7;
     EXPECT_EQ(resolve(d).content_depth_mm, -7);
 }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "example.h"
 #include "model/geometry.h"
@@ -34,6 +35,18 @@ Glass glass(const char* name) { return shipped_glass(name)->glass; }
 void set_glass(Display& d, Glass glass) {
     d.lens.as<PlanoConvex>().index.reset();
     d.lens.as<PlanoConvex>().glass = std::move(glass);
+}
+
+SceneObject a_model() {
+    SceneObject object;
+    object.model = "a.obj";
+    object.height_mm = 5;
+    return object;
+}
+SceneObject an_image() {
+    SceneObject object = a_model();
+    object.image = std::exchange(object.model, "");
+    return object;
 }
 
 struct Case {
@@ -113,6 +126,21 @@ INSTANTIATE_TEST_SUITE_P(Ranges, Fault, testing::Values(
     Case{"content.depth_mm", "is inf", [](Display& d) { d.content.depth_mm = inf; }},
     Case{"content.height_mm", "is 0", [](Display& d) { d.content.height_mm = 0; }},
     Case{"content.yaw_deg", "is nan", [](Display& d) { d.content.yaw_deg = nan; }},
+    Case{"content.light.direction", "leave it out, or take [0, 0, 1]", [](Display& d) { d.content.light.direction = {0, 0, 0}; }},
+    Case{"content.light.direction[1]", "is nan", [](Display& d) { d.content.light.direction[1] = nan; }},
+    Case{"content.light.ambient", "is -0.1", [](Display& d) { d.content.light.ambient = -0.1; }},
+    Case{"content.object.0.position_mm[2]", "is inf", [](Display& d) { d.content.objects = {a_model()}, d.content.objects[0].position_mm[2] = inf; }},
+    Case{"content.object.0.colour[0]", "is 1.5", [](Display& d) { d.content.objects = {a_model()}, d.content.objects[0].colour = Vec3d{1.5, 0, 0}; }},
+    Case{"content.object.0.model", "is missing; give content.object.0.model", [](Display& d) { d.content.objects = {a_model()}, d.content.objects[0].model = ""; }},
+    Case{"content.object.1.image", "leave one out, or make two objects", [](Display& d) { d.content.objects = {a_model(), a_model()}, d.content.objects[1].image = "b.png"; }},
+    Case{"content.object.0.height_mm", "is missing; give", [](Display& d) { d.content.objects = {a_model()}, d.content.objects[0].height_mm.reset(); }},
+    Case{"content.object.0.width_mm", "is not the only size", [](Display& d) { d.content.objects = {a_model()}, d.content.objects[0].width_mm = 3; }},
+    Case{"content.object.0.unit_mm", "is not the only size", [](Display& d) { d.content.objects = {a_model()}, d.content.objects[0].unit_mm = 3; }},
+    Case{"content.object.0.unit_mm", "give an image content.object.0.height_mm", [](Display& d) { d.content.objects = {an_image()}, d.content.objects[0].height_mm.reset(), d.content.objects[0].unit_mm = 3; }},
+    Case{"content.object.0.colour", "an image has its own colours", [](Display& d) { d.content.objects = {an_image()}, d.content.objects[0].colour = Vec3d{}; }},
+    Case{"content.object.0.shading", "an image is not lit", [](Display& d) { d.content.objects = {an_image()}, d.content.objects[0].shading = Shading::flat; }},
+    Case{"content.object", "has more than the 64 objects", [](Display& d) { d.content.objects.assign(65, a_model()); }},
+    Case{"content.model", "make the model an object", [](Display& d) { d.content.model = "a.obj", d.content.objects = {a_model()}; }},
     Case{"render.samples", "is 16777217, allowed is 1 to 16777216", [](Display& d) { d.render.samples = (1 << 24) + 1; }},
     Case{"render.samples", "is 0", [](Display& d) { d.render.samples = 0; }},
     Case{"render.seed", "is -1, allowed is 0 to 2^63 - 1", [](Display& d) { d.render.seed = -1; }}));

@@ -125,6 +125,38 @@ TEST_F(AnswersTest, SlidersEndWhereTheDisplayDoes) {
         for (const char* other : {"content.model", "camera.position_mm", "camera.resolution"}) EXPECT_NE(c["key"], other);
 }
 
+// A scene: objects have sliders, but no files; another model that is shown takes their place; a saved one names its files anew.
+TEST_F(AnswersTest, ScenesHaveControlsAndAreSaved) {
+    fs::create_directories(folder / "scenes");
+    std::ifstream from(folder / "small.toml");
+    std::ofstream(folder / "scenes/scene.toml")
+        << from.rdbuf() << "\n[[content.object]]\nimage = \"../wall.png\"\nwidth_mm = 40\n[[content.object]]\nmodel = "
+        << "\"built-in:spheres\"\nheight_mm = 30\nposition_mm = [1, 2, 3]\n";
+    const Library all({folder / "scenes/scene.toml", {"content.model="}, "", "", ""}, folder);
+    const Json message = resolved(all, wanted());
+    EXPECT_EQ(control(message, "content.object.0.width_mm")["value"], 40);
+    EXPECT_EQ(control(message, "content.object.1.position_mm")["value"], (Json{1, 2, 3}));
+    EXPECT_EQ(control(message, "content.object.1.shading")["words"], (Json{"file", "smooth", "flat"}));
+    EXPECT_EQ(control(message, "content.light.ambient")["high"], 1);
+    for (const Json& c : message["controls"])
+        for (const char* other :
+             {"content.object.0.image", "content.object.0.height_mm", "content.object.1.model", "content.object.1.colour"})
+            EXPECT_NE(c["key"], other);
+
+    const Display moved = all.display(wanted({"content.object.1.yaw_deg=5"}));
+    EXPECT_EQ(moved.content.objects[1].yaw_deg, 5);
+    Wanted other = wanted();
+    other.shown = {Shown::Kind::model, "built-in:spheres", false};
+    EXPECT_TRUE(all.display(other).content.objects.empty());
+
+    EXPECT_EQ(ask(all, wanted(), Ask::What::save, "saved.toml")["problems"], Json::array());
+    EXPECT_EQ(parse_display(std::string(ask(all, wanted(), Ask::What::toml)["text"]), "text").content.objects[0].image,
+              fs::absolute(folder / "wall.png").lexically_normal().string());
+    const Display saved = read_display(folder / "saved.toml");
+    EXPECT_EQ(saved.content.objects[0].image, (folder / "wall.png").string());
+    EXPECT_EQ(saved.content.objects[1].model, "built-in:spheres");
+}
+
 TEST_F(AnswersTest, SlidersStayWhileOneIsDragged) {
     const Json one = control(resolved(library(), wanted()), "array.gap_mm");
     const Json other = control(resolved(library(), wanted({"array.gap_mm=10.7"})), "array.gap_mm");

@@ -171,7 +171,9 @@ TEST_F(LibraryTest, WhatIsWrongIsToldByKey) {
     EXPECT_EQ(problem_with("array.gap_mm=17\n[content]\nmodel=\"/etc/passwd\"").where, "array.gap_mm");
     for (const char* set : {"content.model=a.blend", "content={model=\"/etc/passwd\"}", "content=none", "content.model.x=1",
                             "camera.position_mm=[0,0,1]", "camera.position_mm.2=1", "camera=none", "camera.resolution=[9,9]",
-                            "camera.resolution.0=9", "glass_catalogues=[\"/etc/passwd\"]", "glass_catalogues.0=a.agf"})
+                            "camera.resolution.0=9", "glass_catalogues=[\"/etc/passwd\"]", "glass_catalogues.0=a.agf",
+                            "content.object=none", "content.object.0.model=/etc/passwd", "content.object.0.image=/etc/passwd",
+                            "content.object.0={image=\"a.png\"}", "content.object=[{image=\"/etc/passwd\"}]"})
         EXPECT_THAT(problem_with(set).what, StartsWith("is not for set")) << set;
     Wanted inside_display;
     inside_display.eye_mm = {0, 0, 1};

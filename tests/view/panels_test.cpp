@@ -21,6 +21,8 @@ class PanelsTest : public testing::Test {
     }
     Display display(const std::vector<std::string>& set = {}) const { return read_display(folder / "small.toml", set); }
 
+    void tell_apart(const Source&, const Display& before, int least_changed, int least_told_apart);
+
     TemporaryFolder folder;
     Panels panels;
 };
@@ -64,13 +66,11 @@ TEST_F(PanelsTest, ScenesThatAreMovedAreThoseMadeThere) {
 
 // Each number and word of a description is changed in turn. Elemental images that differ must have another key, lest a wrong panel
 // be shown; that equal ones share a key saves time, and must hold where a visitor turns a knob most: eye, diffuser, samples.
-TEST_F(PanelsTest, KeyTellsElementalImagesApart) {
+void PanelsTest::tell_apart(const Source& source, const Display& before, int least_changed, int least_told_apart) {
     Job job;
-    const Source spheres{Shown::Kind::model, "built-in:spheres"};
-    const Display before = display({"panel.pixels=[192, 108]", "panel.pixel_pitch_mm=0.5"});  // few, to be quick
-    const PanelKey key = panel_key(spheres, before, resolve(before));
+    const PanelKey key = panel_key(source, before, resolve(before));
     const auto images = [&](const Display& d) {
-        const Picture p = elemental_images(d, resolve(d), panels.scene(spheres, d, resolve(d), job), 2, job);
+        const Picture p = elemental_images(d, resolve(d), panels.scene(source, d, resolve(d), job), 2, job);
         return std::make_pair(encode8(p.image, d.panel.encoding), d.panel);
     };
     const auto as_before = images(before);
@@ -78,7 +78,7 @@ TEST_F(PanelsTest, KeyTellsElementalImagesApart) {
     const auto judge = [&](const std::string& name, const Display& d) {
         if (d == before || !validate(d).empty()) return;
         ++changed;
-        const PanelKey other = panel_key(spheres, d, resolve(d));
+        const PanelKey other = panel_key(source, d, resolve(d));
         const auto now = images(d);
         const bool equal = now.first == as_before.first && now.second.pixels == as_before.second.pixels &&
                            now.second.encoding == as_before.second.encoding;
@@ -116,8 +116,48 @@ TEST_F(PanelsTest, KeyTellsElementalImagesApart) {
     visit_all(d, [&](const std::string& path, const KeyInfo&, ValueRef value) {
         std::visit([&](auto* field) { change_field(path, *field); }, value);
     });
-    EXPECT_GT(changed, 40);
-    EXPECT_GT(told_apart, 15);
+    EXPECT_GT(changed, least_changed);
+    EXPECT_GT(told_apart, least_told_apart);
+}
+
+TEST_F(PanelsTest, KeyTellsElementalImagesApart) {
+    const Display d = display({"panel.pixels=[192, 108]", "panel.pixel_pitch_mm=0.5"});  // few, to be quick
+    tell_apart({Shown::Kind::model, "built-in:spheres"}, d, 40, 15);
+}
+
+Display with_objects(Display d, const std::filesystem::path& image) {
+    d.content.model.clear();
+    for (const double z : {-20., 15.}) {
+        SceneObject object;
+        (z < 0 ? object.model : object.image) = z < 0 ? std::string(built_in_spheres) : image.string();
+        object.height_mm = 30;
+        object.position_mm = {z, 1, z};
+        if (z < 0) object.colour = Vec3d{0.9, 0.5, 0.2};
+        d.content.objects.push_back(object);
+    }
+    return d;
+}
+
+TEST_F(PanelsTest, KeyTellsScenesApart) {
+    Image image(8, 8);
+    std::fill(image.rgb.begin(), image.rgb.end(), 0.7f);
+    write_image(folder / "grey.png", image);
+    const Display d = with_objects(display({"panel.pixels=[192, 108]", "panel.pixel_pitch_mm=0.5"}), folder / "grey.png");
+    tell_apart(model_source(model_of(d), d), d, 60, 40);
+}
+
+TEST_F(PanelsTest, AnImageOfASceneThatChangesIsReadAgain) {
+    Image image(8, 8);
+    write_image(folder / "grey.png", image);
+    const Display d = with_objects(display({"panel.pixels=[192, 108]", "panel.pixel_pitch_mm=0.5"}), folder / "grey.png");
+    const Source before = model_source(model_of(d), d);
+    const auto black = get(d, before);
+    EXPECT_EQ(get(d, model_source(model_of(d), d)), black);
+    std::fill(image.rgb.begin(), image.rgb.end(), 0.7f);
+    std::filesystem::remove(folder / "grey.png");
+    write_image(folder / "grey.png", image);
+    const auto grey = get(d, model_source(model_of(d), d));
+    EXPECT_NE(grey, black);
 }
 
 }  // namespace

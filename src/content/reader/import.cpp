@@ -2,6 +2,7 @@
 
 #include "content/reader/axes.h"
 #include "content/reader/folder.h"
+#include "content/reader/gltf_transforms.h"
 #include "content/reader/repairs.h"
 #include "content/reader/textures.h"
 #include "content/reader/warnings.h"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 namespace lfdsim::reader {
@@ -26,8 +28,8 @@ constexpr float crease_deg = 60;
 
 // Everything comes as triangles in one frame: node transforms applied, instances copied, points and lines dropped.
 constexpr unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices |
-                           aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices | aiProcess_GenUVCoords |
-                           aiProcess_TransformUVCoords;
+                           aiProcess_JoinIdenticalVertices | aiProcess_GenUVCoords;
+constexpr float grey = 0.5f;  // linear light, of what cannot be shown as it is
 
 Wrap wrap(aiTextureMapMode mode) {
     switch (mode) {
@@ -41,17 +43,17 @@ Wrap wrap(aiTextureMapMode mode) {
     }
 }
 
-// Some loaders (Blender) hand over colours where the file has none, all black.
-bool coloured(const aiMesh& mesh) {
-    if (!mesh.HasVertexColors(0)) return false;
-    const aiColor4D* first = mesh.mColors[0];
-    return std::any_of(first, first + mesh.mNumVertices, [](const aiColor4D& c) { return c.r > 0 || c.g > 0 || c.b > 0; });
+bool shines(const aiMaterial& material) {
+    aiColor4D light(0, 0, 0, 0);
+    material.Get(AI_MATKEY_COLOR_EMISSIVE, light);
+    return light.r > 0 || light.g > 0 || light.b > 0;
 }
 
 class Conversion {
   public:
-    Conversion(const aiScene& scene, const Folder& folder, const std::string& format, const Turn& turn)
-        : scene_(scene), textures_(scene, folder), turn_(turn) {
+    Conversion(const aiScene& scene, const Folder& folder, const std::string& format, const Turn& turn,
+               std::map<unsigned, UvTransform> transforms)
+        : scene_(scene), textures_(scene, folder), turn_(turn), transforms_(std::move(transforms)) {
         linear_ = format.starts_with("glTF");
     }
 
@@ -61,13 +63,24 @@ class Conversion {
         model_.files = std::move(textures_.files);
         model_.notes.insert(model_.notes.end(), textures_.notes.begin(), textures_.notes.end());
         if (dropped_ > 0) model_.notes.push_back(std::to_string(dropped_) + " faces left out: degenerate");
+        if (!linear_ && std::any_of(model_.textures.begin(), model_.textures.end(), has_alpha)) transparent_ = true;
         if (transparent_) model_.notes.push_back("transparent materials are shown opaque");
+        if (scene_.mNumAnimations > 0) left_out_.insert("animations");
+        for (const std::string& what : left_out_) model_.notes.push_back(what + " are not shown");
         show_black();
         if (model_.indices.empty()) throw std::runtime_error("has no triangles: nothing to show");
         return std::move(model_);
     }
 
   private:
+    // Some loaders (Blender) hand over colours where the file has none, all black.
+    bool coloured(const aiMesh& mesh) const {
+        if (!mesh.HasVertexColors(0)) return false;
+        const aiColor4D* first = mesh.mColors[0];
+        return linear_ ||
+               std::any_of(first, first + mesh.mNumVertices, [](const aiColor4D& c) { return c.r > 0 || c.g > 0 || c.b > 0; });
+    }
+
     float light(float colour) const {
         const double c = std::isfinite(colour) ? std::clamp(double(colour), 0., 1.) : 0;
         return float(linear_ ? c : srgb_to_linear(c));
@@ -83,11 +96,18 @@ class Conversion {
         aiString name;
         unsigned uv = 0;
         aiTextureMapMode modes[2] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
+        bool wants_texture = false;
         for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
-            if (to.texture >= 0 || !mesh.HasTextureCoords(0)) break;
-            if (from.GetTexture(type, 0, &name, nullptr, &uv, nullptr, nullptr, modes) == aiReturn_SUCCESS)
+            if (to.texture >= 0) break;
+            if (from.GetTexture(type, 0, &name, nullptr, &uv, nullptr, nullptr, modes) != aiReturn_SUCCESS) continue;
+            wants_texture = true;
+            if (mesh.HasTextureCoords(0))
                 to.texture = textures_.index(name.C_Str());
+            else
+                textures_.leave_out(name.C_Str(), "a mesh has no texture coordinates");
         }
+        if (const auto transform = transforms_.find(mesh.mMaterialIndex); transform != transforms_.end())
+            uv = transform->second.channel.value_or(uv);
         channel = uv < AI_MAX_NUMBER_OF_TEXTURECOORDS && mesh.HasTextureCoords(uv) ? int(uv) : 0;
         to.wrap_u = wrap(modes[0]);
         to.wrap_v = wrap(modes[1]);
@@ -95,51 +115,87 @@ class Conversion {
         if (linear_ || (to.texture < 0 && !coloured(mesh))) {
             if (from.Get(AI_MATKEY_BASE_COLOR, colour) != aiReturn_SUCCESS) from.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
         }
-        for (int c = 0; c < 3; ++c) to.colour[c] = light(colour[unsigned(c)]);
+        if (wants_texture && to.texture < 0 && !linear_) colour = aiColor4D(1, 1, 1, 1);
+        for (unsigned c = 0; c < 3; ++c) to.colour[c] = light(colour[c]) * (wants_texture && to.texture < 0 ? grey : 1);
         const auto [entry, fresh] = known_.try_emplace(key, std::uint32_t(model_.materials.size()));
         if (fresh) model_.materials.push_back(to);
         float opacity = 1;
         aiString alpha("OPAQUE");
         from.Get(AI_MATKEY_OPACITY, opacity);
         from.Get(AI_MATKEY_GLTF_ALPHAMODE, alpha);
-        transparent_ = transparent_ || opacity < 0.99f || alpha != aiString("OPAQUE");
+        transparent_ = transparent_ || opacity < 0.99f || alpha != aiString("OPAQUE") || has(from, aiTextureType_OPACITY);
+        if (has(from, aiTextureType_NORMALS) || has(from, aiTextureType_HEIGHT) || has(from, aiTextureType_NORMAL_CAMERA))
+            left_out_.insert("normal and bump maps");
+        if (shines(from) || has(from, aiTextureType_EMISSIVE)) left_out_.insert("emissive materials' own lights");
+        if (!linear_ && to.texture >= 0 && is_tinted(from)) left_out_.insert("tints of textures (Kd)");
         return entry->second;
     }
 
+    static bool has(const aiMaterial& material, aiTextureType type) { return material.GetTextureCount(type) > 0; }
+
+    // Greys are what exporters and loaders fill in.
+    static bool is_tinted(const aiMaterial& material) {
+        aiColor4D c(1, 1, 1, 1);
+        material.Get(AI_MATKEY_COLOR_DIFFUSE, c);
+        return std::max({c.r, c.g, c.b}) - std::min({c.r, c.g, c.b}) > 0.01f;
+    }
+
+    /// What of a mesh its vertices take: texture coordinates of this channel, and colours.
+    struct Attributes {
+        int channel;
+        bool coloured;
+    };
+
     void add(const aiMesh& mesh) {
-        if (!(mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) || !mesh.mVertices || !mesh.mNormals) return;
+        if (!(mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) || !mesh.mVertices) return;
         if (mesh.mMaterialIndex >= scene_.mNumMaterials) throw std::runtime_error("a mesh names a material that is not there");
-        int channel = 0;
-        const std::uint32_t own = material(mesh, channel);
+        Attributes of{0, coloured(mesh)};
+        const std::uint32_t own = material(mesh, of.channel);
         const std::size_t first = model_.vertices();
         if (first + mesh.mNumVertices >= std::size_t(1) << 32) throw std::runtime_error("has more than 2^32 vertices");
-        for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
-            push(model_.positions, turn_(mesh.mVertices[v]));
-            push(model_.normals, turn_(mesh.mNormals[v]));
-            const aiVector3D uv = mesh.HasTextureCoords(unsigned(channel)) ? mesh.mTextureCoords[channel][v] : aiVector3D();
-            model_.uvs.insert(model_.uvs.end(), {uv.x, uv.y});
-        }
-        if (coloured(mesh)) {
-            model_.colours.resize(first * 3, 1.f);
-            for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
-                const aiColor4D& c = mesh.mColors[0][v];
-                push(model_.colours, aiVector3D(light(c.r), light(c.g), light(c.b)));
-            }
-        } else if (!model_.colours.empty()) {
-            model_.colours.resize(model_.positions.size(), 1.f);
-        }
+        if (mesh.mNormals)
+            for (unsigned v = 0; v < mesh.mNumVertices; ++v) add_vertex(mesh, v, of, mesh.mNormals[v]);
         for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
             const aiFace& face = mesh.mFaces[f];
             if (face.mNumIndices != 3) {
                 ++dropped_;
                 continue;
             }
-            for (int k = 0; k < 3; ++k) {
+            for (int k = 0; k < 3; ++k)
                 if (face.mIndices[k] >= mesh.mNumVertices) throw std::runtime_error("a face names a vertex that is not there");
-                model_.indices.push_back(std::uint32_t(first + face.mIndices[k]));
-            }
+            if (mesh.mNormals)
+                for (int k = 0; k < 3; ++k) model_.indices.push_back(std::uint32_t(first + face.mIndices[k]));
+            else
+                add_flat(mesh, face, of);
             model_.material_of.push_back(own);
         }
+    }
+
+    // A face with vertices of its own.
+    void add_flat(const aiMesh& mesh, const aiFace& face, const Attributes& of) {
+        const aiVector3D* const p = mesh.mVertices;
+        const unsigned* const at = face.mIndices;
+        const aiVector3D normal = ((p[at[1]] - p[at[0]]) ^ (p[at[2]] - p[at[0]])).NormalizeSafe();
+        for (int k = 0; k < 3; ++k) {
+            model_.indices.push_back(std::uint32_t(model_.vertices()));
+            add_vertex(mesh, at[k], of, normal);
+        }
+    }
+
+    void add_vertex(const aiMesh& mesh, unsigned v, const Attributes& of, const aiVector3D& normal) {
+        if (of.coloured) {
+            model_.colours.resize(model_.positions.size(), 1.f);
+            const aiColor4D& c = mesh.mColors[0][v];
+            push(model_.colours, aiVector3D(light(c.r), light(c.g), light(c.b)));
+        } else if (!model_.colours.empty()) {
+            push(model_.colours, aiVector3D(1, 1, 1));
+        }
+        push(model_.positions, turn_(mesh.mVertices[v]));
+        push(model_.normals, turn_(normal));
+        aiVector3D uv = mesh.HasTextureCoords(unsigned(of.channel)) ? mesh.mTextureCoords[of.channel][v] : aiVector3D();
+        if (const auto transform = transforms_.find(mesh.mMaterialIndex); transform != transforms_.end())
+            uv = transform->second(uv);
+        model_.uvs.insert(model_.uvs.end(), {uv.x, uv.y});
     }
 
     // Some loaders find no colours; a black model on black would look like a fault of the display.
@@ -148,7 +204,7 @@ class Conversion {
             return m.texture < 0 && std::max({m.colour[0], m.colour[1], m.colour[2]}) < 1e-3f;
         };
         if (!std::all_of(model_.materials.begin(), model_.materials.end(), black)) return;
-        for (Material& m : model_.materials) std::fill_n(m.colour, 3, 0.5f);
+        for (Material& m : model_.materials) std::fill_n(m.colour, 3, grey);
         model_.notes.push_back("every material is black: shown in grey");
     }
 
@@ -157,9 +213,11 @@ class Conversion {
     const aiScene& scene_;
     Textures textures_;
     Turn turn_;
+    std::map<unsigned, UvTransform> transforms_;  // of materials
     bool linear_;
     std::map<std::tuple<unsigned, bool, bool>, std::uint32_t> known_;
     Model model_;
+    std::set<std::string> left_out_;  // what is not shown, in words
     std::int64_t dropped_ = 0;
     bool transparent_ = false;
 };
@@ -201,9 +259,12 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     const aiScene* scene = importer.ReadFile(file.string(), 0);
     const aiImporterDesc* used = importer.GetImporterInfo(std::size_t(importer.GetPropertyInteger("importerIndex", 0)));
     const std::string format = used ? used->mName : "";
+    const bool is_gltf2 = format.starts_with("glTF2");
     if (scene && scene->mRootNode) {
         repair(const_cast<aiScene&>(*scene), file, format);  // the importer's own, handed out as const
-        scene = importer.ApplyPostProcessing(steps);
+        const unsigned smoothing = flat_without_normals(file, format) ? 0u : aiProcess_GenSmoothNormals,
+                       transforming = is_gltf2 ? 0u : aiProcess_TransformUVCoords;
+        scene = importer.ApplyPostProcessing(steps | smoothing | transforming);
     }
     if (!scene) {
         if (std::string(importer.GetErrorString()) == "std::bad_alloc") throw std::bad_alloc();
@@ -213,7 +274,8 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     for (const std::string& warning : warnings->texts)
         if (warning.find("out-of-range ind") != std::string::npos)
             throw std::runtime_error("some faces have indices of vertices that do not exist; the file is damaged, export it again");
-    Model model = Conversion(*scene, *folder, format, turn(*scene, format, up)).run();
+    const auto transforms = is_gltf2 ? gltf_transforms(file) : std::map<unsigned, UvTransform>();
+    Model model = Conversion(*scene, *folder, format, turn(*scene, format, up), transforms).run();
     // Blender's loader warns of every field that a version of the program did not have.
     if (!format.starts_with("Blender")) model.notes.insert(model.notes.end(), warnings->texts.begin(), warnings->texts.end());
     model.files.insert(model.files.end(), folder->opened().begin(), folder->opened().end());

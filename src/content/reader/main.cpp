@@ -1,7 +1,9 @@
-// lfdsim-model-reader FILE BYTES SECONDS UP: reads a model and writes it to standard output in the form of transfer.h.
+// lfdsim-model-reader model|picture FILE BYTES SECONDS UP: reads a model, or a picture as one, and writes it to standard output in
+// the form of transfer.h.
 // A process of its own, with limits, since loaders of old formats have memory faults that a hostile file can reach.
 #include "content/reader/import.h"
 #include "content/reader/limits.h"
+#include "content/reader/picture.h"
 #include "content/transfer.h"
 
 #include <unistd.h>
@@ -38,14 +40,16 @@ class Writer {
 }  // namespace
 
 int main(int count, char** arguments) {
-    if (count != 5) {
+    if (count != 6) {
         std::fputs("lfdsim-model-reader is started by lfdsim, not by hand\n", stderr);
         return 2;
     }
     Writer out;
     try {
-        lfdsim::reader::confine(std::atoll(arguments[2]), std::atof(arguments[3]));
-        lfdsim::Model model = lfdsim::reader::import(arguments[1], arguments[4]);
+        lfdsim::reader::confine(std::atoll(arguments[3]), std::atof(arguments[4]));
+        const bool is_picture = std::string(arguments[1]) == "picture";
+        lfdsim::Model model =
+            is_picture ? lfdsim::reader::picture(arguments[2]) : lfdsim::reader::import(arguments[2], arguments[5]);
         out.value(lfdsim::Reply::model);
         lfdsim::transfer(out, model);
     } catch (const std::bad_alloc&) {

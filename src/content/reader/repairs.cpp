@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include <fstream>
+#include <sstream>
+#include <string>
 
 namespace lfdsim::reader {
 namespace {
@@ -34,6 +36,21 @@ void drop_normals(aiScene& scene) {
 }
 
 }  // namespace
+
+bool flat_without_normals(const std::filesystem::path& file, const std::string& format) {
+    if (format.starts_with("glTF2")) return true;
+    if (!format.starts_with("Wavefront")) return false;
+    bool off = false;
+    std::ifstream lines(file);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string key, group;
+        if (line.empty() || line[0] != 's' || !(words >> key >> group) || key != "s") continue;
+        if (group != "off" && group != "0") return false;
+        off = true;
+    }
+    return off;
+}
 
 void repair(aiScene& scene, const std::filesystem::path& file, const std::string& format) {
     if (format == "glTF Importer") place_gltf1_nodes(scene, file);

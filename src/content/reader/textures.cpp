@@ -1,7 +1,9 @@
 #include "content/reader/textures.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <stdexcept>
 
 // One well-maintained decoder for the formats that models use; it runs in this confined process only.
 #define STB_IMAGE_IMPLEMENTATION
@@ -54,24 +56,41 @@ bool decode(const std::filesystem::path& file, Texture& out) {
 
 }  // namespace
 
+Texture read_texture(const std::filesystem::path& file) {
+    Texture texture;
+    if (!decode(file, texture)) throw std::runtime_error(stbi_failure_reason());
+    return texture;
+}
+
+bool has_alpha(const Texture& t) {
+    for (std::size_t i = 3; i < t.rgba.size(); i += 4)
+        if (t.rgba[i] != 255) return true;
+    return false;
+}
+
 int Textures::index(const std::string& name) {
     const auto [entry, fresh] = known_.try_emplace(name, -1);
     if (fresh) entry->second = load(name);
     return entry->second;
 }
 
+void Textures::leave_out(const std::string& name, const std::string& why) {
+    const std::string note = "texture \"" + name + "\" left out, shown grey: " + why;
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+}
+
 int Textures::load(const std::string& name) {
     Texture decoded;
     if (const aiTexture* embedded = scene_.GetEmbeddedTexture(name.c_str())) {
         if (!decode(*embedded, decoded)) {
-            notes.push_back("embedded texture \"" + name + "\" left out: " + stbi_failure_reason());
+            leave_out(name, stbi_failure_reason());
             return -1;
         }
     } else if (const auto file = folder_.find(name); !file) {
-        notes.push_back("texture \"" + name + "\" left out: not found in the model's folder");
+        leave_out(name, "not found in the model's folder");
         return -1;
     } else if (!decode(*file, decoded)) {
-        notes.push_back("texture \"" + name + "\" left out: " + stbi_failure_reason());
+        leave_out(name, stbi_failure_reason());
         return -1;
     } else {
         files.push_back(file->string());

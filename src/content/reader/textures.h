@@ -11,12 +11,21 @@
 
 namespace lfdsim::reader {
 
+/// A picture file's texels. Throws std::runtime_error that says why it cannot be decoded.
+Texture read_texture(const std::filesystem::path&);
+
+/// Whether any texel is not opaque.
+bool has_alpha(const Texture&);
+
 class Textures {
   public:
     Textures(const aiScene& scene, const Folder& folder) : scene_(scene), folder_(folder) {}
 
     /// Index of the texture that the model calls `name`; -1, with a note, when it is missing or cannot be decoded.
     int index(const std::string& name);
+
+    /// Notes, once for each texture and reason, that it is not shown, and what it covers in grey.
+    void leave_out(const std::string& name, const std::string& why);
 
     std::vector<Texture> textures;
     std::vector<std::string> notes;
