@@ -14,11 +14,6 @@ bool by_channel(const Display& d) { return made_by_channel(d) || (d.content.pick
 /// The rays of the pick-up, a block at a time: of each pixel those of its red, then of green and blue, where they differ. They must
 /// hit the surface that the viewer sees first along the line: they start in the plane z = top, just above the scene on the viewer's
 /// side, and travel towards the panel and beyond it. Their direction has dz = -1, so that t is the depth below the plane.
-=======
-/// The rays of the nodal pick-up, a block at a time. They must hit the surface that the viewer sees first along the line: they
-/// start in the plane z = top, just above the scene on the viewer's side, and travel towards the panel and beyond it. Their
-/// direction has dz = -1, so that t is the depth below the plane.
->>>>>>> colour
 class PickupRays {
   public:
     PickupRays(const Display& display, const Geometry& geometry, const ContentScene& scene,

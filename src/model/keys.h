@@ -64,8 +64,9 @@ struct MemberOf<SurfaceLens> {
 };
 template <>
 struct MemberOf<Content> {
-    using Type = std::variant<std::string Content::*, double Content::*, std::optional<double> Content::*,
-                              ContentSampling Content::*, Light Content::*, std::vector<SceneObject> Content::*>;
+    using Type =
+        std::variant<std::string Content::*, double Content::*, std::int64_t Content::*, std::optional<double> Content::*,
+                     ContentSampling Content::*, PickupKind Content::*, Light Content::*, std::vector<SceneObject> Content::*>;
 };
 
 template <class T>
