@@ -87,8 +87,9 @@ class PickupRays {
         const bool one_of_many = display.content.pickup == PickupKind::integrated && !mapping->places().empty();
         // Where the aperture is so odd that fewer rays than asked for were found in it, they serve again.
         const int of_mapping = one_of_many ? ray % int(mapping->places().size()) : -1;
-        const ShownPoints points(display.panel, made_by_channel(display), channel,
-                                 one_of_many ? std::optional(mapping->places()[std::size_t(of_mapping)]) : std::nullopt);
+        std::optional<ShownPoints::Point> place;
+        if (one_of_many) place = {mapping->places()[std::size_t(of_mapping)][0], mapping->places()[std::size_t(of_mapping)][1]};
+        const ShownPoints points(display.panel, made_by_channel(display), channel, place);
         const std::optional<ShownPoints::Point> shown = points.common();
         RaySet rays{points, mapping, of_mapping, !apart_ && shown, points.everywhere(), {}, {}};
         if (!rays.common) return rays;

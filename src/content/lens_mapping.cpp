@@ -13,7 +13,8 @@
 namespace lfdsim {
 namespace {
 
-constexpr int nodes_per_pitch = 64, most_steps = 256, lattice_points = 32;
+constexpr int nodes_per_pitch = 64, most_steps = 256;
+constexpr int aperture_rays = 1024, strip_rays = 256;  // of each panel point
 constexpr double rounding = 1e-9;  // mm and slopes: what is smaller is taken for 0, so that ideal lenses keep their nodal lines
 
 /// How far from a lens's axis, along the array's axes, panel points are that belong to it: half an elemental image, and what the
@@ -32,11 +33,13 @@ std::array<double, 2> farthest_points(const Display& d, const Geometry& g) {
     return reach;
 }
 
-/// The k-th of evenly spread numbers in [0, 1)^4: an additive recurrence with the powers of the root of x^5 = x + 1 (M. Roberts,
-/// "The unreasonable effectiveness of quasirandom sequences", 2018).
-LensMapping::RayPlace spread(int k) {
-    constexpr double root = 1.1673039782614187;
-    LensMapping::RayPlace place{};
+/// The k-th of evenly spread numbers in [0, 1)^N: an additive recurrence with the powers of the root of x^(N + 1) = x + 1
+/// (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
+template <std::size_t N>
+std::array<double, N> spread(int k) {
+    constexpr double root = N == 4 ? 1.1673039782614187 : 1.324717957244746;
+    static_assert(N == 4 || N == 2);
+    std::array<double, N> place{};
     double step = 1;
     for (double& x : place) {
         step /= root;
@@ -75,23 +78,30 @@ class LensMapping::Tracing {
         int rays = 0;
         Box box{};  // of the rays
     };
-    /// All rays of a lattice over the aperture, which is the same for all panel points.
+    /// Rays through evenly spread points of the aperture, the same for all panel points. They are mirror images of one another, so
+    /// that the mean of an axis point's rays is its nodal line, and stand in no rows, of which a whole one would pass the rim at
+    /// once.
     Found from(Point u) const {
         Found found;
         double sum[4] = {};
-        for (int j = 0; j < (strips_ ? 1 : lattice_points); ++j) {
-            for (int i = 0; i < lattice_points; ++i) {
-                const Point half{widest_[0] / lattice_points, widest_[1] / lattice_points};
-                const Point at{(2 * i + 1 - lattice_points) * half[0], strips_ ? 0 : (2 * j + 1 - lattice_points) * half[1]};
-                const auto line = shift(u, at);
-                if (!line) continue;
-                for (int k = 0; k < 4; ++k) sum[k] += (*line)[std::size_t(k)];
-                for (std::size_t k = 0; k < 2; ++k) {
-                    const double low = at[k] - half[k], high = at[k] + half[k];
-                    found.box.from[k] = found.rays == 0 ? low : std::min(found.box.from[k], low);
-                    found.box.to[k] = found.rays == 0 ? high : std::max(found.box.to[k], high);
-                }
-                ++found.rays;
+        const auto add = [&](Point at) {
+            const auto line = shift(u, at);
+            if (!line) return;
+            for (std::size_t k = 0; k < 4; ++k) sum[k] += (*line)[k];
+            for (std::size_t k = 0; k < 2; ++k) {
+                found.box.from[k] = found.rays == 0 ? at[k] : std::min(found.box.from[k], at[k]);
+                found.box.to[k] = found.rays == 0 ? at[k] : std::max(found.box.to[k], at[k]);
+            }
+            ++found.rays;
+        };
+        if (strips_) {
+            for (int i = 0; i < strip_rays; ++i) add({((2 * i + 1.) / strip_rays - 1) * widest_[0], 0});
+        } else {
+            for (int i = 0; i < aperture_rays / 4; ++i) {
+                const auto [x, y] = spread<2>(i);
+                const Point at{x * widest_[0], y * widest_[1]};
+                for (const double sx : {-1., 1.})
+                    for (const double sy : {-1., 1.}) add({sx * at[0], sy * at[1]});
             }
         }
         const auto mean = [&](int k) {
@@ -110,7 +120,7 @@ class LensMapping::Tracing {
     }
 
   private:
-    /// Widens the lattice to where the point's rays pass.
+    /// Widens the aperture to where the point's rays pass.
     void see(Point u) {
         constexpr int across = 16;
         const auto box = lens_.directions(u);
@@ -136,7 +146,7 @@ class LensMapping::Tracing {
     LensTrace lens_;
     bool strips_;
     double inverse_gap_, green_plane_;  // of green light: its gap, its rear principal plane from this light's
-    Point widest_{1e-9, 1e-9};          // half the lattice's extents
+    Point widest_{1e-9, 1e-9};          // half the extents of the aperture
 };
 
 LensMapping::LensMapping(const Display& display, const Geometry& green, double wavelength_nm, int rays, int threads)
@@ -154,7 +164,7 @@ LensMapping::LensMapping(const Display& display, const Geometry& green, double w
     }
     const Tracing::Found axis = tracing.from({0, 0});
     for (int k = 0; axis.rays > 0 && int(places_.size()) < rays && k < 64 * rays; ++k)
-        if (const RayPlace place = spread(k); tracing.one({0, 0}, axis.box, place)) places_.push_back(place);
+        if (const RayPlace place = spread<4>(k); tracing.one({0, 0}, axis.box, place)) places_.push_back(place);
 
     width_ = nodes_[0] + 2;
     const std::size_t size =
