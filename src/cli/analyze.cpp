@@ -9,6 +9,7 @@
 #include "cli/interrupt.h"
 #include "cli/output.h"
 #include "cli/panel_source.h"
+#include "cli/variants.h"
 #include "cli/work_options.h"
 #include "engine/memory.h"
 #include "files/display_file.h"
@@ -41,6 +42,11 @@ struct AnalyzeArguments {
             .add_option("OTHER.toml", others,
                         "More displays: each is measured in its own folder and shown side by side with the first")
             .type_name("");
+        command
+            .add_option("--compare", compare,
+                        "Measures the display once for each value of a key, side by side: array.gap_mm=3.2,3.3; pickup stands for "
+                        "content.pickup=nodal,traced")
+            .type_name("KEY=VALUE,VALUE");
         command.add_option("-o,--output", output, "Folder for the results and report.html; created if missing")
             .type_name("DIR")
             .required();
@@ -63,7 +69,7 @@ struct AnalyzeArguments {
     DeviceOption device;
     WorkOptions work;
     std::vector<std::string> others;
-    std::string output, angles, depths, viewing_distance, eye_distance, wavelength;
+    std::string compare, output, angles, depths, viewing_distance, eye_distance, wavelength;
     bool resume = false, replace = false;
 };
 
@@ -182,6 +188,8 @@ bool names_measures(const std::string& word) {
     }
 }
 
+std::string file_name(const std::string& path) { return std::filesystem::path(path).stem(); }
+
 /// What is asked for. Where the first word is a description, MEASURE was left out.
 struct Request {
     std::vector<const Measure*> wanted;
@@ -203,9 +211,20 @@ Request request_of(const AnalyzeArguments& args) {
         names = "all";
     }
     faults.of([&] { request.wanted = chosen(names); });
-    for (const std::string& path : request.paths)
+    std::vector<Variant> variants{{}};
+    faults.of([&] {
+        if (!args.compare.empty()) variants = variants_of(args.compare);
+        if (!args.compare.empty() && request.paths.size() > 1)
+            throw InputError("--compare", "compares one display with itself; name one description");
+    });
+    if (variants.size() > 1 && request.paths.size() == 1) request.paths.resize(variants.size(), request.paths.front());
+    for (std::size_t n = 0; n < request.paths.size(); ++n)
         faults.of([&] {
-            Display& display = request.displays.emplace_back(args.display.read(path));
+            const Variant& variant = variants[n % variants.size()];
+            Display& display = request.displays.emplace_back(args.display.read(request.paths[n], variant.setting));
+            if (!variant.name.empty())
+                display.name =
+                    fmt::format("{}-{}", display.name.empty() ? file_name(request.paths[n]) : display.name, variant.name);
             require_panel_memory(display);
             args.model.apply(display);
         });
@@ -269,7 +288,7 @@ std::vector<std::string> folder_names(const Request& request) {
     std::vector<std::string> all;
     for (std::size_t n = 0; n < request.displays.size(); ++n) {
         std::string name = request.displays[n].name;
-        if (name.empty()) name = std::filesystem::path(request.paths[n]).stem();
+        if (name.empty()) name = file_name(request.paths[n]);
         for (char& c : name)
             if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_' && c != '.') c = '_';
         name = name.substr(0, 100);
@@ -349,7 +368,8 @@ void add_analyze(Command program) {
     command.footer(list +
                    "Examples:\n  lfdsim analyze all display.toml --model monkey.blend -o report\n"
                    "  lfdsim analyze fov,dof display.toml --model monkey.blend --size 960x540 -o quick --json\n"
-                   "  lfdsim analyze fov,mtf flat.toml curved.toml -o both");
+                   "  lfdsim analyze fov,mtf flat.toml curved.toml -o both\n"
+                   "  lfdsim analyze fov display.toml --compare pickup -o pickups");
     command.callback([args] { run(*args); });
 }
 

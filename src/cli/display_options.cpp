@@ -112,11 +112,12 @@ std::vector<std::string> DisplayOptions::overrides() const {
     return all;
 }
 
-Display DisplayOptions::read(const std::string& path) const {
+Display DisplayOptions::read(const std::string& path, const std::string& last) const {
     if (path.empty()) throw InputError("DISPLAY.toml", "the name is empty; give the description of a display");
     remember_input("the description", path);
     Faults faults;
-    const auto [overrides, written] = all_overrides(faults);
+    auto [overrides, written] = all_overrides(faults);
+    if (!last.empty()) overrides.push_back(last);
     Display display;
     faults.of([&, &set = overrides, &places = written] {
         try {

@@ -13,9 +13,9 @@
 namespace lfdsim {
 namespace {
 
-constexpr int nodes_per_pitch = 64, most_steps = 256;
-constexpr int aperture_rays = 1024, strip_rays = 256;  // of each panel point
-constexpr double rounding = 1e-9;  // mm and slopes: what is smaller is taken for 0, so that ideal lenses keep their nodal lines
+constexpr int nodes_per_pitch = 32, most_steps = 256;
+constexpr int aperture_rays = 4096;  // of each panel point
+constexpr double rounding = 1e-9;    // mm and slopes: what is smaller is taken for 0, so that ideal lenses keep their nodal lines
 
 /// How far from a lens's axis, along the array's axes, panel points are that belong to it: half an elemental image, and what the
 /// farthest lens's image is shifted against it. Lenses whose image lies beside the panel do not count.
@@ -95,7 +95,7 @@ class LensMapping::Tracing {
             ++found.rays;
         };
         if (strips_) {
-            for (int i = 0; i < strip_rays; ++i) add({((2 * i + 1.) / strip_rays - 1) * widest_[0], 0});
+            for (int i = 0; i < aperture_rays; ++i) add({((2 * i + 1.) / aperture_rays - 1) * widest_[0], 0});
         } else {
             for (int i = 0; i < aperture_rays / 4; ++i) {
                 const auto [x, y] = spread<2>(i);
@@ -122,16 +122,17 @@ class LensMapping::Tracing {
   private:
     /// Widens the aperture to where the point's rays pass.
     void see(Point u) {
-        constexpr int across = 16;
+        constexpr int across = 48;
+        constexpr double margin = 1.1;  // the outermost rays are up to 1/48 of the box farther out, more where they graze
         const auto box = lens_.directions(u);
         if (!box) return;
-        const Point step{(box->x1 - box->x0) / across, (box->y1 - box->y0) / across};
-        for (int j = 0; j < across; ++j)
+        for (int j = 0; j < (strips_ ? 1 : across); ++j)
             for (int i = 0; i < across; ++i) {
-                const Point cosines{box->x0 + (i + 0.5) * step[0], box->y0 + (j + 0.5) * step[1]};
+                const Point cosines{box->x0 + (i + 0.5) / across * (box->x1 - box->x0),
+                                    strips_ ? 0 : box->y0 + (j + 0.5) / across * (box->y1 - box->y0)};
                 if (!lens_.ray(u, cosines)) continue;
-                const Point at = lens_.aim(u, cosines), next = lens_.aim(u, {cosines[0] + step[0], cosines[1] + step[1]});
-                for (std::size_t k = 0; k < 2; ++k) widest_[k] = std::max(widest_[k], std::abs(at[k]) + std::abs(next[k] - at[k]));
+                const Point at = lens_.aim(u, cosines);
+                for (std::size_t k = 0; k < 2; ++k) widest_[k] = std::max(widest_[k], margin * std::abs(at[k]));
             }
     }
 
