@@ -93,8 +93,9 @@ Json sidecar(const Display& d, const Geometry& g, const std::vector<LensMapping>
         {"lfdsim", LFDSIM_VERSION},
         {"file", file},
         {"what",
-         "For panel points u under a lens, from its axis: the mean line of their light on the viewer's side, every part of "
-         "the lens's aperture counted alike. The line is (x, y) + (slope_x, slope_y) (z - plane_z_mm) from the lens's "
+         "For panel points u under a lens, from its axis: the line on which most of their light travels on the viewer's side, "
+         "every part of the lens's aperture counted alike. The line is (x, y) + (slope_x, slope_y) (z - plane_z_mm) from the "
+         "lens's "
          "axis; all in the array's frame, turned against the panel's by array_turn_deg (counter-clockwise to the viewer)"},
         {"npy_axes", {"colour", "row", "column", "value"}},
         {"values",

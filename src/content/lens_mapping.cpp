@@ -15,6 +15,7 @@ namespace {
 
 constexpr int nodes_per_pitch = 32, most_steps = 256;
 constexpr int aperture_rays = 4096;  // of each panel point
+constexpr double window_pixels = 2;  // about the line on which most of them travel
 constexpr double rounding = 1e-9;    // mm and slopes: what is smaller is taken for 0, so that ideal lenses keep their nodal lines
 
 /// How far from a lens's axis, along the array's axes, panel points are that belong to it: half an elemental image, and what the
@@ -64,7 +65,9 @@ class LensMapping::Tracing {
           lens_(display, geometry_),
           strips_(is_strips(display.array)),
           inverse_gap_(1 / green.gap_mm),
-          green_plane_(green.rear_principal_mm - geometry_.rear_principal_mm) {
+          green_plane_(green.rear_principal_mm - geometry_.rear_principal_mm),
+          vergence_(1 / green.focal_length_mm - inverse_gap_),
+          window_(window_pixels * display.panel.pixel_pitch_mm * inverse_gap_) {
         for (const double x : {0., 0.5, 1.})
             for (const double y : {0., 0.5, 1.})
                 if (!strips_ || y == 0) see(Point{x * reach[0], y * reach[1]});
@@ -74,25 +77,24 @@ class LensMapping::Tracing {
         Point from, to;
     };
     struct Found {
-        LineShift mean{};
+        LineShift line{};
         int rays = 0;
         Box box{};  // of the rays
     };
     /// Rays through evenly spread points of the aperture, the same for all panel points. They are mirror images of one another, so
-    /// that the mean of an axis point's rays is its nodal line, and stand in no rows, of which a whole one would pass the rim at
-    /// once.
+    /// that a thin lens's lines are nodal, and stand in no rows, of which a whole one would pass the rim at once.
     Found from(Point u) const {
         Found found;
-        double sum[4] = {};
+        std::vector<Line> lines;
+        lines.reserve(aperture_rays);
         const auto add = [&](Point at) {
             const auto line = shift(u, at);
             if (!line) return;
-            for (std::size_t k = 0; k < 4; ++k) sum[k] += (*line)[k];
             for (std::size_t k = 0; k < 2; ++k) {
-                found.box.from[k] = found.rays == 0 ? at[k] : std::min(found.box.from[k], at[k]);
-                found.box.to[k] = found.rays == 0 ? at[k] : std::max(found.box.to[k], at[k]);
+                found.box.from[k] = lines.empty() ? at[k] : std::min(found.box.from[k], at[k]);
+                found.box.to[k] = lines.empty() ? at[k] : std::max(found.box.to[k], at[k]);
             }
-            ++found.rays;
+            lines.push_back(*line);
         };
         if (strips_) {
             for (int i = 0; i < aperture_rays; ++i) add({((2 * i + 1.) / aperture_rays - 1) * widest_[0], 0});
@@ -104,11 +106,11 @@ class LensMapping::Tracing {
                     for (const double sy : {-1., 1.}) add({sx * at[0], sy * at[1]});
             }
         }
-        const auto mean = [&](int k) {
-            const double value = sum[k] / std::max(found.rays, 1);
-            return std::abs(value) < rounding ? 0.f : float(value);
-        };
-        found.mean = {mean(0), mean(1), mean(2), mean(3)};
+        found.rays = int(lines.size());
+        if (lines.empty()) return found;
+        const Line line = where_most_travel(lines);
+        const auto rounded = [&](double value) { return std::abs(value) < rounding ? 0.f : float(value); };
+        found.line = {rounded(line[0]), rounded(line[1]), rounded(line[2]), rounded(line[3])};
         return found;
     }
     std::optional<LineShift> one(Point u, const Box& box, const RayPlace& place) const {
@@ -120,6 +122,48 @@ class LensMapping::Tracing {
     }
 
   private:
+    using Line = std::array<double, 4>;  // x, y, mx, my
+
+    /// The mean line of the rays about the place in the central depth plane where they are densest. Aberrations throw a pixel's
+    /// outer rays far aside, all to one side: their mean line is where little of its light goes. What counts for a picture is how
+    /// much arrives within a few pixels of where it is meant. Found by mean shifts (K. Fukunaga and L. Hostetler 1975) through
+    /// ever narrower windows, from all of the rays to `window_`.
+    Line where_most_travel(const std::vector<Line>& lines) const {
+        const auto place = [&](const Line& l) { return Point{l[2] + l[0] * vergence_, l[3] + l[1] * vergence_}; };
+        Line mean{};
+        for (const Line& l : lines)
+            for (std::size_t k = 0; k < 4; ++k) mean[k] += l[k] / double(lines.size());
+        const auto distance2 = [&](const Line& l, Point at) {
+            const Point p = place(l);
+            return (p[0] - at[0]) * (p[0] - at[0]) + (p[1] - at[1]) * (p[1] - at[1]);
+        };
+        double widest2 = 0, square = 0;
+        for (const Line& l : lines) {
+            const double d2 = distance2(l, place(mean));
+            widest2 = std::max(widest2, d2);
+            square += d2 / double(lines.size());
+        }
+        constexpr double least_of_spread = 0.25;  // a window with a few dozen rays at least
+        const double least = std::max(window_, least_of_spread * std::sqrt(square));
+        for (double radius = 2 * std::sqrt(widest2); radius > least;) {
+            radius = std::max(radius / 1.5, least);
+            for (int step = 0; step < 40; ++step) {
+                const Point at = place(mean);
+                Line sum{};
+                double weights = 0;
+                for (const Line& l : lines) {
+                    const double off = 1 - distance2(l, at) / (radius * radius), weight = off > 0 ? off * off : 0;
+                    weights += weight;
+                    for (std::size_t k = 0; k < 4; ++k) sum[k] += weight * l[k];
+                }
+                if (!(weights > 0)) return mean;  // of a ring of rays
+                for (std::size_t k = 0; k < 4; ++k) mean[k] = sum[k] / weights;
+                if (distance2(mean, at) < 1e-6 * radius * radius) break;
+            }
+        }
+        return mean;
+    }
+
     /// Widens the aperture to where the point's rays pass.
     void see(Point u) {
         constexpr int across = 48;
@@ -147,6 +191,8 @@ class LensMapping::Tracing {
     LensTrace lens_;
     bool strips_;
     double inverse_gap_, green_plane_;  // of green light: its gap, its rear principal plane from this light's
+    double vergence_;                   // 1 / distance of the central depth plane, 1/mm
+    double window_;                     // radius, in slope: what so many panel pixels subtend
     Point widest_{1e-9, 1e-9};          // half the extents of the aperture
 };
 
@@ -171,7 +217,7 @@ LensMapping::LensMapping(const Display& display, const Geometry& green, double w
     const std::size_t size =
         std::size_t(width_) * std::size_t(nodes_[1] + 3);  // strips have one row of nodes, of four that are read
     const Table empty{std::vector<LineShift>(size), std::vector<float>(size), true};
-    mean_ = empty;
+    lines_ = empty;
     rays_.assign(places_.size(), empty);
     const auto set = [&](Table& table, int i, int j, const LineShift& line, float light) {
         for (const int x : {-1, 1})
@@ -187,7 +233,7 @@ LensMapping::LensMapping(const Display& display, const Geometry& green, double w
             for (int i = 0; i <= steps[0]; ++i) {
                 const Point u{steps[0] > 0 ? i * reach_[0] / steps[0] : 0, steps[1] > 0 ? j * reach_[1] / steps[1] : 0};
                 const Tracing::Found found = tracing.from(u);
-                set(mean_, i, j, found.mean, float(found.rays) / float(std::max(axis.rays, 1)));
+                set(lines_, i, j, found.line, float(found.rays) / float(std::max(axis.rays, 1)));
                 for (std::size_t k = 0; k < rays_.size(); ++k) {
                     const auto line = found.rays > 0 ? tracing.one(u, found.box, places_[k]) : std::optional<LineShift>();
                     set(rays_[k], i, j, line.value_or(LineShift{}), line ? 1 : 0);
@@ -195,7 +241,7 @@ LensMapping::LensMapping(const Display& display, const Geometry& green, double w
             }
         });
     });
-    complete(mean_);
+    complete(lines_);
     for (Table& table : rays_) complete(table);
 }
 

@@ -34,10 +34,10 @@ class LensMapping {
     };
     Between between(std::size_t axis, double u) const;
 
-    /// The shift of the mean line of the light of u (-1), every part of the lens's aperture counted alike, or that of one of the
-    /// rays. False: none of that light gets through.
+    /// The shift of the line on which most light of u travels (-1), every part of the lens's aperture counted alike, or that of one
+    /// of the rays. False: none of that light gets through.
     bool shift(int ray, const Between& ux, const Between& uy, LineShift& out) const {
-        return (ray < 0 ? mean_ : rays_[std::size_t(ray)]).at(width_, ux, uy, out);
+        return (ray < 0 ? lines_ : rays_[std::size_t(ray)]).at(width_, ux, uy, out);
     }
     bool shift(int ray, double ux, double uy, LineShift& out) const { return shift(ray, between(0, ux), between(1, uy), out); }
     /// Which part of a pixel that ray comes from (its last two numbers are spent). As many as were asked for.
@@ -46,10 +46,10 @@ class LensMapping {
     /// The table: nodes along x and y, each row from -reach to +reach.
     std::array<int, 2> nodes() const { return nodes_; }
     std::array<double, 2> reach_mm() const { return reach_; }
-    /// Of a node: the mean line, and the share of the light of the point on the axis; 0 where none gets through (there the line is
+    /// Of a node: that line, and the share of the light of the point on the axis; 0 where none gets through (there the line is
     /// extrapolated).
-    const LineShift& node(int i, int j) const { return mean_.shift[at(i, j)]; }
-    double share(int i, int j) const { return double(mean_.light[at(i, j)]); }
+    const LineShift& node(int i, int j) const { return lines_.shift[at(i, j)]; }
+    double share(int i, int j) const { return double(lines_.light[at(i, j)]); }
 
   private:
     struct Table {
@@ -65,7 +65,7 @@ class LensMapping {
     std::array<int, 2> nodes_;
     int width_;                             // of tables, which have one more node around the others
     std::array<double, 2> reach_, per_mm_;  // per_mm: nodes
-    Table mean_;
+    Table lines_;
     std::vector<Table> rays_;
     std::vector<RayPlace> places_;
 };

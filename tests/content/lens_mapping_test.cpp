@@ -63,55 +63,70 @@ std::vector<Named> lenses() {
     return all;
 }
 
-/// The mean line by an even lattice of 400 x 400 points of the principal planes, less the nodal line.
-std::array<double, 4> direct(const LensTrace& lens, const Geometry& g, Point u, double radius) {
-    constexpr int across = 500;
-    std::array<double, 4> sum{};
-    double rays = 0;
+/// Where the rays of a panel point pass the central depth plane, less the nodal line's place, in slope: by an even lattice of
+/// 128 x 128 points of the principal planes.
+std::vector<Point> places(const LensTrace& lens, const Geometry& g, Point u, double radius) {
+    constexpr int across = 128;
+    const double vergence = 1 / g.focal_length_mm - 1 / g.gap_mm;
+    std::vector<Point> all;
     for (int j = 0; j < across; ++j)
         for (int i = 0; i < across; ++i) {
             const Point at{((2 * i + 1.) / across - 1) * radius, ((2 * j + 1.) / across - 1) * radius};
-            const auto ray = lens.ray(u, lens.towards(u, at));
-            if (!ray) continue;
-            const double line[] = {ray->x, ray->y, ray->mx + u[0] / g.gap_mm, ray->my + u[1] / g.gap_mm};
-            for (std::size_t k = 0; k < 4; ++k) sum[k] += line[k];
-            ++rays;
+            if (const auto ray = lens.ray(u, lens.towards(u, at)))
+                all.push_back({ray->mx + u[0] / g.gap_mm + ray->x * vergence, ray->my + u[1] / g.gap_mm + ray->y * vergence});
         }
-    for (double& value : sum) value /= rays;
+    return all;
+}
+
+/// How many rays pass close to a place: 1 for one there, 0 for one at the radius.
+double light_near(const std::vector<Point>& rays, Point at, double radius) {
+    double sum = 0;
+    for (const Point& ray : rays) {
+        const double d2 = ((ray[0] - at[0]) * (ray[0] - at[0]) + (ray[1] - at[1]) * (ray[1] - at[1])) / (radius * radius);
+        if (d2 < 1) sum += (1 - d2) * (1 - d2) * (1 - d2);
+    }
     return sum;
 }
 
-// Everywhere under the lens the table gives the mean of many more rays: in slope to 3 % of the largest shift, or 1/50 of what a
-// panel pixel subtends, in place to 1/500 of the pitch.
-TEST(LensMapping, TableHoldsTheMeanOfAllRays) {
+// Everywhere under the lens, no line has more light about it than the table's: none of those that pass the central depth plane
+// anywhere where rays do, 1 % excepted. And the table goes without jumps.
+TEST(LensMapping, MostLightTravelsOnTheTablesLine) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> even(-1, 1);
     for (const auto& [name, d] : lenses()) {
         const Geometry g = resolve(d);
         const LensTrace lens(d, g);
         const LensMapping map(d, g, d.panel.wavelengths_nm[1], 0, 1);
-        const double pixel = d.panel.pixel_pitch_mm;
-        double worst_slope = 0, worst_place = 0, largest = 0;
-        for (int n = 0; n < 12; ++n) {
+        const double pixel = d.panel.pixel_pitch_mm / g.gap_mm, vergence = 1 / g.focal_length_mm - 1 / g.gap_mm;
+        double least_share = 1, largest = 0, gain = 1;
+        for (int n = 0; n < 5; ++n) {
             const Point u{even(random) * 0.5 * d.array.pitch_mm[0], even(random) * 0.5 * d.array.pitch_mm[0]};
+            const std::vector<Point> rays = places(lens, g, u, d.array.pitch_mm[0]);
             LineShift line;
-            if (!map.shift(-1, u[0], u[1], line)) continue;
-            const auto truth = direct(lens, g, u, 1.0 * d.array.pitch_mm[0]);
-            if (std::isnan(truth[0])) continue;  // between nodes of which some have light
-            worst_place = std::max({worst_place, std::abs(double(line.x) - truth[0]), std::abs(double(line.y) - truth[1])});
-            worst_slope = std::max({worst_slope, std::abs(double(line.mx) - truth[2]), std::abs(double(line.my) - truth[3])});
-            largest = std::max({largest, std::abs(truth[2]), std::abs(truth[3])});
+            if (rays.size() < 100 || !map.shift(-1, u[0], u[1], line)) continue;
+            const Point found{double(line.mx) + double(line.x) * vergence, double(line.my) + double(line.y) * vergence};
+            Point mean{};
+            for (const Point& ray : rays)
+                for (std::size_t k = 0; k < 2; ++k) mean[k] += ray[k] / double(rays.size());
+            double square = 0;
+            for (const Point& ray : rays)
+                square += std::pow(std::hypot(ray[0] - mean[0], ray[1] - mean[1]), 2) / double(rays.size());
+            const double window = std::max(2 * pixel, std::sqrt(square) / 4), of_table = light_near(rays, found, window);
+            double most = of_table;
+            for (std::size_t k = 0; k < rays.size(); k += 97) most = std::max(most, light_near(rays, rays[k], window));
+            least_share = std::min(least_share, of_table / most);
+            largest = std::max(largest, std::hypot(found[0], found[1]));
+            gain = std::max(gain, of_table / light_near(rays, {0, 0}, window));
         }
-        EXPECT_LT(worst_slope * g.gap_mm, std::max(0.03 * largest * g.gap_mm, 0.02 * pixel)) << name;
-        EXPECT_LT(worst_place, 0.002 * d.array.pitch_mm[0]) << name;
-        EXPECT_GT(largest * g.gap_mm, 0.03 * pixel) << name << " has aberrations";
-        std::printf("%-28s slope within %.4f, place within %.4f pixels; shifts up to %.2f pixels\n", name,
-                    worst_slope * g.gap_mm / pixel, worst_place / pixel, largest * g.gap_mm / pixel);
+        EXPECT_GT(least_share, 0.99) << name;
+        EXPECT_GT(largest, 0.01 * pixel) << name << " has aberrations";
+        std::printf("%-28s %.4f of the most light; up to %.2f times the nodal line's; shifts up to %.2f pixels\n", name,
+                    least_share, gain, largest / pixel);
     }
 }
 
-// A cylinder's rays in the plane across it, by Snell's law alone: a flat base at z = gap_base, sag R - sqrt(R^2 - x^2) from the
-// top of the ridge. Rays by equal steps across the principal plane, as the mapping counts them.
+// A cylinder's rays in the plane across it, by Snell's law alone: a flat base at z = base, sag R - sqrt(R^2 - x^2) from the top of
+// the ridge. Rays by equal steps across the principal plane, as the mapping counts them.
 TEST(LensMapping, StripsAgreeWithSnellsLawAcrossThem) {
     const double R = 2.6, h = 0.6, n = 1.52, half = 2, base = 4;
     Display d = sphere(Surround::plate);
@@ -134,7 +149,7 @@ TEST(LensMapping, StripsAgreeWithSnellsLawAcrossThem) {
     double largest = 0;
     for (const double u : {-2., -1.3, -0.4, 0., 0.7, 1.6, 2.}) {
         constexpr int rays = 100000;
-        double sum_x = 0, sum_m = 0, count = 0;
+        std::vector<std::array<double, 2>> lines;  // x, m less the nodal line's
         for (int i = 0; i < rays; ++i) {
             const double at = ((2 * i + 1.) / rays - 1) * 1.4 * half;  // of the paraxial ray in the principal plane
             const double slope = (at - u) / g.gap_mm, s = slope / std::sqrt(1 + slope * slope);  // in air, where n = 1
@@ -149,17 +164,35 @@ TEST(LensMapping, StripsAgreeWithSnellsLawAcrossThem) {
             const double normal = std::asin(x / R), incidence = std::atan(t) - normal, sine = n * std::sin(incidence);
             if (std::abs(sine) >= 1) continue;
             const double m = std::tan(std::asin(sine) + normal);
-            sum_x += x + m * (g.rear_principal_mm - z);
-            sum_m += m + u / g.gap_mm;
-            ++count;
+            lines.push_back({x + m * (g.rear_principal_mm - z), m + u / g.gap_mm});
         }
+        // The line on which most of them travel, by trying all places of the central depth plane.
+        const double vergence = 1 / g.focal_length_mm - 1 / g.gap_mm, window = 2 * d.panel.pixel_pitch_mm / g.gap_mm;
+        const auto near = [&](double at, std::array<double, 2>* mean) {
+            double sum = 0, weights = 0;
+            if (mean) *mean = {};
+            for (const auto& [x, m] : lines) {
+                const double off = 1 - std::pow((m + x * vergence - at) / window, 2);
+                if (off <= 0) continue;
+                sum += off * off * off;
+                weights += off * off;
+                if (mean) (*mean)[0] += off * off * x, (*mean)[1] += off * off * m;
+            }
+            if (mean) (*mean)[0] /= weights, (*mean)[1] /= weights;
+            return sum;
+        };
+        double most = 0, best = 0;
+        for (double at = -0.1; at < 0.1; at += 2e-4)
+            if (const double light = near(at, nullptr); light > most) most = light, best = at;
+        std::array<double, 2> mean;
+        near(best, &mean);
         LineShift line;
         ASSERT_TRUE(map.shift(-1, u, 0, line)) << u;
-        EXPECT_NEAR(line.x, sum_x / count, 1e-3) << u;
-        EXPECT_NEAR(line.mx, sum_m / count, 2e-4) << u;
-        largest = std::max(largest, std::abs(sum_m / count));
+        EXPECT_NEAR(double(line.x) * vergence + double(line.mx), mean[0] * vergence + mean[1], 3e-4) << u;
+        EXPECT_NEAR(line.x, mean[0], 2e-2) << u;
+        largest = std::max(largest, std::abs(mean[1]));
     }
-    EXPECT_GT(largest, 0.01);
+    EXPECT_GT(largest, 0.005);
 }
 
 // Each colour's mapping is that of a lens whose constant index is the glass's there, its gap and planes those of green light.
@@ -185,7 +218,7 @@ TEST(LensMapping, ColoursHaveTheirOwnIndex) {
             EXPECT_FLOAT_EQ(line[c].my, expected.my);
         }
     }
-    EXPECT_GT(std::abs(line[0].mx - line[1].mx), 5e-5);
+    EXPECT_GT(std::abs(line[0].mx - line[1].mx), 1e-5);
     EXPECT_LT((line[0].mx - line[1].mx) * (line[2].mx - line[1].mx), 0) << "green lies between red and blue";
 }
 
