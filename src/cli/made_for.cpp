@@ -99,6 +99,11 @@ void warn_if_for_another(const std::filesystem::path& panel_image, const Metadat
         what += fmt::format("{}panel.subpixels {}, not {}, or for other places of them", what.empty() ? "" : "; ",
                             word(made->display.panel.subpixels), word(display.panel.subpixels));
     compare_words("array.lattice", word(made->display.array.lattice), word(display.array.lattice));
+    const Display& then = made->display;
+    if (then.content.pickup != PickupKind::nodal &&
+        (then.lens != display.lens || then.panel.layers != display.panel.layers || then.array.surround != display.array.surround ||
+         then.array.aperture != display.array.aperture))
+        what += fmt::format("{}its pick-up was {} through another lens", what.empty() ? "" : "; ", word(then.content.pickup));
     if (holds_codes(panel_image)) compare_words("panel.encoding", word(made->display.panel.encoding), word(display.panel.encoding));
     if (!what.empty()) spdlog::warn("{}: was made for another display: {}", panel_image.string(), what);
 }

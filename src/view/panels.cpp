@@ -46,6 +46,8 @@ Content pose_of(const Display& d, const Geometry& g) {
     pose.height_mm = g.content_height_mm;
     pose.viewing_distance_mm = fresh.viewing_distance_mm;
     pose.sampling = fresh.sampling;
+    pose.pickup = fresh.pickup;
+    pose.pickup_rays = fresh.pickup_rays;
     return pose;
 }
 
@@ -89,6 +91,8 @@ PanelKey panel_key(const Source& source, const Display& d, const Geometry& g) {
     key.lengths.push_back(g.content_depth_mm);
     const std::vector<double> shown = shown_places(d);
     key.lengths.insert(key.lengths.end(), shown.begin(), shown.end());
+    if (d.content.pickup != PickupKind::nodal)
+        key.traced = RealLens{d.content.pickup, d.content.pickup_rays, d.panel, d.lens, d.array};
     return key;
 }
 

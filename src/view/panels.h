@@ -9,6 +9,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,12 +31,23 @@ Source model_source(const std::string& name, const Display&);
 Source source_of(const Library&, const Shown&, const Display&);
 
 /// Everything that a panel's light depends on: equal keys mean equal bits.
+/// What elemental images for the real lens depend on, too.
+struct RealLens {
+    PickupKind pickup;
+    std::int64_t rays;
+    Panel panel;
+    Lens lens;
+    LensArray array;
+    bool operator==(const RealLens&) const = default;
+};
+
 struct PanelKey {
     Source source;
     std::array<std::int64_t, 2> pixels{};
     Encoding encoding{};
     Content content;              // of a model or scene: how it stands and what lights it; else a fresh one
     std::vector<double> lengths;  // the display's numbers that elemental images and drawn patterns depend on; empty for others
+    std::optional<RealLens> traced = {};  // unless the pick-up is nodal
     bool operator==(const PanelKey&) const = default;
 };
 PanelKey panel_key(const Source&, const Display&, const Geometry&);

@@ -125,6 +125,14 @@ TEST_F(PanelsTest, KeyTellsElementalImagesApart) {
     tell_apart({Shown::Kind::model, "built-in:spheres"}, d, 40, 15);
 }
 
+TEST_F(PanelsTest, KeyTellsElementalImagesForTheRealLensApart) {
+    // Strips, whose table is short.
+    const Display d =
+        display({"panel.pixels=[96, 54]", "panel.pixel_pitch_mm=1", "content.pickup=\"traced\"", "array.lattice=\"strips\"",
+                 "array.slant_deg=12", "array.count=none", "array.aperture=\"cell\"", "array.surround=\"plate\""});
+    tell_apart({Shown::Kind::model, "built-in:spheres"}, d, 40, 15);
+}
+
 Display with_objects(Display d, const std::filesystem::path& image) {
     d.content.model.clear();
     for (const double z : {-20., 15.}) {
