@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace lfdsim {
@@ -34,8 +35,8 @@ class CommentedText {
     void key(const char* name, const Value& value) {
         all += fmt::format("{} = {}\n", name, toml_text(value));
     }
-    void table(const char* name) { all += fmt::format("\n[{}]\n", name); }
-    void list(const char* name) { all += fmt::format("\n[[{}]]\n", name); }  // an element of it
+    void table(std::string_view name) { all += fmt::format("\n[{}]\n", name); }
+    void list(std::string_view name) { all += fmt::format("\n[[{}]]\n", name); }  // an element of it
 
     std::string all;
 };

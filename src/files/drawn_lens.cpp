@@ -1,23 +1,6 @@
 #include "files/drawn_lens.h"
 
-#include <fmt/format.h>
-
-#include <cctype>
-
-#include "files/text_file.h"
-
 namespace lfdsim {
-
-DrawnLens read_drawn_lens(const std::filesystem::path& path) {
-    std::string kind = path.extension();
-    for (char& c : kind) c = char(std::tolower(static_cast<unsigned char>(c)));
-    const std::string name = path.string();
-    if (kind == ".zmx") return parse_zmx(read_text(path, "a lens in Zemax's format"), name);
-    if (kind == ".json") return parse_optiland(read_text(path, "a lens in Optiland's format"), name);
-    if (kind == ".roa") return parse_rayoptics(read_text(path, "a lens in ray-optics's format"), name);
-    throw InputError(name,
-                     fmt::format("is of kind \"{}\"; .zmx (Zemax), .json (Optiland) and .roa (ray-optics) can be read", kind));
-}
 
 void scale(DrawnLens& lens, double factor) {
     for (DrawnSurface& s : lens.surfaces) {

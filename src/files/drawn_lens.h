@@ -2,7 +2,6 @@
 #pragma once
 #include "model/error.h"
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -47,11 +46,8 @@ struct DrawnLens {
     std::vector<std::string> notes;  // what was assumed, or not read though it could matter
 };
 
-/// Reads .zmx (Zemax), .json (Optiland) or .roa (ray-optics). Throws InputError with every problem and its place; what cannot be
-/// traced here is named and refused.
-DrawnLens read_drawn_lens(const std::filesystem::path&);
-
-// The same from text or bytes; `name` stands for the file in messages.
+// Read text or bytes of Zemax (.zmx), Optiland (.json) and ray-optics (.roa); `name` stands for the file in messages. They throw
+// InputError with every problem and its place; what cannot be traced here is named and refused.
 DrawnLens parse_zmx(std::string_view bytes, std::string_view name);
 DrawnLens parse_optiland(std::string_view text, std::string_view name);
 DrawnLens parse_rayoptics(std::string_view text, std::string_view name);

@@ -50,6 +50,7 @@ class LensImport {
         if (kept_surfaces()) give_apertures();
         report();
         Imported made;
+        made.what = "A lens from a lens design program, and a display for it";
         made.display.name = lens.title;
         made.display.lens.kind = surface_lens(made.surfaces);
         report();

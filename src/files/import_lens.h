@@ -33,6 +33,7 @@ struct ImportRequest {
 };
 
 struct Imported {
+    std::string what;  // it is: a noun phrase
     Display display;
     std::vector<std::string> surfaces;    // where in the file each surface of the lens stands
     std::vector<std::string> catalogues;  // files of the request whose glasses the lens has
@@ -42,8 +43,8 @@ struct Imported {
 /// A valid display. Throws InputError with the file's place, or the option of `lfdsim import`, of all that cannot be.
 Imported import_lens(DrawnLens, const ImportRequest&);
 
-/// TOML that reads back as the display, with all notes as comments. `made_by`: the command line. `catalogues`: those of the lens,
-/// as seen from the description's folder.
+/// TOML that reads back as the display, with the notes and the places of surfaces as comments. `made_by`: the command line.
+/// `catalogues`: those of the lens, as seen from the description's folder.
 std::string write_imported(const Imported&, const std::vector<std::string>& catalogues, const std::string& made_by);
 
 }  // namespace lfdsim

@@ -41,7 +41,7 @@ LensJson parse_lens_json(std::string_view text, std::string_view name) {
     } catch (const LensJson::exception& error) {
         const std::string says = error.what();  // "[json.exception.parse_error.101] parse error at line 1, column 1: ..."
         const std::size_t begin = says.find("] ") + 2, end = std::min(says.find("; last read"), begin + 160);
-        throw InputError(std::string(name), "is no lens in JSON: " + says.substr(begin, end - begin));
+        throw InputError(std::string(name), "is no JSON: " + says.substr(begin, end - begin));
     }
 }
 
@@ -58,7 +58,7 @@ std::string word_of(const LensJson& json) {
     return shortened(json.is_string() ? json.get<std::string>() : json.is_structured() ? json.type_name() : json.dump());
 }
 
-double LensJsonReader::number(const LensJson& json, const std::string& place, bool may_be_infinite) {
+double JsonReader::number(const LensJson& json, const std::string& place, bool may_be_infinite) {
     if (json.is_number()) return json.get<double>();  // the parser refuses infinite ones
     if (may_be_infinite && json == "Infin.") return std::numeric_limits<double>::infinity();
     if (may_be_infinite && json == "-Infin.") return -std::numeric_limits<double>::infinity();
@@ -66,14 +66,18 @@ double LensJsonReader::number(const LensJson& json, const std::string& place, bo
     return 0;
 }
 
-const LensJson& LensJsonReader::list(const LensJson& json, const std::string& place, std::size_t least) const {
+const LensJson& JsonReader::list(const LensJson& json, const std::string& place, std::size_t least) const {
     constexpr std::size_t most = 1000;
     if (json.is_array() && json.size() >= least && json.size() <= most) return json;
     throw InputError(name, fmt::format("{} is no list of {} to {}: is this a saved lens?", place, least, most));
 }
 
+void JsonReader::report() const {
+    if (!problems.empty()) throw InputError(problems);
+}
+
 DrawnLens LensJsonReader::done() {
-    if (!problems.empty()) throw InputError(std::move(problems));
+    report();
     return std::move(lens);
 }
 

@@ -1,4 +1,4 @@
-// What the readers of lenses in JSON share: members that may be absent, and faults with their places. Floor 2.
+// What the readers of lenses and calibrations in JSON share: members that may be absent, and faults with their places. Floor 2.
 #pragma once
 #include "files/drawn_lens.h"
 
@@ -24,10 +24,10 @@ bool is_true(const LensJson&);
 /// A word, or what stands in its place, as a message may quote it.
 std::string word_of(const LensJson&);
 
-/// Collects a lens and its faults.
-class LensJsonReader {
+/// Collects the faults of a file.
+class JsonReader {
   protected:
-    explicit LensJsonReader(std::string_view file) : name(file) {}
+    explicit JsonReader(std::string_view file) : name(file) {}
 
     template <class... Values>
     void refuse(const std::string& place, fmt::format_string<Values...> what, Values&&... values) {
@@ -38,14 +38,23 @@ class LensJsonReader {
     double number(const LensJson&, const std::string& place, bool may_be_infinite = false);
     /// The list itself, of so many elements to 1000.
     const LensJson& list(const LensJson&, const std::string& place, std::size_t least) const;
-    /// The lens, or all that is wrong.
-    DrawnLens done();
+    /// Throws InputError with all that is wrong, if anything is.
+    void report() const;
 
     std::string name;
-    DrawnLens lens;
 
   private:
     std::vector<Problem> problems;
+};
+
+/// Collects a lens and its faults.
+class LensJsonReader : protected JsonReader {
+  protected:
+    using JsonReader::JsonReader;
+    /// The lens, or all that is wrong.
+    DrawnLens done();
+
+    DrawnLens lens;
 };
 
 }  // namespace lfdsim

@@ -1,58 +1,43 @@
 #include "files/commented.h"
 #include "files/import_lens.h"
 
+#include <charconv>
+
 namespace lfdsim {
 namespace {
 
-void write_surface(const Surface& s, const std::string& place, bool last, CommentedText& text) {
-    text.list("lens.surface");
-    text.note("{}", place);
-    text.key("curvature_per_mm", s.curvature_per_mm);
-    if (s.conic != 0) text.key("conic", s.conic);
-    if (!s.even_asphere.empty()) text.key("even_asphere", s.even_asphere);
-    text.key("semi_aperture_mm", s.semi_aperture_mm);
-    if (last) return;
-    text.key("distance_mm", s.distance_mm);
-    if (s.index) text.key("index", *s.index);
-    if (s.glass) text.key("glass", *s.glass);
+constexpr std::string_view surface_table = "lens.surface.";
+
+/// Where in the file the surface stands whose table this is; empty for other tables.
+std::string_view place_of_surface(const Imported& made, std::string_view table) {
+    std::size_t i = 0;
+    if (!table.starts_with(surface_table)) return {};
+    std::from_chars(table.data() + surface_table.size(), table.data() + table.size(), i);
+    return made.surfaces[i];
 }
 
 }  // namespace
 
 std::string write_imported(const Imported& made, const std::vector<std::string>& catalogues, const std::string& made_by) {
-    const Display& d = made.display;
     CommentedText text;
-    text.note("A lens from a lens design program, and a display for it, as a starting point. Made by: {}", made_by);
+    text.note("{}, as a starting point. Made by: {}", made.what, made_by);
     for (const std::string& note : made.notes) text.note("- {}", note);
     text.key("schema", std::int64_t{1});
-    text.key("name", d.name);
-    if (!catalogues.empty()) text.key("glass_catalogues", catalogues);
-    text.table("panel");
-    text.key("pixels", d.panel.pixels);
-    text.key("pixel_pitch_mm", d.panel.pixel_pitch_mm);
-    text.table("lens");
-    text.note("From the panel's side to the viewer's; each surface with its place in the file.");
-    text.key("type", d.lens.kind);
-    const std::vector<Surface>& surfaces = d.lens.as<SurfaceLens>().surfaces;
-    for (std::size_t i = 0; i < surfaces.size(); ++i) write_surface(surfaces[i], made.surfaces[i], i + 1 == surfaces.size(), text);
-    text.table("array");
-    text.key("pitch_mm", d.array.pitch_mm);
-    text.key("gap_mm", *d.array.gap_mm);
-    if (d.diffuser) {
-        text.table("diffuser");
-        text.key("distance_mm", d.diffuser->distance_mm);
-        text.key("angle_deg", d.diffuser->angle_deg);
-    }
-    text.table("camera");
-    text.key("position_mm", d.camera.position_mm);
-    text.key("resolution", d.camera.resolution);
-    if (d.camera.pupil_diameter_mm) {
-        text.key("pupil_diameter_mm", *d.camera.pupil_diameter_mm);
-        text.key("focus_distance_mm", *d.camera.focus_distance_mm);
-    }
-    text.table("content");
-    text.key("model", d.content.model);
-    text.key("viewing_distance_mm", d.content.viewing_distance_mm);
+    std::string table;
+    visit_all(made.display, [&](const std::string& path, const KeyInfo& key, ConstValueRef ref, ConstValueRef fresh) {
+        const auto written = [](ConstValueRef value) { return std::visit([](const auto* v) { return toml_text(*v); }, value); };
+        const std::string value = path == "glass_catalogues" ? toml_text(catalogues) : written(ref);
+        // an absent optional has no text; what is as without the key is left out
+        if (value.empty() || (!key.required && value == written(fresh))) return;
+        const std::string_view in = table_of_path(path);
+        if (in != table) {  // an element of a list ("lens.surface.0") has its list's name in two brackets
+            const std::size_t end = in.find_last_not_of("0123456789");
+            end + 1 == in.size() ? text.table(in) : text.list(in.substr(0, end));
+            if (const std::string_view place = place_of_surface(made, in); !place.empty()) text.note("{}", place);
+            table = in;
+        }
+        text.all += fmt::format("{} = {}\n", key.name, value);
+    });
     return text.all;
 }
 

@@ -1,6 +1,8 @@
-"""`lfdsim import` as a user runs it: lenses that check calls valid, glasses, catalogues, files that are kept, clear errors."""
+"""`lfdsim import` as a user runs it: lenses that check calls valid, glasses, catalogues, calibrations, files that are kept, clear errors."""
 import json
+import math
 
+import numpy
 from program import Checks, Program
 
 program, checks = Program(), Checks()
@@ -57,6 +59,28 @@ checks.that("7 surfaces" in said, f"triplet: said {said!r}")
 checks.that("Assumed: a panel of 24 inches with 3840 x 2160 pixels, an eye at 600 mm, a pitch as wide as the lens" in said, f"said {said!r}")
 program.must("render triplet.toml --model built-in:spheres --size 96x54 --samples 4 -o triplet.png")
 
+# A calibrated display. Its panel shows light only where the published formula puts some of the views, and only an eye there sees it.
+UNIT = {"serial": "INVENTED-4", "pitch": 47.1, "slope": -6.2, "center": 0.37, "DPI": 300, "screenW": 480, "screenH": 360, "viewCone": 40}
+(folder / "visual.json").write_text(json.dumps({key: value if key == "serial" else {"value": value} for key, value in UNIT.items()}))
+said = program.must("import visual.json --distance-mm 400 -o unit.toml")
+checks.that("slant 9.162 degrees" in said and "lfdsim eia unit.toml" in said and "Assumed: cylindrical" in said, f"unit: said {said!r}")
+checks.that(json.loads(program.must("check unit.toml --json"))["display"]["name"] == "INVENTED-4", "the serial is lost")
+program.must("eia unit.toml -o unit-eia.png")
+W, H, slope = UNIT["screenW"], UNIT["screenH"], UNIT["slope"]
+column, row, channel = numpy.meshgrid(numpy.arange(W), numpy.arange(H)[::-1], numpy.arange(3), indexing="xy")
+cycles = UNIT["pitch"] * W / UNIT["DPI"] * math.cos(math.atan(1 / slope))
+phase = ((column + 0.5) / W + channel / (3 * W) + (row + 0.5) / H * H / (W * slope)) * cycles - UNIT["center"]
+views = 1 - (phase - numpy.floor(phase))  # 0 to 1 from the viewer's left to the right
+for name, glass in [("unit", ""), ("sheet", " --index 1.9")]:
+    program.must(f"import visual.json --distance-mm 400{glass} -o {name}.toml --force")
+    for shown in (0.2, 0.5, 0.8):
+        numpy.save(folder / "shown.npy", (abs(views - shown) < 0.12).astype(numpy.float32))
+        for seen in (0.2, 0.5, 0.8):
+            x = 2 * math.tan(math.radians(UNIT["viewCone"] / 2)) * (seen - 0.5) * 400
+            program.must(f"render {name}.toml --panel-image shown.npy --camera-mm {x},0,400 --size 96x72 -o seen.npy")
+            light = numpy.load(folder / "seen.npy")[8:-8, 8:-8].mean()
+            checks.that(0.9 < light < 1.1 if shown == seen else light < 0.02, f"{name}: of view {shown} an eye at {seen} sees {light:.3f}")
+
 # What is refused, and nothing is written.
 (folder / "kept.toml").write_text("mine")
 FILES = {
@@ -74,6 +98,9 @@ for name, text in FILES.items():
     (folder / f"{name}.zmx").write_text(text, encoding="latin-1")
 (folder / "cut.json").write_text('{"surface_group": {"surfaces": [')
 (folder / "other.json").write_text('{"schema": 1}')
+for name, change in {"nopitch": {"pitch": None}, "nancenter": {"center": float("nan")}, "hugepanel": {"screenW": 1e300}, "wordy": {"DPI": "300"},
+                     "cells": {"subpixelCells": [{}], "CellPatternMode": 4}, "nocone": {"viewCone": None}}.items():
+    (folder / f"{name}.json").write_text(json.dumps(UNIT | change))
 for name, arguments, *words in [
     ("unknown glass", "import doublet.zmx -o x.toml", "doublet.zmx:13: surface 2: no catalogue has a glass \"MYSF5\"", "--glass MYSF5=OTHER"),
     ("other glass unknown", "import doublet.zmx --glass MYSF5=N-SFX -o x.toml", "--glass: no catalogue has a glass \"N-SFX\"", "did you mean"),
@@ -89,9 +116,19 @@ for name, arguments, *words in [
     ("large", "import large.zmx -o x.toml", "large.zmx: has 1400", "is this a lens in Zemax's format?"),
     ("empty", "import empty.zmx -o x.toml", "empty.zmx:1: is no lens in Zemax's format"),
     ("missing", "import no.zmx -o x.toml", "no.zmx: there is no such file"),
-    ("cut JSON", "import cut.json -o x.toml", "cut.json: is no lens in JSON: parse error at line 1"),
+    ("cut JSON", "import cut.json -o x.toml", "cut.json: is no JSON: parse error at line 1"),
     ("other JSON", "import other.json -o x.toml", "is this a saved lens?"),
-    ("other kind", "import tiny.toml -o x.toml", "tiny.toml: is of kind \".toml\"; .zmx (Zemax), .json (Optiland) and .roa (ray-optics) can be read"),
+    ("other kind", "import tiny.toml -o x.toml", "tiny.toml: is of kind \".toml\"; .zmx (Zemax), .json (Optiland, or a Looking Glass calibration)"),
+    ("calibration without a key", "import nopitch.json -o x.toml", "nopitch.json: pitch: is missing"),
+    ("no number in it", "import nancenter.json -o x.toml", "nancenter.json: center: N is not a finite number"),
+    ("too large a panel", "import hugepanel.json -o x.toml", "hugepanel.json: screenW: is 1e+300; allowed is 1 to 100000"),
+    ("a word in it", "import wordy.json -o x.toml", "wordy.json: DPI: 300 is not a finite number"),
+    ("too few cells", "import cells.json -o x.toml", "subpixelCells: has 1, but CellPatternMode 4 repeats 2"),
+    ("no cone", "import nocone.json -o x.toml", "viewCone: is missing, from which the gap would follow; give --gap-mm"),
+    ("options of a lens", "import visual.json --flip --scale 2 -o x.toml", "--flip: is for a lens of a design program", "--scale"),
+    ("an option of a calibration", "import doublet.zmx --glass MYSF5=SF5 --index 1.5 -o x.toml", "--index: is for a calibration"),
+    ("an absurd index", "import visual.json --index 9 -o x.toml", "--index: is 9; allowed is more than 1 to 4"),
+    ("too flat a cylinder", "import visual.json --index 1.2 -o x.toml", "--index: is 1.2: cylinders", "at least 1.3"),
     ("an existing file", "import doublet.zmx --glass MYSF5=SF5 -o kept.toml", "kept.toml already exists"),
     ("no description", "import doublet.zmx --glass MYSF5=SF5 -o x.png", "ends in .toml"),
     ("too large a scale", "import doublet.zmx --glass MYSF5=SF5 --scale 1e7 -o x.toml", "--scale: is 1e7; allowed is 1e-6 to 1e6"),

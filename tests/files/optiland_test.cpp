@@ -152,7 +152,7 @@ TEST(Optiland, NamesWhatCannotBeImported) {
 TEST(Optiland, SaysWhereAFileIsCutOrNoJson) {
     const std::string whole = saved(doublet());
     for (std::size_t end = 0; end < whole.size(); end += 7)
-        EXPECT_THAT(optiland_refused(whole.substr(0, end)), HasSubstr("lens.json: is no lens in JSON: parse error at line")) << end;
+        EXPECT_THAT(optiland_refused(whole.substr(0, end)), HasSubstr("lens.json: is no JSON: parse error at line")) << end;
     EXPECT_THAT(optiland_refused("{\n  \"a\": Infinity x}"), HasSubstr("line 2, column 17"));  // also behind a bare word
     EXPECT_THAT(optiland_refused(std::string(1 << 20, '[')), HasSubstr("parse error"));
     EXPECT_THAT(optiland_refused(std::string((1 << 20) + 1, ' ')), HasSubstr("1048576"));
