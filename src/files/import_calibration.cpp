@@ -134,9 +134,8 @@ class CalibrationImport {
         if (!c.view_cone_deg) refuse("viewCone", "is missing, from which the gap would follow; give --gap-mm");
         gap_mm = to_nanometre(across / (2 * std::tan(*c.view_cone_deg * degree / 2)));
         note(
-            "Gap, in air: {:g} mm, so that a lens sends the light of its elemental image into the viewCone of {:g} degrees along "
-            "the "
-            "panel's rows (--gap-mm gives another).",
+            "Gap, in air: {:g} mm, so that a lens sends the light of its elemental image into the viewCone of {:g} degrees, along "
+            "the panel's rows (--gap-mm gives another).",
             gap_mm, *c.view_cone_deg);
     }
 
