@@ -5,6 +5,7 @@ target_sources(lfdsim_engine PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/engine/wide/ren
 
 option(LFDSIM_CUDA "GPU kernels, where there is a CUDA toolkit" ON)
 option(LFDSIM_CUDA_FMAD "GPU: contract products and sums; faster, and not the CPU's bits" OFF)
+option(LFDSIM_CUDA_QUICK "GPU: compiled in a fifth of the time, and slow: for tests on machines without a GPU" OFF)
 set(LFDSIM_CUDA_STATE "none: switched off (LFDSIM_CUDA)")
 if(LFDSIM_CUDA)
   if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
@@ -39,6 +40,9 @@ if(LFDSIM_CUDA_STATE MATCHES "^CUDA")
   set_target_properties(lfdsim_cuda PROPERTIES CUDA_RUNTIME_LIBRARY Static CUDA_STANDARD 20 CUDA_STANDARD_REQUIRED ON)
   target_compile_options(lfdsim_cuda PRIVATE
     --fmad=$<IF:$<BOOL:${LFDSIM_CUDA_FMAD}>,true,false> -Xcompiler=-ffp-contract=off --threads=0)
+  if(LFDSIM_CUDA_QUICK AND CMAKE_CUDA_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+    target_compile_options(lfdsim_cuda PRIVATE "SHELL:-Ofc min")
+  endif()
   target_sources(lfdsim_engine PRIVATE $<TARGET_OBJECTS:lfdsim_cuda>)
   find_package(CUDAToolkit REQUIRED)
   target_link_libraries(lfdsim_engine PRIVATE CUDA::cudart_static)

@@ -13,7 +13,7 @@ target_include_directories(cuda_stand_in SYSTEM PRIVATE ${CUDAToolkit_INCLUDE_DI
 target_link_libraries(cuda_stand_in PRIVATE lfdsim_engine TBB::tbb)
 foreach(program lfdsim engine_tests)
   add_executable(${program}-on-stand-in $<TARGET_OBJECTS:cuda_stand_in> $<TARGET_OBJECTS:${program}>)
-  target_link_libraries(${program}-on-stand-in PRIVATE $<TARGET_PROPERTY:${program},LINK_LIBRARIES>)
+  target_link_libraries(${program}-on-stand-in PRIVATE $<TARGET_PROPERTY:${program},LINK_LIBRARIES> lfdsim_host_items)
 endforeach()
 
 # What takes longest of OnGpu is in Wide.Filtered too, but for the queue.

@@ -2,9 +2,8 @@
 //
 // The compiler turns kernel<<<...>>>() into calls of the runtime's functions below, from __cudaRegisterFunction, which gives the
 // mangled name of each kernel, to cudaLaunchKernel. The step and its template arguments are read from that name, and the same item
-// functions as on a GPU (engine/wide/items.h, likeness_items.h), compiled for the CPU, do the work.
-#include "engine/wide/items.h"
-#include "engine/wide/likeness_items.h"
+// functions as on a GPU (engine/wide/items.h, likeness_items.h), compiled for the CPU (../engine/host_items.cpp), do the work.
+#include "../engine/host_items.h"
 #include "stand_in.h"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -56,18 +55,16 @@ void launch(const std::string& name, const Configuration& c, void** arguments) {
     if (const auto n = numbers("step_kernelI.*?StepE(\\d+)E.*?WayE(\\d+)ELb(\\d)E"); !n.empty()) {
         const wide::Frame frame = *static_cast<wide::Frame*>(arguments[0]);
         stream_of(c.stream)->add([=] {
-            wide::choose_item(wide::Step(n[0]), frame, [&]<wide::Step step, optics::Way way, bool simple>() {
-                if (int(way) != n[1] || simple != (n[2] != 0))
-                    misused("another kernel was launched than the frame asks for: " + name);
-                work_off(items, [&](std::int64_t i) { wide::item<step, way, simple>(frame, i); });
-            });
+            const HostKernel kernel = host_kernel(wide::Step(n[0]), frame);
+            if (kernel.way != n[1] || kernel.simple != (n[2] != 0))
+                misused("another kernel was launched than the frame asks for: " + name);
+            work_off(items, [&](std::int64_t i) { kernel.item(frame, i); });
         });
     } else if (const auto l = numbers("likeness_kernelI.*?LikenessStepE(\\d+)E"); !l.empty()) {
         const wide::LikenessFrame frame = *static_cast<wide::LikenessFrame*>(arguments[0]);
         stream_of(c.stream)->add([=] {
-            wide::choose_likeness_item(wide::LikenessStep(l[0]), [&]<wide::LikenessStep step>() {
-                work_off(items, [&](std::int64_t i) { wide::likeness_item<step>(frame, i); });
-            });
+            const HostLikenessItem item = host_likeness_item(wide::LikenessStep(l[0]));
+            work_off(items, [&](std::int64_t i) { item(frame, i); });
         });
     } else {
         misused("unknown kernel " + name);

@@ -1,8 +1,7 @@
 // The wide machine's items, one after another on the host: what a GPU would compute, but for its compiler and its rounding.
 #pragma once
-#include "engine/wide/items.h"
-#include "engine/wide/likeness_items.h"
 #include "engine/wide/queue.h"
+#include "host_items.h"
 
 #include <algorithm>
 #include <cstring>
@@ -38,22 +37,17 @@ class HostQueue : public wide::Queue {
     /// From the last item to the first: no order among them is promised.
     void run(wide::Step step, const wide::Frame& frame, std::int64_t items) override {
         ++runs[step];
-        wide::choose_item(step, frame, [&]<wide::Step s, optics::Way way, bool simple>() {
-            for (std::int64_t i = items - 1; i >= 0; --i) wide::item<s, way, simple>(frame, i);
-        });
+        const auto item = host_kernel(step, frame).item;
+        for (std::int64_t i = items - 1; i >= 0; --i) item(frame, i);
     }
     void run(wide::LikenessStep step, const wide::LikenessFrame& frame, std::int64_t items) override {
-        wide::choose_likeness_item(step, [&]<wide::LikenessStep s>() {
-            for (std::int64_t i = items - 1; i >= 0; --i) wide::likeness_item<s>(frame, i);
-        });
+        const HostLikenessItem item = host_likeness_item(step);
+        for (std::int64_t i = items - 1; i >= 0; --i) item(frame, i);
     }
     double seconds() override { return 0; }
-    wide::BlockSize block_size(int across, bool by_lens) const override {
-        const Room room(across, by_lens);
-        return {wide::BlockLayout(across, room).end, room.strata};
-    }
-    std::size_t even_bytes() const override { return sizeof(EvenCuts); }
-    int places_per_axis(const Tile& tile) const override { return lfdsim::places_per_axis(tile); }
+    wide::BlockSize block_size(int across, bool by_lens) const override { return host_block_size(across, by_lens); }
+    std::size_t even_bytes() const override { return host_even_bytes(); }
+    int places_per_axis(const Tile& tile) const override { return host_places_per_axis(tile); }
 
     std::map<wide::Step, int> runs;
 
