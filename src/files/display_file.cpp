@@ -81,12 +81,13 @@ class DisplayReader {
     static void add_known(std::vector<std::string_view>& known) {
         for (const Key<T>& key : table_of<T>().keys) {
             known.push_back(key.name);
-            std::visit(
-                [&]<class Field>(Field T::*) {
-                    if constexpr (part_kind<Field> == PartKind::kinds)
-                        for_kinds(Field(), [&](auto kind) { add_known<decltype(kind)>(known); });
-                },
-                key.member);
+            if constexpr (has_parts<T>)
+                std::visit(
+                    [&]<class Field>(Field T::*) {
+                        if constexpr (part_kind<Field> == PartKind::kinds)
+                            for_kinds(Field(), [&](auto kind) { add_known<decltype(kind)>(known); });
+                    },
+                    key.member);
         }
     }
 
@@ -96,34 +97,51 @@ class DisplayReader {
         (act(Kinds{}), ...);
     }
 
+    // Values are read through pointers of all types, so that this is compiled once and not for each struct.
     template <class T>
     void read_keys(const toml::table& from, const std::string& prefix, T& values) {
-        for (const Key<T>& key : table_of<T>().keys)
-            std::visit([&](auto member) { read_key(key, from, prefix, values.*member); }, key.member);
+        for (const Key<T>& key : table_of<T>().keys) {
+            const auto value = std::visit(
+                [&]<class Field>(Field T::*member) -> std::optional<ValueRef> {
+                    if constexpr (part_kind<Field> == PartKind::value) return &(values.*member);
+                    return {};
+                },
+                key.member);
+            if (value)
+                read_value_of(from.get(key.name), prefix + std::string(key.name), key.required, *value);
+            else if constexpr (has_parts<T>)
+                std::visit([&](auto member) { read_part(key, from, prefix, values.*member); }, key.member);
+        }
+    }
+
+    void read_value_of(const toml::node* node, std::string path, bool required, ValueRef value) {
+        if (!node) {
+            if (required && !any_kind) add(std::move(path), "is missing");
+        } else if (std::string fault = std::visit([&](auto* field) { return read_value(*node, *field); }, value); !fault.empty()) {
+            add(std::move(path), std::move(fault));
+        }
     }
 
     template <class T, class Field>
-    void read_key(const Key<T>& key, const toml::table& from, const std::string& prefix, Field& field) {
+    void read_part(const Key<T>& key, const toml::table& from, const std::string& prefix, Field& field) {
         static const toml::table nothing;  // an absent table is an empty one: required keys are missing, others have defaults
-        const std::string path = prefix + std::string(key.name);
-        const toml::node* node = from.get(key.name);
         constexpr PartKind is = part_kind<Field>;
         if constexpr (is == PartKind::kinds) {
             read_kind(key, from, prefix, field);
-        } else if constexpr (is == PartKind::list) {
-            if (node) read_list(*node, path, field);
-        } else if constexpr (is == PartKind::table || is == PartKind::optional) {
-            if (!node && is == PartKind::optional) return;
-            const toml::table* table = node ? node->as_table() : &nothing;
-            if (!table) return add(path, fmt::format("is {}; give a table: [{}]", kind_of(*node), path));
-            if constexpr (is == PartKind::optional)
-                read_table(*table, path + ".", field.emplace());
-            else
-                read_table(*table, path + ".", field);
-        } else if (!node) {
-            if (key.required && !any_kind) add(path, "is missing");
-        } else if (std::string fault = read_value(*node, field); !fault.empty()) {
-            add(path, std::move(fault));
+        } else if constexpr (is != PartKind::value) {
+            const std::string path = prefix + std::string(key.name);
+            const toml::node* node = from.get(key.name);
+            if constexpr (is == PartKind::list) {
+                if (node) read_list(*node, path, field);
+            } else {
+                if (!node && is == PartKind::optional) return;
+                const toml::table* table = node ? node->as_table() : &nothing;
+                if (!table) return add(path, fmt::format("is {}; give a table: [{}]", kind_of(*node), path));
+                if constexpr (is == PartKind::optional)
+                    read_table(*table, path + ".", field.emplace());
+                else
+                    read_table(*table, path + ".", field);
+            }
         }
     }
 
@@ -152,6 +170,7 @@ class DisplayReader {
                 if (!from.contains(key.name) || std::find(known.begin(), known.end(), key.name) != known.end()) continue;
                 known.push_back(key.name);
                 const bool list =
+                    has_parts<Other> &&
                     std::visit([]<class Field>(Field Other::*) { return part_kind<Field> == PartKind::list; }, key.member);
                 const std::string path = prefix + std::string(key.name);
                 add_superfluous(

@@ -1,6 +1,8 @@
 // Walks the tree of tables.
 #include "model/keys.h"
 
+#include <optional>
+
 namespace lfdsim {
 namespace {
 
@@ -21,73 +23,102 @@ void each_key(const Visit& visit) {
     for (const Key<T>& key : table_of<T>().keys) std::visit([&](auto member) { visit(key, member); }, key.member);
 }
 
-// A struct's own values come before the tables within it, as in TOML; those of its kind belong to both.
-template <class T, class Visit>
-void walk_values(T& in, const std::string& prefix, const Visit& visit) {
-    using Struct = std::remove_const_t<T>;
-    each_key<Struct>([&](const Key<Struct>& key, auto member) {
-        auto& field = in.*member;
-        constexpr PartKind is = part_kind<decltype(field)>;
-        if constexpr (is == PartKind::value || is == PartKind::kinds)
-            visit(prefix + std::string(key.name), info(key), &field, &(fresh_one<Struct>().*member));
-        if constexpr (is == PartKind::kinds) std::visit([&](auto& kind) { walk_values(kind, prefix, visit); }, field);
-    });
+/// The value that a key of a struct fills, and the one that a fresh struct has; nothing if it is a table. What a walk does with
+/// them is compiled once for each struct, not for each type that a value may have.
+template <class Ref>
+struct Value {
+    Ref value;
+    ConstValueRef fresh;
+};
+template <class Ref, class T, class Struct = std::remove_const_t<T>>
+std::optional<Value<Ref>> value_of(T& in, const Key<Struct>& key) {
+    return std::visit(
+        [&](auto member) -> std::optional<Value<Ref>> {
+            constexpr PartKind is = part_kind<decltype(in.*member)>;
+            if constexpr (is == PartKind::value || is == PartKind::kinds)
+                return Value<Ref>{&(in.*member), &(fresh_one<Struct>().*member)};
+            else
+                return {};
+        },
+        key.member);
 }
 
-template <class T, class Visit>
+// A struct's own values come before the tables within it, as in TOML; those of its kind belong to both.
+template <class Ref, class T, class Visit>
+void walk_values(T& in, const std::string& prefix, const Visit& visit) {
+    using Struct = std::remove_const_t<T>;
+    for (const Key<Struct>& key : table_of<Struct>().keys) {
+        if (const auto found = value_of<Ref>(in, key)) visit(prefix + std::string(key.name), info(key), found->value, found->fresh);
+        if constexpr (has_parts<Struct>)
+            std::visit(
+                [&]<class Field>(Field Struct::*member) {
+                    if constexpr (part_kind<Field> == PartKind::kinds)
+                        std::visit([&](auto& kind) { walk_values<Ref>(kind, prefix, visit); }, in.*member);
+                },
+                key.member);
+    }
+}
+
+template <class Ref, class T, class Visit>
 void walk(T& in, const std::string& prefix, const Visit& visit);
 
-template <class T, class Visit>
+template <class Ref, class T, class Visit>
 void walk_parts(T& in, const std::string& prefix, const Visit& visit) {
     using Struct = std::remove_const_t<T>;
     each_key<Struct>([&](const Key<Struct>& key, auto member) {
         auto& field = in.*member;
         constexpr PartKind is = part_kind<decltype(field)>;
-        const std::string path = prefix + std::string(key.name);
+        const auto path = [&] { return prefix + std::string(key.name) + "."; };
         if constexpr (is == PartKind::table) {
-            walk(field, path + ".", visit);
+            walk<Ref>(field, path(), visit);
         } else if constexpr (is == PartKind::optional) {
-            if (field) walk(*field, path + ".", visit);
+            if (field) walk<Ref>(*field, path(), visit);
         } else if constexpr (is == PartKind::list) {
-            for (std::size_t i = 0; i < field.size(); ++i) walk(field[i], path + "." + std::to_string(i) + ".", visit);
+            for (std::size_t i = 0; i < field.size(); ++i) walk<Ref>(field[i], path() + std::to_string(i) + ".", visit);
         } else if constexpr (is == PartKind::kinds) {
-            std::visit([&](auto& kind) { walk_parts(kind, prefix, visit); }, field);
+            std::visit(
+                [&]<class Kind>(Kind& kind) {
+                    if constexpr (has_parts<std::remove_const_t<Kind>>) walk_parts<Ref>(kind, prefix, visit);
+                },
+                field);
         }
     });
 }
 
-template <class T, class Visit>
+template <class Ref, class T, class Visit>
 void walk(T& in, const std::string& prefix, const Visit& visit) {
-    walk_values(in, prefix, visit);
-    walk_parts(in, prefix, visit);
+    walk_values<Ref>(in, prefix, visit);
+    if constexpr (has_parts<std::remove_const_t<T>>) walk_parts<Ref>(in, prefix, visit);
 }
 
 template <class T>
 void add_tables(const std::string& path, PartKind is, std::vector<FormatTable>& all) {
     all.push_back({path, table_of<T>().name, table_of<T>().doc, is, {}});
     const std::size_t here = all.size() - 1;
-    each_key<T>([&]<class Field>(const Key<T>& key, Field T::*member) {
-        constexpr PartKind part = part_kind<Field>;
-        if constexpr (part == PartKind::value || part == PartKind::kinds)
-            all[here].values.push_back({info(key), &(fresh_one<T>().*member)});
-        if constexpr (part == PartKind::kinds)
-            [&]<class... Kinds>(const std::variant<Kinds...>&) {
-                (add_tables<Kinds>(path, PartKind::kinds, all), ...);
-            }(fresh_one<T>().*member);
-        else if constexpr (part != PartKind::value)
-            add_tables<typename Part<Field>::Struct>((path.empty() ? "" : path + ".") + std::string(key.name), part, all);
-    });
+    for (const Key<T>& key : table_of<T>().keys)
+        if (const auto found = value_of<ConstValueRef>(fresh_one<T>(), key)) all[here].values.push_back({info(key), found->fresh});
+    if constexpr (has_parts<T>)
+        each_key<T>([&]<class Field>(const Key<T>& key, Field T::*member) {
+            constexpr PartKind part = part_kind<Field>;
+            if constexpr (part == PartKind::kinds)
+                [&]<class... Kinds>(const std::variant<Kinds...>&) {
+                    (add_tables<Kinds>(path, PartKind::kinds, all), ...);
+                }(fresh_one<T>().*member);
+            else if constexpr (part != PartKind::value)
+                add_tables<typename Part<Field>::Struct>((path.empty() ? "" : path + ".") + std::string(key.name), part, all);
+        });
 }
 
 }  // namespace
 
 void visit_all(const Display& d,
                const std::function<void(const std::string& path, const KeyInfo&, ConstValueRef, ConstValueRef fresh)>& visit) {
-    walk(d, "", visit);
+    walk<ConstValueRef>(d, "", visit);
 }
 
 void visit_all(Display& d, const std::function<void(const std::string& path, const KeyInfo&, ValueRef)>& visit) {
-    walk(d, "", [&](const std::string& path, const KeyInfo& key, auto* value, const auto*) { visit(path, key, value); });
+    walk<ValueRef>(d, "",
+                   [&](const std::string& path, const KeyInfo& key, ValueRef value, ConstValueRef) { visit(path, key, value); });
 }
 
 const std::vector<FormatTable>& format_tables() {

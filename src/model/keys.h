@@ -140,6 +140,10 @@ struct Part<std::variant<Kinds...>> {
 template <class Field>
 inline constexpr PartKind part_kind = Part<std::remove_cvref_t<Field>>::is;
 
+/// Structs that have tables or a kind within them. All others have values only; to know that saves half a minute of compilation.
+template <class T>
+inline constexpr bool has_parts = is_one_of<T, Display, Panel, Lens, SurfaceLens, Content>;
+
 /// The table part of a dotted path: "lens.surface.0" of "lens.surface.0.conic", "" of "name".
 inline std::string_view table_of_path(std::string_view path) {
     const std::size_t point = path.rfind('.');
