@@ -23,12 +23,11 @@ struct Wanted {
 };
 
 /// Casts the rays. fill(column, row, block) sets those of the 4 x 4 pixels from there on, for the sample number in the block;
-/// samples of a block come in their order. Blocks are aligned to the frame, never to the crop or to a thread's share, so that every
+/// samples of a block come in their order. light_of(block) sets their light, as SceneLight does. Blocks are aligned to the frame, never to the crop or to a thread's share, so that every
 /// pixel comes out the same however the frame is divided. Throws InputError for a crop outside the frame or a bad thread
 /// count.
-template <class Fill>
-Picture cast(const ContentScene::Impl& scene, const Beam& beam, const Wanted& frame, int threads, const char* stage, Job& job,
-             const Fill& fill) {
+template <class Light, class Fill>
+Picture cast(const Light& light_of, const Wanted& frame, int threads, const char* stage, Job& job, const Fill& fill) {
     const int width = frame.width, height = frame.height;
     const Rect& crop = frame.crop;
     const std::int64_t samples = frame.by_channel ? 3 * frame.samples : frame.samples;
@@ -49,9 +48,6 @@ Picture cast(const ContentScene::Impl& scene, const Beam& beam, const Wanted& fr
         Lanes::Mask wanted;
         double sum[3][RayBlock::lanes];                            // of the samples' light
         int summed[3][RayBlock::lanes], lost[3][RayBlock::lanes];  // samples that exist, that are dark
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
         for (int y = y0; y < y0 + tile; y += RayBlock::side) {
             if (samples > 1 && job.cancelled()) {  // a tile may take long
                 stopped = true;
@@ -82,7 +78,7 @@ Picture cast(const ContentScene::Impl& scene, const Beam& beam, const Wanted& fr
                         for (int c = first; c < last; ++c) summed[c][k] -= block.exists.of[k], lost[c][k] -= block.dark.of[k];
                     }
                     count += number;
-                    if (!trace(scene, beam, context, block)) continue;
+                    if (!light_of(block)) continue;
                     if (!lit) std::fill_n(sum[0], 3 * RayBlock::lanes, 0.);
                     lit = true;
                     for (int k = 0; k < RayBlock::lanes; ++k)

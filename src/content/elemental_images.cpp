@@ -1,9 +1,11 @@
 #include "content/cast.h"
+#include "content/field_picture.h"
 #include "content/lens_mapping.h"
 #include "content/pickup.h"
 #include "content/shown_points.h"
 
 #include "model/colour.h"
+#include "model/numbers.h"
 
 namespace lfdsim {
 namespace {
@@ -16,12 +18,13 @@ bool by_channel(const Display& d) { return made_by_channel(d) || (d.content.pick
 /// side, and travel towards the panel and beyond it. Their direction has dz = -1, so that t is the depth below the plane.
 class PickupRays {
   public:
-    PickupRays(const Display& display, const Geometry& geometry, const ContentScene& scene,
+    /// Of content in the box with this middle and half these extents, mm.
+    PickupRays(const Display& display, const Geometry& geometry, const Vec3d& centre_mm, const Vec3d& half_mm,
                const std::vector<LensMapping>& mappings)
         : pickup_(display, geometry),
           apart_(display.array.turn_deg() != 0 || is_staggered(display.array) || is_strips(display.array)),
-          half_mm_(scene.impl().half_mm),
-          centre_mm_(scene.centre_mm()),
+          half_mm_(half_mm),
+          centre_mm_(centre_mm),
           half_depth_(half_mm_[2] * 1.0001 + 1e-3),
           rise_(centre_mm_[2] + half_depth_ - pickup_.z_rear),
           rays_(rays_of(display)),
@@ -200,15 +203,60 @@ class PickupRays {
     std::vector<RaySet> sets_;  // of each sample of a block
 };
 
+/// The light of views along a block's rays, which start at the height `waist_z_mm - beam.waist_t` over the focus.
+struct FieldLight {
+    const LightField& field;
+    Beam beam;
+    std::atomic<std::int64_t>& beside_cameras;
+    std::atomic<std::int64_t>& beside_focus;
+
+    bool operator()(RayBlock& block) const {
+        if (!block.exists.any()) return false;
+        const RTCRay16& ray = block.packet.ray;
+        const auto distance = float(field.grid().distance_mm);
+        int cameras = 0, focus = 0;
+        for (int k = 0; k < RayBlock::lanes; ++k) {
+            block.hit.of[k] = 0;
+            if (!block.exists.of[k]) continue;
+            const float top = ray.org_z[k], x = ray.org_x[k] + top * ray.dir_x[k], y = ray.org_y[k] + top * ray.dir_y[k];
+            const LightField::Line line{x, y, x - distance * ray.dir_x[k], y - distance * ray.dir_y[k]};
+            float light[3];
+            const LightField::Answer answer = field.light(line, {beam.width_per_t, top - beam.waist_t}, light);
+            cameras += answer == LightField::Answer::beside_cameras;
+            focus += answer == LightField::Answer::beside_focus;
+            block.hit.of[k] = -int(answer == LightField::Answer::seen);
+            for (int c = 0; c < 3; ++c) block.light[c].of[k] = light[c];
+        }
+        if (cameras > 0) beside_cameras += cameras;
+        if (focus > 0) beside_focus += focus;
+        return true;
+    }
+};
+
+std::vector<LensMapping> mappings_for(const Display& display, const Geometry& geometry, int threads) {
+    return display.content.pickup == PickupKind::nodal ? std::vector<LensMapping>() : lens_mappings(display, geometry, threads);
+}
+
+Wanted whole_panel(const Display& display) {
+    const int width = int(display.panel.pixels[0]), height = int(display.panel.pixels[1]);
+    return {width, height, {0, 0, width, height}, PickupRays::rays_of(display), by_channel(display)};
+}
+
 }  // namespace
 
 Picture elemental_images(const Display& display, const Geometry& geometry, const ContentScene& scene, int threads, Job& job) {
-    const std::vector<LensMapping> mappings =
-        display.content.pickup == PickupKind::nodal ? std::vector<LensMapping>() : lens_mappings(display, geometry, threads);
-    const PickupRays rays(display, geometry, scene, mappings);
-    const int width = int(display.panel.pixels[0]), height = int(display.panel.pixels[1]);
-    const Wanted panel{width, height, {0, 0, width, height}, PickupRays::rays_of(display), by_channel(display)};
-    return cast(scene.impl(), rays.beam(), panel, threads, "elemental images", job, rays);
+    const std::vector<LensMapping> mappings = mappings_for(display, geometry, threads);
+    const PickupRays rays(display, geometry, scene.centre_mm(), scene.impl().half_mm, mappings);
+    return cast(SceneLight{scene.impl(), rays.beam()}, whole_panel(display), threads, "elemental images", job, rays);
+}
+
+FieldPicture elemental_images(const Display& display, const Geometry& geometry, const LightField& field, int threads, Job& job) {
+    const std::vector<LensMapping> mappings = mappings_for(display, geometry, threads);
+    const PickupRays rays(display, geometry, {0, 0, geometry.vertex_plane_mm + field.grid().depth_mm}, {infinity, infinity, 0}, mappings);
+    std::atomic<std::int64_t> beside_cameras{0}, beside_focus{0};
+    const FieldLight light{field, rays.beam(), beside_cameras, beside_focus};
+    Picture picture = cast(light, whole_panel(display), threads, "elemental images", job, rays);
+    return {std::move(picture), beside_cameras, beside_focus};
 }
 
 }  // namespace lfdsim

@@ -152,7 +152,7 @@ Picture reference_photograph(const Display& display, const Geometry& geometry, c
                              std::optional<Rect> crop, Job& job) {
     const PhotographRays rays(display, geometry, scene);
     const Wanted wanted{rays.width(), rays.height(), crop.value_or(Rect{0, 0, rays.width(), rays.height()}), rays.samples()};
-    return cast(scene.impl(), rays.beam(), wanted, threads, "photograph", job, rays);
+    return cast(SceneLight{scene.impl(), rays.beam()}, wanted, threads, "photograph", job, rays);
 }
 
 }  // namespace lfdsim

@@ -50,9 +50,19 @@ struct RayBlock {
 /// each time weighted by what all in front of it let through.
 void look_through(const ContentScene::Impl&, const Beam&, RTCIntersectContext&, RayBlock&, const Lanes& width_mm);
 
-/// Traces and shades a block: `hit` and `light`. False: no ray meets the scene, and nothing is set.
-inline bool trace(const ContentScene::Impl& scene, const Beam& beam, RTCIntersectContext& context, RayBlock& block) {
+/// The light of a scene along a block's rays: traces and shades them, sets `hit` and `light`. False: no ray meets the scene, and
+/// nothing is set.
+struct SceneLight {
+    const ContentScene::Impl& scene;
+    Beam beam;
+    bool operator()(RayBlock& block) const;
+};
+
+inline bool SceneLight::operator()(RayBlock& block) const {
     if (!block.may_hit.any()) return false;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     RTCRayHit16& packet = block.packet;
     for (int k = 0; k < RayBlock::lanes; ++k) {
         packet.ray.tfar[k] = INFINITY;

@@ -25,13 +25,14 @@ struct Pixels {
 /// Called once by each reader, when it knows the size and has found it plausible.
 using Allocate = std::function<Pixels(std::int64_t columns, std::int64_t rows)>;
 
-// All throw InputError, which names the file and the fault. EXR and NPY may return values that are not finite.
+// All throw InputError, which names the file and the fault. EXR, NPY and PFM may return values that are not finite.
 void read_png(const InputFile&, Encoding, const Allocate&);
 void read_jpeg(const InputFile&, Encoding, const Allocate&);
 void read_exr(const InputFile&, const Allocate&);
 /// The same for a layer; nothing is allocated if the file has none of this name.
 void read_exr_layer(const InputFile&, const std::string& layer, const Allocate&);
 void read_npy(const InputFile&, const Allocate&);
+void read_pfm(const InputFile&, const Allocate&);
 
 // From the header; the picture is not read. Throw like the readers.
 Metadata read_png_metadata(const InputFile&);

@@ -15,7 +15,7 @@ namespace {
 using namespace detail;
 namespace fs = std::filesystem;
 
-enum class Format { png, exr, npy, jpeg };
+enum class Format { png, exr, npy, pfm, jpeg };
 
 std::string extension(const fs::path& path) {
     std::string text = path.extension().string();
@@ -28,8 +28,9 @@ Format format_to_read(const fs::path& path) {
     if (e == ".png") return Format::png;
     if (e == ".exr") return Format::exr;
     if (e == ".npy") return Format::npy;
+    if (e == ".pfm") return Format::pfm;
     if (e == ".jpg" || e == ".jpeg") return Format::jpeg;
-    throw InputError(path.string(), fmt::format("unknown image extension \"{}\"; .png, .exr, .npy, .jpg and .jpeg can be read", e));
+    throw InputError(path.string(), fmt::format("unknown image extension \"{}\"; .png, .exr, .npy, .pfm, .jpg and .jpeg can be read", e));
 }
 
 Format format_to_write(const fs::path& path) {
@@ -90,7 +91,7 @@ void read_floats(const InputFile& file, Values allowed, const Allocate& allocate
 void read(const InputFile& file, Format format, Encoding encoding, Values allowed, const Allocate& allocate) {
     if (format == Format::png) return read_png(file, encoding, allocate);
     if (format == Format::jpeg) return read_jpeg(file, encoding, allocate);
-    read_floats(file, allowed, allocate, format == Format::exr ? read_exr : read_npy);
+    read_floats(file, allowed, allocate, format == Format::exr ? read_exr : format == Format::npy ? read_npy : read_pfm);
 }
 
 Allocate as_image(const InputFile& file, Image& image) {

@@ -1,4 +1,4 @@
-// Pictures in files: PNG (8 or 16 bit), EXR, JPEG in; PNG, EXR, NPY out. Floor 0.
+// Pictures in files: PNG (8 or 16 bit), EXR, NPY, PFM, JPEG in; PNG, EXR, NPY out. Floor 0.
 #pragma once
 #include "image/image.h"
 #include "image/texels.h"
@@ -55,7 +55,7 @@ void write_npy(const std::filesystem::path& path, std::span<const std::int64_t> 
 /// reported to the job, if there is one, without a stage; an exception from its advance() ends the work. Throws like write_image().
 std::string image_bytes(const std::string& ending, const Image&, const WriteOptions& = {}, Job* = nullptr);
 
-/// Linear light. `encoding` is that of PNG and JPEG code values; EXR and NPY are linear. No alpha channel. Ignores layers.
+/// Linear light. `encoding` is that of PNG and JPEG code values; EXR, NPY and PFM are linear. No alpha channel. Ignores layers.
 /// Throws InputError, which names the file and the fault: missing, truncated, not an image, too large.
 Image read_image(const std::filesystem::path& path, Encoding encoding);
 
