@@ -26,6 +26,11 @@ const std::vector<Rule>& contradictions() {
     static const std::vector<Rule> all{
         {{"--model", "--pattern"}, "--panel-image", one_thing},
         {{"--model"}, "--pattern", one_thing},
+        {{"--model", "--pattern"}, "--views", one_thing},
+        {{"--depth-mm", "--height-mm", "--tilt-deg", "--yaw-deg"},
+         "--views",
+         "views are placed by --focus-depth-mm and --focus-width-mm, and cannot be turned; give those",
+         "views"},
         // The viewer can photograph the model beside such a panel, or show it in place of that.
         {{"--depth-mm", "--height-mm", "--tilt-deg", "--yaw-deg", "--pickup"},
          "--panel-image",
@@ -47,6 +52,9 @@ const std::vector<Rule>& contradictions() {
 
 const std::vector<Rule>& belongings() {
     static const std::vector<Rule> all{
+        {{"--flip-views", "--focus-width-mm", "--focus-depth-mm", "--camera-distance-mm", "--baseline-mm", "--view-cone-deg"},
+         "--views",
+         "is only for --views"},
         {{"--cell-pixels"}, "--pattern checkerboard", "is only for --pattern checkerboard"},
         {{"--view"}, "--pattern view", "is only for --pattern view"},
         {{"--edge-deg", "--edge-depth-mm"}, "--pattern edge", "is only for --pattern edge"},

@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 #include "cli/display_options.h"
 #include "cli/effects.h"
+#include "cli/grid_options.h"
 #include "cli/made_for.h"
 #include "cli/mapping_export.h"
 #include "cli/panel_source.h"
@@ -21,6 +22,7 @@ struct EiaArguments {
           display(command, {content_options}),
           model(command),
           pattern(command),
+          views(command),
           output(command, ".png with the panel's encoding, or linear .exr .npy"),
           mapping(command),
           work(command) {}
@@ -28,12 +30,13 @@ struct EiaArguments {
     DisplayOptions display;
     ModelOption model;
     PatternOption pattern;
+    ViewsOption views;
     OutputOptions output;
     MappingOption mapping;
     WorkOptions work;
 };
 
-void run(const EiaArguments& args) {
+void run(EiaArguments& args) {
     Faults faults;
     Display display;
     PatternOptions pattern_options;
@@ -45,6 +48,7 @@ void run(const EiaArguments& args) {
     });
     faults.of([&] { pattern_options = args.pattern.read(); });
     faults.of([&] { args.model.apply(display); });
+    faults.of([&] { args.views.check(); });
     faults.of([&] { args.work.check(); });
     faults.of([&] { args.output.check(); });
     faults.of([&] { args.mapping.check(); });
@@ -53,32 +57,42 @@ void run(const EiaArguments& args) {
 
     const Geometry geometry = resolve(display);
     Picture picture;
+    std::string of_views;
+    Json more = Json::object();
     Progress progress(args.work.progress());
-    if (args.pattern.given()) {
+    if (args.views.given()) {
+        ViewsOption::Made made = args.views.make(display, geometry, args.work.threads(), progress);
+        picture = std::move(made.field.picture);
+        of_views = std::move(made.text);
+        more["views"] = std::move(made.json);
+    } else if (args.pattern.given()) {
         picture.image = pattern(args.pattern.name(), display, geometry, pattern_options);
     } else {
         const ContentScene scene = load_scene(display, geometry);
         picture = elemental_images(display, geometry, scene, args.work.threads(), progress);
     }
     if (args.mapping.given()) args.mapping.write(display, geometry, args.work.threads());
-    if (picture.dark > 0)
+    if (picture.dark > 0) {
+        more["dark"] = picture.dark;
         spdlog::warn("the light of {} {} never leaves its lens: they stay black", picture.dark,
                      display.panel.subpixels == SubpixelLayout::none ? "pixels" : "subpixels");
+    }
     Metadata about{{"seconds", fmt::format("{:.3f}", picture.seconds)}};
     if (args.pattern.given()) about[pattern_mark] = args.pattern.name();
     args.output.write(picture.image, display.panel.encoding, display, std::move(about), picture.complete, progress);
     print_made(Made{args.output.path(), picture.image.width, picture.image.height, "rays", picture.rays, picture.seconds},
-               args.work.json(), "", picture.dark > 0 ? Json{{"dark", picture.dark}} : Json::object());
+               args.work.json(), of_views, more);
 }
 
 }  // namespace
 
 void add_eia(Command program) {
     Command command =
-        program.add_subcommand("eia", "Makes the panel's picture: the elemental images of a model, or a test pattern");
+        program.add_subcommand("eia", "Makes the panel's picture: the elemental images of a model or of views, or a test pattern");
     const auto args = std::make_shared<EiaArguments>(command);
     command.footer(
         "Examples:\n  lfdsim eia display.toml --model monkey.blend --height-mm 120 -o eia.png\n"
+        "  lfdsim eia display.toml --views lego --baseline-mm 12 --focus-depth-mm 0 -o eia.png\n"
         "  lfdsim eia display.toml --pattern checkerboard --cell-pixels 8 -o eia.png");
     command.callback([args] { run(*args); });
 }

@@ -152,6 +152,11 @@ void read_geometry(ViewsReader& reader, ViewsSource& source) {
     const std::optional<double> height = reader.number("height_mm", positive_length);
     if (height && !source.width_mm) reader.refuse("height_mm", "needs width_mm beside it");
     if (height && source.width_mm) source.aspect = *source.width_mm / *height;
+    if (source.cone_deg && source.distance_mm && source.cameras.empty()) {
+        const std::vector<double> x = cone_places(std::max(source.columns, 2), *source.cone_deg, *source.distance_mm);
+        const double step = (x.back() - x.front()) / double(x.size() - 1);
+        source.cameras = camera_places(source.columns > 1 ? x : std::vector<double>{0}, even_places(source.rows, -step));
+    }
 }
 
 }  // namespace
@@ -184,8 +189,8 @@ ViewsSource described_views(const fs::path& toml) {
     const std::string pictures = reader.pattern("pictures", "view_*.png"), depths = reader.pattern("depth_pictures", "");
     read_geometry(reader, source);
     source.depth_unit_mm = reader.number("depth_unit_mm", positive_length).value_or(1);
-    if (!depths.empty() && !(source.distance_mm && source.width_mm))
-        reader.refuse("depth_pictures", "need distance_mm and width_mm beside them");
+    if (!depths.empty() && !(source.distance_mm && source.width_mm && !source.cameras.empty()))
+        reader.refuse("depth_pictures", "need the cameras' places, distance_mm and width_mm beside them");
     const bool reversed = reader.flag("pseudoscopic");
     reader.report();
     if (source.views() > std::size_t(most_views))
