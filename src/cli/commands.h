@@ -10,6 +10,7 @@ void add_new(Command program);
 void add_import(Command program);
 void add_check(Command program);
 void add_eia(Command program);
+void add_views(Command program);
 void add_photo(Command program);
 void add_render(Command program);
 void add_compare(Command program);

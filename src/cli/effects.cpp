@@ -29,8 +29,7 @@ const std::vector<Rule>& contradictions() {
         {{"--model", "--pattern"}, "--views", one_thing},
         {{"--depth-mm", "--height-mm", "--tilt-deg", "--yaw-deg"},
          "--views",
-         "views are placed by --focus-depth-mm and --focus-width-mm, and cannot be turned; give those",
-         "views"},
+         "views are placed by --focus-depth-mm and --focus-width-mm, and cannot be turned; give those"},
         // The viewer can photograph the model beside such a panel, or show it in place of that.
         {{"--depth-mm", "--height-mm", "--tilt-deg", "--yaw-deg", "--pickup"},
          "--panel-image",

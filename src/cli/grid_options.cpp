@@ -17,7 +17,8 @@ GridOptions::GridOptions(Command command) {
     command.add_option("--focus-width-mm", width_, "Width of the views' focus, the rectangle without parallax").type_name("W");
     command.add_option("--focus-depth-mm", depth_, "Its depth in front of the lenses' vertex plane").type_name("Z");
     command.add_option("--camera-distance-mm", distance_, "From the views' cameras to their focus").type_name("D");
-    command.add_option("--baseline-mm", baseline_, "From camera to camera: along x and y, or the same along both").type_name("B|BX,BY");
+    command.add_option("--baseline-mm", baseline_, "From camera to camera: along x and y, or the same along both")
+        .type_name("B|BX,BY");
     command.add_option("--view-cone-deg", cone_, "Angle over which the cameras of a row stand, at equal angles").type_name("A");
 }
 
@@ -57,9 +58,10 @@ ViewsPlace views_place(const Display& display, const Geometry& geometry) {
 
 std::string grid_text(const ViewGrid& grid) {
     const auto &first = grid.camera_mm.front(), &last = grid.camera_mm.back();
-    return fmt::format("{} x {} views over {:.4g} x {:.4g} mm, {:.4g} mm from their focus of {:.4g} x {:.4g} mm at a depth of {:.4g} mm",
-                       grid.columns, grid.rows, last[0] - first[0], first[1] - last[1], grid.distance_mm, grid.width_mm,
-                       grid.height_mm, grid.depth_mm);
+    return fmt::format(
+        "{} x {} views over {:.4g} x {:.4g} mm, {:.4g} mm from their focus of {:.4g} x {:.4g} mm at a depth of {:.4g} mm",
+        grid.columns, grid.rows, last[0] - first[0], first[1] - last[1], grid.distance_mm, grid.width_mm, grid.height_mm,
+        grid.depth_mm);
 }
 
 Json grid_json(const ViewGrid& grid) {
@@ -75,11 +77,12 @@ Json grid_json(const ViewGrid& grid) {
 }
 
 ViewsOption::ViewsOption(Command command)
-    : option_(command
-                  .add_option("--views", path_,
-                              "Views to show in place of a model: a folder with views.toml, HCI 4D or Stanford archive pictures, or "
-                              "a quilt NAME_qs8x6a0.75.png")
-                  .type_name("FOLDER|FILE")),
+    : option_(
+          command
+              .add_option("--views", path_,
+                          "Views to show in place of a model: a folder with views.toml, HCI 4D or Stanford archive pictures, or "
+                          "a quilt NAME_qs8x6a0.75.png")
+              .type_name("FOLDER|FILE")),
       grid_(command) {
     command.add_flag("--flip-views", flip_, "Reverse the order of the views: makes pseudoscopic ones orthoscopic");
 }
@@ -101,8 +104,8 @@ ViewsOption::Made ViewsOption::make(const Display& display, const Geometry& geom
     if (!views) end_interrupted("");
     for (const std::string& note : views->notes) spdlog::warn("{}: {}", source_.name, note);
     if (views->doubt.against_depth)
-        spdlog::warn("{}: what its depth map calls near moves from view to view as if far: the views are pseudoscopic{}", source_.name,
-                     flip_ ? "; leave out --flip-views" : "; --flip-views reverses them");
+        spdlog::warn("{}: what its depth map calls near moves from view to view as if far: the views are pseudoscopic{}",
+                     source_.name, flip_ ? "; leave out --flip-views" : "; --flip-views reverses them");
     else if (views->doubt.axes_disagree)
         spdlog::warn("{}: what is near from column to column is far from row to row: rows or columns are in reversed order",
                      source_.name);
@@ -118,7 +121,8 @@ ViewsOption::Made ViewsOption::make(const Display& display, const Geometry& geom
                       {"beside_focus", made.field.beside_focus}});
     made.text = fmt::format("; {}{}", grid_text(grid), views->field.by_depth() ? ", by depth" : "");
     if (made.field.beside_cameras > 0)
-        made.text += fmt::format("; {:.1f} % of the rays pass beside the cameras: black", 100 * double(made.field.beside_cameras) / rays);
+        made.text +=
+            fmt::format("; {:.1f} % of the rays pass beside the cameras: black", 100 * double(made.field.beside_cameras) / rays);
     if (made.field.beside_focus > 0)
         made.text += fmt::format("; {:.1f} % beside the views' edges: black", 100 * double(made.field.beside_focus) / rays);
     return made;

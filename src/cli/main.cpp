@@ -34,6 +34,7 @@ void run(int argc, char** argv) {
     cli::add_import(program);
     cli::add_check(program);
     cli::add_eia(program);
+    cli::add_views(program);
     cli::add_photo(program);
     cli::add_render(program);
     cli::add_compare(program);

@@ -23,9 +23,9 @@ struct Wanted {
 };
 
 /// Casts the rays. fill(column, row, block) sets those of the 4 x 4 pixels from there on, for the sample number in the block;
-/// samples of a block come in their order. light_of(block) sets their light, as SceneLight does. Blocks are aligned to the frame, never to the crop or to a thread's share, so that every
-/// pixel comes out the same however the frame is divided. Throws InputError for a crop outside the frame or a bad thread
-/// count.
+/// samples of a block come in their order. light_of(block) sets their light, as SceneLight does. Blocks are aligned to the frame,
+/// never to the crop or to a thread's share, so that every pixel comes out the same however the frame is divided. Throws InputError
+/// for a crop outside the frame or a bad thread count.
 template <class Light, class Fill>
 Picture cast(const Light& light_of, const Wanted& frame, int threads, const char* stage, Job& job, const Fill& fill) {
     const int width = frame.width, height = frame.height;

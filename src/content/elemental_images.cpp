@@ -252,7 +252,8 @@ Picture elemental_images(const Display& display, const Geometry& geometry, const
 
 FieldPicture elemental_images(const Display& display, const Geometry& geometry, const LightField& field, int threads, Job& job) {
     const std::vector<LensMapping> mappings = mappings_for(display, geometry, threads);
-    const PickupRays rays(display, geometry, {0, 0, geometry.vertex_plane_mm + field.grid().depth_mm}, {infinity, infinity, 0}, mappings);
+    const PickupRays rays(display, geometry, {0, 0, geometry.vertex_plane_mm + field.grid().depth_mm}, {infinity, infinity, 0},
+                          mappings);
     std::atomic<std::int64_t> beside_cameras{0}, beside_focus{0};
     const FieldLight light{field, rays.beam(), beside_cameras, beside_focus};
     Picture picture = cast(light, whole_panel(display), threads, "elemental images", job, rays);

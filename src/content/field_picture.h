@@ -16,9 +16,9 @@ FieldPicture elemental_images(const Display&, const Geometry&, const LightField&
 
 /// How the views of a scene are made.
 struct ViewMaking {
-    int width, height;       // pixels of each
-    std::int64_t samples;    // rays of a pixel, spread over it
-    int threads = 0;         // 0: all
+    int width, height;     // pixels of each
+    std::int64_t samples;  // rays of a pixel, spread over it
+    int threads = 0;       // 0: all
 };
 
 /// What one of the grid's cameras sees of a scene: the focus, from edge to edge. Throws InputError for a bad thread count.

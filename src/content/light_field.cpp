@@ -71,11 +71,12 @@ LightField::LightField(ViewGrid grid, std::vector<Image> views, std::vector<Kapp
     : grid_(std::move(grid)), maps_(std::move(maps)) {
     if (std::vector<Problem> faults = faults_of(grid_); !faults.empty()) throw InputError(std::move(faults));
     if (views.size() != grid_.views() || (!maps_.empty() && maps_.size() != grid_.views()))
-        throw InputError("views", fmt::format("{} pictures and {} depth maps for {} cameras", views.size(), maps_.size(), grid_.views()));
+        throw InputError("views",
+                         fmt::format("{} pictures and {} depth maps for {} cameras", views.size(), maps_.size(), grid_.views()));
     for (std::size_t k = 0; k < views.size(); ++k)
         if (views[k].width < 1 || views[k].width != views[0].width || views[k].height != views[0].height)
             throw InputError(fmt::format("view {}", k), fmt::format("is {} x {} pixels, the first is {} x {}", views[k].width,
-                                                                   views[k].height, views[0].width, views[0].height));
+                                                                    views[k].height, views[0].width, views[0].height));
     pixels_per_mm_[0] = float(views[0].width / grid_.width_mm);
     pixels_per_mm_[1] = float(views[0].height / grid_.height_mm);
     views_.reserve(views.size());
@@ -220,7 +221,8 @@ LightField::Answer LightField::light(const Line& line, const Width& width, float
     for (int k = 0; k < 4; ++k) {
         const float weight = (k & 1 ? cell.s : 1 - cell.s) * (k & 2 ? cell.t : 1 - cell.t);
         if (weight > 0)
-            around[count++] = {std::size_t(cell.j + (k >> 1)) * std::size_t(grid_.columns) + std::size_t(cell.i + (k & 1)), weight, 0, true};
+            around[count++] = {std::size_t(cell.j + (k >> 1)) * std::size_t(grid_.columns) + std::size_t(cell.i + (k & 1)), weight,
+                               0, true};
     }
     if (by_depth_) {
         float front = -std::numeric_limits<float>::max(), of_only = 0;

@@ -12,8 +12,8 @@ namespace lfdsim {
 class ViewPyramid {
   public:
     explicit ViewPyramid(Image);
-    /// Trilinear: at the place (x, y) in pixels of the finest level, from its upper left corner, filtered over `width` of them (1 or
-    /// less: bilinear). Beyond the border the border's pixels go on.
+    /// Trilinear: at the place (x, y) in pixels of the finest level, from its upper left corner, filtered over `width` of them (1
+    /// or less: bilinear). Beyond the border the border's pixels go on.
     void sample(float x, float y, float width, float light[3]) const;
     int width() const { return levels_.front().width; }
     int height() const { return levels_.front().height; }
@@ -34,8 +34,8 @@ struct KappaMap {
 /// The views of a grid, in its order, with a depth map for each of them, for some or for none.
 class LightField {
   public:
-    /// The maps have the pictures' order; none, or as many. Throws InputError, which names the number of the view, for pictures that
-    /// are not all of one size, for another number of them than cameras, and for impossible grids.
+    /// The maps have the pictures' order; none, or as many. Throws InputError, which names the number of the view, for pictures
+    /// that are not all of one size, for another number of them than cameras, and for impossible grids.
     LightField(ViewGrid, std::vector<Image> views, std::vector<KappaMap> = {});
 
     /// A line, by where it passes the focus's plane and the cameras', mm from the focus's middle.
@@ -69,8 +69,8 @@ class LightField {
     std::vector<ViewPyramid> views_;
     std::vector<KappaMap> maps_;
     bool by_depth_ = false;
-    std::size_t only_map_ = 0;          // the view whose map serves for those without
-    float nearest_ = 0, furthest_ = 0;  // kappa of the scene, all maps together
+    std::size_t only_map_ = 0;              // the view whose map serves for those without
+    float nearest_ = 0, furthest_ = 0;      // kappa of the scene, all maps together
     std::vector<double> column_x_, row_y_;  // means of the cameras' places; row_y_ falls
     float pixels_per_mm_[2];
     float disparity_tolerance_;  // difference of kappa that is one pixel between neighbouring cameras

@@ -22,9 +22,10 @@ std::vector<Image> tiles_of(const ViewsSource& source, const Image& quilt, std::
     const std::string name = source.pictures.front().string();
     const int width = quilt.width / columns, height = quilt.height / rows;
     if (quilt.width % columns != 0 || height < 1)
-        throw InputError(name, fmt::format("is {} x {} pixels, which are not {} x {} views of one size, as its name says; cut it to a "
-                                           "width of {} or correct the name",
-                                           quilt.width, quilt.height, columns, rows, std::max(1, width) * columns));
+        throw InputError(name,
+                         fmt::format("is {} x {} pixels, which are not {} x {} views of one size, as its name says; cut it to a "
+                                     "width of {} or correct the name",
+                                     quilt.width, quilt.height, columns, rows, std::max(1, width) * columns));
     // Some devices' own quilts have rows that do not fill the picture; views are counted from the bottom.
     if (const int rest = quilt.height % rows; rest > 0)
         notes.push_back(fmt::format("the uppermost {} rows of pixels belong to no view", rest));
@@ -43,8 +44,7 @@ std::vector<Image> tiles_of(const ViewsSource& source, const Image& quilt, std::
 KappaMap kappa_map(const ViewsSource& source, const Image& values, const ViewGrid& grid, double step_mm) {
     KappaMap map{values.width, values.height, {}};
     // How much faster pictures change with the cameras' places than where they were taken.
-    const double scale =
-        source.width_mm && source.step() > 0 ? grid.width_mm / *source.width_mm / (step_mm / source.step()) : 1;
+    const double scale = source.width_mm && source.step() > 0 ? grid.width_mm / *source.width_mm / (step_mm / source.step()) : 1;
     for (std::size_t i = 0; i < values.rgb.size(); i += 3) {
         const double value = double(values.rgb[i]);
         double kappa;

@@ -86,8 +86,7 @@ OrderDoubt order_doubt(const ViewGrid& grid, const std::vector<Image>& views, co
     std::optional<Neighbour> aside, below;
     if (grid.columns > 1) {
         const int i = column + 1 < grid.columns ? column + 1 : column - 1;
-        aside = {grey(views[index(i, row)]),
-                 (grid.camera(column, row)[0] - grid.camera(i, row)[0]) * middle.width / grid.width_mm};
+        aside = {grey(views[index(i, row)]), (grid.camera(column, row)[0] - grid.camera(i, row)[0]) * middle.width / grid.width_mm};
     }
     if (grid.rows > 1) {
         const int j = row + 1 < grid.rows ? row + 1 : row - 1;
@@ -103,8 +102,9 @@ OrderDoubt order_doubt(const ViewGrid& grid, const std::vector<Image>& views, co
             };
             const std::optional<double> across = moved(aside, true), down = moved(below, false);
             // A step of the cameras to the right and one down move a point alike.
-            if (across && down) axes.add(*across, *down * std::abs(aside->step_pixels / below->step_pixels) *
-                                                     (aside->step_pixels * below->step_pixels < 0 ? -1 : 1));
+            if (across && down)
+                axes.add(*across, *down * std::abs(aside->step_pixels / below->step_pixels) *
+                                      (aside->step_pixels * below->step_pixels < 0 ? -1 : 1));
             if (!mapped(base) || !(across || down)) continue;
             const KappaMap& map = maps[base];
             const int map_x = (2 * x + block_side) * map.width / (2 * middle.width),

@@ -98,8 +98,8 @@ std::vector<fs::path> numbered_row(const fs::path& folder, const std::string& pa
     std::int64_t next = files.begin()->first;
     for (const auto& [number, path] : files) {
         if (number != next)
-            throw InputError(folder.string(), fmt::format("number {} of the pictures {} is missing; {} says that there are {}", next,
-                                                          pattern, counted_in, count));
+            throw InputError(folder.string(), fmt::format("number {} of the pictures {} is missing; {} says that there are {}",
+                                                          next, pattern, counted_in, count));
         row.push_back(path);
         ++next;
     }
@@ -123,15 +123,16 @@ ViewsSource hci_views(const fs::path& folder) {
     source.distance_mm = 1000 * parameters.positive("focus_distance_m");
     // The sensor's size is that of its longer side; what a camera sees at the focus's distance is the focus.
     const double columns = parameters.positive("image_resolution_x_px"), rows = parameters.positive("image_resolution_y_px");
-    source.width_mm = parameters.positive("sensor_size_mm") / parameters.positive("focal_length_mm") * *source.distance_mm * columns /
-                      std::max(columns, rows);
+    source.width_mm = parameters.positive("sensor_size_mm") / parameters.positive("focal_length_mm") * *source.distance_mm *
+                      columns / std::max(columns, rows);
     source.cameras = camera_places(even_places(source.columns, baseline_mm), even_places(source.rows, -baseline_mm));
 
     const auto exists = [&](const std::string& name) {
         std::error_code none;
         return fs::exists(folder / name, none);
     };
-    for (const auto& [stem, value] : {std::pair("gt_depth_lowres", DepthValue::distance), {"gt_disp_lowres", DepthValue::disparity}}) {
+    for (const auto& [stem, value] :
+         {std::pair("gt_depth_lowres", DepthValue::distance), {"gt_disp_lowres", DepthValue::disparity}}) {
         std::vector<fs::path> maps(source.views());
         bool any = false;
         for (std::size_t k = 0; k < maps.size(); ++k) {
@@ -152,7 +153,8 @@ ViewsSource hci_views(const fs::path& folder) {
 }
 
 std::optional<ViewsSource> stanford_views(const fs::path& folder) {
-    static const std::regex form(R"(.*_(\d{1,4})_(\d{1,4})_(-?\d{1,9}(?:\.\d{1,12})?)_(-?\d{1,9}(?:\.\d{1,12})?)_?\.(?:png|jpg|jpeg))");
+    static const std::regex form(
+        R"(.*_(\d{1,4})_(\d{1,4})_(-?\d{1,9}(?:\.\d{1,12})?)_(-?\d{1,9}(?:\.\d{1,12})?)_?\.(?:png|jpg|jpeg))");
     struct View {
         fs::path path;
         double u, v;
@@ -184,10 +186,11 @@ std::optional<ViewsSource> stanford_views(const fs::path& folder) {
         for (int column = 0; column < source.columns; ++column) {
             const auto found = views.find({row, column});
             if (found == views.end())
-                throw InputError(folder.string(),
-                                 fmt::format("the picture of row {}, column {} is missing (..._{:02}_{:02}_V_U.png); names go up to "
-                                             "row {}, column {}",
-                                             row, column, row, column, source.rows - 1, source.columns - 1));
+                throw InputError(
+                    folder.string(),
+                    fmt::format("the picture of row {}, column {} is missing (..._{:02}_{:02}_V_U.png); names go up to "
+                                "row {}, column {}",
+                                row, column, row, column, source.rows - 1, source.columns - 1));
             source.pictures.push_back(found->second.path);
             source.cameras.push_back({found->second.u, found->second.v});
             u += found->second.u;

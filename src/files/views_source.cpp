@@ -58,7 +58,8 @@ double ViewsSource::step() const { return cameras.empty() ? 0 : mean_step(camera
 ViewsSource find_views(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
-    if (path.empty() || !fs::exists(status)) throw InputError(path.string(), fmt::format("there is no such folder or file; {}", forms));
+    if (path.empty() || !fs::exists(status))
+        throw InputError(path.string(), fmt::format("there is no such folder or file; {}", forms));
     if (fs::is_directory(status)) {
         if (fs::exists(path / "views.toml", error)) return detail::described_views(path / "views.toml");
         if (fs::exists(path / "parameters.cfg", error)) return detail::hci_views(path);
@@ -84,8 +85,8 @@ std::optional<QuiltName> quilt_name(const fs::path& path) {
     if (!std::regex_search(stem, found, tag)) return {};
     const QuiltName name{std::stoi(found[1]), std::stoi(found[2]), std::stod(found[3])};
     if (name.columns < 1 || name.rows < 1 || name.columns * name.rows > most_views_a_side)
-        throw InputError(path.string(), fmt::format("is named as a quilt of {} x {} views; allowed are 1 to {} in all", name.columns,
-                                                    name.rows, most_views_a_side));
+        throw InputError(path.string(), fmt::format("is named as a quilt of {} x {} views; allowed are 1 to {} in all",
+                                                    name.columns, name.rows, most_views_a_side));
     if (!(name.aspect >= 0.01 && name.aspect <= 100))
         throw InputError(path.string(), fmt::format("is named as a quilt of the aspect {}; allowed is 0.01 to 100", name.aspect));
     return name;

@@ -18,10 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view known_keys[] = {"schema",       "columns",       "rows",           "pictures",    "first",     "along",
-                                           "baseline_mm",  "camera_x_mm",   "camera_y_mm",    "view_cone_deg", "distance_mm",
-                                           "width_mm",     "height_mm",     "depth_mm",       "pseudoscopic", "depth_pictures",
-                                           "depth_unit_mm"};
+constexpr std::string_view known_keys[] = {"schema",         "columns",      "rows",        "pictures",    "first",
+                                           "along",          "baseline_mm",  "camera_x_mm", "camera_y_mm", "view_cone_deg",
+                                           "distance_mm",    "width_mm",     "height_mm",   "depth_mm",    "pseudoscopic",
+                                           "depth_pictures", "depth_unit_mm"};
 constexpr std::string_view picture_keys[] = {"columns", "rows", "pictures", "first", "along"};
 constexpr std::string_view corners[] = {"top_left", "top_right", "bottom_left", "bottom_right"};
 constexpr std::string_view ways[] = {"rows", "columns"};
@@ -29,13 +29,14 @@ constexpr std::string_view ways[] = {"rows", "columns"};
 /// The values of a views file, with all that is wrong with them.
 class ViewsReader {
   public:
-    explicit ViewsReader(const fs::path& path) : text_(read_text(path, "a description of views")), source_(checked(path), path.string(), {}) {
+    explicit ViewsReader(const fs::path& path)
+        : text_(read_text(path, "a description of views")), source_(checked(path), path.string(), {}) {
         for (const auto& [key, value] : source_.root())
             if (std::find(std::begin(known_keys), std::end(known_keys), key.str()) == std::end(known_keys)) {
                 const std::string_view near = nearest(key.str(), known_keys);
-                problems_.push_back({source_.place(key, key.str()).text,
-                                     fmt::format("unknown key \"{}\"{}", key.str().substr(0, 40),
-                                                 near.empty() ? "" : fmt::format("; did you mean {}?", near))});
+                problems_.push_back(
+                    {source_.place(key, key.str()).text, fmt::format("unknown key \"{}\"{}", key.str().substr(0, 40),
+                                                                     near.empty() ? "" : fmt::format("; did you mean {}?", near))});
             }
         std::int64_t schema = 0;
         if (!has("schema"))
@@ -66,7 +67,8 @@ class ViewsReader {
     std::size_t word(std::string_view key, std::span<const std::string_view> words) {
         std::size_t index = 0;
         if (has(key))
-            if (const std::string fault = read_word(*source_.root().get(key), words, index); !fault.empty()) refuse(key, "{}", fault);
+            if (const std::string fault = read_word(*source_.root().get(key), words, index); !fault.empty())
+                refuse(key, "{}", fault);
         return index;
     }
     std::optional<double> number(std::string_view key, const Range& range) {
@@ -115,15 +117,17 @@ std::size_t place_of(std::size_t number, int columns, int rows, std::size_t firs
 
 std::vector<fs::path> in_place(std::vector<fs::path> files, const ViewsSource& source, std::size_t first, std::size_t along) {
     std::vector<fs::path> placed(files.size());
-    for (std::size_t n = 0; n < files.size(); ++n) placed[place_of(n, source.columns, source.rows, first, along)] = std::move(files[n]);
+    for (std::size_t n = 0; n < files.size(); ++n)
+        placed[place_of(n, source.columns, source.rows, first, along)] = std::move(files[n]);
     return placed;
 }
 
 void read_cameras(ViewsReader& reader, ViewsSource& source) {
     const bool places = reader.has("camera_x_mm") || reader.has("camera_y_mm");
     if (int(reader.has("baseline_mm")) + int(places) + int(reader.has("view_cone_deg")) > 1)
-        reader.refuse("baseline_mm", "is one of three ways to say where the cameras are, with camera_x_mm and camera_y_mm, and with "
-                                     "view_cone_deg; give one of them");
+        reader.refuse("baseline_mm",
+                      "is one of three ways to say where the cameras are, with camera_x_mm and camera_y_mm, and with "
+                      "view_cone_deg; give one of them");
     std::array<double, 2> baseline{};
     if (reader.read("baseline_mm", baseline)) {
         for (const double step : baseline)
@@ -172,8 +176,9 @@ void describe_quilt(const fs::path& toml, ViewsSource& source) {
     const bool reversed = reader.flag("pseudoscopic");
     reader.report();
     if (std::abs(source.aspect.value_or(*aspect) / *aspect - 1) > 0.01)
-        throw InputError(toml.string(), fmt::format("says that views are {:.4g} times as wide as high, the quilt's name says {:.4g}",
-                                                    *source.aspect, *aspect));
+        throw InputError(
+            toml.string(),
+            fmt::format("says that views are {:.4g} times as wide as high, the quilt's name says {:.4g}", *source.aspect, *aspect));
     if (reversed) flip(source);
 }
 
@@ -194,9 +199,11 @@ ViewsSource described_views(const fs::path& toml) {
     const bool reversed = reader.flag("pseudoscopic");
     reader.report();
     if (source.views() > std::size_t(most_views))
-        throw InputError(source.name, fmt::format("has {} x {} views; allowed are {} in all", source.columns, source.rows, most_views));
+        throw InputError(source.name,
+                         fmt::format("has {} x {} views; allowed are {} in all", source.columns, source.rows, most_views));
     source.pictures = in_place(numbered_row(folder, pictures, source.views(), toml.string()), source, first, along);
-    if (!depths.empty()) source.depths = in_place(numbered_row(folder, depths, source.views(), toml.string()), source, first, along);
+    if (!depths.empty())
+        source.depths = in_place(numbered_row(folder, depths, source.views(), toml.string()), source, first, along);
     if (reversed) flip(source);
     return source;
 }

@@ -30,7 +30,8 @@ Format format_to_read(const fs::path& path) {
     if (e == ".npy") return Format::npy;
     if (e == ".pfm") return Format::pfm;
     if (e == ".jpg" || e == ".jpeg") return Format::jpeg;
-    throw InputError(path.string(), fmt::format("unknown image extension \"{}\"; .png, .exr, .npy, .pfm, .jpg and .jpeg can be read", e));
+    throw InputError(path.string(),
+                     fmt::format("unknown image extension \"{}\"; .png, .exr, .npy, .pfm, .jpg and .jpeg can be read", e));
 }
 
 Format format_to_write(const fs::path& path) {

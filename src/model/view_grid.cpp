@@ -25,7 +25,7 @@ std::vector<std::array<double, 2>> camera_places(const std::vector<double>& x_mm
 
 std::vector<double> even_places(int n, double step) {
     std::vector<double> places;
-    for (int i = 0; i < n; ++i) places.push_back((i - 0.5 * (n - 1)) * step);
+    for (int i = 0; i < n; ++i) places.push_back((i - 0.5 * (n - 1)) * step + 0.);  // never -0
     return places;
 }
 
@@ -48,8 +48,8 @@ std::vector<Problem> faults_of(const ViewGrid& grid) {
     };
     if (grid.columns < 1 || grid.rows < 1 || grid.columns > most_views_a_side || grid.rows > most_views_a_side ||
         grid.columns * grid.rows > most_views)
-        all.push_back({"columns, rows", fmt::format("{} x {} views; allowed are 1 to {} along each side and {} in all", grid.columns,
-                                                    grid.rows, most_views_a_side, most_views)});
+        all.push_back({"columns, rows", fmt::format("{} x {} views; allowed are 1 to {} along each side and {} in all",
+                                                    grid.columns, grid.rows, most_views_a_side, most_views)});
     else if (grid.views() != std::size_t(grid.columns) * std::size_t(grid.rows))
         all.push_back({"columns, rows", fmt::format("{} x {} views have {} cameras", grid.columns, grid.rows, grid.views())});
     length("distance_mm", grid.distance_mm, positive_length);
@@ -64,9 +64,10 @@ std::vector<Problem> faults_of(const ViewGrid& grid) {
         if (!any_length.contains(x) || !any_length.contains(y)) reach = infinity;
     }
     if (!(reach <= steepest_slope * grid.distance_mm))
-        all.push_back({"baseline_mm", fmt::format("puts cameras {:.6g} mm aside at a distance of {:.6g} mm; allowed is up to {} times "
-                                                  "the distance. Give both in millimetres",
-                                                  reach, grid.distance_mm, steepest_slope)});
+        all.push_back(
+            {"baseline_mm", fmt::format("puts cameras {:.6g} mm aside at a distance of {:.6g} mm; allowed is up to {} times "
+                                        "the distance. Give both in millimetres",
+                                        reach, grid.distance_mm, steepest_slope)});
     const auto apart = [&](int columns, int rows, auto step) {
         for (int j = 0; j < rows; ++j)
             for (int i = 0; i < columns; ++i)

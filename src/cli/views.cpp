@@ -1,0 +1,335 @@
+#include "cli/arguments.h"
+#include "cli/commands.h"
+#include "cli/display_options.h"
+#include "cli/effects.h"
+#include "cli/grid_options.h"
+#include "cli/input_files.h"
+#include "cli/panel_source.h"
+#include "cli/rendered.h"
+#include "cli/shown_panel.h"
+#include "cli/work_options.h"
+#include "engine/grid_view.h"
+#include "engine/memory.h"
+#include "image/file.h"
+#include "model/keys.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+
+// lfdsim views: the grid of views, or the quilt, that the content or the simulated display shows.
+namespace lfdsim::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t content_rays = 4;  // of a pixel, where nothing else is asked for
+constexpr std::int64_t default_columns = 480;
+
+struct ViewsArguments {
+    explicit ViewsArguments(Command of)
+        : command(of),
+          display(command, {sample_options, content_options}),
+          panel_image(command),
+          model(command),
+          pattern(command),
+          grid(command),
+          output(command, "a quilt, NAME_qs8x6a0.75 with .png .exr .npy; or a folder for a grid of views, created if missing"),
+          device(command),
+          work(command) {
+        command.add_option("--of", of_what, "Views of the content itself, or of what the simulated display shows")
+            .type_name("content|display")
+            .capture_default_str();
+        command.add_option("--grid", count, "Columns and rows of views in a folder; default 9x9, of strips 9x1").type_name("CxR");
+        command.add_option("--view-size", size, "Pixels of a view; default 480 wide").type_name("WxH");
+        command.add_option("--views-as", kind, "Files in the folder").type_name("png|exr|npy").capture_default_str();
+        command.add_flag("--depth", depth, "Write a depth map for each view of the content, too");
+    }
+    Command command;
+    DisplayOptions display;
+    PanelImageOption panel_image;
+    ModelOption model;
+    PatternOption pattern;
+    GridOptions grid;
+    OutputOptions output;
+    DeviceOption device;
+    WorkOptions work;
+    std::string of_what = "content", count, size, kind = "png";
+    bool depth = false;
+};
+
+/// Where the views go, and how many there are.
+struct Target {
+    bool quilt = false;
+    QuiltName name{};  // of a quilt
+    int columns = 9, rows = 9;
+    int width = 0, height = 0;  // of a view, pixels
+};
+
+/// One stage for all views.
+class OneOfMany : public Job {
+  public:
+    explicit OneOfMany(Job& whole) : whole_(whole) {}
+    bool cancelled() const override { return whole_.cancelled(); }
+
+  private:
+    Job& whole_;
+};
+
+Target target_of(const ViewsArguments& args, const Display& display) {
+    Target target;
+    const fs::path path = args.output.path();
+    const std::string kind = path.extension();
+    target.quilt = kind == ".png" || kind == ".exr" || kind == ".npy";
+    Faults faults;
+    faults.of([&] { word("--views-as", args.kind, {"png", "exr", "npy"}); });
+    if (target.quilt) {
+        faults.of([&] {
+            const std::optional<QuiltName> name = quilt_name(path);
+            if (!name)
+                throw InputError(path.string(), fmt::format("a quilt's name says what is in it: columns, rows and the aspect of a "
+                                                            "view, as in {}_qs8x6a0.75{}; or give a folder",
+                                                            path.stem().string(), kind));
+            target.name = *name;
+            target.columns = name->columns * name->rows;
+            target.rows = 1;
+        });
+        for (const auto& [option, given] : {std::pair("--grid", !args.count.empty()), {"--depth", args.depth}})
+            if (given) faults.of([o = option] { throw InputError(o, "is for views in a folder; a quilt's name says its own"); });
+        faults.of([&] { check_output(path); });
+        faults.of([&] { args.output.check_bits(path); });
+        faults.of([&] { detail::check_replaceable(fs::path(path).replace_extension(".toml")); });
+    } else {
+        if (is_strips(display.array)) target.rows = 1;
+        if (!args.count.empty())
+            faults.of([&] {
+                const auto [columns, rows] = size("--grid", args.count);
+                if (columns > most_views_a_side || rows > most_views_a_side || columns * rows > most_views)
+                    throw InputError("--grid", fmt::format("is {}; allowed are {} along each side and {} in all", args.count,
+                                                           most_views_a_side, most_views));
+                target.columns = int(columns);
+                target.rows = int(rows);
+            });
+        faults.of([&] { args.output.check_bits("view." + args.kind); });
+        faults.of([&] {
+            std::error_code error;
+            if (path.empty()) throw InputError("--output", "the name is empty; give a folder for the views, or a quilt's name");
+            if (fs::exists(path, error) && !fs::is_directory(path, error))
+                throw InputError(path.string(), "is not a folder; give one for the views");
+            if (fs::is_directory(path, error) && !fs::is_empty(path, error))
+                throw InputError(path.string(), "holds other files; give an empty folder for the views, or remove it");
+        });
+    }
+    faults.report();
+    return target;
+}
+
+/// The grid that is asked for: a view cone as wide as the lenses' field of view, seen from the viewing distance.
+ViewGrid grid_of(const ViewsWish& wish, Target& target, const ViewsArguments& args, const Display& display,
+                 const Geometry& geometry) {
+    double aspect = geometry.panel_width_mm / geometry.panel_height_mm;
+    if (target.quilt) aspect = target.name.aspect;
+    if (!args.size.empty()) {
+        const auto [width, height] = size("--view-size", args.size);
+        if (!target.quilt) aspect = double(width) / double(height);
+        if (double(width) * double(height) >= two_to_31 || std::max(width, height) > 1 << 20)
+            throw InputError("--view-size", fmt::format("is {}; allowed is up to {} along each side and a product below 2^31",
+                                                        args.size, 1 << 20));
+        target.width = int(width);
+        target.height = int(height);
+    } else {
+        target.width = int(default_columns);
+        target.height = std::max(1, int(std::lround(default_columns / aspect)));
+    }
+    const std::int64_t columns = std::int64_t(target.width) * (target.quilt ? target.name.columns : 1),
+                       rows = std::int64_t(target.height) * (target.quilt ? target.name.rows : 1);
+    if (double(columns) * double(rows) >= two_to_31)
+        throw InputError("--view-size",
+                         fmt::format("makes a quilt of {} x {} pixels; allowed is a product below 2^31", columns, rows));
+    require_picture_memory(columns, rows, args.of_what == "display" ? texel_bytes(display) : 0);
+
+    ViewsSource all;  // views that are to be made are placed as those that are read
+    all.name = "the grid";
+    all.columns = target.columns;
+    all.rows = target.rows;
+    if (target.columns > 1 || target.rows > 1) {
+        const Theory of_display = theory(display, geometry);
+        const double strips_deg = of_display.fov_horizontal_deg, lenses_deg = of_display.along[0].fov_deg;
+        const double fov = is_strips(display.array) ? strips_deg : lenses_deg;
+        if (std::isfinite(fov) && fov > 0 && fov < 170) all.cone_deg = fov;
+    }
+    std::vector<std::string> notes;
+    return placed(all, wish, views_place(display, geometry), aspect, notes);
+}
+
+/// Makes the views one after the other.
+class Maker {
+  public:
+    Maker(const ViewsArguments& args, const Display& display, const Geometry& geometry, const ViewGrid& grid, const Target& target)
+        : args_(args), display_(display), geometry_(geometry), grid_(grid), target_(target) {
+        if (of_display())
+            for (int row = 0; row < grid.rows; ++row)
+                for (int column = 0; column < grid.columns; ++column)
+                    grid_camera(display, geometry, grid, column, row, target.width, target.height);
+    }
+    bool of_display() const { return args_.of_what == "display"; }
+
+    /// Throws InputError, and Interrupted.
+    void prepare(const PatternOptions& pattern_options, Progress& progress) {
+        if (!of_display()) {
+            scene_.emplace(load_scene(display_, geometry_));
+            return;
+        }
+        light_ =
+            shown_panel(args_.panel_image, args_.pattern, display_, geometry_, pattern_options, args_.work.threads(), progress);
+        panel_.emplace(light_.texels, args_.work.threads());
+    }
+    Picture view(int column, int row, Job& job) {
+        if (scene_) return scene_view(*scene_, geometry_, grid_, column, row, making(), job);
+        RenderOptions options;
+        options.threads = args_.work.threads();
+        Rendering r = grid_view(grid_camera(display_, geometry_, grid_, column, row, target_.width, target_.height), *panel_,
+                                target_.width, target_.height, options, job);
+        return {std::move(r.image), r.complete, r.samples, 0, r.seconds};
+    }
+    Picture depth(int column, int row, Job& job) const {
+        return scene_view_depth(*scene_, geometry_, grid_, column, row, making(), job);
+    }
+    const Json& more() const { return light_.made; }
+
+  private:
+    ViewMaking making() const {
+        return {target_.width, target_.height, display_.render.samples.value_or(content_rays), args_.work.threads()};
+    }
+    const ViewsArguments& args_;
+    const Display& display_;
+    const Geometry& geometry_;
+    const ViewGrid& grid_;
+    const Target& target_;
+    std::optional<ContentScene> scene_;
+    PanelLight light_;
+    std::optional<Pyramid> panel_;
+};
+
+void write_text(const fs::path& path, std::string_view text) {
+    guard_output(path);
+    detail::OutputFile file(path);
+    file.write(text.data(), text.size());
+    file.commit();
+}
+
+Picture& add(Picture& all, const Picture& one) {
+    all.rays += one.rays;
+    all.seconds += one.seconds;
+    return all;
+}
+
+/// The quilt and, beside it, NAME.toml: its geometry.
+Picture make_quilt(Maker& maker, const ViewsArguments& args, const Display& display, const ViewGrid& grid, const Target& target,
+                   Progress& progress) {
+    Picture all{Image(target.width * target.name.columns, target.height * target.name.rows)};
+    progress.stage("views", grid.columns);
+    OneOfMany one(progress);
+    for (int n = 0; n < grid.columns; ++n) {
+        const Picture view = maker.view(n, 0, one);
+        if (!view.complete) end_interrupted("");
+        const int left = n % target.name.columns * target.width,
+                  top = (target.name.rows - 1 - n / target.name.columns) * target.height;
+        for (int y = 0; y < target.height; ++y)
+            std::copy_n(view.image.at(0, y), std::size_t(target.width) * 3, all.image.at(left, top + y));
+        add(all, view);
+        progress.advance(1);
+    }
+    const fs::path path = args.output.path();
+    args.output.write(all.image, Encoding::srgb, display, {{"seconds", fmt::format("{:.3f}", all.seconds)}}, true, progress);
+    write_text(fs::path(path).replace_extension(".toml"), views_toml(grid, "", ""));
+    return all;
+}
+
+/// view_0000.png ... and views.toml, which is written last: a folder with it is complete.
+Picture make_folder(Maker& maker, const ViewsArguments& args, const Display& display, const ViewGrid& grid, const Target& target,
+                    Progress& progress) {
+    const fs::path folder = args.output.path();
+    Picture all{Image(1, 1)};
+    all.image.width = target.width;
+    all.image.height = target.height;
+    progress.stage("views", std::int64_t(grid.views()));
+    OneOfMany one(progress);
+    for (int row = 0, n = 0; row < grid.rows; ++row)
+        for (int column = 0; column < grid.columns; ++column, ++n) {
+            const Picture view = maker.view(column, row, one);
+            if (!view.complete) end_interrupted("");
+            std::error_code error;
+            if (n == 0 && (fs::create_directories(folder, error), error))
+                throw InputError(folder.string(), fmt::format("cannot be made: {}", error.message()));
+            args.output.save(folder / fmt::format("view_{:04}.{}", n, args.kind), view.image, Encoding::srgb, display, {});
+            if (args.depth)
+                args.output.save(folder / fmt::format("depth_{:04}.exr", n), maker.depth(column, row, one).image, Encoding::linear,
+                                 display, {});
+            add(all, view);
+            progress.advance(1);
+        }
+    progress.end();
+    write_text(folder / "views.toml", views_toml(grid, "view_*." + args.kind, args.depth ? "depth_*.exr" : ""));
+    return all;
+}
+
+void run(const ViewsArguments& args) {
+    Faults faults;
+    Display display;
+    PatternOptions pattern_options;
+    ViewsWish wish;
+    Target target;
+    faults.of([&] { display = args.display.read(); });
+    faults.of([&] { args.panel_image.check(); });
+    faults.of([&] { pattern_options = args.pattern.read(); });
+    faults.of([&] { wish = args.grid.read(); });
+    faults.of([&] { word("--of", args.of_what, {"content", "display"}); });
+    faults.of([&] { args.model.apply(display); });
+    faults.of([&] { args.device.apply(); });
+    faults.of([&] { args.work.check(); });
+    faults.of([&] { check_effects(args.command); });
+    faults.of([&] {
+        if (args.of_what == "content" && (args.panel_image.given() || args.pattern.given()))
+            throw InputError(args.pattern.given() ? "--pattern" : "--panel-image", "is what the display shows; add --of display");
+        for (const char* option : {"--estimator", "--seed", "--sampling", "--device", "--pickup"})
+            if (args.of_what == "content" && args.command.given(option))
+                throw InputError(option, "is for what the display shows; add --of display");
+        if (args.of_what == "display" && args.depth)
+            throw InputError("--depth", "is of the content alone; what a display shows has no depth");
+    });
+    faults.of([&] { target = target_of(args, display); });
+    faults.report();
+
+    const Geometry geometry = resolve(display);
+    const ViewGrid grid = grid_of(wish, target, args, display, geometry);
+    if (args.of_what == "display" && !args.panel_image.given()) require_panel_memory(display);
+    Maker maker(args, display, geometry, grid, target);
+    Progress progress(args.work.progress());
+    maker.prepare(pattern_options, progress);
+    const Picture made = target.quilt ? make_quilt(maker, args, display, grid, target, progress)
+                                      : make_folder(maker, args, display, grid, target, progress);
+    Json more{{"of", args.of_what}, {"views", grid_json(grid)}};
+    more.update(maker.more());
+    print_made(Made{args.output.path(), made.image.width, made.image.height, maker.of_display() ? "samples" : "rays", made.rays,
+                    made.seconds},
+               args.work.json(), "; " + grid_text(grid), more);
+}
+
+}  // namespace
+
+void add_views(Command program) {
+    Command command = program.add_subcommand(
+        "views", "Writes a grid of views or a quilt: of the content, or of what the simulated display shows");
+    const auto args = std::make_shared<ViewsArguments>(command);
+    command.footer(
+        "Examples:\n  lfdsim views display.toml --model monkey.blend --grid 9x9 -o monkey\n"
+        "  lfdsim views display.toml --view-cone-deg 40 --view-size 420x560 -o monkey_qs8x6a0.75.png\n"
+        "  lfdsim views display.toml --of display --panel-image eia.png --grid 5x1 -o shown\n"
+        "Views of the content have --samples rays a pixel, 4 if neither that nor render.samples is given.");
+    command.callback([args] { run(*args); });
+}
+
+}  // namespace lfdsim::cli
