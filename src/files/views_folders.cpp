@@ -118,7 +118,6 @@ ViewsSource hci_views(const fs::path& folder) {
     source.read = {file};
     source.columns = parameters.count("num_cams_x");
     source.rows = parameters.count("num_cams_y");
-    source.pictures = numbered_row(folder, "input_Cam*.png", source.views(), file.string());
     const double baseline_mm = parameters.positive("baseline_mm");
     source.distance_mm = 1000 * parameters.positive("focus_distance_m");
     // The sensor's size is that of its longer side; what a camera sees at the focus's distance is the focus.
@@ -126,6 +125,7 @@ ViewsSource hci_views(const fs::path& folder) {
     source.width_mm = parameters.positive("sensor_size_mm") / parameters.positive("focal_length_mm") * *source.distance_mm *
                       columns / std::max(columns, rows);
     source.cameras = camera_places(even_places(source.columns, baseline_mm), even_places(source.rows, -baseline_mm));
+    source.pictures = numbered_row(folder, "input_Cam*.png", source.views(), file.string());
 
     const auto exists = [&](const std::string& name) {
         std::error_code none;

@@ -3,7 +3,9 @@
 #include "image/encoding.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <jpeglib.h>
 
@@ -17,6 +19,44 @@ TEST(Npy, FloatComesBackBitForBit) {
     write_image(folder / "a.npy", image);
     EXPECT_EQ(read_image(folder / "a.npy", Encoding::srgb).rgb, image.rgb);
     EXPECT_EQ(std::filesystem::file_size(folder / "a.npy"), 128u + 31 * 17 * 12);
+}
+
+/// Four bytes of a number, the least significant first, or last.
+std::string bytes_of(float value, bool little) {
+    std::string bytes(reinterpret_cast<const char*>(&value), 4);
+    if (!little) std::reverse(bytes.begin(), bytes.end());
+    return bytes;
+}
+
+// Rows from below, in either order of bytes, grey or in colour.
+TEST(Pfm, RowsBeginAtTheBottom) {
+    const test::TemporaryFolder folder;
+    for (const bool little : {true, false}) {
+        std::string grey = std::string("Pf\n2 3\n") + (little ? "-1.0\n" : "1.0\n"),
+                    colour = std::string("PF 1 2 ") + (little ? "-1 " : "1 ");
+        for (int i = 0; i < 6; ++i) grey += bytes_of(float(i) - 2.5f, little), colour += bytes_of(float(i), little);
+        test::save(folder / "g.pfm", grey);
+        test::save(folder / "c.pfm", colour);
+        const Image a = read_image(folder / "g.pfm", Encoding::srgb), b = read_image(folder / "c.pfm", Encoding::srgb);
+        ASSERT_EQ(a.width, 2);
+        ASSERT_EQ(a.height, 3);
+        EXPECT_EQ(a.at(0, 2)[0], -2.5f);
+        EXPECT_EQ(a.at(1, 2)[2], -1.5f);
+        EXPECT_EQ(a.at(1, 0)[1], 2.5f);
+        EXPECT_EQ(b.rgb, (std::vector<float>{3, 4, 5, 0, 1, 2}));
+    }
+}
+
+TEST(Pfm, RefusesWhatIsDamaged) {
+    const test::TemporaryFolder folder;
+    const std::string data = bytes_of(1, true);
+    for (const std::string& text :
+         {std::string("P6\n1 1\n-1\n") + data, std::string("Pf\n1 1\n-1\n"), "Pf\n1 1\n-1\n" + data + "x", "Pf\n1 2\n-1\n" + data,
+          "Pf\n0 1\n-1\n" + data, "Pf\n-1 1\n-1\n" + data, "Pf\n99999999999999999999 1\n-1\n" + data, "Pf\n1 1\n0\n" + data,
+          "Pf\n1 1\nnan\n" + data, std::string("Pf"), "Pf\n1 1\n-1\n" + bytes_of(std::numeric_limits<float>::infinity(), true)}) {
+        test::save(folder / "bad.pfm", text);
+        EXPECT_THROW(read_image(folder / "bad.pfm", Encoding::srgb), InputError) << text;
+    }
 }
 
 /// An NPY file as numpy.save writes it.
