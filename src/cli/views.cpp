@@ -252,7 +252,8 @@ Picture make_quilt(Maker& maker, const ViewsArguments& args, const Display& disp
 Picture make_folder(Maker& maker, const ViewsArguments& args, const Display& display, const ViewGrid& grid, const Target& target,
                     Progress& progress) {
     const fs::path folder = args.output.path();
-    Picture all{Image(1, 1)};
+    const char* const depth_kind = args.kind == "npy" ? "npy" : "exr";
+    Picture all;
     all.image.width = target.width;
     all.image.height = target.height;
     progress.stage("views", std::int64_t(grid.views()));
@@ -266,13 +267,13 @@ Picture make_folder(Maker& maker, const ViewsArguments& args, const Display& dis
                 throw InputError(folder.string(), fmt::format("cannot be made: {}", error.message()));
             args.output.save(folder / fmt::format("view_{:04}.{}", n, args.kind), view.image, Encoding::srgb, display, {});
             if (args.depth)
-                args.output.save(folder / fmt::format("depth_{:04}.exr", n), maker.depth(column, row, one).image, Encoding::linear,
+                args.output.save(folder / fmt::format("depth_{:04}.{}", n, depth_kind), maker.depth(column, row, one).image, Encoding::linear,
                                  display, {});
             add(all, view);
             progress.advance(1);
         }
     progress.end();
-    write_text(folder / "views.toml", views_toml(grid, "view_*." + args.kind, args.depth ? "depth_*.exr" : ""));
+    write_text(folder / "views.toml", views_toml(grid, "view_*." + args.kind, args.depth ? fmt::format("depth_*.{}", depth_kind) : ""));
     return all;
 }
 
