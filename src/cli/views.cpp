@@ -267,13 +267,14 @@ Picture make_folder(Maker& maker, const ViewsArguments& args, const Display& dis
                 throw InputError(folder.string(), fmt::format("cannot be made: {}", error.message()));
             args.output.save(folder / fmt::format("view_{:04}.{}", n, args.kind), view.image, Encoding::srgb, display, {});
             if (args.depth)
-                args.output.save(folder / fmt::format("depth_{:04}.{}", n, depth_kind), maker.depth(column, row, one).image, Encoding::linear,
-                                 display, {});
+                args.output.save(folder / fmt::format("depth_{:04}.{}", n, depth_kind), maker.depth(column, row, one).image,
+                                 Encoding::linear, display, {});
             add(all, view);
             progress.advance(1);
         }
     progress.end();
-    write_text(folder / "views.toml", views_toml(grid, "view_*." + args.kind, args.depth ? fmt::format("depth_*.{}", depth_kind) : ""));
+    write_text(folder / "views.toml",
+               views_toml(grid, "view_*." + args.kind, args.depth ? fmt::format("depth_*.{}", depth_kind) : ""));
     return all;
 }
 

@@ -30,10 +30,12 @@ std::vector<Image> tiles_of(const ViewsSource& source, const Image& quilt, std::
     if (const int rest = quilt.height % rows; rest > 0)
         notes.push_back(fmt::format("the uppermost {} rows of pixels belong to no view", rest));
     // Quilts of large devices have pixels up to 1.8 times as wide as high, so this is no error.
-    if (const double squares = double(width) / height; source.aspect && std::abs(std::log(*source.aspect / squares)) > std::log(1.2))
-        notes.push_back(fmt::format("views of {} x {} pixels, which are stretched to {:.4g} times as wide as high; if that is "
-                                    "wrong, so is the quilt's name",
-                                    width, height, *source.aspect));
+    if (const double squares = double(width) / height;
+        source.aspect && std::abs(std::log(*source.aspect / squares)) > std::log(1.2))
+        notes.push_back(
+            fmt::format("views of {} x {} pixels, which are stretched to {:.4g} times as wide as high; if that is "
+                        "wrong, so is the quilt's name",
+                        width, height, *source.aspect));
     require_views_memory(source, source.views(), width, height);
     std::vector<Image> views;
     for (int n = 0; n < columns * rows; ++n) {
