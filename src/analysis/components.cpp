@@ -12,9 +12,10 @@
 namespace lfdsim {
 namespace {
 
-Image picture(const Display& d, const Pyramid& panel, int threads, std::optional<Rect> crop, const Job& job) {
+Image picture(const Display& d, const Pyramid& panel, RenderOptions how, std::optional<Rect> crop, const Job& job) {
     Quiet quiet(job);
-    Rendering r = render(d, resolve(d), panel, {threads, "", crop}, quiet);
+    how.crop = crop;
+    Rendering r = render(d, resolve(d), panel, how, quiet);
     if (!r.complete) throw Stopped{};
     return std::move(r.image);
 }
@@ -75,16 +76,16 @@ Result measure_components(Subject& s, Job& job) {
     Display lenses = d;
     lenses.diffuser.reset();
     add("lenses", fmt::format("A checkerboard of {} panel pixels through the lens array alone", fine),
-        picture(lenses, board(fine).pyramid(), s.threads(), {}, job));
+        picture(lenses, board(fine).pyramid(), s.rendering(), {}, job));
     if (d.diffuser)
         add("diffuser", fmt::format("A checkerboard of {} panel pixels through the diffuser alone, without lenses", coarse),
-            picture(diffuser_alone(d, s.geometry()), board(coarse).pyramid(), s.threads(), {}, job));
+            picture(diffuser_alone(d, s.geometry()), board(coarse).pyramid(), s.rendering(), {}, job));
     else
         result.remarks.push_back("The display has no diffuser.");
-    add("view", "What the whole display shows of the scene", picture(d, s.panel(job), s.threads(), {}, job));
+    add("view", "What the whole display shows of the scene", picture(d, s.panel(job), s.rendering(), {}, job));
     const int columns = int(d.camera.resolution[0]), rows = int(d.camera.resolution[1]);
     const Rect near = middle(columns, rows, columns / 6, rows / 6);
-    Image close = picture(d, s.panel(job), s.threads(), near, job);
+    Image close = picture(d, s.panel(job), s.rendering(), near, job);
     add("view-close", "The middle sixth of it", enlarged(close, std::max(1, 960 / close.width)));
     {
         Quiet quiet(job);

@@ -31,7 +31,7 @@ struct Pair {
 Pair look(Subject& s, const Display& sized, double horizontal, double vertical, const Job& job) {
     const Display seen = seen_from(sized, horizontal, vertical);
     Quiet quiet(job);
-    Rendering r = render(seen, s.geometry(), s.panel(job), {s.threads(), "", {}}, quiet);
+    Rendering r = render(seen, s.geometry(), s.panel(job), s.rendering(), quiet);
     Picture photograph = reference_photograph(seen, s.geometry(), s.scene(), s.threads(), {}, quiet);
     if (!r.complete || !photograph.complete) throw Stopped{};
     expose(r.image, s.white_field(job));

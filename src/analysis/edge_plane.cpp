@@ -85,8 +85,8 @@ double EdgePlane::pixel_mm(double most_per_mm) const {
 bool EdgePlane::look(EdgeSpread& spread, Eye from, double pixel, MtfCurves& curves) const {
     const EdgeView view = edge_view(s_.display(), s_.geometry(), bars_, from, pixel);
     if (view.edges.lines.empty()) return false;
-    const Image picture = picture_of(view, bars_.upright, panel_->pyramid(), s_.threads(), job_),
-                white = picture_of(view, bars_.upright, white_, s_.threads(), job_);
+    const Image picture = picture_of(view, bars_.upright, panel_->pyramid(), s_.rendering(), job_),
+                white = picture_of(view, bars_.upright, white_, s_.rendering(), job_);
     spread.add(view.edges, picture, white);
     curves.lenses += view.lenses;
     return true;

@@ -33,8 +33,8 @@ Box screen_middle(const Display& d, const Geometry& g) {
         if (half > 2 * pitch) half -= pitch;
     };
     Box box{};
-    along(d.array.offset_mm[0], share * w, 0.5 * g.panel_width_mm, d.array.pitch_mm[0], box.a, box.half_a);
-    along(d.array.offset_mm[1], share * h, 0.5 * g.panel_height_mm, d.array.pitch_mm[1], box.b, box.half_b);
+    along(g.lattice.offset[0], share * w, 0.5 * g.panel_width_mm, d.array.pitch_mm[0], box.a, box.half_a);
+    along(g.lattice.offset[1], share * h, 0.5 * g.panel_height_mm, d.array.pitch_mm[1], box.b, box.half_b);
     return box;
 }
 
@@ -164,9 +164,10 @@ EdgeView edge_view(const Display& display, const Geometry& geometry, const Bars&
     return view;
 }
 
-Image picture_of(const EdgeView& view, bool upright, const Pyramid& panel, int threads, const Job& job) {
+Image picture_of(const EdgeView& view, bool upright, const Pyramid& panel, RenderOptions how, const Job& job) {
     Quiet quiet(job);
-    Rendering r = render(view.seen, resolve(view.seen), panel, {threads, "", view.crop}, quiet);
+    how.crop = view.crop;
+    Rendering r = render(view.seen, resolve(view.seen), panel, how, quiet);
     if (!r.complete) throw Stopped{};
     return upright ? std::move(r.image) : transposed(r.image);
 }

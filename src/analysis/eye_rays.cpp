@@ -14,8 +14,9 @@ namespace lfdsim {
 namespace {
 
 optics::PanelPoint<double> trace(const optics::Scene<double>& scene, const optics::Extent<double>& extent,
-                                 const optics::Ray<double>& ray) {
-    const optics::PanelBase<double> base{};  // the point is then relative to where the base lens's axis meets the panel
+                                 const optics::Ray<double>& ray, double raised) {
+    const optics::PanelBase<double> base{0, 0, 0, 0,
+                                         raised};  // the point is then relative to where the base lens's axis meets the panel
     return optics::with_way(scene,
                             [&]<optics::Way through>() { return optics::trace_array<through>(scene, extent, base, ray, true); });
 }
@@ -60,7 +61,7 @@ EyeRays::EyeRays(const Display& d, const Geometry& g)
     : scene_(make_scene<double>(d, g)),
       vertex_plane_(g.vertex_plane_mm),
       start_z_(make_view(d, g).start_z),
-      stop_first_(scene_.has_stop && g.stop_z_mm >= g.top_z_mm - 1e-9),
+      stop_first_(scene_.has_stop && !scene_.placement.given && g.stop_z_mm >= g.top_z_mm - 1e-9),
       base_(optics::base_cell(g.lattice, {std::floor(g.lattice.count[0] / 2), std::floor(g.lattice.count[1] / 2)})) {}
 
 Vec3d EyeRays::point(double x, double y) const {
@@ -118,7 +119,13 @@ Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) 
     const double up = (start_z_ - at[2]) / to[2];
     const Lattice<double>& lattice = scene_.lattice;
     const auto [x0, y0] = optics::to_array(lattice, at[0] + up * to[0] - lattice.offset[0], at[1] + up * to[1] - lattice.offset[1]);
-    const Place base_axis = optics::axis_in_array(lattice, base_);
+    Place base_axis = optics::axis_in_array(lattice, base_);
+    double raised = 0;  // of the base lens, where the array is not parallel to the panel
+    if (scene_.placement.wedged) {
+        const auto vertex = optics::wedged<double>(scene_.placement, false, {base_axis.x, base_axis.y, 0});
+        base_axis = {vertex.x, vertex.y};
+        raised = vertex.z;
+    }
     optics::Ray<double> ray{{x0 - base_axis.x, y0 - base_axis.y, 0}, {to[0], to[1], to[2]}};
     if (scene_.has_diffuser) ray.to = optics::scatter(scene_, ray.to, a, b);
     if (!(ray.to.z < 0)) return {};
@@ -133,7 +140,7 @@ Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) 
         const auto [x, y] = come_down_to(scene_.stop_z);
         if (!optics::passes_stop(scene_, extent, x, y)) return {};
     }
-    const optics::PanelPoint<double> end = trace(scene_, extent, ray);
+    const optics::PanelPoint<double> end = trace(scene_, extent, ray, raised);
     if (!end.alive || !(end.weight > 0)) return {};
 
     const Vec3d base = point(base_axis.x, base_axis.y);
@@ -142,7 +149,7 @@ Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) 
         std::abs(x) * scene_.pixels_per_mm > 0.5 * scene_.columns || std::abs(y) * scene_.pixels_per_mm > 0.5 * scene_.rows;
     optics::Cell<double> cell = end.cell;
     bool by_lens = true;
-    if (optics::way_through(scene_) == optics::Way::glass) {  // rays may change cells: their lens is the first that they meet
+    if (!scene_.thin && scene_.surround != Surround::opaque) {  // rays may change cells: their lens is the first that they meet
         const auto [leaves_x, leaves_y] = come_down_to(vertex_plane_);
         cell = optics::cell_at(lattice, leaves_x, leaves_y);
         const auto [to_x, to_y] = optics::to_array(lattice, ray.to.x, ray.to.y);

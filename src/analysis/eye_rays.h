@@ -1,8 +1,8 @@
 // Lines of sight from an eye through points of the screen to the panel, one by one and in double precision. Floor 3.
 #pragma once
 #include "analysis/subject.h"
+#include "engine/scene.h"
 #include "optics/lattice.h"
-#include "optics/scene.h"
 
 #include <array>
 #include <cstdint>
@@ -58,7 +58,7 @@ class EyeRays {
   private:
     using Place = optics::Place<double>;
 
-    optics::Scene<double> scene_;
+    DisplayScene<double> scene_;
     double vertex_plane_, start_z_;
     bool stop_first_;            // lines of sight meet the stop before all surfaces
     optics::Cell<double> base_;  // lenses are counted from this one in the middle

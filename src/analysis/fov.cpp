@@ -47,7 +47,7 @@ AngleCurves measure(const Subject& subject, const ShownEdge& shown, int axis, co
         return expected_view(seen_at(angle), subject.geometry(), shown.scene, subject.threads(), job);
     };
     const auto likeness_at = [&](double angle, const ExpectedView& expected) {
-        return likeness(expected, seen_at(angle), subject.geometry(), shown.panel, shown.white, subject.threads(), job);
+        return likeness(expected, seen_at(angle), subject.geometry(), shown.panel, shown.white, subject.rendering(), job);
     };
     AngleCurves curves{{angles, {}}, {angles, {}}, {angles, {}}};
     const auto compare = [&](std::size_t k, const ExpectedView& expected) {
@@ -60,14 +60,14 @@ AngleCurves measure(const Subject& subject, const ShownEdge& shown, int axis, co
     };
     // The CPU photographs the scene from the next angle while a GPU renders and compares.
     make_ahead(
-        angles.size(), renders_on_gpu({}), [&](std::size_t k) { return expected_at(angles[k]); }, compare);
+        angles.size(), renders_on_gpu(subject.rendering()), [&](std::size_t k) { return expected_at(angles[k]); }, compare);
     // The noise where it matters: at the edges that theory predicts, and between; root mean square.
     const double edge = std::min(theory_edge_deg(subject, axis), angles.back());
     const double places[] = {-edge, -0.5 * edge, 0.5 * edge, edge};
     for (const double angle : places) {
         const ExpectedView expected = expected_at(angle);
         const Likeness e = likeness_error(likeness_at(angle, expected), expected, seen_at(angle), subject.geometry(), shown.panel,
-                                          shown.white, subject.threads(), job);
+                                          shown.white, subject.rendering(), job);
         curves.screen.error += e.screen * e.screen / std::size(places);
         curves.content.error += e.content * e.content / std::size(places);
         curves.share.error += e.share * e.share / std::size(places);

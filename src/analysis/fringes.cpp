@@ -24,7 +24,7 @@ Image mean_picture(Display d, const Subject& s, const Pyramid& panel, const Job&
     d.render.estimator = Estimator::filtered;
     d.render.samples = fringe_samples;
     Quiet quiet(job);
-    Rendering r = render(d, resolve(d), panel, {s.threads(), "", {}}, quiet);
+    Rendering r = render(d, resolve(d), panel, s.rendering(), quiet);
     if (!r.complete) throw Stopped{};
     return std::move(r.image);
 }

@@ -110,7 +110,7 @@ ChannelBlur::ChannelBlur(const Subject& s, std::size_t channel, double z_mm, dou
         const double eye = s.viewing_distance_mm() * std::cos(angle_deg * degree) - g.rear_principal_mm,
                      aside = s.viewing_distance_mm() * std::sin(angle_deg * degree);
         path.lateral_mm = {green.array_width_mm * lateral / eye, green.array_height_mm * lateral / eye};
-        path.middle_mm = {(aside - d.array.offset_mm[0]) * lateral / eye, -d.array.offset_mm[1] * lateral / eye};
+        path.middle_mm = {(aside - g.lattice.offset[0]) * lateral / eye, -g.lattice.offset[1] * lateral / eye};
         paths_.push_back(std::move(path));
     }
 }

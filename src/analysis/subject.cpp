@@ -14,6 +14,13 @@ Subject::Subject(Display display, std::optional<ContentScene> scene, AnalysisOpt
       scene_(std::move(scene)),
       options_(std::move(options)) {}
 
+RenderOptions Subject::rendering() const {
+    RenderOptions how;
+    how.threads = threads();
+    how.device = options_.device;
+    return how;
+}
+
 double Subject::viewing_distance_mm() const { return options_.viewing_distance_mm.value_or(eye_distance_mm(display_)); }
 
 const ContentScene& Subject::scene() const {
@@ -47,7 +54,9 @@ double Subject::white_field(const Job& job) {
     const Region screen = screen_region(seen, geometry_);
     const Rect box = screen.bounds();
     Quiet quiet(job);
-    const Rendering r = render(seen, geometry_, panel.pyramid(), {threads(), "", box}, quiet);
+    RenderOptions how = rendering();
+    how.crop = box;
+    const Rendering r = render(seen, geometry_, panel.pyramid(), how, quiet);
     if (!r.complete) throw Stopped{};
     double sum = 0;
     const Region part = screen.shifted(-box.x0, -box.y0);

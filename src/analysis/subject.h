@@ -2,6 +2,7 @@
 #pragma once
 #include "content/content.h"
 #include "engine/pyramid.h"
+#include "engine/render.h"
 #include "model/display.h"
 #include "model/geometry.h"
 #include "model/job.h"
@@ -20,7 +21,8 @@ struct AnalysisOptions {
         {};                       // of eyes from the panel; default: the camera's distance from the panel's centre
     double eye_distance_mm = 65;  // between a viewer's two eyes
     double wavelength_nm = 550;
-    int threads = 0;  // 0: all
+    int threads = 0;          // 0: all
+    std::string device = {};  // of renderings, as RenderOptions has it
 };
 
 /// Thrown where the caller cancels the work; nothing of the current measure is kept.
@@ -59,6 +61,8 @@ class Subject {
     /// Theory along one axis of the array.
     const AxisTheory& theory(int axis) const { return theory_.along[std::size_t(axis)]; }
     int threads() const { return options_.threads; }
+    /// How its views are rendered; a crop may be added.
+    RenderOptions rendering() const;
     double viewing_distance_mm() const;
     bool has_scene() const { return scene_.has_value(); }
     /// Throws InputError where there is none.

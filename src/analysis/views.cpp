@@ -106,10 +106,10 @@ ExpectedView expected_view(const Display& seen, const Geometry& geometry, const 
 }
 
 Likeness likeness(const ExpectedView& view, const Display& seen, const Geometry& geometry, const Pyramid& panel, double white,
-                  int threads, const Job& job) {
+                  RenderOptions how, const Job& job) {
     Quiet quiet(job);
-    const ComparedView compared =
-        compare_view(seen, geometry, panel, view.expected, exposure(white), {threads, "", view.box}, quiet);
+    how.crop = view.box;
+    const ComparedView compared = compare_view(seen, geometry, panel, view.expected, exposure(white), how, quiet);
     if (!compared.complete) throw Stopped{};
     return compared.likeness;
 }
@@ -117,14 +117,14 @@ Likeness likeness(const ExpectedView& view, const Display& seen, const Geometry&
 // Points: another rendering with as many samples has as large an error as the first, independent of it. Filtered: one with four
 // times the strata has a much smaller error.
 Likeness likeness_error(const Likeness& first, const ExpectedView& view, const Display& seen, const Geometry& geometry,
-                        const Pyramid& panel, double white, int threads, const Job& job) {
+                        const Pyramid& panel, double white, const RenderOptions& how, const Job& job) {
     Display again = seen;
     const bool filtered = estimator_of(seen) == Estimator::filtered;
     if (filtered)
         again.render.samples = std::min<std::int64_t>(4 * samples_of(seen), 3844);
     else
         again.render.seed = seen.render.seed ^ 1;
-    const Likeness other = likeness(view, again, geometry, panel, white, threads, job);
+    const Likeness other = likeness(view, again, geometry, panel, white, how, job);
     const double share = filtered ? 1 : std::sqrt(0.5);
     return {share * std::abs(other.screen - first.screen), share * std::abs(other.content - first.content),
             share * std::abs(other.share - first.share)};

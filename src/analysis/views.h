@@ -35,12 +35,12 @@ struct ExpectedView {
 ExpectedView expected_view(const Display& seen, const Geometry&, const ContentScene&, int threads, const Job&);
 
 /// Renders the view and compares it. Throws Stopped.
-Likeness likeness(const ExpectedView&, const Display& seen, const Geometry&, const Pyramid& panel, double white, int threads,
+Likeness likeness(const ExpectedView&, const Display& seen, const Geometry&, const Pyramid& panel, double white, RenderOptions,
                   const Job&);
 
 /// The error of `first`, a likeness, by the rendering's noise: renders again with other random numbers or more of them. Standard
 /// deviation of each figure. Throws Stopped.
 Likeness likeness_error(const Likeness& first, const ExpectedView&, const Display& seen, const Geometry&, const Pyramid& panel,
-                        double white, int threads, const Job&);
+                        double white, const RenderOptions&, const Job&);
 
 }  // namespace lfdsim

@@ -4,7 +4,6 @@
 #include "cli/commands.h"
 #include "cli/display_options.h"
 #include "cli/findings_text.h"
-#include "cli/folder_lock.h"
 #include "cli/input_files.h"
 #include "cli/interrupt.h"
 #include "cli/output.h"
@@ -15,7 +14,9 @@
 #include "files/display_file.h"
 #include "image/file.h"
 #include "report/folder.h"
+#include "report/folder_lock.h"
 #include "report/report.h"
+#include "report/run_settings.h"
 #include "report/side_by_side.h"
 
 #include <fmt/format.h>
@@ -108,27 +109,12 @@ std::vector<const Measure*> chosen(const std::string& names) {
     return result;
 }
 
-/// What tells evenly spaced values from others.
-Json ends(const std::vector<double>& values) {
-    if (values.empty()) return Json();
-    return {{"from", values.front()}, {"to", values.back()}, {"count", values.size()}};
-}
-
 /// Throws InputError if a file of the folder, by its ending one that measures may write, is one that the command reads.
 void refuse_inputs_in(const std::filesystem::path& folder) {
     std::error_code none;
     for (const auto& entry : std::filesystem::directory_iterator(folder, none))
         for (const char* ending : {".json", ".csv", ".svg", ".png", ".html"})
             if (entry.path().extension() == ending) refuse_input(entry.path());
-}
-
-/// Throws InputError if the folder holds results of other settings, unless they are to be replaced, which are removed then.
-void keep_apart(const ResultFolder& folder, bool replace) {
-    if (replace) return folder.remove_others();
-    if (const std::vector<std::string> others = folder.others(); !others.empty())
-        throw InputError(folder.path().string(),
-                         fmt::format("holds results of other settings: {}; give another folder, or --replace to remove them",
-                                     fmt::join(others, ", ")));
 }
 
 /// What is finished is kept and reported, whatever becomes of the rest.
@@ -266,15 +252,8 @@ Outcome measure(const AnalyzeArguments& args, const Request& request, const Disp
     const std::string description = write_display(display);
     refuse_inputs_in(place);
     const FolderLock lock(place);
-    const ResultFolder folder(place, Json{{"lfdsim", LFDSIM_VERSION},
-                                          {"display", description},
-                                          {"model", content_stamp(display)},
-                                          {"angles_deg", ends(options.angles_deg)},
-                                          {"depths_mm", ends(options.depths_mm)},
-                                          {"viewing_distance_mm", subject.viewing_distance_mm()},
-                                          {"eye_distance_mm", options.eye_distance_mm},
-                                          {"wavelength_nm", options.wavelength_nm}});
-    keep_apart(folder, args.replace);
+    const ResultFolder folder(place, run_settings(subject, LFDSIM_VERSION));
+    folder.keep_apart(args.replace);
     Analysis run{subject, folder, {command_line(), description, wanted}};
     run.measure(args.resume, args.work.progress());
     Outcome outcome{folder, Json::object(), run.about.interrupted, run.problems};

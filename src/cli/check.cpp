@@ -1,9 +1,7 @@
+#include "report/check.h"
 #include "cli/commands.h"
 #include "cli/display_options.h"
 #include "cli/output.h"
-#include "content/content.h"
-#include "files/glasses.h"
-#include "model/advice.h"
 #include "report/colours.h"
 #include "report/description.h"
 
@@ -12,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-// lfdsim check: what a description says, key by key, and what follows from it. Theory names in --json are fixed: scripts use them.
+// lfdsim check: what a description says, key by key, and what follows from it.
 namespace lfdsim::cli {
 namespace {
 
@@ -83,39 +81,14 @@ std::string table_of(const std::vector<ChannelTheory>& colours) {
     return text;
 }
 
-/// With what only the model itself says: that it cannot be read, and its size.
-std::vector<std::string> all_advice(const Display& display, const Geometry& geometry, const Theory& paraxial) {
-    try {
-        const ContentScene scene(load_parts(content_files(display)), display, geometry);
-        return advice(display, geometry, paraxial, scene.half_size_mm());
-    } catch (const InputError& error) {
-        std::vector<std::string> warnings = advice(display, geometry, paraxial);
-        warnings.push_back(fmt::format("{} cannot be shown: {}",
-                                       display.content.objects.empty() ? "content.model" : "content.object", error.what()));
-        return warnings;
-    }
-}
-
 void run(const CheckArguments& args) {
     const Display display = args.display.read();
     const Geometry geometry = resolve(display);
     const Theory paraxial = theory(display, geometry);
+    if (args.json) return print_json(check_json(display));
     const std::vector<Setting> keys = settings(display);
     const std::vector<ChannelTheory> colours = theory_by_colour(display);
-    std::vector<std::string> warnings = all_advice(display, geometry, paraxial);
-    for (const Problem& doubt : doubts_of_glasses(display)) warnings.push_back(fmt::format("{}: {}", doubt.where, doubt.what));
-    if (args.json) {
-        Json notes = Json::object();
-        add_notes(figures(display, geometry), "geometry", notes);
-        add_notes(figures(display, paraxial), "theory", notes);
-        Json theory = to_json(figures(display, paraxial));
-        if (!colours.empty()) theory["colour"] = to_json(colours);
-        return print_json(Json{{"display", to_json(keys)},
-                               {"geometry", to_json(figures(display, geometry))},
-                               {"theory", theory},
-                               {"notes", notes},
-                               {"warnings", warnings}});
-    }
+    const std::vector<std::string> warnings = worth_knowing(display, geometry, paraxial);
 
     std::string text = args.display.path() + " is valid.\n", table;
     for (const Setting& s : keys) {
@@ -128,6 +101,9 @@ void run(const CheckArguments& args) {
     text += "\nParaxial theory\n";
     for (const Figure& f : figures(display, paraxial)) add_line(text, table_of(f));
     if (!colours.empty()) text += table_of(colours);
+    const std::vector<Figure> largest = largest_errors(display, geometry);
+    if (!largest.empty()) text += "\nLargest errors of single lenses\n";
+    for (const Figure& f : largest) add_line(text, table_of(f));
     if (!warnings.empty()) text += "\nWorth knowing\n";
     for (const std::string& warning : warnings) text += "  - " + warning + "\n";
     print(text);

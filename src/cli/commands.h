@@ -20,6 +20,7 @@ void add_bench(Command program);
 void add_view(Command program);
 void add_export(Command program);
 void add_glass(Command program);
+void add_errors(Command program);
 void add_doctor(Command program);
 
 }  // namespace lfdsim::cli

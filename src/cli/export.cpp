@@ -2,7 +2,6 @@
 #include "cli/commands.h"
 #include "cli/display_options.h"
 #include "cli/effects.h"
-#include "cli/folder_lock.h"
 #include "cli/input_files.h"
 #include "cli/interrupt.h"
 #include "cli/shown_panel.h"
@@ -14,6 +13,7 @@
 #include "image/file.h"
 #include "peers/fine_panel.h"
 #include "peers/peers.h"
+#include "report/folder_lock.h"
 
 #include <fmt/format.h>
 #include <filesystem>

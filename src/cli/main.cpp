@@ -44,6 +44,7 @@ void run(int argc, char** argv) {
     cli::add_export(program);
     cli::add_bench(program);
     cli::add_glass(program);
+    cli::add_errors(program);
     cli::add_doctor(program);
     const std::string asked = line.parse(cli::arguments(argc, argv));
     if (!asked.empty()) cli::print(asked);

@@ -61,20 +61,6 @@ ContentScene load_scene(const Display& display, const Geometry& geometry) {
     return ContentScene(parts, display, geometry);
 }
 
-Json stamp(const std::string& file) {
-    std::error_code error;
-    const auto changed = std::filesystem::last_write_time(file, error);
-    if (error) return {{"file", file}};
-    return {{"file", file}, {"bytes", std::filesystem::file_size(file, error)}, {"changed", changed.time_since_epoch().count()}};
-}
-
-Json content_stamp(const Display& display) {
-    if (display.content.objects.empty()) return stamp(model_of(display));
-    Json all = Json::array();
-    for (const ContentFile& file : content_files(display)) all.push_back(stamp(file.path));
-    return all;
-}
-
 PatternOption::PatternOption(Command command)
     : option_(command.add_option("--pattern", name_, fmt::format("Test pattern to show: {}", fmt::join(pattern_names(), ", ")))
                   .type_name("NAME")) {

@@ -53,11 +53,6 @@ class ModelOption {
 /// The display's model, or its objects, in place; says on standard error what was dropped or repaired. Throws InputError.
 ContentScene load_scene(const Display&, const Geometry&);
 
-/// What tells that a file has changed since; of a name that is no file's, the name alone.
-Json stamp(const std::string& file);
-/// The same of what a display shows: of its model, or a list of its objects' files.
-Json content_stamp(const Display&);
-
 /// --pattern and the options that belong to it.
 class PatternOption {
   public:

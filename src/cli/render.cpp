@@ -15,6 +15,7 @@
 #include "engine/memory.h"
 #include "engine/scene.h"
 #include "model/keys.h"
+#include "report/run_settings.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

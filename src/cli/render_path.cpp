@@ -1,7 +1,6 @@
 #include "cli/render_path.h"
 
 #include "cli/arguments.h"
-#include "cli/folder_lock.h"
 #include "cli/input_files.h"
 #include "cli/interrupt.h"
 #include "cli/rendered.h"
@@ -9,6 +8,7 @@
 #include "files/display_file.h"
 #include "model/geometry.h"
 #include "model/keys.h"
+#include "report/folder_lock.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -65,15 +65,15 @@ bool finished(const fs::path& file, const Display& display, const std::string& s
     }
 }
 
-enum class Maker { nobody, lfdsim, other };
+enum class FrameOf { nobody, lfdsim, other };
 
 // Of a picture; one that is cut off is nobody's, and an .npy does not say.
-Maker maker_of(const fs::path& file) {
+FrameOf frame_of(const fs::path& file) {
     try {
         Metadata about = read_metadata(file);
-        return file.extension() == ".npy" || about["Software"].starts_with("lfdsim ") ? Maker::lfdsim : Maker::other;
+        return file.extension() == ".npy" || about["Software"].starts_with("lfdsim ") ? FrameOf::lfdsim : FrameOf::other;
     } catch (const InputError&) {
-        return Maker::nobody;
+        return FrameOf::nobody;
     }
 }
 
@@ -83,7 +83,7 @@ std::vector<fs::path> others(const PathWork& w, std::int64_t frames) {
     std::error_code none;
     for (const auto& entry : fs::directory_iterator(w.output.path(), none)) {
         const fs::path& file = entry.path();
-        if (!named_as_frame(file) || maker_of(file) == Maker::nobody) continue;
+        if (!named_as_frame(file) || frame_of(file) == FrameOf::nobody) continue;
         std::int64_t k = -1;
         const std::string number = file.stem();
         std::from_chars(number.data(), number.data() + number.size(), k);
@@ -104,7 +104,7 @@ void keep_apart(const PathWork& w, std::int64_t frames) {
                                      "folder, or --replace to remove them",
                                      found.size(), found.front().filename().string()));
     for (const fs::path& file : found)
-        if (maker_of(file) == Maker::other)
+        if (frame_of(file) == FrameOf::other)
             throw InputError(file.string(), "is a picture not made by lfdsim; give another folder for frames");
     for (const fs::path& file : found) fs::remove(file);
 }

@@ -30,6 +30,7 @@ struct LoadOptions {
     double seconds = 60;                         // of the child process: wall clock, and processor time
     std::int64_t bytes = std::int64_t(4) << 30;  // its address space, and what it may send
     std::string up;                              // the file's axis that points up: "y" or "z"; "" by format
+    const Job* job = nullptr;                    // may cancel the reading, which then throws as where a file cannot be read
 };
 
 /// A model file's name for the model that is built in: five chequered spheres at five depths.
@@ -90,6 +91,9 @@ class ContentScene {
     std::shared_ptr<const Impl> impl_;
     double vertex_plane_mm_, depth_mm_;
 };
+
+/// ContentScene::half_size_mm() of such a scene, which is not made. Throws as its constructor.
+Vec3d half_size_mm(const ContentParts&, const Display&, const Geometry&);
 
 struct Picture {
     Image image;            // linear light

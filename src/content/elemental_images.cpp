@@ -5,6 +5,7 @@
 #include "content/shown_points.h"
 
 #include "model/colour.h"
+#include "model/lens_errors.h"
 #include "model/numbers.h"
 
 namespace lfdsim {
@@ -22,7 +23,7 @@ class PickupRays {
     PickupRays(const Display& display, const Geometry& geometry, const Vec3d& centre_mm, const Vec3d& half_mm,
                const std::vector<LensMapping>& mappings)
         : pickup_(display, geometry),
-          apart_(display.array.turn_deg() != 0 || is_staggered(display.array) || is_strips(display.array)),
+          apart_(geometry.turn_deg != 0 || is_staggered(display.array) || is_strips(display.array)),
           half_mm_(half_mm),
           centre_mm_(centre_mm),
           half_depth_(half_mm_[2] * 1.0001 + 1e-3),
@@ -97,7 +98,7 @@ class PickupRays {
         RaySet rays{points, mapping, of_mapping, !apart_ && shown, points.everywhere(), {}, {}};
         if (!rays.common) return rays;
         // (x, y): the middle of the array, where a lens owns the panel.
-        const double x = display.array.offset_mm[0] * pickup_.scale, y = display.array.offset_mm[1] * pickup_.scale;
+        const double x = pickup_.lattice().offset[0] * pickup_.scale, y = pickup_.lattice().offset[1] * pickup_.scale;
         for (std::int64_t i = 0; i < display.panel.pixels[0]; ++i) {
             const NodalLine line = pickup_.line(pickup_.x_mm(double(i) + (*shown)[0]), y);
             rays.columns.add(part(line.x, line.mx, 0), line.owned);
@@ -245,12 +246,20 @@ Wanted whole_panel(const Display& display) {
 }  // namespace
 
 Picture elemental_images(const Display& display, const Geometry& geometry, const ContentScene& scene, int threads, Job& job) {
+    if (knows_no_errors(display)) {
+        const Display meant = without_errors(display);
+        return elemental_images(meant, resolve(meant), scene, threads, job);
+    }
     const std::vector<LensMapping> mappings = mappings_for(display, geometry, threads);
     const PickupRays rays(display, geometry, scene.centre_mm(), scene.impl().half_mm, mappings);
     return cast(SceneLight{scene.impl(), rays.beam()}, whole_panel(display), threads, "elemental images", job, rays);
 }
 
 FieldPicture elemental_images(const Display& display, const Geometry& geometry, const LightField& field, int threads, Job& job) {
+    if (knows_no_errors(display)) {
+        const Display meant = without_errors(display);
+        return elemental_images(meant, resolve(meant), field, threads, job);
+    }
     const std::vector<LensMapping> mappings = mappings_for(display, geometry, threads);
     const PickupRays rays(display, geometry, {0, 0, geometry.vertex_plane_mm + field.grid().depth_mm}, {infinity, infinity, 0},
                           mappings);

@@ -76,6 +76,10 @@ Image address(const Display& display) {
 std::vector<std::string> pattern_names() { return {"checkerboard", "white", "view", "edge", "address"}; }
 
 Image pattern(const std::string& name, const Display& display, const Geometry& geometry, const PatternOptions& options) {
+    if (knows_no_errors(display)) {
+        const Display meant = without_errors(display);
+        return pattern(name, meant, resolve(meant), options);
+    }
     check(options);
     const int cell = options.cell_pixels;
     if (name == "checkerboard")

@@ -20,19 +20,27 @@ struct NodalLine {
 
 class Pickup {
   public:
-    Pickup(const Display& d, const Geometry& g)
-        : lattice_(g.lattice),
+    /// Of elemental images made for a display, `g` its resolve().
+    Pickup(const Display& d, const Geometry& g) : Pickup(d, Meant{meant_geometry(d, g)}) {}
+
+  private:
+    struct Meant {
+        const Geometry g;
+    };
+    Pickup(const Display& d, const Meant& meant)
+        : lattice_(meant.g.lattice),
           viewer_(d.content.viewing_distance_mm),
-          top_z_(g.vertex_plane_mm),
-          reduced_top_(g.reduced_vertex_plane_mm),
-          inverse_gap_(1 / g.gap_mm),
+          top_z_(meant.g.vertex_plane_mm),
+          reduced_top_(meant.g.reduced_vertex_plane_mm),
+          inverse_gap_(1 / meant.g.gap_mm),
           pixel_(d.panel.pixel_pitch_mm),
           left_(-0.5 * double(d.panel.pixels[0])),
           top_(0.5 * double(d.panel.pixels[1])),
-          z_rear(g.rear_principal_mm),
-          scale(std::isinf(d.content.viewing_distance_mm) ? 1 : 1 + g.gap_mm / (d.content.viewing_distance_mm - z_rear)),
+          z_rear(meant.g.rear_principal_mm),
+          scale(std::isinf(d.content.viewing_distance_mm) ? 1 : 1 + meant.g.gap_mm / (d.content.viewing_distance_mm - z_rear)),
           inverse_scale_(1 / scale) {}
 
+  public:
     /// Centre of panel pixel (column, row), mm.
     double x_mm(double column) const { return (left_ + column + 0.5) * pixel_; }
     double y_mm(double row) const { return (top_ - row - 0.5) * pixel_; }

@@ -67,7 +67,8 @@ void ReaderProcess::get(char* to, std::size_t bytes) {
             std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - std::chrono::steady_clock::now()).count();
         pollfd ready{pipe_, POLLIN, 0};
         if (wait <= 0) throw Failure(timeout_text(options_.seconds));
-        if (poll(&ready, 1, int(std::min<std::int64_t>(wait, 1000))) <= 0) continue;
+        if (options_.job && options_.job->cancelled()) throw Failure("it was stopped");
+        if (poll(&ready, 1, int(std::min<std::int64_t>(wait, 100))) <= 0) continue;
         const ssize_t got = read(pipe_, to, bytes);
         if (got < 0 && errno == EINTR) continue;
         if (got <= 0) fail();

@@ -119,13 +119,22 @@ void build(ContentScene::Impl& scene) {
                                                                   : "Embree cannot build the ray-tracing structure of the model");
 }
 
+std::shared_ptr<ContentScene::Impl> posed(const ContentParts& parts, const Display& display, const Geometry& geometry) {
+    const auto made = std::make_shared<ContentScene::Impl>();
+    made->model = display.content.objects.empty() ? parts.at(0) : joined(parts, display.content.objects);
+    pose(*made, display, geometry);
+    return made;
+}
+
 }  // namespace
+
+Vec3d half_size_mm(const ContentParts& parts, const Display& display, const Geometry& geometry) {
+    return posed(parts, display, geometry)->half_mm;
+}
 
 ContentScene::ContentScene(const ContentParts& parts, const Display& display, const Geometry& geometry)
     : vertex_plane_mm_(geometry.vertex_plane_mm), depth_mm_(geometry.content_depth_mm) {
-    const auto made = std::make_shared<Impl>();
-    made->model = display.content.objects.empty() ? parts.at(0) : joined(parts, display.content.objects);
-    pose(*made, display, geometry);
+    const auto made = posed(parts, display, geometry);
     measure_textures(*made);
     build(*made);
     impl_ = made;

@@ -64,9 +64,12 @@ void add(Model& m, const Sphere& s) {
 }  // namespace
 
 std::shared_ptr<const Model> built_in_model() {
-    auto model = std::make_shared<Model>();
-    for (const Sphere& s : spheres) add(*model, s);
-    return model;
+    static const std::shared_ptr<const Model> made = [] {
+        auto model = std::make_shared<Model>();
+        for (const Sphere& s : spheres) add(*model, s);
+        return model;
+    }();
+    return made;
 }
 
 }  // namespace lfdsim

@@ -35,6 +35,7 @@ message(STATUS "GPU kernels: ${LFDSIM_CUDA_STATE}")
 
 if(LFDSIM_CUDA_STATE MATCHES "^CUDA")
   add_library(lfdsim_cuda OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/engine/cuda/queue.cu)
+  lfdsim_for_shared_libraries(lfdsim_cuda)
   target_include_directories(lfdsim_cuda PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_compile_definitions(lfdsim_cuda PRIVATE LFDSIM_ISA=cuda $<$<BOOL:${LFDSIM_CUDA_FMAD}>:LFDSIM_CUDA_FMAD>)
   set_target_properties(lfdsim_cuda PROPERTIES CUDA_RUNTIME_LIBRARY Static CUDA_STANDARD 20 CUDA_STANDARD_REQUIRED ON)

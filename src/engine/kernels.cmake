@@ -12,6 +12,7 @@ function(lfdsim_kernel name isa lanes)
   endif()
   add_library(lfdsim_kernel_${name} OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/engine/kernels/${name}.cpp)
   set_target_properties(lfdsim_kernel_${name} PROPERTIES UNITY_BUILD OFF)
+  lfdsim_for_shared_libraries(lfdsim_kernel_${name})
   target_include_directories(lfdsim_kernel_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_compile_definitions(lfdsim_kernel_${name} PRIVATE LFDSIM_ISA=${name} LFDSIM_LANES=${lanes} LFDSIM_KERNEL=render_tile_${name})
   # GCC 12 takes the undefined vectors of its own AVX-512 headers for a mistake. Where it makes vectors of its own it contracts sums and

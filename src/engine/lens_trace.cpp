@@ -1,6 +1,7 @@
 #include "engine/lens_trace.h"
 
 #include "engine/scene.h"
+#include "model/lens_errors.h"
 #include "model/numbers.h"
 #include "model/prescription.h"
 #include "optics/one_lens.h"
@@ -17,7 +18,7 @@ double missed(int to_come, double excess) { return to_come + 1 + (excess >= 0 ? 
 }  // namespace
 
 LensTrace::LensTrace(const Display& display, const Geometry& geometry)
-    : scene_(make_scene<double>(display, turned_over(geometry))),
+    : scene_(make_scene<double>(without_errors(display), turned_over(geometry))),
       rear_principal_mm_(geometry.rear_principal_mm),
       gap_mm_(geometry.gap_mm) {
     scene_.fresnel = Fresnel::none;

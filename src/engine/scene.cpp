@@ -6,6 +6,8 @@
 #include "optics/filtered_limits.h"
 
 #include "engine/kernel.h"
+#include "engine/placement.h"
+#include "model/lens_errors.h"
 #include "model/prescription.h"
 #include "model/subpixels.h"
 
@@ -154,8 +156,8 @@ optics::Emission<S> make_emission(const Panel& panel) {
 }  // namespace
 
 template <class S>
-optics::Scene<S> make_scene(const Display& display, const Geometry& geometry) {
-    optics::Scene<S> scene{};
+DisplayScene<S> make_scene(const Display& display, const Geometry& geometry) {
+    DisplayScene<S> scene{};
     const LensArray& array = display.array;
     scene.columns = std::uint32_t(display.panel.pixels[0]);
     scene.rows = std::uint32_t(display.panel.pixels[1]);
@@ -173,9 +175,9 @@ optics::Scene<S> make_scene(const Display& display, const Geometry& geometry) {
     add_layers(scene, geometry);
 
     scene.surround = array.surround;
-    scene.lattice = make_lattice<S>(display.panel, array);
+    scene.lattice = rounded<S>(geometry.lattice);
     for (int k = 0; k < 2; ++k) scene.pitch_pixels[k] = S(geometry.lattice.pitch[k] / display.panel.pixel_pitch_mm);
-    scene.rotated = array.turn_deg() != 0;
+    scene.rotated = geometry.turn_deg != 0;
 
     scene.fresnel = display.render.fresnel;
     scene.has_diffuser = display.diffuser.has_value();
@@ -199,13 +201,14 @@ optics::Scene<S> make_scene(const Display& display, const Geometry& geometry) {
     add_holes(scene, display, geometry, geometry.diffuser_z_mm.value_or(first));
     scene.box_filter = display.camera.pixel_filter == PixelFilter::box;
     scene.thin_lens = display.camera.pupil_diameter_mm.value_or(0) > 0;
-    scene.by_lens = is_staggered(array) || is_strips(array) || array.turn_deg() != 0 || !scene.has_diffuser || scene.box_filter ||
-                    scene.thin_lens;
+    place_lenses(display, geometry, scene);
+    scene.by_lens = scene.placement.given || is_staggered(array) || is_strips(array) || scene.rotated || !scene.has_diffuser ||
+                    scene.box_filter || scene.thin_lens;
     return scene;
 }
 
-template optics::Scene<float> make_scene<float>(const Display&, const Geometry&);
-template optics::Scene<double> make_scene<double>(const Display&, const Geometry&);
+template DisplayScene<float> make_scene<float>(const Display&, const Geometry&);
+template DisplayScene<double> make_scene<double>(const Display&, const Geometry&);
 
 optics::View make_view(const Display& display, const Geometry& geometry) {
     optics::View view{};
@@ -223,6 +226,8 @@ optics::View make_view(const Display& display, const Geometry& geometry) {
     view.frame_per_focus = view.distance / geometry.focus_distance_mm;
     view.start_z = geometry.diffuser_z_mm.value_or(geometry.entrance_z_mm);
     view.lattice = geometry.lattice;
+    view.wedged = is_wedged(display.errors);
+    wedge_of(display.errors, geometry, view.wedge);
     view.panel_width = geometry.panel_width_mm;
     view.panel_height = geometry.panel_height_mm;
     view.pixels_per_mm = 1 / display.panel.pixel_pitch_mm;

@@ -4,12 +4,21 @@
 #include "model/geometry.h"
 #include "optics/scene.h"
 
+#include <memory>
+#include <vector>
+
 namespace lfdsim {
+
+/// A scene and what it points to. Copies share that.
+template <class S>
+struct DisplayScene : optics::Scene<S> {
+    std::shared_ptr<const std::vector<optics::PlacedLens<S>>> lenses;
+};
 
 /// The display for an S of float (kernels) or double (the accuracy reference). Throws InputError if a lens has more surfaces or
 /// asphere terms than the tracer holds.
 template <class S>
-optics::Scene<S> make_scene(const Display&, const Geometry&);
+DisplayScene<S> make_scene(const Display&, const Geometry&);
 
 /// The camera, with the height of the plane where the tracer starts.
 optics::View make_view(const Display&, const Geometry&);

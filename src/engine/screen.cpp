@@ -11,7 +11,7 @@ namespace lfdsim {
 std::optional<Corners> screen_corners(const Display& display, const Geometry& geometry) {
     const optics::View view = make_view(display, geometry);
     const CameraAxes axes = camera_axes(display.camera);
-    const double quarters = std::round(display.array.turn_deg() / 90), rest = display.array.turn_deg() - 90 * quarters;
+    const double quarters = std::round(geometry.turn_deg / 90), rest = geometry.turn_deg - 90 * quarters;
     const double c = std::cos(rest * degree), s = std::sin(rest * degree);
     double half_width = geometry.array_width_mm / 2, half_height = geometry.array_height_mm / 2;
     if (std::fmod(quarters, 2) != 0) std::swap(half_width, half_height);
@@ -20,7 +20,7 @@ std::optional<Corners> screen_corners(const Display& display, const Geometry& ge
     Corners corners;
     for (std::size_t k = 0; k < 4; ++k) {
         const double x = right[k] * half_width, y = up[k] * half_height;
-        const Vec3d corner{c * x - s * y + display.array.offset_mm[0], s * x + c * y + display.array.offset_mm[1],
+        const Vec3d corner{c * x - s * y + geometry.lattice.offset[0], s * x + c * y + geometry.lattice.offset[1],
                            geometry.vertex_plane_mm};
         const Vec3d to = minus(corner, display.camera.position_mm);
         const double depth = dot(to, axes.forward);

@@ -2,6 +2,7 @@
 #pragma once
 #include "engine/kernel.h"
 #include "engine/render.h"
+#include "engine/scene.h"
 
 #include <optional>
 #include <vector>
@@ -18,7 +19,7 @@ struct Work {
     void make_pictures(bool with_error);
 
     Rendering result;  // estimator; pictures once they are made
-    optics::Scene<float> scene;
+    DisplayScene<float> scene;
     optics::View view;
     Tile tile;                           // the whole crop
     std::optional<double> target_error;  // where there is something to sample

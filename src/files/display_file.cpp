@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "files/glasses.h"
+#include "files/lens_table.h"
 #include "files/nearest.h"
 #include "files/source.h"
 #include "files/text_file.h"
@@ -38,6 +39,7 @@ class DisplayReader {
         read_table(source.root(), "", display, {"schema"});
         look_up_glasses(display);
         place_files(display.content);
+        read_lens_errors(display);
         judge(display);
         return display;
     }
@@ -222,6 +224,21 @@ class DisplayReader {
         }
     }
 
+    void read_lens_errors(Display& display) {
+        constexpr const char* key = "errors.table";
+        std::string& file = display.errors.table;
+        if (file.empty() || is_wrong(key)) return;
+        place(key, file);
+        // Which lenses there are is known if the array can be laid out.
+        for (const char* needed : {"panel.pixels", "panel.pixel_pitch_mm", "array.pitch_mm", "array.count", "array.lattice"})
+            if (is_wrong(needed)) return;
+        try {
+            display.errors.given = read_lens_table(file, display);
+        } catch (const InputError& error) {
+            for (const Problem& p : error.problems) add(key, fmt::format("{}: {}", p.where, p.what));
+        }
+    }
+
     std::vector<GlassCatalogue> read_catalogues(std::vector<std::string>& files) {
         constexpr const char* key = "glass_catalogues";
         std::vector<GlassCatalogue> catalogues;
@@ -265,6 +282,7 @@ class DisplayReader {
             validate_glass(display, findings);
             validate_lens(display, findings);
             validate_layout(display, findings);
+            validate_errors(display, findings);
         }
         std::vector<Located> all = std::move(superfluous);
         for (const Problem& fault : faults)  // an element's place is its list's

@@ -46,7 +46,8 @@ std::string read_text(const std::filesystem::path& path, std::string_view kind, 
     if (!error && bytes > most_bytes) refuse_size(name, bytes, most_bytes, kind);
     std::ifstream file(path, std::ios::binary);
     if (!file) throw InputError(name, "cannot be opened for reading; check its permissions");
-    std::string text(most_bytes + 1, '\0');  // no more is read, even if the file grows meanwhile
+    // No more is read, even if the file grows meanwhile.
+    std::string text(error ? most_bytes + 1 : std::size_t(bytes) + 1, '\0');
     file.read(text.data(), std::streamsize(text.size()));
     text.resize(std::size_t(file.gcount()));
     if (file.bad()) throw InputError(name, "cannot be read to its end");

@@ -4,16 +4,15 @@
 
 namespace lfdsim {
 
-double sheet_half(const Display& display, const Geometry& g) {
+double sheet_half(const Geometry& g) {
     // the array may be turned and moved: its diagonal and the panel's hold for any angle
     const double wide = std::hypot(g.array_width_mm, g.array_height_mm), panel = std::hypot(g.panel_width_mm, g.panel_height_mm);
-    const auto [x, y] = display.array.offset_mm;
-    return wide / 2 + panel / 2 + std::hypot(x, y) + 20 * g.top_z_mm;
+    return wide / 2 + panel / 2 + std::hypot(g.lattice.offset[0], g.lattice.offset[1]) + 20 * g.top_z_mm;
 }
 
 std::array<double, 2> cell_half(const Display& display, const Geometry& g) {
     const double x = g.lattice.pitch[0] / 2;
-    if (g.lattice.strips) return {x, std::ceil(sheet_half(display, g))};
+    if (g.lattice.strips) return {x, std::ceil(sheet_half(g))};
     return {x, g.lattice.hexagonal ? outer_radius_mm(display.array) : g.lattice.pitch[1] / 2};
 }
 

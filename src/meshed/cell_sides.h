@@ -10,7 +10,7 @@ namespace lfdsim {
 
 /// Half the sides of the square that represents an infinite sheet: rays that pass beside it could only reach the panel at more than
 /// 87 degrees from its normal.
-double sheet_half(const Display&, const Geometry&);
+double sheet_half(const Geometry&);
 
 /// Half the sides of the box about a cell, and of the box about all cells. Strips, which have no end, end with the sheet, at whole
 /// millimetres, which single precision holds.

@@ -5,6 +5,7 @@
 #include "meshed/mesh_surfaces.h"
 #include "model/colour.h"
 #include "model/keys.h"
+#include "model/lens_errors.h"
 #include "optics/camera.h"
 #include "optics/light.h"
 #include "optics/trace.h"
@@ -42,6 +43,10 @@ void render_tile(const Tile& tile) {
 }  // namespace
 
 MeshedLens::MeshedLens(const Display& display, const Geometry& geometry, std::int64_t triangles, LensNormals normals) {
+    if (is_irregular(display.errors))
+        throw InputError("errors",
+                         "let lenses stand by themselves, or the array lean, which --lens-mesh does not cover; give shift_mm, "
+                         "gap_mm, rotation_deg and pitch_ppm only");
     if (display.array.surround != Surround::opaque)
         throw InputError("array.surround", fmt::format("is \"{}\"; lenses of triangles can only be traced in \"opaque\"",
                                                        word(display.array.surround)));

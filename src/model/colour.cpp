@@ -1,4 +1,5 @@
 #include "model/colour.h"
+#include "model/lens_errors.h"
 
 #include "model/geometry.h"
 
@@ -98,7 +99,7 @@ bool disperses(const Display& d) {
 
 Display at_wavelength(Display d, double wavelength_nm) {
     if (d.array.gap_mm) {  // to a principal plane, which is elsewhere in other light
-        d.array.base_z_mm = resolve(d).base_z_mm;
+        d.array.base_z_mm = resolve(without_errors(d)).base_z_mm;
         d.array.gap_mm.reset();
     }
     const auto settle = [&](auto& medium) {

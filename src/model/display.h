@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "model/errors.h"
 #include "model/glass.h"
 #include "model/kinds.h"
 
@@ -188,6 +189,7 @@ struct Content {
     PickupKind pickup = PickupKind::nodal;
     std::int64_t pickup_rays = 16;  // of the integrated pick-up
     ContentSampling sampling = ContentSampling::subpixel;
+    MadeFor made_for = MadeFor::description;
     Light light;
     std::vector<SceneObject> objects;  // in place of the model; depth, height, tilt and yaw are then of them all together
     bool operator==(const Content&) const = default;
@@ -212,6 +214,7 @@ struct Display {
     Panel panel;
     Lens lens;
     LensArray array;
+    Errors errors;
     std::optional<Diffuser> diffuser;
     Camera camera;
     Content content;

@@ -43,5 +43,6 @@ void validate_glass(const Display&, Findings&);    // whether each medium has an
 void validate_lens(const Display&, Findings&);     // whether such a lens can be made and fits its cell
 void validate_content(const Display&, Findings&);  // whether each object of a scene is one thing of one size, lit from somewhere
 void validate_layout(const Display&, Findings&);   // whether parts collide, by the resolved geometry
+void validate_errors(const Display&, Findings&);   // whether the array can be off by so much
 
 }  // namespace lfdsim

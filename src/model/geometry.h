@@ -30,9 +30,11 @@ struct PlacedLayer {
     double thickness_mm, index;
 };
 
-/// A valid display resolved to lengths on the z axis. All z in mm from the panel.
+/// A valid display resolved to lengths on the z axis, with the errors of its array as a whole but for wedge and bow. All z in mm
+/// from the panel.
 struct Geometry {
     Lattice<double> lattice;              // where the lenses stand
+    double turn_deg;                      // of the array's frame against the display's, counter-clockwise to the viewer
     std::vector<PlacedSurface> surfaces;  // panel side first; at least one
     std::vector<PlacedLayer> layers;      // on the panel, from it upwards
     double layers_top_mm;                 // T, of the layers
@@ -100,6 +102,8 @@ std::vector<Problem> validate(const Display&);
 
 /// Resolves a valid description, in the light of the green channel. Throws InputError with validate()'s problems otherwise.
 Geometry resolve(const Display&);
+/// The geometry for which elemental images are made: that of the display without its errors, but for content.made_for = "built".
+Geometry meant_geometry(const Display&, const Geometry& built);
 /// The same things in the same places in light of another wavelength: indices, focal length, principal points, gap and reduced
 /// lengths are those of that light.
 Geometry resolve(const Display&, double wavelength_nm);

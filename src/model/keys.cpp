@@ -9,8 +9,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr double two_to_63 = 9223372036854775808.0;  // what the largest 64-bit integer, 2^63 - 1, rounds to
-constexpr Range no_range{-infinity, infinity}, count_range{1, two_to_31, false, true}, index_range{1, 4}, turn{-360, 360};
+constexpr Range count_range{1, two_to_31, false, true}, index_range{1, 4}, turn{-360, 360};
 constexpr Range wavelength_range{100, 10000}, width_range{0, 1000, true, false};
 constexpr Range angle{0, 180, false, true}, open_angle{0, 180, true, true}, slant_range{-90, 90, true, true};
 // Curvatures up to a nanometre's radius, and coefficients of any size: the sag that they give is checked instead.
@@ -183,6 +182,8 @@ constexpr Key<Content> content_keys[] = {
     {"pickup_rays", &Content::pickup_rays, Range{1, 1024}, false, "Of the integrated pick-up, for each pixel or subpixel."},
     {"sampling", &Content::sampling, no_range, false,
      "On a panel with subpixels: each colour of a pixel is made for the place where it shines, or all for the pixel's middle."},
+    {"made_for", &Content::made_for, no_range, false,
+     "Whether elemental images are made for the display as described, or as it was built, with its [errors]: calibrated content."},
     {"light", &Content::light, no_range, false, ""},
     {"object", &Content::objects, no_range, false, ""},
 };
@@ -245,6 +246,7 @@ constexpr Key<Display> display_keys[] = {
     {"panel", &Display::panel, no_range, true, ""},
     {"lens", &Display::lens, no_range, true, ""},
     {"array", &Display::array, no_range, true, ""},
+    {"errors", &Display::errors, no_range, false, ""},
     {"diffuser", &Display::diffuser, no_range, false, ""},
     {"camera", &Display::camera, no_range, false, ""},
     {"content", &Display::content, no_range, false, ""},
@@ -380,6 +382,7 @@ template <> std::span<const std::string_view> words<Aperture>() { static constex
 template <> std::span<const std::string_view> words<Profile>() { static constexpr std::string_view w[] = {"box", "gaussian"}; return w; }
 template <> std::span<const std::string_view> words<PickupKind>() { static constexpr std::string_view w[] = {"nodal", "traced", "integrated"}; return w; }
 template <> std::span<const std::string_view> words<ContentSampling>() { static constexpr std::string_view w[] = {"subpixel", "pixel"}; return w; }
+template <> std::span<const std::string_view> words<MadeFor>() { static constexpr std::string_view w[] = {"description", "built"}; return w; }
 template <> std::span<const std::string_view> words<Shading>() { static constexpr std::string_view w[] = {"file", "smooth", "flat"}; return w; }
 template <> std::span<const std::string_view> words<PixelFilter>() { static constexpr std::string_view w[] = {"center", "box"}; return w; }
 template <> std::span<const std::string_view> words<Estimator>() { static constexpr std::string_view w[] = {"filtered", "point"}; return w; }

@@ -25,8 +25,10 @@ struct Range {
 
 // Nothing in a display is thinner than a nanometre or longer than a kilometre, so no length overflows any sum or product here.
 inline constexpr double shortest_mm = 1e-6, longest_mm = 1e6;
+inline constexpr Range no_range{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 inline constexpr Range any_length{-longest_mm, longest_mm}, positive_length{shortest_mm, longest_mm}, length_or_zero{0, longest_mm};
-inline constexpr double two_to_31 = 2147483648.0;
+inline constexpr double two_to_31 = 2147483648.0,
+                        two_to_63 = 9223372036854775808.0;  // what the largest 64-bit integer, 2^63 - 1, rounds to
 
 /// One of all the types of a value, Of<V> being a pointer to it or to a member.
 template <template <class> class Of>
@@ -36,7 +38,7 @@ using ValuesOf =
                  Of<std::optional<std::array<std::int64_t, 2>>>, Of<std::vector<double>>, Of<Pitch>, Of<Encoding>,
                  Of<std::optional<Vec3d>>, Of<std::optional<Glass>>, Of<std::vector<std::string>>, Of<SubpixelLayout>, Of<Channel>,
                  Of<LensKind>, Of<Facing>, Of<Surround>, Of<LatticeKind>, Of<Aperture>, Of<Profile>, Of<PixelFilter>,
-                 Of<ContentSampling>, Of<PickupKind>, Of<Shading>, Of<Estimator>, Of<Sampling>, Of<Fresnel>>;
+                 Of<ContentSampling>, Of<MadeFor>, Of<PickupKind>, Of<Shading>, Of<Estimator>, Of<Sampling>, Of<Fresnel>>;
 
 /// What a key fills. Only Display, Panel, SurfaceLens and Content contain tables: one that is always there, one that may be absent,
 /// or a list; the keys of a kind stand beside its word.
@@ -49,8 +51,8 @@ struct MemberOf {
 template <>
 struct MemberOf<Display> {
     using Type = std::variant<std::string Display::*, std::vector<std::string> Display::*, Panel Display::*, Lens Display::*,
-                              LensArray Display::*, std::optional<Diffuser> Display::*, Camera Display::*, Content Display::*,
-                              Render Display::*>;
+                              LensArray Display::*, Errors Display::*, std::optional<Diffuser> Display::*, Camera Display::*,
+                              Content Display::*, Render Display::*>;
 };
 template <>
 struct MemberOf<Panel> {
@@ -64,9 +66,9 @@ struct MemberOf<SurfaceLens> {
 };
 template <>
 struct MemberOf<Content> {
-    using Type =
-        std::variant<std::string Content::*, double Content::*, std::int64_t Content::*, std::optional<double> Content::*,
-                     ContentSampling Content::*, PickupKind Content::*, Light Content::*, std::vector<SceneObject> Content::*>;
+    using Type = std::variant<std::string Content::*, double Content::*, std::int64_t Content::*, std::optional<double> Content::*,
+                              ContentSampling Content::*, MadeFor Content::*, PickupKind Content::*, Light Content::*,
+                              std::vector<SceneObject> Content::*>;
 };
 
 template <class T>
@@ -101,6 +103,7 @@ template <> const Table<IdealLens>& table_of<IdealLens>();
 template <> const Table<Pinhole>& table_of<Pinhole>();
 template <> const Table<Surface>& table_of<Surface>();
 template <> const Table<LensArray>& table_of<LensArray>();
+template <> const Table<Errors>& table_of<Errors>();
 template <> const Table<Diffuser>& table_of<Diffuser>();
 template <> const Table<Camera>& table_of<Camera>();
 template <> const Table<Content>& table_of<Content>();
@@ -113,7 +116,7 @@ template <class T, class... Structs>
 inline constexpr bool is_one_of = (std::is_same_v<T, Structs> || ...);
 template <class T>
 inline constexpr bool has_table = is_one_of<T, Display, Panel, Layer, Subpixel, Lens, PlanoConvex, SurfaceLens, IdealLens, Pinhole,
-                                            Surface, LensArray, Diffuser, Camera, Content, Light, SceneObject, Render>;
+                                            Surface, LensArray, Errors, Diffuser, Camera, Content, Light, SceneObject, Render>;
 
 /// How a field of a struct is a table within it.
 enum class PartKind { value, table, optional, list, kinds };

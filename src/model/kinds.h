@@ -24,6 +24,7 @@ enum class Aperture { circle, cell };                                  // cell: 
 enum class Profile { box, gaussian };                                  // of the diffuser, per axis
 enum class PickupKind { nodal, traced, integrated };                   // along which lines elemental images look
 enum class ContentSampling { subpixel, pixel };                        // for what place elemental images are made
+enum class MadeFor { description, built };                             // whether elemental images know of an array's errors
 enum class Shading { file, smooth, flat };                             // whose normals a mesh is lit by
 enum class PixelFilter { center, box };
 enum class Estimator { filtered, point };

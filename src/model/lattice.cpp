@@ -69,32 +69,28 @@ double outer_radius_mm(const LensArray& array) {
     return array.pitch_mm[0] / std::sqrt(4 / (1 + q * q));
 }
 
-template <class S>
-Lattice<S> make_lattice(const Panel& panel, const LensArray& array) {
-    Lattice<S> l{};
+Lattice<double> make_lattice(const Panel& panel, const LensArray& array) {
+    Lattice<double> l{};
     const auto spacing = spacing_mm(panel, array);
     const auto count = lens_count(panel, array);
     for (std::size_t k = 0; k < 2; ++k) {
         const double pitch = spacing[k];
-        l.pitch[k] = S(pitch);
-        l.per_pitch[k] = S(1 / pitch);
-        l.half_pitch[k] = S(pitch / 2);
-        l.count[k] = S(count[k]);
-        l.offset[k] = S(array.offset_mm[k]);
+        l.pitch[k] = pitch;
+        l.per_pitch[k] = 1 / pitch;
+        l.half_pitch[k] = pitch / 2;
+        l.count[k] = double(count[k]);
+        l.offset[k] = array.offset_mm[k];
     }
-    l.cos_turn = S(std::cos(array.turn_deg() * degree));
-    l.sin_turn = S(std::sin(array.turn_deg() * degree));
+    l.cos_turn = std::cos(array.turn_deg() * degree);
+    l.sin_turn = std::sin(array.turn_deg() * degree);
     l.hexagonal = array.lattice == LatticeKind::hexagon;
     l.staggered = is_staggered(array);
     l.strips = is_strips(array);
     if (l.strips) {  // any finite place lies in row 0
         l.per_pitch[1] = 0;
-        l.half_pitch[1] = S(endless_mm);
+        l.half_pitch[1] = endless_mm;
     }
     return l;
 }
-
-template Lattice<float> make_lattice<float>(const Panel&, const LensArray&);
-template Lattice<double> make_lattice<double>(const Panel&, const LensArray&);
 
 }  // namespace lfdsim

@@ -47,8 +47,26 @@ std::array<double, 2> array_size_mm(const Panel&, const LensArray&);
 double inner_radius_mm(const LensArray&);
 double outer_radius_mm(const LensArray&);
 
-/// Rounded to S from double precision.
+Lattice<double> make_lattice(const Panel&, const LensArray&);
+
+/// Each of its numbers rounded to S.
 template <class S>
-Lattice<S> make_lattice(const Panel&, const LensArray&);
+Lattice<S> rounded(const Lattice<double>& from) {
+    const auto both = [](const double(&of)[2], S(&to)[2]) {
+        for (int k = 0; k < 2; ++k) to[k] = S(of[k]);
+    };
+    Lattice<S> to{};
+    both(from.pitch, to.pitch);
+    both(from.per_pitch, to.per_pitch);
+    both(from.half_pitch, to.half_pitch);
+    both(from.count, to.count);
+    both(from.offset, to.offset);
+    to.cos_turn = S(from.cos_turn);
+    to.sin_turn = S(from.sin_turn);
+    to.staggered = from.staggered;
+    to.hexagonal = from.hexagonal;
+    to.strips = from.strips;
+    return to;
+}
 
 }  // namespace lfdsim

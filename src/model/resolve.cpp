@@ -3,6 +3,7 @@
 
 #include "model/colour.h"
 #include "model/geometry.h"
+#include "model/lens_errors.h"
 #include "model/numbers.h"
 #include "model/prescription.h"
 
@@ -91,6 +92,33 @@ void place_lens(const Lens& lens, const LensArray& array, const Panel& panel, Ge
     if (lens.stop_radius_mm) g.clear_aperture_mm.fill(2 * *lens.stop_radius_mm);
 }
 
+// The array as a whole stands elsewhere. The diffuser, the content and the camera stay.
+void misplace_array(const Errors& e, Geometry& g) {
+    if (e.gap_mm != 0) {
+        for (PlacedSurface& s : g.surfaces) s.z_mm += e.gap_mm;
+        for (double* z : {&g.base_z_mm, &g.top_z_mm, &g.entrance_z_mm, &g.vertex_plane_mm, &g.reduced_vertex_plane_mm,
+                          &g.front_principal_mm, &g.rear_principal_mm, &g.gap_mm, &g.stop_z_mm})
+            *z += e.gap_mm;
+        g.content_depth_mm -= e.gap_mm;
+    }
+    Lattice<double>& l = g.lattice;
+    for (std::size_t k = 0; k < 2; ++k) l.offset[k] += e.shift_mm[k];
+    if (e.rotation_deg != 0) {
+        g.turn_deg += e.rotation_deg;
+        l.cos_turn = std::cos(g.turn_deg * degree);
+        l.sin_turn = std::sin(g.turn_deg * degree);
+    }
+    if (e.pitch_ppm == 0) return;
+    const double scale = pitch_scale(e);
+    for (std::size_t k = 0; k < (l.strips ? 1 : 2); ++k) {
+        l.pitch[k] *= scale;
+        l.per_pitch[k] = 1 / l.pitch[k];
+        l.half_pitch[k] = l.pitch[k] / 2;
+    }
+    g.array_width_mm *= scale;
+    if (!l.strips) g.array_height_mm *= scale;
+}
+
 double distance_mm(const Vec3d& a, const Vec3d& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 }  // namespace
@@ -104,7 +132,8 @@ double middle_z_mm(const std::vector<SceneObject>& objects) {
 
 Geometry resolve_unchecked(const Display& d) {
     Geometry g{};
-    g.lattice = make_lattice<double>(d.panel, d.array);
+    g.lattice = make_lattice(d.panel, d.array);
+    g.turn_deg = d.array.turn_deg();
     place_lens(d.lens, d.array, d.panel, g);
     if (d.diffuser) g.diffuser_z_mm = g.vertex_plane_mm + d.diffuser->distance_mm;
     g.panel_width_mm = double(d.panel.pixels[0]) * d.panel.pixel_pitch_mm;
@@ -130,6 +159,7 @@ Geometry resolve_unchecked(const Display& d) {
         g.content_depth_mm = d.content.depth_mm.value_or(middle_z_mm(d.content.objects));
         g.content_height_mm = d.content.height_mm;
     }
+    misplace_array(d.errors, g);
     return g;
 }
 
@@ -156,6 +186,10 @@ Geometry resolve(const Display& d, double wavelength_nm) {
     // by what has changed: to the last bit the same where nothing has
     g.gap_mm += (reduced_mm(g.layers) - reduced_T) + (g.front_principal_mm - front);
     return g;
+}
+
+Geometry meant_geometry(const Display& d, const Geometry& built) {
+    return knows_no_errors(d) ? resolve_unchecked(without_errors(d)) : built;
 }
 
 bool stop_at_entrance(const Display& d, const Geometry& g) {

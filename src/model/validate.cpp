@@ -12,6 +12,7 @@ std::vector<Problem> validate(const Display& d) {
     validate_lens(d, findings);
     validate_content(d, findings);
     validate_layout(d, findings);
+    validate_errors(d, findings);
     return problems;
 }
 

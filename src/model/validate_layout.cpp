@@ -2,6 +2,7 @@
 
 #include "model/findings.h"
 #include "model/keys.h"
+#include "model/lens_errors.h"
 #include "model/prescription.h"
 
 namespace lfdsim {
@@ -56,7 +57,7 @@ void validate_layout(const Display& d, Findings& findings) {
     // a lens that cannot be made has no place, nor has one on layers that cannot
     for (const char* needed : {"lens.", "array.", "panel.layer", "panel.wavelengths_nm"})
         if (!findings.sound(needed)) return;
-    const Geometry g = resolve_unchecked(d);
+    const Geometry g = resolve_unchecked(without_errors(d));
     check_heights(d, g, findings);
     check_size("array.count", g.array_width_mm, g.array_height_mm, findings);
     if (d.diffuser && findings.sound("diffuser.") && !(*g.diffuser_z_mm > g.top_z_mm))

@@ -64,6 +64,12 @@ LFDSIM_FN BaseLens<S> base_lens(const View& view, double column, double row) {
     const auto [i, j] = base_cell(view.lattice, lens_at(view.lattice, x0, y0));
     Place<double> axis = axis_in_array(view.lattice, Cell<double>{i, j});
     if (view.lattice.strips) axis.y = y0;  // any point of a strip's axis serves
+    S raised = 0;
+    if (view.wedged) {
+        const auto along = [&](int k) { return view.wedge[k][0] * axis.x + view.wedge[k][1] * axis.y; };
+        raised = S(along(2));
+        axis = {along(0), along(1)};
+    }
     const Place<double> at = in_display(view.lattice, axis);
     const double u = (at.x + 0.5 * view.panel_width) * view.pixels_per_mm,
                  v = (0.5 * view.panel_height - at.y) * view.pixels_per_mm;
@@ -71,7 +77,7 @@ LFDSIM_FN BaseLens<S> base_lens(const View& view, double column, double row) {
     return {axis.x,
             axis.y,
             {S(-i), S(nx - 1 - i), S(-j), S(ny - 1 - j)},
-            {to_int(whole_u), to_int(whole_v), S(u - whole_u), S(v - whole_v)}};
+            {to_int(whole_u), to_int(whole_v), S(u - whole_u), S(v - whole_v), raised}};
 }
 
 /// The rays of the block whose first pixel is (column, row), multiples of the block's size.

@@ -54,9 +54,8 @@ LFDSIM_FN F root(F a, F b, F c, bool rising, Mask<F>& real) {
 /// Path length to where a ray crosses a surface of revolution downwards (against +z) or upwards, if `valid`, and the unit normal
 /// there, towards +z; `at` is relative to the lens's axis and the vertex. Aspheres: the first change of sign of z - sag on the way
 /// through the cap's zone, in 32 steps, then bisected.
-template <class F>
-LFDSIM_FN F cross_surface(const SurfaceData<Scalar<F>>& surface, Vec3<F> at, Vec3<F> to, bool downwards, Vec3<F>& up,
-                          Mask<F>& valid) {
+template <class F, class Surface>
+LFDSIM_FN F cross_surface(const Surface& surface, Vec3<F> at, Vec3<F> to, bool downwards, Vec3<F>& up, Mask<F>& valid) {
     using S = Scalar<F>;
     const F c = surface.curvature, k = F(surface.conic), k1 = F(1) + k, r = F(surface.semi_aperture) + slack<F>();
     F t, z, d;
@@ -109,9 +108,8 @@ LFDSIM_FN F cross_surface(const SurfaceData<Scalar<F>>& surface, Vec3<F> at, Vec
 }
 
 /// The same for a cylinder along y': the crossing of its section by the ray seen along y'.
-template <class F>
-LFDSIM_FN F cross_cylinder(const SurfaceData<Scalar<F>>& surface, Vec3<F> at, Vec3<F> to, bool downwards, Vec3<F>& up,
-                           Mask<F>& valid) {
+template <class F, class Surface>
+LFDSIM_FN F cross_cylinder(const Surface& surface, Vec3<F> at, Vec3<F> to, bool downwards, Vec3<F>& up, Mask<F>& valid) {
     const F per = F(1) / sqrt(to.x * to.x + to.z * to.z);
     return per * cross_surface(surface, {at.x, F(0), at.z}, {to.x * per, F(0), to.z * per}, downwards, up, valid);
 }
@@ -315,37 +313,45 @@ LFDSIM_FN void cross(const Scene<Scalar<F>>& scene, const Crossing<F>& here, Mas
 /// Surfaces at which a path may be refracted or reflected; where it meets one more it is black.
 constexpr int most_crossings = 16;
 
-/// From the vertex plane of the first surfaces, in which way.ray starts, to the panel.
+/// Bodies and stops of glass that stand where the lattice has them.
 template <class F>
-LFDSIM_FN PanelPoint<F> trace_glass(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
-                                    const PanelBase<Scalar<F>>& base, Passage<F> way) {
-    using S = Scalar<F>;
-    // Start above all lenses.
-    const F first = F(scene.surface[0].z), up = (F(scene.body_top) - first) / way.ray.to.z;
-    GlassRays<F> rays{{way.ray.at.x + way.ray.to.x * up, way.ray.at.y + way.ray.to.y * up, F(scene.body_top)},
-                      way.ray.to,
-                      {F(0), F(0)},
-                      F(0) > F(1),
-                      F(0) > F(1)};
-    F weight = way.weight;
-    const Mask<F> no_ray = F(0) > F(1);
-    Mask<F> alive = way.alive, arrived = no_ray, stop_ahead = way.alive, in_layer = no_ray;
-    const auto& last = scene.surface[scene.surface_count - 1];
-    const bool vanishes = scene.glued && last.media.n_above == last.media.n_below;  // the glued face is none
-    for (int surfaces = 0; surfaces <= most_crossings && any(alive); ++surfaces) {
-        Crossing<F> next{F(S(1e30)), {F(0), F(0), F(1)}, {F(0), F(0)}, F(0) > F(1)};
+struct InLattice {
+    const Scene<Scalar<F>>& scene;
+    const Extent<Scalar<F>>& extent;
+
+    LFDSIM_FN void next(const GlassRays<F>& rays, Mask<F> alive, Crossing<F>& next) const {
         if (scene.surround == Surround::clear)
             next_in_clear(scene, extent, rays, alive, next);
         else
             next_in_plate(scene, extent, rays, alive, next);
+    }
+    /// Ends rays that meet the stop beside its holes within the path length `way`.
+    LFDSIM_FN void stop(const GlassRays<F>& rays, F way, Mask<F>& ahead, Mask<F>& alive) const {
+        const F t = (F(scene.stop_z) - rays.at.z) / rays.to.z;
+        const Mask<F> crosses = ahead && (t >= F(0)) && (t <= way);
+        const Mask<F> through = passes_stop(scene, extent, rays.at.x + rays.to.x * t, rays.at.y + rays.to.y * t);
+        alive = alive && (through || !crosses);
+        ahead = ahead && !crosses;
+    }
+    LFDSIM_FN void end(Mask<F>, Mask<F>&) const {}
+};
+
+/// Follows rays from above all glass until they leave it for good. `arrived`: towards the panel; `in_layer`: of these, into what
+/// the glass is glued to.
+template <class F, class Bodies>
+LFDSIM_FN void pass_glass(const Scene<Scalar<F>>& scene, const Bodies& bodies, GlassRays<F>& rays, F& weight, Mask<F> alive,
+                          Mask<F>& arrived, Mask<F>& in_layer) {
+    using S = Scalar<F>;
+    const Mask<F> no_ray = F(0) > F(1);
+    Mask<F> stop_ahead = alive;
+    arrived = in_layer = no_ray;
+    const auto& last = scene.surface[scene.surface_count - 1];
+    const bool vanishes = scene.glued && last.media.n_above == last.media.n_below;  // the glued face is none
+    for (int surfaces = 0; surfaces <= most_crossings && any(alive); ++surfaces) {
+        Crossing<F> next{F(S(1e30)), {F(0), F(0), F(1)}, {F(0), F(0)}, F(0) > F(1)};
+        bodies.next(rays, alive, next);
         const Mask<F> leaves = alive && !next.found;
-        if (scene.has_stop) {
-            const F t = (F(scene.stop_z) - rays.at.z) / rays.to.z;
-            const Mask<F> crosses = stop_ahead && (t >= F(0)) && (t <= next.t);
-            const Mask<F> through = passes_stop(scene, extent, rays.at.x + rays.to.x * t, rays.at.y + rays.to.y * t);
-            alive = alive && (through || !crosses);
-            stop_ahead = stop_ahead && !crosses;
-        }
+        if (scene.has_stop) bodies.stop(rays, next.t, stop_ahead, alive);
         arrived = arrived || (alive && leaves && !rays.inside && (rays.to.z < F(0)));
         alive = alive && next.found;
         const Mask<F> at_glue = scene.glued ? alive && rays.inside && (next.normal.z < F(0)) : no_ray;
@@ -361,6 +367,25 @@ LFDSIM_FN PanelPoint<F> trace_glass(const Scene<Scalar<F>>& scene, const Extent<
         }
     }
     arrived = arrived || in_layer;
+    if (scene.has_stop) bodies.end(stop_ahead, arrived);
+}
+
+/// From the vertex plane of the first surfaces, in which way.ray starts, to the panel.
+template <class F>
+LFDSIM_FN PanelPoint<F> trace_glass(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
+                                    const PanelBase<Scalar<F>>& base, Passage<F> way) {
+    using S = Scalar<F>;
+    // Start above all lenses.
+    const F first = F(scene.surface[0].z), up = (F(scene.body_top) - first) / way.ray.to.z;
+    const Mask<F> no_ray = F(0) > F(1);
+    GlassRays<F> rays{{way.ray.at.x + way.ray.to.x * up, way.ray.at.y + way.ray.to.y * up, F(scene.body_top)},
+                      way.ray.to,
+                      {F(0), F(0)},
+                      no_ray,
+                      no_ray};
+    F weight = way.weight;
+    Mask<F> arrived, in_layer;
+    pass_glass(scene, InLattice<F>{scene, extent}, rays, weight, way.alive, arrived, in_layer);
     const Place<F> end = down_to_panel(scene, rays.at, in_layer, rays.to, weight, arrived);
     if (scene.emission_exponent != S(0)) weight = weight * power(abs(rays.to.z), scene.emission_exponent);
     return panel_point(scene, base, {F(0), F(0)}, end.x, end.y, weight, arrived);

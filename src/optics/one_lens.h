@@ -55,8 +55,8 @@ LFDSIM_FN Shape shape_of(const Scene<S>& scene, int k) {
     return scene.surface[k].shape;
 }
 
-template <class F>
-LFDSIM_FN Hit<F> meet(Shape shape, const SurfaceData<Scalar<F>>& surface, Ray<F> in_vertex_plane) {
+template <class F, class Surface>
+LFDSIM_FN Hit<F> meet(Shape shape, const Surface& surface, Ray<F> in_vertex_plane) {
     if (shape == Shape::plane) {
         const Vec3<F> p = in_vertex_plane.at;
         const F cosine = -in_vertex_plane.to.z, r = F(surface.semi_aperture);
@@ -66,8 +66,8 @@ LFDSIM_FN Hit<F> meet(Shape shape, const SurfaceData<Scalar<F>>& surface, Ray<F>
 }
 
 /// The same surface as a cylinder along y': seen along y', the ray meets its section, and its way is longer by 1/length.
-template <class F>
-LFDSIM_FN Hit<F> meet_cylinder(Shape shape, const SurfaceData<Scalar<F>>& surface, const Ray<F>& in_vertex_plane) {
+template <class F, class Surface>
+LFDSIM_FN Hit<F> meet_cylinder(Shape shape, const Surface& surface, const Ray<F>& in_vertex_plane) {
     const Vec3<F>&at = in_vertex_plane.at, &to = in_vertex_plane.to;
     if (shape == Shape::plane) {
         Hit<F> hit = meet(shape, surface, Ray<F>{{at.x, F(0), F(0)}, to});
@@ -156,14 +156,23 @@ LFDSIM_FN Place<F> bend(const Scene<Scalar<F>>& scene, Place<F> q, Place<F> slop
 ///   leaves(way)                             called when the last surface has been passed;
 ///   passes_back(x, y)                       does a ray pass the hole in the black part's lower face?
 ///   over(alive)                             whether to stop here: a packet goes on, a single ray that has ended need not.
+/// Rules of lenses that differ from each other (placed.h) have three more:
+///   meet(k, ray)                            where a ray in the vertex plane of surface k meets it;
+///   stop_between(from, end, at, to, ...)    the stop, in place of passes_stop();
+///   wall_bottom()                           where the black part ends.
 template <Shapes shapes, class F, class Rules>
 LFDSIM_FN void pass_lens(const Scene<Scalar<F>>& scene, Rules&& rules, const Ray<F>& entering, Hit<F> hit, Passage<F>& way) {
     using S = Scalar<F>;
     const int count = are_plano_convex<shapes> ? 2 : scene.surface_count;
     const bool has_stop = !are_plano_convex<shapes> && scene.has_stop;
+    constexpr bool by_itself = requires { rules.stand; };
     // The stop is tested where the ray first crosses its plane: before the first surface or after any. z from the panel.
     Mask<F> stop_ahead = way.alive;
     auto stop_between = [&](F from_z, F to_z, Vec3<F> at, Vec3<F> to, F at_z) {
+        if constexpr (by_itself) {
+            const F fall = F(1) / to.z;
+            return rules.stop_between((from_z - at_z) * fall, (to_z - at_z) * fall, {at.x, at.y, at_z}, to, stop_ahead);
+        }
         const Mask<F> crosses = stop_ahead && (from_z >= F(scene.stop_z)) && (to_z <= F(scene.stop_z));
         const F t = (F(scene.stop_z) - at_z) / to.z;
         const Place<F> axis = rules.axis();
@@ -185,7 +194,10 @@ LFDSIM_FN void pass_lens(const Scene<Scalar<F>>& scene, Rules&& rules, const Ray
         const F t = (F(surface.z - above.z) - way.ray.at.z) / way.ray.to.z;  // to its vertex plane
         Ray<F> ray = way.ray;
         ray.at = {ray.at.x + ray.to.x * t, ray.at.y + ray.to.y * t, F(0)};
-        hit = meet<shapes>(scene, k, ray);
+        if constexpr (by_itself)
+            hit = rules.meet(k, ray);
+        else
+            hit = meet<shapes>(scene, k, ray);
         const F from_z = way.ray.at.z + F(above.z), z = hit.at.z + F(surface.z);
         if (has_stop) stop_between(from_z, z, way.ray.at, way.ray.to, from_z);
         rules.meets(k, ray, hit, from_z, z, way);
@@ -197,10 +209,14 @@ LFDSIM_FN void pass_lens(const Scene<Scalar<F>>& scene, Rules&& rules, const Ray
     }
     const F z = way.ray.at.z + F(scene.surface[count - 1].z);
     if (has_stop) stop_between(z, -above_all, way.ray.at, way.ray.to, z);
+    if constexpr (by_itself)
+        if (has_stop) way.alive = way.alive && !stop_ahead;
     rules.leaves(way);
     if (shape_of<shapes>(scene, count - 1) != Shape::plane) way.alive = way.alive && (way.ray.to.z < F(0));
     if (!are_plano_convex<shapes> && scene.hollow_back) {  // the way out is the hole in the black part's lower face
-        const F down = (F(scene.wall_bottom) - z) / way.ray.to.z;
+        F wall_bottom = F(scene.wall_bottom);
+        if constexpr (by_itself) wall_bottom = rules.wall_bottom();
+        const F down = (wall_bottom - z) / way.ray.to.z;
         const F x = way.ray.at.x + way.ray.to.x * down, y = way.ray.at.y + way.ray.to.y * down;
         way.alive = way.alive && (rules.passes_back(x, y) || (down < F(0)));
     }

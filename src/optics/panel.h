@@ -11,6 +11,7 @@ template <class S>
 struct PanelBase {
     std::uint32_t column, row;
     S column_rest, row_rest;
+    S raised = 0;  // of its vertex over the vertex plane, mm, where the array is not parallel to the panel
 };
 
 /// Where a ray reaches the panel's plane, in panel pixels to the right of and below the base's whole pixel; `alive`: whether it

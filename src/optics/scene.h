@@ -65,6 +65,28 @@ struct Emission {
     SubpixelPart<S> part[max_subpixel_parts];
 };
 
+/// How a lens stands that is not where the lattice has it, in the array's frame. x, y, z: of its viewer-side vertex from there, mm.
+template <class S>
+struct PlacedLens {
+    S x, y, z;
+    S curvature;                   // as a share of that of the others
+    S cos_x, sin_x, cos_y, sin_y;  // of its turn about x', and then about y'
+};
+
+/// An array with errors (optics/placed.h).
+template <class S>
+struct Placement {
+    bool given;                   // else none of the rest means anything
+    bool tilted, curved, wedged;  // some lens is; the array is not parallel to the panel
+    const PlacedLens<S>* lens;    // row by row from the lower left; null: all stand where the lattice has them
+    S vertex_z;                   // of the viewer-side vertex plane, in the array's middle
+    S wedge[3][3];                // from the array's frame to that turned about z alone
+    S reach;                      // how far a lens stands out of its cell at most; negative: it stays so far inside
+    S radius;                     // of a circle about a lens's place in the lattice in which it stays
+    S lowest, highest;            // of all lenses' z
+    S search_top, search_bottom;  // highest and lowest z from the vertex plane at which lenses are met
+};
+
 template <class S>
 struct Scene {
     // panel
@@ -92,6 +114,7 @@ struct Scene {
     Lattice<S> lattice;
     S pitch_pixels[2];  // the pitch in panel pixels
     bool rotated;
+    Placement<S> placement;
     S start_above;            // height of the first plane above the first vertex (ideal: above the lens)
     S zone_top, zone_bottom;  // where an entering ray may meet the first surface: highest and lowest z of its caps
     S body_top, body_bottom;  // highest and lowest z of a lens
@@ -127,6 +150,8 @@ struct View {
     std::int32_t width, height;                       // of the whole frame
     double start_z;                                   // the first plane
     Lattice<double> lattice;
+    bool wedged;         // the array stands like this about its middle, at the height of its vertex plane:
+    double wedge[3][3];  // from the array's frame to that turned about z alone
     double panel_width, panel_height, pixels_per_mm;
     std::uint64_t seed;
 };

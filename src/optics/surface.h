@@ -30,10 +30,12 @@ struct Hit {
     Mask<F> ok;
 };
 
+// A surface is a SurfaceData, or one whose curvature differs from lane to lane (placed.h).
+
 /// Sag z and slope at s2 = x^2 + y^2 of the sheet that contains the vertex; `real`: it extends so far. d = 2 dz/d(s^2), so that the
 /// normal is along (-x d, -y d, 1).
-template <class F>
-LFDSIM_FN void sag(const SurfaceData<Scalar<F>>& surface, F s2, F& z, F& d, Mask<F>& real) {
+template <class F, class Surface>
+LFDSIM_FN void sag(const Surface& surface, F s2, F& z, F& d, Mask<F>& real) {
     const F c = surface.curvature, root2 = F(1) - c * c * (F(1) + F(surface.conic)) * s2;
     real = root2 > F(0);
     const F root = sqrt(max(root2, F(1e-12f)));
@@ -52,8 +54,8 @@ LFDSIM_FN void sag(const SurfaceData<Scalar<F>>& surface, F s2, F& z, F& d, Mask
 /// root next to the vertex of c t^2/2 - (d_z - c b) t + c s^2/2 = 0, b = x d_x + y d_y, s^2 = x^2 + y^2, in a form without
 /// cancellation that also holds for c = 0 (Welford, Aberrations of Optical Systems, 1986, sec. 4.5); on a sphere the cosine of
 /// incidence is the square root of the discriminant.
-template <class F>
-LFDSIM_FN Hit<F> meet_sphere(const SurfaceData<Scalar<F>>& surface, Ray<F> ray) {
+template <class F, class Surface>
+LFDSIM_FN Hit<F> meet_sphere(const Surface& surface, Ray<F> ray) {
     const F c = surface.curvature;
     const F cs2 = c * (ray.at.x * ray.at.x + ray.at.y * ray.at.y);
     const F g = ray.to.z - c * (ray.at.x * ray.to.x + ray.at.y * ray.to.y);
@@ -69,8 +71,8 @@ LFDSIM_FN Hit<F> meet_sphere(const SurfaceData<Scalar<F>>& surface, Ray<F> ray) 
 
 /// The same for a circular cylinder along y'. Seen along y' the ray meets a circle; length2 is the square of its direction's part
 /// in that plane, and the discriminant that of the ray in space.
-template <class F>
-LFDSIM_FN Hit<F> meet_round_cylinder(const SurfaceData<Scalar<F>>& surface, Ray<F> ray, F length2) {
+template <class F, class Surface>
+LFDSIM_FN Hit<F> meet_round_cylinder(const Surface& surface, Ray<F> ray, F length2) {
     const F c = surface.curvature;
     const F cs2 = c * (ray.at.x * ray.at.x);
     const F g = ray.to.z - c * (ray.at.x * ray.to.x);
@@ -86,8 +88,8 @@ LFDSIM_FN Hit<F> meet_round_cylinder(const SurfaceData<Scalar<F>>& surface, Ray<
 
 /// The same for conics (closed form, then the normal) and even aspheres (Newton's method from the conic; each lane stops by itself,
 /// so that its bits do not depend on its neighbours).
-template <class F>
-LFDSIM_FN Hit<F> meet_asphere(const SurfaceData<Scalar<F>>& surface, Ray<F> ray) {
+template <class F, class Surface>
+LFDSIM_FN Hit<F> meet_asphere(const Surface& surface, Ray<F> ray) {
     const F c = surface.curvature, k1 = F(1) + F(surface.conic);
     // c/2 (|p|^2 + k z^2) - z = 0 along the ray
     const F cs2 = c * (ray.at.x * ray.at.x + ray.at.y * ray.at.y);

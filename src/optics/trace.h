@@ -4,18 +4,21 @@
 #include "optics/diffuser.h"
 #include "optics/glass.h"
 #include "optics/ideal.h"
+#include "optics/placed.h"
+#include "optics/placed_plate.h"
 #include "optics/sequential.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
 /// The ways through an array, one of which a display uses: chosen outside the loop over samples, so that none pays for another.
 /// Three are for plano-convex lenses, in rows and columns, as strips, and in staggered rows, the next two for rows and columns, all
-/// with air under them; `glass` is for light between the lenses, `other` for the rest. A new one takes a name here, a line in each
-/// of the functions below, and a function that traces it.
-enum class Way { plano_convex, strips, staggered, opaque, ideal, glass, other };
+/// with air under them; `glass` is for light between the lenses, `placed` for arrays with errors, `other` for the rest. A new one
+/// takes a name here, a line in each of the functions below, and a function that traces it.
+enum class Way { plano_convex, strips, staggered, opaque, ideal, glass, placed, other };
 
 template <class S>
 LFDSIM_FN Way way_through(const Scene<S>& scene) {
+    if (scene.placement.given) return Way::placed;
     if (!scene.thin && scene.surround != Surround::opaque) return Way::glass;
     if (scene.glued || scene.layer_count > 0) return Way::other;
     const bool rows = !scene.lattice.strips && !scene.lattice.staggered;
@@ -28,7 +31,9 @@ LFDSIM_FN Way way_through(const Scene<S>& scene) {
 
 /// The way that the filtered estimator takes, which traces few rays: `other` has the same bits, and each way is much code to
 /// compile.
-constexpr Way for_few_rays(Way way) { return way == Way::plano_convex || way == Way::glass ? way : Way::other; }
+constexpr Way for_few_rays(Way way) {
+    return way == Way::plano_convex || way == Way::glass || way == Way::placed ? way : Way::other;
+}
 
 /// do_it.operator()<way>() for the way through a display.
 template <class S, class Do>
@@ -46,6 +51,8 @@ inline decltype(auto) with_way(const Scene<S>& scene, const Do& do_it) {
             return do_it.template operator()<Way::ideal>();
         case Way::glass:
             return do_it.template operator()<Way::glass>();
+        case Way::placed:
+            return do_it.template operator()<Way::placed>();
         case Way::other:
             break;
     }
@@ -61,6 +68,7 @@ inline void for_all_ways(const Do& do_it) {
     do_it.template operator()<Way::opaque>();
     do_it.template operator()<Way::ideal>();
     do_it.template operator()<Way::glass>();
+    do_it.template operator()<Way::placed>();
     do_it.template operator()<Way::other>();
 }
 
@@ -101,6 +109,9 @@ LFDSIM_FN PanelPoint<F> trace_array(const Scene<Scalar<F>>& scene, const Extent<
     to_first_vertex(scene, way);
     if constexpr (through == Way::glass) {
         return trace_glass(scene, extent, base, way);
+    } else if constexpr (through == Way::placed) {
+        if (!scene.thin && scene.surround != Surround::opaque) return trace_placed_plate(scene, extent, base, way);
+        return trace_placed(scene, extent, base, way);
     } else if constexpr (through == Way::ideal) {
         return trace_ideal(scene, extent, base, way);
     } else {

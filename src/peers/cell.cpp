@@ -212,7 +212,7 @@ class ArrayBuilder {
         if (geometry_.glued && k == 0 && geometry_.layers.empty()) return;  // the panel itself lies there
         if (is_plane(s) && !clear) {
             Patch face{name, false, s.index_above, s.index_below, {}, {}, {}};
-            add_face(face, local(s.z_mm), sheet_half(display_, geometry_));
+            add_face(face, local(s.z_mm), sheet_half(geometry_));
             return take(made_.sheet, std::move(face));
         }
         Patch cap{name, false, down ? s.index_below : s.index_above, down ? s.index_above : s.index_below, {}, {}, {}};
@@ -223,7 +223,7 @@ class ArrayBuilder {
         add_ring(flat, rims_[k], local(rim_z(s)), sides_, 0);
         take(made_.cell, std::move(flat));
         Patch beside{fmt::format("beside-{}", k + 1), false, s.index_above, s.index_below, {}, {}, {}};
-        add_frame(beside, array_half(display_, geometry_), local(rim_z(s)), sheet_half(display_, geometry_));
+        add_frame(beside, array_half(display_, geometry_), local(rim_z(s)), sheet_half(geometry_));
         add_between(beside, display_, geometry_, local(rim_z(s)));
         take(made_.sheet, std::move(beside));
     }
@@ -236,12 +236,12 @@ class ArrayBuilder {
             Patch face{fmt::format("layer-{}", k + 1), false, above, layers[k].index, {}, {}, {}, false};
             above = layers[k].index;
             if (!geometry_.glued || k + 1 < layers.size()) {
-                add_face(face, local(z), sheet_half(display_, geometry_));
+                add_face(face, local(z), sheet_half(geometry_));
                 take(made_.sheet, std::move(face));
             } else if (display_.array.surround == Surround::clear) {
                 add_ring(face, rims_.front(), local(z), sides_, 0);
                 Patch beside{face.name + "-beside", false, 1, above, {}, {}, {}, false};
-                add_frame(beside, array_half(display_, geometry_), local(z), sheet_half(display_, geometry_));
+                add_frame(beside, array_half(display_, geometry_), local(z), sheet_half(geometry_));
                 add_between(beside, display_, geometry_, local(z));
                 take(made_.cell, std::move(face));
                 take(made_.sheet, std::move(beside));
@@ -275,7 +275,7 @@ class ArrayBuilder {
                 add_ring(black, of_surface ? rims_[std::size_t(same - surfaces.begin())] : hole(ring.radius_mm), z, sides_,
                          solid_overlap_mm);
                 if (all_beside || &ring == &rings.front() || &ring == &rings.back()) {
-                    add_frame(beside, array_half(display_, geometry_), z, 100 * sheet_half(display_, geometry_));
+                    add_frame(beside, array_half(display_, geometry_), z, 100 * sheet_half(geometry_));
                     add_between(beside, display_, geometry_, z);
                 }
             }

@@ -2,6 +2,7 @@
 
 #include "meshed/lens_mesh.h"
 #include "model/colour.h"
+#include "model/lens_errors.h"
 
 #include <fmt/format.h>
 #include <cmath>
@@ -22,6 +23,10 @@ class Refusals {
                                  : "a pinhole has no surfaces to make triangles of; export pov without --triangles");
             return std::move(problems_);
         }
+        if (is_irregular(d_.errors))
+            add("errors",
+                "let lenses stand by themselves, or the array lean, which exported scenes do not cover; give shift_mm, gap_mm, "
+                "rotation_deg and pitch_ppm only");
         array();
         if (disperses(d_)) colour();
         if (d_.camera.pupil_diameter_mm.value_or(0) > 0)

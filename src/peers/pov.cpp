@@ -126,7 +126,7 @@ class Writer {
     std::string beside(double z, const std::string& matter) const {
         const auto [x, y] = array_half(d_, g_);
         return fmt::format("disc {{ {}, z, {} clipped_by {{ box {{ {}, {} inverse }} }} {}", vector(0, 0, z),
-                           text(100 * sheet_half(d_, g_)), vector(-x, -y, z - 1), vector(x, y, z + 1), matter);
+                           text(100 * sheet_half(g_)), vector(-x, -y, z - 1), vector(x, y, z + 1), matter);
     }
 
     // The places in the box about all cells that no cell of staggered rows covers: cells without lenses, cut off at the box.
@@ -143,7 +143,7 @@ class Writer {
             vector(x, y, g_.top_z_mm + 1));
     }
 
-    std::string face(double z) const { return fmt::format("disc {{ {}, z, {} ", vector(0, 0, z), text(100 * sheet_half(d_, g_))); }
+    std::string face(double z) const { return fmt::format("disc {{ {}, z, {} ", vector(0, 0, z), text(100 * sheet_half(g_))); }
 
     // A black face in the plane of a flat one, or of the panel, is placed in front of it.
     double before_faces(double z) const {

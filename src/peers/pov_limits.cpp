@@ -15,7 +15,7 @@ constexpr double least_units = 1e-3;  // between surfaces that a ray meets
 }  // namespace
 
 double pov_units_per_mm(const Display& d, const Geometry& g) {
-    return std::min(120 / d.array.pitch_mm.least(), longest_units / (length(d.camera.position_mm) + sheet_half(d, g)));
+    return std::min(120 / d.array.pitch_mm.least(), longest_units / (length(d.camera.position_mm) + sheet_half(g)));
 }
 
 std::vector<std::string> pov_deviations(Display& shown, const Geometry& geometry, const PeerOptions& options) {

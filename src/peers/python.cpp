@@ -26,7 +26,7 @@ Json camera(const Display& d, const Geometry& g) {
 Json diffuser(const Display& d, const Geometry& g) {
     if (!d.diffuser) return Json::object();
     return {{"z_mm", *g.diffuser_z_mm},
-            {"half_mm", sheet_half(d, g) + 20 * *g.diffuser_z_mm},
+            {"half_mm", sheet_half(g) + 20 * *g.diffuser_z_mm},
             {"angle_deg", d.diffuser->angle_deg},
             {"gaussian", d.diffuser->profile == Profile::gaussian ? 1 : 0}};
 }
@@ -88,11 +88,11 @@ void write_python(Peer peer, const Display& display, const Geometry& geometry, c
           {"emission_exponent", display.panel.emission_exponent}}},
         {"array",
          {{"count", lens_count(display.panel, array)},
-          {"pitch_mm", spacing_mm(display.panel, array)},
+          {"pitch_mm", geometry.lattice.pitch},
           {"staggered", is_staggered(array) ? 1 : 0},
           {"base_z_mm", geometry.base_z_mm},
-          {"rotation_deg", array.turn_deg()},
-          {"offset_mm", array.offset_mm}}},
+          {"rotation_deg", geometry.turn_deg},
+          {"offset_mm", geometry.lattice.offset}}},
         {"diffuser", diffuser(display, geometry)},
         {"fresnel", word(scene.shown.render.fresnel)},
         // Opaque: each surface once. Otherwise: up to 16.

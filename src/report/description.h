@@ -28,6 +28,8 @@ struct Figure {
 };
 std::vector<Figure> figures(const Display&, const Geometry&);
 std::vector<Figure> figures(const Display&, const Theory&);
+/// How far the errors of single lenses go, those of the table and those drawn together; none where there are no such errors.
+std::vector<Figure> largest_errors(const Display&, const Geometry&);
 
 Json to_json(const std::vector<Setting>&);  // {"panel": {"pixels": ...}, ...}
 Json to_json(const std::vector<Figure>&);  // {"fov_deg": ...}, along y "fov_y_deg"; "infinite" and "-infinite" as words, null where

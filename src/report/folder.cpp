@@ -122,6 +122,14 @@ void ResultFolder::remove_others() const {
     if (std::error_code error; any) fs::remove(path_ / report_name, error);
 }
 
+void ResultFolder::keep_apart(bool replace) const {
+    if (replace) return remove_others();
+    if (const std::vector<std::string> there = others(); !there.empty())
+        throw InputError(path_.string(),
+                         fmt::format("holds results of other settings: {}; give another folder, or --replace to remove them",
+                                     fmt::join(there, ", ")));
+}
+
 Json ResultFolder::write(const Measure& measure, const Result& result, double seconds) const {
     Json files = Json::array(), plots = Json::array(), maps = plots, pictures = plots, animations = plots;
     const auto keep = [&](Json& list, const std::string& name, const char* key, const std::string& text) {

@@ -25,6 +25,8 @@ class ResultFolder {
     std::vector<std::string> others() const;
     /// Removes their results, and the report.
     void remove_others() const;
+    /// Removes them if they are to be replaced. Throws InputError that lists them otherwise.
+    void keep_apart(bool replace) const;
     /// The content of NAME.json. Throws InputError if it cannot be read.
     Json read(const Measure&) const;
     /// Returns the content of NAME.json as written. Throws std::runtime_error when writing fails.

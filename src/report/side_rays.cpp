@@ -1,6 +1,7 @@
 #include "report/side_rays.h"
 
 #include "engine/scene.h"
+#include "model/lens_errors.h"
 #include "model/prescription.h"
 #include "optics/one_lens.h"
 
@@ -83,7 +84,7 @@ SideRay side_ray(double y, double z, double to_y, double to_z) {
 SidePath through_lens(const Display& d, const Geometry& g, const SideRay& from) {
     const bool up = from.dz > 0;
     const double sense = up ? -1 : 1;
-    const auto scene = make_scene<double>(d, up ? turned_over(g) : g);
+    const auto scene = make_scene<double>(without_errors(d), up ? turned_over(g) : g);
     SidePath path{{{from.y, from.z}}, from, true};
     const SideRay start = up ? up_through_layers(g, from, path) : from;
     const auto go_on = [&](double y, double z, double dy, double dz) { path.last = {y, sense * z, dy, sense * dz}; };

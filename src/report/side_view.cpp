@@ -41,7 +41,7 @@ SideScale scale_for(const Subject& s, const Planes& planes, double top, double& 
         first = std::fmin(first, z);
         last = std::fmax(last, z);
     }
-    const double offset = d.array.offset_mm[1], half = half_height(g), eye = d.camera.position_mm[1];
+    const double offset = g.lattice.offset[1], half = half_height(g), eye = d.camera.position_mm[1];
     const double up = std::max({0.5 * g.panel_height_mm, offset + half, eye}),
                  down = std::min({-0.5 * g.panel_height_mm, offset - half, eye});
     const double per_z = std::min(drawn / (last - first), most_height / (up - down));
@@ -55,7 +55,7 @@ void draw_backward(Drawing& drawing, const SideScale& scale, const Subject& s) {
     const Geometry& g = s.geometry();
     const Vec3d& eye = d.camera.position_mm;
     for (const double share : {-0.7, 0., 0.7}) {
-        const double y = d.array.offset_mm[1] + share * half_height(g);
+        const double y = g.lattice.offset[1] + share * half_height(g);
         if (!g.diffuser_z_mm) {
             const SideLens lens = lens_near(g.lattice, y);
             draw_path(drawing, scale, through_array(d, g, side_ray(eye[1], eye[2], lens.y_mm, g.vertex_plane_mm)), 0,
@@ -149,7 +149,7 @@ std::string side_view_svg(const Subject& display, SideFrame* frame) {
                  {scale.at(0, std::max(eye[2], g.top_z_mm))[0] + 12, scale.at(0, 0)[1]},
                  "stroke-opacity=\"0.5\" stroke-dasharray=\"10 3 2 3\"");
 
-    const double offset = d.array.offset_mm[1], half = half_height(g);
+    const double offset = g.lattice.offset[1], half = half_height(g);
     if (std::isfinite(planes.central)) upright(planes.central, offset - half, offset + half, plane_style);
     for (const double z : planes.marginal)
         if (std::isfinite(z)) upright(z, offset - half, offset + half, margin_style);

@@ -141,7 +141,7 @@ std::vector<std::string> notes_of(const Subject& s) {
                                             : std::string("L: at infinity"),
         fmt::format("{:.4g}\u00b0: field of view, dashed", t.along[1].fov_deg)};
     if (d.diffuser) lines.push_back(fmt::format("\u03c9 = {:.4g}\u00b0: diffuser, vertical", d.diffuser->angle_deg[1]));
-    if (d.array.turn_deg() != 0) lines.push_back("in the frame of the turned array");
+    if (g.turn_deg != 0) lines.push_back("in the frame of the turned array");
     return lines;
 }
 

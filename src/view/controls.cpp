@@ -17,7 +17,7 @@ namespace {
 
 // Other parts of a message decide these.
 constexpr std::string_view left_out[] = {
-    "name", "content.model", "glass_catalogues", "camera.position_mm", "camera.resolution", "panel.subpixel_cell"};
+    "name", "content.model", "glass_catalogues", "camera.position_mm", "camera.resolution", "panel.subpixel_cell", "errors.table"};
 
 std::string label(std::string_view key) {
     for (const std::string_view unit : {"_per_mm", "_mm", "_nm", "_deg"})
@@ -156,9 +156,9 @@ class Lister {
 
     // This takes most of the time, so it is skipped for keys that are limited only by their range.
     bool valid(std::string_view path) const {
-        const bool free = (path.starts_with("render.") && path != "render.wavelength_samples") ||
-                          (path.starts_with("content.") && path != "content.viewing_distance_mm") || path == "panel.encoding" ||
-                          path == "panel.emission_exponent" || path == "diffuser.profile";
+        const bool free = (path.starts_with("render.") && path != "render.wavelength_samples") || path == "errors.seed" ||
+                          (path.starts_with("content.") && path != "content.viewing_distance_mm" && path != "content.made_for") ||
+                          path == "panel.encoding" || path == "panel.emission_exponent" || path == "diffuser.profile";
         return free || validate(trial_).empty();
     }
 

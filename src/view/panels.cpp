@@ -1,5 +1,7 @@
 #include "view/panels.h"
 
+#include "model/lens_errors.h"
+
 #include "engine/memory.h"
 #include "image/image_file.h"
 #include "model/subpixels.h"
@@ -79,13 +81,15 @@ Source source_of(const Library& library, const Shown& shown, const Display& disp
 }
 
 // The nodal pick-up (content/pickup.h) and the model's pose (content/scene.cpp) depend on these resolved numbers only.
-PanelKey panel_key(const Source& source, const Display& d, const Geometry& g) {
+PanelKey panel_key(const Source& source, const Display& d, const Geometry& built) {
+    const Geometry g = meant_geometry(d, built);
     PanelKey key{source, d.panel.pixels, d.panel.encoding, {}, {}};
     if (!drawn_for_lenses(source)) return key;
     key.lengths = {
         double(d.array.lattice), d.panel.pixel_pitch_mm, g.lattice.count[0],           g.lattice.count[1], d.array.pitch_mm[1],
-        d.array.pitch_mm[0],     d.array.offset_mm[0],   d.array.offset_mm[1],         d.array.turn_deg(), g.gap_mm,
+        d.array.pitch_mm[0],     g.lattice.offset[0],    g.lattice.offset[1],          g.turn_deg,         g.gap_mm,
         g.rear_principal_mm,     g.vertex_plane_mm,      d.content.viewing_distance_mm};
+    if (!knows_no_errors(d)) key.errors = d.errors;
     if (source.kind != Shown::Kind::model) return key;
     key.content = pose_of(d, g);
     key.lengths.push_back(g.content_depth_mm);

@@ -48,6 +48,7 @@ struct PanelKey {
     Content content;              // of a model or scene: how it stands and what lights it; else a fresh one
     std::vector<double> lengths;  // the display's numbers that elemental images and drawn patterns depend on; empty for others
     std::optional<RealLens> traced = {};  // unless the pick-up is nodal
+    Errors errors = {};                   // that the panel's light knows of
     bool operator==(const PanelKey&) const = default;
 };
 PanelKey panel_key(const Source&, const Display&, const Geometry&);

@@ -58,7 +58,7 @@ Plot fov_plot(const Display& display, const ContentParts& parts, const Job& job)
         likeness_series.x.push_back(angle);
         const Display seen = seen_from(d, angle, 0);
         likeness_series.y.push_back(
-            likeness(expected_view(seen, g, scene, 0, job), seen, g, shown->pyramid(), white, 0, job).screen);
+            likeness(expected_view(seen, g, scene, 0, job), seen, g, shown->pyramid(), white, {}, job).screen);
     }
     Plot plot{"fov", "Likeness of the simulated view to the scene", "horizontal angle of the view, degrees", "SSIM", {}};
     plot.series.push_back(std::move(likeness_series));

@@ -10,10 +10,22 @@ namespace {
 
 Slider about(double middle, double reach) { return {middle - reach, middle + reach, 0}; }
 
+/// What assembly and moulds may be off by.
+Slider of_error(std::string_view path, double pitch) {
+    if (path == "errors.shift_mm") return about(0, pitch);
+    if (path == "errors.gap_mm" || path == "errors.bow_mm") return about(0, 0.25 * pitch);
+    if (path == "errors.rotation_deg" || path == "errors.wedge_deg") return about(0, 2);
+    if (path == "errors.pitch_ppm") return about(0, 2000);
+    if (path == "errors.seed") return {0, 100, 0};
+    if (path.ends_with("_mm")) return {0, 0.05 * pitch, 0};
+    return {0, path == "errors.tilt_sd_deg" ? 2. : 0.05, 0};
+}
+
 Slider ends_of(std::string_view path, const Range& range, double described, const Display& d, const Geometry& g) {
     const bool angle = path.ends_with("_deg");
     if (path == "array.rotation_deg") return about(described, 5);  // misalignment
     if (path == "array.slant_deg") return {-60, 60, 0};
+    if (path.starts_with("errors.")) return of_error(path, d.array.pitch_mm.least());
     if (angle && range.low < 0) return {-180, 180, 0};
     if (path.ends_with("index")) return {1, 2.5, 0};
     if (path == "panel.emission_exponent") return {0, 10, 0};

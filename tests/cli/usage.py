@@ -2,7 +2,7 @@
 from program import Checks, Program
 
 program, checks = Program(), Checks()
-COMMANDS = ["new", "import", "check", "eia", "photo", "render", "compare", "analyze", "sheet", "export", "bench", "glass", "doctor"]
+COMMANDS = ["new", "import", "check", "eia", "photo", "render", "compare", "analyze", "sheet", "export", "bench", "glass", "errors", "doctor"]
 
 for name, arguments, words in [
     ("no command", "", "a command is missing"),

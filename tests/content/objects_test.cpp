@@ -252,6 +252,7 @@ TEST_F(Objects, TurnAndGrowTogetherAboutTheirMiddle) {
     d_.content.height_mm = 16;  // their box reaches from -3 to 5: twice as large
     d_.content.yaw_deg = 90;
     const Vec3d half = scene().half_size_mm();
+    EXPECT_EQ(half_size_mm(load_parts(content_files(d_)), d_, resolve(d_)), half);
     // Turned by 90 degrees z becomes x: 20 to either side, twice as much.
     EXPECT_NEAR(half[0], 2 * 20, 1e-4);
     EXPECT_NEAR(half[1], 2 * 5, 1e-4);
@@ -277,7 +278,7 @@ TEST_F(Objects, ReadEachFileOnce) {
 }
 
 TEST_F(Objects, LimitsHoldForAllFilesTogether) {
-    if (!memory_is_limited) GTEST_SKIP();
+    if (!memory_is_limited) GTEST_SKIP() << "AddressSanitizer excludes limits of the address space";
     Image big(3000, 3000);  // 36 MB of texels
     for (const char* name : {"a.png", "b.png"}) add_image(write_picture(name, big), {0, 0, 0}, 10);
     LoadOptions options;

@@ -49,6 +49,17 @@ class Bits {
     std::uint64_t hash_ = 14695981039346656037u;
 };
 
+/// Large errors of lenses 4 mm apart, but for tilts.
+inline Errors of_each_lens() {
+    Errors e;
+    e.decenter_sd_mm = 0.03;
+    e.height_sd_mm = 0.02;
+    e.curvature_sd = 0.01;
+    e.bow_mm = 0.2;
+    e.seed = 3;
+    return e;
+}
+
 inline Display ideal_example() {
     Display d = example();
     d.lens = {IdealLens{{}, 6}, {}};
@@ -147,6 +158,18 @@ inline std::vector<std::pair<std::string, Display>> every_kind() {
     all.back().second.camera.pixel_filter = PixelFilter::box;
     all.emplace_back("hexagons over custom subpixels", in_lattice(example(), LatticeKind::hexagon));
     all.back().second.panel = with_subpixels(all.back().second.panel, SubpixelLayout::custom);
+    all.back().second.diffuser = Diffuser{40, {4, 4}, Profile::box};
+    all.emplace_back("errors of each lens", with_surfaces({{0.02, 0, {}, 1.8, 1, 1.6}, {-0.25, -0.4, {1e-3, 2e-5}, 1.8}}));
+    all.back().second.array.pitch_mm = 4;
+    all.back().second.lens.stop_radius_mm = 1.4;
+    all.back().second.errors = of_each_lens();
+    all.back().second.errors.tilt_sd_deg = 1;
+    all.back().second.errors.wedge_deg = {0.5, -0.3};
+    all.back().second.diffuser = Diffuser{40, {4, 4}, Profile::box};
+    all.emplace_back("errors of a plate's caps", example());
+    all.back().second.array.surround = Surround::plate;
+    all.back().second.errors = of_each_lens();
+    all.back().second.errors.rotation_deg = 2;
     all.back().second.diffuser = Diffuser{40, {4, 4}, Profile::box};
     for (auto& [name, d] : all) {
         look_from(d, 20, 400);

@@ -108,7 +108,7 @@ TEST(WriteDisplay, ReadsBackTheSame) {
         for (const std::string& one : paths)
             change([&](Display& c) {
                 visit_all(c, [&](const std::string& path, const KeyInfo& key, ValueRef value) {
-                    if (path == one) fill_value(key, value);
+                    if (path == one && path != "errors.table") fill_value(key, value);  // of a file that is there
                 });
             });
         const std::string text = write_display(d);

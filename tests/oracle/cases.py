@@ -2,6 +2,8 @@
 import copy
 import math
 
+import errors
+
 SPHERE = {"type": "plano_convex", "sphere_radius_mm": 5.0, "aperture_radius_mm": 3.9, "cylinder_height_mm": 1.0, "index": 1.49}
 ROUNDER = {**SPHERE, "sphere_radius_mm": 6.4}  # for square cells of 7.92 mm: R must reach the corners
 TURNED, ROUNDER_TURNED = {**SPHERE, "facing": "panel"}, {**ROUNDER, "facing": "panel"}
@@ -178,3 +180,13 @@ def to_toml(value):
                 for row in list_of_tables:
                     lines += [f"[[{name}.{kind}]]"] + [f"{k} = {text(v)}" for k, v in row.items()]
     return "\n".join(lines) + "\n"
+
+
+def write(folder, description):
+    """display.toml in a folder (pathlib.Path), and the rows of a table of errors in lenses.csv beside it; returns the first's path."""
+    if "table" in description.get("errors", {}):
+        errors.write_table(folder / "lenses.csv", description["errors"]["table"])
+        description = {**description, "errors": {**description["errors"], "table": "lenses.csv"}}
+    path = folder / "display.toml"
+    path.write_text(to_toml(description))
+    return path

@@ -17,11 +17,11 @@ LATTICES = {"square": {}, "rectangle": {"pitch_mm": [9.0, P]}, "brick": {"pitch_
 LAYERS = [{"thickness_mm": 1.9, "index": 1.52}, {"thickness_mm": 0.3, "index": 1.41}]
 
 
-def display(lens, lattice="hexagon", layers=(), fresnel="none", panel=(), content=(), wavelength_samples=1, **array):
+def display(lens, lattice="hexagon", layers=(), fresnel="none", panel=(), content=(), wavelength_samples=1, errors=None, **array):
     """A display of 9 x 8 lenses (strips 9), 9 mm above the panel unless a gap is given, before a panel of 400 x 400 mm."""
     base = {} if "gap_mm" in array else {"base_z_mm": 9.0}
     given = {"pitch_mm": P, **base, **LATTICES[lattice], "lattice": lattice, "count": [9, 1] if lattice == "strips" else [9, 8], **array}
-    return resolve({"panel": {"pixels": [4000, 4000], "pixel_pitch_mm": 0.1, "layer": list(layers), **dict(panel)}, "lens": lens, "array": given,
+    return resolve({**({} if errors is None else {"errors": errors}), "panel": {"pixels": [4000, 4000], "pixel_pitch_mm": 0.1, "layer": list(layers), **dict(panel)}, "lens": lens, "array": given,
                     "content": dict(content), "render": {"fresnel": fresnel, "wavelength_samples": wavelength_samples}})
 
 

@@ -1,10 +1,12 @@
 """A display description (TOML) resolved to lengths, and its paraxial theory. Lengths in mm, z from the panel to the viewer."""
 import math
+import pathlib
 import tomllib
 from types import SimpleNamespace
 
 import numpy as np
 
+import errors
 from dispersion import has_glass, index_of, wavelengths
 from lattice import cell_shape, grid_pitch, least_count, turn_matrix
 from subpixels import Subpixels
@@ -24,9 +26,12 @@ TOUCHES = 1e-6  # mm: a flat face this close to what lies under it is glued on
 
 
 def read(path):
-    """The display in a TOML file, resolved."""
+    """The display in a TOML file, resolved; a table of errors lies where the file names it."""
     with open(path, "rb") as file:
-        return resolve(tomllib.load(file))
+        text = tomllib.load(file)
+    if "table" in text.get("errors", {}):
+        text["errors"]["table"] = errors.read_table(pathlib.Path(path).parent / text["errors"]["table"])
+    return resolve(text)
 
 
 def resolve(text):
@@ -90,6 +95,7 @@ def _resolve(text, nm):
         d.clear_aperture = d.cell.width
     else:
         d.clear_aperture = np.full(2, 2 * (d.lens.aperture_radius_mm if d.ideal else min(s.semi for s in d.surfaces)))
+    d.errors = errors.of_display(text.get("errors"), d)
     diffuser = text.get("diffuser")
     d.diffuser = SimpleNamespace(**{"profile": "box", **diffuser}, z=d.vertex_plane + diffuser["distance_mm"]) if diffuser else None
     return d

@@ -119,8 +119,9 @@ class Glass:
         return t, normal, i, j
 
 
-def trace_glass(path, display, lattice):
-    glass = Glass(display, lattice)
+def trace_glass(path, display, lattice, glass=None):
+    """glass: what tells the next boundary; by default that of a perfect array."""
+    glass = glass or Glass(display, lattice)
     inside = np.zeros(len(path.o), bool)
     bi, bj = np.zeros(len(path.o), np.int64), np.zeros(len(path.o), np.int64)
     while len(path.alive()):

@@ -60,6 +60,8 @@ def least_count(array, panel):
 class Lattice:
     """nx by ny lenses in the array's own frame: its centre on the z axis, its rows along x. Strips lie along y without end."""
 
+    margin = 0.0  # mm by which a lens may reach farther than where it should stand
+
     def __init__(self, d):
         self.nx, self.ny = d.array.count
         self.pitch, self.fills_cell = d.array.pitch_mm, d.fills_cell
@@ -80,6 +82,10 @@ class Lattice:
         """The lens axes as points (..., 3) with z = 0."""
         x = (i + 0.5 - self.nx / 2) * self.pitch[0] + np.where(j % 2 == 1, self.shift, -self.shift)
         return np.stack([x, (j + 0.5 - self.ny / 2) * self.pitch[1] * self.across[1], np.zeros_like(x)], axis=-1)
+
+    def into_lens(self, o, d, i, j):
+        """Points and directions (n, 3) of the array's frame in those of lenses (i, j)."""
+        return o - self.axis(i, j), d
 
     def _about(self, p, on_array):
         """The nearest lenses of each point's own row and of the rows beside it: i, j (rows, n) and the point from their axes (rows, n, 3).
@@ -131,10 +137,10 @@ class Lattice:
         flat_o, flat_d = o[:, :2] * self.across, d[:, :2] * self.across
         speed = np.hypot(*flat_d.T)
         with np.errstate(divide="ignore", invalid="ignore"):
-            t1 = np.minimum(t1, np.where(speed > 0, (np.hypot(*flat_o.T) + self.radius) / speed, np.inf))
+            t1 = np.minimum(t1, np.where(speed > 0, (np.hypot(*flat_o.T) + self.radius + self.margin) / speed, np.inf))
             step = np.where(speed > 0, 1.5 * min(self.pitch) / speed, np.inf)
         a, active = t0.copy(), np.flatnonzero(t0 <= t1)
-        half, slack = np.array([self.nx, self.ny]) / 2, reach + EPS + np.array([self.shift, 0.0])
+        half, slack = np.array([self.nx, self.ny]) / 2, reach + self.margin + EPS + np.array([self.shift, 0.0])
         while len(active):
             b = np.minimum(a[active] + step[active], t1[active])
             p, q = flat_o[active] + a[active, None] * flat_d[active], flat_o[active] + b[:, None] * flat_d[active]
@@ -148,7 +154,7 @@ class Lattice:
                 k = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
                 i, j = first[owner, 0] + k % wide[owner, 0], first[owner, 1] + k // wide[owner, 0]
                 ray = active[owner]
-                t, m = hit(o[ray] - self.axis(i, j), d[ray], i, j)
+                t, m = hit(*self.into_lens(o[ray], d[ray], i, j), i, j)
                 t = np.where(t <= b[owner] + EPS, t, np.inf)
                 order = np.lexsort((t, owner))
                 lead = order[np.r_[True, owner[order][1:] != owner[order][:-1]]]  # the nearest pair of each ray

@@ -28,26 +28,13 @@ def trace_opaque(path, display, lattice):
     surfaces, top = display.surfaces, display.surfaces[-1]
     # The black sheet fills the heights from the lowest to the highest rim.
     floor, ceiling = min(s.z_rim for s in surfaces), max(s.z_rim for s in surfaces)
-
-    def enter(o, d, i, j):
-        """Entries through the top surface. One below the sheet's upper face counts if the ray came in through the same lens's hole."""
-        best, normal = np.full(len(o), np.inf), np.zeros((len(o), 3))
-        at_face = o + ((ceiling - o[:, 2]) / d[:, 2])[:, None] * d
-        through = lattice.in_aperture(at_face, top.semi)
-        for t in top.roots(o, d):
-            p = o + np.where(np.isfinite(t), t, 0)[:, None] * d
-            n = top.normal(p)
-            ok = (t > -EPS) & (t < best) & (np.sum(d * n, axis=1) < 0) & lattice.in_aperture(p, top.semi) & (through | (p[:, 2] >= ceiling - EPS))
-            best[ok], normal[ok] = t[ok], n[ok]
-        return best, normal
-
     rays = path.alive()
     path.status[rays[path.d[rays, 2] >= 0]] = ESCAPED
     rays = path.alive()
     o, d = path.o[rays], path.d[rays]
     reach = lattice.shape.extent if lattice.fills_cell else top.semi
     t0, t1 = (max(top.z_max, ceiling) - o[:, 2]) / d[:, 2], (top.z_min - EPS - o[:, 2]) / d[:, 2]
-    t, normal, i, j = lattice.first_hit(o, d, t0, t1, reach, enter)
+    t, normal, i, j = lattice.first_hit(o, d, t0, t1, reach, lambda o, d, i, j: entry(top, ceiling, o, d, lattice))
     axis = lattice.axis(i, j)  # of the lens each ray went into
     hit = np.isfinite(t)
     path.status[rays[~hit]] = BLACK
@@ -64,7 +51,7 @@ def trace_opaque(path, display, lattice):
         keep = path.status[rays] == ALIVE
         rays, axis = rays[keep], axis[keep]
         if number:
-            t, normal = _next(surfaces[number - 1], path.o[rays] - axis, path.d[rays], lattice)
+            t, normal = passage(surfaces[number - 1], path.o[rays] - axis, path.d[rays], lattice)
             missed = ~np.isfinite(t)
             path.status[rays[missed]] = BLACK
             rays, t, normal, axis = rays[~missed], t[~missed], normal[~missed], axis[~missed]
@@ -77,12 +64,21 @@ def trace_opaque(path, display, lattice):
     path.to_panel(path.alive(), display, lattice, surfaces[0].n_below)
 
 
-def _next(surface, o, d, lattice):
-    """The first downward passage through the next surface of the same lens."""
+def entry(top, ceiling, o, d, lattice):
+    """The first entry through a lens's top surface, in its frame. One below the black sheet's upper face, at `ceiling`, counts if the ray came in through
+    the same lens's hole."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        at_face = o + ((ceiling - o[:, 2]) / d[:, 2])[:, None] * d
+    through = (d[:, 2] < 0) & lattice.in_aperture(at_face, top.semi)
+    return passage(top, o, d, lattice, lambda p: through | (p[:, 2] >= ceiling - EPS))
+
+
+def passage(surface, o, d, lattice, counts=lambda p: True):
+    """The first downward passage through a surface, in the frame of its lens, where counts(points) holds: (t, normal), t = inf for none."""
     best, normal = np.full(len(o), np.inf), np.zeros((len(o), 3))
     for t in surface.roots(o, d):
         p = o + np.where(np.isfinite(t), t, 0)[:, None] * d
         n = surface.normal(p)
-        ok = (t > -EPS) & (t < best) & (np.sum(d * n, axis=1) < 0) & lattice.in_aperture(p, surface.semi)
+        ok = (t > -EPS) & (t < best) & (np.sum(d * n, axis=1) < 0) & lattice.in_aperture(p, surface.semi) & counts(p)
         best[ok], normal[ok] = t[ok], n[ok]
     return best, normal

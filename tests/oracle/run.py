@@ -22,6 +22,8 @@ from PIL import Image
 import cases
 import colour
 import colour_cases
+import errors
+import errors_cases
 import lattice_cases
 import tracer
 from display import resolve, theory
@@ -33,6 +35,7 @@ COMPARED = 0.5       # the least share of a coloured picture that must be off th
 MANY = 300           # so many pixels near edges that few directions do not find are something else
 NEAR_ENOUGH = 0.015  # root mean square over a picture by which filtered light may differ from exact means, beyond chance
 MOST_STRATA = 3844   # samples of the filtered estimator
+ERRORS_LANDED = True  # whether lfdsim knows `[errors]`; until then only --only errors asks it
 
 
 @functools.lru_cache(maxsize=1)
@@ -64,20 +67,31 @@ class Harness:
             raise RuntimeError(f"lfdsim {arguments[0]} ended with {done.returncode}: {done.stderr.strip()[-600:]}")
         return done.stdout
 
-    def render(self, text, image, *options, estimator="point"):
-        """lfdsim's picture (rows, columns, 3) of a description (TOML text) with a panel image (uint8)."""
+    def render(self, description, image, *options, estimator="point"):
+        """lfdsim's picture (rows, columns, 3) of a description with a panel image (uint8)."""
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
-            (folder / "display.toml").write_text(text)
+            cases.write(folder, description)
             Image.fromarray(image).save(folder / "panel.png", compress_level=1)
             self.lfdsim("render", folder / "display.toml", "--panel-image", folder / "panel.png", "--estimator", estimator, *options, "-o", folder / "out.npy")
             return np.load(folder / "out.npy").astype(float)
+
+    def told(self, description):
+        """The description with all errors of lenses in its table, as `lfdsim errors` tells those that it draws."""
+        wrong = description.get("errors", {})
+        if not any(key in wrong for key in errors.DRAWN):
+            return description
+        with tempfile.TemporaryDirectory() as name:
+            table = pathlib.Path(name) / "told.csv"
+            self.lfdsim("errors", cases.write(table.parent, description), "-o", table)
+            rows = errors.read_table(table)
+        return {**description, "errors": {**{key: wrong[key] for key in errors.OF_ARRAY if key in wrong}, "table": rows}}
 
     def check(self, name, compare):
         """Runs one comparison: compare() returns (good, what was found, pictures by name)."""
         try:
             good, found, pictures = compare()
-        except (RuntimeError, OSError, subprocess.TimeoutExpired, KeyError) as error:
+        except (RuntimeError, OSError, subprocess.TimeoutExpired, KeyError, ValueError) as error:
             good, found, pictures = False, str(error), {}
         print(("pass  " if good else "FAIL  ") + name + ": " + found, flush=True)
         self.passed, self.failed = self.passed + good, self.failed + (not good)
@@ -94,14 +108,14 @@ def single_rays(harness, description, pattern, share, compared=None):
 
     compared: the least share of the picture, all channels, that must be off the edges.
     """
-    display = resolve(description)
+    display = resolve(harness.told(description))
     image = panel_images(*display.panel.pixels)[pattern]
     linear = colour.decode(image, display.panel.encoding)
     x, y = tracer.centers(display)
     traced = colour.trace(display, *tracer.camera_rays(display, x, y))
     wanted = colour.shade(display, traced, linear)
     shape = (*display.camera.resolution[::-1], 3)
-    got = harness.render(cases.to_toml(description), image, "--samples", 1).reshape(-1, 3)
+    got = harness.render(description, image, "--samples", 1).reshape(-1, 3)
     error = np.abs(got - wanted)
     differs = error > TOLERANCE
     note = f"largest error elsewhere {error[~differs].max():.1e}"
@@ -139,7 +153,7 @@ def golden(harness, name):
     text = (GOLDEN / f"{name}.toml").read_text()
     stored, address = np.load(GOLDEN / f"{name}.npz"), name in ("clear_15_degrees", "opaque_oblique")
     image = panel_images(3840, 2160)["address" if address else "checker"]
-    got, wanted = harness.render(text, image, "--samples", 1), stored["rgb"].astype(float)
+    got, wanted = harness.render(tomllib.loads(text), image, "--samples", 1), stored["rgb"].astype(float)
     wrong = (np.abs(got - wanted).max(axis=2) > TOLERANCE) & ~stored["edge"]
     found, good = f"{wrong.sum()} pixels differ off the edges", not wrong.any()
     if address:
@@ -167,8 +181,8 @@ def blurred(harness, description, count, sampling, pattern="waves"):
     - together: the sum over the P pixels of the channels' mean z^2 is at most P + 2 sqrt(P L) + 2 L, L = ln(1 / probability) (Laurent and Massart 2000);
     - the picture's mean: as one figure, with count P samples.
     """
-    display, image, wanted, variance = exact_means(description, count, pattern)
-    got = harness.render(cases.to_toml(description), image, "--samples", count, "--sampling", sampling, "--seed", 7)
+    display, image, wanted, variance = exact_means(harness.told(description), count, pattern)
+    got = harness.render(description, image, "--samples", count, "--sampling", sampling, "--seed", 7)
     brightest = display.subpixels.gain  # of each channel
     shape, got, wanted, variance = got.shape, got.reshape(-1, 3) / brightest, wanted / brightest, variance / brightest**2
     chance, share = FALSE_ALARM / 3, 1 + (np.e if sampling == "sobol" else 1)
@@ -190,12 +204,12 @@ def blurred(harness, description, count, sampling, pattern="waves"):
 
 def exact_means(description, count, pattern):
     """(display, the panel image, our means of `count` samples (pixels, 3), the variance of one sample)."""
-    return exact_means_of(cases.to_toml(description), count, pattern)
+    return exact_means_of(json.dumps(description), count, pattern)
 
 
 @functools.lru_cache(maxsize=1)  # each way of sampling is held against the same means
 def exact_means_of(text, count, pattern):
-    display = resolve(tomllib.loads(text))
+    display = resolve(json.loads(text))
     image = panel_images(*display.panel.pixels)[pattern]
     return display, image, *colour.sampled(display, colour.decode(image, display.panel.encoding), count, seed=1)
 
@@ -203,8 +217,8 @@ def exact_means_of(text, count, pattern):
 def filtered(harness, description, count, pattern):
     """The filtered estimator against our means: root mean square over the picture, less what chance adds to ours, at most NEAR_ENOUGH and what as many
     random samples would err."""
-    _, image, wanted, variance = exact_means(description, count, pattern)
-    got = harness.render(cases.to_toml(description), image, "--samples", MOST_STRATA, estimator="filtered")
+    _, image, wanted, variance = exact_means(harness.told(description), count, pattern)
+    got = harness.render(description, image, "--samples", MOST_STRATA, estimator="filtered")
     shape, got = got.shape, got.reshape(-1, 3)
     beyond = np.sqrt(max(((got - wanted) ** 2).mean() - variance.mean() / count, 0))
     allowed = np.sqrt(NEAR_ENOUGH**2 + variance.mean() / MOST_STRATA)
@@ -216,8 +230,7 @@ def paraxial(harness, description):
     """The figures of `lfdsim check --json` against our own, to 1e-6; None, where there is no figure, against null."""
     wanted = theory(resolve(description))
     with tempfile.TemporaryDirectory() as name:
-        path = pathlib.Path(name) / "display.toml"
-        path.write_text(cases.to_toml(description))
+        path = cases.write(pathlib.Path(name), description)
         got = json.loads(harness.lfdsim("check", path, "--json"))["theory"]
 
     def same(a, b):
@@ -267,10 +280,20 @@ def main():
             description = cases.merge(description, {"camera": {"resolution": [96, 54]}})
         todo.append((f"{name}, noise", lambda d=description: single_rays(harness, d, "noise", 0.997, COMPARED)))
         todo.append((f"{name}, theory", lambda d=description: paraxial(harness, d)))
+    wrong = errors_cases if ERRORS_LANDED or "errors" in options.only else None
+    for name, description in {**wrong.SHORT, **({} if options.quick else wrong.MORE)}.items() if wrong else ():
+        if options.quick:
+            description = cases.merge(description, {"camera": {"resolution": [96, 54]}})
+        todo.append((f"{name}, address", lambda d=description: single_rays(harness, address_of(d), "address", 0.994 if "caps" in name else 0.999)))
+        todo.append((f"{name}, checker", lambda d=description: single_rays(harness, d, "checker", None)))
+    for name, description in {**wrong.COLOURED_SHORT, **({} if options.quick else wrong.COLOURED_MORE)}.items() if wrong else ():
+        todo.append((f"{name}, noise", lambda d=description: single_rays(harness, d, "noise", 0.997, COMPARED)))
     count, samplings = (4096, ["sobol"]) if options.quick else (16384, ["random", "sobol"])
     more = {} if options.quick else colour_cases.BLURRED_MORE
     fine = {**colour_cases.FINE_SHORT, **({} if options.quick else colour_cases.FINE_MORE)}
     coloured = {**colour_cases.BLURRED_SHORT, **more, **fine}
+    if wrong:
+        coloured |= {**wrong.BLURRED_SHORT, **({} if options.quick else wrong.BLURRED_MORE)}
     for name, description in {**cases.BLURRED, **coloured}.items():
         pattern = "noise" if name in fine else "waves"
         for s in samplings:

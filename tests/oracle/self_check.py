@@ -4,6 +4,7 @@ import sys
 
 import check_arrays as arrays
 import check_colour as colour
+import check_errors as errors
 import check_light as light
 import check_paraxial as paraxial
 from check_tools import ASPHERE, FACING, IDEAL, LATTICES, LAYERS, LENS, PINHOLE
@@ -72,6 +73,33 @@ def checks():
     for label, lens in (("plano-convex", LENS), ("panel facing", FACING), ("asphere", ASPHERE), ("ideal", IDEAL), ("pinhole", PINHOLE)):
         for where, given in (("in air", {}), ("over layers", {"layers": LAYERS}), ("on layers", glued), ("on the panel", {"base_z_mm": 0.0})):
             yield f"{label}, {where}: paraxial rays", lambda z=lens, g=given: paraxial.paraxial_rays(z, g)
+    yield from of_errors()
+
+
+def of_errors():
+    yield "errors: decentred lenses", errors.decentred
+    yield "errors: image depths", errors.refocused
+    yield "errors: a stop's holes", errors.holes
+    yield "errors: refused", errors.refused
+    for lens in (LENS, FACING, ASPHERE, IDEAL):
+        for strips in (False, True):
+            yield f"errors: one lens turned, {lens['type']}, strips {strips}", lambda z=lens, s=strips: errors.one_lens_turned(z, s)
+    for name in LATTICES:
+        yield f"errors, {name}: vertices", lambda n=name: errors.vertices(n)
+        for surround in ("opaque", "plate"):
+            yield f"errors, {name}, {surround}: wedged", lambda n=name, s=surround: errors.wedged(n, s, LENS)
+            for lens in (LENS, FACING, ASPHERE, IDEAL):
+                yield f"errors, {name}, {surround}: all moved, {lens['type']}", lambda n=name, s=surround, z=lens: errors.all_moved(n, s, z)
+            for aperture in ("circle", "cell"):
+                yield f"errors, {name}, {surround}, {aperture}: as described", lambda n=name, s=surround, a=aperture: errors.as_described(n, s, a)
+                yield f"errors, {name}, {surround}, {aperture}: every lens searched", lambda n=name, s=surround, a=aperture: errors.every_lens_searched(n, LENS, a, s)
+        for aperture in ("circle", "cell"):
+            for lens in (LENS, FACING, ASPHERE, IDEAL, PINHOLE):
+                yield f"errors, {name}, {aperture}: lens by lens, {lens['type']}", lambda n=name, a=aperture, z=lens: errors.lens_by_lens(n, z, a)
+            for lens in (LENS, FACING, errors.BICONVEX):
+                yield f"errors, {name}, {aperture}: bodies, {lens['type']}", lambda n=name, a=aperture, z=lens: errors.bodies(n, z, a)
+    for name, text in errors.titles().items():
+        yield f"errors, none: {name}", lambda t=text: errors.none_at_all(t)
 
 
 def main():

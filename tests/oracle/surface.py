@@ -2,6 +2,8 @@
 
 Points and directions are (n, 3) arrays in the lens's own frame: x and y from the lens axis, z from the panel, all in mm.
 """
+import copy
+
 import numpy as np
 
 EPS = 1e-9  # mm: joins of surfaces overlap by this much, so that no ray slips through between them
@@ -23,12 +25,30 @@ class Surface:
         heights = self.height(s * s)
         self.z_min, self.z_max, self.z_rim = heights.min(), heights.max(), heights[-1]
 
+    def bent(self, factor):
+        """The surface with its curvature times `factor`: a number for each ray (n,). The vertex and the aspheric terms stay."""
+        out = copy.copy(self)
+        out.c, s2 = self.c * factor, np.linspace(0.0, self.semi, 2001)[:, None] ** 2
+        extremes = copy.copy(self)
+        extremes.c = self.c * np.array([factor.min(), factor.max()]) if len(factor) else self.c
+        heights = extremes.height(s2)
+        out.z_min, out.z_max, out.z_rim = heights.min(), heights.max(), out.height(self.semi**2)  # z_rim (n,)
+        return out
+
+    def of(self, rays):
+        """The surface as it is for some of the rays that it was bent for."""
+        if not np.ndim(self.c):
+            return self
+        out = copy.copy(self)
+        out.c, out.z_rim = self.c[rays], self.z_rim[rays]
+        return out
+
     def squared(self, p):
         """s^2 of points (..., 3)."""
         return p[..., :2] ** 2 @ self.across
 
     def height(self, s2):
-        """z of the surface at the squared distance s2."""
+        """z of the surface at the squared distance s2, with the rays along its last axis where each has a curvature of its own."""
         root = np.sqrt(np.maximum(1 - (1 + self.k) * self.c**2 * s2, 0))
         return self.z + self.c * s2 / (1 + root) + sum(a * s2 ** (m + 2) for m, a in enumerate(self.even))
 
@@ -48,9 +68,9 @@ class Surface:
         # c (s^2 + (1 + k) z^2) - 2 z = 0 with z from the vertex.
         w = np.array([*self.across, 1.0 + self.k])
         o = o - [0, 0, self.z]
-        a = self.c * (d * d) @ w
-        b = self.c * (o * d) @ w - d[:, 2]
-        c = self.c * (o * o) @ w - 2 * o[:, 2]
+        a = self.c * ((d * d) @ w)
+        b = self.c * ((o * d) @ w) - d[:, 2]
+        c = self.c * ((o * o) @ w) - 2 * o[:, 2]
         disc = b * b - a * c
         q = -(b + np.copysign(np.sqrt(np.maximum(disc, 0)), b))
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -71,11 +91,11 @@ class Surface:
         found = [np.full(len(o), np.inf) for _ in range(4)]
         if not len(some):
             return found
-        o, d, lo, hi = o[some], d[some], lo[some], hi[some]
+        o, d, lo, hi, here = o[some], d[some], lo[some], hi[some], self.of(some)
 
         def above(t):  # (rays, k) -> signed height over the surface
             p = o[:, None, :] + t[:, :, None] * d[:, None, :]
-            return p[:, :, 2] - self.height(self.squared(p))
+            return p[:, :, 2] - here.height(here.squared(p).T).T
 
         t = lo[:, None] + (hi - lo)[:, None] * np.linspace(0, 1, SCAN)
         f = above(t)

@@ -3,6 +3,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
+import errors_trace
 from glass import trace_glass
 from lattice import Lattice
 from opaque import trace_ideal, trace_opaque
@@ -25,14 +26,18 @@ def trace(display, o, d, turn=None):
 
 
 def _trace(display, o, d, turn):
-    lattice = Lattice(display)
     status = np.full(len(o), ALIVE)
     if display.diffuser:
         o, d, status = _diffuse(display.diffuser.z, o, d, turn)
-    path = Path(*lattice.enter(o, d))
-    path.status[:] = status
-    (trace_ideal if display.ideal else trace_opaque if display.array.surround == "opaque" else trace_glass)(path, display, lattice)
-    p, d = lattice.leave(path.o, path.d)
+    if display.errors:
+        path = errors_trace.trace(display, o, d, status)
+        p, d = path.o, path.d
+    else:
+        lattice = Lattice(display)
+        path = Path(*lattice.enter(o, d))
+        path.status[:] = status
+        (trace_ideal if display.ideal else trace_opaque if display.array.surround == "opaque" else trace_glass)(path, display, lattice)
+        p, d = lattice.leave(path.o, path.d)
     panel = display.panel
     (columns, rows), pitch = panel.pixels, panel.pixel_pitch_mm
     x, y = (p[:, 0] + columns * pitch / 2) / pitch, (rows * pitch / 2 - p[:, 1]) / pitch

@@ -253,7 +253,7 @@ TEST(Cell, OfStaggeredRowsIsCoveredOnce) {
         const double one = d.array.lattice == LatticeKind::hexagon ? cell : 144;
         EXPECT_NEAR(area_from_above(*cap) + area_from_above(*flat), one, 1e-4) << lattice;
         // The cells and what lies beside them make up the whole sheet.
-        const double half = sheet_half(d, g);
+        const double half = sheet_half(g);
         EXPECT_NEAR(area_from_above(*beside) + 20 * one, 4 * half * half, 1e-6 * half * half) << lattice;
     }
 }

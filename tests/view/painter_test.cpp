@@ -197,7 +197,7 @@ TEST_F(PainterTest, LikenessIsThatOfTheAnalysis) {
     Subject subject(library.display(w), ContentScene(built_in_model(), library.display(w), resolve(library.display(w))), {});
     Job job;
     const double alike = likeness(expected_view(subject.display(), subject.geometry(), subject.scene(), 0, job), subject.display(),
-                                  subject.geometry(), subject.panel(job), subject.white_field(job), 0, job)
+                                  subject.geometry(), subject.panel(job), subject.white_field(job), {}, job)
                              .screen;
     EXPECT_NEAR(photograph.header["ssim"].get<double>(), alike, 2e-3);
     EXPECT_EQ(photograph.header["ssim"], view.header["ssim"]);

@@ -92,6 +92,10 @@ class LensCutter {
                 half[2] = {S(0.5) * (high[0] - low[0]), S(0.5) * (high[1] - low[1])};
         const S c = optics::abs(lattice.cos_turn), s = optics::abs(lattice.sin_turn);
         const optics::Place<S> at = optics::to_array(lattice, middle[0], middle[1]);
+        // Where lenses stand by themselves, all are seen about as far from their places as the base lens, at most a cell more or
+        // less.
+        const S more = scene.placement.given ? S(0.5) : S(0), around = scene.placement.given ? S(1) : S(0);
+        const optics::Place<S> off = scene.placement.given ? seen_off({S(0), S(0)}, at.y) : optics::Place<S>{S(0), S(0)};
         const S half_x = c * half[0] + s * half[1], half_y = s * half[0] + c * half[1];
         reach_along = half_x + half_y;
         const optics::Outline<S> cell = optics::outline_of(lattice, scene.hole_half, reach_along);
@@ -104,20 +108,24 @@ class LensCutter {
             }
         }
         const S reach_y = optics::reach_of_cell(lattice);
-        const S first_j = lattice.strips ? S(0) : floor((at.y - half_y - reach_y) * lattice.per_pitch[1] + S(1)),
-                last_j = lattice.strips ? S(0) : floor((at.y + half_y + reach_y) * lattice.per_pitch[1]);
+        const S first_j = lattice.strips ? S(0) : floor((at.y - off.y - half_y - reach_y) * lattice.per_pitch[1] + S(1)) - around,
+                last_j = lattice.strips ? S(0) : floor((at.y - off.y + half_y + reach_y) * lattice.per_pitch[1]) + around;
         const S rows = last_j - first_j + S(1), columns = S(2) * half_x * lattice.per_pitch[0] + S(2);
         const bool near = optics::abs(at.x) * lattice.per_pitch[0] + optics::abs(first_j) < S(1e6);  // exact whole numbers
         if (!(near && rows * columns < S(8 * room.grids))) return false;
         for (S j = first_j; j <= last_j; ++j) {
-            const S beside = lattice.staggered ? optics::stagger(lattice, j) : S(0), from = at.x - beside;
-            const S first_i = floor((from - half_x) * lattice.per_pitch[0] + S(0.5)),
-                    last_i = floor((from + half_x) * lattice.per_pitch[0] + S(0.5));
+            const S beside = lattice.staggered ? optics::stagger(lattice, j) : S(0), from = at.x - off.x - beside;
+            const S first_i = floor((from - half_x) * lattice.per_pitch[0] + S(0.5) - more),
+                    last_i = floor((from + half_x) * lattice.per_pitch[0] + S(0.5) + more);
             for (S i = first_i; i <= last_i; ++i) {
                 const optics::Cell<S> lens{i, j};
                 if (!scene.leaky && !block.lens.extent.holds(lens)) continue;
                 optics::Place<S> axis = optics::axis_of(lattice, lens);
                 if (lattice.strips) axis.y = at.y;  // any point of it serves, here one in the middle of the block's view
+                if (scene.placement.given) {
+                    const optics::Place<S> aside = seen_off(lens, at.y);
+                    axis = {axis.x + aside.x, axis.y + aside.y};
+                }
                 axis = optics::to_display(lattice, axis.x, axis.y);
                 if (!(lattice.strips ? add_strip(axis, cell) : add(axis, cell, extent))) return false;
             }
@@ -126,6 +134,27 @@ class LensCutter {
     }
 
   private:
+    /// How far from the lattice's place a lens that stands by itself appears in the plane of the holes to the block's middle, in
+    /// the array's frame. One that is raised is met before that plane. y: of any point of a strip's axis.
+    LFDSIM_BOTH optics::Place<S> seen_off(optics::Cell<S> lens, S y) const {
+        const optics::Extent<S>& extent = block.lens.extent;
+        const optics::Stand<S> stand = optics::stand_of<S>(scene, extent, lens, extent.holds(lens));
+        const optics::Place<S> axis = optics::axis_of(scene.lattice, lens);
+        optics::Vec3<S> vertex{axis.x + stand.x, scene.lattice.strips ? y : axis.y + stand.y, stand.z};
+        if (scene.placement.wedged) vertex = optics::wedged<S>(scene.placement, false, vertex);
+        const S raised = vertex.z + block.lens.panel.raised;
+        const optics::Place<S> place = optics::to_display(scene.lattice, vertex.x, vertex.y);
+        const S to[2] = {place.x, place.y};
+        S seen[2];
+        for (int a = 0; a < 2; ++a) {
+            const optics::Sweep<S>& sweep = block.sweep[a][0];
+            const S above = sweep.height - raised;  // of the diffuser
+            seen[a] = to[a] + raised * (scene.has_diffuser && above > S(0) ? (to[a] - sweep.at) / above : sweep.slope);
+        }
+        const optics::Place<S> at = optics::to_array(scene.lattice, seen[0], seen[1]);
+        return {at.x - axis.x, at.y - (scene.lattice.strips ? y : axis.y)};
+    }
+
     /// Adds the grid of the lens whose axis is there, which reaches as far as `extent`; false: no room.
     LFDSIM_BOTH bool add(optics::Place<S> axis, const optics::Outline<S>& cell, const S (&extent)[2]) {
         const S at[2] = {axis.x, axis.y};

@@ -26,6 +26,13 @@ class Renderer {
         frame_.tile = tile;
         frame_.tile.texels = panel.texels();
         frame_.tile.levels.level = panel.levels();  // the emission is that of the frame's scene
+        if (auto*& lens = frame_.scene.placement.lens) {
+            const auto& count = frame_.scene.lattice.count;
+            const std::size_t lenses = std::size_t(count[0]) * std::size_t(count[1]);
+            lenses_ = Buffer<optics::PlacedLens<float>>(queue_, lenses);
+            queue_.upload(lenses_.get(), lens, lenses * sizeof *lens);
+            lens = lenses_.get();
+        }
     }
     Frame& frame() { return frame_; }
 
@@ -106,6 +113,7 @@ class Renderer {
 
     Queue& queue_;
     Frame frame_{};
+    Buffer<optics::PlacedLens<float>> lenses_;
     Buffer<std::byte> even_, memory_;
     std::size_t memory_bytes_ = 0, listed_room_ = 0;
     std::int64_t bundles_per_block_ = 0;

@@ -1,4 +1,4 @@
-#include "cli/folder_lock.h"
+#include "report/folder_lock.h"
 
 #include "model/error.h"
 
@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <system_error>
 
-namespace lfdsim::cli {
+namespace lfdsim {
 
 FolderLock::FolderLock(const std::filesystem::path& folder) {
     std::error_code error;
@@ -24,4 +24,4 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
 
 FolderLock::~FolderLock() { close(descriptor_); }
 
-}  // namespace lfdsim::cli
+}  // namespace lfdsim

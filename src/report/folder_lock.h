@@ -1,8 +1,8 @@
-// A folder of results that one run at a time writes to. Floor 5.
+// A folder of results that one run at a time writes to. Floor 4.
 #pragma once
 #include <filesystem>
 
-namespace lfdsim::cli {
+namespace lfdsim {
 
 /// Holds a folder, which is made if it is missing, until it goes or the program ends in any way. Leaves nothing in it.
 class FolderLock {
@@ -17,4 +17,4 @@ class FolderLock {
     int descriptor_ = -1;
 };
 
-}  // namespace lfdsim::cli
+}  // namespace lfdsim

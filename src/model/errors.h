@@ -1,0 +1,47 @@
+// How the array that was built differs from the one that a description asks for. Floor 0: plain data.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lfdsim {
+
+/// Of one lens, in the array's frame: its body is turned about its viewer-side vertex, about x' and then about y', and moved.
+struct LensError {
+    std::array<double, 2> aside_mm{};  // along x' and y'
+    double height_mm = 0;              // towards the viewer
+    std::array<double, 2> tilt_deg{};  // about x' and y', right-handed
+    double curvature = 0;              // e: every curvature times 1 + e, vertices and aspheric terms as they are
+    bool operator==(const LensError&) const = default;
+};
+
+/// One that a table gives: lens (i, j), counted from 0 to the right and upwards.
+struct GivenLensError {
+    std::int64_t i = 0, j = 0;
+    LensError error;
+    bool operator==(const GivenLensError&) const = default;
+};
+
+struct Errors {
+    // Of the whole array
+    std::array<double, 2> shift_mm{};   // along the panel's x and y
+    double gap_mm = 0;                  // towards the viewer
+    double rotation_deg = 0;            // counter-clockwise as the viewer sees it
+    double pitch_ppm = 0;               // the lenses stand so much further apart; they themselves are as large as they should be
+    std::array<double, 2> wedge_deg{};  // turn about the panel's x, then about its y, right-handed
+    double bow_mm = 0;                  // how much the middle of the array stands out over its corners
+
+    // Of each lens: standard deviations of normal distributions, redrawn beyond three of them
+    double decenter_sd_mm = 0;  // along x' and y'
+    double height_sd_mm = 0;
+    double tilt_sd_deg = 0;  // about x' and y'
+    double curvature_sd = 0;
+    std::int64_t seed = 0;
+    std::string table;                                         // CSV file of further ones, which are added
+    std::shared_ptr<const std::vector<GivenLensError>> given;  // what it says; shared by copies of a display
+    bool operator==(const Errors&) const = default;
+};
+
+}  // namespace lfdsim

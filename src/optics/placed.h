@@ -1,0 +1,367 @@
+// Arrays with errors: each lens stands where it was put, and the array as a whole may not be parallel to the panel. Opaque
+// surrounds, ideal lenses and pinholes. docs/model.md, "Errors". Floor 1.
+//
+// Three frames: the array's turned about z alone, in which the camera's rays come and go, from the base lens's vertex (x, y) and
+// the panel (z); the array's own, from that vertex too; and the lens's own, from its viewer-side vertex, as one_lens.h has it.
+#pragma once
+#include "optics/glass.h"
+#include "optics/sequential.h"
+
+namespace lfdsim::optics::inline LFDSIM_ISA {
+
+/// How the lenses of a packet's rays stand.
+template <class F>
+struct Stand {
+    F x, y, z, curvature, cos_x, sin_x, cos_y, sin_y;
+
+    /// A vector of the array's frame in the lens's, and back.
+    LFDSIM_FN Vec3<F> turned_in(Vec3<F> v) const {
+        const F x1 = v.x * cos_y - v.z * sin_y, z1 = v.x * sin_y + v.z * cos_y;
+        return {x1, v.y * cos_x + z1 * sin_x, z1 * cos_x - v.y * sin_x};
+    }
+    LFDSIM_FN Vec3<F> turned_out(Vec3<F> v) const {
+        const F y1 = v.y * cos_x - v.z * sin_x, z1 = v.y * sin_x + v.z * cos_x;
+        return {v.x * cos_y + z1 * sin_y, y1, z1 * cos_y - v.x * sin_y};
+    }
+};
+
+/// Those of lenses in these cells; where `there` is false, of any.
+template <class F>
+LFDSIM_FN Stand<F> stand_of(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, Cell<F> cell, Mask<F> there) {
+    using S = Scalar<F>;
+    constexpr int N = LaneTraits<F>::width;
+    const Placement<S>& placement = scene.placement;
+    const F zero = F(0), one = F(1);
+    if (!placement.lens) return {zero, zero, zero, one, one, zero, one, zero};
+    const F number = (cell.j - F(extent.low_j)) * F(scene.lattice.count[0]) + (cell.i - F(extent.low_i));
+    std::uint32_t of[N];
+    store(to_int(select(there, number, zero)), of);
+    S number_of[N];
+    const auto all = [&](auto member) {
+        for (int k = 0; k < N; ++k) number_of[k] = placement.lens[of[k]].*member;
+        return load<F>(number_of);
+    };
+    using Lens = PlacedLens<S>;
+    const F x = all(&Lens::x), y = all(&Lens::y), z = all(&Lens::z), curvature = placement.curved ? all(&Lens::curvature) : one;
+    if (!placement.tilted) return {x, y, z, curvature, one, zero, one, zero};
+    return {x, y, z, curvature, all(&Lens::cos_x), all(&Lens::sin_x), all(&Lens::cos_y), all(&Lens::sin_y)};
+}
+
+/// A surface whose curvature differs from lens to lens, as meet() and sag() take it.
+template <class F>
+struct CurvedSurface {
+    Shape shape;
+    std::int32_t terms;
+    F curvature;
+    Scalar<F> conic;
+    const Scalar<F>* asphere;
+    Scalar<F> semi_aperture, low, high;
+    F c_rim;
+
+    LFDSIM_FN CurvedSurface(const SurfaceData<Scalar<F>>& from, F factor)
+        : shape(from.shape),
+          terms(from.terms),
+          curvature(F(from.curvature) * factor),
+          conic(from.conic),
+          asphere(from.asphere),
+          semi_aperture(from.semi_aperture),
+          low(from.low),
+          high(from.high) {
+        const F cr = curvature * F(from.semi_aperture), cr2 = cr * cr;
+        c_rim = cr2 / (F(1) + sqrt(max(F(1) - cr2, F(0))));  // of a sphere, which alone asks for it
+    }
+};
+
+/// Where a ray meets surface k of lenses that stand like this.
+template <class F>
+LFDSIM_FN Hit<F> meet_curved(const Scene<Scalar<F>>& scene, int k, const Ray<F>& in_vertex_plane, F factor) {
+    if (!scene.placement.curved) return meet<Shapes::all>(scene, k, in_vertex_plane);
+    const CurvedSurface<F> surface(scene.surface[k], factor);
+    return scene.lattice.strips ? meet_cylinder(surface.shape, surface, in_vertex_plane)
+                                : meet(surface.shape, surface, in_vertex_plane);
+}
+
+/// z of the highest rim of a lens's surfaces, or of the lowest.
+template <class F>
+LFDSIM_FN F outmost_rim(const Scene<Scalar<F>>& scene, bool highest, F factor) {
+    if (!scene.placement.curved) return F(highest ? scene.zone_top : scene.wall_bottom);
+    F rim = F(Scalar<F>(highest ? -1e30 : 1e30)), z, d;
+    Mask<F> sheet;
+    for (int k = 0; k < scene.surface_count; ++k) {
+        const auto& surface = scene.surface[k];
+        sag(CurvedSurface<F>(surface, factor), F(surface.semi_aperture) * F(surface.semi_aperture), z, d, sheet);
+        z = z + F(surface.z);
+        rim = highest ? max(rim, z) : min(rim, z);
+    }
+    return rim;
+}
+
+/// A lens, and where a ray meets it: in the lens's frame, at the path length `way` from where the ray starts.
+template <class F>
+struct Encounter {
+    Cell<F> cell;
+    Stand<F> stand;
+    Ray<F> entering;  // in the vertex plane of the first surface, or in a thin lens
+    Hit<F> hit;
+    F way;
+};
+
+/// `ray` in the array's frame, z from the vertex plane.
+template <class F>
+LFDSIM_FN Encounter<F> meet_placed(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray,
+                                   Cell<F> cell) {
+    using S = Scalar<F>;
+    const Mask<F> there = extent.holds(cell);
+    Encounter<F> at{cell, stand_of(scene, extent, cell, there), {}, {}, F(0)};
+    const Place<F> axis = axis_of(scene.lattice, cell);
+    Vec3<F> from{ray.at.x - axis.x - at.stand.x, ray.at.y - axis.y - at.stand.y, ray.at.z - at.stand.z}, to = ray.to;
+    if (scene.placement.tilted) {
+        from = at.stand.turned_in(from);
+        to = at.stand.turned_in(to);
+    }
+    const S vertex = scene.thin ? scene.ideal_z : scene.surface[0].z;
+    at.way = (F(vertex - scene.placement.vertex_z) - from.z) / to.z;
+    at.entering = {{from.x + to.x * at.way, from.y + to.y * at.way, F(0)}, to};
+    const Vec3<F>& p = at.entering.at;
+    if (scene.thin) {
+        const F across_y = across(scene.lattice, p.y), r = F(scene.aperture_radius);
+        at.hit = {p, {F(0), F(0), F(1)}, -to.z, to.z * to.z, p.x * p.x + across_y * across_y <= r * r};
+        if (scene.aperture == Aperture::cell) at.hit.ok = in_cell(scene.lattice, p.x, p.y);
+    } else {
+        at.hit = meet_curved(scene, 0, at.entering, at.stand.curvature);
+        at.hit.ok = inside_cell(scene, at.hit.at, at.hit.ok);
+        if (scene.dimple) {  // the entrance is the rim
+            const F down = (outmost_rim(scene, true, at.stand.curvature) - F(vertex)) / to.z;
+            const F x = p.x + to.x * down, y = across(scene.lattice, p.y + to.y * down), r = F(scene.surface[0].semi_aperture);
+            at.hit.ok = inside_cell(scene, Vec3<F>{x, p.y + to.y * down, F(0)}, at.hit.ok && (x * x + y * y <= r * r));
+            at.way = at.way + down;
+        } else {
+            at.way = at.way + at.hit.at.z / to.z;
+        }
+    }
+    at.hit.ok = at.hit.ok && there && (to.z < F(0));
+    return at;
+}
+
+template <class F>
+LFDSIM_FN Vec3<F> choose(Mask<F> first, Vec3<F> a, Vec3<F> b) {
+    return {select(first, a.x, b.x), select(first, a.y, b.y), select(first, a.z, b.z)};
+}
+
+template <class F>
+LFDSIM_FN void take(Mask<F> taken, const Encounter<F>& from, Encounter<F>& to) {
+    const auto one = [&](F a, F b) { return select(taken, a, b); };
+    const Stand<F>&a = from.stand, &b = to.stand;
+    to.stand = {one(a.x, b.x),         one(a.y, b.y),         one(a.z, b.z),         one(a.curvature, b.curvature),
+                one(a.cos_x, b.cos_x), one(a.sin_x, b.sin_x), one(a.cos_y, b.cos_y), one(a.sin_y, b.sin_y)};
+    to.cell = {one(from.cell.i, to.cell.i), one(from.cell.j, to.cell.j)};
+    to.entering = {choose(taken, from.entering.at, to.entering.at), choose(taken, from.entering.to, to.entering.to)};
+    to.hit = {choose(taken, from.hit.at, to.hit.at), choose(taken, from.hit.normal, to.hit.normal), one(from.hit.cos, to.hit.cos),
+              one(from.hit.cos2, to.hit.cos2), to.hit.ok || taken};
+    to.way = one(from.way, to.way);
+}
+
+/// The cells of a lattice next to one, and it itself: do(cell) for each.
+template <class F, class Do>
+LFDSIM_FN void around(const Lattice<Scalar<F>>& lattice, Cell<F> cell, const Do& do_it) {
+    using S = Scalar<F>;
+    for (int j = lattice.strips ? 0 : -1; j <= (lattice.strips ? 0 : 1); ++j)
+        for (int i = -1; i <= 1; ++i) do_it(Cell<F>{cell.i + F(S(i)), cell.j + F(S(j))});
+}
+
+/// The rays of `astray` pass cells whose neighbours' lenses may stand out into them: finds the lens that each meets first, if it
+/// meets any before the one at hand. (x, y): where a ray comes down to search_top; m: its lateral displacement per mm of descent.
+template <class F>
+LFDSIM_RARE void meet_all_around(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F x, F y, F mx,
+                                 F my, Mask<F> astray, Encounter<F>& first) {
+    using S = Scalar<F>;
+    const Placement<S>& placement = scene.placement;
+    const F depth = F(placement.search_top - placement.search_bottom), r2 = F(placement.radius * placement.radius);
+    const F length2 = max(mx * mx + my * my, F(S(1e-20)));
+    const Cell<F> own = first.cell;
+    // Lenses at the array's border may stand out of all cells.
+    const Extent<S> wider{extent.low_i - 1, extent.high_i + 1, extent.low_j - 1, extent.high_j + 1};
+    walk_cells(scene, wider, x, y, mx, my, F(0), depth, astray, [&](Cell<F> cell, Mask<F> active) {
+        around(scene.lattice, cell, [&](Cell<F> here) {
+            // The point of the way that is nearest to the axis
+            const Place<F> axis = axis_of(scene.lattice, here);
+            const F dx = axis.x - x, dy = across(scene.lattice, axis.y - y);
+            const F s = min(max((dx * mx + dy * my) / length2, F(0)), depth);
+            const F ex = dx - mx * s, ey = across(scene.lattice, dy - my * s);
+            const Mask<F> known = (here.i == own.i) && (here.j == own.j),
+                          near = active && !known && extent.holds(here) && (ex * ex + ey * ey <= r2);
+            if (none(near)) return;
+            const Encounter<F> next = meet_placed(scene, extent, ray, here);
+            take(near && next.hit.ok && (!first.hit.ok || (next.way < first.way)), next, first);
+        });
+        return F(0) > F(1);
+    });
+}
+
+/// The first lens that a ray meets; `ray` in the array's frame, z from the vertex plane.
+template <class F>
+LFDSIM_FN Encounter<F> enter_placed(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray,
+                                    Mask<F> alive) {
+    const Placement<Scalar<F>>& placement = scene.placement;
+    const F fall = F(1) / ray.to.z, mx = ray.to.x * fall, my = ray.to.y * fall;
+    const F up = F(placement.search_top) - ray.at.z, down = F(placement.search_bottom) - ray.at.z;
+    const F x = ray.at.x + mx * up, y = ray.at.y + my * up;
+    const Cell<F> cell = cell_at(scene.lattice, x, y);
+    Encounter<F> first = meet_placed(scene, extent, ray, cell);
+    // A way from there to the lens, or to below all lenses, that is further from the cell's border than lenses stand out of their
+    // own cells leads past no other one.
+    const Place<F> axis = axis_of(scene.lattice, cell);
+    const F end_x = select(first.hit.ok, ray.at.x + ray.to.x * first.way, ray.at.x + mx * down),
+            end_y = select(first.hit.ok, ray.at.y + ray.to.y * first.way, ray.at.y + my * down);
+    const F margin = F(-placement.reach);
+    const Mask<F> alone =
+        in_cell(scene.lattice, x - axis.x, y - axis.y, margin) && in_cell(scene.lattice, end_x - axis.x, end_y - axis.y, margin);
+    const Mask<F> astray = alive && !alone;
+    if (any(astray)) {
+        const Ray<F> from = ray;
+        Encounter<F> found = first;
+        meet_all_around(scene, extent, from, x, y, -mx, -my, astray, found);
+        first = found;
+    }
+    return first;
+}
+
+/// Does a straight part of a ray's way pass the stop's hole of a lens in one of these cells? `p` in the array's frame, z from the
+/// vertex plane; `from` and `end` are path lengths from there.
+template <class F>
+LFDSIM_FN Mask<F> passes_hole(const Scene<Scalar<F>>& scene, Cell<F> cell, const Stand<F>& stand, Vec3<F> p, Vec3<F> d, F from,
+                              F end) {
+    const Place<F> centre = axis_of(scene.lattice, cell);
+    const F t = (F(scene.stop_z - scene.placement.vertex_z) + stand.z - p.z) / d.z;
+    const F x = p.x + d.x * t - centre.x - stand.x, y = across(scene.lattice, p.y + d.y * t - centre.y - stand.y);
+    return (t >= from) && (t <= end) && (x * x + y * y <= F(scene.stop_radius2));
+}
+
+/// The same of any lens near the point at `near` along that way.
+template <class F>
+LFDSIM_RARE Mask<F> passes_any_hole(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, Vec3<F> p, Vec3<F> d, F near,
+                                    F from, F end, Mask<F> active) {
+    Mask<F> through = F(0) > F(1);
+    around(scene.lattice, cell_at(scene.lattice, p.x + d.x * near, p.y + d.y * near), [&](Cell<F> cell) {
+        const Mask<F> there = active && extent.holds(cell);
+        if (any(there))
+            through = through || (there && passes_hole(scene, cell, stand_of(scene, extent, cell, there), p, d, from, end));
+    });
+    return through;
+}
+
+/// The rules of pass_lens() for a lens that stands by itself. Its stop's hole stands in the array's frame, moved with the lens but
+/// not turned; a ray may pass that of any lens.
+template <class F>
+struct Placed : InArray<F> {
+    const Stand<F> stand;
+
+    LFDSIM_FN Place<F> axis() const { return {F(0), F(0)}; }
+    LFDSIM_FN Hit<F> meet(int k, const Ray<F>& in_vertex_plane) const {
+        return meet_curved(this->scene, k, in_vertex_plane, stand.curvature);
+    }
+
+    LFDSIM_FN F wall_bottom() const { return outmost_rim(this->scene, false, stand.curvature); }
+
+    /// Takes the rays from `ahead` that pass a hole on a straight part of their way: from `at`, in the lens's frame, z from the
+    /// panel, between these path lengths.
+    LFDSIM_FN void stop_between(F from, F end, Vec3<F> at, Vec3<F> to, Mask<F>& ahead) const {
+        const auto& scene = this->scene;
+        Vec3<F> p{at.x, at.y, at.z - F(scene.placement.vertex_z)}, d = to;
+        if (scene.placement.tilted) {
+            p = stand.turned_out(p);
+            d = stand.turned_out(d);
+        }
+        const Place<F> axis = axis_of(scene.lattice, this->cell);
+        p = {p.x + axis.x + stand.x, p.y + axis.y + stand.y, p.z + stand.z};
+        ahead = ahead && !passes_hole(scene, this->cell, stand, p, d, from, end);
+        if (none(ahead)) return;
+        const F near = (F(scene.stop_z - scene.placement.vertex_z) + stand.z - p.z) / d.z;
+        const Vec3<F> start = p, along = d;
+        ahead = ahead && !passes_any_hole(scene, this->extent, start, along, near, from, end, ahead);
+    }
+};
+
+/// A thin lens or a pinhole: way.ray leaves it in the lens's frame.
+template <class F>
+LFDSIM_FN void pass_thin(const Scene<Scalar<F>>& scene, const Placed<F>& rules, const Encounter<F>& met, Passage<F>& way) {
+    const Vec3<F> to = met.entering.to;
+    const F fall = F(1) / to.z, power = F(scene.ideal_power) * met.stand.curvature;
+    const F mx = to.x * fall + met.hit.at.x * power, my = to.y * fall + across(scene.lattice, met.hit.at.y) * power;
+    const F per = F(1) / sqrt(F(1) + mx * mx + my * my);
+    way.ray = {met.hit.at, {-(mx * per), -(my * per), -per}};
+    if (!scene.has_stop) return;
+    const F endless = F(Scalar<F>(1e30));
+    const Vec3<F> at{met.hit.at.x, met.hit.at.y, F(scene.ideal_z)};
+    Mask<F> ahead = way.alive;
+    rules.stop_between(-endless, F(0), at, to, ahead);
+    if (any(ahead)) rules.stop_between(F(0), endless, at, way.ray.to, ahead);
+    way.alive = way.alive && !ahead;
+}
+
+/// A vector of the frame turned about z in the array's (`in`), or the other way round.
+template <class F>
+LFDSIM_FN Vec3<F> wedged(const Placement<Scalar<F>>& placement, bool in, Vec3<F> v) {
+    const auto row = [&](int k) {
+        const auto of = [&](int l) { return F(in ? placement.wedge[l][k] : placement.wedge[k][l]); };
+        return v.x * of(0) + v.y * of(1) + v.z * of(2);
+    };
+    return {row(0), row(1), row(2)};
+}
+
+/// A ray in the plane z = entrance, of the frame turned about z, in the array's, z from the vertex plane.
+template <class F>
+LFDSIM_FN Ray<F> in_array(const Scene<Scalar<F>>& scene, const PanelBase<Scalar<F>>& base, const Ray<F>& ray) {
+    const Placement<Scalar<F>>& placement = scene.placement;
+    const Scalar<F> entrance = scene.thin ? scene.ideal_z : scene.surface[0].z;
+    const Ray<F> here{{ray.at.x, ray.at.y, F((entrance - placement.vertex_z) - base.raised)}, ray.to};
+    return placement.wedged ? Ray<F>{wedged(placement, true, here.at), wedged(placement, true, here.to)} : here;
+}
+
+/// From where a ray leaves the lenses, in the array's frame, z from the vertex plane, to the panel. `glued`: it is in the top
+/// layer.
+template <class F>
+LFDSIM_FN PanelPoint<F> out_of_array(const Scene<Scalar<F>>& scene, const PanelBase<Scalar<F>>& base, Ray<F> ray, Mask<F> glued,
+                                     F weight, Mask<F> alive) {
+    const Placement<Scalar<F>>& placement = scene.placement;
+    if (placement.wedged) ray = {wedged(placement, false, ray.at), wedged(placement, false, ray.to)};
+    alive = alive && (ray.to.z < F(0));
+    ray.at.z = ray.at.z + F(placement.vertex_z + base.raised);
+    const Place<F> end = down_to_panel(scene, ray.at, glued, ray.to, weight, alive);
+    if (scene.emission_exponent != Scalar<F>(0)) weight = weight * power(abs(ray.to.z), scene.emission_exponent);
+    return panel_point(scene, base, Cell<F>{F(0), F(0)}, end.x, end.y, weight, alive);
+}
+
+/// From the plane z = entrance, in which way.ray starts, to the panel.
+template <class F>
+LFDSIM_FN PanelPoint<F> trace_placed(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
+                                     const PanelBase<Scalar<F>>& base, Passage<F> way) {
+    using S = Scalar<F>;
+    const Placement<S>& placement = scene.placement;
+    const Ray<F> ray = in_array(scene, base, way.ray);
+    way.alive = way.alive && (ray.to.z < F(S(-1e-9)));
+    const Encounter<F> met = enter_placed(scene, extent, ray, way.alive);
+    way.alive = way.alive && met.hit.ok;
+    way.cell = met.cell;
+    way.ray = met.entering;
+    const Placed<F> rules{{scene, extent, way.cell}, met.stand};
+    S plane = scene.ideal_z;
+    if (scene.thin) {
+        pass_thin(scene, rules, met, way);
+    } else {
+        pass_lens<Shapes::all>(scene, rules, met.entering, met.hit, way);
+        plane = scene.surface[scene.surface_count - 1].z;
+    }
+    Vec3<F> at{way.ray.at.x, way.ray.at.y, way.ray.at.z + F(plane - placement.vertex_z)}, to = way.ray.to;
+    if (placement.tilted) {
+        at = met.stand.turned_out(at);
+        to = met.stand.turned_out(to);
+    }
+    const Place<F> axis = axis_of(scene.lattice, way.cell);
+    at = {at.x + axis.x + met.stand.x, at.y + axis.y + met.stand.y, at.z + met.stand.z};
+    PanelPoint<F> point = out_of_array(scene, base, Ray<F>{at, to}, F(scene.glued ? 1 : 0) > F(0), way.weight, way.alive);
+    point.cell = way.cell;
+    return point;
+}
+
+}  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -1,0 +1,43 @@
+#include "report/check.h"
+
+#include "content/content.h"
+#include "files/glasses.h"
+#include "model/advice.h"
+#include "report/colours.h"
+#include "report/description.h"
+
+#include <fmt/format.h>
+
+namespace lfdsim {
+
+std::vector<std::string> worth_knowing(const Display& display, const Geometry& geometry, const Theory& paraxial) {
+    std::vector<std::string> all;
+    try {
+        all = advice(display, geometry, paraxial, half_size_mm(load_parts(content_files(display)), display, geometry));
+    } catch (const InputError& error) {
+        all = advice(display, geometry, paraxial);
+        all.push_back(fmt::format("{} cannot be shown: {}", display.content.objects.empty() ? "content.model" : "content.object",
+                                  error.what()));
+    }
+    for (const Problem& doubt : doubts_of_glasses(display)) all.push_back(fmt::format("{}: {}", doubt.where, doubt.what));
+    return all;
+}
+
+Json check_json(const Display& display) {
+    const Geometry geometry = resolve(display);
+    const Theory paraxial = theory(display, geometry);
+    Json notes = Json::object();
+    add_notes(figures(display, geometry), "geometry", notes);
+    add_notes(figures(display, paraxial), "theory", notes);
+    Json theory = to_json(figures(display, paraxial));
+    if (const std::vector<ChannelTheory> colours = theory_by_colour(display); !colours.empty()) theory["colour"] = to_json(colours);
+    Json errors = to_json(largest_errors(display, geometry));
+    return {{"display", to_json(settings(display))},
+            {"geometry", to_json(figures(display, geometry))},
+            {"theory", theory},
+            {"largest_errors", errors.empty() ? Json() : std::move(errors)},
+            {"notes", notes},
+            {"warnings", worth_knowing(display, geometry, paraxial)}};
+}
+
+}  // namespace lfdsim
