@@ -1,3 +1,10 @@
+# A target's code may become part of a shared library, such as the Python module. Its names are not seen from outside of that, so that
+# calls are as direct as in a program.
+function(lfdsim_for_shared_libraries target)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
+    CUDA_VISIBILITY_PRESET hidden)
+endfunction()
+
 # A floor of the program: the static library lfdsim_NAME of src/NAME/*.cpp. HEADERS are what other projects may include; LINK is
 # handed to target_link_libraries. Usage: lfdsim_floor(image HEADERS image.h LINK PUBLIC lfdsim_model PRIVATE PNG::PNG)
 function(lfdsim_floor name)
@@ -7,6 +14,7 @@ function(lfdsim_floor name)
   add_library(lfdsim_${name} STATIC ${sources})
   add_library(lfdsim::${name} ALIAS lfdsim_${name})
   set_target_properties(lfdsim_${name} PROPERTIES EXPORT_NAME ${name})
+  lfdsim_for_shared_libraries(lfdsim_${name})
   target_sources(lfdsim_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${CMAKE_CURRENT_SOURCE_DIR} FILES ${arg_HEADERS})
   target_compile_features(lfdsim_${name} PUBLIC cxx_std_20)
   if(arg_LINK)

@@ -1,0 +1,105 @@
+"""Arguments that several functions take, checked."""
+
+from __future__ import annotations
+
+import math
+import os
+import warnings
+from typing import Any, Union
+
+import numpy as np
+
+from lfdsim import _core
+from lfdsim.display import Display
+from lfdsim.errors import InputError, LfdsimWarning
+
+Corners = tuple[int, int, int, int]
+Model = Union[str, "os.PathLike[str]", None]
+
+
+def display_of(display: Any) -> Display:
+    if not isinstance(display, Display):
+        raise TypeError(f"display is a {type(display).__name__}; give a lfdsim.Display, as Display.load(path) reads it")
+    return display
+
+
+KEYS = {  # of arguments that stand for a key of the description
+    "camera_mm": "camera.position_mm",
+    "target_mm": "camera.target_mm",
+    "frame_width_mm": "camera.frame_width_mm",
+    "size": "camera.resolution",
+    "samples": "render.samples",
+    "estimator": "render.estimator",
+    "seed": "render.seed",
+    "pickup": "content.pickup",
+}
+
+
+def seen(display: Any, model: Any, **arguments: Any) -> Display:
+    """The display with another model and, where arguments have a value, with their KEYS changed."""
+    given = {KEYS[name]: value for name, value in arguments.items() if value is not None}
+    if "camera.frame_width_mm" in given:
+        given = {"camera.fov_deg": None, **given}
+    return display_of(display).with_(given)._with_model(model)
+
+
+def pixels(array: Any, name: str) -> np.ndarray:
+    """Height x width x 3: float32, or codes of uint8 or uint16, in C order. Copies only what is not yet so."""
+    try:
+        given = np.asarray(array)
+    except (ValueError, TypeError) as error:
+        raise TypeError(f"{name} is not a picture: {error}") from None
+    codes = given.dtype.kind == "u" and given.dtype.itemsize <= 2
+    if given.dtype.kind != "f" and not codes:
+        raise TypeError(f"{name} holds {given.dtype}; give float32 or float64 (linear light), or uint8 or uint16 (codes)")
+    if given.ndim != 3 or given.shape[2] != 3:
+        raise InputError([(name, f"has the shape {given.shape}; give (height, width, 3)")])
+    if given.size == 0 or max(given.shape) >= 2**31 or given.shape[0] * given.shape[1] >= 2**31:
+        raise InputError([(name, f"has the shape {given.shape}; there must be 1 to 2^31 - 1 pixels")])
+    if given.size * 4 > _core.memory_bytes():  # of what has to be copied, or is no real memory
+        raise InputError([(name, f"has the shape {given.shape}, which as float32 is more than this machine's memory")])
+    with np.errstate(over="ignore"):  # what float32 cannot hold becomes infinite, which is refused with its place
+        return np.ascontiguousarray(given, dtype=given.dtype.newbyteorder("=") if codes else np.float32)
+
+
+def whole(value: Any, name: str, low: int, high: int) -> int:
+    if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__index__"):
+        raise TypeError(f"{name} is a {type(value).__name__}; give a whole number")
+    number = value.__index__()
+    if not low <= number <= high:
+        raise InputError([(name, f"is {number}, allowed is {low} to {high}")])
+    return number
+
+
+def number(value: Any, name: str) -> float:
+    if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__float__"):
+        raise TypeError(f"{name} is a {type(value).__name__}; give a number")
+    if math.isnan(float(value)):
+        raise InputError([(name, "is nan; give a number")])
+    return float(value)
+
+
+def threads_of(threads: Any) -> int:
+    return whole(threads, "threads", 0, 1024)
+
+
+def corners(crop: Any, width: int, height: int) -> Corners | None:
+    """(x0, y0, x1, y1): columns x0 to x1 - 1 and rows y0 to y1 - 1 of a picture of this size."""
+    if crop is None:
+        return None
+    try:
+        x0, y0, x1, y1 = (whole(value, "crop", 0, 2**31 - 1) for value in crop)
+    except TypeError:
+        raise TypeError(f"crop is {crop!r}; give (x0, y0, x1, y1)") from None
+    except ValueError as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError([("crop", f"is {crop!r}; give (x0, y0, x1, y1)")]) from None
+    if not (x0 < x1 <= width and y0 < y1 <= height):
+        raise InputError([("crop", f"is {crop!r}; allowed are columns x0 < x1 up to {width} and rows y0 < y1 up to {height}")])
+    return x0, y0, x1, y1
+
+
+def warn(notes: list[str]) -> None:
+    for note in notes:
+        warnings.warn(note, LfdsimWarning, stacklevel=3)

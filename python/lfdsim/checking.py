@@ -1,0 +1,15 @@
+"""What follows from a display's description."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from lfdsim import _core
+from lfdsim.arguments import display_of
+from lfdsim.display import Display
+from lfdsim.numbers_of import numbers_of
+
+
+def check(display: Display) -> dict[str, Any]:
+    """What `lfdsim check --json` prints: keys, geometry, theory, notes (why a figure is None) and warnings. Infinite figures are inf."""
+    return numbers_of(_core.check(display_of(display)._handle, None))

@@ -1,0 +1,136 @@
+"""A light field display, as its description in TOML says."""
+
+from __future__ import annotations
+
+import html
+import os
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from lfdsim import _core
+from lfdsim.errors import UnknownKeyError
+from lfdsim.texts import path_text, text as text_of
+from lfdsim.toml_text import toml_text
+
+
+class Display:
+    """A valid display, which never changes. Keys are those of a description (docs/format.md): "array.gap_mm", "lens.surface.0.conic".
+
+    Files that it names have absolute paths, so that it is the same display in any folder and process.
+    """
+
+    __slots__ = ("_handle", "_text", "_values")
+    _handle: _core.Display
+    _text: str | None
+    _values: dict[str, Any] | None
+
+    def __init__(self) -> None:
+        raise TypeError("use Display.load(path) or Display.parse(text)")
+
+    @classmethod
+    def _of(cls, handle: _core.Display) -> Display:
+        display = object.__new__(cls)
+        display._handle, display._text, display._values = handle, None, None
+        return display
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Display:
+        """Reads a description from a file. DisplayError names every problem of it with its line."""
+        return cls._of(_core.Display.load(path_text(path, "path")))
+
+    @classmethod
+    def parse(cls, text: str, folder: str | os.PathLike[str] | None = None) -> Display:
+        """Reads a description from a text. Files that it names are relative to `folder`; default: the working directory."""
+        place = os.getcwd() if folder is None else path_text(folder, "folder")
+        return cls._of(_core.Display.parse(text_of(text, "text"), place))
+
+    def with_(self, changes: Mapping[str, Any]) -> Display:
+        """The display with keys changed: {"array.gap_mm": 3.3, "diffuser": None}; None removes a key or table."""
+        if not isinstance(changes, Mapping):
+            raise TypeError(f"changes are a dict of keys and values, not a {type(changes).__name__}")
+        if not changes:
+            return self
+        return Display._of(self._handle.changed([_override(key, value) for key, value in changes.items()]))
+
+    def _with_model(self, model: str | os.PathLike[str] | None) -> Display:
+        return self if model is None else Display._of(self._handle.with_model(path_text(model, "model")))
+
+    def __getitem__(self, key: str) -> Any:
+        """The value of a key; of a table a dict, of a list of tables a tuple of dicts; None where the display has none."""
+        values = self._all()
+        if text_of(key, "key") in values:
+            return values[key]
+        inside = {name[len(key) + 1 :]: value for name, value in values.items() if name.startswith(key + ".")}
+        if inside:
+            return _tree(inside)
+        if _core.known(key):
+            return None
+        raise _unknown(key)
+
+    def keys(self) -> Iterator[str]:
+        """The keys that have a value, in the order of a description, those that are absent but allowed among them."""
+        return iter(self._all())
+
+    def to_dict(self) -> dict[str, Any]:
+        """All keys as nested dicts."""
+        return _tree(self._all())
+
+    def drawings(self) -> tuple[str, str]:
+        """The display from the side, and a few of its lenses, to scale and with rays: SVG."""
+        return self._handle.drawings()
+
+    def _repr_html_(self) -> str:
+        text = f"<details><summary>its description</summary><pre>{html.escape(repr(self))}</pre></details>"
+        return "".join(self.drawings()) + text
+
+    def _all(self) -> dict[str, Any]:
+        if self._values is None:
+            self._values = self._handle.values()
+        return self._values
+
+    def __repr__(self) -> str:
+        if self._text is None:
+            self._text = self._handle.text()
+        return self._text
+
+    def __eq__(self, other: object) -> bool:
+        return repr(self) == repr(other) if isinstance(other, Display) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(repr(self))
+
+    def __reduce__(self) -> tuple:
+        return Display.parse, (repr(self), os.sep)
+
+
+def _unknown(key: str) -> UnknownKeyError:
+    meant = _core.meant(key)
+    return UnknownKeyError([("", f"{key}: is unknown; " + (f"did you mean {meant}?" if meant else "docs/format.md lists all keys"))])
+
+
+def _override(key: Any, value: Any) -> str:
+    """As the program's --set takes it."""
+    if not text_of(key, "key") or "=" in key or not key.isprintable():
+        raise _unknown(key)
+    if value is not None:
+        try:
+            return f"{key}={toml_text(value)}"
+        except (TypeError, ValueError) as error:
+            raise type(error)(f"{key}: {error}") from None
+    if not _core.known(key):
+        raise _unknown(key)
+    default = _core.default_word(key)
+    return f"{key}=none" if default is None else f"{key}={toml_text(default)}"
+
+
+def _tree(values: Mapping[str, Any]) -> Any:
+    """Nested dicts of dotted keys; where parts are numbers, a tuple."""
+    parts: dict[str, Any] = {}
+    for name, value in values.items():
+        first, dot, rest = name.partition(".")
+        if dot:
+            parts.setdefault(first, {})[rest] = value
+        else:
+            parts[first] = value
+    made = {name: _tree(value) if any(key.startswith(name + ".") for key in values) else value for name, value in parts.items()}
+    return tuple(made.values()) if made and all(name.isdigit() for name in made) else made

@@ -1,0 +1,92 @@
+"""What a measure found."""
+
+from __future__ import annotations
+
+import html
+import os
+from functools import cached_property
+from typing import Any
+
+from lfdsim import _core
+from lfdsim.numbers_of import numbers_of
+from lfdsim.texts import path_text
+
+
+class Result:
+    """Figures, tables, plots and pictures of one measure. None: a figure that is undefined; `notes` say why."""
+
+    def __init__(self, measured: _core.Measured, measure: str) -> None:
+        self._measured = measured
+        self.measure = measure
+
+    @cached_property
+    def figures(self) -> dict[str, Any]:
+        """As in the JSON of `lfdsim analyze`; names end in their unit, the error of NAME is NAME_error. Infinite ones are inf."""
+        return numbers_of(self._measured.figures())
+
+    @cached_property
+    def notes(self) -> dict[str, str]:
+        """Why a figure is None, by its path: {"a.b_deg": "..."}."""
+        return numbers_of(self._measured.notes())
+
+    @cached_property
+    def findings(self) -> list[dict[str, Any]]:
+        """The lines of the report: what, unit, measured and theory (lists of one number or two ends), error, remark."""
+        return numbers_of(self._measured.findings())
+
+    @cached_property
+    def remarks(self) -> list[str]:
+        """What bounds a figure, or where it differs from theory and why."""
+        return self._measured.remarks()
+
+    @cached_property
+    def tables(self) -> dict[str, Any]:
+        """Curves as pandas.DataFrame; without pandas as dicts of arrays. Columns end in their unit."""
+        try:
+            from pandas import DataFrame
+        except ImportError:
+            return self._measured.tables()
+        return {name: DataFrame(columns) for name, columns in self._measured.tables().items()}
+
+    @cached_property
+    def plots(self) -> dict[str, str]:
+        """Curves and maps as SVG."""
+        return self._measured.plots()
+
+    @cached_property
+    def pictures(self) -> dict[str, tuple[str, Any]]:
+        """(caption, picture) of each: float32, height x width x 3, linear light."""
+        return self._measured.pictures()
+
+    @property
+    def seconds(self) -> float:
+        """What measuring took."""
+        return self._measured.seconds()
+
+    def save(self, folder: str | os.PathLike[str], *, replace: bool = False) -> None:
+        """Writes what `lfdsim analyze -o FOLDER` writes: figures, tables, plots, pictures, report.html. InputError where the folder
+        holds results of another display or other settings, unless those are to be replaced."""
+        self._measured.save(path_text(folder, "folder"), f"lfdsim.analyze(display, {self.measure!r})", bool(replace))
+
+    def __repr__(self) -> str:
+        lines = [_line(finding) for finding in self.findings]
+        return "\n".join([f"lfdsim.Result of {self.measure!r}", *(f"  {what}: {values}" for what, values in lines)])
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td style='text-align:left'>{html.escape(what)}</td><td>{html.escape(values)}</td></tr>"
+            for what, values in map(_line, self.findings)
+        )
+        remarks = "".join(f"<p>{html.escape(remark)}</p>" for remark in self.remarks)
+        return f"<table>{rows}</table>{remarks}{''.join(self.plots.values())}"
+
+
+def _line(finding: dict[str, Any]) -> tuple[str, str]:
+    """What was found, and the values: measured (and theory)."""
+
+    def text(values: list[float | None]) -> str:
+        return " to ".join("none" if value is None else f"{value:.4g}" for value in values)
+
+    value = f"{text(finding['measured'])} {finding['unit']}".strip() if finding["measured"] else ""
+    theory = f"theory {text(finding['theory'])} {finding['unit']}".strip() if finding["theory"] else ""
+    return finding["what"], ", ".join(filter(None, (value, theory)))

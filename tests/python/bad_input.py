@@ -1,0 +1,152 @@
+"""Wrong arguments from Python: an exception that names them, never a crash."""
+
+import math
+import pathlib
+import random
+import unittest
+from unittest import mock
+from typing import Any
+
+import numpy as np
+
+import lfdsim
+from tiny import TinyTest
+
+EXPECTED = (ValueError, TypeError, OverflowError, KeyError, MemoryError, RuntimeError)
+
+
+class Named(TinyTest):
+    def refused(self, kind: type[Exception], words: str, call: Any, *arguments: Any, **named: Any) -> None:
+        with self.assertRaisesRegex(kind, words):
+            call(*arguments, **named)
+
+    def test_panels(self) -> None:
+        d, good = self.display, np.zeros((48, 88, 3), np.float32)
+        for kind, words, panel in [
+            (lfdsim.InputError, r"panel: has the shape \(48, 88\)", good[:, :, 0]),
+            (lfdsim.InputError, r"panel: has the shape \(48, 88, 4\)", np.zeros((48, 88, 4))),
+            (lfdsim.InputError, r"panel: is 48 x 88 pixels, the panel has 88 x 48", good.transpose(1, 0, 2)),
+            (lfdsim.InputError, r"panel: has the shape \(0, 88, 3\)", good[:0]),
+            (TypeError, "panel holds int64", good.astype(np.int64)),
+            (TypeError, "panel holds bool", good.astype(bool)),
+            (TypeError, "panel holds complex128", good.astype(complex)),
+            (TypeError, "panel holds <U", "eia.png"),
+            (TypeError, "panel holds object", {"a": 1}),
+            (TypeError, "panel", [[1, 2], [3]]),
+        ]:
+            with self.subTest(words):
+                self.refused(kind, words, lfdsim.render, d, panel)
+        for value, text in [(np.nan, "nan"), (np.inf, "inf"), (-1, "-1"), (1e300, "inf")]:
+            bad = good.astype(float)
+            bad[7, 5, 1] = value
+            self.refused(lfdsim.InputError, f"panel: holds {text} in channel G at column 5, row 7", lfdsim.render, d, bad)
+        huge = np.broadcast_to(np.float32(0), (10**7, 10**6, 3))  # without memory of its own
+        self.refused(lfdsim.InputError, "panel: .*10000000.*pixels|memory", lfdsim.render, d, huge)
+        self.refused(lfdsim.InputError, "more than this machine's memory|pixels", lfdsim.compare, huge, huge)
+        with mock.patch("lfdsim._core.memory_bytes", return_value=1000):
+            self.refused(lfdsim.InputError, "panel: .* more than this machine's memory", lfdsim.render, d, good)
+        self.refused(lfdsim.InputError, "give one of them", lfdsim.render, d, good, model="pyramid.obj")
+
+    def test_options(self) -> None:
+        d = self.display
+        for kind, words, named in [
+            (lfdsim.DisplayError, "camera.position_mm: .*3 numbers|camera.position_mm", {"camera_mm": (1, 2)}),
+            (lfdsim.DisplayError, "camera.position_mm", {"camera_mm": "here"}),
+            (lfdsim.DisplayError, "camera.resolution", {"size": (0, 5)}),
+            (lfdsim.DisplayError, "camera.resolution", {"size": 7}),
+            (lfdsim.DisplayError, "render.samples", {"samples": 2.5}),
+            (lfdsim.DisplayError, "render.estimator", {"estimator": "magic"}),
+            (lfdsim.DisplayError, "camera.resolution", {"size": (10**6, 10**6)}),
+            (lfdsim.InputError, "threads: is -1", {"threads": -1}),
+            (TypeError, "threads is a float", {"threads": 1.0}),
+            (lfdsim.InputError, "device: unknown device 'tpu'", {"device": "tpu"}),
+            (TypeError, "device is a int", {"device": 0}),
+            (lfdsim.InputError, "kernel: unknown kernel 'z80'", {"kernel": "z80"}),
+            (lfdsim.InputError, r"crop: is \(0, 0, 97, 1\)", {"crop": (0, 0, 97, 1)}),
+            (lfdsim.InputError, "crop", {"crop": (0, 0, 1)}),
+            (TypeError, "crop is 'all'|crop is", {"crop": 5}),
+            (lfdsim.InputError, "nowhere.glb", {"model": "nowhere.glb"}),
+            (lfdsim.InputError, "model: the name is empty", {"model": ""}),
+            (TypeError, "progress", {"progress": "bar"}),
+        ]:
+            with self.subTest(words):
+                self.refused(kind, words, lfdsim.render, d, **named)
+        self.refused(TypeError, "display is a str", lfdsim.render, "tiny.toml")
+        self.refused(TypeError, "text is a bytes; give a text", lfdsim.Display.parse, b"schema = 1")
+        self.refused(TypeError, "array.gap_mm: a object", d.with_, {"array.gap_mm": object()})
+        self.refused(TypeError, "key is a int", d.with_, {3: 4})
+        self.refused(TypeError, "changes are a dict", d.with_, [("array.gap_mm", 3)])
+        self.refused(lfdsim.DisplayError, "is unknown", d.with_, {"array.gap_mm=3 #": 4})
+        self.refused(TypeError, "load", lfdsim.Display)
+
+    def test_files(self) -> None:
+        pathlib.Path("damaged.obj").write_bytes(b"v 1 nan\nf 1 2 3\n\x00\xff")
+        self.refused(lfdsim.InputError, "damaged.obj", lfdsim.photograph, self.display, model="damaged.obj")
+        self.refused(lfdsim.DisplayError, ".", lfdsim.Display.load, ".")
+        self.refused(lfdsim.DisplayError, "text: is a binary file", lfdsim.Display.parse, "\x00")
+
+    def test_patterns(self) -> None:
+        for words, name, named in [
+            ("there are checkerboard", "plaid", {}),
+            ("view: is 3; give two numbers", "view", {"view": 3}),
+            ("view_x.*-0.5 to 0.5", "view", {"view": (0.7, 0)}),
+            ("cell_pixels: is 0, allowed is 1", "checkerboard", {"cell_pixels": 0}),
+        ]:
+            self.refused(lfdsim.InputError, words, lfdsim.pattern, self.display, name, **named)
+
+    def test_comparisons(self) -> None:
+        a = np.zeros((20, 20, 3))
+        self.refused(lfdsim.InputError, r"b: has the shape \(20, 21, 3\), a has", lfdsim.compare, a, np.zeros((20, 21, 3)))
+        self.refused(lfdsim.InputError, "encoding", lfdsim.compare, a, a, encoding="gamma")
+        self.refused(ValueError, "11", lfdsim.compare, a[:5, :5], a[:5, :5])
+        self.refused(lfdsim.InputError, "b: holds nan", lfdsim.compare, a, np.full_like(a, np.nan))
+
+
+class Fuzz(TinyTest):
+    """Values of all kinds in all places. A fixed seed: what fails fails again."""
+
+    def test_nothing_crashes(self) -> None:
+        draw = random.Random(20)
+        odd: list[Any] = [
+            None, True, -1, 0, 1, 2**31, 2**63, 2**200, 0.5, -0.0, math.nan, math.inf, 1e308, "", "x", "none", "\x00", "\ud800", "é" * 300,
+            b"x", (), [], {}, (1, 2), (1, 2, 3), [[1], 2], {"a": 1}, {"a": {"b": [{}]}}, object(), len, np.float32(1), np.zeros(3),
+            np.zeros((48, 88, 3)), np.zeros((48, 88, 3), np.uint8), np.zeros((2, 3, 4, 5)), np.array("x"), np.array(None), range(4),
+        ]  # fmt: skip
+        keys: list[Any] = [
+            *self.display.keys(),
+            "lens",
+            "diffuser",
+            "panel.layer",
+            "lens.surface.0.conic",
+            "",
+            ".",
+            "a.b.c.d.e.f",
+            *odd[:20],
+        ]
+        named = ["camera_mm", "target_mm", "frame_width_mm", "size", "samples", "estimator", "seed", "crop", "threads", "device", "kernel"]
+        calls = [
+            lambda: lfdsim.Display.parse(draw.choice(odd)),
+            lambda: self.display[draw.choice(keys)],
+            lambda: self.display.with_({draw.choice([k for k in keys if not isinstance(k, (dict, list))]): draw.choice(odd)}),
+            lambda: lfdsim.compare(draw.choice(odd), draw.choice(odd)),
+            lambda: lfdsim.panel_codes(self.display, draw.choice(odd)),
+            lambda: lfdsim.analyze(
+                self.display, draw.choice(odd), **{draw.choice(["angles_deg", "depths_mm", "threads"]): draw.choice(odd)}
+            ),
+            lambda: lfdsim.render(self.display, draw.choice(odd), **{draw.choice(named): draw.choice(odd), "crop": (0, 0, 1, 1)}),
+            lambda: lfdsim.photograph(self.display, **{draw.choice(named[:4]): draw.choice(odd), "size": (2, 2)}),
+        ]
+        outcomes = {True: 0, False: 0}
+        for _ in range(3000):
+            try:
+                draw.choice(calls)()
+                outcomes[True] += 1
+            except EXPECTED as error:
+                self.assertNotIn("incompatible function arguments", str(error))
+                outcomes[False] += 1
+        print(f"{outcomes[True]} calls were right, {outcomes[False]} were refused")
+        self.assertGreater(min(outcomes.values()), 100)
+
+
+if __name__ == "__main__":
+    unittest.main()
