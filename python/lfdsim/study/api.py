@@ -1,0 +1,60 @@
+"""What programs call: each step of a study by itself, and all of them."""
+
+from __future__ import annotations
+
+import pathlib
+from typing import TYPE_CHECKING
+
+from . import chunk, collected, pictures, runs
+from . import planned as plans
+from .planned import Plan
+from .problems import StudyError, StudyFailed
+
+if TYPE_CHECKING:
+    import pandas
+
+Path = str | pathlib.Path
+
+
+def run(
+    file: Path, folder: Path, dask: object = None, *, workers: int | None = None, threads: int = 1, progress: bool | None = None
+) -> "pandas.DataFrame":
+    """Runs the study of a file in a folder and returns its rows.
+
+    What is finished there is not computed again. `dask`: a distributed.Client or a scheduler's address; None: `workers` processes
+    here (None: one for each core), each with `threads` threads. `progress`: a line on standard error (None: where that is a terminal).
+    """
+    return runs.finish(plan(file, folder), dask, workers, threads, progress).to_pandas()
+
+
+def plan(file: Path, folder: Path) -> Plan:
+    """Chooses all rows of a study, and computes none."""
+    made = plans.make(file, folder)
+    pictures.prepare(made)
+    return made
+
+
+def run_part(folder: Path, part: int, parts: int, threads: int = 1) -> int:
+    """Computes every `parts`-th chunk of a planned study in this process, from chunk `part`. Returns how many rows these are."""
+    if not 0 <= part < parts:
+        raise StudyError("--chunk", f"is {part}; give 0 to {parts - 1}, below the {parts} of --of")
+    the_plan = plans.load(folder)
+    the_plan.table()  # as planned, or it is refused before work begins
+    numbers = range(part, the_plan.chunks, parts)
+    for number in numbers:
+        result = chunk.attempt(the_plan, number, threads)
+        if "problem" in result:
+            raise StudyFailed(f"{folder}: chunk {number}", f"{result['problem']}. Finished rows are kept; run the same command again")
+    return sum(len(the_plan.rows_of(n)) for n in numbers)
+
+
+def collect(folder: Path) -> "pandas.DataFrame":
+    """The rows of a study whose chunks are all there; writes study.parquet."""
+    return collected.table_of(plans.load(folder)).to_pandas()
+
+
+def report(folder: Path) -> pathlib.Path:
+    """Writes report.html of a study whose chunks are all there."""
+    from .reports import page
+
+    return page.write(plans.load(folder))

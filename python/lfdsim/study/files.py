@@ -1,0 +1,108 @@
+"""Files that are whole or absent: written beside their place and renamed.
+
+Tables of columns in Parquet, with checksums of what they hold.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import hashlib
+import json
+import os
+import pathlib
+import uuid
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from .problems import StudyError
+
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+NOTE = b"lfdsim"  # of a Parquet file's metadata: what it belongs to, and its checksum
+
+
+@contextlib.contextmanager
+def full_disk_told(path: pathlib.Path):
+    try:
+        yield
+    except OSError as error:
+        if error.errno not in FULL:
+            raise
+        raise StudyError(
+            path, f"cannot be written: {error.strerror}. Finished rows are kept; make room and run the same command again"
+        ) from error
+
+
+def write_whole(path: pathlib.Path, content: bytes | memoryview) -> None:
+    """On the disk before it has its name: neither a kill nor a power cut leaves a part of it."""
+    beside = path.with_name(f".{path.name}.{uuid.uuid4().hex[:12]}")
+    with full_disk_told(path):
+        try:
+            with open(beside, "wb") as file:
+                file.write(content)
+                file.flush()
+                os.fsync(file.fileno())
+            os.replace(beside, path)
+        except BaseException:
+            beside.unlink(missing_ok=True)
+            raise
+    folder = os.open(path.parent, os.O_RDONLY)
+    try:
+        os.fsync(folder)
+    finally:
+        os.close(folder)
+
+
+def write_json(path: pathlib.Path, value: object) -> None:
+    write_whole(path, (json.dumps(value, indent=1) + "\n").encode())
+
+
+def digest(value: object) -> str:
+    return hashlib.sha256(json.dumps(value, sort_keys=True, separators=(",", ":"), default=str).encode()).hexdigest()
+
+
+def checksum(table: pa.Table, about: dict) -> str:
+    """Of names, types and values, and of what the table belongs to; not of how a version of a library lays them out in a file."""
+    sum_ = hashlib.sha256(digest(about).encode())
+    for name, column in zip(table.column_names, table.columns):
+        sum_.update(f"{name}:{column.type}:{len(column)}:".encode())
+        if pa.types.is_floating(column.type) or pa.types.is_integer(column.type):
+            values = column.to_numpy()
+            sum_.update(np.ascontiguousarray(values, values.dtype.newbyteorder("<")).tobytes())
+            if column.null_count:
+                sum_.update(np.asarray(column.is_null()).tobytes())
+        else:
+            sum_.update(json.dumps(column.to_pylist()).encode())
+    return sum_.hexdigest()
+
+
+def write_table(path: pathlib.Path, table: pa.Table, about: dict, more: dict | None = None, rows_per_group: int | None = None) -> None:
+    """`about` is covered by the checksum; `more` (times that things took) is not."""
+    note = {"about": about, "checksum": checksum(table, about), **(more or {})}
+    sink = pa.BufferOutputStream()
+    kept = {k: v for k, v in (table.schema.metadata or {}).items()}
+    pq.write_table(table.replace_schema_metadata(kept | {NOTE: json.dumps(note).encode()}), sink, row_group_size=rows_per_group)
+    write_whole(path, memoryview(sink.getvalue()))
+
+
+def note_of(path: pathlib.Path) -> dict:
+    try:
+        return json.loads((pq.read_schema(path).metadata or {})[NOTE])
+    except (KeyError, ValueError, OSError, pa.ArrowException) as error:
+        raise StudyError(path, f"is not a table that this study wrote ({type(error).__name__})") from error
+
+
+def read_table(path: pathlib.Path, about: dict, remedy: str) -> tuple[pa.Table, dict]:
+    """The table and its note, if it is as it was written."""
+    try:
+        table = pq.read_table(path, partitioning=None)
+        note = json.loads((table.schema.metadata or {})[NOTE])
+        kept = {k: v for k, v in table.schema.metadata.items() if k != NOTE}
+        table = table.replace_schema_metadata(kept)
+        if note["about"] == about and note["checksum"] == checksum(table, about):
+            return table, note
+    except (KeyError, TypeError, ValueError, OSError, pa.ArrowException):
+        pass
+    raise StudyError(path, f"was changed by hand, damaged, or comes from another study; {remedy}")

@@ -1,0 +1,92 @@
+"""Chunks on this machine's cores: as many processes as are wanted, each computing one chunk after the other."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import contextlib
+import json
+import os
+import queue
+import subprocess
+import sys
+import threading
+from collections.abc import Iterable, Iterator
+
+from .planned import Plan
+
+ATTEMPTS = 3  # at a chunk in whose work a process dies
+
+
+def run(plan: Plan, chunks: Iterable[int], workers: int, threads: int) -> Iterator[tuple[int, dict]]:
+    """Yields (chunk, what became of it) as they end. Processes that die are replaced. Stopped (Ctrl-C, an error), it stops them."""
+    idle: queue.SimpleQueue[_Process] = queue.SimpleQueue()
+    processes = [_Process(plan, threads) for _ in range(workers)]
+    for process in processes:
+        idle.put(process)
+
+    def one(chunk: int) -> dict:
+        process = idle.get()
+        try:
+            return process.run(chunk)
+        finally:
+            idle.put(process)
+
+    pool = concurrent.futures.ThreadPoolExecutor(workers)
+    try:
+        left = iter(chunks)
+        pending = {pool.submit(one, c): c for _, c in zip(range(2 * workers), left)}
+        while pending:
+            done, _ = concurrent.futures.wait(pending, return_when=concurrent.futures.FIRST_COMPLETED)
+            for future in done:
+                yield pending.pop(future), future.result()
+                pending.update({pool.submit(one, c): c for _, c in zip(range(1), left)})
+    finally:
+        for process in processes:
+            process.stop()
+        pool.shutdown(cancel_futures=True)
+
+
+class _Process:
+    """A worker process, started when it is first needed. No fork, and no second run of the user's script: both have surprises."""
+
+    def __init__(self, plan: Plan, threads: int):
+        self.command = [sys.executable, "-m", "lfdsim.study.worker", str(plan.folder), str(threads)]
+        self.child: subprocess.Popen | None = None
+        self.stopped = False
+        self.starting = threading.Lock()  # so that none is started behind stop()
+
+    def run(self, chunk: int) -> dict:
+        code = 0
+        for _ in range(ATTEMPTS):
+            try:
+                if not self._start():
+                    return {"problem": "stopped", "fatal": True}
+                self.child.stdin.write(f"{chunk}\n")
+                self.child.stdin.flush()
+                return json.loads(self.child.stdout.readline())
+            except (OSError, ValueError):  # it died: its pipes are closed, its last line is not whole
+                code = self._end()
+        return {"problem": f"the process that computed it died {ATTEMPTS} times (exit code {code})", "fatal": False}
+
+    def _start(self) -> bool:
+        with self.starting:
+            if self.child is None and not self.stopped:
+                environment = os.environ | {"PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
+                self.child = subprocess.Popen(self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment)
+            return not self.stopped
+
+    def _end(self) -> int:
+        with self.starting:
+            child, self.child = self.child, None
+        if child is None:
+            return 0
+        child.kill()
+        with contextlib.suppress(OSError):  # of a pipe that it closed
+            child.stdin.close()
+        child.stdout.close()
+        return child.wait()
+
+    def stop(self) -> None:
+        with self.starting:
+            self.stopped = True
+        self._end()

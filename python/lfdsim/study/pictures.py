@@ -1,0 +1,74 @@
+"""The pictures of a study: one Zarr store, a chunk of it for each row, so that each has one writer."""
+
+from __future__ import annotations
+
+import functools
+import pathlib
+import warnings
+
+import numpy as np
+
+from . import files, work
+from .planned import Plan
+from .problems import StudyError
+
+NAME = "pictures.zarr"
+
+
+def prepare(plan: Plan) -> None:
+    """An empty store, before rows are computed: it grows as they are.
+
+    Pictures are (row, y, x, channel), linear light, row 0 of y at the top.
+    """
+    path = plan.folder / NAME
+    if not plan.study.pictures:
+        return
+    zarr = _zarr()
+    base = work.changed(plan.display, plan.display_folder, plan.study.fixed)
+    with files.full_disk_told(path):
+        group = zarr.open_group(path, mode="a", attributes={})
+        for picture in plan.study.pictures:
+            if picture.name in group:
+                continue
+            width, height = picture.settings.get("size") or base["camera.resolution"]
+            group.create_array(
+                picture.name,
+                shape=(plan.rows, height, width, 3),
+                chunks=(1, height, width, 3),
+                dtype="float32",
+                fill_value=float("nan"),
+                dimension_names=("row", f"{picture.name}_y", f"{picture.name}_x", "channel"),
+            )
+        with warnings.catch_warnings():  # that other programs may ignore it: they do not need it
+            warnings.simplefilter("ignore")
+            zarr.consolidate_metadata(path)  # so that xarray opens the store without a search
+
+
+def write(plan: Plan, row: int, made: dict[str, np.ndarray]) -> None:
+    for name, picture in made.items():
+        store = _open(plan.folder / NAME, name)
+        if store.shape[1:] != picture.shape:
+            raise StudyError(
+                f"[[picture]] {name}",
+                f"of row {row} is {picture.shape[1]} x {picture.shape[0]}, others {store.shape[2]} x "
+                f"{store.shape[1]}; give the picture a size",
+            )
+        with files.full_disk_told(plan.folder / NAME):
+            store[row] = picture
+
+
+def read(plan: Plan, row: int, name: str) -> np.ndarray:
+    return _open(plan.folder / NAME, name)[row]
+
+
+@functools.lru_cache(maxsize=16)
+def _open(path: pathlib.Path, name: str):
+    return _zarr().open_group(path, mode="r+")[name]
+
+
+def _zarr():
+    try:
+        import zarr
+    except ImportError as error:
+        raise StudyError("[[picture]]", "needs the Python package zarr; pip install zarr xarray") from error
+    return zarr

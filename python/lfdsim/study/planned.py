@@ -1,0 +1,231 @@
+"""The plan of a study in its folder: which rows there are, and what they are rows of. Everything else in the folder follows from it."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import hashlib
+import json
+import math
+import pathlib
+import tomllib
+
+import pyarrow.parquet as pq
+
+import lfdsim
+
+from . import columns, design, files, work
+from .file import Study, read_study
+from .problems import StudyError, listed
+
+FORMAT = 1  # of the folder
+
+
+@dataclasses.dataclass(frozen=True)
+class Plan:
+    folder: pathlib.Path
+    name: str
+    study: Study  # of the copy of the file in the folder
+    identity: str  # of all that rows depend on
+    display_text: str
+    display_folder: pathlib.Path
+    rows: int
+    rows_per_chunk: int
+    checksum: str  # of plan.parquet
+
+    @property
+    def chunks(self) -> int:
+        return math.ceil(self.rows / self.rows_per_chunk)
+
+    def rows_of(self, chunk: int) -> range:
+        return range(chunk * self.rows_per_chunk, min((chunk + 1) * self.rows_per_chunk, self.rows))
+
+    def chunk_path(self, chunk: int) -> pathlib.Path:
+        return self.folder / "rows" / f"chunk-{chunk:06}.parquet"
+
+    def about(self, chunk: int) -> dict:
+        return {"study": self.identity, "chunk": chunk}
+
+    def values_of(self, chunk: int) -> design.Columns:
+        """What the chunk's rows change, without reading the other rows."""
+        return columns.values_of(self._table_file.read_row_group(chunk))
+
+    def table(self):
+        """All rows, as planned."""
+        path = self.folder / "plan.parquet"
+        table, note = files.read_table(path, {"study": self.identity}, "take another folder, or remove this one")
+        if note["checksum"] != self.checksum:
+            raise StudyError(path, "is not the one that plan.json speaks of; take another folder, or remove this one")
+        return table
+
+    @functools.cached_property
+    def _table_file(self) -> pq.ParquetFile:
+        return pq.ParquetFile(self.folder / "plan.parquet")
+
+    @functools.cached_property
+    def display(self) -> "lfdsim.Display":
+        return lfdsim.Display.parse(self.display_text, self.display_folder)
+
+
+def make(path: str | pathlib.Path, folder: str | pathlib.Path) -> Plan:
+    """Plans the study of a file in a folder, or finds that it is planned there. Refuses a folder of another study."""
+    study, folder = read_study(path), pathlib.Path(folder)
+    display_text, display = _display(study)
+    planned = _same_study(study, folder, display_text)
+    if planned:
+        return planned
+    if (folder / "rows").exists():
+        raise StudyError(folder, "has rows but no plan.json: it is no study's folder, or was changed by hand; give another folder")
+    work.check_measures(study)
+    keys = _replicate_keys(study, display_text)
+    rows = design.rows_of(study, keys)
+    _check_keys(study, display, [k for k in rows if k != "replicate"])
+    table = columns.arrow_of(rows)
+    per_chunk = study.rows_per_chunk or math.ceil(math.sqrt(len(table)) / 4)
+    basis = _basis(study, display_text)
+    identity = files.digest(basis)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "rows").mkdir()
+    except OSError as error:
+        raise StudyError(folder, f"cannot be made: {error.strerror}; give another folder") from error
+    files.write_table(folder / "plan.parquet", table, {"study": identity}, rows_per_group=per_chunk)
+    files.write_whole(folder / "study.toml", study.text.encode())
+    files.write_json(
+        folder / "plan.json",
+        {
+            "format": FORMAT,
+            "name": study.path.stem,
+            "identity": identity,
+            "rows": len(table),
+            "rows_per_chunk": per_chunk,
+            "checksum": files.checksum(table, {"study": identity}),
+            "display_folder": str(study.display_path.parent.resolve()),
+            "display_text": display_text,
+            "basis": basis,
+        },
+    )
+    return dataclasses.replace(load(folder), study=study)
+
+
+def load(folder: str | pathlib.Path) -> Plan:
+    """The plan of a folder, as `make` left it."""
+    folder = pathlib.Path(folder)
+    path = folder / "plan.json"
+    try:
+        plan = json.loads(path.read_text())
+        if plan["format"] != FORMAT:
+            raise StudyError(path, f"has format {plan['format']}, which this version does not know; give another folder")
+        known = Plan(
+            folder,
+            plan["name"],
+            read_study(folder / "study.toml"),
+            plan["identity"],
+            plan["display_text"],
+            pathlib.Path(plan["display_folder"]),
+            plan["rows"],
+            plan["rows_per_chunk"],
+            plan["checksum"],
+        )
+        if files.digest(plan["basis"]) != known.identity or files.digest(known.study.definition) != files.digest(plan["basis"]["study"]):
+            raise StudyError(path, "does not fit its own contents or study.toml beside it: one was changed by hand; give another folder")
+        if plan["basis"]["version"] != _version():
+            raise StudyError(
+                path,
+                f"was made by lfdsim {plan['basis']['version']}, and this is {_version()}: rows of both would be mixed; use "
+                "that version, or another folder",
+            )
+        return known
+    except FileNotFoundError as error:
+        raise StudyError(
+            folder, "holds no study (no plan.json); plan one there: python -m lfdsim.study plan FILE.toml -o FOLDER"
+        ) from error
+    except (OSError, KeyError, TypeError, json.JSONDecodeError) as error:
+        raise StudyError(path, f"is damaged ({type(error).__name__}: {error}); give another folder") from error
+
+
+def _same_study(study: Study, folder: pathlib.Path, display_text: str) -> Plan | None:
+    """The plan there, if it is of this study; what only chooses among results may have changed since."""
+    path = folder / "plan.json"
+    if not path.exists():
+        return None
+    try:
+        there = json.loads(path.read_text())
+        basis, per_chunk = there["basis"], there["rows_per_chunk"]
+    except (OSError, KeyError, TypeError, json.JSONDecodeError) as error:
+        raise StudyError(path, f"is damaged ({type(error).__name__}: {error}); give another folder") from error
+    mine = json.loads(json.dumps(_basis(study, display_text), default=str))
+    if files.digest(basis) != files.digest(mine):
+        differing = [k for k in mine if mine[k] != basis.get(k)]
+        if "study" in differing:
+            differing.remove("study")
+            keys = {*mine["study"], *basis["study"]}
+            differing += [k for k in sorted(keys) if mine["study"].get(k) != basis["study"].get(k)]
+        raise StudyError(folder, f"holds another study, which differs in: {listed(differing)}; give another folder, or remove this one")
+    if study.rows_per_chunk not in (None, per_chunk):
+        raise StudyError(
+            f"{study.path}: rows_per_chunk",
+            f"is {study.rows_per_chunk}, but {folder} is in chunks of {per_chunk}; give that, or another folder",
+        )
+    if (folder / "study.toml").read_text(encoding="utf-8") != study.text:
+        files.write_whole(folder / "study.toml", study.text.encode())
+    return dataclasses.replace(load(folder), study=study)
+
+
+def _display(study: Study) -> tuple[str, "lfdsim.Display"]:
+    try:
+        text = study.display_path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise StudyError(f"{study.path}: display", f'"{study.display_path}" cannot be read: {error}') from error
+    try:
+        display = lfdsim.Display.parse(text, study.display_path.parent.resolve())
+        lfdsim.check(display.with_(study.fixed) if study.fixed else display)
+        return text, display
+    except ValueError as error:
+        raise StudyError(study.display_path, f"is not a possible display: {error}") from error
+
+
+def _check_keys(study: Study, display: "lfdsim.Display", keys: list[str]) -> None:
+    """A key that no display has would fail in every row."""
+    for key in keys:
+        stem, _, last = key.rpartition(".")
+        try:
+            display[stem if last.isdigit() else key]
+        except (KeyError, ValueError) as error:
+            raise StudyError(f"{study.table or study.path}: {key}", f"is not a key of the display: {error}") from error
+
+
+def _replicate_keys(study: Study, display_text: str) -> tuple[str, ...]:
+    has_errors = "errors" in tomllib.loads(display_text) or any(k.startswith("errors.") for f in study.factors for k in f.keys)
+    return study.replicate_keys or (("errors.seed", "render.seed") if has_errors else ("render.seed",))
+
+
+def _basis(study: Study, display_text: str) -> dict:
+    """All that rows are a function of. Comments and blanks are not."""
+    display = tomllib.loads(display_text)
+    return {
+        "version": _version(),
+        "display": files.digest(display),
+        "study": study.definition,
+        "files": _digests_of_files([display, study.definition], study.display_path.parent) | _digest_of(study.table),
+    }
+
+
+def _digests_of_files(values: object, folder: pathlib.Path) -> dict[str, str]:
+    """Of every file that a value names: models, tables of lenses, catalogues."""
+    if isinstance(values, dict):
+        values = list(values.values())
+    if isinstance(values, list):
+        return {k: v for value in values for k, v in _digests_of_files(value, folder).items()}
+    return _digest_of(folder / values, values) if isinstance(values, str) and work.names_file(folder, values) else {}
+
+
+def _digest_of(path: pathlib.Path | None, name: str | None = None) -> dict[str, str]:
+    if path is None:
+        return {}
+    with open(path, "rb") as file:
+        return {name or path.name: hashlib.file_digest(file, "sha256").hexdigest()}
+
+
+def _version() -> str:
+    return str(getattr(lfdsim, "__version__", "unknown"))

@@ -1,0 +1,32 @@
+"""Errors of studies: what is wrong, where, and what to do about it."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+
+class StudyError(ValueError):
+    """Something that the user can mend. `where` names the file, table and key; the message says what is allowed."""
+
+    def __init__(self, where: object, what: str):
+        super().__init__(f"{where}: {what}" if where else what)
+        self.where = str(where)
+
+
+class StudyFailed(StudyError):
+    """Work that failed though the input is right: a process died, memory or a device was missing. It may succeed another time."""
+
+
+def listed(names: Iterable[str], most: int = 12) -> str:
+    names = list(names)
+    return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """What was meant, as the end of a message: the most similar names, or all where none is."""
+    known = list(known)
+    similar = difflib.get_close_matches(name, known, n=3, cutoff=0.6)
+    if similar:
+        return "did you mean " + " or ".join(similar) + "?"
+    return "there are: " + listed(known) if known else "there are none"

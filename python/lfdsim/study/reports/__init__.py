@@ -1,0 +1,1 @@
+"""What the rows of a study mean, on one page."""

@@ -1,0 +1,69 @@
+"""The rows of a study as a report sees them: numbers of factors, figures worth showing, rows that were possible."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pandas as pd
+
+from ..collected import table_of
+from ..planned import Plan
+
+MOST_FIGURES = 8  # shown where neither limits nor objectives say which ones matter
+
+
+@dataclasses.dataclass(frozen=True)
+class Data:
+    plan: Plan
+    rows: pd.DataFrame  # the possible ones
+    failed: pd.DataFrame  # the others, with `error`
+    factors: dict[str, np.ndarray]  # numbers, shape (rows,); of texts and lists the number of the level
+    levels: dict[str, list[str]]  # of factors with few values: their names, in the order of the factor's numbers, see `positions`
+    positions: dict[str, np.ndarray]  # of those: the number of each row's level
+    figures: list[str]  # shown: they vary
+
+
+def read(plan: Plan) -> Data:
+    table = table_of(plan).to_pandas()
+    rows = table[table["error"].isna()].reset_index(drop=True)
+    keys = [n for n in plan.table().column_names if n != "replicate" and not n.endswith(".seed")]
+    factors, levels, positions = {}, {}, {}
+    for name in _representatives(plan, keys):
+        column = rows[name]
+        distinct, position = _levels(column)
+        if len(distinct) < 2:
+            continue
+        factors[name] = (
+            column.to_numpy(float) if pd.api.types.is_numeric_dtype(column) and not column.isna().any() else position.astype(float)
+        )
+        if len(distinct) <= 12:
+            levels[name], positions[name] = distinct, position
+    return Data(plan, rows, table[table["error"].notna()], factors, levels, positions, _figures(plan, rows))
+
+
+def _representatives(plan: Plan, keys: list[str]) -> list[str]:
+    """Of keys that are tied the first alone."""
+    return [f.name for f in plan.study.factors] if plan.study.factors else keys
+
+
+def _levels(column: pd.Series) -> tuple[list[str], np.ndarray]:
+    if pd.api.types.is_numeric_dtype(column) and not column.isna().any():
+        distinct, position = np.unique(column.to_numpy(), return_inverse=True)
+        return [f"{v:.6g}" for v in distinct], position
+    distinct, position = np.unique(column.fillna("-").astype(str).to_numpy(dtype=str), return_inverse=True)
+    return distinct.tolist(), position
+
+
+def _figures(plan: Plan, rows: pd.DataFrame) -> list[str]:
+    named = [w.figure for w in (*plan.study.objectives, *plan.study.limits)]
+    if not named:
+        start = list(rows.columns).index("row") + 1 + len(plan.table().column_names)
+        named = [n for n in rows.columns[start:-1] if pd.api.types.is_numeric_dtype(rows[n]) and not n.endswith("_error")]
+        named = [n for n in named if _varies(rows[n])][:MOST_FIGURES]
+    return list(dict.fromkeys(n for n in named if n in rows.columns and pd.api.types.is_numeric_dtype(rows[n]) and rows[n].notna().any()))
+
+
+def _varies(column: pd.Series) -> bool:
+    finite = column[np.isfinite(column)]
+    return len(finite) > 1 and finite.max() - finite.min() > 1e-12 * np.abs(finite).max()

@@ -1,0 +1,121 @@
+"""Which factor does what to a figure: regression, Sobol indices, interactions, yield, Pareto front. Statistics are SciPy's."""
+
+from __future__ import annotations
+
+import dataclasses
+import warnings
+
+import numpy as np
+from scipy import stats
+
+from ..file import Limit, Objective
+
+
+def finite(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    kept = np.isfinite(y)
+    return x[kept], y[kept]
+
+
+@dataclasses.dataclass(frozen=True)
+class Regression:
+    """y = sum of coefficient x (factor - mean)/sd + rest. A coefficient is what one standard deviation of the factor does to the
+    figure, in the figure's unit; `error` its standard error; `explained` the share of the figure's variance (R squared)."""
+
+    coefficients: np.ndarray
+    errors: np.ndarray
+    explained: float
+
+
+def regression(factors: np.ndarray, figure: np.ndarray) -> Regression | None:
+    """factors (rows, factors). None where there are too few rows, or factors that follow from each other."""
+    x, y = finite(factors, figure)
+    if len(y) < x.shape[1] + 2 or np.any(x.std(0) == 0) or np.ptp(y) == 0:
+        return None
+    design = np.column_stack([np.ones(len(y)), (x - x.mean(0)) / x.std(0)])
+    found, _, rank, _ = np.linalg.lstsq(design, y, rcond=None)
+    if rank < design.shape[1]:
+        return None
+    rest = y - design @ found
+    variance = rest @ rest / (len(y) - design.shape[1])
+    errors = np.sqrt(variance * np.diag(np.linalg.inv(design.T @ design)))
+    return Regression(found[1:], errors[1:], float(1 - rest @ rest / np.sum((y - y.mean()) ** 2)))
+
+
+@dataclasses.dataclass(frozen=True)
+class Sobol:
+    """Shares of the figure's variance, shape (factors,): of each factor alone, and with its interactions; half-widths of 95 % intervals."""
+
+    first: np.ndarray
+    total: np.ndarray
+    first_error: np.ndarray
+    total_error: np.ndarray
+
+
+def sobol(figure: np.ndarray, factors: int) -> Sobol | None:
+    """Of the rows of a saltelli design, in their order. None where a row was impossible or has no finite figure."""
+    base = len(figure) // (factors + 2)
+    if not np.all(np.isfinite(figure)) or np.ptp(figure) == 0 or len(figure) != base * (factors + 2):
+        return None
+    a, b, ab = figure[:base], figure[base : 2 * base], figure[2 * base :].reshape(factors, 1, base)
+    found = stats.sobol_indices(func={"f_A": a[None], "f_B": b[None], "f_AB": ab}, n=base)
+    with warnings.catch_warnings():  # a factor without any effect has no spread either: its interval is NaN, and stands for 0
+        warnings.simplefilter("ignore")
+        spread = found.bootstrap(confidence_level=0.95, n_resamples=999)
+
+    def half(interval) -> np.ndarray:
+        return np.nan_to_num(np.ravel(interval.confidence_interval.high - interval.confidence_interval.low) / 2)
+
+    return Sobol(np.ravel(found.first_order), np.ravel(found.total_order), half(spread.first_order), half(spread.total_order))
+
+
+def groups(values: np.ndarray, positions: np.ndarray | None, most: int = 8) -> tuple[np.ndarray, np.ndarray]:
+    """Each row's group, and each group's mean value: levels as they are, or equally many rows in each."""
+    if positions is None:
+        edges = np.quantile(values, np.linspace(0, 1, most + 1)[1:-1])
+        positions = np.searchsorted(edges, values, side="right")
+    used, positions = np.unique(positions, return_inverse=True)
+    return positions, np.array([values[positions == k].mean() for k in range(len(used))])
+
+
+def cell_means(first: np.ndarray, second: np.ndarray, figure: np.ndarray) -> np.ndarray:
+    """Mean of the figure where `first` and `second` are these groups, shape (groups of first, groups of second); NaN in empty cells."""
+    shape = (first.max() + 1, second.max() + 1)
+    cell = first * shape[1] + second
+    kept = np.isfinite(figure)
+    count = np.bincount(cell[kept], minlength=shape[0] * shape[1])
+    with np.errstate(invalid="ignore"):
+        return (np.bincount(cell[kept], figure[kept], shape[0] * shape[1]) / count).reshape(shape)
+
+
+def interaction(means: np.ndarray) -> float:
+    """Root mean square of what two factors do together beyond the sum of what each does, in the figure's unit. NaN with empty cells."""
+    additive = means.mean(0, keepdims=True) + means.mean(1, keepdims=True) - means.mean()
+    return float(np.sqrt(np.mean((means - additive) ** 2)))
+
+
+def passes(figure: np.ndarray, limit: Limit) -> np.ndarray:
+    """NaN does not pass."""
+    above = figure >= limit.low if limit.low is not None else np.isfinite(figure) | np.isinf(figure)
+    return above & (figure <= limit.high if limit.high is not None else True)
+
+
+def share_with_interval(passed: int, of: int) -> tuple[float, float, float]:
+    """The share, and its 95 % interval (Wilson's)."""
+    interval = stats.binomtest(passed, of).proportion_ci(0.95, "wilson")
+    return passed / of, float(interval.low), float(interval.high)
+
+
+def pareto(figures: np.ndarray, objectives: tuple[Objective, ...]) -> np.ndarray:
+    """Of figures (rows, objectives) those rows that none surpasses: none is as good in all and better in one. NaN is not on the front."""
+    costs = figures * np.array([-1.0 if o.best == "high" else 1.0 for o in objectives])
+    front = np.isfinite(costs).all(1)
+    order = np.lexsort(costs.T[::-1])  # a row can only be surpassed by one before it
+    best = np.empty((0, costs.shape[1]))
+    for row in order:
+        if not front[row]:
+            continue
+        if np.any(np.all(best <= costs[row], 1) & np.any(best < costs[row], 1)):
+            front[row] = False
+        else:
+            best = np.vstack([best, costs[row]])
+    return front

@@ -1,0 +1,74 @@
+"""Computes the rows of a study that are not there yet, and gives the table of all."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+from . import collected, local
+from . import planned as plans
+from .problems import StudyError, StudyFailed, listed
+
+
+def finish(plan: plans.Plan, dask: object = None, workers: int | None = None, threads: int = 1, progress: bool | None = None):
+    """Computes the missing chunks, and returns the table (Arrow). StudyError names chunks that failed; the others are kept."""
+    if (plan.folder / collected.NAME).exists():
+        return collected.table_of(plan)
+    plan.table()  # as planned, or it is refused before work begins
+    missing = [c for c in range(plan.chunks) if not plan.chunk_path(c).exists()]
+    compute(plan, missing, dask, workers, threads, progress)
+    return collected.table_of(plan)
+
+
+def compute(plan: plans.Plan, chunks: list[int], dask: object, workers: int | None, threads: int, progress: bool | None) -> None:
+    if not chunks:
+        return
+    if dask is not None:
+        from . import cluster
+
+        results = cluster.run(plan, chunks, dask, threads)
+    else:
+        results = local.run(plan, chunks, min(workers or cores(), len(chunks)), threads)
+    show = _Progress(plan, chunks, sys.stderr.isatty() if progress is None else progress)
+    problems: dict[str, list[int]] = {}
+    checked = False
+    try:
+        for number, result in results:
+            if "problem" in result:
+                problems.setdefault(result["problem"], []).append(number)
+                if result["fatal"]:
+                    raise StudyError("", result["problem"])
+                continue
+            show.add(result)
+            if not checked and result["failed"] < result["rows"]:
+                collected.check_wishes(plan, number)
+                checked = True
+    finally:
+        results.close()
+        show.end()
+    if problems:
+        what = "; ".join(f"chunk {listed(map(str, numbers), 5)}: {problem}" for problem, numbers in problems.items())
+        raise StudyFailed(plan.folder, f"{what}. The other chunks are finished and kept; run the same command again to try these once more")
+
+
+def cores() -> int:
+    """That this process may use: what a batch system gave it, not what the machine has."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+class _Progress:
+    def __init__(self, plan: plans.Plan, chunks: list[int], shown: bool):
+        self.shown, self.failed = shown, 0
+        self.total = plan.rows
+        self.done = plan.rows - sum(len(plan.rows_of(c)) for c in chunks)
+
+    def add(self, result: dict) -> None:
+        self.done += result["rows"]
+        self.failed += result["failed"]
+        if self.shown:
+            impossible = f", {self.failed} impossible" if self.failed else ""
+            print(f"\rlfdsim: {self.done} of {self.total} rows{impossible} ", end="", file=sys.stderr, flush=True)
+
+    def end(self) -> None:
+        if self.shown:
+            print(file=sys.stderr)

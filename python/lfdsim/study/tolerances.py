@@ -1,0 +1,209 @@
+"""What errors of making cost: draws of a display's errors, percentiles of its figures, and how large each error may be for a given loss."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import pathlib
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from . import api, errors, files
+from .errors import ALL, Layout
+from .problems import StudyError, nearest
+
+if TYPE_CHECKING:
+    import pandas
+
+PERCENT = (1, 5, 25, 50, 75, 95, 99)
+SIZE = [480, 270]
+MEASURES = ("picture", "fov", "crosstalk")
+
+
+@dataclasses.dataclass(frozen=True)
+class Loss:
+    """How far a figure may go from that of the display without errors. way: "change" (either way), "fall" or "rise"."""
+
+    figure: str
+    amount: float
+    way: str = "change"
+
+    def of(self, figure: np.ndarray, without: float) -> np.ndarray:
+        change = np.asarray(figure, float) - without
+        return np.abs(change) if self.way == "change" else np.maximum(-change if self.way == "fall" else change, 0.0) + 0.0
+
+    @staticmethod
+    def parse(text: str) -> "Loss":
+        """FIGURE=AMOUNT; with a sign it may only fall (-) or rise (+) by as much, which the other way is no loss."""
+        figure, _, amount = text.rpartition("=")
+        try:
+            number = float(amount)
+        except ValueError:
+            number = 0.0
+        if not figure or number == 0 or not np.isfinite(number):
+            raise StudyError(
+                f"--loss {text}", "is not FIGURE=AMOUNT, as in picture.ssim=-0.02 (falls), crosstalk...=+1 (rises), ...=5 (either way)"
+            )
+        return Loss(figure, abs(number), "fall" if amount.startswith("-") else "rise" if amount.startswith("+") else "change")
+
+
+@dataclasses.dataclass(frozen=True)
+class Tolerance:
+    """draws: all errors together, a row each. percentiles: a line for each figure. budget: a line for each loss and error."""
+
+    folder: pathlib.Path
+    layout: Layout
+    without: "pandas.Series"
+    rows: "pandas.DataFrame"
+    draws: "pandas.DataFrame"
+    percentiles: "pandas.DataFrame"
+    budget: "pandas.DataFrame"
+
+
+def tolerance(
+    display: api.Path,
+    folder: api.Path,
+    draws: int = 200,
+    *,
+    alone: int | None = None,
+    measures: tuple[str | dict, ...] = MEASURES,
+    losses: tuple[Loss, ...] = (),
+    percent: float = 95.0,
+    seed: int = 0,
+    dask: object = None,
+    workers: int | None = None,
+    threads: int = 1,
+    progress: bool | None = None,
+) -> Tolerance:
+    """Draws the errors whose sizes the display's [errors] states, and measures each draw.
+
+    Errors of the array (shift, gap, rotation, pitch, wedge, bow) are normal about zero, and what the display states is their standard
+    deviation; those of each lens are drawn anew each time. `alone`: draws of each error by itself, at half, once and twice its size (None: a fifth of
+    `draws`; 0: none, and no budget). `measures`: names (`picture`: likeness to the scene), or tables as in a study's file. `losses`: what
+    `percent` of all displays must keep; the budget says which sizes allow that.
+    """
+    display, folder = pathlib.Path(display), pathlib.Path(folder)
+    if draws < 1:
+        raise StudyError("draws", f"is {draws}; give a whole number from 1")
+    if not 0 < percent < 100:
+        raise StudyError("percent", f"is {percent}; give a number above 0 and below 100")
+    try:
+        sizes = errors.sizes_of(display.read_text(encoding="utf-8"), display)
+    except (OSError, ValueError) as error:
+        if isinstance(error, StudyError):
+            raise
+        raise StudyError(display, f"cannot be read: {error}") from error
+    layout = Layout(sizes, draws, max(10, draws // 5) if alone is None else alone)
+    folder.mkdir(parents=True, exist_ok=True)
+    _keep(folder / "draws.csv", errors.rows_csv(layout, seed))
+    _keep(folder / "tolerance.toml", _study_text(display, measures))
+    table = api.run(folder / "tolerance.toml", folder, dask, workers=workers, threads=threads, progress=progress)
+    return evaluate(folder, layout, table, losses, percent)
+
+
+def _keep(path: pathlib.Path, text: str) -> None:
+    if path.exists() and path.read_text(encoding="utf-8") != text:
+        raise StudyError(path.parent, f"holds another tolerance study ({path.name} differs); give another folder, or remove this one")
+    if not path.exists():
+        files.write_whole(path, text.encode())
+
+
+def _study_text(display: pathlib.Path, measures: tuple[str | dict, ...]) -> str:
+    text = f'schema = 1\ndisplay = {json.dumps(str(display.resolve()))}\ndesign = "table"\ntable = "draws.csv"\n'
+    for measure in measures:
+        if isinstance(measure, dict):
+            settings = measure.get("settings", {})
+            text += "\n[[measure]]\n" + "".join(f"{k} = {json.dumps(v)}\n" for k, v in measure.items() if k != "settings")
+            text += "[measure.settings]\n" + "".join(f"{k} = {json.dumps(v)}\n" for k, v in settings.items()) if settings else ""
+        elif measure == "picture":
+            text += f'\n[[picture]]\nname = "picture"\nsize = {SIZE}\ncompare = true\n'
+        elif measure == "check":
+            text += '\n[[measure]]\nname = "check"\n'
+        else:
+            text += f"\n[[measure]]\nname = {json.dumps(measure)}\n[measure.settings]\nsize = {SIZE}\n"
+    return text
+
+
+def evaluate(folder: pathlib.Path, layout: Layout, rows: "pandas.DataFrame", losses: tuple[Loss, ...], percent: float) -> Tolerance:
+    without = rows.iloc[0]
+    if isinstance(without["error"], str):
+        raise StudyError(folder, f"the display without errors is impossible: {without['error']}")
+    together = rows.iloc[next(r for g, s, r in layout.blocks() if g == ALL and s == 1)]
+    kept = together[together["error"].isna()].reset_index(drop=True)
+    names = [n for n in rows.columns[2 + len(layout.sizes) : -1] if rows[n].dtype == float]
+    for loss in losses:
+        if loss.figure not in names:
+            raise StudyError(f"loss {loss.figure}", f"is not a figure; {nearest(loss.figure, names)}")
+    return Tolerance(
+        folder, layout, without, rows, kept, _percentiles(kept, without, names), _budget(layout, rows, without, losses, percent)
+    )
+
+
+def _percentiles(kept: "pandas.DataFrame", without: "pandas.Series", names: list[str]) -> "pandas.DataFrame":
+    import pandas
+
+    lines = {}
+    for name in names:
+        values = kept[name].to_numpy(float)
+        values = values[np.isfinite(values)]
+        if len(values) and (np.ptp(values) > 0 or values[0] != without[name]):
+            lines[name] = {
+                "without errors": without[name],
+                "draws": len(values),
+                "mean": values.mean(),
+                "standard deviation": values.std(),
+                **{f"{p} %": np.percentile(values, p) for p in PERCENT},
+            }
+    return pandas.DataFrame.from_dict(lines, orient="index")
+
+
+def _budget(
+    layout: Layout, rows: "pandas.DataFrame", without: "pandas.Series", losses: tuple[Loss, ...], percent: float
+) -> "pandas.DataFrame":
+    """For each loss and group: the loss that `percent` of displays stay below at each scale; at which scale that is what is allowed."""
+    import pandas
+
+    lines = []
+    for loss in losses if layout.alone else ():
+        for group in layout.groups:
+            at = {}
+            for scale, block in ((s, r) for g, s, r in layout.blocks() if g == group):
+                same = list(block)[: layout.alone]  # as many draws at each scale, so that these are the same ones
+                lost = loss.of(rows[loss.figure].to_numpy(float)[same], without[loss.figure])
+                # An impossible display, or one without the figure, has lost it.
+                at[scale] = float(np.nan_to_num(np.percentile(np.where(np.isnan(lost), np.inf, lost), percent), nan=np.inf))
+            scale, how = allowed_scale(at, loss.amount)
+            size = layout.sizes.get(group)
+            lines.append(
+                {
+                    "loss": loss.figure,
+                    "allowed": loss.amount,
+                    "way": loss.way,
+                    "error": group,
+                    "size": size,
+                    **{f"at {s:g}": v for s, v in at.items()},
+                    "allowed scale": scale,
+                    "how": how,
+                    "allowed size": None if size is None else (np.asarray(size) * scale).tolist(),
+                }
+            )
+    return pandas.DataFrame(lines)
+
+
+def allowed_scale(at: dict[float, float], amount: float) -> tuple[float, str]:
+    """Where the loss is `amount`, if it is a power of the scale between two measured ones.
+
+    Towards small errors the power of the least two holds on; towards large ones, where displays become impossible, nothing is guessed."""
+    scales = sorted(at)
+    if at[scales[-1]] <= amount:
+        return scales[-1], "or more: all that was tried keeps it"
+    high = min(s for s in scales if at[s] > amount and all(at[t] > amount for t in scales if t > s))
+    below = [s for s in scales if s < high]
+    low, how = (max(below), "between what was tried") if below else (high, "below what was tried: extrapolated")
+    if not below:
+        high = scales[1]
+    if at[low] <= 0 or not np.isfinite(at[high]) or at[high] <= at[low]:
+        return low, "or less: nothing smaller was tried" if not below else "to the next that was tried, which loses more"
+    power = np.log(at[high] / at[low]) / np.log(high / low)
+    return float(low * (amount / at[low]) ** (1 / power)), how

@@ -1,0 +1,150 @@
+"""What the report says of effects is right where the answer is known in closed form; the page has what the file asks for."""
+
+import unittest
+
+import numpy as np
+
+from common import StudyTest, call
+
+from lfdsim import study
+from lfdsim.study import design, planned
+from lfdsim.study.file import Limit, Objective
+from lfdsim.study.reports import data, effects, page, plots
+
+
+class Effects(unittest.TestCase):
+    def setUp(self):
+        self.random = np.random.default_rng(3)
+
+    def test_regression_of_a_sum(self):
+        x = self.random.normal(size=(4000, 3)) * [1, 10, 0.1] + [5, 0, 2]
+        y = 3 * x[:, 0] - 0.2 * x[:, 1] + self.random.normal(size=4000)
+        found = effects.regression(x, y)
+        expected = np.array([3, -0.2, 0]) * x.std(0)
+        self.assertTrue(np.all(np.abs(found.coefficients - expected) < 4 * found.errors))
+        np.testing.assert_allclose(found.errors, 1 / np.sqrt(4000), rtol=0.1)
+        self.assertAlmostEqual(found.explained, 13 / 14, delta=0.01)
+
+    def test_no_regression_where_there_is_none(self):
+        x = self.random.normal(size=(20, 2))
+        self.assertIsNone(effects.regression(np.column_stack([x, x[:, 0]]), x[:, 1]))
+        self.assertIsNone(effects.regression(x[:3], x[:3, 1]))
+        self.assertIsNone(effects.regression(x, np.full(20, np.nan)))
+
+    def test_sobol_indices_of_ishigamis_function(self):
+        """Saltelli 2000: variance a^2/8 + b pi^4/5 + b^2 pi^8/18 + 1/2; x3 acts through x1 alone."""
+        a, b = 7, 0.1
+        x = (2 * design.shares_of("saltelli", 4096, 3, 1) - 1) * np.pi
+        y = np.sin(x[:, 0]) + a * np.sin(x[:, 1]) ** 2 + b * x[:, 2] ** 4 * np.sin(x[:, 0])
+        v1, v2, v13 = (1 + b * np.pi**4 / 5) ** 2 / 2, a * a / 8, 8 * b * b * np.pi**8 / 225
+        v = v1 + v2 + v13
+        found = effects.sobol(y, 3)
+        np.testing.assert_allclose(found.first, [v1 / v, v2 / v, 0], atol=0.02)
+        np.testing.assert_allclose(found.total, [(v1 + v13) / v, v2 / v, v13 / v], atol=0.02)
+        self.assertTrue(np.all((found.first_error > 0.001) & (found.first_error < 0.1)))
+
+    def test_interaction_is_what_is_beyond_the_sum(self):
+        first, second = (g.ravel() for g in np.indices((3, 4)))
+        self.assertAlmostEqual(effects.interaction(effects.cell_means(first, second, first * 2.0 - second)), 0)
+        product = (first - 1) * (second - 1.5)
+        self.assertAlmostEqual(effects.interaction(effects.cell_means(first, second, product)), np.sqrt(np.mean(product**2)))
+        self.assertTrue(np.isnan(effects.interaction(effects.cell_means(first[1:], second[1:], product[1:]))))
+
+    def test_pareto_front_is_that_of_comparing_all_pairs(self):
+        figures = np.round(self.random.random((200, 3)), 1)
+        figures[3] = np.nan
+        objectives = (Objective("a", "high"), Objective("b", "low"), Objective("c", "high"))
+        signed = figures * [1, -1, 1]
+        expected = [not np.isnan(r).any() and not any(np.all(o >= r) and np.any(o > r) for o in signed) for r in signed]
+        np.testing.assert_array_equal(effects.pareto(figures, objectives), expected)
+
+    def test_yield(self):
+        figure = np.array([1, 2, 3, np.nan, np.inf])
+        self.assertEqual(effects.passes(figure, Limit("f", 2, None)).tolist(), [False, True, True, False, True])
+        self.assertEqual(effects.passes(figure, Limit("f", None, 2)).tolist(), [True, True, False, False, False])
+        share, low, high = effects.share_with_interval(50, 100)
+        self.assertAlmostEqual(share, 0.5)
+        self.assertAlmostEqual(low, 0.4038, places=3)  # Wilson 1927
+        self.assertAlmostEqual(high, 0.5962, places=3)
+
+    def test_groups_are_levels_or_equally_many(self):
+        values = self.random.random(800)
+        positions, centres = effects.groups(values, None)
+        self.assertEqual(np.bincount(positions).tolist(), [100] * 8)
+        np.testing.assert_allclose(centres, (np.arange(8) + 0.5) / 8, atol=0.03)
+
+
+FILE = """schema = 1
+display = "display.toml"
+design = "grid"
+[[factor]]
+key = "array.gap_mm"
+values = [16.3, 16.5, 16.7, -1.0]
+[[factor]]
+key = "lens.focal_length_mm"
+values = [15.6, 15.8]
+[[factor]]
+key = "camera.pixel_filter"
+values = ["center", "box"]
+[[measure]]
+name = "check"
+[[limit]]
+figure = "check.theory.central_depth_mm"
+max = 350
+[[objective]]
+figure = "check.theory.fov_exact_deg"
+best = "high"
+[[objective]]
+figure = "check.theory.central_depth_mm"
+best = "low"
+"""
+
+
+class Page(StudyTest):
+    def test_a_report_has_its_parts_and_its_numbers(self):
+        done = call("run", self.write(FILE), "-o", self.folder / "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = (self.folder / "out" / page.NAME).read_text()
+        for part in (
+            "16 rows, 4 of them impossible",
+            "Impossible rows",
+            "array.gap_mm",
+            "Yield",
+            "Main effects",
+            "Interactions",
+            "What costs most",
+            "Pareto front",
+            "Best, middle and worst",
+            "data:image/png;base64,",
+        ):
+            self.assertIn(part, text)
+        self.assertEqual(text.count("<svg"), text.count("</svg>"))
+        self.assertNotIn(
+            "http", text.replace("http://www.w3.org", "").replace("http://purl.org", "").replace("http://creativecommons.org", "")
+        )
+        read = data.read(planned.load(self.folder / "out"))
+        self.assertEqual((len(read.rows), len(read.failed)), (12, 4))
+        self.assertEqual(read.levels["camera.pixel_filter"], ["box", "center"])
+        depth = 1 / (1 / read.rows["lens.focal_length_mm"] - 1 / read.rows["array.gap_mm"])
+        np.testing.assert_allclose(read.rows["check.theory.central_depth_mm"], depth)
+        self.assertIn(f"{100 * np.sum(depth <= 350) / 16:.2f} %", text)
+
+    def test_the_strongest_interaction_is_of_gap_and_focal_length(self):
+        study.run(self.write(FILE), self.folder / "out", workers=1, progress=False)
+        read = data.read(planned.load(self.folder / "out"))
+        pairs = plots.strongest_pairs(read, "check.theory.central_depth_mm")
+        self.assertEqual({pairs[0][1], pairs[0][2]}, {"array.gap_mm", "lens.focal_length_mm"})
+        self.assertAlmostEqual(pairs[1][0], 0, places=9)
+
+    def test_objectives_that_no_row_has_are_told(self):
+        text = FILE.replace('figure = "check.theory.central_depth_mm"\nbest', 'figure = "check.theory.fov_horizontal_deg"\nbest')
+        study.run(self.write(text), self.folder / "out", workers=1, progress=False)
+        self.assertIn("no row has finite figures for all objectives", study.report(self.folder / "out").read_text())
+
+    def test_a_study_without_any_possible_row_has_a_report(self):
+        study.run(self.write(FILE.replace("[16.3, 16.5, 16.7, -1.0]", "[-1.0, -2.0]")), self.folder / "out", workers=1, progress=False)
+        self.assertIn("8 rows, 8 of them impossible", study.report(self.folder / "out").read_text())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,184 @@
+"""Tolerance studies whose answer is known in closed form: ideal lenses whose gap is wrong."""
+
+import unittest
+
+import numpy as np
+from scipy import stats
+
+from common import DISPLAY, StudyTest, call
+
+import lfdsim
+from lfdsim import study
+from lfdsim.study import Loss, StudyError, errors, tolerances
+
+GAP, FOCAL, PITCH, DISTANCE, SD = 16.485, 15.7, 12.0, 1000.0, 0.03
+
+
+def depth(gap):
+    return 1 / (1 / FOCAL - 1 / gap)
+
+
+def fov(gap):
+    """Of elemental images, which are made for eyes at DISTANCE and therefore wider than a lens: p D/(D - g)."""
+    return np.degrees(2 * np.arctan(PITCH * DISTANCE / (DISTANCE - gap) / (2 * gap)))
+
+
+def percentile_within(test, values, percent, known, sigmas=4):
+    """An empirical percentile against the distribution's: so many values below it as a binomial distribution allows."""
+    p = percent / 100
+    below = np.sum(values <= known)
+    test.assertLess(abs(below - p * len(values)), sigmas * np.sqrt(len(values) * p * (1 - p)) + 0.5)
+
+
+class Draws(unittest.TestCase):
+    layout = errors.Layout({"errors.gap_mm": SD, "errors.shift_mm": [0.2, 0.1], "errors.decenter_sd_mm": 0.01}, 400, 100)
+
+    def rows(self):
+        import csv
+        import io
+        import json
+
+        lines = list(csv.DictReader(io.StringIO(errors.rows_csv(self.layout, 7))))
+        return [{k: json.loads(v) for k, v in line.items()} for line in lines]
+
+    def test_blocks_are_groups_times_scales(self):
+        rows = self.rows()
+        blocks = self.layout.blocks()
+        self.assertEqual(len(rows), 1 + 400 + 11 * 100)
+        self.assertEqual(rows[0], {"errors.gap_mm": 0, "errors.shift_mm": [0, 0], "errors.decenter_sd_mm": 0, "errors.seed": 0})
+        whole = next(r for g, s, r in blocks if g == errors.ALL and s == 1)
+        for group, scale, block in blocks:
+            for draw, at in enumerate(block):
+                row, full = rows[at], rows[whole[draw]]
+                self.assertEqual(row["errors.seed"], full["errors.seed"])
+                for key in self.layout.sizes:
+                    expected = np.asarray(full[key]) * (scale if group in (errors.ALL, key) else 0)
+                    np.testing.assert_allclose(row[key], expected, rtol=1e-15)
+
+    def test_errors_of_the_array_are_truncated_normal_and_independent(self):
+        rows = self.rows()
+        whole = next(r for g, s, r in self.layout.blocks() if g == errors.ALL and s == 1)
+        drawn = np.array(
+            [[rows[k]["errors.gap_mm"] / SD, rows[k]["errors.shift_mm"][0] / 0.2, rows[k]["errors.shift_mm"][1] / 0.1] for k in whole]
+        )
+        for column in drawn.T:
+            self.assertGreater(stats.kstest(column, stats.truncnorm(-3, 3).cdf).pvalue, 1e-4)
+        self.assertLess(np.abs(np.corrcoef(drawn.T) - np.eye(3)).max(), 4 / np.sqrt(400))
+        self.assertEqual(len({rows[k]["errors.seed"] for k in whole}), 400)
+
+
+class Budgets(unittest.TestCase):
+    def test_powers_are_found(self):
+        self.assertAlmostEqual(tolerances.allowed_scale({0.5: 0.25, 1: 1, 2: 4}, 2)[0], np.sqrt(2))
+        self.assertAlmostEqual(tolerances.allowed_scale({0.5: 0.5, 1: 1, 2: 2}, 0.7)[0], 0.7)
+        scale, how = tolerances.allowed_scale({0.5: 0.25, 1: 1, 2: 4}, 0.01)
+        self.assertAlmostEqual(scale, 0.1)
+        self.assertIn("extrapolated", how)
+
+    def test_nothing_is_guessed_beyond_what_was_possible(self):
+        self.assertEqual(tolerances.allowed_scale({0.5: 0.0, 1: 0.1, 2: 0.2}, 1)[0], 2)
+        self.assertEqual(tolerances.allowed_scale({0.5: 0.1, 1: 0.2, 2: np.inf}, 1)[0], 1)
+        self.assertEqual(tolerances.allowed_scale({0.5: 0.0, 1: 0.0, 2: 1.0}, 0.5)[0], 1)
+        self.assertIn("or less", tolerances.allowed_scale({0.5: np.inf, 1: np.inf, 2: np.inf}, 1)[1])
+
+    def test_ways_of_losing(self):
+        figure = np.array([0.9, 1.0, 1.2])
+        np.testing.assert_allclose(Loss.parse("f=0.1").of(figure, 1.0), [0.1, 0, 0.2])
+        np.testing.assert_allclose(Loss.parse("f=-0.1").of(figure, 1.0), [0.1, 0, 0])
+        np.testing.assert_allclose(Loss.parse("a=b=+0.1").of(figure, 1.0), [0, 0, 0.2])
+        for wrong in ("f", "f=", "=1", "f=x", "f=0", "f=nan"):
+            with self.assertRaisesRegex(StudyError, "is not FIGURE=AMOUNT"):
+                Loss.parse(wrong)
+
+
+class KnownAnswers(StudyTest):
+    def test_a_gap_that_is_normal(self):
+        """Percentiles of a monotonous function of the gap are that function of the gap's percentiles."""
+        rows = 1500
+        study_file = self.write(
+            f'schema = 1\ndisplay = "display.toml"\ndesign = "monte_carlo"\nrows = {rows}\nseed = 11\n[[factor]]\nkey = "array.gap_mm"\n'
+            f'normal = {{ mean = {GAP}, sd = {SD} }}\n[[measure]]\nname = "check"\n'
+        )
+        table = study.run(study_file, self.folder / "out", progress=False)
+        np.testing.assert_allclose(table["check.theory.central_depth_mm"], depth(table["array.gap_mm"]), rtol=1e-9)
+        for percent in (5, 25, 50, 75, 95):
+            gap = stats.truncnorm(-3, 3, GAP, SD).ppf(1 - percent / 100)  # both fall where the gap grows
+            percentile_within(self, table["check.theory.central_depth_mm"], percent, depth(gap))
+            percentile_within(self, table["check.theory.fov_exact_deg"], percent, fov(gap))
+        np.testing.assert_allclose(table["check.theory.fov_exact_deg"], fov(table["array.gap_mm"]), rtol=1e-9)
+
+
+def knows_errors(folder) -> bool:
+    try:
+        lfdsim.Display.load(folder / "display.toml")["errors.gap_mm"]
+        return True
+    except (KeyError, ValueError):
+        return False
+
+
+class WholeStudies(StudyTest):
+    def setUp(self):
+        super().setUp()
+        if not knows_errors(self.folder):
+            self.skipTest("this lfdsim knows no [errors]")
+        self.display = self.write(DISPLAY + f"[errors]\ngap_mm = {SD}\nrotation_deg = 0.01\n", "errors.toml")
+
+    def test_the_budget_of_a_gap_error(self):
+        """95 % of gaps are within 1.96 standard deviations, so a loss of depth(g - 1.96 sd) - depth(g) is just allowed.
+
+        The percentile of 200 draws is within 7 %, one standard error."""
+        allowed = depth(GAP - stats.truncnorm(-3, 3).ppf(0.975) * SD) - depth(GAP)
+        found = study.tolerance(
+            self.display,
+            self.folder / "out",
+            200,
+            alone=200,
+            measures=("check",),
+            progress=False,
+            losses=(Loss("check.theory.central_depth_mm", allowed),),
+        )
+        budget = found.budget.set_index("error")
+        self.assertAlmostEqual(budget.loc["errors.gap_mm", "allowed scale"], 1, delta=0.2)
+        self.assertAlmostEqual(budget.loc[errors.ALL, "allowed scale"], budget.loc["errors.gap_mm", "allowed scale"], places=6)
+        self.assertEqual(budget.loc["errors.rotation_deg", "allowed scale"], 2)
+        values = found.draws["check.theory.central_depth_mm"]
+        for percent in (5, 50, 95):
+            percentile_within(self, values, percent, depth(GAP + stats.truncnorm(-3, 3, 0, SD).ppf(1 - percent / 100)))
+
+    def test_the_command(self):
+        words = (
+            "tolerance",
+            self.display,
+            "-o",
+            self.folder / "out",
+            "--draws",
+            20,
+            "--measure",
+            "check",
+            "--loss",
+            "check.theory.central_depth_mm=5",
+        )
+        done = call(*words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = (self.folder / "out" / "tolerance.html").read_text()
+        self.assertIn("Budget for check.theory.central_depth_mm", text)
+        self.assertEqual(done.stdout, call(*words).stdout)
+        self.assertIn("holds another tolerance study", call(*words[:4], "--draws", 21, "--measure", "check").stderr)
+
+
+class BadInput(StudyTest):
+    def test_is_told(self):
+        for words, said in (
+            ((self.folder / "display.toml",), "states no error"),
+            ((self.folder / "none.toml",), "cannot be read"),
+            ((self.folder / "display.toml", "--loss", "x"), "is not FIGURE=AMOUNT"),
+            ((self.folder / "display.toml", "--percent", 100), "percent"),
+        ):
+            done = call("tolerance", words[0], "-o", self.folder / "out", *words[1:])
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(said, done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
