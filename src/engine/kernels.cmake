@@ -1,8 +1,13 @@
-# Each takes the sanitizers a minute or more to compile.
 set(LFDSIM_KERNELS scalar baseline avx2 avx512 CACHE STRING "instruction sets to build kernels for; scalar and baseline at least")
 set(kernel_level -O3)
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   set(kernel_level -O1)
+endif()
+# Each takes the sanitizers a minute or more to compile, together twice as long as one of them. The kernels are the same source.
+if(LFDSIM_QUICK_SANITIZERS)
+  set(LFDSIM_KERNELS scalar baseline)
+  set(scalar_quick -fno-sanitize=undefined)
+  set(baseline_quick -fno-sanitize=address)
 endif()
 # One object for each kernel: the same source for each instruction set. No errno and no traps in mathematics; contraction is off
 # everywhere.
@@ -17,7 +22,7 @@ function(lfdsim_kernel name isa lanes)
   target_compile_definitions(lfdsim_kernel_${name} PRIVATE LFDSIM_ISA=${name} LFDSIM_LANES=${lanes} LFDSIM_KERNEL=render_tile_${name})
   # GCC 12 takes the undefined vectors of its own AVX-512 headers for a mistake. Where it makes vectors of its own it contracts sums and
   # differences of products though contraction is off; lanes are vectors anyway.
-  target_compile_options(lfdsim_kernel_${name} PRIVATE ${kernel_level} -fno-math-errno -fno-trapping-math ${isa}
+  target_compile_options(lfdsim_kernel_${name} PRIVATE ${kernel_level} ${${name}_quick} -fno-math-errno -fno-trapping-math ${isa}
     "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-uninitialized;-fno-tree-vectorize>")
   target_sources(lfdsim_engine PRIVATE $<TARGET_OBJECTS:lfdsim_kernel_${name}>)
   string(TOUPPER ${name} upper)

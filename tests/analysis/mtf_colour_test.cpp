@@ -106,7 +106,7 @@ Subject subject_of(const Display& d, std::vector<double> depths) {
     return Subject(d, {}, options);
 }
 
-TEST(MtfOfColours, IsThatOfTheNodalRaysDifferencesAndOfTheory) {
+void expect_that_of_nodal_rays(std::initializer_list<double> angles_deg, std::initializer_list<double> depths_mm) {
     struct Case {
         SubpixelLayout layout;
         ContentSampling sampling;
@@ -118,11 +118,11 @@ TEST(MtfOfColours, IsThatOfTheNodalRaysDifferencesAndOfTheory) {
                           {SubpixelLayout::none, ContentSampling::pixel, true},
                           {SubpixelLayout::rgb_stripe, ContentSampling::subpixel, true}}) {
         const Subject s = subject_of(coloured(k.layout, k.sampling, k.layered), {});
-        for (const double angle : {0., 9.}) {
+        for (const double angle : angles_deg) {
             const bool paraxial = !k.layered || angle == 0;  // oblique light in a plate is not
             const SeenInColours seen =
                 seen_in_colours(s, {eye_mm * std::sin(angle * degree), 0, eye_mm * std::cos(angle * degree)});
-            for (const double depth : {80., 170.}) {
+            for (const double depth : depths_mm) {
                 std::array<Offsets, 3> expected;
                 for (int c = 0; c < 3; ++c) expected[std::size_t(c)] = stripe_offsets(s.display(), c, depth, angle, 1);
                 for (const Direction& direction : directions(s.display())) {
@@ -161,6 +161,9 @@ TEST(MtfOfColours, IsThatOfTheNodalRaysDifferencesAndOfTheory) {
         }
     }
 }
+
+TEST(MtfOfColours, IsThatOfTheNodalRaysDifferencesAndOfTheory) { expect_that_of_nodal_rays({9}, {170}); }
+TEST(MtfOfColours, IsThatOfTheNodalRaysDifferencesAndOfTheoryAtLength) { expect_that_of_nodal_rays({0, 9}, {80, 170}); }
 
 // By pixels, red's stripe shows what is a third of a pixel's image to its side.
 TEST(MtfOfColours, ContentByPixelsMakesFringesAsWideAsAThirdOfAPixelsImage) {

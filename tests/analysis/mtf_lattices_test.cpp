@@ -146,7 +146,7 @@ TEST(MtfOfStrips, IsThatOfTheNodalRaysDifferencesAndOfTheory) {
 }
 
 // Edges in pictures lean by 7 degrees from the strips: away from the panel's columns up to 20 degrees, then towards them.
-TEST(MtfOfStrips, EdgesAgreeWithLinesOfSight) {
+TEST(MtfOfStrips, EdgesAgreeWithLinesOfSightAtLength) {
     for (const double slant : {0., 9.4623, -18.435, 33.}) {
         Numbers numbers(3);
         Display d = drawn(numbers);

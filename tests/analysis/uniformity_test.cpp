@@ -229,7 +229,7 @@ TEST(Uniformity, NoiseMakesNoContrast) {
 
 // The camera's frame holds the box about the array; all light there is is the screen's mean over its cells. (Staggered rows end
 // unevenly: a diffuser brings light into the notches, and a plate goes on in them.)
-TEST(Uniformity, MeanIsThatOfTheCamerasPicture) {
+TEST(Uniformity, MeanIsThatOfTheCamerasPictureAtLength) {
     for (auto [name, d] : every_kind()) {
         d.array.rotation_deg = 0;
         if (d.array.slant_deg) d.array.slant_deg = 0;

@@ -66,7 +66,7 @@ std::string told(int n, const Display& d) {
                        bool(d.diffuser));
 }
 
-TEST(WhiteLattices, LuminanceIsThatOfTheory) {
+TEST(WhiteLattices, LuminanceIsThatOfTheoryAtLength) {
     DrawLattices draw(31);
     int glass = 0;
     for (int n = 0; n < 12; ++n) {
@@ -85,7 +85,7 @@ TEST(WhiteLattices, LuminanceIsThatOfTheory) {
     EXPECT_GT(glass, 2);
 }
 
-TEST(WhiteLattices, BandsAreThoseOfTheory) {
+TEST(WhiteLattices, BandsAreThoseOfTheoryAtLength) {
     DrawLattices draw(32);
     constexpr int displays = 14;
     int with_bands = 0, measured = 0;

@@ -1,5 +1,6 @@
 // A small display and models written on the spot, for the tests of content.
 #pragma once
+#include "../sanitizers.h"
 #include "content/content.h"
 #include "model/display.h"
 #include "model/geometry.h"
@@ -82,19 +83,8 @@ inline fs::path write_patches(const Folder& folder, const std::vector<Patch>& pa
     return folder.write("patches.obj", obj.str());
 }
 
-#if defined(__SANITIZE_ADDRESS__)
-#define LFDSIM_ASAN 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define LFDSIM_ASAN 1
-#endif
-#endif
-/// The reader's memory is not limited under AddressSanitizer, whose shadow memory takes terabytes of address space.
-#ifdef LFDSIM_ASAN
-inline constexpr bool memory_is_limited = false;
-#else
-inline constexpr bool memory_is_limited = true;
-#endif
+/// The reader's memory is not limited under AddressSanitizer.
+inline constexpr bool memory_is_limited = !address_sanitizer;
 
 /// What a white surface that faces +z reflects: ambient 0.2 and 0.8 times the cosine to the light from (0.3, 0.5, 0.81).
 inline constexpr double facing_light = 0.2 + 0.8 * 0.81 / 0.9980480950;

@@ -7,6 +7,7 @@
 #include <random>
 #include <thread>
 
+#include "../sanitizers.h"
 #include "analysis/views.h"
 #include "engine/render.h"
 #include "view/likeness.h"
@@ -247,6 +248,7 @@ double resident_mb() {
 }
 
 TEST_F(PainterTest, MemoryStaysFlat) {
+    if (address_sanitizer) GTEST_SKIP() << "AddressSanitizer keeps freed memory";
     Painter painter(library, panels, outbox, 2);
     std::mt19937 random(7);
     const auto some = [&](double low, double high) { return low + (high - low) * double(random()) / double(random.max()); };
