@@ -46,6 +46,8 @@ Option Command::add_option(const std::string& names, std::vector<std::string>& v
 Option Command::add_flag(const std::string& names, bool& variable, const std::string& description) {
     return Option(app_->add_flag(names, variable, description));
 }
+void Command::take_all_words() { app_->prefix_command()->set_help_flag(); }
+std::vector<std::string> Command::words() const { return app_->remaining(); }
 std::string Command::name() const { return app_->get_name(); }
 bool Command::knows(const std::string& option) const { return app_->get_option_no_throw(option) != nullptr; }
 bool Command::given(const std::string& option) const { return knows(option) && app_->count(option) > 0; }

@@ -40,6 +40,9 @@ class Command {
     Option add_option(const std::string& names, std::string& variable, const std::string& description);
     Option add_option(const std::string& names, std::vector<std::string>& variable, const std::string& description);
     Option add_flag(const std::string& names, bool& variable, const std::string& description);
+    /// The command gets no options, not even --help: all words that follow it are its own, and words() has them when it runs.
+    void take_all_words();
+    std::vector<std::string> words() const;
     std::string name() const;
     /// Of an option by its name with dashes: whether the command has it, whether it was given, and with which words.
     bool knows(const std::string& option) const;

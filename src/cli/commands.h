@@ -21,6 +21,7 @@ void add_view(Command program);
 void add_export(Command program);
 void add_glass(Command program);
 void add_errors(Command program);
+void add_study(Command program);  // study and tolerance
 void add_doctor(Command program);
 
 }  // namespace lfdsim::cli

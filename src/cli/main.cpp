@@ -45,6 +45,7 @@ void run(int argc, char** argv) {
     cli::add_bench(program);
     cli::add_glass(program);
     cli::add_errors(program);
+    cli::add_study(program);
     cli::add_doctor(program);
     const std::string asked = line.parse(cli::arguments(argc, argv));
     if (!asked.empty()) cli::print(asked);

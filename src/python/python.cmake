@@ -36,6 +36,12 @@ foreach(name ${package_files})
   file(CREATE_LINK ${package}/${name} ${CMAKE_BINARY_DIR}/python/lfdsim/${name} SYMBOLIC)
 endforeach()
 
+# `lfdsim study` goes on in the Python that the module is for. Of a wheel that is the one that pip installs it in.
+if(NOT SKBUILD)
+  set_source_files_properties(${PROJECT_SOURCE_DIR}/src/cli/study.cpp PROPERTIES COMPILE_DEFINITIONS
+    "LFDSIM_PYTHON_INTERPRETER=\"${LFDSIM_PYTHON_INTERPRETER}\"")
+endif()
+
 # In a wheel the programs lie in bin/, beside the module.
 if(SKBUILD)
   install(TARGETS _core LIBRARY DESTINATION lfdsim COMPONENT python)

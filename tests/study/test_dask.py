@@ -9,12 +9,12 @@ import threading
 import time
 import unittest
 
+from common import StudyTest, call, skip_all
+
 try:
     import distributed
 except ImportError:
-    distributed = None
-
-from common import StudyTest, call
+    skip_all("distributed is not installed; pip install distributed")
 
 from lfdsim import study
 from lfdsim.study import StudyError
@@ -22,7 +22,6 @@ from lfdsim.study import StudyError
 ROWS = 48
 
 
-@unittest.skipIf(distributed is None, "distributed is not installed")
 class OnDask(StudyTest):
     def setUp(self):
         super().setUp()

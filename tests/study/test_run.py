@@ -90,7 +90,11 @@ class Runs(StudyTest):
 
     def test_ctrl_c_stops_at_once_and_continues(self):
         process = subprocess.Popen(
-            command("run", self.file, "-o", self.out, "--no-report"), stderr=subprocess.PIPE, text=True, start_new_session=True
+            command("run", self.file, "-o", self.out, "--no-report"),
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # background jobs of a shell's script ignore it
         )
         self.wait_for(2, process)
         workers = children(process.pid)

@@ -1,6 +1,6 @@
 """Studies through Slurm, of one node on this machine: as an array job of which a task is killed, and on workers that dask-jobqueue submits.
 
-Needs slurmctld, slurmd, munged and root; skipped elsewhere.
+Needs Debian's packages slurm-wlm and munge, and root; skipped elsewhere.
 """
 
 import os
@@ -12,7 +12,7 @@ import sys
 import time
 import unittest
 
-from common import StudyTest, call
+from common import StudyTest, call, skip_all
 
 from lfdsim import study
 
@@ -60,7 +60,12 @@ def wait(until, seconds: float = 90) -> None:
         time.sleep(0.02)
 
 
-@unittest.skipUnless(all(map(os.path.exists, PROGRAMS)) and os.geteuid() == 0, "Slurm cannot run here")
+if not all(map(os.path.exists, PROGRAMS)) or not shutil.which("sbatch"):
+    skip_all("Slurm is not installed; apt-get install slurm-wlm munge")
+if os.geteuid() != 0:
+    skip_all("only root can start Slurm's services")
+
+
 class OnSlurm(StudyTest):
     def setUp(self):
         super().setUp()
@@ -134,7 +139,6 @@ class OnSlurm(StudyTest):
         self.assertEqual(self.expected, (self.out / "study.parquet").read_bytes())
         self.assertEqual(before, {n: (self.out / "rows" / n).stat().st_ino for n in before})
 
-    @unittest.skipUnless(shutil.which("sbatch"), "no sbatch")
     def test_workers_that_dask_jobqueue_submits(self):
         try:
             import dask_jobqueue

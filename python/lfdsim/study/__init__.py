@@ -1,7 +1,18 @@
 """Studies: one display, changed in many ways and measured each time, on this machine's cores or on many machines. See docs/studies.md."""
 
-from .api import collect, plan, report, run, run_part
-from .problems import StudyError, StudyFailed
-from .tolerances import Loss, Tolerance, tolerance
+import importlib
 
+_HOMES = {
+    "api": ("collect", "plan", "report", "run", "run_part"),
+    "problems": ("StudyError", "StudyFailed"),
+    "tolerances": ("Loss", "Tolerance", "tolerance"),
+}
 __all__ = ["Loss", "StudyError", "StudyFailed", "Tolerance", "collect", "plan", "report", "run", "run_part", "tolerance"]
+
+
+def __getattr__(name: str):
+    """When it is first asked for, so that a package that is missing is told by the command, and not by Python."""
+    for home, names in _HOMES.items():
+        if name in names:
+            return getattr(importlib.import_module(f"{__name__}.{home}"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -1,164 +1,24 @@
-"""python -m lfdsim.study: studies from the command line.
+"""lfdsim study, and python -m lfdsim.study: studies from the command line.
 
 Exit codes: 0 done, 1 failed while running, 2 bad usage or input, 130 interrupted.
 """
 
 from __future__ import annotations
 
-import argparse
-import pathlib
 import sys
 
-from . import api
-from .problems import StudyError, StudyFailed
-from .tolerances import MEASURES, Loss, tolerance
 
-
-def main(words: list[str] | None = None) -> int:
-    arguments = _parser().parse_args(words)
+def main(words: list[str]) -> int:
     try:
-        return arguments.command(arguments)
-    except StudyError as error:
-        print(f"lfdsim: error: {error}", file=sys.stderr)
-        return 1 if isinstance(error, StudyFailed) else 2
-    except KeyboardInterrupt:
-        print("lfdsim: stopped; finished rows are kept, the same command continues", file=sys.stderr)
-        return 130
-    except BrokenPipeError:
+        from . import commands
+    except ModuleNotFoundError as error:
+        print(f"lfdsim: error: studies need the Python package {error.name}, which {sys.executable} has not; "
+              f"{sys.executable} -m pip install 'lfdsim[study]'", file=sys.stderr)
         return 1
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="lfdsim study",
-        description="Measures many variants of a display.",
-        epilog="lfdsim study FILE.toml -o FOLDER is short for lfdsim study run FILE.toml -o FOLDER",
-    )
-    commands = parser.add_subparsers(required=True, metavar="COMMAND")
-
-    run = commands.add_parser("run", help="compute what is missing, write study.parquet and report.html; or one part of the chunks")
-    run.add_argument("file", help="the study's FILE.toml; with --chunk, the planned FOLDER")
-    run.add_argument("-o", "--output", metavar="FOLDER", help="of the study: made if missing, continued if it is there")
-    run.add_argument("--dask", metavar="ADDRESS", help="of a Dask scheduler, as in tcp://HOST:8786; its workers compute")
-    run.add_argument("--workers", type=_positive, metavar="N", help="processes on this machine; default: one for each core")
-    run.add_argument("--threads", type=_positive, default=1, metavar="N", help="of each process; default: 1")
-    run.add_argument(
-        "--chunk", type=int, metavar="I", help="compute the I-th of N parts of the chunks, I from 0, here and now: for array jobs"
-    )
-    run.add_argument("--of", type=_positive, metavar="N", help="see --chunk")
-    run.add_argument("--no-report", action="store_true", help="leave report.html out")
-    run.set_defaults(command=_run)
-
-    plan = commands.add_parser("plan", help="choose all rows, compute none: the first step of array jobs")
-    plan.add_argument("file", help="the study's FILE.toml")
-    plan.add_argument("-o", "--output", metavar="FOLDER", required=True)
-    plan.set_defaults(command=_plan)
-
-    for name, help_ in (
-        ("collect", "the last step of array jobs: write study.parquet"),
-        ("report", "write report.html of a finished study"),
-    ):
-        command = commands.add_parser(name, help=help_)
-        command.add_argument("folder")
-        command.set_defaults(command=_collect if name == "collect" else _report)
-    tolerance = commands.add_parser(
-        "tolerance", help="draw the errors that a display's [errors] states; percentiles and a budget of the errors"
-    )
-    tolerance.add_argument("display", help="DISPLAY.toml, with the sizes of its errors")
-    tolerance.add_argument("-o", "--output", metavar="FOLDER", required=True)
-    tolerance.add_argument("--draws", type=_positive, default=200, metavar="N", help="of all errors together; default: 200")
-    tolerance.add_argument(
-        "--alone",
-        type=int,
-        metavar="N",
-        help="of each error by itself at half, once and twice its size; 0: no budget; default: a fifth of --draws",
-    )
-    tolerance.add_argument(
-        "--measure",
-        default=",".join(MEASURES),
-        metavar="NAME,...",
-        help=f"picture (its likeness to the scene), check, or measures of lfdsim analyze; default: {','.join(MEASURES)}",
-    )
-    tolerance.add_argument(
-        "--loss",
-        action="append",
-        default=[],
-        metavar="FIGURE=AMOUNT",
-        help="what may be lost: with + it may only rise by as much, with - fall; without, either. May be repeated",
-    )
-    tolerance.add_argument("--percent", type=float, default=95.0, metavar="P", help="of displays that must keep within --loss; default: 95")
-    tolerance.add_argument("--seed", type=int, default=0, help="of the draws")
-    tolerance.add_argument("--dask", metavar="ADDRESS", help="as of run")
-    tolerance.add_argument("--workers", type=_positive, metavar="N", help="as of run")
-    tolerance.add_argument("--threads", type=_positive, default=1, metavar="N", help="as of run")
-    tolerance.set_defaults(command=_tolerance)
-    return parser
-
-
-def _positive(text: str) -> int:
-    number = int(text)
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"{text} is not possible; give a whole number from 1")
-    return number
-
-
-def _run(a: argparse.Namespace) -> int:
-    if (a.chunk is None) != (a.of is None):
-        raise StudyError("--chunk and --of", "belong together; give both, as in --chunk 3 --of 100")
-    if a.chunk is not None:
-        if a.output or a.dask or a.workers:
-            raise StudyError("--chunk", "computes in this process: -o, --dask and --workers have no meaning with it; leave them out")
-        rows = api.run_part(a.file, a.chunk, a.of, a.threads)
-        print(f"{a.file}: part {a.chunk} of {a.of}: {rows} rows are there")
-        return 0
-    if not a.output:
-        raise StudyError("-o", "is missing; give the folder for the study")
-    if a.dask and a.workers:
-        raise StudyError("--workers", "are of this machine; with --dask the cluster has its own. Give one of them")
-    table = api.run(a.file, a.output, a.dask, workers=a.workers, threads=a.threads)
-    print(f"{pathlib.Path(a.output) / 'study.parquet'}: {len(table)} rows, {int(table['error'].notna().sum())} of them impossible")
-    return 0 if a.no_report else _report(argparse.Namespace(folder=a.output))
-
-
-def _plan(a: argparse.Namespace) -> int:
-    plan = api.plan(a.file, a.output)
-    print(f"{plan.folder}: {plan.rows} rows in {plan.chunks} chunks of {plan.rows_per_chunk}")
-    return 0
-
-
-def _collect(a: argparse.Namespace) -> int:
-    table = api.collect(a.folder)
-    print(f"{pathlib.Path(a.folder) / 'study.parquet'}: {len(table)} rows, {int(table['error'].notna().sum())} of them impossible")
-    return 0
-
-
-def _report(a: argparse.Namespace) -> int:
-    print(f"{api.report(a.folder)}: the report")
-    return 0
-
-
-def _tolerance(a: argparse.Namespace) -> int:
-    from .reports import tolerance_page
-
-    found = tolerance(
-        a.display,
-        a.output,
-        a.draws,
-        alone=a.alone,
-        measures=tuple(a.measure.split(",")),
-        losses=tuple(map(Loss.parse, a.loss)),
-        percent=a.percent,
-        seed=a.seed,
-        dask=a.dask,
-        workers=a.workers,
-        threads=a.threads,
-    )
-    with_budget = f"\n{found.budget.drop(columns='way').to_string(index=False)}" if len(found.budget) else ""
-    print(f"{found.percentiles.to_string(float_format='{:.5g}'.format)}{with_budget}\n{tolerance_page.write(found, a.percent)}: the report")
-    return 0
+    except KeyboardInterrupt:
+        return 130
+    return commands.main(words)
 
 
 if __name__ == "__main__":
-    words = sys.argv[1:]
-    commands = ("run", "plan", "collect", "report", "tolerance", "-h", "--help")
-    sys.exit(main(words if not words or words[0] in commands else ["run", *words]))
+    sys.exit(main(sys.argv[1:]))

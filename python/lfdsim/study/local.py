@@ -71,7 +71,8 @@ class _Process:
     def _start(self) -> bool:
         with self.starting:
             if self.child is None and not self.stopped:
-                environment = os.environ | {"PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
+                # Python's own modules are not looked for where the user stands.
+                environment = os.environ | {"PYTHONPATH": os.pathsep.join(p or os.getcwd() for p in sys.path), "PYTHONSAFEPATH": "1"}
                 self.child = subprocess.Popen(self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment)
             return not self.stopped
 

@@ -1,0 +1,99 @@
+"""lfdsim study and lfdsim tolerance, as the program in a build and as the command of an installed package."""
+
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+from common import StudyTest, call
+
+PROGRAM = pathlib.Path(os.environ["LFDSIM_PROGRAM"])
+INSTALLED = (sys.executable, "-c", "from lfdsim.program import main; main()")
+
+
+class Program(StudyTest):
+    def setUp(self):
+        super().setUp()
+        self.file, self.out = self.lhs(6), self.folder / "out"
+
+    def run_it(self, *words: object, program=(PROGRAM,), **environment) -> subprocess.CompletedProcess:
+        without = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"} | environment
+        return subprocess.run([*map(str, program), *map(str, words)], capture_output=True, text=True, env=without, cwd=self.folder)
+
+    def test_gives_the_same_table(self):
+        self.assertEqual(call("run", self.file, "-o", self.folder / "module").returncode, 0)
+        expected = (self.folder / "module" / "study.parquet").read_bytes()
+        here = {"PYTHONPATH": os.environ["PYTHONPATH"]}
+        for name, program, environment in (("built", (PROGRAM,), {}), ("installed", INSTALLED, here)):
+            done = self.run_it("study", "study.toml", "-o", name, program=program, **environment)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(f"{name}/report.html", done.stdout)
+            self.assertEqual(expected, (self.folder / name / "study.parquet").read_bytes())
+
+    def test_tolerance(self):
+        path = self.folder / "display.toml"
+        path.write_text(path.read_text() + "[errors]\ngap_mm = 0.02\n")
+        done = self.run_it("tolerance", "display.toml", "-o", "out", "--draws", 3, "--alone", 0, "--measure", "check")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue((self.out / "tolerance.html").exists())
+
+    def test_help(self):
+        everything = self.run_it("--help").stdout
+        for command, word in (("study", "plan"), ("tolerance", "--draws")):
+            self.assertIn(f"\n  {command} ", everything)
+            text = self.run_it(command, "--help")
+            self.assertEqual(text.returncode, 0)
+            self.assertIn(word, text.stdout)
+            self.assertEqual(text.stdout, self.run_it("help", command).stdout)
+
+    def test_exit_codes_of_bad_usage(self):
+        for words in (["study"], ["study", "none.toml", "-o", "out"], ["study", "study.toml"], ["study", "run", "--nonsense"], ["tolerance"]):
+            done = self.run_it(*words)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+
+    def test_ctrl_c(self):
+        self.lhs(3000)
+        process = subprocess.Popen(
+            [PROGRAM, "study", self.file, "-o", self.out],
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # background jobs of a shell's script ignore it
+        )
+        while not list(self.out.glob("rows/*.parquet")):
+            self.assertIsNone(process.poll())
+            time.sleep(0.01)
+        os.killpg(process.pid, signal.SIGINT)
+        errors = process.communicate()[1]
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertIn("the same command continues", errors)
+
+    def test_files_where_the_user_stands_are_no_modules(self):
+        for name in ("random", "pandas", "lfdsim"):
+            (self.folder / f"{name}.py").write_text("raise RuntimeError('a file of the user')")
+        done = self.run_it("study", "study.toml", "-o", "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_package_that_is_missing(self):
+        (self.folder / "pyarrow.py").write_text("raise ModuleNotFoundError(\"No module named 'pyarrow'\", name='pyarrow')")
+        done = self.run_it("study", "study.toml", "-o", "out", PYTHONPATH=str(self.folder))
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"^lfdsim: error: studies need the Python package pyarrow, .* -m pip install 'lfdsim\[study\]'\n$")
+
+    def test_no_python_package(self):
+        if self.run_it("-c", "import lfdsim", program=(sys.executable,)).returncode == 0:
+            self.skipTest("this Python has an lfdsim of its own")
+        alone = self.folder / "lfdsim"
+        shutil.copy(PROGRAM, alone)
+        done = self.run_it("study", "study.toml", "-o", "out", program=(alone,))
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"^lfdsim: error: studies are run by lfdsim's Python package, .* no lfdsim; .*pip install .*\n$")
+
+
+if __name__ == "__main__":
+    unittest.main()
