@@ -18,7 +18,7 @@ name = "check"
 
 # (what is replaced in GRID, by what, what the message must say)
 WRONG = [
-    ("schema = 1", "schema = 2", ["schema", "give a whole number"]),
+    ("schema = 1", "schema = 2", ["schema", "is 2", "give 1"]),
     ("schema = 1", "schema = 1\nseeed = 3", ["seeed", "is not a key here", "seed"]),
     ('"grid"', '"gird"', ["design", "gird", "did you mean grid"]),
     ('"grid"', '"lhs"', ["rows", "is missing"]),
@@ -57,6 +57,18 @@ WRONG = [
     ('"display.toml"', '"other.toml"', ["display", "other.toml", "cannot be read"]),
     ('"display.toml"', '"study.toml"', ["study.toml", "is not a possible display"]),
     ("schema = 1", "schema = = 1", ["is not TOML", "line 1"]),
+    ("schema = 1", "schema = 1\nset = 3", ["set", "is 3", "a table"]),
+    ("16.5]", "1979-05-27]", ["factor 1 values 2", "is the date or time 1979-05-27"]),
+    ("16.5]", "[" * 5000 + "]" * 5001, ["lists or tables are too deep"]),
+    ("16.5]", "1" * 5000 + "]", ["is not TOML", "4300 digits"]),
+    ('"display.toml"', '"a\\u0000b"', ["display", "null byte"]),
+    ('"display.toml"', '"/dev/zero"', ["/dev/zero", "more than 16 MiB"]),
+    ('"grid"', '"lhs"\nrows = 1_000_000_000_000', ["rows", "is 1000000000000", "from 1 to 10000000"]),
+    ('"grid"', '"grid"\nreplicates = 1_000_000\n[[factor]]\nkey = "array.pitch_mm"\nfrom = 1\nto = 2\nsteps = 1_000_000', ["2000000000000 rows", "at most"]),
+    ('"grid"', '"saltelli"\nrows = 9_000_000', ["27000000 rows", "at most"]),
+    ('"grid"', '"grid"\nset = { "camera.position_mm.0" = 1 }\n[[factor]]\nkey = "camera.position_mm"\nvalues = [[0, 0, 9]]', ["all of camera.position_mm"]),
+    ('name = "check"', 'name = "check"\n[[picture]]\nname = "row"', ['"row"', "give another name"]),
+    ('name = "check"', 'name = "check"\n[[picture]]\nname = "front"\nsize = [true, 10]', ["size", "True"]),
 ]
 
 
@@ -91,6 +103,7 @@ class BadFiles(StudyTest):
             ("array.gap_mm,array.gap_mm\n1,2\n", "rows.csv:1: names a key twice"),
             ("array.gap_mm\n1\n1,2\n", "rows.csv:3: has 2 cells"),
             ("array.gap\n1\n", "array.gap: is not a key"),
+            ("array.gap_mm\n" + "1" * 200_000 + "\n", "rows.csv: cannot be read"),
         ):
             with self.subTest(text):
                 (self.folder / "rows.csv").write_text(text)

@@ -105,6 +105,9 @@ class Page(StudyTest):
         done = call("run", self.write(FILE), "-o", self.folder / "out")
         self.assertEqual(done.returncode, 0, done.stderr)
         text = (self.folder / "out" / page.NAME).read_text()
+        written = (self.folder / "out" / page.NAME).stat().st_ino
+        self.assertEqual(call("run", self.write(FILE), "-o", self.folder / "out").stdout, done.stdout)
+        self.assertEqual(written, (self.folder / "out" / page.NAME).stat().st_ino)  # it is as it was
         for part in (
             "16 rows, 4 of them impossible",
             "Impossible rows",
@@ -128,6 +131,13 @@ class Page(StudyTest):
         depth = 1 / (1 / read.rows["lens.focal_length_mm"] - 1 / read.rows["array.gap_mm"])
         np.testing.assert_allclose(read.rows["check.theory.central_depth_mm"], depth)
         self.assertIn(f"{100 * np.sum(depth <= 350) / 16:.2f} %", text)
+
+    def test_another_limit_makes_another_report(self):
+        out = self.folder / "out"
+        study.run(self.write(FILE), out, workers=1, progress=False)
+        study.report(out)
+        self.assertEqual(call("run", self.write(FILE.replace("max = 350", "max = 353")), "-o", out).returncode, 0)
+        self.assertIn("<td>353</td>", (out / page.NAME).read_text())
 
     def test_the_strongest_interaction_is_of_gap_and_focal_length(self):
         study.run(self.write(FILE), self.folder / "out", workers=1, progress=False)

@@ -117,7 +117,7 @@ class Runs(StudyTest):
         self.assertEqual(call("plan", self.file, "-o", self.out).returncode, 0)
         for size in (100, 3000, 7000):
             done = call("run", self.out, "--chunk", 0, "--of", 1, preexec_fn=limit)
-            self.assertNotEqual(done.returncode, 0)
+            self.assertEqual(done.returncode, 1)
             self.assertIn("make room", done.stderr)
             self.assertNotIn("Traceback", done.stderr)
         self.check_finishes_with_what_is_there()

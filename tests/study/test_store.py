@@ -111,6 +111,9 @@ class Kept(StudyTest):
         self.write(self.file.read_text().replace("fov_exact_deg", "fov_exact"))
         with self.assertRaisesRegex(StudyError, "theory.fov_exact.*is not a figure of check; did you mean theory.fov_exact_deg"):
             self.run_it()
+        self.write(self.file.read_text().replace("fov_exact", "views") + '[[limit]]\nfigure = "check.theory.gap_mmm"\nmin = 1\n')
+        with self.assertRaisesRegex(StudyError, "gap_mmm.*is not a figure; did you mean check.theory.gap_mm"):
+            self.run_it()
         done = {p.name: p.stat().st_mtime_ns for p in (self.out / "rows").glob("*.parquet")}
         self.assertTrue(done)
         self.lhs(8)
@@ -126,6 +129,21 @@ class Kept(StudyTest):
         model.write_text("v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n")
         with self.assertRaisesRegex(StudyError, "differs in: files"):
             self.run_it()
+
+    def test_models_are_looked_at_by_whoever_computes(self):
+        """An array job's tasks, or a machine where the model is another or missing: its rows would be others, or called impossible."""
+        model = self.folder / "model.obj"
+        model.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        (self.folder / "rows.csv").write_text("content.model\nmodel.obj\n")
+        self.write('schema = 1\ndisplay = "display.toml"\ndesign = "table"\ntable = "rows.csv"\n[[measure]]\nname = "check"\n')
+        study.plan(self.file, self.out)
+        model.write_text("v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n")
+        with self.assertRaisesRegex(StudyError, "model.obj: has changed since"):
+            study.run_part(self.out, 0, 1)
+        model.unlink()
+        with self.assertRaisesRegex(StudyError, "model.obj: cannot be read"):
+            study.run_part(self.out, 0, 1)
+        self.assertFalse(list((self.out / "rows").glob("*.parquet")))
 
     def test_another_version_is_refused(self):
         self.run_it()

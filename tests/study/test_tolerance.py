@@ -1,5 +1,6 @@
-"""Tolerance studies whose answer is known in closed form: ideal lenses whose gap is wrong."""
+"""Tolerance studies whose answer is known in closed form: ideal lenses whose gap and place are wrong."""
 
+import json
 import unittest
 
 import numpy as np
@@ -145,6 +146,38 @@ class WholeStudies(StudyTest):
         for percent in (5, 50, 95):
             percentile_within(self, values, percent, depth(GAP + stats.truncnorm(-3, 3, 0, SD).ppf(1 - percent / 100)))
 
+    def test_the_measured_view_of_a_shifted_and_raised_array(self):
+        """Elemental images are p (1 + g/Z) wide, Z from lenses to eyes. The panel's point P is seen through a lens at d that is
+        raised by e from d + (d - P) (Z - e)/(g + e): the view's slope shifts by d (1/g + 1/Z), its half width scales with
+        (Z - e)/(g + e). Rays measure where half of the lenses show a neighbour's image, to 0.06 mm."""
+        text = DISPLAY + f"[errors]\ngap_mm = {SD}\nshift_mm = [0.1, 0.0]\n"
+        draws, reach = 100, DISTANCE - GAP
+        found = study.tolerance(
+            self.write(text, "errors.toml"),
+            self.folder / "out",
+            draws,
+            alone=0,
+            measures=({"name": "zone", "settings": {"size": [16, 9]}},),
+            seed=4,
+            progress=False,
+        )
+        left, right = (found.draws[f"zone.horizontal.wrong_50_percent_mm.{k}"].to_numpy() for k in (0, 1))
+        shift = np.array([json.loads(s)[0] for s in found.draws["errors.shift_mm"]])
+        raised = found.draws["errors.gap_mm"].to_numpy(float)
+        scale = (reach - raised) / (GAP + raised)
+        middle = (left + right) / 2
+        np.testing.assert_allclose(middle, shift * (1 + scale), atol=0.06)
+        without = [found.without[f"zone.horizontal.wrong_50_percent_mm.{k}"] for k in (0, 1)]
+        self.assertAlmostEqual(without[1], PITCH / 2 * (1 + GAP / reach) * reach / GAP, delta=2)  # a pixel is 8 mm wide there
+        np.testing.assert_allclose((right - left) / (without[1] - without[0]), scale / (reach / GAP), rtol=1e-3)
+        for percent in (5, 25, 50, 75, 95):
+            share = percent / 100
+            known = stats.truncnorm(-3, 3, 0, 0.1).ppf(share) * (1 / GAP + 1 / reach)
+            percentile_within(self, middle / reach, percent, known)
+            raised_by = stats.truncnorm(-3, 3, 0, SD).ppf(1 - share)
+            known = (without[1] - without[0]) * (reach - raised_by) / (GAP + raised_by) / (reach / GAP)
+            percentile_within(self, right - left, percent, known)
+
     def test_the_command(self):
         words = (
             "tolerance",
@@ -163,7 +196,7 @@ class WholeStudies(StudyTest):
         text = (self.folder / "out" / "tolerance.html").read_text()
         self.assertIn("Budget for check.theory.central_depth_mm", text)
         self.assertEqual(done.stdout, call(*words).stdout)
-        self.assertIn("holds another tolerance study", call(*words[:4], "--draws", 21, "--measure", "check").stderr)
+        self.assertIn("holds another study (draws.csv differs)", call(*words[:4], "--draws", 21, "--measure", "check").stderr)
 
 
 class BadInput(StudyTest):

@@ -11,13 +11,17 @@ import sys
 def main(words: list[str]) -> int:
     try:
         from . import commands
+
+        return commands.main(words)
     except ModuleNotFoundError as error:
-        print(f"lfdsim: error: studies need the Python package {error.name}, which {sys.executable} has not; "
-              f"{sys.executable} -m pip install 'lfdsim[study]'", file=sys.stderr)
+        print(
+            f"lfdsim: error: studies need the Python package {error.name}, which {sys.executable} has not; "
+            f"{sys.executable} -m pip install 'lfdsim[study]'",
+            file=sys.stderr,
+        )
         return 1
-    except KeyboardInterrupt:
+    except KeyboardInterrupt:  # before there was anything to keep
         return 130
-    return commands.main(words)
 
 
 if __name__ == "__main__":

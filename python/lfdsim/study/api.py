@@ -43,6 +43,8 @@ def run_part(folder: Path, part: int, parts: int, threads: int = 1) -> int:
     numbers = range(part, the_plan.chunks, parts)
     for number in numbers:
         result = chunk.attempt(the_plan, number, threads)
+        if result.get("input"):
+            raise StudyError("", result["problem"])
         if "problem" in result:
             raise StudyFailed(f"{folder}: chunk {number}", f"{result['problem']}. Finished rows are kept; run the same command again")
     return sum(len(the_plan.rows_of(n)) for n in numbers)

@@ -18,7 +18,7 @@ import pyarrow as pa
 
 from . import columns, design, files, pictures, work
 from .planned import Plan
-from .problems import StudyError
+from .problems import StudyError, StudyFailed
 
 REMEDY = "remove this file and run again: its rows are computed anew"
 
@@ -48,11 +48,12 @@ def run(plan: Plan, chunk: int, threads: int) -> dict:
 
 
 def attempt(plan: Plan, chunk: int, threads: int) -> dict:
-    """What run() says, or what went wrong; `fatal` where other chunks would not fare better."""
+    """What run() says, or what went wrong; `fatal` where other chunks would not fare better, `input` where the user has to
+    mend something before another try."""
     try:
         return run(plan, chunk, threads)
     except StudyError as error:
-        return {"problem": str(error), "fatal": True}
+        return {"problem": str(error), "fatal": True, "input": not isinstance(error, StudyFailed)}
     except Exception as error:
         return {"problem": f"{type(error).__name__}: {error}", "fatal": False}
 

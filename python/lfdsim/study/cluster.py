@@ -55,7 +55,7 @@ def _attempt(folder: str, identity: str, chunk: int, threads: int) -> dict:
     try:
         plan = _plan(folder, identity)
     except (StudyError, OSError) as error:
-        return {"problem": f"a worker does not see the study: {error}. Workers need the folder under the same path", "fatal": True}
+        return {"problem": f"a worker does not see the study: {error}. Workers need the folder under the same path", "fatal": True, "input": True}
     return one_chunk.attempt(plan, chunk, threads)
 
 

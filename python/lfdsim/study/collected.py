@@ -36,7 +36,7 @@ def table_of(plan: Plan) -> pa.Table:
 def _joined(plan: Plan, parts: list[pa.Table]) -> pa.Table:
     measured = pa.concat_tables(_alike(parts), promote_options="default")
     planned = plan.table()
-    wanted = wanted_figures(plan, [n for n in measured.column_names if n not in ("row", "error")])
+    wanted = wanted_figures(plan, measured)
     columns = {"row": measured["row"]} | {n: planned[n] for n in planned.column_names} | {n: measured[n] for n in wanted}
     return pa.table({name: _whole(column) for name, column in (columns | {"error": measured["error"]}).items()})
 
@@ -53,8 +53,9 @@ def _whole(column: pa.ChunkedArray) -> pa.Array:
     return column.fill_null(float("nan")) if pa.types.is_floating(column.type) else column
 
 
-def wanted_figures(plan: Plan, names: list[str]) -> list[str]:
+def wanted_figures(plan: Plan, measured: pa.Table) -> list[str]:
     """Of those that were measured, what the study's file asks for; a name stands for all that begin with it and a dot."""
+    names = [n for n in measured.column_names if n not in ("row", "error")]
     wanted = []
     for measure in plan.study.measures:
         own = [n for n in names if n.startswith(measure.label + ".")]
@@ -69,10 +70,12 @@ def wanted_figures(plan: Plan, names: list[str]) -> list[str]:
         wanted += own if not measure.figures else []
     labels = tuple(p.name + "." for p in plan.study.pictures)
     wanted += [n for n in names if n.startswith(labels)] if labels else []
+    numbers = [n for n in names if pa.types.is_floating(measured.schema.field(n).type)]
     for wish in (*plan.study.limits, *plan.study.objectives):
-        if names and wish.figure not in names:
+        if names and wish.figure not in numbers:
+            what = "is a text here, not a number" if wish.figure in names else "is not a figure"
             raise StudyError(
-                f"{plan.study.path}: [[limit]] or [[objective]]", f'"{wish.figure}" is not a figure; {nearest(wish.figure, names)}'
+                f"{plan.study.path}: [[limit]], [[objective]] or --loss", f'"{wish.figure}" {what}; {nearest(wish.figure, numbers)}'
             )
         wanted += [wish.figure] if wish.figure in names else []
     return list(dict.fromkeys(wanted))
@@ -80,5 +83,4 @@ def wanted_figures(plan: Plan, names: list[str]) -> list[str]:
 
 def check_wishes(plan: Plan, number: int) -> None:
     """After the first chunk: that the figures which the file names exist, before a night is spent on the others."""
-    table = chunk.read(plan, number)[0]
-    wanted_figures(plan, [n for n in table.column_names if n not in ("row", "error")])
+    wanted_figures(plan, chunk.read(plan, number)[0])

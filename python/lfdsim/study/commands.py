@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import argparse
 import pathlib
+import signal
 import sys
+
+from typing import TYPE_CHECKING
 
 from . import api
 from .problems import StudyError, StudyFailed
 from .tolerances import MEASURES, Loss, tolerance
 
+if TYPE_CHECKING:
+    import pandas
 
 COMMANDS = ("run", "plan", "collect", "report", "tolerance")
 
@@ -17,11 +22,15 @@ COMMANDS = ("run", "plan", "collect", "report", "tolerance")
 def main(words: list[str]) -> int:
     short = words and words[0] not in (*COMMANDS, "-h", "--help")
     arguments = _parser().parse_args(["run", *words] if short else words)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # as the program's other commands: a batch system's end is a user's
     try:
         return arguments.command(arguments)
     except StudyError as error:
         print(f"lfdsim: error: {error}", file=sys.stderr)
         return 1 if isinstance(error, StudyFailed) else 2
+    except MemoryError:
+        print("lfdsim: error: out of memory; take fewer rows, figures or workers", file=sys.stderr)
+        return 1
     except KeyboardInterrupt:
         print("lfdsim: stopped; finished rows are kept, the same command continues", file=sys.stderr)
         return 130
@@ -114,11 +123,23 @@ def _run(a: argparse.Namespace) -> int:
         return 0
     if not a.output:
         raise StudyError("-o", "is missing; give the folder for the study")
-    if a.dask and a.workers:
-        raise StudyError("--workers", "are of this machine; with --dask the cluster has its own. Give one of them")
     table = api.run(a.file, a.output, a.dask, workers=a.workers, threads=a.threads)
-    print(f"{pathlib.Path(a.output) / 'study.parquet'}: {len(table)} rows, {int(table['error'].notna().sum())} of them impossible")
-    return 0 if a.no_report else _report(argparse.Namespace(folder=a.output))
+    _tell(a.output, table)
+    if a.no_report:
+        return 0
+    from .planned import load
+    from .reports import kept
+
+    if kept.is_there(load(a.output)):
+        print(f"{pathlib.Path(a.output) / kept.NAME}: the report")
+        return 0
+    return _report(argparse.Namespace(folder=a.output))
+
+
+def _tell(folder: str, table: "pandas.DataFrame") -> None:
+    reasons = table["error"].dropna()
+    often = f", most often because: {reasons.value_counts().index[0]}" if len(reasons) else ""
+    print(f"{pathlib.Path(folder) / 'study.parquet'}: {len(table)} rows, {len(reasons)} of them impossible{often}")
 
 
 def _plan(a: argparse.Namespace) -> int:
@@ -129,7 +150,7 @@ def _plan(a: argparse.Namespace) -> int:
 
 def _collect(a: argparse.Namespace) -> int:
     table = api.collect(a.folder)
-    print(f"{pathlib.Path(a.folder) / 'study.parquet'}: {len(table)} rows, {int(table['error'].notna().sum())} of them impossible")
+    _tell(a.folder, table)
     return 0
 
 
@@ -139,8 +160,6 @@ def _report(a: argparse.Namespace) -> int:
 
 
 def _tolerance(a: argparse.Namespace) -> int:
-    from .reports import tolerance_page
-
     found = tolerance(
         a.display,
         a.output,
@@ -154,6 +173,8 @@ def _tolerance(a: argparse.Namespace) -> int:
         workers=a.workers,
         threads=a.threads,
     )
+    from .reports import tolerance_page
+
     with_budget = f"\n{found.budget.drop(columns='way').to_string(index=False)}" if len(found.budget) else ""
     print(f"{found.percentiles.to_string(float_format='{:.5g}'.format)}{with_budget}\n{tolerance_page.write(found, a.percent)}: the report")
     return 0

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import csv
+import itertools
 import json
+import math
 
 import numpy as np
 
 from .factors import Value
-from .file import MOST_ROWS, Study
+from .file import MOST_ROWS, SAMPLED, Study
 from .problems import StudyError
 
 Columns = dict[str, list[Value]]
@@ -16,10 +18,11 @@ Columns = dict[str, list[Value]]
 
 def rows_of(study: Study, replicate_keys: tuple[str, ...]) -> Columns:
     """One list for each key, all of the same length; `replicate` counts from 0 where a row is repeated with other seeds."""
+    if study.design in SAMPLED:
+        _check_count(study, study.rows * (len(study.factors) + 2 if study.design == "saltelli" else 1))
     columns = _grid(study) if study.design == "grid" else _table(study) if study.design == "table" else _sampled(study)
     count = len(next(iter(columns.values())))
-    if count * study.replicates > MOST_ROWS:
-        raise StudyError(study.path, f"has {count * study.replicates} rows; at most {MOST_ROWS} are possible")
+    _check_count(study, count)
     if study.replicates == 1:
         return columns
     for key in replicate_keys:
@@ -32,12 +35,17 @@ def rows_of(study: Study, replicate_keys: tuple[str, ...]) -> Columns:
     return repeated | {key: seeds * count for key in replicate_keys}
 
 
+def _check_count(study: Study, rows: int) -> None:
+    """Before there are any in memory."""
+    if rows * study.replicates > MOST_ROWS:
+        raise StudyError(study.path, f"has {rows * study.replicates} rows; at most {MOST_ROWS} are possible: take fewer, or several studies")
+
+
 def _grid(study: Study) -> Columns:
     """The last factor changes fastest."""
     columns: Columns = {}
     shape = [len(f.levels) for f in study.factors]
-    if np.prod(shape, dtype=float) > MOST_ROWS:
-        raise StudyError(study.path, f"has {np.prod(shape, dtype=float):.0f} rows; at most {MOST_ROWS} are possible")
+    _check_count(study, math.prod(shape))
     for factor, indices in zip(study.factors, np.unravel_index(np.arange(np.prod(shape)), shape)):
         columns |= factor.at_levels(indices)
     return columns
@@ -79,8 +87,8 @@ def _table(study: Study) -> Columns:
     """A CSV file with a key at the head of each column; an empty cell leaves the key as it is in the display."""
     try:
         with open(study.table, newline="", encoding="utf-8") as file:
-            lines = list(csv.reader(file))
-    except (OSError, UnicodeDecodeError) as error:
+            lines = list(itertools.islice(csv.reader(file), MOST_ROWS + 2))
+    except (OSError, ValueError, csv.Error) as error:
         raise StudyError(study.table, f"cannot be read: {error}") from error
     if len(lines) < 2:
         raise StudyError(study.table, "has no rows; give a line of keys and a line for each row")
@@ -91,6 +99,13 @@ def _table(study: Study) -> Columns:
         if len(line) != len(keys):
             raise StudyError(f"{study.table}:{number}", f"has {len(line)} cells; give {len(keys)}, one for each key")
     return {key: [_cell(line[k]) for line in lines[1:]] for k, key in enumerate(keys)}
+
+
+def texts_of_table(study: Study) -> list[str]:
+    """Each once: some are names of files."""
+    if study.design != "table":
+        return []
+    return sorted({value for values in _table(study).values() for value in values if isinstance(value, str)})
 
 
 def _cell(text: str) -> Value:

@@ -36,6 +36,10 @@ class Layout:
     def groups(self) -> list[str]:
         return [ALL, *self.sizes] if self.alone else [ALL]
 
+    @property
+    def rows(self) -> int:
+        return self.blocks()[-1][2].stop
+
     def blocks(self) -> list[tuple[str, float, range]]:
         """(group, scale, rows)."""
         blocks, start = [], 1

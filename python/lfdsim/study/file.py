@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import dataclasses
 import pathlib
-import tomllib
 
-from . import factors
+from . import factors, files
 from .factors import Factor
 from .problems import StudyError, nearest
 from .tables import Table
 
 DESIGNS = ("grid", "lhs", "sobol", "monte_carlo", "saltelli", "table")
 SAMPLED = ("lhs", "sobol", "monte_carlo", "saltelli")
-MOST_ROWS = 100_000_000
+MOST_ROWS = 10_000_000  # a table of which a large machine can still hold
 
 
 @dataclasses.dataclass(frozen=True)
@@ -74,25 +73,21 @@ class Study:
 
 def read_study(path: str | pathlib.Path) -> Study:
     path = pathlib.Path(path)
-    try:
-        text = path.read_text(encoding="utf-8")
-        values = tomllib.loads(text)
-    except OSError as error:
-        raise StudyError(path, f"cannot be read: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise StudyError(path, f"is not TOML: {error}") from error
+    text = files.read_text(path)
+    values = files.parse_toml(text, path)
     top = Table(str(path), "", values)
-    if top.integer("schema", high=1) != 1:
-        raise top.wrong("schema", "is not known; give 1")
+    top.refuse_dates(values)
+    top.integer("schema", low=1, high=1)
     design = top.text("design", among=DESIGNS)
     table = path.parent / top.text("table") if design == "table" else None
+    fixed = dict(top.table("set", None).values)
     the_factors = tuple(_factor(t) for t in top.tables("factor"))
-    _check_factors(top, design, the_factors)
+    _check_factors(top, design, the_factors, fixed)
     study = Study(
         path=path,
         text=text,
         display_path=path.parent / top.text("display"),
-        fixed=dict(top.table("set", None).values),
+        fixed=fixed,
         factors=the_factors,
         design=design,
         table=table,
@@ -203,15 +198,18 @@ def _objective(table: Table) -> Objective:
     return objective
 
 
-def _check_factors(top: Table, design: str, all_factors: tuple[Factor, ...]) -> None:
+def _check_factors(top: Table, design: str, all_factors: tuple[Factor, ...], fixed: dict) -> None:
     if design == "table" and all_factors:
         raise top.wrong("[[factor]]", 'has no meaning with design = "table": the table\'s columns are the factors')
     if design != "table" and not all_factors:
         raise top.wrong("[[factor]]", 'is missing; give at least one, or design = "table"')
-    keys = [key for f in all_factors for key in f.keys] + list(top.values.get("set", {}))
+    keys = [key for f in all_factors for key in f.keys] + list(fixed)
     for key in keys:
         if keys.count(key) > 1:
             raise top.wrong("[[factor]]", f"{key} is given more than once")
+        vector, _, component = key.rpartition(".")
+        if component.isdigit() and vector in keys:
+            raise top.wrong("[[factor]]", f"{key} and all of {vector} are given; give one of them")
     for number, f in enumerate(all_factors, 1):
         if design == "grid" and not f.levels:
             raise top.wrong(f"[[factor]] {number}", f'is a distribution, of which a grid has no steps; give values, or design = "lhs"')
@@ -226,6 +224,8 @@ def _check_measures(top: Table, study: Study) -> None:
             raise top.wrong("[[measure]]", f'two are called "{label}"; give one of them another label')
         if not label.replace("_", "").replace("-", "").isalnum():
             raise top.wrong("[[measure]]", f'"{label}" becomes the name of columns and files; give letters, digits, _ and -')
+        if label in ("row", "channel"):
+            raise top.wrong("[[measure]] or [[picture]]", f'"{label}" is what an axis of the pictures is called; give another name')
     for wish in (*study.limits, *study.objectives):
         label = wish.figure.partition(".")[0]
         if label not in labels:

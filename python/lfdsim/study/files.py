@@ -11,16 +11,43 @@ import hashlib
 import json
 import os
 import pathlib
+import tomllib
 import uuid
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from .problems import StudyError
+from .problems import StudyError, StudyFailed
 
+MOST_TEXT = 1 << 24  # bytes of a file that people write
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 NOTE = b"lfdsim"  # of a Parquet file's metadata: what it belongs to, and its checksum
+
+
+def read_text(path: pathlib.Path) -> str:
+    """Of a file that people write."""
+    try:
+        with open(path, "rb") as file:
+            content = file.read(MOST_TEXT + 1)
+        if len(content) > MOST_TEXT:
+            raise StudyError(path, f"has more than {MOST_TEXT >> 20} MiB, which no description has; give another file")
+        return content.decode()
+    except OSError as error:
+        raise StudyError(path, f"cannot be read: {error.strerror}") from error
+    except ValueError as error:  # not UTF-8, or a name with a zero in it
+        if isinstance(error, StudyError):
+            raise
+        raise StudyError(path, f"cannot be read: {error}") from error
+
+
+def parse_toml(text: str, path: object) -> dict:
+    try:
+        return tomllib.loads(text)
+    except RecursionError as error:
+        raise StudyError(path, "is not TOML that can be read: its lists or tables are too deep") from error
+    except ValueError as error:  # TOMLDecodeError is one; so is a number of thousands of digits
+        raise StudyError(path, f"is not TOML: {error}") from error
 
 
 @contextlib.contextmanager
@@ -30,7 +57,7 @@ def full_disk_told(path: pathlib.Path):
     except OSError as error:
         if error.errno not in FULL:
             raise
-        raise StudyError(
+        raise StudyFailed(
             path, f"cannot be written: {error.strerror}. Finished rows are kept; make room and run the same command again"
         ) from error
 

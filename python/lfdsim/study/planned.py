@@ -32,6 +32,7 @@ class Plan:
     rows: int
     rows_per_chunk: int
     checksum: str  # of plan.parquet
+    files: dict[str, str]  # that display and rows name, relative to the display's folder, with their SHA-256
 
     @property
     def chunks(self) -> int:
@@ -64,6 +65,10 @@ class Plan:
 
     @functools.cached_property
     def display(self) -> "lfdsim.Display":
+        """What rows change; on any machine, so its files have to be there, and as they were."""
+        for name, sum_ in self.files.items():
+            if _digest_of(self.display_folder / name) != sum_:
+                raise StudyError(self.display_folder / name, "has changed since the study was planned; give the study another folder")
         return lfdsim.Display.parse(self.display_text, self.display_folder)
 
 
@@ -126,6 +131,7 @@ def load(folder: str | pathlib.Path) -> Plan:
             plan["rows"],
             plan["rows_per_chunk"],
             plan["checksum"],
+            plan["basis"]["files"],
         )
         if files.digest(plan["basis"]) != known.identity or files.digest(known.study.definition) != files.digest(plan["basis"]["study"]):
             raise StudyError(path, "does not fit its own contents or study.toml beside it: one was changed by hand; give another folder")
@@ -167,22 +173,27 @@ def _same_study(study: Study, folder: pathlib.Path, display_text: str) -> Plan |
             f"{study.path}: rows_per_chunk",
             f"is {study.rows_per_chunk}, but {folder} is in chunks of {per_chunk}; give that, or another folder",
         )
-    if (folder / "study.toml").read_text(encoding="utf-8") != study.text:
+    if files.read_text(folder / "study.toml") != study.text:
         files.write_whole(folder / "study.toml", study.text.encode())
     return dataclasses.replace(load(folder), study=study)
 
 
-def _display(study: Study) -> tuple[str, "lfdsim.Display"]:
+def display_in(path: pathlib.Path, fixed: dict) -> tuple[str, "lfdsim.Display"]:
+    """A description's text and its display, which has to be possible with the overrides `fixed`."""
+    text = files.read_text(path)
     try:
-        text = study.display_path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise StudyError(f"{study.path}: display", f'"{study.display_path}" cannot be read: {error}') from error
-    try:
-        display = lfdsim.Display.parse(text, study.display_path.parent.resolve())
-        lfdsim.check(display.with_(study.fixed) if study.fixed else display)
+        display = lfdsim.Display.parse(text, path.parent.resolve())
+        lfdsim.check(work.changed(display, path.parent, fixed))
         return text, display
     except ValueError as error:
-        raise StudyError(study.display_path, f"is not a possible display: {error}") from error
+        raise StudyError(path, f"is not a possible display: {error}") from error
+
+
+def _display(study: Study) -> tuple[str, "lfdsim.Display"]:
+    try:
+        return display_in(study.display_path, study.fixed)
+    except StudyError as error:
+        raise StudyError(f"{study.path}: display", str(error)) from error
 
 
 def _check_keys(study: Study, display: "lfdsim.Display", keys: list[str]) -> None:
@@ -207,7 +218,8 @@ def _basis(study: Study, display_text: str) -> dict:
         "version": _version(),
         "display": files.digest(display),
         "study": study.definition,
-        "files": _digests_of_files([display, study.definition], study.display_path.parent) | _digest_of(study.table),
+        "files": _digests_of_files([display, study.definition, design.texts_of_table(study)], study.display_path.parent),
+        "table": study.table and _digest_of(study.table),
     }
 
 
@@ -217,14 +229,15 @@ def _digests_of_files(values: object, folder: pathlib.Path) -> dict[str, str]:
         values = list(values.values())
     if isinstance(values, list):
         return {k: v for value in values for k, v in _digests_of_files(value, folder).items()}
-    return _digest_of(folder / values, values) if isinstance(values, str) and work.names_file(folder, values) else {}
+    return {values: _digest_of(folder / values)} if isinstance(values, str) and work.names_file(folder, values) else {}
 
 
-def _digest_of(path: pathlib.Path | None, name: str | None = None) -> dict[str, str]:
-    if path is None:
-        return {}
-    with open(path, "rb") as file:
-        return {name or path.name: hashlib.file_digest(file, "sha256").hexdigest()}
+def _digest_of(path: pathlib.Path) -> str:
+    try:
+        with open(path, "rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    except OSError as error:
+        raise StudyError(path, f"cannot be read: {error.strerror}; the study was planned with it") from error
 
 
 def _version() -> str:

@@ -23,6 +23,8 @@ def finish(plan: plans.Plan, dask: object = None, workers: int | None = None, th
 def compute(plan: plans.Plan, chunks: list[int], dask: object, workers: int | None, threads: int, progress: bool | None) -> None:
     if not chunks:
         return
+    if dask is not None and workers is not None:
+        raise StudyError("workers", "are of this machine; with dask the cluster has its own. Give one of them")
     if dask is not None:
         from . import cluster
 
@@ -37,7 +39,7 @@ def compute(plan: plans.Plan, chunks: list[int], dask: object, workers: int | No
             if "problem" in result:
                 problems.setdefault(result["problem"], []).append(number)
                 if result["fatal"]:
-                    raise StudyError("", result["problem"])
+                    raise (StudyError if result.get("input") else StudyFailed)("", result["problem"])
                 continue
             show.add(result)
             if not checked and result["failed"] < result["rows"]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import datetime
+
 from .factors import is_number
 from .problems import StudyError, nearest
 
@@ -48,7 +50,7 @@ class Table:
         raise self.wrong(key, f"is {value!r}; give {allowed}")
 
     def integer(self, key: str, default=REQUIRED, low: int = 0, high: int = 2**53) -> int:
-        allowed = f"a whole number from {low} to {high}"
+        allowed = f"a whole number from {low} to {high}" if low < high else str(low)
         value = self.take(key, default, allowed)
         if value is default or isinstance(value, int) and not isinstance(value, bool) and low <= value <= high:
             return value
@@ -63,7 +65,7 @@ class Table:
 
     def size(self, key: str) -> list[int] | None:
         value = self.take(key, None)
-        if value is None or isinstance(value, list) and len(value) == 2 and all(isinstance(v, int) and 0 < v < 65536 for v in value):
+        if value is None or isinstance(value, list) and len(value) == 2 and all(type(v) is int and 0 < v < 65536 for v in value):
             return value
         raise self.wrong(key, f"is {value!r}; give columns and rows, as in [480, 270]")
 
@@ -85,6 +87,13 @@ class Table:
         if not (isinstance(value, list) and all(isinstance(v, dict) for v in value)):
             raise self.wrong(key, f"is not a list of tables; write [[{key}]] above each")
         return [Table(self.file, f"[[{key}]] {number}", v) for number, v in enumerate(value, 1)]
+
+    def refuse_dates(self, value: object, place: str = "") -> None:
+        """Which TOML has, and no key takes."""
+        if isinstance(value, (datetime.date, datetime.time)):  # a datetime is a date
+            raise self.wrong(place, f"is the date or time {value}; give a number, a text, a list or a table of them")
+        for key, inner in value.items() if isinstance(value, dict) else enumerate(value, 1) if isinstance(value, list) else ():
+            self.refuse_dates(inner, f"{place} {key}".strip())
 
     def end(self) -> None:
         for key in self.values:

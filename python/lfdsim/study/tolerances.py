@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from . import api, errors, files
+from . import api, errors, files, planned, runs
 from .errors import ALL, Layout
+from .file import MOST_ROWS, Objective
 from .problems import StudyError, nearest
 
 if TYPE_CHECKING:
@@ -88,25 +89,33 @@ def tolerance(
         raise StudyError("draws", f"is {draws}; give a whole number from 1")
     if not 0 < percent < 100:
         raise StudyError("percent", f"is {percent}; give a number above 0 and below 100")
-    try:
-        sizes = errors.sizes_of(display.read_text(encoding="utf-8"), display)
-    except (OSError, ValueError) as error:
-        if isinstance(error, StudyError):
-            raise
-        raise StudyError(display, f"cannot be read: {error}") from error
+    if seed < 0 or (alone or 0) < 0:
+        raise StudyError("seed" if seed < 0 else "alone", f"is {seed if seed < 0 else alone}; give a whole number from 0")
+    sizes = errors.sizes_of(planned.display_in(display, {})[0], display)
     layout = Layout(sizes, draws, max(10, draws // 5) if alone is None else alone)
-    folder.mkdir(parents=True, exist_ok=True)
+    if layout.rows > MOST_ROWS:
+        raise StudyError("draws", f"{draws} and {layout.alone} of each error alone are {layout.rows} rows; at most {MOST_ROWS} are possible")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise StudyError(folder, f"cannot be made: {error.strerror}; give another folder") from error
     _keep(folder / "draws.csv", errors.rows_csv(layout, seed))
     _keep(folder / "tolerance.toml", _study_text(display, measures))
-    table = api.run(folder / "tolerance.toml", folder, dask, workers=workers, threads=threads, progress=progress)
+    plan = api.plan(folder / "tolerance.toml", folder)
+    # As objectives they are found to be figures, or not, after the first chunk.
+    wishes = tuple(Objective(loss.figure, "low") for loss in losses)
+    plan = dataclasses.replace(plan, study=dataclasses.replace(plan.study, objectives=wishes))
+    table = runs.finish(plan, dask, workers, threads, progress).to_pandas()
     return evaluate(folder, layout, table, losses, percent)
 
 
 def _keep(path: pathlib.Path, text: str) -> None:
-    if path.exists() and path.read_text(encoding="utf-8") != text:
-        raise StudyError(path.parent, f"holds another tolerance study ({path.name} differs); give another folder, or remove this one")
-    if not path.exists():
-        files.write_whole(path, text.encode())
+    """As it was when rows were planned; until then it may change."""
+    if path.exists() and files.read_text(path) == text:
+        return
+    if (path.parent / "plan.json").exists():
+        raise StudyError(path.parent, f"holds another study ({path.name} differs); give another folder, or remove this one")
+    files.write_whole(path, text.encode())
 
 
 def _study_text(display: pathlib.Path, measures: tuple[str | dict, ...]) -> str:

@@ -11,11 +11,11 @@ import numpy as np
 from .. import files
 from ..planned import Plan
 from . import data as reading
-from . import effects, plots
+from . import effects, kept, plots
 from .data import Data
 from .extremes import extremes
 
-NAME = "report.html"
+NAME = kept.NAME
 PERCENT = (1, 5, 25, 50, 75, 95, 99)
 STYLE = """body{font:15px/1.5 system-ui,sans-serif;max-width:72em;margin:2em auto;padding:0 1em;color:#1c2733}
 h2{margin-top:2em;border-bottom:1px solid #ccd}
@@ -32,7 +32,7 @@ def write(plan: Plan) -> pathlib.Path:
     if len(data.rows) and data.figures:
         parts += [_figures(data), _yield(data), _main_effects(data), _interactions(data), _cost(data), _pareto(data), _extremes(data)]
     text = (
-        f"<!DOCTYPE html><html lang=en><meta charset=utf-8><title>{_text(plan.name)}</title><style>{STYLE}</style>\n"
+        f"<!DOCTYPE html><html lang=en><meta charset=utf-8><meta name=rows content={kept.mark(plan)}><title>{_text(plan.name)}</title><style>{STYLE}</style>\n"
         + "\n".join(p for p in parts if p)
         + "\n</html>\n"
     )
@@ -129,7 +129,8 @@ def _interactions(data: Data) -> str:
         return ""
     return (
         "<h2>Interactions</h2><p class=note>Where lines are not parallel, one factor's effect depends on the other. Their strength "
-        "is what the two do together beyond the sum of both, root mean square, in the figure's unit; chance alone makes some of it in designs other than grids.</p>"
+        "is what the two do together beyond the sum of both, root mean square, in the figure's unit; chance alone makes some of it in designs other than grids. "
+        "Pairs of factors are left out if some combination has no row with a finite figure.</p>"
         + "".join(plots.interactions(data, pairs, name) for name, pairs in drawn)
     )
 

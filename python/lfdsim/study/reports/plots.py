@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import io
 import itertools
+import warnings
 
 import matplotlib
 import numpy as np
-from matplotlib.figure import Figure
+
+with warnings.catch_warnings():  # no plot here has three dimensions, whose part of matplotlib may be of another version on Debian
+    warnings.filterwarnings("ignore", "Unable to import Axes3D")
+    from matplotlib.figure import Figure
 
 from . import effects
 from .data import Data
