@@ -30,9 +30,12 @@ index = 1.4918
 [array]
 pitch_mm = 12.0
 gap_mm = 16.485
+[diffuser]
+distance_mm = 60.0
+angle_deg = [0.9, 0.9]
 [camera]
 position_mm = [0.0, 0.0, 1000.0]
-resolution = [480, 270]
+resolution = [960, 540]
 """
 STUDY = """schema = 1
 display = "display.toml"
@@ -91,8 +94,8 @@ def thousand(folder: pathlib.Path) -> None:
 
 def two_workers(folder: pathlib.Path, pairs: int) -> None:
     display = lfdsim.Display.parse(DISPLAY)
-    few, more = (measured(lambda: lfdsim.render(display, samples=n, threads=1, progress=False))[1] for n in (64, 1064))
-    seconds = (more - few) / 1000
+    few, more = (measured(lambda: lfdsim.render(display, samples=n, threads=1, progress=False))[1] for n in (64, 576))
+    seconds = (more - few) / 512
     file = folder / "heavy.toml"
     file.write_text("rows_per_chunk = 1\n" + STUDY.replace("ROWS", "8") + PICTURE.replace("SAMPLES", str(round(3 / seconds))))
     for pair in range(pairs):

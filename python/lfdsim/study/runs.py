@@ -10,6 +10,11 @@ from . import planned as plans
 from .problems import StudyError, StudyFailed, listed
 
 
+def check_machines(dask: object, workers: int | None) -> None:
+    if dask is not None and workers is not None:
+        raise StudyError("workers", "are of this machine; with dask the cluster has its own. Give one of them")
+
+
 def finish(plan: plans.Plan, dask: object = None, workers: int | None = None, threads: int = 1, progress: bool | None = None):
     """Computes the missing chunks, and returns the table (Arrow). StudyError names chunks that failed; the others are kept."""
     if (plan.folder / collected.NAME).exists():
@@ -23,8 +28,6 @@ def finish(plan: plans.Plan, dask: object = None, workers: int | None = None, th
 def compute(plan: plans.Plan, chunks: list[int], dask: object, workers: int | None, threads: int, progress: bool | None) -> None:
     if not chunks:
         return
-    if dask is not None and workers is not None:
-        raise StudyError("workers", "are of this machine; with dask the cluster has its own. Give one of them")
     if dask is not None:
         from . import cluster
 
