@@ -276,14 +276,7 @@ class DisplayReader {
     // first: whoever gives a wrong option should not have to look for it below the file's own faults.
     void judge(const Display& display) {
         Findings findings(faults);
-        validate_values(display, findings);
-        validate_content(display, findings);
-        if (!is_wrong("glass_catalogues")) {  // else glasses are not known, and lenses cannot be placed
-            validate_glass(display, findings);
-            validate_lens(display, findings);
-            validate_layout(display, findings);
-            validate_errors(display, findings);
-        }
+        validate_all(display, findings, !is_wrong("glass_catalogues"));
         std::vector<Located> all = std::move(superfluous);
         for (const Problem& fault : faults)  // an element's place is its list's
             all.push_back(

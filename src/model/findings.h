@@ -36,12 +36,16 @@ class Findings {
 
 inline constexpr double rounding_mm = 1e-9;  // of sums of lengths up to a metre
 
-// The steps of validate(), in order. A reader may run first and name the keys that it could not read; they are checked no further.
+/// All of validate(). A reader may run first and name the keys that it could not read; they are checked no further. Where it could
+/// not read the glasses, lenses have no place, and what depends on it is not checked.
+void validate_all(const Display&, Findings&, bool glasses_known);
+
+// Its steps, in order.
 void validate_values(const Display&, Findings&);   // each key by itself: ranges, NaN, counts, keys that exclude or need one another
 void validate_panel(const Display&, Findings&);    // whether its subpixels make sense together
+void validate_content(const Display&, Findings&);  // whether each object of a scene is one thing of one size, lit from somewhere
 void validate_glass(const Display&, Findings&);    // whether each medium has an index, at every wavelength that is used
 void validate_lens(const Display&, Findings&);     // whether such a lens can be made and fits its cell
-void validate_content(const Display&, Findings&);  // whether each object of a scene is one thing of one size, lit from somewhere
 void validate_layout(const Display&, Findings&);   // whether parts collide, by the resolved geometry
 void validate_errors(const Display&, Findings&);   // whether the array can be off by so much
 

@@ -59,6 +59,22 @@ INSTANTIATE_TEST_SUITE_P(
                         "is a list of tables; give a table: [camera]"},
                     Bad{with("schema = 1", "schema = 1\ndiffuser = 3"), "d:2:12", "diffuser: is an integer; give a table"}));
 
+INSTANTIATE_TEST_SUITE_P(Subpixels, BadDescription,
+                         testing::Values(Bad{with("[panel]", "[panel]\nsubpixels = 'delta'\nsubpixel_cell = [1, 1]"), "d:5:17",
+                                             "panel.subpixel_cell: is given, but panel.subpixels is \"delta\""},
+                                         Bad{with("[panel]",
+                                                  "[panel]\nsubpixel_cell = [1, 1]\nsubpixels = 'custom'\n"
+                                                  "subpixel = [{channel = 'r', pixel = [0, 0], rect = [0, 0, 0, 1]},\n"
+                                                  "{channel = 'g', pixel = [0, 0], rect = [0, 0, 0.5, 1]},\n"
+                                                  "{channel = 'b', pixel = [0, 0], rect = [0.5, 0, 1, 1]}]"),
+                                             "d:6:52", "panel.subpixel.0.rect: is [0, 0, 0, 1] and has no area"},
+                                         Bad{with("[panel]",
+                                                  "[panel]\nsubpixel_cell = [1, 1]\nsubpixels = 'custom'\n"
+                                                  "subpixel = [{channel = 'r', pixel = [0, 0], rect = [0, 0, 0.4, 1]},\n"
+                                                  "{channel = 'g', pixel = [0, 0], rect = [0.3, 0, 0.5, 1]},\n"
+                                                  "{channel = 'b', pixel = [0, 0], rect = [0.5, 0, 1, 1]}]"),
+                                             "d:7:40", "panel.subpixel.1.rect: overlaps panel.subpixel.0"}));
+
 INSTANTIATE_TEST_SUITE_P(
     Keys, BadDescription,
     testing::Values(
