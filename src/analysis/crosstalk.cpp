@@ -1,9 +1,9 @@
 #include "analysis/crosstalk.h"
 
 #include "analysis/meant_light.h"
+#include "analysis/meant_theory.h"
 #include "analysis/parallel.h"
 #include "analysis/rules.h"
-#include "analysis/slope_spread.h"
 #include "model/numbers.h"
 
 #include <fmt/format.h>
@@ -42,7 +42,7 @@ class Eyes {
         : distance_(checked_viewing_distance_mm(s)),
           eye_mm(distance_ - s.geometry().rear_principal_mm),
           view_slope(s.display().panel.pixel_pitch_mm / s.geometry().gap_mm),
-          theory(s, eye_mm),
+          theory(s, distance_),
           parts(job, s.threads(), most_views + places_of_curves + heads, crosstalk_steps(s)),
           geometry_(s.geometry()),
           rays_(s.display(), s.geometry()),
@@ -64,7 +64,7 @@ class Eyes {
 
   public:
     double eye_mm, view_slope;
-    SlopeSpread theory;
+    MeantTheory theory;
     Parts parts;
 
   private:

@@ -9,6 +9,20 @@ LineSets::LineSets(int count, std::int64_t seed) {
     for (int k = 0; k < independent_sets; ++k) sets_[std::size_t(k)] = even_choices(count, set_number(seed, k));
 }
 
+std::optional<double> meant_slope(const Pickup& pickup, const Geometry& g, double x_mm, double y_mm) {
+    const Lattice<double>& lattice = pickup.lattice();
+    if (!lattice.strips) {
+        const NodalLine line = pickup.line(x_mm, y_mm);
+        if (!line.owned) return {};
+        return (line.x * pickup.scale - x_mm) / g.gap_mm;
+    }
+    // The whole pixel, which a strip's edge cuts obliquely, shows what its centre is meant for.
+    const double x = pickup.x_mm(pickup.column(x_mm)), y = pickup.y_mm(pickup.row(y_mm));
+    const NodalLine line = pickup.line(x, y);
+    if (!line.owned) return {};
+    return optics::to_array(lattice, line.x * pickup.scale - x, line.y * pickup.scale - y).x / (g.gap_mm * lattice.cos_turn);
+}
+
 MeantLight::MeantLight(const EyeRays& rays, const Pickup& pickup, const Geometry& g, const Vec3d& eye, const LineSets& lines)
     : slope_tolerance_(1e-12 * g.panel_width_mm / g.gap_mm) {
     for (std::size_t k = 0; k < rays_.size(); ++k) {
@@ -17,17 +31,7 @@ MeantLight::MeantLight(const EyeRays& rays, const Pickup& pickup, const Geometry
             for (const Choice& c : {choice, LineSets::mirrored(choice)}) {
                 const Sight s = rays.look(eye, c);
                 if (!(s.light > 0)) continue;
-                const Lattice<double>& lattice = pickup.lattice();
-                if (!lattice.strips) {
-                    const NodalLine line = pickup.line(s.x, s.y);
-                    if (line.owned) rays_[k].push_back({(line.x * pickup.scale - s.x) / g.gap_mm, float(s.light)});
-                    continue;
-                }
-                // The whole pixel, which a strip's edge cuts obliquely, shows what its centre is meant for.
-                const double x = pickup.x_mm(pickup.column(s.x)), y = pickup.y_mm(pickup.row(s.y));
-                const NodalLine line = pickup.line(x, y);
-                const double across = optics::to_array(lattice, line.x * pickup.scale - x, line.y * pickup.scale - y).x;
-                if (line.owned) rays_[k].push_back({across / (g.gap_mm * lattice.cos_turn), float(s.light)});
+                if (const auto slope = meant_slope(pickup, g, s.x, s.y)) rays_[k].push_back({*slope, float(s.light)});
             }
     }
 }

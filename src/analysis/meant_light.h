@@ -6,6 +6,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace lfdsim {
@@ -22,10 +23,13 @@ class LineSets {
     std::array<std::vector<Choice>, independent_sets> sets_;
 };
 
-/// The light that one eye gathers of a white panel, by the viewers that its panel points are meant for: the horizontal slope at
-/// which their elemental image's lens shows them, through its nodal points, to a viewer in front of the screen's middle. A viewer
-/// at x, E from the principal plane, is meant to see the slope x/E. Of strips, which number views by pixels, it is the slope that
-/// the centre of the whole pixel is meant for.
+/// The viewers that a panel point is meant for: the horizontal slope at which its elemental image's lens shows it, through its
+/// nodal points, to a viewer in front of the screen's middle. A viewer at x, E from the principal plane, is meant to see the slope
+/// x/E. Of strips, which number views by pixels, it is the slope that the centre of the whole pixel is meant for. Nothing: no lens
+/// owns the point.
+std::optional<double> meant_slope(const Pickup&, const Geometry&, double x_mm, double y_mm);
+
+/// The light that one eye gathers of a white panel, by the slopes that its points are meant for.
 class MeantLight {
   public:
     MeantLight(const EyeRays&, const Pickup&, const Geometry&, const Vec3d& eye, const LineSets&);

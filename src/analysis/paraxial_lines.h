@@ -15,7 +15,8 @@ struct ParaxialLine {
 };
 
 /// The lenses have no thickness: lines bend by q/f in the plane of H', q from the axis (docs/model.md, "Moire" and "Crosstalk").
-/// Strips bend what runs across them; along them there are plane plates, whose thickness counts over its index.
+/// Strips bend what runs across them; along them there are plane plates, whose thickness counts over its index. Below thin lenses
+/// the layers bend lines by Snell's law itself.
 class ParaxialLines {
   public:
     /// An eye in front of the display and its diffuser, mm.
@@ -26,17 +27,26 @@ class ParaxialLines {
     /// or not at all.
     std::optional<ParaxialLine> look(double x, double y, double a, double b) const;
 
+    /// Where a line aims that comes down to the lenses at (x, y), but for how little the diffuser's shift changes on that way.
+    std::optional<optics::Place<double>> aim_at(double x, double y, double a, double b) const;
+
     /// Whether the panel reaches there; a place as `seen`.
     bool on_panel(const optics::Place<double>&) const;
 
   private:
+    struct Slopes {
+        std::array<double, 2> before, turned;  // by the diffuser: dx/dz, dy/dz
+    };
+    std::optional<Slopes> slopes(double x, double y, double a, double b) const;
     double angle(double number, std::size_t axis) const;  // of the diffuser, radians
+    /// How far aside, per slope, lines go below the lenses, along the array's x and y.
+    optics::Place<double> reach_mm(double slope_squared) const;
 
     const Display& display_;
     const Geometry& geometry_;
     Vec3d eye_;
     ApertureShape aperture_;
-    double above_ = 0, power_ = 0;  // the diffuser's height above H'; g/f
+    double above_ = 0, power_per_mm_ = 0;  // the diffuser's height above H'; 1/f
 };
 
 }  // namespace lfdsim

@@ -4,6 +4,7 @@
 
 #include "model/bands.h"
 #include "model/geometry.h"
+#include "model/layers.h"
 #include "model/lens_errors.h"
 #include "model/numbers.h"
 #include "model/vec.h"
@@ -13,12 +14,11 @@ namespace lfdsim {
 namespace {
 
 /// The angle between the two lines to the axis at the principal point from the ends of a width on the panel, by Snell's law through
-/// layers and air. The ray of sine s in air passes sum of t s / sqrt(n^2 - s^2) sideways, which grows with s.
+/// layers and air, whose place on the panel grows with its sine in air.
 double exact_angle_deg(const Geometry& g, double width_mm) {
-    const auto half_width = [&](double s) {
-        double x = (g.front_principal_mm - g.layers_top_mm) * s / std::sqrt(1 - s * s);
-        for (const PlacedLayer& layer : g.layers) x += layer.thickness_mm * s / std::sqrt(layer.index * layer.index - s * s);
-        return x;
+    const auto half_width = [&](double sine) {
+        const double slope = sine / std::sqrt(1 - sine * sine);
+        return slope * reach_below_thin_lens_mm(g, slope * slope);
     };
     double low = 0, high = 1;
     while (true) {
@@ -83,6 +83,12 @@ Theory theory(const Display& d, const Geometry& g) {
     t.depth_far_per_mm = inverse_L - half_depth_per_mm;
     for (const std::size_t axis : {0u, 1u}) t.along[axis] = theory_along(d, g, L, axis);
     return t;
+}
+
+double reach_below_thin_lens_mm(const Geometry& g, double slope_squared) {
+    double reach = g.front_principal_mm - g.layers_top_mm;
+    for (const auto& [thickness, n] : g.layers) reach += thickness / std::sqrt(n * n + (n * n - 1) * slope_squared);
+    return reach;
 }
 
 double eye_distance_mm(const Display& d) { return std::sqrt(dot(d.camera.position_mm, d.camera.position_mm)); }

@@ -123,6 +123,22 @@ TEST(Crosstalk, TheSeedChoosesTheLines) {
     EXPECT_NEAR(a[0], b[0], 1.5 * std::hypot(a[1], b[1]));
 }
 
+// Thick glass below fast lenses bends steep lines less than in proportion: paraxially the middle view would have all the light.
+TEST(Crosstalk, BelowThinLensesTheoryKnowsLayers) {
+    Display d = display(eye_mm);
+    d.panel.layers = {{9, 1.5}};
+    d.content.viewing_distance_mm = d.camera.position_mm[2] = eye_mm + 9 + (gap - 6);
+    const auto share = [](const Json& percent) { return 100 / (100 + double(percent)); };
+    for (const LatticeKind kind : {LatticeKind::square, LatticeKind::hexagon, LatticeKind::strips}) {
+        d.array.lattice = kind;
+        d.array.count = {61, kind == LatticeKind::strips ? 1 : 35};
+        d.array.rotation_deg = kind == LatticeKind::strips ? -12 : 0;
+        const Json views = measured(d).figures.at("between_views");
+        EXPECT_NEAR(share(views.at("woods_percent")), share(views.at("theory_percent")), 0.005) << int(kind);
+        EXPECT_LT(share(views.at("theory_percent")), 0.99) << int(kind);
+    }
+}
+
 // A near eye's zone is narrower than the eyes are apart.
 TEST(Crosstalk, OfEyesThatDoNotShareAZoneIsUndefined) {
     Display d = display(eye_mm);
