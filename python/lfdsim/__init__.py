@@ -15,6 +15,7 @@ from lfdsim.display import Display
 from lfdsim.errors import DisplayError, InputError, LfdsimWarning, Problem, UnknownKeyError
 from lfdsim.measuring import Measure, analyze, measures
 from lfdsim.panels import Panel, panel_codes, pattern
+from lfdsim.photographs import PhotographComparison, compare_photograph, png, screen_corners
 from lfdsim.pictures import compare, elemental_images, photograph, render
 from lfdsim.results import Result
 
@@ -25,6 +26,7 @@ __all__ = [
     "LfdsimWarning",
     "Measure",
     "Panel",
+    "PhotographComparison",
     "Problem",
     "Result",
     "UnknownKeyError",
@@ -32,12 +34,15 @@ __all__ = [
     "analyze",
     "check",
     "compare",
+    "compare_photograph",
     "elemental_images",
     "measures",
     "panel_codes",
     "pattern",
     "photograph",
+    "png",
     "render",
+    "screen_corners",
     "study",
 ]
 

@@ -12,6 +12,7 @@ import numpy as np
 from lfdsim import _core
 from lfdsim.display import Display
 from lfdsim.errors import InputError, LfdsimWarning
+from lfdsim.texts import text
 
 Corners = tuple[int, int, int, int]
 Model = Union[str, "os.PathLike[str]", None]
@@ -65,7 +66,10 @@ def pixels(array: Any, name: str) -> np.ndarray:
 def whole(value: Any, name: str, low: int, high: int) -> int:
     if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__index__"):
         raise TypeError(f"{name} is a {type(value).__name__}; give a whole number")
-    number = value.__index__()
+    try:
+        number = value.__index__()
+    except TypeError:  # an array of several, or of others
+        raise TypeError(f"{name} is a {type(value).__name__}; give one whole number") from None
     if not low <= number <= high:
         raise InputError([(name, f"is {number}, allowed is {low} to {high}")])
     return number
@@ -74,9 +78,27 @@ def whole(value: Any, name: str, low: int, high: int) -> int:
 def number(value: Any, name: str) -> float:
     if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__float__"):
         raise TypeError(f"{name} is a {type(value).__name__}; give a number")
-    if math.isnan(float(value)):
+    try:
+        real = float(value)
+    except OverflowError:
+        raise InputError([(name, "is beyond what a float can hold; give a smaller number")]) from None
+    except (TypeError, ValueError):  # an array of several, or of others
+        raise TypeError(f"{name} is a {type(value).__name__}; give one number") from None
+    if math.isnan(real):
         raise InputError([(name, "is nan; give a number")])
-    return float(value)
+    return real
+
+
+def flag(value: Any, name: str) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name} is a {type(value).__name__}; give True or False")
+    return bool(value)
+
+
+def encoding_of(encoding: Any) -> str:
+    if text(encoding, "encoding") not in ("srgb", "linear"):
+        raise InputError([("encoding", f'is "{encoding}", allowed is srgb, linear')])
+    return encoding
 
 
 def threads_of(threads: Any) -> int:

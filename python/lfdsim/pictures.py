@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lfdsim import _core
-from lfdsim.arguments import Corners, Model, corners, pixels, seen, threads_of, warn
+from lfdsim.arguments import Corners, Model, corners, encoding_of, pixels, seen, threads_of, warn
 from lfdsim.display import Display
 from lfdsim.errors import InputError
 from lfdsim.panels import Panel, panel_of
@@ -123,9 +123,8 @@ def compare(a: ArrayLike, b: ArrayLike, *, crop: Corners | None = None, encoding
 
     Floats are linear light; uint8 and uint16 are codes in `encoding`, "srgb" or "linear".
     """
-    if text(encoding, "encoding") not in ("srgb", "linear"):
-        raise InputError([("encoding", f'is "{encoding}", allowed is srgb, linear')])
+    codes = encoding_of(encoding)
     first, second = pixels(a, "a"), pixels(b, "b")
     if first.shape != second.shape:
         raise InputError([("b", f"has the shape {second.shape}, a has {first.shape}; only pictures of equal size can be compared")])
-    return _core.compare(first, second, corners(crop, first.shape[1], first.shape[0]), encoding == "linear")
+    return _core.compare(first, second, corners(crop, first.shape[1], first.shape[0]), codes == "linear")

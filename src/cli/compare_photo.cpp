@@ -3,17 +3,15 @@
 #include "cli/arguments.h"
 #include "cli/interrupt.h"
 #include "cli/output.h"
-#include "cli/overlay_picture.h"
 #include "engine/memory.h"
 #include "engine/screen.h"
 #include "files/display_file.h"
-#include "image/encoding.h"
 #include "image/overlay.h"
+#include "image/overlay_picture.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <algorithm>
-#include <limits>
+#include <utility>
 
 namespace lfdsim::cli {
 namespace {
@@ -32,43 +30,6 @@ Corners read_corners(const char* option, const std::vector<std::string>& texts) 
     faults.report();
     check_corners(option, corners);
     return corners;
-}
-
-// A click may miss the picture's edge, and a view may be a close-up; what is far out is a mistake.
-void check_near(const char* option, const Corners& corners, const std::string& file, int width, int height, double pictures) {
-    for (const auto& [x, y] : corners)
-        if (std::abs(x / width - 0.5) > 0.5 + pictures || std::abs(y / height - 0.5) > 0.5 + pictures)
-            throw InputError(option, fmt::format("the corner {:g},{:g} lies far outside of {}, which is {} x {} pixels", x, y, file,
-                                                 width, height));
-}
-
-/// Viewers show a picture turned as its Exif says; the same point in the picture as it is stored, which is width x height pixels.
-Point as_stored(const Point& shown, int orientation, int width, int height) {
-    const auto [x, y] = shown;
-    switch (orientation) {
-        case 2:
-            return {width - x, y};
-        case 3:
-            return {width - x, height - y};
-        case 4:
-            return {x, height - y};
-        case 5:
-            return {y, x};
-        case 6:
-            return {y, height - x};
-        case 7:
-            return {width - y, height - x};
-        case 8:
-            return {width - y, x};
-        default:
-            return shown;
-    }
-}
-
-/// The other way. `width` and `height` are of the picture as it is stored.
-Point as_shown(const Point& stored, int orientation, int width, int height) {
-    const int back = orientation == 6 ? 8 : orientation == 8 ? 6 : orientation;
-    return orientation >= 5 ? as_stored(stored, back, height, width) : as_stored(stored, back, width, height);
 }
 
 /// From the display that the picture carries.
@@ -118,13 +79,13 @@ PhotoOptions::PhotoOptions(Command command) {
 void PhotoOptions::run(const std::string& view_path, const std::string& photo_path, const std::string& encoding_name,
                        const std::string& crop, bool json) const {
     Faults faults;
-    Encoding encoding = Encoding::srgb;
-    Corners corners, view_corners;
-    Image view, photo;
+    Corners view_corners;
+    Image view;
+    ScreenPhoto photo;
     faults.of([&] {
-        encoding = word("--encoding", encoding_name, {"srgb", "linear"}) == "srgb" ? Encoding::srgb : Encoding::linear;
+        photo.encoding = word("--encoding", encoding_name, {"srgb", "linear"}) == "srgb" ? Encoding::srgb : Encoding::linear;
     });
-    faults.of([&] { corners = read_corners("--corners", corners_); });
+    faults.of([&] { photo.corners = read_corners("--corners", corners_); });
     if (!view_corners_.empty()) faults.of([&] { view_corners = read_corners("--view-corners", view_corners_); });
     faults.of([&] { check_input("A", view_path); });
     faults.of([&] { check_input("B", photo_path); });
@@ -141,50 +102,33 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
         if (view_corners_.empty()) view_corners = corners_from_display(view_path, about, view);
         check_near("--view-corners", view_corners, view_path, view.width, view.height, 100);
     });
-    int orientation = 1;
     faults.of([&] {
-        orientation = read_orientation(photo_path);
-        photo = read_image(photo_path, encoding);
-        const bool turned = orientation >= 5;
-        check_near("--corners", corners, photo_path, turned ? photo.height : photo.width, turned ? photo.width : photo.height, 0.5);
+        photo.orientation = read_orientation(photo_path);
+        photo.image = read_image(photo_path, photo.encoding);
+        photo.codes = holds_codes(photo_path);
+        const bool turned = photo.orientation >= 5;
+        const auto [width, height] = std::pair(photo.image.width, photo.image.height);
+        check_near("--corners", photo.corners, photo_path, turned ? height : width, turned ? width : height, 0.5);
     });
     std::optional<Rect> part;
     faults.of([&] {
         if (!crop.empty() && view.width > 0) part = rectangle("--crop", crop, view.width, view.height);
     });
     faults.report();
-    const double view_pixels = double(view.width) * view.height, bytes_a_pixel = 160;
     require_memory(view_path, fmt::format("mapping a photograph onto {} x {} pixels", view.width, view.height),
-                   view_pixels * bytes_a_pixel + picture_bytes(photo.width, photo.height));
-
-    Corners stored;
-    for (std::size_t k = 0; k < 4; ++k) stored[k] = as_stored(corners[k], orientation, photo.width, photo.height);
-    // Code values end at white, and the last ones before it are not to be trusted. Formats of floats have no such end.
-    const bool codes = holds_codes(photo_path);
-    const auto light = [&](double code) { return encoding == Encoding::srgb ? srgb_to_linear(code / 255) : code / 255; };
-    constexpr double none = std::numeric_limits<double>::infinity();
-    const double saturation = codes ? light(250) : none, white = codes ? 1 : none, black = codes ? light(5) : 0;
-    const auto laid_over = [&] { return align(photo, stored, view.width, view.height, view_corners, saturation, part); };
-    Aligned aligned = laid_over();
-    if (fit_corners_) {
-        stored = fit_corners(view, view_corners, aligned, fit_gains(view, aligned, black), stored, 5);
-        for (std::size_t k = 0; k < 4; ++k) corners[k] = as_shown(stored[k], orientation, photo.width, photo.height);
-        check_corners("--fit-corners", corners);
-        aligned = laid_over();
-    }
-    photo = {};
-    const Match m = match(view, aligned, fit_blur_, white, black);
+                   overlay_bytes(view.width, view.height) + picture_bytes(photo.image.width, photo.image.height));
+    const auto [found, screen, m] = lay_over(view, view_corners, std::move(photo), {fit_corners_, fit_blur_, part});
 
     const Metadata about{{"Software", "lfdsim " LFDSIM_VERSION}};
     if (!overlay_.empty()) {
         guard_output(overlay_);
-        write_image(overlay_, overlay_picture(m, aligned.screen), {8, Encoding::srgb, about});
+        write_image(overlay_, overlay_picture(m, screen), {8, Encoding::srgb, about});
     }
     if (!difference_.empty()) {
         guard_output(difference_);
-        write_image(difference_, difference_picture(m, aligned.screen), {8, Encoding::srgb, about});
+        write_image(difference_, difference_picture(m, screen), {8, Encoding::srgb, about});
     }
-    const std::int64_t pixels = aligned.screen.pixels();
+    const std::int64_t pixels = screen.pixels();
     if (json) {
         Json all{{"ssim", m.ssim},
                  {"rmse", m.rmse},
@@ -193,7 +137,7 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
                  {"blur_px", fit_blur_ ? Json(m.blur_px) : Json()},
                  {"pixels", pixels},
                  {"unsaturated_share", m.used},
-                 {"corners", pairs(corners)},
+                 {"corners", pairs(found)},
                  {"view_corners", pairs(view_corners)}};
         return print_json(all);
     }
@@ -204,10 +148,11 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
         "gains        {:.4g} {:.4g} {:.4g} (photograph / view: red, green, blue)\n",
         m.ssim, m.psnr_db, m.rmse, m.gains[0], m.gains[1], m.gains[2]);
     if (fit_blur_) text += fmt::format("blur         {:.3f} pixels of the view (standard deviation)\n", m.blur_px);
-    if (fit_corners_)
-        text +=
-            fmt::format("corners      {:.2f},{:.2f} {:.2f},{:.2f} {:.2f},{:.2f} {:.2f},{:.2f} (fitted)\n", corners[0][0],
-                        corners[0][1], corners[1][0], corners[1][1], corners[2][0], corners[2][1], corners[3][0], corners[3][1]);
+    if (fit_corners_) {
+        text += "corners     ";
+        for (const auto& [x, y] : found) text += fmt::format(" {:.2f},{:.2f}", x, y);
+        text += " (fitted)\n";
+    }
     text += fmt::format("pixels       {} on the screen, {:.2f} % of them not saturated\n", pixels, 100 * m.used);
     print(text);
 }

@@ -3,10 +3,12 @@
 #include "image/homography.h"
 #include "image/image.h"
 #include "image/ssim.h"
+#include "model/display.h"
 
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace lfdsim {
@@ -48,5 +50,37 @@ struct Match {
 /// can hold; `black` as in fit_gains(). Throws InputError as fit_gains() does, and where no window of 11 x 11 pixels fits into the
 /// screen.
 Match match(const Image& simulated, const Aligned& photograph, bool fit_blur, double white, double black);
+
+/// A click may miss the edge of a picture of width x height pixels, and a view may be a close-up: throws InputError at `where` for
+/// a corner that is more than so many pictures outside.
+void check_near(const std::string& where, const Corners&, const std::string& picture, int width, int height, double pictures);
+
+/// A photograph of a screen.
+struct ScreenPhoto {
+    Image image;                         // as it is stored
+    bool codes = true;                   // its values are codes, which white limits; or light without a limit
+    Encoding encoding = Encoding::srgb;  // of codes
+    int orientation = 1;                 // see read_orientation()
+    Corners corners{};                   // of the screen, in pixels of the picture as viewers show it
+};
+
+struct OverlayOptions {
+    bool fit_corners = false;  // by up to 5 pixels of the photograph
+    bool fit_blur = false;
+    std::optional<Rect> part = {};  // see align()
+};
+
+struct Overlay {
+    Corners corners;  // in the photograph as viewers show it, fitted or as they were
+    Region screen;
+    Match match;
+};
+
+/// Memory that lay_over() takes for a view of this size, besides that of the pictures.
+constexpr double overlay_bytes(double view_width, double view_height) { return 160 * view_width * view_height; }
+
+/// All of the steps above. Both corners must pass check_corners(). Throws InputError as the steps do, and at `--fit-corners` for
+/// fitted corners that do not pass.
+Overlay lay_over(const Image& view, const Corners& in_view, ScreenPhoto, const OverlayOptions&);
 
 }  // namespace lfdsim

@@ -9,9 +9,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr int margin = 12;
-constexpr std::size_t most_lines = 4;             // of a label
-constexpr float background = 0.012f, ink = 0.6f;  // linear light: a dark grey, and a light one
+constexpr std::size_t most_lines = 4;  // of a label
 
 // A degree sign has two bytes.
 bool begins_letter(char c) { return (c & 0xc0) != 0x80; }
@@ -60,27 +58,27 @@ Image contact_sheet(std::span<const Image> pictures, std::span<const std::string
     columns = std::clamp(columns, 1, std::max(count, 1));
     int width = 1;
     for (const Image& p : pictures) width = std::max(width, p.width);
-    const int sheet_width = columns * (width + margin) + margin, scale = label_scale(labels, width, sheet_width);
+    const int sheet_width = columns * (width + sheet_margin) + sheet_margin, scale = label_scale(labels, width, sheet_width);
     const auto letters = std::size_t(width / (glyph_width * scale));
     std::size_t lines = 0;  // of the longest label
     for (const std::string& each : labels) lines = std::max(lines, lines_of(each, letters).size());
-    const int label = labels.empty() ? 0 : int(lines) * glyph_height * scale + margin / 2;
+    const int label = labels.empty() ? 0 : int(lines) * glyph_height * scale + sheet_margin / 2;
     std::vector<int> tops;  // of each row
-    int bottom = margin;
+    int bottom = sheet_margin;
     for (int first = 0; first < count; first += columns) {
         int tallest = 0;
         for (int i = first; i < std::min(count, first + columns); ++i) tallest = std::max(tallest, pictures[std::size_t(i)].height);
         tops.push_back(bottom);
-        bottom += label + tallest + margin;
+        bottom += label + tallest + sheet_margin;
     }
     Image sheet(sheet_width, bottom);
-    std::fill(sheet.rgb.begin(), sheet.rgb.end(), background);
+    std::fill(sheet.rgb.begin(), sheet.rgb.end(), sheet_background);
     for (int i = 0; i < count; ++i) {
-        const int x = margin + i % columns * (width + margin), y = tops[std::size_t(i / columns)];
+        const int x = sheet_margin + i % columns * (width + sheet_margin), y = tops[std::size_t(i / columns)];
         if (!labels.empty()) {
             int line_y = y;
             for (const std::string& line : lines_of(labels[std::size_t(i)], letters)) {
-                draw_text(sheet, x, line_y, scale, line, ink);
+                draw_text(sheet, x, line_y, scale, line, sheet_ink);
                 line_y += glyph_height * scale;
             }
         }

@@ -7,6 +7,9 @@
 
 namespace lfdsim {
 
+inline constexpr int sheet_margin = 12;                              // pixels
+inline constexpr float sheet_background = 0.012f, sheet_ink = 0.6f;  // linear light: a dark grey, and a light one
+
 /// `columns` pictures in a row on dark grey, each under its label, readable when the sheet is shown 480 pixels wide, in lines of
 /// the picture's width; a word wider than a line is written smaller, and cut where that is not enough. Labels: as many as pictures,
 /// or none.

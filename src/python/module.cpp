@@ -35,5 +35,6 @@ NB_MODULE(_core, m) {
     nanobind::register_exception_translator(lfdsim::python::translate);
     lfdsim::python::add_display(m);
     lfdsim::python::add_pictures(m);
+    lfdsim::python::add_photographs(m);
     lfdsim::python::add_analyze(m);
 }

@@ -13,6 +13,7 @@ struct DisplayFault : InputError {
 
 void add_display(nanobind::module_&);
 void add_pictures(nanobind::module_&);
+void add_photographs(nanobind::module_&);
 void add_analyze(nanobind::module_&);
 
 }  // namespace lfdsim::python

@@ -1,7 +1,7 @@
 # The Python package, as PYTHONPATH finds it in the build. The environment that built the module runs them: it needs NumPy and Pillow.
 if(TARGET _core)
   set(environment "PYTHONPATH=${CMAKE_BINARY_DIR}/python;LFDSIM_PROGRAM=$<TARGET_FILE:lfdsim>")
-  foreach(script displays pictures analysis bad_input work documents)
+  foreach(script displays pictures photographs analysis bad_input work documents)
     add_test(NAME python.${script} COMMAND ${LFDSIM_PYTHON_INTERPRETER} ${CMAKE_CURRENT_LIST_DIR}/${script}.py)
     set_tests_properties(python.${script} PROPERTIES ENVIRONMENT "${environment}" TIMEOUT 300)
   endforeach()

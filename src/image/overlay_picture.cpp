@@ -1,4 +1,4 @@
-#include "cli/overlay_picture.h"
+#include "image/overlay_picture.h"
 
 #include "image/encoding.h"
 #include "image/font.h"
@@ -9,14 +9,12 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lfdsim::cli {
+namespace lfdsim {
 namespace {
 
-constexpr int margin = 12;
-constexpr float background = 0.012f, ink = 0.6f;  // linear light: a dark grey, and a light one
-constexpr double full_scale = 0.25;               // difference in luma that gets the full colour
+constexpr double full_scale = 0.25;  // difference in luma that gets the full colour
 
-double luma(const float* rgb) {
+double encoded_luma(const float* rgb) {
     const auto code = [](float light) { return linear_to_srgb(std::clamp(double(light), 0.0, 1.0)); };
     return 0.2126 * code(rgb[0]) + 0.7152 * code(rgb[1]) + 0.0722 * code(rgb[2]);
 }
@@ -51,21 +49,21 @@ Image overlay_picture(const Match& match, const Region& screen) {
 Image difference_picture(const Match& match, const Region& screen) {
     const Rect box = screen.bounds();
     const int width = box.x1 - box.x0, height = box.y1 - box.y0;
-    const int scale = readable_scale(width), label = glyph_height * scale + margin / 2;
-    Image to(width + 2 * margin, height + 2 * label + 3 * margin);
-    std::fill(to.rgb.begin(), to.rgb.end(), background);
+    const int scale = readable_scale(width), label = glyph_height * scale + sheet_margin / 2;
+    Image to(width + 2 * sheet_margin, height + 2 * label + 3 * sheet_margin);
+    std::fill(to.rgb.begin(), to.rgb.end(), sheet_background);
     tbb::parallel_for(0, int(screen.rows.size()), [&](int k) {
         const int y = screen.top + k;
         for (int x = screen.rows[std::size_t(k)].from; x < screen.rows[std::size_t(k)].to; ++x)
-            paint((luma(match.photograph.at(x, y)) - luma(match.simulated.at(x, y))) / full_scale,
-                  to.at(margin + x - box.x0, margin + y - box.y0));
+            paint((encoded_luma(match.photograph.at(x, y)) - encoded_luma(match.simulated.at(x, y))) / full_scale,
+                  to.at(sheet_margin + x - box.x0, sheet_margin + y - box.y0));
     });
-    const int top = height + 2 * margin;
+    const int top = height + 2 * sheet_margin;
     for (int x = 0; x < width; ++x)
-        for (int y = 0; y < label - margin / 2; ++y) paint(2 * (x + 0.5) / width - 1, to.at(margin + x, top + y));
+        for (int y = 0; y < label - sheet_margin / 2; ++y) paint(2 * (x + 0.5) / width - 1, to.at(sheet_margin + x, top + y));
     const auto text = [&](const std::string& words, double place) {  // 0: at the left, 1: at the right
         const int length = int(words.size()) * glyph_width * scale;
-        draw_text(to, margin + int(place * (width - length)), top + label, scale, words, ink);
+        draw_text(to, sheet_margin + int(place * (width - length)), top + label, scale, words, sheet_ink);
     };
     text(fmt::format("darker by {:.0f} %", 100 * full_scale), 0);
     text("equal", 0.5);
@@ -73,4 +71,4 @@ Image difference_picture(const Match& match, const Region& screen) {
     return to;
 }
 
-}  // namespace lfdsim::cli
+}  // namespace lfdsim

@@ -1,8 +1,8 @@
-// Photograph and simulation for the eye. Floor 5.
+// Photograph and simulation for the eye. Floor 0.
 #pragma once
 #include "image/overlay.h"
 
-namespace lfdsim::cli {
+namespace lfdsim {
 
 /// Four pictures of the screen with labels: simulated, photograph; both as a checkerboard, in which edges that do not meet show
 /// that the corners are off; half of each.
@@ -12,4 +12,4 @@ Image overlay_picture(const Match&, const Region& screen);
 /// much.
 Image difference_picture(const Match&, const Region& screen);
 
-}  // namespace lfdsim::cli
+}  // namespace lfdsim

@@ -1,0 +1,88 @@
+#include "engine/memory.h"
+#include "engine/screen.h"
+#include "image/image_file.h"
+#include "image/overlay.h"
+#include "image/overlay_picture.h"
+#include "model/geometry.h"
+#include "python/arrays.h"
+#include "python/parts.h"
+#include "python/work.h"
+
+#include <fmt/format.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+
+#include <optional>
+
+// Photographs of real displays over views of simulated ones, and pictures as files' bytes.
+namespace lfdsim::python {
+namespace {
+
+namespace nb = nanobind;
+
+Corners screen_corners(const Display& display) {
+    const std::optional<Corners> corners = lfdsim::screen_corners(display, resolve(display));
+    if (!corners) throw InputError("camera_mm, target_mm", "the camera does not have the whole screen in front of it");
+    return *corners;
+}
+
+Overlay overlay(const AnyPixels& view, const AnyPixels& photo, const Corners& corners, const Corners& view_corners,
+                const std::optional<std::array<int, 4>>& crop, bool linear, bool fit_corners, bool fit_blur) {
+    const auto columns = int(columns_of(view)), rows = int(rows_of(view));
+    check_near("corners_px", corners, "the photograph", int(columns_of(photo)), int(rows_of(photo)), 0.5);
+    check_near("view_corners_px", view_corners, "the view", columns, rows, 100);
+    check_corners("corners_px", corners);
+    check_corners("view_corners_px", view_corners);
+    require_memory("view", fmt::format("mapping a photograph onto {} x {} pixels", columns, rows),
+                   overlay_bytes(columns, rows) + picture_bytes(columns_of(photo), rows_of(photo)));
+    OverlayOptions options{fit_corners, fit_blur};
+    if (crop) options.part = Rect{(*crop)[0], (*crop)[1], (*crop)[2], (*crop)[3]};
+    const Encoding encoding = linear ? Encoding::linear : Encoding::srgb;
+    Overlay made;
+    run(nb::none(), [&](Job&) {
+        made =
+            lay_over(image_of(view, Encoding::srgb, "view"), view_corners,
+                     {image_of(photo, encoding, "photograph"), !std::holds_alternative<Pixels<float>>(photo), encoding, 1, corners},
+                     options);
+    });
+    return made;
+}
+
+nb::dict figures(const Overlay& o) {
+    nb::dict all;
+    all["ssim"] = o.match.ssim;
+    all["rmse"] = o.match.rmse;
+    all["psnr_db"] = o.match.psnr_db;
+    all["gains"] = nb::list(nb::cast(o.match.gains));
+    all["blur_px"] = o.match.blur_px;
+    all["pixels"] = o.screen.pixels();
+    all["unsaturated_share"] = o.match.used;
+    all["corners"] = o.corners;
+    return all;
+}
+
+/// The bytes of a PNG file of 8 bits in sRGB.
+nb::bytes png(const AnyPixels& picture) {
+    std::string bytes;
+    run(nb::none(), [&](Job&) { bytes = image_bytes(".png", image_of(picture, Encoding::srgb, "picture")); });
+    return nb::bytes(bytes.data(), bytes.size());
+}
+
+}  // namespace
+
+void add_photographs(nb::module_& m) {
+    m.def("screen_corners", screen_corners, nb::arg("display"));
+    nb::class_<Overlay>(m, "Overlay")
+        .def("figures", figures)
+        .def("simulated", [](const Overlay& o) { return array_of(Image(o.match.simulated)); })
+        .def("photograph", [](const Overlay& o) { return array_of(Image(o.match.photograph)); })
+        .def("sheet", [](const Overlay& o) { return array_of(overlay_picture(o.match, o.screen)); })
+        .def("difference", [](const Overlay& o) { return array_of(difference_picture(o.match, o.screen)); });
+    m.def("overlay", overlay, nb::arg("view"), nb::arg("photograph"), nb::arg("corners"), nb::arg("view_corners"),
+          nb::arg("crop").none(), nb::arg("linear"), nb::arg("fit_corners"), nb::arg("fit_blur"));
+    m.def("png", png, nb::arg("picture"));
+}
+
+}  // namespace lfdsim::python
