@@ -94,10 +94,11 @@ def thousand(folder: pathlib.Path) -> None:
 
 def two_workers(folder: pathlib.Path, pairs: int) -> None:
     display = lfdsim.Display.parse(DISPLAY)
-    few, more = (measured(lambda: lfdsim.render(display, samples=n, threads=1, progress=False))[1] for n in (64, 576))
-    seconds = (more - few) / 512
+    samples = 64
+    while measured(lambda: lfdsim.render(display, samples=samples, threads=1, progress=False))[1] < 2:
+        samples *= 2
     file = folder / "heavy.toml"
-    file.write_text("rows_per_chunk = 1\n" + STUDY.replace("ROWS", "8") + PICTURE.replace("SAMPLES", str(round(3 / seconds))))
+    file.write_text("rows_per_chunk = 1\n" + STUDY.replace("ROWS", "8") + PICTURE.replace("SAMPLES", str(samples)))
     for pair in range(pairs):
         (one, one_processor), (two, two_processor) = (
             command(file, "-o", folder / f"{workers}-{pair}", "--no-report", "--workers", workers) for workers in (1, 2)
