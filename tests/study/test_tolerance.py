@@ -170,6 +170,7 @@ class WholeStudies(StudyTest):
         without = [found.without[f"zone.horizontal.wrong_50_percent_mm.{k}"] for k in (0, 1)]
         self.assertAlmostEqual(without[1], PITCH / 2 * (1 + GAP / reach) * reach / GAP, delta=2)  # a pixel is 8 mm wide there
         np.testing.assert_allclose((right - left) / (without[1] - without[0]), scale / (reach / GAP), rtol=1e-3)
+        self.assertFalse([n for n in found.percentiles.index if "_error" in n])
         for percent in (5, 25, 50, 75, 95):
             share = percent / 100
             known = stats.truncnorm(-3, 3, 0, 0.1).ppf(share) * (1 / GAP + 1 / reach)

@@ -35,8 +35,8 @@ def run(plan: Plan, chunk: int, threads: int) -> dict:
     try:
         for place, row in enumerate(plan.rows_of(chunk)):
             if row not in done:
-                journal = journal or _Journal(plan, chunk)
                 done[row] = _compute(plan, row, _overrides(plan, values, place), threads)
+                journal = journal or _Journal(plan, chunk)
                 journal.add(done[row])
     finally:
         if journal:

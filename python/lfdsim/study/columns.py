@@ -52,3 +52,8 @@ def figures_arrow(rows: list[dict[str, float | str]]) -> dict[str, pa.Array]:
         else:
             columns[name] = pa.array([float("nan") if v is None else float(v) for v in values], pa.float64())
     return columns
+
+
+def is_uncertainty(name: str) -> bool:
+    """Whether a figure only states how uncertain another one is: `zone.horizontal.wrong_50_percent_mm_error.0`."""
+    return name.rstrip("0123456789").removesuffix(".").endswith("_error")

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from . import api, errors, files, planned, runs
+from .columns import is_uncertainty
 from .errors import ALL, Layout
 from .file import MOST_ROWS, Objective
 from .problems import StudyError, nearest
@@ -154,7 +155,7 @@ def _percentiles(kept: "pandas.DataFrame", without: "pandas.Series", names: list
     import pandas
 
     lines = {}
-    for name in names:
+    for name in (n for n in names if not is_uncertainty(n)):
         values = kept[name].to_numpy(float)
         values = values[np.isfinite(values)]
         if len(values) and (np.ptp(values) > 0 or values[0] != without[name]):
@@ -162,7 +163,7 @@ def _percentiles(kept: "pandas.DataFrame", without: "pandas.Series", names: list
                 "without errors": without[name],
                 "draws": len(values),
                 "mean": values.mean(),
-                "standard deviation": values.std(),
+                "standard deviation": values.std(ddof=1) if len(values) > 1 else 0.0,
                 **{f"{p} %": np.percentile(values, p) for p in PERCENT},
             }
     return pandas.DataFrame.from_dict(lines, orient="index")

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from ..collected import table_of
+from ..columns import is_uncertainty
 from ..planned import Plan
 
 MOST_FIGURES = 8  # shown where neither limits nor objectives say which ones matter
@@ -59,7 +60,7 @@ def _figures(plan: Plan, rows: pd.DataFrame) -> list[str]:
     named = [w.figure for w in (*plan.study.objectives, *plan.study.limits)]
     if not named:
         start = list(rows.columns).index("row") + 1 + len(plan.table().column_names)
-        named = [n for n in rows.columns[start:-1] if pd.api.types.is_numeric_dtype(rows[n]) and not n.endswith("_error")]
+        named = [n for n in rows.columns[start:-1] if pd.api.types.is_numeric_dtype(rows[n]) and not is_uncertainty(n)]
         named = [n for n in named if _varies(rows[n])][:MOST_FIGURES]
     return list(dict.fromkeys(n for n in named if n in rows.columns and pd.api.types.is_numeric_dtype(rows[n]) and rows[n].notna().any()))
 
