@@ -123,7 +123,8 @@ def many(folder: pathlib.Path, rows: int) -> None:
     def write():
         for number in range(plan.chunks):
             records = [
-                made | {"row": row, "figures": {k: v * (1 + row / rows) for k, v in made["figures"].items()}} for row in plan.rows_of(number)
+                made | {"row": row, "figures": {name: value * (1 + row / rows) for name, value in made["figures"].items()}}
+                for row in plan.rows_of(number)
             ]
             chunk._write(plan, number, records)
 

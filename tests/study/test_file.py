@@ -64,9 +64,17 @@ WRONG = [
     ('"display.toml"', '"a\\u0000b"', ["display", "null byte"]),
     ('"display.toml"', '"/dev/zero"', ["/dev/zero", "more than 16 MiB"]),
     ('"grid"', '"lhs"\nrows = 1_000_000_000_000', ["rows", "is 1000000000000", "from 1 to 10000000"]),
-    ('"grid"', '"grid"\nreplicates = 1_000_000\n[[factor]]\nkey = "array.pitch_mm"\nfrom = 1\nto = 2\nsteps = 1_000_000', ["2000000000000 rows", "at most"]),
+    (
+        '"grid"',
+        '"grid"\nreplicates = 1_000_000\n[[factor]]\nkey = "array.pitch_mm"\nfrom = 1\nto = 2\nsteps = 1_000_000',
+        ["2000000000000 rows", "at most"],
+    ),
     ('"grid"', '"saltelli"\nrows = 9_000_000', ["27000000 rows", "at most"]),
-    ('"grid"', '"grid"\nset = { "camera.position_mm.0" = 1 }\n[[factor]]\nkey = "camera.position_mm"\nvalues = [[0, 0, 9]]', ["all of camera.position_mm"]),
+    (
+        '"grid"',
+        '"grid"\nset = { "camera.position_mm.0" = 1 }\n[[factor]]\nkey = "camera.position_mm"\nvalues = [[0, 0, 9]]',
+        ["all of camera.position_mm"],
+    ),
     ('name = "check"', 'name = "check"\n[[picture]]\nname = "row"', ['"row"', "give another name"]),
     ('name = "check"', 'name = "check"\n[[picture]]\nname = "front"\nsize = [true, 10]', ["size", "True"]),
 ]

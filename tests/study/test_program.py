@@ -51,7 +51,8 @@ class Program(StudyTest):
             self.assertEqual(text.stdout, self.run_it("help", command).stdout)
 
     def test_exit_codes_of_bad_usage(self):
-        for words in (["study"], ["study", "none.toml", "-o", "out"], ["study", "study.toml"], ["study", "run", "--nonsense"], ["tolerance"]):
+        no_folder, unknown = ["study", "study.toml"], ["study", "run", "--nonsense"]
+        for words in (["study"], ["study", "none.toml", "-o", "out"], no_folder, unknown, ["tolerance"]):
             done = self.run_it(*words)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertNotIn("Traceback", done.stderr)

@@ -38,7 +38,8 @@ def rows_of(study: Study, replicate_keys: tuple[str, ...]) -> Columns:
 def _check_count(study: Study, rows: int) -> None:
     """Before there are any in memory."""
     if rows * study.replicates > MOST_ROWS:
-        raise StudyError(study.path, f"has {rows * study.replicates} rows; at most {MOST_ROWS} are possible: take fewer, or several studies")
+        many = f"{rows * study.replicates} rows; at most {MOST_ROWS} are possible"
+        raise StudyError(study.path, f"has {many}: take fewer, or several studies")
 
 
 def _grid(study: Study) -> Columns:

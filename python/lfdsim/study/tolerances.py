@@ -96,7 +96,8 @@ def tolerance(
     sizes = errors.sizes_of(planned.display_in(display, {})[0], display)
     layout = Layout(sizes, draws, max(10, draws // 5) if alone is None else alone)
     if layout.rows > MOST_ROWS:
-        raise StudyError("draws", f"{draws} and {layout.alone} of each error alone are {layout.rows} rows; at most {MOST_ROWS} are possible")
+        many = f"{draws} and {layout.alone} of each error alone are {layout.rows} rows"
+        raise StudyError("draws", f"{many}; at most {MOST_ROWS} are possible")
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

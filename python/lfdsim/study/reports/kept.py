@@ -1,4 +1,7 @@
-"""Whether a study's report is there, of its rows and its file as they are now. Told without what draws reports, which takes a second to load."""
+"""Whether a study's report is there, of its rows and its file as they are now.
+
+Told without what draws reports, which takes a second to load.
+"""
 
 from __future__ import annotations
 

@@ -32,7 +32,8 @@ def write(plan: Plan) -> pathlib.Path:
     if len(data.rows) and data.figures:
         parts += [_figures(data), _yield(data), _main_effects(data), _interactions(data), _cost(data), _pareto(data), _extremes(data)]
     text = (
-        f"<!DOCTYPE html><html lang=en><meta charset=utf-8><meta name=rows content={kept.mark(plan)}><title>{_text(plan.name)}</title><style>{STYLE}</style>\n"
+        f"<!DOCTYPE html><html lang=en><meta charset=utf-8><meta name=rows content={kept.mark(plan)}>\n"
+        f"<title>{_text(plan.name)}</title><style>{STYLE}</style>\n"
         + "\n".join(p for p in parts if p)
         + "\n</html>\n"
     )
@@ -129,8 +130,8 @@ def _interactions(data: Data) -> str:
         return ""
     return (
         "<h2>Interactions</h2><p class=note>Where lines are not parallel, one factor's effect depends on the other. Their strength "
-        "is what the two do together beyond the sum of both, root mean square, in the figure's unit; chance alone makes some of it in designs other than grids. "
-        "Pairs of factors are left out if some combination has no row with a finite figure.</p>"
+        "is what the two do together beyond the sum of both, root mean square, in the figure's unit; "
+        "chance alone makes some of it in designs other than grids. Pairs of factors are left out if some combination has no row with a finite figure.</p>"
         + "".join(plots.interactions(data, pairs, name) for name, pairs in drawn)
     )
 
