@@ -1,5 +1,6 @@
 // The axes of a camera. Floor 0.
 #pragma once
+#include "model/display.h"
 #include "model/vec.h"
 
 namespace lfdsim {

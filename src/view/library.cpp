@@ -2,8 +2,8 @@
 
 #include "content/content.h"
 #include "files/display_file.h"
+#include "model/camera.h"
 #include "model/keys.h"
-#include "model/vec.h"
 
 #include <nlohmann/json.hpp>
 
@@ -78,9 +78,6 @@ void check_key(std::string_view override_text) {
     if (is_or_has("camera.position_mm")) refuse("is not for set: the message's \"eye_mm\" says where the eye is");
     if (is_or_has("camera.resolution")) refuse("is not for set: the message's \"size\" says how many pixels there are");
 }
-
-// From one eye towards the other, of unit length, horizontal as the picture is.
-Vec3d right_of(const Camera& camera) { return normalised(cross(minus(camera.target_mm, camera.position_mm), camera.up)); }
 
 std::string position(const Vec3d& eye) { return fmt::format("camera.position_mm=[{}]", fmt::join(eye, ", ")); }
 
@@ -166,7 +163,7 @@ Library::Description Library::description(const Wanted& wanted, int eye) const {
     }
     Vec3d at = wanted.eye_mm;
     if (eye != 0) {
-        const Vec3d right = right_of(display(wanted).camera);
+        const Vec3d right = camera_axes(display(wanted).camera).right;
         for (std::size_t a = 0; a < 3; ++a) at[a] += 0.5 * eye * wanted.eye_distance_mm * right[a];
     }
     description.set.push_back(position(at));
