@@ -2,6 +2,7 @@
 
 #include "model/keys.h"
 #include "model/lattice.h"
+#include "model/lens_errors.h"
 #include "model/subpixels.h"
 
 #include <fmt/format.h>
@@ -78,8 +79,8 @@ namespace {
 std::vector<double> colour_shifts_mm(const Display& d, const Theory& t) {
     if (d.panel.subpixels == SubpixelLayout::none) return {};
     const std::array<std::int64_t, 2> cell = subpixel_cell(d.panel).size;
-    // p' / p - 1 = g / (D - z_H')
-    const double gap_per_distance = t.along[0].elemental_pitch_mm / d.array.pitch_mm[0] - 1;
+    // p' / p - 1 = g / (D - z_H'), p as built
+    const double gap_per_distance = t.along[0].elemental_pitch_mm / (d.array.pitch_mm[0] * pitch_scale(d.errors)) - 1;
     std::vector<double> shifts;
     for (int channel = 0; channel < 3; ++channel) {
         double most = 0;
@@ -87,7 +88,8 @@ std::vector<double> colour_shifts_mm(const Display& d, const Theory& t) {
             for (std::int64_t column = 0; column < cell[0]; ++column)
                 if (const auto off = centroid(d.panel, channel, column, row))
                     most = std::max(most, std::hypot((*off)[0], (*off)[1]));
-        shifts.push_back(most > 0 ? most * d.panel.pixel_pitch_mm / gap_per_distance : 0);
+        const bool central = most < 1e-12;  // but for rounding
+        shifts.push_back(central ? 0 : most * d.panel.pixel_pitch_mm / gap_per_distance);
     }
     return shifts;
 }
@@ -180,8 +182,9 @@ std::string name_along_y(std::string name) {
 Json to_json(const std::vector<Figure>& all) {
     Json json = Json::object();
     for (const Figure& f : all) {
-        json[f.name] = number_json(f.values[0]);
-        if (f.values.size() > 1) json[name_along_y(f.name)] = number_json(f.values[1]);
+        const bool of_channels = f.values.size() == 3;
+        json[f.name] = of_channels ? numbers_json(f.values) : number_json(f.values[0]);
+        if (f.values.size() == 2) json[name_along_y(f.name)] = number_json(f.values[1]);
     }
     return json;
 }
