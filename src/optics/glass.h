@@ -25,7 +25,9 @@ struct Crossing {
     }
 };
 
-/// Tolerance at edges, mm: so close to an edge a ray may meet either face that shares it.
+/// Tolerance at edges, mm: so close to an edge a ray may meet either face that shares it. It is a length, not a share of the lens:
+/// displays scaled by powers of two, whose other numbers round alike, from pitches of 0.1 mm to 500 mm keep all pixels but 1 in
+/// 10000, at edges.
 template <class F>
 LFDSIM_FN F slack() {
     return F(Scalar<F>(sizeof(Scalar<F>) == 4 ? 2e-6 : 1e-11));
