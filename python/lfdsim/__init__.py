@@ -8,6 +8,7 @@ Pictures are float32 arrays of shape (height, width, 3): linear light, row 0 at 
 """
 
 import importlib
+from typing import TYPE_CHECKING
 
 from lfdsim._core import version as __version__
 from lfdsim.checking import check
@@ -18,6 +19,9 @@ from lfdsim.panels import Panel, panel_codes, pattern
 from lfdsim.photographs import PhotographComparison, compare_photograph, png, screen_corners
 from lfdsim.pictures import compare, elemental_images, photograph, render
 from lfdsim.results import Result
+
+if TYPE_CHECKING:
+    from lfdsim import study
 
 __all__ = [
     "Display",
@@ -47,7 +51,7 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str):
+def __getattr__(name: str) -> object:
     """lfdsim.study when it is first asked for: it imports pandas and scipy."""
     if name == "study":
         return importlib.import_module("lfdsim.study")

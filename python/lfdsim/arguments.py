@@ -89,6 +89,16 @@ def number(value: Any, name: str) -> float:
     return real
 
 
+def numbers(values: Any, count: int, name: str) -> list[float]:
+    try:
+        given = list(values)
+    except TypeError:
+        raise TypeError(f"{name} is {values!r}; give {count} numbers") from None
+    if len(given) != count:
+        raise InputError([(name, f"is {values!r}; give {count} numbers")])
+    return [number(value, name) for value in given]
+
+
 def flag(value: Any, name: str) -> bool:
     if not isinstance(value, (bool, np.bool_)):
         raise TypeError(f"{name} is a {type(value).__name__}; give True or False")

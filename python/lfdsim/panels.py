@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lfdsim import _core
-from lfdsim.arguments import display_of, number, pixels, threads_of, whole
+from lfdsim.arguments import display_of, number, numbers, pixels, threads_of, whole
 from lfdsim.display import Display
-from lfdsim.errors import InputError
 from lfdsim.texts import text
 
 
@@ -49,12 +48,10 @@ def pattern(
     name: "checkerboard" (of squares of cell_pixels), "white", "view" (the one at `view`, -0.5 to 0.5 of the elemental image from its
         centre), "edge" (edge_deg from the vertical, depth_mm in front of the lenses' vertex plane) or "address".
     """
-    if np.shape(view) != (2,):
-        raise InputError([("view", f"is {view!r}; give two numbers")])
-    place = (number(view[0], "view"), number(view[1], "view"))
+    place = numbers(view, 2, "view")
     cell = whole(cell_pixels, "cell_pixels", 1, 2**30)
     return _core.pattern(
-        display_of(display)._handle, text(name, "name"), cell, place, number(edge_deg, "edge_deg"), number(depth_mm, "depth_mm")
+        display_of(display)._handle, text(name, "name"), cell, (place[0], place[1]), number(edge_deg, "edge_deg"), number(depth_mm, "depth_mm")
     )
 
 

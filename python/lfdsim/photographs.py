@@ -59,8 +59,8 @@ class PhotographComparison:
 def compare_photograph(
     view: ArrayLike,
     photograph: ArrayLike,
-    corners_px: Sequence[Sequence[float]],
-    view_corners_px: Sequence[Sequence[float]],
+    corners_px: ArrayLike,
+    view_corners_px: ArrayLike,
     *,
     fit_corners: bool = False,
     fit_blur: bool = False,

@@ -23,7 +23,7 @@ def shown(progress: Progress) -> Iterator[Report | None]:
     if callable(progress):
         yield progress
         return
-    if progress not in (None, True, False):
+    if progress is not None and not isinstance(progress, bool):
         raise TypeError(f"progress is a {type(progress).__name__}; give True, False, None or a function of (stage, done, units)")
     in_notebook = progress is not False and _in_notebook()
     if progress is False or (progress is None and not in_notebook and not _on_terminal()):

@@ -7,10 +7,13 @@ from typing import Any
 
 
 def text(value: Any, name: str) -> str:
-    """TypeError unless it is a text; UnicodeEncodeError, a ValueError, for one with half of a surrogate pair."""
+    """TypeError unless it is a text; ValueError for one with half of a surrogate pair."""
     if not isinstance(value, str):
         raise TypeError(f"{name} is a {type(value).__name__}; give a text")
-    value.encode()
+    try:
+        value.encode()
+    except UnicodeEncodeError as error:
+        raise ValueError(f"{name} is no text that UTF-8 can hold: {error}") from None
     return value
 
 
@@ -18,4 +21,7 @@ def path_text(value: Any, name: str) -> str:
     """Of a path of any kind."""
     if not isinstance(value, (str, bytes, os.PathLike)):
         raise TypeError(f"{name} is a {type(value).__name__}; give a path")
-    return text(os.fsdecode(value), name)
+    path = text(os.fsdecode(value), name)
+    if "\0" in path:
+        raise ValueError(f"{name} is {path!r}; no file's name has a null character")
+    return path

@@ -39,5 +39,6 @@ def _name(name: Any) -> str:
 
 
 def _escaped(character: str) -> str:
-    character.encode()  # UnicodeEncodeError, a ValueError, for half of a surrogate pair
+    if "\ud800" <= character <= "\udfff":
+        raise ValueError(f"{character!r}, half of a surrogate pair, is no text that UTF-8 can hold")
     return f"\\U{ord(character):08x}"

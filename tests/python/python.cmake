@@ -1,12 +1,18 @@
 # The Python package, as PYTHONPATH finds it in the build. The environment that built the module runs them: it needs NumPy and Pillow.
 if(TARGET _core)
   set(environment "PYTHONPATH=${CMAKE_BINARY_DIR}/python;LFDSIM_PROGRAM=$<TARGET_FILE:lfdsim>")
-  foreach(script displays pictures photographs analysis bad_input work documents)
+  foreach(script displays pictures photographs analysis bad_input fuzz work documents)
     add_test(NAME python.${script} COMMAND ${LFDSIM_PYTHON_INTERPRETER} ${CMAKE_CURRENT_LIST_DIR}/${script}.py)
     set_tests_properties(python.${script} PROPERTIES ENVIRONMENT "${environment}" TIMEOUT 300)
   endforeach()
-  add_test(NAME python.analysis_full COMMAND ${LFDSIM_PYTHON_INTERPRETER} ${CMAKE_CURRENT_LIST_DIR}/analysis.py)
-  set_tests_properties(python.analysis_full PROPERTIES ENVIRONMENT "${environment};LFDSIM_FULL=1" TIMEOUT 900 LABELS full)
+  foreach(script analysis fuzz)
+    add_test(NAME python.${script}_full COMMAND ${LFDSIM_PYTHON_INTERPRETER} ${CMAKE_CURRENT_LIST_DIR}/${script}.py)
+    set_tests_properties(python.${script}_full PROPERTIES ENVIRONMENT "${environment};LFDSIM_FULL=1" TIMEOUT 900 LABELS full)
+  endforeach()
+  # Asks PyPI for what runs notebooks.
+  add_test(NAME python.notebooks_full
+    COMMAND ${LFDSIM_PYTHON_INTERPRETER} ${CMAKE_CURRENT_LIST_DIR}/notebooks.py ${CMAKE_BINARY_DIR}/notebook-tools)
+  set_tests_properties(python.notebooks_full PROPERTIES ENVIRONMENT "${environment}" TIMEOUT 1800 LABELS full SKIP_RETURN_CODE 77)
   # Asks PyPI for what builds a wheel; compiles all of the program once more.
   add_test(NAME python.wheel_full COMMAND ${CMAKE_CURRENT_LIST_DIR}/wheel.sh ${PROJECT_SOURCE_DIR} ${LFDSIM_PYTHON_INTERPRETER})
   set_tests_properties(python.wheel_full PROPERTIES TIMEOUT 3600 RUN_SERIAL ON LABELS full SKIP_RETURN_CODE 77)
