@@ -96,7 +96,8 @@ LFDSIM_FN F outmost_rim(const Scene<Scalar<F>>& scene, bool highest, F factor) {
     return rim;
 }
 
-/// A lens, and where a ray meets it: in the lens's frame, at the path length `way` from where the ray starts.
+/// A lens, and where a ray meets it: in the lens's frame. The ray enters it at the path length `way` from where it starts: on its
+/// first surface, or, if that is hollow, through the hole over it, from where it may miss the surface.
 template <class F>
 struct Encounter {
     Cell<F> cell;
@@ -104,6 +105,7 @@ struct Encounter {
     Ray<F> entering;  // in the vertex plane of the first surface, or in a thin lens
     Hit<F> hit;
     F way;
+    Mask<F> enters;
 };
 
 /// `ray` in the array's frame, z from the vertex plane.
@@ -112,13 +114,14 @@ LFDSIM_FN Encounter<F> meet_placed(const Scene<Scalar<F>>& scene, const Extent<S
                                    Cell<F> cell) {
     using S = Scalar<F>;
     const Mask<F> there = extent.holds(cell);
-    Encounter<F> at{cell, stand_of(scene, extent, cell, there), {}, {}, F(0)};
+    Encounter<F> at{cell, stand_of(scene, extent, cell, there), {}, {}, F(0), there};
     const Place<F> axis = axis_of(scene.lattice, cell);
     Vec3<F> from{ray.at.x - axis.x - at.stand.x, ray.at.y - axis.y - at.stand.y, ray.at.z - at.stand.z}, to = ray.to;
     if (scene.placement.tilted) {
         from = at.stand.turned_in(from);
         to = at.stand.turned_in(to);
     }
+    const Mask<F> comes = there && (to.z < F(0));
     const S vertex = scene.thin ? scene.ideal_z : scene.surface[0].z;
     at.way = (F(vertex - scene.placement.vertex_z) - from.z) / to.z;
     at.entering = {{from.x + to.x * at.way, from.y + to.y * at.way, F(0)}, to};
@@ -127,19 +130,21 @@ LFDSIM_FN Encounter<F> meet_placed(const Scene<Scalar<F>>& scene, const Extent<S
         const F across_y = across(scene.lattice, p.y), r = F(scene.aperture_radius);
         at.hit = {p, {F(0), F(0), F(1)}, -to.z, to.z * to.z, p.x * p.x + across_y * across_y <= r * r};
         if (scene.aperture == Aperture::cell) at.hit.ok = in_cell(scene.lattice, p.x, p.y);
+        at.enters = comes && at.hit.ok;
     } else {
         at.hit = meet_curved(scene, 0, at.entering, at.stand.curvature);
         at.hit.ok = inside_cell(scene, at.hit.at, at.hit.ok);
         if (scene.dimple) {  // the entrance is the rim
             const F down = (outmost_rim(scene, true, at.stand.curvature) - F(vertex)) / to.z;
             const F x = p.x + to.x * down, y = across(scene.lattice, p.y + to.y * down), r = F(scene.surface[0].semi_aperture);
-            at.hit.ok = inside_cell(scene, Vec3<F>{x, p.y + to.y * down, F(0)}, at.hit.ok && (x * x + y * y <= r * r));
+            at.enters = inside_cell(scene, Vec3<F>{x, p.y + to.y * down, F(0)}, comes && (x * x + y * y <= r * r));
             at.way = at.way + down;
         } else {
+            at.enters = comes && at.hit.ok;
             at.way = at.way + at.hit.at.z / to.z;
         }
     }
-    at.hit.ok = at.hit.ok && there && (to.z < F(0));
+    at.hit.ok = at.hit.ok && at.enters;
     return at;
 }
 
@@ -157,8 +162,9 @@ LFDSIM_FN void take(Mask<F> taken, const Encounter<F>& from, Encounter<F>& to) {
     to.cell = {one(from.cell.i, to.cell.i), one(from.cell.j, to.cell.j)};
     to.entering = {choose(taken, from.entering.at, to.entering.at), choose(taken, from.entering.to, to.entering.to)};
     to.hit = {choose(taken, from.hit.at, to.hit.at), choose(taken, from.hit.normal, to.hit.normal), one(from.hit.cos, to.hit.cos),
-              one(from.hit.cos2, to.hit.cos2), to.hit.ok || taken};
+              one(from.hit.cos2, to.hit.cos2), (taken && from.hit.ok) || (!taken && to.hit.ok)};
     to.way = one(from.way, to.way);
+    to.enters = to.enters || taken;
 }
 
 /// The cells of a lattice next to one, and it itself: do(cell) for each.
@@ -192,10 +198,28 @@ LFDSIM_RARE void meet_all_around(const Scene<Scalar<F>>& scene, const Extent<Sca
                           near = active && !known && extent.holds(here) && (ex * ex + ey * ey <= r2);
             if (none(near)) return;
             const Encounter<F> next = meet_placed(scene, extent, ray, here);
-            take(near && next.hit.ok && (!first.hit.ok || (next.way < first.way)), next, first);
+            take(near && next.enters && (!first.enters || (next.way < first.way)), next, first);
         });
         return F(0) > F(1);
     });
+}
+
+/// Whether a way from one point to another, seen from above and from its own lens's axis, may come as near to the axis of another
+/// lens as r: whether its middle is so near, with half its length added to r.
+template <class F>
+LFDSIM_FN Mask<F> nears_another(const Lattice<Scalar<F>>& lattice, Place<F> from, Place<F> to, F r) {
+    const F half = F(Scalar<F>(0.5)), hx = half * (to.x - from.x), hy = half * across(lattice, to.y - from.y);
+    const F x = abs(from.x + hx), y = across(lattice, abs(from.y + hy)), px = F(lattice.pitch[0]), py = F(lattice.pitch[1]);
+    const F reach = r + sqrt(hx * hx + hy * hy), ax = x - px, ay = y - py;
+    F nearest = ax * ax + y * y;
+    if (lattice.staggered) {  // of the next row, and, of low bricks, of the one after that
+        const F bx = x - F(lattice.half_pitch[0]), by = ay - py;
+        nearest = min(nearest, bx * bx + ay * ay);
+        if (!lattice.hexagonal) nearest = min(nearest, x * x + by * by);
+    } else if (!lattice.strips) {
+        nearest = min(nearest, min(x * x, ax * ax) + ay * ay);
+    }
+    return (nearest <= reach * reach) || (x > px) || (y > py);
 }
 
 /// The first lens that a ray meets; `ray` in the array's frame, z from the vertex plane.
@@ -209,14 +233,15 @@ LFDSIM_FN Encounter<F> enter_placed(const Scene<Scalar<F>>& scene, const Extent<
     const Cell<F> cell = cell_at(scene.lattice, x, y);
     Encounter<F> first = meet_placed(scene, extent, ray, cell);
     // A way from there to the lens, or to below all lenses, that is further from the cell's border than lenses stand out of their
-    // own cells leads past no other one.
+    // own cells leads past no other one. Nor does one that is further from other lenses than they are wide.
     const Place<F> axis = axis_of(scene.lattice, cell);
-    const F end_x = select(first.hit.ok, ray.at.x + ray.to.x * first.way, ray.at.x + mx * down),
-            end_y = select(first.hit.ok, ray.at.y + ray.to.y * first.way, ray.at.y + my * down);
+    const F end_x = select(first.enters, ray.at.x + ray.to.x * first.way, ray.at.x + mx * down),
+            end_y = select(first.enters, ray.at.y + ray.to.y * first.way, ray.at.y + my * down);
     const F margin = F(-placement.reach);
-    const Mask<F> alone =
-        in_cell(scene.lattice, x - axis.x, y - axis.y, margin) && in_cell(scene.lattice, end_x - axis.x, end_y - axis.y, margin);
-    const Mask<F> astray = alive && !alone;
+    const Place<F> from_axis{x - axis.x, y - axis.y}, end{end_x - axis.x, end_y - axis.y};
+    const Mask<F> alone = in_cell(scene.lattice, from_axis.x, from_axis.y, margin) && in_cell(scene.lattice, end.x, end.y, margin);
+    Mask<F> astray = alive && !alone;
+    if (any(astray)) astray = astray && nears_another(scene.lattice, from_axis, end, F(placement.radius));
     if (any(astray)) {
         const Ray<F> from = ray;
         Encounter<F> found = first;

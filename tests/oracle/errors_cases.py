@@ -66,6 +66,8 @@ SHORT = {
         {"wedge_deg": [0.8, 0.6], "bow_mm": 0.3}, CAPS),
     "errors of lenses glued onto layers, opaque circle, 20 degrees": wrong(made(SPHERE_TALL, view=(20,), panel=layers(THICK, ADHESIVE), array=on_top(THICK, ADHESIVE), render=EXACT),
         LEVEL, FLAT),
+    "errors of all kinds, large, hollow lenses in cells, 35 degrees": wrong(made(WIDE_HOLLOW, "opaque", "cell", (30, 20)), OF_ARRAY,
+        {**LATERAL, "dz_mm": 0.4, "tilt_x_deg": 4.0, "tilt_y_deg": 4.0}, seed=38),
     "errors of a few lenses, large, opaque circle, on axis": wrong(made(SPHERE, render=EXACT), {"table": MIDDLE}),
     "errors drawn, opaque circle, oblique": wrong(made(SPHERE, view=OBLIQUE, render=EXACT), DRAWN),
     "errors drawn and by table, slanted strips, plate": wrong(made(SPHERE, "plate", view=(15,), array=LEAN),
