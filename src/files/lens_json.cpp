@@ -62,7 +62,7 @@ double JsonReader::number(const LensJson& json, const std::string& place, bool m
     if (json.is_number()) return json.get<double>();  // the parser refuses infinite ones
     if (may_be_infinite && json == "Infin.") return std::numeric_limits<double>::infinity();
     if (may_be_infinite && json == "-Infin.") return -std::numeric_limits<double>::infinity();
-    refuse(place, "{}", json.is_null() ? "is missing" : word_of(json) + " is not a finite number");
+    refuse(place, "{}", json.is_null() ? "is missing" : (json == "N" ? "NaN" : word_of(json)) + " is not a finite number");
     return 0;
 }
 

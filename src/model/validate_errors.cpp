@@ -19,8 +19,8 @@ class ErrorsCheck {
         if (d_.array.surround == Surround::clear) refuse_all("surround = \"clear\" has no sheet that holds its lenses", true);
         if (g_.glued) refuse_all("the lens is glued on", false);
         if (d_.array.surround == Surround::plate)
-            refuse("tilt_sd_deg", e_.tilt_sd_deg != 0 || has(&LensErrorBounds::tilt_deg),
-                   "a moulded plate's lenses are parts of one sheet; leave it out");
+            refuse_each("tilt_sd_deg", e_.tilt_sd_deg != 0, "tilts", has(&LensErrorBounds::tilt_deg),
+                        "a moulded plate's lenses are parts of one sheet, which do not turn");
         if (d_.array.surround == Surround::plate && is_irregular(e_) && hollow())
             findings_.add("errors", "{}",
                           "move or curve lenses that are hollow in a moulded plate, of which they are no parts; leave them out");
@@ -29,8 +29,8 @@ class ErrorsCheck {
                           "is \"built\", but elemental images cannot know of a wedge, a bow and errors of single lenses yet; take "
                           "\"description\"");
         if (d_.lens.type() == LensType::pinhole)
-            refuse("curvature_sd", e_.curvature_sd != 0 || has(&LensErrorBounds::curvature),
-                   "a pinhole has no curvature; leave it out");
+            refuse_each("curvature_sd", e_.curvature_sd != 0, "curvatures", has(&LensErrorBounds::curvature),
+                        "a pinhole has no curvature");
         if (lenses_differ(e_)) check_lenses();
         check_heights();
     }
@@ -54,6 +54,11 @@ class ErrorsCheck {
         one("pitch_ppm", e_.pitch_ppm != 0);
         one("decenter_sd_mm", e_.decenter_sd_mm != 0);
         one("curvature_sd", e_.curvature_sd != 0);
+    }
+    /// What lenses cannot have is refused where it is drawn, and where the table gives it.
+    void refuse_each(const char* key, bool drawn, const char* column, bool in_table, std::string_view why) {
+        refuse(key, drawn, fmt::format("is given, but {}; leave it out", why));
+        refuse("table", in_table, fmt::format("gives {}, but {}; make them 0", column, why));
     }
     void refuse(const char* key, bool given, std::string_view what) {
         const std::string path = fmt::format("errors.{}", key);

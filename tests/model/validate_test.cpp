@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <utility>
 
 #include "example.h"
@@ -47,6 +48,33 @@ SceneObject an_image() {
     SceneObject object = a_model();
     object.image = std::exchange(object.model, "");
     return object;
+}
+
+/// A table of errors with one lens in it.
+std::shared_ptr<const std::vector<GivenLensError>> one_lens(LensError error) {
+    return std::make_shared<std::vector<GivenLensError>>(std::vector<GivenLensError>{{3, 2, error}});
+}
+Display example_glued() {
+    Display d = example();
+    d.panel.layers = {{17, 1.5, {}}};
+    d.array.gap_mm.reset();
+    d.array.base_z_mm = 17;
+    return d;
+}
+Display example_plate() {
+    Display d = example();
+    d.array.surround = Surround::plate;
+    return d;
+}
+Display example_clear() {
+    Display d = example();
+    d.array.surround = Surround::clear;
+    return d;
+}
+Display example_pinhole() {
+    Display d = example();
+    d.lens.kind = Pinhole{1};
+    return d;
 }
 
 struct Case {
@@ -202,6 +230,33 @@ INSTANTIATE_TEST_SUITE_P(Layout, Fault, testing::Values(
     Case{"camera.pupil_diameter_mm", "is -4", [](Display& d) { d.camera.pupil_diameter_mm = -4; }},
     Case{"content.viewing_distance_mm", "inside the display", [](Display& d) { d.content.viewing_distance_mm = 17; }}));
 
+INSTANTIATE_TEST_SUITE_P(Errors, Fault, testing::Values(
+    Case{"errors.shift_mm", "surround = \"clear\"", [](Display& d) { d.errors.shift_mm = {0.1, 0}; }, example_clear},
+    Case{"errors.rotation_deg", "surround = \"clear\"", [](Display& d) { d.errors.rotation_deg = 0.1; }, example_clear},
+    Case{"errors.decenter_sd_mm", "surround = \"clear\"", [](Display& d) { d.errors.decenter_sd_mm = 0.01; }, example_clear},
+    Case{"errors.table", "surround = \"clear\"", [](Display& d) { d.errors.given = one_lens({{0.01, 0}, 0, {}, 0}); }, example_clear},
+    Case{"errors.tilt_sd_deg", "do not turn; leave it out", [](Display& d) { d.errors.tilt_sd_deg = 0.1; }, example_plate},
+    Case{"errors.table", "gives tilts", [](Display& d) { d.errors.given = one_lens({{}, 0, {0, 0.1}, 0}); }, example_plate},
+    Case{"errors.curvature_sd", "no curvature; leave it out", [](Display& d) { d.errors.curvature_sd = 0.01; }, example_pinhole},
+    Case{"errors.table", "gives curvatures", [](Display& d) { d.errors.given = one_lens({{}, 0, {}, 0.01}); }, example_pinhole},
+    Case{"errors.gap_mm", "glued on", [](Display& d) { d.errors.gap_mm = 0.1; }, example_glued},
+    Case{"errors.wedge_deg", "glued on", [](Display& d) { d.errors.wedge_deg = {0, 0.1}; }, example_glued},
+    Case{"errors.bow_mm", "glued on", [](Display& d) { d.errors.bow_mm = 0.1; }, example_glued},
+    Case{"errors.height_sd_mm", "glued on", [](Display& d) { d.errors.height_sd_mm = 0.01; }, example_glued},
+    Case{"errors.tilt_sd_deg", "glued on", [](Display& d) { d.errors.tilt_sd_deg = 0.1; }, example_glued},
+    Case{"errors.table", "glued on", [](Display& d) { d.errors.given = one_lens({{}, 0.01, {}, 0}); }, example_glued},
+    Case{"errors.gap_mm", "into the panel; less", [](Display& d) { d.errors.gap_mm = -14; }},
+    Case{"errors.bow_mm", "into the panel", [](Display& d) { d.errors.bow_mm = -14; }},
+    Case{"errors.decenter_sd_mm", "at most 0.6 mm", [](Display& d) { d.errors.decenter_sd_mm = 0.201; }},
+    Case{"errors.curvature_sd", "would not reach the rim", [](Display& d) { d.errors.curvature_sd = 0.08; }},
+    Case{"content.made_for", "single lenses", [](Display& d) { d.errors.bow_mm = 0.1; d.content.made_for = MadeFor::built; }}));
+TEST(Validate, ErrorsThatCanBe) {
+    Display glued = example_glued(), plate = example_plate();
+    glued.errors = {.shift_mm = {0.3, -0.2}, .rotation_deg = 1, .pitch_ppm = 100, .decenter_sd_mm = 0.01, .curvature_sd = 0.01};
+    EXPECT_TRUE(validate(glued).empty());
+    plate.errors = {.gap_mm = 0.1, .wedge_deg = {0.1, 0}, .bow_mm = 0.1, .decenter_sd_mm = 0.01, .height_sd_mm = 0.01};
+    EXPECT_TRUE(validate(plate).empty());
+}
 INSTANTIATE_TEST_SUITE_P(Glass, Fault, testing::Values(
     Case{"lens.index", "is missing; give lens.index, or lens.glass", [](Display& d) { d.lens.as<PlanoConvex>().index.reset(); }},
     Case{"panel.layer.0.index", "is missing; give panel.layer.0.index, or panel.layer.0.glass", [](Display& d) { d.panel.layers = {{1, {}, {}}}; }},
