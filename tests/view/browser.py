@@ -134,6 +134,22 @@ def parameters_do_not_block_each_other(page, real):
     assert page.picture()["sum"] == before["sum"]
 
 
+def errors_are_drawn_again(page):
+    page.run("document.querySelector('details[data-table=errors]').open = true")
+    before = page.picture()
+    page.type("#c-errors-decenter_sd_mm", "0.02")
+    page.sharp()
+    drawn = page.picture()
+    assert drawn["sum"] != before["sum"], "lenses that stand apart changed nothing"
+    page.click("#draw-again")
+    page.sharp()
+    assert page.state()["set"]["errors.seed"] == "1" and page.picture()["sum"] != drawn["sum"], "the same errors were drawn again"
+    page.shot("errors")
+    page.run("document.getElementById('reset-all').click()")
+    page.sharp()
+    assert page.picture()["sum"] == before["sum"], "as described is not as it was"
+
+
 def layouts(page):
     page.choose("#layout", "pair")
     stats = page.until("both eyes", lambda s: s["last_ids"].get("left") == s["last_ids"].get("right") == s["id"] and s["quality"] == "final")
@@ -304,6 +320,8 @@ def main():
             drag_moves_the_picture(page)
             parameter_takes_effect(page)
             parameters_do_not_block_each_other(page, bool(options.program))
+            if options.program:
+                errors_are_drawn_again(page)
             layouts(page)
             drawings(page)
             files(page, folder)

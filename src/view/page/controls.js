@@ -8,7 +8,7 @@ const main = [
   /^content\.depth_mm$/, /^array\.(offset_mm|rotation_deg)$/,
 ];
 const is_main = (key) => main.some((pattern) => pattern.test(key));
-const table_names = { panel: "Panel", lens: "Lens", array: "Lens array", diffuser: "Diffuser", camera: "Camera", content: "Model", render: "Rendering" };
+const table_names = { panel: "Panel", lens: "Lens", array: "Lens array", diffuser: "Diffuser", camera: "Camera", content: "Model", render: "Rendering", errors: "Assembly errors" };
 const table_name = (table) =>
   table_names[table] || table.replace(/^lens\.surface\.(\d+)$/, (_, k) => `Lens surface ${Number(k) + 1}`) || "General";
 
@@ -38,6 +38,7 @@ class Control {
     this.inputs = Array.from({ length: many }, (_, k) => this.field(k, many));
     this.fields.append(...this.inputs);
     this.inputs[0].id = id;
+    if (data.key === "errors.seed") this.fields.prepend(this.draw_again());
     this.row = make("div", { className: "control" },
       make("label", { textContent: (is_main(data.key) && data.key !== data.table ? prefix(data.table) : "") + data.label, title: `${data.key}: ${data.doc || ""}`, "for": id }), this.fields,
       make("span", { className: "unit", textContent: data.unit === "degrees" ? "°" : data.unit || "" }), this.back);
@@ -87,6 +88,12 @@ class Control {
       this.settle();
     };
     return input;
+  }
+  /// Another array of the same kind: the next seed.
+  draw_again() {
+    const again = make("button", { id: "draw-again", textContent: "draw again", title: "The errors of another array with the same standard deviations" });
+    again.onclick = () => this.store.set(this.key, String((BigInt(this.data.value) + 1n) % 2n ** 63n));
+    return again;
   }
   at(name, k) {
     const x = this.data[name];
