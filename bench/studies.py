@@ -96,7 +96,7 @@ def two_workers(folder: pathlib.Path, pairs: int) -> None:
     display = lfdsim.Display.parse(DISPLAY)
     lfdsim.render(display, threads=1, progress=False)  # the first one takes longer
     samples = 64
-    while measured(lambda: lfdsim.render(display, samples=samples, threads=1, progress=False))[1] < 3:
+    while measured(lambda: lfdsim.render(display, samples=samples, threads=1, progress=False))[1] < 5:
         samples *= 2
     file = folder / "heavy.toml"
     file.write_text("rows_per_chunk = 1\n" + STUDY.replace("ROWS", "8") + PICTURE.replace("SAMPLES", str(samples)))
