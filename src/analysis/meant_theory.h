@@ -7,7 +7,7 @@
 namespace lfdsim {
 
 /// The closed form of SlopeSpread. Layers below thin lenses bend steep lines less than in proportion, which it does not know: there
-/// a sum over lines that obey Snell's law takes its place, good to two thousandths.
+/// a sum over lines that obey Snell's law takes its place, good to 0.004.
 class MeantTheory {
   public:
     /// The eye's distance from the panel, mm.
