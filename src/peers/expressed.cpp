@@ -23,10 +23,10 @@ class Refusals {
                                  : "a pinhole has no surfaces to make triangles of; export pov without --triangles");
             return std::move(problems_);
         }
-        if (is_irregular(d_.errors))
-            add("errors",
-                "let lenses stand by themselves, or the array lean, which exported scenes do not cover; give shift_mm, gap_mm, "
-                "rotation_deg and pitch_ppm only");
+        if (lenses_differ(d_.errors) || (is_wedged(d_.errors) && peer_ != Peer::pov))
+            add("errors", fmt::format("let lenses stand by themselves{}, which this scene does not cover; give shift_mm, gap_mm, "
+                                      "rotation_deg{} and pitch_ppm only",
+                                      peer_ == Peer::pov ? "" : ", or the array lean", peer_ == Peer::pov ? ", wedge_deg" : ""));
         array();
         if (disperses(d_)) colour();
         if (d_.camera.pupil_diameter_mm.value_or(0) > 0)

@@ -1,6 +1,7 @@
 #include "peers/pov.h"
 
 #include "engine/scene.h"
+#include "model/numbers.h"
 #include "model/prescription.h"
 #include "peers/cell.h"
 #include "peers/pov_cell.h"
@@ -10,6 +11,7 @@
 #include "peers/text.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 // How POV-Ray follows light. A ray keeps a list of the media that it is in. Where it meets a shape whose medium is in the list, it
@@ -51,10 +53,7 @@ class Writer {
             "#declare Black = texture {{ pigment {{ rgb 0 }} finish {{ ambient 0 diffuse 0 }} }}\n"
             "#declare Clear = texture {{ pigment {{ rgbt 1 }} finish {{ ambient 0 diffuse 0{} }} }}\n",
             fresnel() ? " reflection { 0, 1 fresnel on } conserve_energy" : "");
-        // POV-Ray's rows and columns of a matrix: images of the axes, then the shift
-        all += fmt::format("#declare Place = transform {{ matrix <{},{},0,{},{},0,0,0,1,{},{},0> scale {} }}\n",
-                           text(lattice_.cos_turn), text(lattice_.sin_turn), text(-lattice_.sin_turn), text(lattice_.cos_turn),
-                           text(lattice_.offset[0]), text(lattice_.offset[1]), text(units_per_mm_));
+        all += place();
         all += panel(panel_file) + layers() + "\n// One lens, about the z axis\n";
         all += "#declare Lens = " + (options_.triangles ? meshed_lens() : lens()) + "\n";
         all += one_sheet ? sheet() : lenses();
@@ -84,6 +83,25 @@ class Writer {
         }
         return fmt::format("camera {{ location {} direction {} right {} up {} }}\n", vector(at), vector(view.forward),
                            vector(right), vector(up));
+    }
+
+    // From the array's frame to the display's: turned about z and, by a wedge, about the panel's axes, about the array's middle in
+    // the plane of the vertices. POV-Ray's order of a matrix: images of the axes, then the shift.
+    std::string place() const {
+        const auto& wedge = d_.errors.wedge_deg;
+        const double cx = std::cos(wedge[0] * degree), sx = std::sin(wedge[0] * degree), cy = std::cos(wedge[1] * degree),
+                     sy = std::sin(wedge[1] * degree);
+        const auto leant = [&](double x, double y, double z) {
+            return std::array{cy * x + sy * (sx * y + cx * z), cx * y - sx * z, cy * (sx * y + cx * z) - sy * x};
+        };
+        const double c = lattice_.cos_turn, s = lattice_.sin_turn, v = g_.vertex_plane_mm;
+        const auto up = leant(0, 0, 1);
+        std::string numbers;
+        for (const auto& image : {leant(c, s, 0), leant(-s, c, 0), up})
+            for (const double x : image) numbers += text(x) + ",";
+        return fmt::format("#declare Place = transform {{ matrix <{}{},{},{}> scale {} }}\n", numbers,
+                           text(lattice_.offset[0] - up[0] * v), text(lattice_.offset[1] - up[1] * v), text(v - up[2] * v),
+                           text(units_per_mm_));
     }
 
     std::string panel(const std::string& file) const {

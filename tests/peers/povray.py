@@ -23,6 +23,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "oracle"
 import cases  # noqa: E402
 import colour  # noqa: E402
 import colour_cases  # noqa: E402
+import errors_cases  # noqa: E402
 import lattice_cases  # noqa: E402
 import tracer  # noqa: E402
 from display import resolve  # noqa: E402
@@ -32,8 +33,14 @@ TOLERANCE = 1 / 255 + 1e-5
 QUICK = ("opaque circle, on axis", "opaque circle, 15 degrees", "opaque circle, rotated", "opaque square, 15", "clear circle, 30", "plate circle, 45", "asphere, 15", "cemented", "spaced",
          "hexagon lattice, opaque cell, 30", "hexagon lattice, clear cell, rotated", "brick lattice, glued onto a layer, plate cell",
          "slanted strips, opaque cell, on axis", "strips slanted to the left, plate cell", "three layers, clear", "glued onto two layers, clear", "pinhole, hexagon",
-         "subpixels rgb_stripe, on axis", "subpixels delta, clear")
+         "subpixels rgb_stripe, on axis", "subpixels delta, clear", "errors, wedge")
 
+OF_ARRAY = {key: value for key, value in errors_cases.OF_ARRAY.items() if key != "bow_mm"}  # lenses all stand alike
+WEDGED = {
+    "errors, wedge, opaque circle, rotated and offset, oblique": errors_cases.wrong(lattice_cases.made(cases.SPHERE, view=cases.OBLIQUE, array=cases.TILTED), OF_ARRAY),
+    "errors, wedge, plate circle over a layer, 15 degrees": errors_cases.wrong(
+        lattice_cases.made(cases.SPHERE, "plate", view=(15,), panel=lattice_cases.layers(lattice_cases.GLASS)), OF_ARRAY),
+}
 CHANNELS = {"glass of Sellmeier, opaque, oblique": "r", "glass by name, asphere, gap, subpixels delta, hexagons": "b"}  # where time is short
 
 
@@ -164,7 +171,7 @@ def main():
     # Where subpixels are shrunk, or of odd sizes, finer pixels round their borders.
     coloured = {name: case for name, case in colour_cases.SHORT.items() if name.startswith("subpixels") and ", q " not in name}
     glassy = {name: case for name, case in {**colour_cases.SHORT, **colour_cases.MORE}.items() if name.startswith("glass") and "odd cell" not in name and not refusal(case, False)}
-    for name, description in {**cases.SHARP, **lattice_cases.SHORT, **lattice_cases.MORE, **coloured}.items():
+    for name, description in {**cases.SHARP, **lattice_cases.SHORT, **lattice_cases.MORE, **coloured, **WEDGED}.items():
         if options.only not in name or not (options.full or options.only or any(name.startswith(part) for part in QUICK)):
             continue
         columns, rows = description["array"].get("count", [0, 0])
