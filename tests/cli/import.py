@@ -120,7 +120,7 @@ for name, arguments, *words in [
     ("other JSON", "import other.json -o x.toml", "is this a saved lens?"),
     ("other kind", "import tiny.toml -o x.toml", "tiny.toml: is of kind \".toml\"; .zmx (Zemax), .json (Optiland, or a Looking Glass calibration)"),
     ("calibration without a key", "import nopitch.json -o x.toml", "nopitch.json: pitch: is missing"),
-    ("no number in it", "import nancenter.json -o x.toml", "nancenter.json: center: N is not a finite number"),
+    ("no number in it", "import nancenter.json -o x.toml", "nancenter.json: center: NaN is not a finite number"),
     ("too large a panel", "import hugepanel.json -o x.toml", "hugepanel.json: screenW: is 1e+300; allowed is 1 to 100000"),
     ("a word in it", "import wordy.json -o x.toml", "wordy.json: DPI: 300 is not a finite number"),
     ("too few cells", "import cells.json -o x.toml", "subpixelCells: has 1, but CellPatternMode 4 repeats 2"),

@@ -136,7 +136,7 @@ TEST(Calibration, NamesTheKeyThatIsWrong) {
         EXPECT_THAT(calibration_refused(json.dump()), HasSubstr(std::string(key) + ": is 1e+300; allowed is"));
         std::string text = json.dump();
         text.replace(text.find("1e+300"), 6, "NaN");
-        EXPECT_THAT(calibration_refused(text), HasSubstr(std::string(key) + ": N is not a finite number"));
+        EXPECT_THAT(calibration_refused(text), HasSubstr(std::string(key) + ": NaN is not a finite number"));
         if (std::string(key) == "center") continue;
         json[key] = {{"value", 0}};
         EXPECT_THAT(calibration_refused(json.dump()), HasSubstr(std::string(key) + ": is 0"));

@@ -121,7 +121,7 @@ TEST(Optiland, NamesWhatCannotBeImported) {
         {[](Json&, Json& s) { s[2]["geometry"]["cs"]["rx"] = 0.1; }, "[2].geometry.cs: rx = 0.1: is shifted or tilted"},
         {[](Json&, Json& s) { s[2]["geometry"]["cs"]["reference_cs"] = frame(0); }, "[2].geometry.cs: has a reference_cs"},
         {[](Json&, Json& s) { s[2]["geometry"]["cs"].erase("z"); }, "[2].geometry.cs.z: is missing"},
-        {[](Json&, Json& s) { s[2]["geometry"]["cs"]["z"] = "nan"; }, "[2].geometry.cs.z: N is not a finite number"},
+        {[](Json&, Json& s) { s[2]["geometry"]["cs"]["z"] = "nan"; }, "[2].geometry.cs.z: NaN is not a finite number"},
         {[](Json&, Json& s) { s[2]["geometry"]["cs"]["z"] = "inf"; }, "[2].geometry.cs.z: Infin. is not a finite number"},
         {[](Json&, Json& s) { s[2]["geometry"]["radius"] = 0; }, "[2].geometry.radius: is 0"},
         {[](Json&, Json& s) { s[2]["geometry"]["radius"] = "wide"; }, "[2].geometry.radius: wide is not a finite number"},
