@@ -283,12 +283,13 @@ LFDSIM_FN void next_in_plate(const Scene<Scalar<F>>& scene, const Extent<Scalar<
 /// Snell's law at a crossing, either way; total internal reflection is followed with weight 1.
 template <class F>
 LFDSIM_FN void cross(const Scene<Scalar<F>>& scene, const Crossing<F>& here, Mask<F> active, GlassRays<F>& rays, F& weight) {
-    const auto &media = scene.surface[0].media, &last = scene.surface[scene.surface_count - 1].media;
+    const auto& media = scene.surface[0].media;
+    const auto& last = scene.surface[scene.surface_count - 1];
     const F air = F(media.n_above), glass = F(media.n_below), one = F(1);
     F outside = air, schlick_t0 = F(media.schlick_t0);
     if (scene.glued) {
-        outside = select(here.normal.z < F(0), F(last.n_below), air);
-        schlick_t0 = select(here.normal.z < F(0), F(last.schlick_t0), schlick_t0);
+        outside = select(here.normal.z < F(0), F(last.media.n_below), air);
+        schlick_t0 = select(here.normal.z < F(0), F(last.media.schlick_t0), schlick_t0);
     }
     const F n1 = select(rays.inside, glass, outside), n2 = select(rays.inside, outside, glass), eta = n1 / n2;
     const F facing = select(rays.inside, -one, one);  // the normal that faces the ray
@@ -306,8 +307,7 @@ LFDSIM_FN void cross(const Scene<Scalar<F>>& scene, const Crossing<F>& here, Mas
     rays.to = {select(active, to.x, i.x), select(active, to.y, i.y), select(active, to.z, i.z)};
     rays.cell = {select(refracted, here.cell.i, rays.cell.i), select(refracted, here.cell.j, rays.cell.j)};
     // Downwards out of a face, or sideways out of a wall that stands below the slab.
-    const auto& bottom = scene.surface[scene.surface_count - 1];
-    const Mask<F> down = (here.normal.z < F(0)) || ((here.normal.z == F(0)) && (rays.at.z < F(bottom.z + bottom.rim)));
+    const Mask<F> down = (here.normal.z < F(0)) || ((here.normal.z == F(0)) && (rays.at.z < F(last.z + last.rim)));
     rays.below = (rays.below && !refracted) || (refracted && rays.inside && down);
     rays.inside = (rays.inside && !refracted) || (refracted && !rays.inside);
 }
