@@ -259,14 +259,16 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
     // diffused ray spans in the plane of the holes; mm.
     const double pixel = view.pixel_mm * std::abs((view.position[2] - view.start_z) / (view.forward[2] * view.distance));
     double seen = std::min(scene.lattice.pitch[0], scene.lattice.pitch[1]);
-    // Without a diffuser pixels share a block's list of lenses and nothing else.
-    if (!scene.has_diffuser) return {16 * pixel < seen ? 16 : 8 * pixel < 2 * seen ? 8 : 4, true};
+    // Without a diffuser pixels share a block's list of lenses and what the pupil spreads.
+    if (!scene.has_diffuser) return {16 * pixel < seen ? 16 : 8 * pixel < 4 * seen ? 8 : 4, true};
     double span[2];
     BlockShape shape{4, true};
     for (int k = 0; k < 2; ++k) {
         span[k] = 2 * double(scene.holes_below[k]) * std::tan(std::min(double(scene.half_angle[k]), 1.5));
         shape.weak = shape.weak && span[k] < L::weak_span * pixel && span[k] < L::weak * double(scene.lattice.pitch[k]);
     }
+    // Lens by lens, pixels behind a weak diffuser share a block's list of lenses too, and parts of it what the camera spreads.
+    if (shape.weak && scene.by_lens) return {8 * pixel < seen ? 8 : 4, true};
     bool moving = shape.weak;
     for (int k = 0; k < 2 && !shape.weak; ++k) span[k] > L::moving_span* pixel ? seen = std::min(seen, span[k]) : moving = true;
     // Many strata ask for a fine picture, in which nonlinear motion over a block would show. Where strata move with the pixels, the

@@ -80,50 +80,41 @@ struct LevelReader {
 /// A box wider or narrower than this, in cells, is read as if it were as wide.
 constexpr float least_box = 1.0f / 64, most_box = 1;
 
-/// Turns one side of a box, in cells of a subpixel's part, into that of a box over its plane with the same light, and multiplies
-/// `weight` by the light in the one over that in the other. A point's place is then the light before it: it stands still in the
-/// dark between two parts and moves faster where they shine.
+/// A side of a box of the panel, as that of a box of the plane in which a subpixel's part repeats.
 template <class F>
-LFDSIM_FN void squeeze(const SubpixelPart<Scalar<F>>& part, int axis, F& middle, F& width, F& weight) {
-    using S = Scalar<F>;
-    const auto light_before = [&](F place) {
-        const F whole = floor(place);
-        return whole + min(max((place - whole - F(part.from[axis])) * F(part.per[axis]), F(0)), F(1));
-    };
-    const F wide = max(width, F(S(1.0 / 4096))), half = F(S(0.5)) * wide, pixel = floor(middle), place = middle - pixel;
-    const F first = light_before(place - half), last = light_before(place + half);
-    middle = pixel + F(S(0.5)) * (first + last);
-    width = last - first;
-    weight = weight * (width / wide);
-}
+struct PlaneSide {
+    std::uint32_t base;  // the plane's cell that holds the panel's base
+    F middle, width;     // in cells of the plane, the middle from the base
+    F light;             // after squeeze(): that in the squeezed side over that in the side
 
-/// A box of the panel as a box of the plane in which a subpixel's part repeats.
-template <class F>
-struct PlaneBox {
-    PanelBase<Scalar<F>> base;
-    F column, row, wide, high, weight;  // of the plane, from its base
-
-    LFDSIM_FN PlaneBox(const SubpixelPart<Scalar<F>>& part, const PanelBase<Scalar<F>>& from, F c, F r, F w, F h, F share) {
-        const F column_rest = start(part, 0, from.column, base.column), row_rest = start(part, 1, from.row, base.row);
-        column = (c + column_rest) * F(part.per_cell[0]);
-        row = (r + row_rest) * F(part.per_cell[1]);
-        wide = w * F(part.per_cell[0]);
-        high = h * F(part.per_cell[1]);
-        weight = share * F(part.share);
+    /// Of a side about `place`, panel pixels from the base pixel `number`, `size` pixels wide.
+    LFDSIM_FN PlaneSide(const SubpixelPart<Scalar<F>>& part, int axis, std::uint32_t number, F place, F size) {
+        const std::int32_t cell = part.cell[axis], at = std::int32_t(number), rest = cell == 1 ? 0 : InCell<F>::rest_of(at, cell);
+        base = std::uint32_t(cell == 1 ? at : (at - rest) / cell);
+        middle = (place + F(Scalar<F>(rest))) * F(part.per_cell[axis]);
+        width = size * F(part.per_cell[axis]);
     }
-    LFDSIM_FN void squeeze(const SubpixelPart<Scalar<F>>& part) {
-        optics::squeeze(part, 0, column, wide, weight);
-        optics::squeeze(part, 1, row, high, weight);
-    }
-
-  private:
-    /// The cell that holds the base's pixel, and how many pixels before that one it begins.
-    LFDSIM_FN static F start(const SubpixelPart<Scalar<F>>& part, int axis, std::uint32_t number, std::uint32_t& cell) {
-        const std::int32_t rest = InCell<F>::rest_of(std::int32_t(number), part.cell[axis]);
-        cell = std::uint32_t((std::int32_t(number) - rest) / part.cell[axis]);
-        return F(Scalar<F>(rest));
+    /// Turns the side into that of a box over the plane with the same light. A point's place is then the light before it: it stands
+    /// still in the dark between two parts and moves faster where they shine.
+    LFDSIM_FN void squeeze(const SubpixelPart<Scalar<F>>& part, int axis) {
+        using S = Scalar<F>;
+        const auto light_before = [&](F place) {
+            const F whole = floor(place);
+            return whole + min(max((place - whole - F(part.from[axis])) * F(part.per[axis]), F(0)), F(1));
+        };
+        const F wide = max(width, F(S(1.0 / 4096))), half = F(S(0.5)) * wide, pixel = floor(middle), place = middle - pixel;
+        const F first = light_before(place - half), last = light_before(place + half);
+        middle = pixel + F(S(0.5)) * (first + last);
+        width = last - first;
+        light = width / wide;
     }
 };
+
+/// Do two parts lie alike along an axis?
+template <class S>
+LFDSIM_FN bool alike(const SubpixelPart<S>& a, const SubpixelPart<S>& b, int axis) {
+    return a.cell[axis] == b.cell[axis] && a.from[axis] == b.from[axis] && a.to[axis] == b.to[axis];
+}
 
 /// The levels of a plane.
 LFDSIM_FN PanelLevels plane_of(PanelLevels levels, int plane) {
@@ -252,32 +243,30 @@ LFDSIM_FN void light_of_boxes(const PanelLevels& levels, const PanelBase<Scalar<
     using S = Scalar<F>;
     constexpr int lanes = LaneTraits<F>::width;
     const Emission<S>& emission = *levels.emission;
-    const int parts = emission.whole ? 1 : emission.count;
-    for (int k = 0; k < parts; ++k) {
-        PanelLevels plane = levels;
+    if (emission.whole) return light_of_plane(levels, base, column, row, wide, high, weight, light);
+    for (int n = 0; n < lanes; ++n)
+        for (int colour = 0; colour < 4; ++colour) light[n][colour] = 0;
+    const std::uint32_t number[2] = {base.column, base.row};
+    const F place[2] = {column, row}, size[2] = {wide, high};
+    const auto side_of = [&](const SubpixelPart<S>& part, int axis) {
+        PlaneSide<F> side(part, axis, number[axis], place[axis], size[axis]);
+        side.squeeze(part, axis);
+        return side;
+    };
+    PlaneSide<F> side[2] = {side_of(emission.part[0], 0), side_of(emission.part[0], 1)};
+    for (int k = 0; k < emission.count; ++k) {
+        const SubpixelPart<S>& part = emission.part[k];
+        for (int axis = 0; axis < 2 && k > 0; ++axis)
+            if (!alike(part, emission.part[k - 1], axis)) side[axis] = side_of(part, axis);
         PanelBase<S> from = base;
-        F c = column, r = row, w = wide, h = high, share = weight;
-        if (!emission.whole) {
-            PlaneBox<F> box(emission.part[k], base, column, row, wide, high, weight);
-            box.squeeze(emission.part[k]);
-            plane = plane_of(levels, emission.part[k].plane);
-            from = box.base;
-            c = box.column;
-            r = box.row;
-            w = box.wide;
-            h = box.high;
-            share = box.weight;
-        }
-        S of_part[lanes][4];
-        light_of_plane(plane, from, c, r, w, h, share, k == 0 ? light : of_part);
-        if (emission.whole) return;
-        const int channel = emission.part[k].channel;
+        from.column = side[0].base;
+        from.row = side[1].base;
+        S of_part[lanes][4], shown[4];
+        light_of_plane(plane_of(levels, part.plane), from, side[0].middle, side[1].middle, side[0].width, side[1].width,
+                       weight * F(part.share) * side[0].light * side[1].light, of_part);
+        for (int colour = 0; colour < 4; ++colour) shown[colour] = part.channel == 3 || part.channel == colour ? S(1) : S(0);
         for (int n = 0; n < lanes; ++n)
-            for (int colour = 0; colour < 4; ++colour) {
-                const bool shows = channel == 3 || channel == colour;
-                light[n][colour] =
-                    k == 0 ? (shows ? light[n][colour] : S(0)) : light[n][colour] + (shows ? of_part[n][colour] : S(0));
-            }
+            for (int colour = 0; colour < 4; ++colour) light[n][colour] = light[n][colour] + shown[colour] * of_part[n][colour];
     }
 }
 
@@ -316,16 +305,21 @@ LFDSIM_APART void add_subpixels(const PanelLevels& levels, const PanelBase<Scala
     using S = Scalar<F>;
     for (int k = 0; k < levels.emission->count; ++k) {
         const SubpixelPart<S>& part = levels.emission->part[k];
-        PlaneBox<F> box(part, base, column, row, F(wide), F(high), weight);
-        const Footprint<S> footprint(plane_of(levels, part.plane), box.base, wide * part.per_cell[0], high * part.per_cell[1]);
+        PlaneSide<F> across(part, 0, base.column, column, F(wide)), down(part, 1, base.row, row, F(high));
+        PanelBase<S> from = base;
+        from.column = across.base;
+        from.row = down.base;
+        const Footprint<S> footprint(plane_of(levels, part.plane), from, wide * part.per_cell[0], high * part.per_cell[1]);
         const LevelReader<S>& level = footprint.level;
         const F pixels_per_cell = F(S(1) / level.cells_per_pixel), per_pixel = F(level.cells_per_pixel), least = F(S(least_box));
-        box.wide = F(footprint.width) * pixels_per_cell;
-        box.high = F(footprint.height) * pixels_per_cell;
-        box.squeeze(part);
-        const F w = max(box.wide * per_pixel, least), h = max(box.high * per_pixel, least);
+        across.width = F(footprint.width) * pixels_per_cell;
+        down.width = F(footprint.height) * pixels_per_cell;
+        across.squeeze(part, 0);
+        down.squeeze(part, 1);
+        const F w = max(across.width * per_pixel, least), h = max(down.width * per_pixel, least);
         Light<F> of_part;
-        level.add_box(of_part, box.column, box.row, box.weight, w, h, F(1) / w, F(1) / h);
+        level.add_box(of_part, across.middle, down.middle, weight * F(part.share) * across.light * down.light, w, h, F(1) / w,
+                      F(1) / h);
         light.add(of_part, part.channel);
     }
 }

@@ -122,6 +122,7 @@ LFDSIM_FN Moments<F> part_within(const Corners<F>& of, const Box<F>& box) {
         const F bend[4] = {zero, min(enters, leaves), max(enters, leaves), one};
         for (int part = 0; part < 3; ++part) {
             const F length = bend[part + 1] - bend[part], centre = half * (bend[part + 1] + bend[part]);
+            if (!any(length > zero)) continue;
             for (int side = -1; side <= 1; side += 2) {
                 const F t = centre + F(S(side * 0.28867513459481287)) * length;  // 1 / (2 sqrt 3)
                 const F at_x = cut(start + t * run, zero - far_x, far_x), at_y = from + t * way - middle_y,

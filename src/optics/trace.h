@@ -32,7 +32,7 @@ LFDSIM_FN Way way_through(const Scene<S>& scene) {
 /// The way that the filtered estimator takes, which traces few rays: `other` has the same bits, and each way is much code to
 /// compile.
 constexpr Way for_few_rays(Way way) {
-    return way == Way::plano_convex || way == Way::glass || way == Way::placed ? way : Way::other;
+    return way == Way::plano_convex || way == Way::staggered || way == Way::glass || way == Way::placed ? way : Way::other;
 }
 
 /// do_it.operator()<way>() for the way through a display.

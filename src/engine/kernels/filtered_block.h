@@ -271,10 +271,13 @@ class BlockWork {
     LFDSIM_BOTH void add_alone(std::int32_t x, std::int32_t y, optics::Uint<F> number, F dx, F dy, PacketLight& to) const {
         bool own_ready = false;
         optics::PixelRays<F> pixels;
+        WaitingRays<through> waiting(tile, pixels, to.boxes);
         const auto first = std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x);
         const S reach = S(at.block.reach), per_reach = S(1) / reach;
         dx = dx * F(per_reach);
         dy = dy * F(per_reach);
+        const int squares = blurs_an_axis(scene, tile.block_side), in_square = tile.block_side / squares,
+                  square = (y - at.y0) / in_square * squares + (x - at.x0) / in_square;
         for_strata<most_strata>(dx, dy, [&](const Seen& seen) {
             const Bundles& b = *seen.bundles;
             const Span<F>&across = *seen.across, &up = *seen.up;
@@ -284,6 +287,7 @@ class BlockWork {
             };
             auto add_own = [&](Own part, F weight) {
                 ready();
+                waiting.trace();
                 optics::Sampler<F> sampler(Sampling::random, spreads() ? 6 : 2, tile.view->seed, number + optics::Uint<F>(first));
                 sampler.sample = seen.number * 8;
                 add_own_rays<through>(tile, pixels, across, up, *seen.corners, part, weight, sampler, to.boxes);
@@ -294,9 +298,9 @@ class BlockWork {
             if (own && by_lens()) {
                 if (unseen(seen)) return;
                 ready();
-                const OwnPixels own_pixels{pixels, number + optics::Uint<F>(first), dx, dy, per_reach};
+                const OwnPixels own_pixels{pixels, number + optics::Uint<F>(first), dx, dy, per_reach, square};
                 if (scene.leaky && scene.hole_radius > 0) return add_random_parts<through>(tile, own_pixels, seen, to.boxes);
-                return add_parts<through>(tile, at.grids, own_pixels, seen, to.boxes);
+                return add_parts(tile, at.grids, own_pixels, seen, waiting);
             }
             const F share = seen.share();
             if (optics::none(share > F(0))) return;  // what only other pixels of the block see
@@ -310,14 +314,14 @@ class BlockWork {
                         const F part = part_x.share * part_y.share;
                         if (optics::none(part > F(0))) continue;
                         ready();
-                        add_own_probes<through>(tile, pixels, part_x, part_y, part, Spread(), to.boxes);
+                        add_own_probes(scene, part_x, part_y, part, Spread(), waiting);
                     }
                 }
                 return;
             }
             if (own && at.block.alive && !b.straddles && fine_alone(tile, scene)) {
                 ready();
-                return add_own_probes<through>(tile, pixels, across, up, share, Spread(), to.boxes);
+                return add_own_probes(scene, across, up, share, Spread(), waiting);
             }
             if (own) {
                 const bool covered = scene.hole_radius > 0 && !scene.leaky && at.block.alive && !b.straddles;
@@ -327,10 +331,12 @@ class BlockWork {
             auto add = [&](const SharedBundle& bundle, F weight) {
                 if (bundle.state == SharedBundle::State::dark) return;
                 weight = weight * F(bundle.weight);
-                if (bundle.state == SharedBundle::State::soft)
+                if (bundle.state == SharedBundle::State::soft) {
                     for (int c = 0; c < 3; ++c) to.flat[c] = to.flat[c] + weight * soft_light(bundle, dx, dy, c);
-                else
+                } else {
+                    waiting.trace();
                     add_box(bundle, dx * F(reach), dy * F(reach), weight, to);
+                }
             };
             if (at.per_axis == 0) add(b.through, share * cover);
             if (own_beside) {
@@ -341,6 +347,7 @@ class BlockWork {
                 add(b.beside, share * (F(1) - cover));
             }
         });
+        waiting.trace();
     }
 
     /// f(Seen) for each stratum, with the spans of the lanes at (dx, dy) of the block, -1 .. 1. An axis has at most `most` strata.

@@ -12,21 +12,38 @@ namespace {
 
 using SharedBundle = optics::SharedBundle<S>;
 
-/// Where pixels trace their own rays: by how much the camera's pixel and pupil spread one of them; squared widths of boxes
-/// (optics::blur). That ray goes through the middle of what the block sees of the lens, or as near to it as lies well inside the
-/// lens: near its edge rays may end far from each other that start close together. `across` and `up` are the grid's stratum along x
-/// and y; `rays` is overwritten.
+/// What the camera's pixel and pupil add to the boxes of the pixels' own rays; squared widths (optics::blur).
+struct Blur {
+    S width, height;
+};
+
+/// Behind a weak diffuser it is measured for each of a block's squares of so many pixels, at most four, row after row; without one
+/// it is the pupil's alone, and once a block is enough.
+constexpr int blur_step = 4, most_blurs = 4;
+/// How many squares along an axis.
+LFDSIM_BOTH int blurs_an_axis(const optics::Scene<S>& scene, int block_side) {
+    return scene.has_diffuser ? optics::min(block_side / blur_step, 2) : 1;
+}
+
+/// By how much the camera's pixel and pupil spread a ray, for square number n of a block's. That ray goes through the middle of
+/// what the square sees of the lens, or as near to it as lies well inside the lens: near its edge rays may end far from each other
+/// that start close together. `across` and `up` are the grid's stratum along x and y; `rays` is overwritten.
 template <optics::Way through>
-LFDSIM_BOTH void blur_alone(const optics::Scene<S>& scene, const optics::PixelBlock<S>& block, const Grid& grid,
-                            const Stratum& across, const Stratum& up, optics::Probes<S>& rays, SharedBundle& b) {
-    b.blur_width = b.blur_height = 0;
+LFDSIM_BOTH Blur blur_alone(const optics::Scene<S>& scene, const optics::PixelBlock<S>& block, int n, const Grid& grid,
+                            const Stratum& across, const Stratum& up, optics::Probes<S>& rays) {
+    Blur blur{0, 0};
+    const int squares = blurs_an_axis(scene, 2 * block.reach);
+    const S size = S(1) / S(squares), right = S(2 * (n % squares) + 1) * size - S(1), down = S(2 * (n / squares) + 1) * size - S(1);
+    const auto middle = [&](const Gradient& g) { return g.middle + g.right * right + g.down * down; };
     const Stratum* const of[2] = {&across, &up};
     S at[2], slope[2];
     for (int a = 0; a < 2; ++a) {
         const Gradient &first = grid.axis[a].first, &last = grid.axis[a].last;
-        const S low = optics::min(first.middle, last.middle) - first.reach() - of[a]->axis,
-                high = optics::max(first.middle, last.middle) + first.reach() - of[a]->axis;
-        at[a] = a == grid.strip ? S(0) : S(0.5) * (optics::max(of[a]->from, low) + optics::min(of[a]->to, high));
+        const S reach = first.reach() * size, from = middle(first), to = middle(last);
+        const S low = optics::max(of[a]->from, optics::min(from, to) - reach - of[a]->axis),
+                high = optics::min(of[a]->to, optics::max(from, to) + reach - of[a]->axis);
+        if (a != grid.strip && squares > 1 && !(low < high)) return blur;  // the square does not see the lens
+        at[a] = a == grid.strip ? S(0) : S(0.5) * (low + high);
     }
     const S radius =
         scene.hole_radius > 0 ? scene.hole_radius : optics::min(scene.lattice.half_pitch[0], scene.lattice.half_pitch[1]);
@@ -35,7 +52,9 @@ LFDSIM_BOTH void blur_alone(const optics::Scene<S>& scene, const optics::PixelBl
     for (int a = 0; a < 2 && far > most; ++a) at[a] = at[a] * (most / far);
     for (int a = 0; a < 2; ++a) {
         const S place = of[a]->axis + at[a], below = scene.holes_below[a];
-        slope[a] = scene.has_diffuser ? (place - block.sweep[a][0].at) / below : block.sweep[a][0].slope;
+        const optics::Sweep<S>* const sweep = block.sweep[a];
+        slope[a] = scene.has_diffuser ? (place - middle(Gradient::of(sweep[0].at, sweep[1].at, sweep[2].at))) / below
+                                      : middle(Gradient::of(sweep[0].slope, sweep[1].slope, sweep[2].slope));
         at[a] = place - slope[a] * below;
     }
     const S per = S(1) / S(block.reach);
@@ -62,9 +81,10 @@ LFDSIM_BOTH void blur_alone(const optics::Scene<S>& scene, const optics::PixelBl
             rays.weight[0] * rays.weight[p] > S(0) && rays.cell_i[p] == rays.cell_i[0] && rays.cell_j[p] == rays.cell_j[0];
         if (!counts || !same) continue;
         const S c = rays.column[p] - rays.column[0], r = rays.row[p] - rays.row[0], share = p < 3 ? S(1) : S(3);
-        b.blur_width = b.blur_width + share * c * c;
-        b.blur_height = b.blur_height + share * r * r;
+        blur.width = blur.width + share * c * c;
+        blur.height = blur.height + share * r * r;
     }
+    return blur;
 }
 
 }  // namespace

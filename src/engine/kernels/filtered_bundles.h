@@ -22,7 +22,8 @@ namespace {
 /// What a block sees through a stratum: through its hole and, where light passes there too, beside the hole.
 struct Bundles {
     SharedBundle through, beside;
-    bool straddles;  // the stratum sees other lenses too
+    bool straddles;         // the stratum sees other lenses too
+    Blur blur[most_blurs];  // where pixels trace their own rays behind a weak diffuser or none
 };
 
 /// Do pixels trace their own rays where footprints are wide? With many strata and the smallest blocks: interpolating the light over
@@ -112,8 +113,10 @@ class BundleMaker {
         b.straddles = across.straddles || up.straddles;
         if (scene.by_lens && tile.weak) {
             b.through.state = SharedBundle::State::broken;
+            const int squares = blurs_an_axis(scene, tile.block_side);
             if (scene.thin_lens || (scene.box_filter && scene.has_diffuser))
-                blur_alone<through>(scene, block, *grid, across, up, rays, b.through);
+                for (int n = 0; n < squares * squares; ++n)
+                    b.blur[n] = blur_alone<through>(scene, block, n, *grid, across, up, rays);
             return;
         }
         if (b.straddles || (r > 0 && hole_edge_near(x, y))) {

@@ -147,29 +147,66 @@ struct FourRays {
     F weight;
 };
 
-/// Adds their light: the panel's mean over a box around the end of each, as wide as the distance to the ends of the next ones.
+/// The rays of a packet's pixels that wait to be traced. Pixels of a packet see different lenses and different parts of them: as
+/// long as no pixel has rays through two, all of them are traced at once. Each pixel's light is added in the order of its own rays.
 template <optics::Way through>
-LFDSIM_FN void add_boxes(const Tile& tile, const optics::PixelRays<F>& pixels, const FourRays& rays, const Spread& spread,
-                         optics::Light<F>& light) {
-    const F none = F(0);
-    optics::PanelPoint<F> end[4];
-    for (int p = 0; p < 4; ++p) end[p] = trace_own<through>(tile, pixels, spread.start, rays.a[p], rays.b[p]);
-    for (int p = 0; p < 4; ++p) {
-        F wide = spread.width, high = spread.height;  // squared: the spreads of two directions add up like variances
-        for (int step = 1; step <= 2; ++step) {
-            const optics::PanelPoint<F>& next = end[p ^ step];
-            const optics::Mask<F> lit =
-                rays.counts[p ^ step] && next.alive && (next.cell.i == end[p].cell.i) && (next.cell.j == end[p].cell.j);
-            const F across = next.column - end[p].column, up = next.row - end[p].row;
-            wide = wide + optics::select(lit, across * across, none);
-            high = high + optics::select(lit, up * up, none);
+class WaitingRays {
+  public:
+    LFDSIM_BOTH WaitingRays(const Tile& t, const optics::PixelRays<F>& of, optics::Light<F>& to) : tile(t), pixels(of), light(to) {}
+
+    /// Four more rays of the pixels `seen`.
+    LFDSIM_BOTH void add(const FourRays& more, const Spread& with, optics::Mask<F> seen) {
+        if (optics::any(waits && seen)) trace();
+        const auto take = [seen](F& to, F from) { to = optics::select(seen, from, to); };
+        for (int p = 0; p < 4; ++p) {
+            take(rays.a[p], more.a[p]);
+            take(rays.b[p], more.b[p]);
+            rays.counts[p] = (seen && more.counts[p]) || (!seen && rays.counts[p]);
         }
-        S in_box[optics::LaneTraits<F>::width][4];
-        optics::light_of_boxes(tile.levels, pixels.base, end[p].column, end[p].row, optics::sqrt(wide), optics::sqrt(high),
-                               optics::select(rays.counts[p] && end[p].alive, rays.weight * end[p].weight, none), in_box);
-        light.add(in_box);
+        take(rays.weight, more.weight);
+        take(spread.start.right, with.start.right);
+        take(spread.start.up, with.start.up);
+        take(spread.start.lens_x, with.start.lens_x);
+        take(spread.start.lens_y, with.start.lens_y);
+        take(spread.width, with.width);
+        take(spread.height, with.height);
+        waits = waits || seen;
     }
-}
+
+    /// Adds the light of all that wait: the panel's mean over a box around the end of each ray, as wide as the distance to the ends
+    /// of the next ones.
+    LFDSIM_APART void trace() {
+        if (optics::none(waits)) return;
+        const F none = F(0);
+        optics::PanelPoint<F> end[4];
+        for (int p = 0; p < 4; ++p) end[p] = trace_own<through>(tile, pixels, spread.start, rays.a[p], rays.b[p]);
+        for (int p = 0; p < 4; ++p) {
+            F wide = spread.width, high = spread.height;  // squared: the spreads of two directions add up like variances
+            for (int step = 1; step <= 2; ++step) {
+                const optics::PanelPoint<F>& next = end[p ^ step];
+                const optics::Mask<F> lit =
+                    rays.counts[p ^ step] && next.alive && (next.cell.i == end[p].cell.i) && (next.cell.j == end[p].cell.j);
+                const F across = next.column - end[p].column, up = next.row - end[p].row;
+                wide = wide + optics::select(lit, across * across, none);
+                high = high + optics::select(lit, up * up, none);
+            }
+            S in_box[optics::LaneTraits<F>::width][4];
+            optics::light_of_boxes(tile.levels, pixels.base, end[p].column, end[p].row, optics::sqrt(wide), optics::sqrt(high),
+                                   optics::select(rays.counts[p] && end[p].alive, rays.weight * end[p].weight, none), in_box);
+            light.add(in_box);
+        }
+        waits = none > none;
+        for (int p = 0; p < 4; ++p) rays.counts[p] = waits;
+    }
+
+  private:
+    const Tile& tile;
+    const optics::PixelRays<F>& pixels;
+    optics::Light<F>& light;
+    optics::Mask<F> waits = F(0) > F(0);
+    FourRays rays{};
+    Spread spread;
+};
 
 /// May a polygon overlap a box?
 LFDSIM_BOTH optics::Mask<F> reaches(const optics::Corners<F>& of, const optics::Box<F>& box) {
@@ -196,8 +233,8 @@ LFDSIM_BOTH optics::Moments<F> choose(optics::Mask<F> first, const optics::Momen
 /// Adds the light that pixels see through the part of a box of the diffuser's numbers (x, y) that is inside a lens's cell, by four
 /// rays around its middle.
 template <optics::Way through>
-LFDSIM_APART void add_own_part(const Tile& tile, const optics::PixelRays<F>& pixels, const Span<F>& x, const Span<F>& y,
-                               const optics::Corners<F>& cell, const Spread& spread, optics::Light<F>& light) {
+LFDSIM_APART void add_own_part(const Span<F>& x, const Span<F>& y, const optics::Corners<F>& cell, const Spread& spread,
+                               WaitingRays<through>& waiting) {
     const optics::Box<F> box{x.low, x.high, y.low, y.high};
     const optics::Mask<F> near = reaches(cell, box);
     if (optics::none(near)) return;
@@ -218,16 +255,15 @@ LFDSIM_APART void add_own_part(const Tile& tile, const optics::PixelRays<F>& pix
         rays.a[p] = optics::select(inside, rays.a[p], part.x);
         rays.b[p] = optics::select(inside, rays.b[p], part.y);
     }
-    add_boxes<through>(tile, pixels, rays, spread, light);
+    waiting.add(rays, spread, seen);
 }
 
 /// Adds the light that pixels see through a part (x, y) of a stratum that looks through one lens, by probes of their own: 2 x 2
 /// rays through what the hole covers of it, each with the panel's mean over a box around its end, as wide as the distance to the
 /// ends of the next ones. `weight` is the part's share of the pixel's light.
 template <optics::Way through>
-LFDSIM_APART void add_own_probes(const Tile& tile, const optics::PixelRays<F>& pixels, const Span<F>& x, const Span<F>& y, F weight,
-                                 const Spread& spread, optics::Light<F>& light) {
-    const optics::Scene<S>& scene = *tile.scene;
+LFDSIM_APART void add_own_probes(const optics::Scene<S>& scene, const Span<F>& x, const Span<F>& y, F weight, const Spread& spread,
+                                 WaitingRays<through>& waiting) {
     const F none = F(0), one = F(1), quarter = F(0.25f);
     const bool round = scene.hole_radius > 0;
     if (round) weight = weight * optics::hole_cover(x, y);
@@ -270,7 +306,7 @@ LFDSIM_APART void add_own_probes(const Tile& tile, const optics::PixelRays<F>& p
         rays.b[p] = y.low + (py - first[1]) * per[1];
     }
     rays.weight = weight / optics::max(count, one);
-    add_boxes<through>(tile, pixels, rays, spread, light);
+    waiting.add(rays, spread, seen);
 }
 
 }  // namespace

@@ -125,6 +125,7 @@ struct OwnPixels {
     optics::Uint<F> number;
     F dx, dy;
     S per_reach;
+    int square;  // of the block's, whose Blur is theirs
 
     LFDSIM_BOTH optics::Sampler<F> sampler(const Tile& tile, std::uint32_t sample) const {
         optics::Sampler<F> own(Sampling::random, 6, tile.view->seed, number);
@@ -142,10 +143,10 @@ LFDSIM_BOTH int parts_an_axis(const Tile& tile) { return tile.weak ? (tile.strat
 /// are wider by what a cell spreads.
 template <optics::Way through>
 LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const OwnPixels& pixels, const Seen& seen,
-                            optics::Light<F>& light) {
+                            WaitingRays<through>& waiting) {
     const optics::Scene<S>& scene = *tile.scene;
     const Grid& grid = *seen.grid;
-    const SharedBundle& known = seen.bundles->through;
+    const Blur& known = seen.bundles->blur[pixels.square];
     const bool spreads = scene.thin_lens || (scene.box_filter && scene.has_diffuser), round = scene.hole_radius > 0;
     const int n = parts_an_axis(tile), all = n * n;
     // Of the pixel's variance and, mapped to the disk, of the pupil's that lies within cells.
@@ -154,8 +155,8 @@ LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const OwnPixel
     for (int k = 0; k < all; ++k) {
         Spread spread;
         if (spreads && tile.weak) {
-            spread.width = F(known.blur_width * left);
-            spread.height = F(known.blur_height * left);
+            spread.width = F(known.width * left);
+            spread.height = F(known.height * left);
         }
         if (spreads && !tile.weak) {
             spread.start = random_start(scene, pixels.sampler(tile, seen.number * 8));
@@ -176,11 +177,11 @@ LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const OwnPixel
         const Span<F> x = part_of_span(*seen.across, true, k % n, n, with_holes),
                       y = part_of_span(*seen.up, false, k / n, n, with_holes);
         if (with_holes) {
-            add_own_probes<through>(tile, pixels.rays, x, y, x.share * y.share, spread, light);
+            add_own_probes(scene, x, y, x.share * y.share, spread, waiting);
             continue;
         }
         if (!round && all == 1) {
-            add_own_part<through>(tile, pixels.rays, x, y, *seen.corners, spread, light);
+            add_own_part(x, y, *seen.corners, spread, waiting);
             continue;
         }
         optics::Corners<F> corners;
@@ -193,7 +194,7 @@ LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const OwnPixel
                 corners.y[c] = corners.y[c] + start.lens_x * F(grids.pupil[0][1]) + start.lens_y * F(grids.pupil[1][1]);
             }
         }
-        add_own_part<through>(tile, pixels.rays, x, y, corners, spread, light);
+        add_own_part(x, y, corners, spread, waiting);
     }
 }
 
