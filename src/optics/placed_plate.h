@@ -165,8 +165,8 @@ LFDSIM_FN PanelPoint<F> trace_placed_plate(const Scene<Scalar<F>>& scene, const 
     const Placement<S>& placement = scene.placement;
     const Ray<F> ray = in_array(scene, base, way.ray);
     const Mask<F> no_ray = F(0) > F(1), alive = way.alive && (ray.to.z < F(S(-1e-9)));
-    // Start above all caps.
-    const S top = scene.body_top + (placement.highest > 0 ? placement.highest : S(0));
+    // Start above all caps and holes of stops, which lie in the vertex plane of the highest cap, too.
+    const S above = S(1e-3), top = scene.body_top + (placement.highest > 0 ? placement.highest : S(0)) + above;
     const F up = (F(top - placement.vertex_z) - ray.at.z) / ray.to.z;
     GlassRays<F> rays{{ray.at.x + ray.to.x * up, ray.at.y + ray.to.y * up, F(top)}, ray.to, {F(0), F(0)}, no_ray, no_ray};
     F weight = way.weight;
