@@ -14,12 +14,17 @@ std::optional<double> meant_slope(const Pickup& pickup, const Geometry& g, doubl
     if (!lattice.strips) {
         const NodalLine line = pickup.line(x_mm, y_mm);
         if (!line.owned) return {};
+        if (pickup.irregular()) return line.mx + line.x * (pickup.scale - 1) / g.gap_mm;  // 1/E = (scale - 1)/g
         return (line.x * pickup.scale - x_mm) / g.gap_mm;
     }
     // The whole pixel, which a strip's edge cuts obliquely, shows what its centre is meant for.
     const double x = pickup.x_mm(pickup.column(x_mm)), y = pickup.y_mm(pickup.row(y_mm));
     const NodalLine line = pickup.line(x, y);
     if (!line.owned) return {};
+    if (pickup.irregular()) {
+        const double per_mm = (pickup.scale - 1) / g.gap_mm;
+        return optics::to_array(lattice, line.mx + line.x * per_mm, line.my + line.y * per_mm).x / lattice.cos_turn;
+    }
     return optics::to_array(lattice, line.x * pickup.scale - x, line.y * pickup.scale - y).x / (g.gap_mm * lattice.cos_turn);
 }
 

@@ -23,7 +23,7 @@ class PickupRays {
     PickupRays(const Display& display, const Geometry& geometry, const Vec3d& centre_mm, const Vec3d& half_mm,
                const std::vector<LensMapping>& mappings)
         : pickup_(display, geometry),
-          apart_(geometry.turn_deg != 0 || is_staggered(display.array) || is_strips(display.array)),
+          apart_(geometry.turn_deg != 0 || is_staggered(display.array) || is_strips(display.array) || pickup_.irregular()),
           half_mm_(half_mm),
           centre_mm_(centre_mm),
           half_depth_(half_mm_[2] * 1.0001 + 1e-3),

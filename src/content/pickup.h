@@ -1,5 +1,6 @@
 // The nodal pick-up: which lens owns a panel pixel, and along which line that lens shows it. docs/model.md, "Elemental images".
 #pragma once
+#include "content/moved_lenses.h"
 #include "model/display.h"
 #include "model/geometry.h"
 #include "optics/lattice.h"
@@ -11,7 +12,8 @@
 namespace lfdsim {
 
 /// The line { (x, y) + (z - z_rear) (mx, my) } on the viewer's side of the lens: from panel point P through the front nodal point,
-/// then parallel to itself from the rear one. (x, y) is the lens's axis. Or a line that is shifted against it.
+/// then parallel to itself from the rear one. (x, y) is the lens's axis, unless it stands by itself. Or a line that is shifted
+/// against it.
 struct NodalLine {
     double x, y, mx, my;
     bool owned;         // false: the nearest elemental image belongs to no lens, the pixel stays black
@@ -21,7 +23,7 @@ struct NodalLine {
 class Pickup {
   public:
     /// Of elemental images made for a display, `g` its resolve().
-    Pickup(const Display& d, const Geometry& g) : Pickup(d, Meant{meant_geometry(d, g)}) {}
+    Pickup(const Display& d, const Geometry& g) : Pickup(d, Meant{meant_geometry(d, g)}) { moved_ = moved_lenses(d, g); }
 
   private:
     struct Meant {
@@ -65,6 +67,7 @@ class Pickup {
     /// frame. It answers whether light of that point leaves the lens. Of strips its x and mx count.
     template <class ShiftOf>
     NodalLine line(double x, double y, const ShiftOf& shift_of) const {
+        if (moved_) return line_of_moved(x, y, shift_of);
         const auto at =
             optics::to_array(lattice_, x * inverse_scale_ - lattice_.offset[0], y * inverse_scale_ - lattice_.offset[1]);
         if (lattice_.strips) return line_of_strip(x, y, at.x, shift_of);
@@ -84,6 +87,8 @@ class Pickup {
     }
 
     const Lattice<double>& lattice() const { return lattice_; }
+    /// Whether lenses stand by themselves: columns and rows then have nothing in common.
+    bool irregular() const { return moved_ != nullptr; }
 
     /// Where the panel point (x, y) lies in its elemental image: in the array's axes, units of the elemental pitch, 0 at the
     /// centre, -0.5 .. 0.5.
@@ -93,22 +98,94 @@ class Pickup {
     };
     Place place(double x, double y) const {
         const NodalLine l = line(x, y);
-        const auto off = optics::to_array(lattice_, x - l.x * scale, y - l.y * scale);
+        auto off = optics::to_array(lattice_, x - l.x * scale, y - l.y * scale);
+        if (moved_) {
+            const auto centre = image_centre(owner_of_moved(x, y));
+            off = optics::to_array(lattice_, x - centre.x, y - centre.y);
+        }
         return {off.x / (lattice_.pitch[0] * scale), lattice_.strips ? 0 : off.y / (lattice_.pitch[1] * scale), l.owned};
     }
 
   private:
+    /// A lens's nodal points from the array's middle, in the array's frame, mm; 1/g of that lens; how far its rear one is above
+    /// those of lenses as described.
+    struct Nodal {
+        optics::Place<double> front, rear;
+        double per_gap, up;
+    };
+
+    /// Of a lens that stands by itself, or where there is none of the nearest.
+    Nodal nodal(optics::Cell<double> lens) const {
+        const auto within = [&](double k, int axis) { return std::clamp(k, 0., lattice_.count[axis] - 1); };
+        lens = {within(lens.i, 0), within(lens.j, 1)};
+        const MovedLens& moved = (*moved_)[std::size_t(lens.j * lattice_.count[0] + lens.i)];
+        const auto at = optics::axis_in_array(lattice_, lens);
+        return {{at.x + moved.front.x, at.y + moved.front.y},
+                {at.x + moved.rear.x, at.y + moved.rear.y},
+                1 / (1 / inverse_gap_ + moved.front.z),
+                moved.rear.z};
+    }
+
+    /// Where on the panel the middle of that lens's elemental image is: its line goes to the viewer.
+    optics::Place<double> image_centre(optics::Cell<double> lens) const {
+        const Nodal at = nodal(lens);
+        const auto front = optics::in_display(lattice_, at.front), rear = optics::in_display(lattice_, at.rear);
+        const double slope = 1 / (viewer_ - z_rear - at.up) / at.per_gap;  // 0 of a viewer at infinity
+        return {front.x + rear.x * slope, front.y + rear.y * slope};
+    }
+
+    optics::Cell<double> lens_near(double x, double y) const {
+        const auto at =
+            optics::to_array(lattice_, x * inverse_scale_ - lattice_.offset[0], y * inverse_scale_ - lattice_.offset[1]);
+        return optics::lens_at(lattice_, at.x, at.y);
+    }
+
+    /// The lens in whose cell, moved to where its elemental image is, a panel point lies: found in a few steps.
+    optics::Cell<double> owner_of_moved(double x, double y) const {
+        optics::Cell<double> lens = lens_near(x, y);
+        for (int step = 0; step < 8; ++step) {
+            const optics::Cell<double> near{std::clamp(lens.i, 0., lattice_.count[0] - 1),
+                                            std::clamp(lens.j, 0., lattice_.count[1] - 1)};
+            const auto centre = image_centre(near), described = optics::in_display(lattice_, optics::axis_in_array(lattice_, near));
+            const auto next = lens_near(x - (centre.x - described.x * scale), y - (centre.y - described.y * scale));
+            if (next.i == lens.i && next.j == lens.j) break;
+            lens = next;
+        }
+        return lens;
+    }
+
+    template <class ShiftOf>
+    NodalLine line_of_moved(double x, double y, const ShiftOf& shift_of) const {
+        const optics::Cell<double> lens = owner_of_moved(x, y);
+        const Nodal at = nodal(lens);
+        if (lattice_.strips) return line_of_strip(x, y, lens, at, shift_of);
+        const auto p = optics::to_array(lattice_, x - lattice_.offset[0], y - lattice_.offset[1]);
+        Shift shift;
+        const bool lit = shift_of(p.x - at.front.x, p.y - at.front.y, shift);
+        const double mx = (at.front.x - p.x) * at.per_gap + shift.mx, my = (at.front.y - p.y) * at.per_gap + shift.my;
+        const auto through =
+            optics::in_display(lattice_, optics::Place<double>{at.rear.x + shift.x - mx * at.up, at.rear.y + shift.y - my * at.up});
+        const auto slope = optics::to_display(lattice_, mx, my);
+        return {through.x, through.y, slope.x, slope.y, optics::holds(lattice_, lens), !lit};
+    }
+
     /// Strips show a panel point in the plane through their rear nodal line, in which the viewer's eyes, on a level with the
     /// panel's middle at the distance D, see it from one place. Along the strip its light passes plane plates: in the array's frame
     /// it rises by m_y for each mm of their reduced thickness.
     template <class ShiftOf>
     NodalLine line_of_strip(double x, double y, double owner_x, const ShiftOf& shift_of) const {
         const optics::Cell<double> lens{number(owner_x, 0), 0};
-        const double axis = optics::axis_in_array(lattice_, lens).x, c = lattice_.cos_turn, s = lattice_.sin_turn;
+        const double axis = optics::axis_in_array(lattice_, lens).x;
+        return line_of_strip(x, y, lens, {{axis, 0}, {axis, 0}, inverse_gap_, 0}, shift_of);
+    }
+
+    template <class ShiftOf>
+    NodalLine line_of_strip(double x, double y, optics::Cell<double> lens, const Nodal& at_lens, const ShiftOf& shift_of) const {
+        const double c = lattice_.cos_turn, s = lattice_.sin_turn;
         const auto p = optics::to_array(lattice_, x - lattice_.offset[0], y - lattice_.offset[1]);
         Shift shift;
-        const bool lit = shift_of(p.x - axis, 0., shift);
-        const double centre = axis + shift.x, mx = (axis - p.x) * inverse_gap_ + shift.mx;
+        const bool lit = shift_of(p.x - at_lens.front.x, 0., shift);
+        const double mx = (at_lens.front.x - p.x) * at_lens.per_gap + shift.mx, centre = at_lens.rear.x + shift.x - mx * at_lens.up;
         double my = -s / c * mx;
         if (!std::isinf(viewer_)) {
             // The eye is on the display's line y = 0, where it crosses the strip's plane of light; from the array's middle.
@@ -130,6 +207,7 @@ class Pickup {
         return whole > near ? whole - 1 : whole;
     }
 
+    std::shared_ptr<const std::vector<MovedLens>> moved_;  // none where all stand in the lattice alike
     Lattice<double> lattice_;
     double viewer_, top_z_, reduced_top_;  // the viewer's distance, the vertex plane's, and its reduced one, from the panel, mm
     double inverse_gap_, pixel_, left_, top_;

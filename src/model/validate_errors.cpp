@@ -24,10 +24,9 @@ class ErrorsCheck {
         if (d_.array.surround == Surround::plate && is_irregular(e_) && hollow())
             findings_.add("errors", "{}",
                           "move or curve lenses that are hollow in a moulded plate, of which they are no parts; leave them out");
-        if (d_.content.made_for == MadeFor::built && is_irregular(e_))
+        if (d_.content.made_for == MadeFor::built && is_strips(d_.array) && is_wedged(e_))
             findings_.add("content.made_for", "{}",
-                          "is \"built\", but elemental images cannot know of a wedge, a bow and errors of single lenses yet; take "
-                          "\"description\"");
+                          "is \"built\", but elemental images cannot know of strips' wedge; take \"description\"");
         if (d_.lens.type() == LensType::pinhole)
             refuse_each("curvature_sd", e_.curvature_sd != 0, "curvatures", has(&LensErrorBounds::curvature),
                         "a pinhole has no curvature");

@@ -249,7 +249,7 @@ INSTANTIATE_TEST_SUITE_P(Errors, Fault, testing::Values(
     Case{"errors.bow_mm", "into the panel", [](Display& d) { d.errors.bow_mm = -14; }},
     Case{"errors.decenter_sd_mm", "at most 0.6 mm", [](Display& d) { d.errors.decenter_sd_mm = 0.201; }},
     Case{"errors.curvature_sd", "would not reach the rim", [](Display& d) { d.errors.curvature_sd = 0.08; }},
-    Case{"content.made_for", "single lenses", [](Display& d) { d.errors.bow_mm = 0.1; d.content.made_for = MadeFor::built; }}));
+    Case{"content.made_for", "strips' wedge", [](Display& d) { d.array.lattice = LatticeKind::strips; d.array.count.reset(); d.errors.wedge_deg = {0, 0.1}; d.content.made_for = MadeFor::built; }}));
 TEST(Validate, ErrorsThatCanBe) {
     Display glued = example_glued(), plate = example_plate();
     glued.errors = {.shift_mm = {0.3, -0.2}, .rotation_deg = 1, .pitch_ppm = 100, .decenter_sd_mm = 0.01, .curvature_sd = 0.01};
