@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import concurrent.futures
 import contextlib
 import json
 import os
@@ -19,31 +18,35 @@ ATTEMPTS = 3  # at a chunk in whose work a process dies
 
 def run(plan: Plan, chunks: Iterable[int], workers: int, threads: int) -> Iterator[tuple[int, dict]]:
     """Yields (chunk, what became of it) as they end. Processes that die are replaced. Stopped (Ctrl-C, an error), it stops them."""
-    idle: queue.SimpleQueue[_Process] = queue.SimpleQueue()
-    processes = [_Process(plan, threads) for _ in range(workers)]
-    for process in processes:
-        idle.put(process)
+    wanted: queue.SimpleQueue[int] = queue.SimpleQueue()
+    for chunk in chunks:
+        wanted.put(chunk)
+    # Only a simple queue can be left by Ctrl-C at any moment: futures keep locks then, on which others wait for ever.
+    ended: queue.SimpleQueue[tuple[int, dict | Exception]] = queue.SimpleQueue()
 
-    def one(chunk: int) -> dict:
-        process = idle.get()
-        try:
-            return process.run(chunk)
-        finally:
-            idle.put(process)
+    def drive(process: _Process) -> None:
+        while not process.stopped:
+            try:
+                chunk = wanted.get_nowait()
+            except queue.Empty:
+                return
+            try:
+                ended.put((chunk, process.run(chunk)))
+            except Exception as error:
+                ended.put((chunk, error))
 
-    pool = concurrent.futures.ThreadPoolExecutor(workers)
+    left, processes = wanted.qsize(), [_Process(plan, threads) for _ in range(workers)]
     try:
-        left = iter(chunks)
-        pending = {pool.submit(one, c): c for _, c in zip(range(2 * workers), left)}
-        while pending:
-            done, _ = concurrent.futures.wait(pending, return_when=concurrent.futures.FIRST_COMPLETED)
-            for future in done:
-                yield pending.pop(future), future.result()
-                pending.update({pool.submit(one, c): c for _, c in zip(range(1), left)})
+        for process in processes:
+            threading.Thread(target=drive, args=(process,), daemon=True).start()
+        for _ in range(left):
+            chunk, result = ended.get()
+            if isinstance(result, Exception):
+                raise result
+            yield chunk, result
     finally:
         for process in processes:
             process.stop()
-        pool.shutdown(cancel_futures=True)
 
 
 class _Process:
