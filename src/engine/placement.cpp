@@ -3,6 +3,7 @@
 #include "model/lens_errors.h"
 #include "model/numbers.h"
 #include "model/prescription.h"
+#include "optics/lattice.h"
 
 #include <algorithm>
 #include <cmath>
