@@ -1,6 +1,7 @@
 #include "content/content.h"
 #include "content/pickup.h"
 #include "image/encoding.h"
+#include "model/lens_errors.h"
 #include "model/numbers.h"
 
 #include <fmt/format.h>

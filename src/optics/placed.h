@@ -291,19 +291,19 @@ struct Placed : InArray<F> {
     /// Takes the rays from `ahead` that pass a hole on a straight part of their way: from `at`, in the lens's frame, z from the
     /// panel, between these path lengths.
     LFDSIM_FN void stop_between(F from, F end, Vec3<F> at, Vec3<F> to, Mask<F>& ahead) const {
-        const auto& scene = this->scene;
-        Vec3<F> p{at.x, at.y, at.z - F(scene.placement.vertex_z)}, d = to;
-        if (scene.placement.tilted) {
+        const auto& here = this->scene;
+        Vec3<F> p{at.x, at.y, at.z - F(here.placement.vertex_z)}, d = to;
+        if (here.placement.tilted) {
             p = stand.turned_out(p);
             d = stand.turned_out(d);
         }
-        const Place<F> axis = axis_of(scene.lattice, this->cell);
+        const Place<F> axis = axis_of(here.lattice, this->cell);
         p = {p.x + axis.x + stand.x, p.y + axis.y + stand.y, p.z + stand.z};
-        ahead = ahead && !passes_hole(scene, this->cell, stand, p, d, from, end);
+        ahead = ahead && !passes_hole(here, this->cell, stand, p, d, from, end);
         if (none(ahead)) return;
-        const F near = (F(scene.stop_z - scene.placement.vertex_z) + stand.z - p.z) / d.z;
+        const F near = (F(here.stop_z - here.placement.vertex_z) + stand.z - p.z) / d.z;
         const Vec3<F> start = p, along = d;
-        ahead = ahead && !passes_any_hole(scene, this->extent, start, along, near, from, end, ahead);
+        ahead = ahead && !passes_any_hole(here, this->extent, start, along, near, from, end, ahead);
     }
 };
 

@@ -252,9 +252,14 @@ INSTANTIATE_TEST_SUITE_P(Errors, Fault, testing::Values(
     Case{"content.made_for", "strips' wedge", [](Display& d) { d.array.lattice = LatticeKind::strips; d.array.count.reset(); d.errors.wedge_deg = {0, 0.1}; d.content.made_for = MadeFor::built; }}));
 TEST(Validate, ErrorsThatCanBe) {
     Display glued = example_glued(), plate = example_plate();
-    glued.errors = {.shift_mm = {0.3, -0.2}, .rotation_deg = 1, .pitch_ppm = 100, .decenter_sd_mm = 0.01, .curvature_sd = 0.01};
+    glued.errors.shift_mm = {0.3, -0.2};
+    glued.errors.rotation_deg = 1;
+    glued.errors.pitch_ppm = 100;
+    glued.errors.decenter_sd_mm = glued.errors.curvature_sd = 0.01;
     EXPECT_TRUE(validate(glued).empty());
-    plate.errors = {.gap_mm = 0.1, .wedge_deg = {0.1, 0}, .bow_mm = 0.1, .decenter_sd_mm = 0.01, .height_sd_mm = 0.01};
+    plate.errors.gap_mm = plate.errors.bow_mm = 0.1;
+    plate.errors.wedge_deg = {0.1, 0};
+    plate.errors.decenter_sd_mm = plate.errors.height_sd_mm = 0.01;
     EXPECT_TRUE(validate(plate).empty());
 }
 INSTANTIATE_TEST_SUITE_P(Glass, Fault, testing::Values(
