@@ -4,6 +4,7 @@
 #include "analysis/mtf.h"
 #include "analysis/mtf_curves.h"
 #include "model/numbers.h"
+#include "optics/scene.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -140,12 +141,15 @@ void expect_that_of_nodal_rays(std::initializer_list<double> angles_deg, std::in
                             const std::complex<double> wave = transform(expected[c][axis], f);
                             luminance += luminance_weights[c] * wave;
                             EXPECT_NEAR(m.channels[c].modulation.all[n], std::abs(wave), 0.015) << where(f) << " " << c;
-                            if (paraxial)
+                            if (paraxial) {
                                 EXPECT_NEAR(m.channels[c].theory[n], m.channels[c].pixels_anywhere[n], 0.03)
                                     << where(f) << " " << c;
+                            }
                         }
                         EXPECT_NEAR(m.modulation.all[n], std::abs(luminance), 0.015) << where(f);
-                        if (paraxial) EXPECT_NEAR(m.theory[n], m.pixels_anywhere[n], 0.03) << where(f);
+                        if (paraxial) {
+                            EXPECT_NEAR(m.theory[n], m.pixels_anywhere[n], 0.03) << where(f);
+                        }
                     }
                     for (const std::size_t c : {0u, 2u}) {
                         const double fringe = mean_of(expected[c][axis]) - mean_of(expected[1][axis]);

@@ -5,6 +5,7 @@
 
 #include "../model/panels.h"
 #include "engine/scene.h"
+#include "model/keys.h"
 #include "optics/footprint.h"
 #include "pictures.h"
 
