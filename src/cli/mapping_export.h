@@ -1,5 +1,6 @@
 // A lens's mapping in files, for those who drive the hardware. Floor 5.
 #pragma once
+#include "cli/command.h"
 #include "cli/progress.h"
 #include "model/display.h"
 #include "model/geometry.h"
