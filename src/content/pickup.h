@@ -114,10 +114,14 @@ class Pickup {
         double per_gap, up;
     };
 
-    /// Of a lens that stands by itself, or where there is none of the nearest.
+    /// The lens at that number, or where there is none the nearest.
+    optics::Cell<double> nearest(optics::Cell<double> lens) const {
+        return {std::clamp(lens.i, 0., lattice_.count[0] - 1), std::clamp(lens.j, 0., lattice_.count[1] - 1)};
+    }
+
+    /// Of a lens that stands by itself.
     Nodal nodal(optics::Cell<double> lens) const {
-        const auto within = [&](double k, int axis) { return std::clamp(k, 0., lattice_.count[axis] - 1); };
-        lens = {within(lens.i, 0), within(lens.j, 1)};
+        lens = nearest(lens);
         const MovedLens& moved = (*moved_)[std::size_t(lens.j * lattice_.count[0] + lens.i)];
         const auto at = optics::axis_in_array(lattice_, lens);
         return {{at.x + moved.front.x, at.y + moved.front.y},
@@ -144,8 +148,7 @@ class Pickup {
     optics::Cell<double> owner_of_moved(double x, double y) const {
         optics::Cell<double> lens = lens_near(x, y);
         for (int step = 0; step < 8; ++step) {
-            const optics::Cell<double> near{std::clamp(lens.i, 0., lattice_.count[0] - 1),
-                                            std::clamp(lens.j, 0., lattice_.count[1] - 1)};
+            const optics::Cell<double> near = nearest(lens);
             const auto centre = image_centre(near), described = optics::in_display(lattice_, optics::axis_in_array(lattice_, near));
             const auto next = lens_near(x - (centre.x - described.x * scale), y - (centre.y - described.y * scale));
             if (next.i == lens.i && next.j == lens.j) break;
