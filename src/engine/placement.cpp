@@ -28,8 +28,8 @@ struct Extremes {
 template <class S>
 optics::PlacedLens<S> placed(const LensError& e) {
     const double x = e.tilt_deg[0] * degree, y = e.tilt_deg[1] * degree;
-    return {S(e.aside_mm[0]), S(e.aside_mm[1]), S(e.height_mm), S(1 + e.curvature),
-            S(std::cos(x)),   S(std::sin(x)),   S(std::cos(y)), S(std::sin(y))};
+    return {{S(e.aside_mm[0]), S(e.aside_mm[1]), S(e.height_mm), S(1 + e.curvature)},
+            {S(std::cos(x)), S(std::sin(x)), S(std::cos(y)), S(std::sin(y))}};
 }
 
 /// Lowest and highest sag of a surface, whatever the lens's curvature is.

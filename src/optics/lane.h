@@ -4,6 +4,7 @@
 // Every operation rounds once, as IEEE 754 says, so that all instruction sets agree to the last bit.
 #pragma once
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "optics/config.h"
@@ -24,6 +25,9 @@ struct LaneTraits {
         return *from;
     }
     static LFDSIM_FN void store(F a, F* to) { *to = a; }
+    static LFDSIM_FN void load_rows(const F* from, const std::uint32_t* row, F (&to)[4]) {
+        for (int k = 0; k < 4; ++k) to[k] = from[std::size_t(row[0]) * 4 + std::size_t(k)];
+    }
 };
 template <class F>
 using Scalar = typename LaneTraits<F>::Scalar;
@@ -94,6 +98,12 @@ LFDSIM_FN void store(F a, Scalar<F>* to) {
 template <class U>
 LFDSIM_FN void store(U a, std::uint32_t* to) {
     __builtin_memcpy(to, &a, sizeof a);
+}
+
+/// Reads a row of four numbers for each lane: row[l] of those that begin at `from`. to[k] holds the k-th of each.
+template <class F>
+LFDSIM_FN void load_rows(const Scalar<F>* from, const std::uint32_t* row, F (&to)[4]) {
+    LaneTraits<F>::load_rows(from, row, to);
 }
 
 template <class M>

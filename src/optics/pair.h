@@ -61,6 +61,12 @@ struct LaneTraits<Pair<H>> {
     static LFDSIM_FN T load(const S* from) {
         return {optics::load<H>(from), optics::load<H>(from + width / 2)};
     }
+    static LFDSIM_FN void load_rows(const Scalar* from, const std::uint32_t* row, Pair<H> (&to)[4]) {
+        H a[4], b[4];
+        optics::load_rows<H>(from, row, a);
+        optics::load_rows<H>(from, row + width / 2, b);
+        for (int k = 0; k < 4; ++k) to[k] = {a[k], b[k]};
+    }
 };
 
 template <class M>

@@ -34,17 +34,13 @@ LFDSIM_FN Stand<F> stand_of(const Scene<Scalar<F>>& scene, const Extent<Scalar<F
     const F zero = F(0), one = F(1);
     if (!placement.lens) return {zero, zero, zero, one, one, zero, one, zero};
     const F number = (cell.j - F(extent.low_j)) * F(scene.lattice.count[0]) + (cell.i - F(extent.low_i));
-    std::uint32_t of[N];
-    store(to_int(select(there, number, zero)), of);
-    S number_of[N];
-    const auto all = [&](auto member) {
-        for (int k = 0; k < N; ++k) number_of[k] = placement.lens[of[k]].*member;
-        return load<F>(number_of);
-    };
-    using Lens = PlacedLens<S>;
-    const F x = all(&Lens::x), y = all(&Lens::y), z = all(&Lens::z), curvature = placement.curved ? all(&Lens::curvature) : one;
-    if (!placement.tilted) return {x, y, z, curvature, one, zero, one, zero};
-    return {x, y, z, curvature, all(&Lens::cos_x), all(&Lens::sin_x), all(&Lens::cos_y), all(&Lens::sin_y)};
+    std::uint32_t row[N];  // a lens is two rows of four numbers
+    store(to_int(select(there, number, zero)) << 1, row);
+    F place[4], turn[4];
+    load_rows(placement.lens->place, row, place);
+    if (!placement.tilted) return {place[0], place[1], place[2], place[3], one, zero, one, zero};
+    load_rows(placement.lens->turn, row, turn);
+    return {place[0], place[1], place[2], place[3], turn[0], turn[1], turn[2], turn[3]};
 }
 
 /// A surface whose curvature differs from lens to lens, as meet() and sag() take it.
@@ -73,12 +69,13 @@ struct CurvedSurface {
 };
 
 /// Where a ray meets surface k of lenses that stand like this.
-template <class F>
+template <Shapes shapes, class F>
 LFDSIM_FN Hit<F> meet_curved(const Scene<Scalar<F>>& scene, int k, const Ray<F>& in_vertex_plane, F factor) {
-    if (!scene.placement.curved) return meet<Shapes::all>(scene, k, in_vertex_plane);
+    const Shape shape = shape_of<shapes>(scene, k);
+    if (!scene.placement.curved || shape == Shape::plane) return meet<shapes>(scene, k, in_vertex_plane);
     const CurvedSurface<F> surface(scene.surface[k], factor);
-    return scene.lattice.strips ? meet_cylinder(surface.shape, surface, in_vertex_plane)
-                                : meet(surface.shape, surface, in_vertex_plane);
+    return shapes == Shapes::all && scene.lattice.strips ? meet_cylinder(shape, surface, in_vertex_plane)
+                                                         : meet(shape, surface, in_vertex_plane);
 }
 
 /// z of the highest rim of a lens's surfaces, or of the lowest.
@@ -108,9 +105,14 @@ struct Encounter {
     Mask<F> enters;
 };
 
-/// `ray` in the array's frame, z from the vertex plane.
-template <class F>
-LFDSIM_FN Encounter<F> meet_placed(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray,
+template <Shapes shapes, class S>
+LFDSIM_FN bool are_thin(const Scene<S>& scene) {
+    return shapes == Shapes::all && scene.thin;
+}
+
+/// `ray` in the array's frame, z from the vertex plane; fall = 1 / ray.to.z.
+template <Shapes shapes, class F>
+LFDSIM_FN Encounter<F> meet_placed(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F fall,
                                    Cell<F> cell) {
     using S = Scalar<F>;
     const Mask<F> there = extent.holds(cell);
@@ -120,28 +122,30 @@ LFDSIM_FN Encounter<F> meet_placed(const Scene<Scalar<F>>& scene, const Extent<S
     if (scene.placement.tilted) {
         from = at.stand.turned_in(from);
         to = at.stand.turned_in(to);
+        fall = F(1) / to.z;
     }
     const Mask<F> comes = there && (to.z < F(0));
-    const S vertex = scene.thin ? scene.ideal_z : scene.surface[0].z;
-    at.way = (F(vertex - scene.placement.vertex_z) - from.z) / to.z;
+    const bool thin = are_thin<shapes>(scene);
+    const S vertex = thin ? scene.ideal_z : scene.surface[0].z;
+    at.way = (F(vertex - scene.placement.vertex_z) - from.z) * fall;
     at.entering = {{from.x + to.x * at.way, from.y + to.y * at.way, F(0)}, to};
     const Vec3<F>& p = at.entering.at;
-    if (scene.thin) {
+    if (thin) {
         const F across_y = across(scene.lattice, p.y), r = F(scene.aperture_radius);
         at.hit = {p, {F(0), F(0), F(1)}, -to.z, to.z * to.z, p.x * p.x + across_y * across_y <= r * r};
         if (scene.aperture == Aperture::cell) at.hit.ok = in_cell(scene.lattice, p.x, p.y);
         at.enters = comes && at.hit.ok;
     } else {
-        at.hit = meet_curved(scene, 0, at.entering, at.stand.curvature);
+        at.hit = meet_curved<shapes>(scene, 0, at.entering, at.stand.curvature);
         at.hit.ok = inside_cell(scene, at.hit.at, at.hit.ok);
-        if (scene.dimple) {  // the entrance is the rim
-            const F down = (outmost_rim(scene, true, at.stand.curvature) - F(vertex)) / to.z;
+        if (!are_plano_convex<shapes> && scene.dimple) {  // the entrance is the rim
+            const F down = (outmost_rim(scene, true, at.stand.curvature) - F(vertex)) * fall;
             const F x = p.x + to.x * down, y = across(scene.lattice, p.y + to.y * down), r = F(scene.surface[0].semi_aperture);
             at.enters = inside_cell(scene, Vec3<F>{x, p.y + to.y * down, F(0)}, comes && (x * x + y * y <= r * r));
             at.way = at.way + down;
         } else {
             at.enters = comes && at.hit.ok;
-            at.way = at.way + at.hit.at.z / to.z;
+            at.way = at.way + at.hit.at.z * fall;
         }
     }
     at.hit.ok = at.hit.ok && at.enters;
@@ -175,42 +179,80 @@ LFDSIM_FN void around(const Lattice<Scalar<F>>& lattice, Cell<F> cell, const Do&
         for (int i = -1; i <= 1; ++i) do_it(Cell<F>{cell.i + F(S(i)), cell.j + F(S(j))});
 }
 
-/// The rays of `astray` pass cells whose neighbours' lenses may stand out into them: finds the lens that each meets first, if it
-/// meets any before the one at hand. (x, y): where a ray comes down to search_top; m: its lateral displacement per mm of descent.
+/// Takes what rays of `near` meet in a cell, if they meet its lens before the one at hand.
+template <Shapes shapes, class F>
+LFDSIM_FN void meet_in(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F fall, Cell<F> cell,
+                       Mask<F> near, Encounter<F>& first) {
+    const Encounter<F> next = meet_placed<shapes>(scene, extent, ray, fall, cell);
+    take(near && next.enters && (!first.enters || (next.way < first.way)), next, first);
+}
+
+/// Which ways, seen from above and from the axis of their own cell, come near one of its borders only? Lenses stand out of theirs
+/// by up to `reach`: such a way leads past no other lens than that of the cell beyond the border, `other`. (Of hexagons, the part
+/// between the other borders' lines is in that cell; low bricks may have two beyond a border.)
 template <class F>
-LFDSIM_RARE void meet_all_around(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F x, F y, F mx,
-                                 F my, Mask<F> astray, Encounter<F>& first) {
+LFDSIM_FN Mask<F> nears_one_border(const Lattice<Scalar<F>>& lattice, Cell<F> own, Place<F> from, Place<F> end, F reach,
+                                   Cell<F>& other) {
+    using S = Scalar<F>;
+    const F zero = F(0), one = F(1);
+    F pair = zero, side = zero, borders_near = zero;
+    Mask<F> ends_there = zero < one;
+    for (int k = 0; k < border_pairs(lattice); ++k) {
+        const Borders<S> of = borders(lattice, k);
+        const F a = F(of.x) * from.x + F(of.y) * from.y, b = F(of.x) * end.x + F(of.y) * end.y;
+        const F low = min(a, b), high = max(a, b), inside = F(of.half) - reach;
+        const Mask<F> below = low < -inside, above = high > inside;
+        borders_near = borders_near + (select(below, one, zero) + select(above, one, zero));
+        pair = select(below || above, F(S(k)), pair);
+        side = select(above, one, select(below, -one, side));
+        ends_there = ends_there && (max(-low, high) < F(S(2) * of.half) + inside);
+    }
+    other = cell_beyond(lattice, own, pair, side, zero);
+    return ends_there && (borders_near == one);
+}
+
+/// The rays of `astray` pass cells whose neighbours' lenses may stand out into them: finds the lens that each meets first, if it
+/// meets any before the one at hand. `from`, `end`: where they come down to search_top, and where their ways end, from the axis of
+/// their own cell; `at`: the former from the base lens's axis.
+template <Shapes shapes, class F>
+LFDSIM_RARE void meet_others(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F fall, Place<F> from,
+                             Place<F> end, Place<F> at, Mask<F> astray, Encounter<F>& first) {
     using S = Scalar<F>;
     const Placement<S>& placement = scene.placement;
-    const F depth = F(placement.search_top - placement.search_bottom), r2 = F(placement.radius * placement.radius);
-    const F length2 = max(mx * mx + my * my, F(S(1e-20)));
     const Cell<F> own = first.cell;
+    Cell<F> other = own;
+    if (!(scene.lattice.staggered && !scene.lattice.hexagonal) &&
+        none(astray && !nears_one_border(scene.lattice, own, from, end, F(max(placement.reach, S(0))), other)))
+        return meet_in<shapes>(scene, extent, ray, fall, other, astray, first);
+
+    const F depth = F(placement.search_top - placement.search_bottom), r2 = F(placement.radius * placement.radius);
+    const Place<F> m{-(ray.to.x * fall), -(ray.to.y * fall)};  // lateral displacement per mm of descent
+    const F length2 = max(m.x * m.x + m.y * m.y, F(S(1e-20)));
     // Lenses at the array's border may stand out of all cells.
     const Extent<S> wider{extent.low_i - 1, extent.high_i + 1, extent.low_j - 1, extent.high_j + 1};
-    walk_cells(scene, wider, x, y, mx, my, F(0), depth, astray, [&](Cell<F> cell, Mask<F> active) {
+    walk_cells(scene, wider, at.x, at.y, m.x, m.y, F(0), depth, astray, [&](Cell<F> cell, Mask<F> active) {
         around(scene.lattice, cell, [&](Cell<F> here) {
             // The point of the way that is nearest to the axis
             const Place<F> axis = axis_of(scene.lattice, here);
-            const F dx = axis.x - x, dy = across(scene.lattice, axis.y - y);
-            const F s = min(max((dx * mx + dy * my) / length2, F(0)), depth);
-            const F ex = dx - mx * s, ey = across(scene.lattice, dy - my * s);
+            const F dx = axis.x - at.x, dy = across(scene.lattice, axis.y - at.y);
+            const F s = min(max((dx * m.x + dy * m.y) / length2, F(0)), depth);
+            const F ex = dx - m.x * s, ey = across(scene.lattice, dy - m.y * s);
             const Mask<F> known = (here.i == own.i) && (here.j == own.j),
                           near = active && !known && extent.holds(here) && (ex * ex + ey * ey <= r2);
             if (none(near)) return;
-            const Encounter<F> next = meet_placed(scene, extent, ray, here);
-            take(near && next.enters && (!first.enters || (next.way < first.way)), next, first);
+            meet_in<shapes>(scene, extent, ray, fall, here, near, first);
         });
         return F(0) > F(1);
     });
 }
 
-/// Whether a way from one point to another, seen from above and from its own lens's axis, may come as near to the axis of another
-/// lens as r: whether its middle is so near, with half its length added to r.
+/// Whether a way, seen from above, that ends at `end` from its own lens's axis, may come as near to the axis of another lens as r.
+/// One that does, and ends further away than r, has passed the foot of the perpendicular from that axis, and moves on by less than
+/// its length: it ends at most sqrt(r^2 + length^2) from there.
 template <class F>
-LFDSIM_FN Mask<F> nears_another(const Lattice<Scalar<F>>& lattice, Place<F> from, Place<F> to, F r) {
-    const F half = F(Scalar<F>(0.5)), hx = half * (to.x - from.x), hy = half * across(lattice, to.y - from.y);
-    const F x = abs(from.x + hx), y = across(lattice, abs(from.y + hy)), px = F(lattice.pitch[0]), py = F(lattice.pitch[1]);
-    const F reach = r + sqrt(hx * hx + hy * hy), ax = x - px, ay = y - py;
+LFDSIM_FN Mask<F> nears_another(const Lattice<Scalar<F>>& lattice, Place<F> end, F length2, F r) {
+    const F x = abs(end.x), y = across(lattice, abs(end.y)), px = F(lattice.pitch[0]), py = F(lattice.pitch[1]);
+    const F ax = x - px, ay = y - py;
     F nearest = ax * ax + y * y;
     if (lattice.staggered) {  // of the next row, and, of low bricks, of the one after that
         const F bx = x - F(lattice.half_pitch[0]), by = ay - py;
@@ -219,33 +261,35 @@ LFDSIM_FN Mask<F> nears_another(const Lattice<Scalar<F>>& lattice, Place<F> from
     } else if (!lattice.strips) {
         nearest = min(nearest, min(x * x, ax * ax) + ay * ay);
     }
-    return (nearest <= reach * reach) || (x > px) || (y > py);
+    return (nearest <= r * r + length2) || (x > px) || (y > py);
 }
 
 /// The first lens that a ray meets; `ray` in the array's frame, z from the vertex plane.
-template <class F>
+template <Shapes shapes, class F>
 LFDSIM_FN Encounter<F> enter_placed(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray,
                                     Mask<F> alive) {
     const Placement<Scalar<F>>& placement = scene.placement;
-    const F fall = F(1) / ray.to.z, mx = ray.to.x * fall, my = ray.to.y * fall;
-    const F up = F(placement.search_top) - ray.at.z, down = F(placement.search_bottom) - ray.at.z;
-    const F x = ray.at.x + mx * up, y = ray.at.y + my * up;
+    const F fall = F(1) / ray.to.z;
+    const F up = (F(placement.search_top) - ray.at.z) * fall, down = (F(placement.search_bottom) - ray.at.z) * fall;
+    const F x = ray.at.x + ray.to.x * up, y = ray.at.y + ray.to.y * up;
     const Cell<F> cell = cell_at(scene.lattice, x, y);
-    Encounter<F> first = meet_placed(scene, extent, ray, cell);
+    Encounter<F> first = meet_placed<shapes>(scene, extent, ray, fall, cell);
     // A way from there to the lens, or to below all lenses, that is further from the cell's border than lenses stand out of their
     // own cells leads past no other one. Nor does one that is further from other lenses than they are wide.
     const Place<F> axis = axis_of(scene.lattice, cell);
-    const F end_x = select(first.enters, ray.at.x + ray.to.x * first.way, ray.at.x + mx * down),
-            end_y = select(first.enters, ray.at.y + ray.to.y * first.way, ray.at.y + my * down);
+    const F way = select(first.enters, first.way, down), end_x = ray.at.x + ray.to.x * way, end_y = ray.at.y + ray.to.y * way;
     const F margin = F(-placement.reach);
     const Place<F> from_axis{x - axis.x, y - axis.y}, end{end_x - axis.x, end_y - axis.y};
     const Mask<F> alone = in_cell(scene.lattice, from_axis.x, from_axis.y, margin) && in_cell(scene.lattice, end.x, end.y, margin);
     Mask<F> astray = alive && !alone;
-    if (any(astray)) astray = astray && nears_another(scene.lattice, from_axis, end, F(placement.radius));
     if (any(astray)) {
-        const Ray<F> from = ray;
+        const F ex = end.x - from_axis.x, ey = across(scene.lattice, end.y - from_axis.y);
+        astray = astray && nears_another(scene.lattice, end, ex * ex + ey * ey, F(placement.radius));
+    }
+    if (any(astray)) {
+        const Ray<F> here = ray;
         Encounter<F> found = first;
-        meet_all_around(scene, extent, from, x, y, -mx, -my, astray, found);
+        meet_others<shapes>(scene, extent, here, fall, from_axis, end, {x, y}, astray, found);
         first = found;
     }
     return first;
@@ -277,13 +321,13 @@ LFDSIM_RARE Mask<F> passes_any_hole(const Scene<Scalar<F>>& scene, const Extent<
 
 /// The rules of pass_lens() for a lens that stands by itself. Its stop's hole stands in the array's frame, moved with the lens but
 /// not turned; a ray may pass that of any lens.
-template <class F>
+template <Shapes shapes, class F>
 struct Placed : InArray<F> {
     const Stand<F> stand;
 
     LFDSIM_FN Place<F> axis() const { return {F(0), F(0)}; }
     LFDSIM_FN Hit<F> meet(int k, const Ray<F>& in_vertex_plane) const {
-        return meet_curved(this->scene, k, in_vertex_plane, stand.curvature);
+        return meet_curved<shapes>(this->scene, k, in_vertex_plane, stand.curvature);
     }
 
     LFDSIM_FN F wall_bottom() const { return outmost_rim(this->scene, false, stand.curvature); }
@@ -308,8 +352,8 @@ struct Placed : InArray<F> {
 };
 
 /// A thin lens or a pinhole: way.ray leaves it in the lens's frame.
-template <class F>
-LFDSIM_FN void pass_thin(const Scene<Scalar<F>>& scene, const Placed<F>& rules, const Encounter<F>& met, Passage<F>& way) {
+template <Shapes shapes, class F>
+LFDSIM_FN void pass_thin(const Scene<Scalar<F>>& scene, const Placed<shapes, F>& rules, const Encounter<F>& met, Passage<F>& way) {
     const Vec3<F> to = met.entering.to;
     const F fall = F(1) / to.z, power = F(scene.ideal_power) * met.stand.curvature;
     const F mx = to.x * fall + met.hit.at.x * power, my = to.y * fall + across(scene.lattice, met.hit.at.y) * power;
@@ -358,24 +402,25 @@ LFDSIM_FN PanelPoint<F> out_of_array(const Scene<Scalar<F>>& scene, const PanelB
 }
 
 /// From the plane z = entrance, in which way.ray starts, to the panel.
-template <class F>
+template <Shapes shapes, class F>
 LFDSIM_FN PanelPoint<F> trace_placed(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
                                      const PanelBase<Scalar<F>>& base, Passage<F> way) {
     using S = Scalar<F>;
     const Placement<S>& placement = scene.placement;
     const Ray<F> ray = in_array(scene, base, way.ray);
     way.alive = way.alive && (ray.to.z < F(S(-1e-9)));
-    const Encounter<F> met = enter_placed(scene, extent, ray, way.alive);
+    const Encounter<F> met = enter_placed<shapes>(scene, extent, ray, way.alive);
     way.alive = way.alive && met.hit.ok;
     way.cell = met.cell;
     way.ray = met.entering;
-    const Placed<F> rules{{scene, extent, way.cell}, met.stand};
+    assume<shapes>(scene);
+    const Placed<shapes, F> rules{{scene, extent, way.cell}, met.stand};
     S plane = scene.ideal_z;
-    if (scene.thin) {
+    if (are_thin<shapes>(scene)) {
         pass_thin(scene, rules, met, way);
     } else {
-        pass_lens<Shapes::all>(scene, rules, met.entering, met.hit, way);
-        plane = scene.surface[scene.surface_count - 1].z;
+        pass_lens<shapes>(scene, rules, met.entering, met.hit, way);
+        plane = scene.surface[are_plano_convex<shapes> ? 1 : scene.surface_count - 1].z;
     }
     Vec3<F> at{way.ray.at.x, way.ray.at.y, way.ray.at.z + F(plane - placement.vertex_z)}, to = way.ray.to;
     if (placement.tilted) {

@@ -65,12 +65,11 @@ struct Emission {
     SubpixelPart<S> part[max_subpixel_parts];
 };
 
-/// How a lens stands that is not where the lattice has it, in the array's frame. x, y, z: of its viewer-side vertex from there, mm.
+/// How a lens stands that is not where the lattice has it, in the array's frame.
 template <class S>
 struct PlacedLens {
-    S x, y, z;
-    S curvature;                   // as a share of that of the others
-    S cos_x, sin_x, cos_y, sin_y;  // of its turn about x', and then about y'
+    S place[4];  // x, y, z of its viewer-side vertex from there, mm; its curvature as a share of that of the others
+    S turn[4];   // cosine and sine of its turn about x', and then of that about y'
 };
 
 /// An array with errors (optics/placed.h).

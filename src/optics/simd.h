@@ -5,6 +5,8 @@
 #pragma once
 #include <immintrin.h>
 
+#include <utility>
+
 #include "optics/lane.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
@@ -81,6 +83,30 @@ struct LaneTraits<Lane<N>> {
         return value;
     }
     static LFDSIM_FN void store(Lane<N> a, float* to) { __builtin_memcpy(to, &a.v, sizeof a.v); }
+    // A row of four is read into a quarter of a register, and the quarters' rows become columns.
+    static LFDSIM_FN void load_rows(const float* from, const std::uint32_t* row, Lane<N> (&to)[4]) {
+        typename Vectors<N>::Float rows[4];
+        for (int k = 0; k < 4; ++k)
+            for (int l = 0; l < N; l += 4) __builtin_memcpy((char*)&rows[k] + 4 * l, from + std::size_t(row[l + k]) * 4, 16);
+        const auto low = quarters<0, 4, 1, 5>(rows[0], rows[1]), low2 = quarters<0, 4, 1, 5>(rows[2], rows[3]);
+        const auto high = quarters<2, 6, 3, 7>(rows[0], rows[1]), high2 = quarters<2, 6, 3, 7>(rows[2], rows[3]);
+        to[0] = quarters<0, 1, 4, 5>(low, low2);
+        to[1] = quarters<2, 3, 6, 7>(low, low2);
+        to[2] = quarters<0, 1, 4, 5>(high, high2);
+        to[3] = quarters<2, 3, 6, 7>(high, high2);
+    }
+
+  private:
+    /// Each quarter of the result takes these of the same quarters' numbers: 0 to 3 of a, 4 to 7 of b.
+    template <int... of, class V, std::size_t... lane>
+    static LFDSIM_FN V shuffled(V a, V b, std::index_sequence<lane...>) {
+        constexpr int from[4] = {of...};
+        return __builtin_shufflevector(a, b, (from[lane % 4] % 4 + int(lane / 4) * 4 + from[lane % 4] / 4 * N)...);
+    }
+    template <int... of, class V>
+    static LFDSIM_FN V quarters(V a, V b) {
+        return shuffled<of...>(a, b, std::make_index_sequence<std::size_t(N)>());
+    }
 };
 
 template <int N>

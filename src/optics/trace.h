@@ -12,19 +12,23 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 
 /// The ways through an array, one of which a display uses: chosen outside the loop over samples, so that none pays for another.
 /// Three are for plano-convex lenses, in rows and columns, as strips, and in staggered rows, the next two for rows and columns, all
-/// with air under them; `glass` is for light between the lenses, `placed` for arrays with errors, `other` for the rest. A new one
-/// takes a name here, a line in each of the functions below, and a function that traces it.
-enum class Way { plano_convex, strips, staggered, opaque, ideal, glass, placed, other };
+/// with air under them; `glass` is for light between the lenses; three are for arrays with errors, of which two do what
+/// `plano_convex` and `opaque` do without; `other` is for the rest. A new one takes a name here, a line in each of the functions
+/// below, and a function that traces it.
+enum class Way { plano_convex, strips, staggered, opaque, ideal, glass, placed_plano_convex, placed_opaque, placed, other };
 
 template <class S>
 LFDSIM_FN Way way_through(const Scene<S>& scene) {
-    if (scene.placement.given) return Way::placed;
-    if (!scene.thin && scene.surround != Surround::opaque) return Way::glass;
-    if (scene.glued || scene.layer_count > 0) return Way::other;
-    const bool rows = !scene.lattice.strips && !scene.lattice.staggered;
-    if (scene.thin) return rows ? Way::ideal : Way::other;
+    const bool rows = !scene.lattice.strips && !scene.lattice.staggered, on_air = !scene.glued && scene.layer_count == 0;
     const bool plain = scene.surface_count == 2 && scene.surface[0].shape == Shape::sphere &&
                        scene.surface[1].shape == Shape::plane && !scene.has_stop && !scene.dimple;
+    if (scene.placement.given) {
+        if (scene.thin || scene.surround != Surround::opaque || !on_air || !rows) return Way::placed;
+        return plain ? Way::placed_plano_convex : Way::placed_opaque;
+    }
+    if (!scene.thin && scene.surround != Surround::opaque) return Way::glass;
+    if (!on_air) return Way::other;
+    if (scene.thin) return rows ? Way::ideal : Way::other;
     if (plain) return rows ? Way::plano_convex : scene.lattice.strips ? Way::strips : Way::staggered;
     return rows ? Way::opaque : Way::other;
 }
@@ -32,6 +36,7 @@ LFDSIM_FN Way way_through(const Scene<S>& scene) {
 /// The way that the filtered estimator takes, which traces few rays: `other` has the same bits, and each way is much code to
 /// compile.
 constexpr Way for_few_rays(Way way) {
+    if (way == Way::placed_plano_convex || way == Way::placed_opaque) return Way::placed;
     return way == Way::plano_convex || way == Way::staggered || way == Way::glass || way == Way::placed ? way : Way::other;
 }
 
@@ -51,6 +56,10 @@ inline decltype(auto) with_way(const Scene<S>& scene, const Do& do_it) {
             return do_it.template operator()<Way::ideal>();
         case Way::glass:
             return do_it.template operator()<Way::glass>();
+        case Way::placed_plano_convex:
+            return do_it.template operator()<Way::placed_plano_convex>();
+        case Way::placed_opaque:
+            return do_it.template operator()<Way::placed_opaque>();
         case Way::placed:
             return do_it.template operator()<Way::placed>();
         case Way::other:
@@ -68,6 +77,8 @@ inline void for_all_ways(const Do& do_it) {
     do_it.template operator()<Way::opaque>();
     do_it.template operator()<Way::ideal>();
     do_it.template operator()<Way::glass>();
+    do_it.template operator()<Way::placed_plano_convex>();
+    do_it.template operator()<Way::placed_opaque>();
     do_it.template operator()<Way::placed>();
     do_it.template operator()<Way::other>();
 }
@@ -98,20 +109,23 @@ LFDSIM_FN void to_first_vertex(const Scene<Scalar<F>>& scene, Passage<F>& way) {
 template <Way through, class F>
 LFDSIM_FN PanelPoint<F> trace_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
                                     const PanelBase<Scalar<F>>& base, Ray<F> ray, Mask<F> alive) {
-    constexpr Shapes shapes = through == Way::plano_convex ? Shapes::plano_convex
-                              : through == Way::strips     ? Shapes::plano_convex_strips
-                              : through == Way::staggered  ? Shapes::plano_convex_staggered
-                              : through == Way::opaque     ? Shapes::any
-                              : through == Way::ideal      ? Shapes::any
-                                                           : Shapes::all;
+    constexpr bool plano_convex = through == Way::plano_convex || through == Way::placed_plano_convex,
+                   in_rows = through == Way::opaque || through == Way::ideal || through == Way::placed_opaque;
+    constexpr Shapes shapes = plano_convex                ? Shapes::plano_convex
+                              : through == Way::strips    ? Shapes::plano_convex_strips
+                              : through == Way::staggered ? Shapes::plano_convex_staggered
+                              : in_rows                   ? Shapes::any
+                                                          : Shapes::all;
     assume<shapes>(scene);
     Passage<F> way{ray, {F(0), F(0)}, F(1), alive};
     to_first_vertex(scene, way);
     if constexpr (through == Way::glass) {
         return trace_glass(scene, extent, base, way);
+    } else if constexpr (through == Way::placed_plano_convex || through == Way::placed_opaque) {
+        return trace_placed<shapes>(scene, extent, base, way);
     } else if constexpr (through == Way::placed) {
         if (!scene.thin && scene.surround != Surround::opaque) return trace_placed_plate(scene, extent, base, way);
-        return trace_placed(scene, extent, base, way);
+        return trace_placed<shapes>(scene, extent, base, way);
     } else if constexpr (through == Way::ideal) {
         return trace_ideal(scene, extent, base, way);
     } else {

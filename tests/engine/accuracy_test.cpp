@@ -94,6 +94,30 @@ TEST_P(Accuracy, FloatIsAsGoodAsDouble) {
     }
 }
 
+/// All rays of a display have the same bits by its own way and by the most general one.
+void expect_the_same_by(Way general, const Display& d) {
+    ASSERT_TRUE(validate(d).empty());
+    const Geometry g = resolve(d);
+    const DisplayScene<float> scene = make_scene<float>(d, g);
+    const View view = make_view(d, g);
+    int lit = 0;
+    for (int row = 1; row < view.height; row += 7) {
+        for (int column = 2; column < view.width; column += 7) {
+            const auto pixel = optics::pixel_rays<float>(view, column, row);
+            Sampler<float> sampler(Sampling::random, optics::sampler_dimensions, 5, std::uint32_t(row * view.width + column));
+            const auto by = [&]<Way way>() { return optics::trace<way>(scene, view, pixel, sampler); };
+            const PanelHit<float> a = optics::with_way(scene, by),
+                                  b = general == Way::other ? by.operator()<Way::other>() : by.operator()<Way::placed>();
+            ASSERT_EQ(a.lit, b.lit);
+            if (!a.lit) continue;
+            ++lit;
+            ASSERT_EQ(a.pixel, b.pixel);
+            ASSERT_EQ(a.weight, b.weight);
+        }
+    }
+    EXPECT_GT(lit, 100);
+}
+
 // Where more than one way through an array fits they do the same, bit by bit.
 TEST(Ways, HaveTheBitsOfTheMostGeneral) {
     for (const LatticeKind lattice : {LatticeKind::square, LatticeKind::hexagon, LatticeKind::brick, LatticeKind::strips}) {
@@ -104,28 +128,29 @@ TEST(Ways, HaveTheBitsOfTheMostGeneral) {
             if (ideal) d.lens.kind = IdealLens{2, 8};
             d.diffuser = Diffuser{40, {8, 8}, Profile::box};
             look_from(d, 20, 400);
-            ASSERT_TRUE(validate(d).empty());
-            const Geometry g = resolve(d);
-            const Scene<float> scene = make_scene<float>(d, g);
-            const View view = make_view(d, g);
-            EXPECT_EQ(optics::way_through(scene) == Way::other, ideal && lattice != LatticeKind::square);
-            int lit = 0;
-            for (int row = 1; row < view.height; row += 7) {
-                for (int column = 2; column < view.width; column += 7) {
-                    const auto pixel = optics::pixel_rays<float>(view, column, row);
-                    Sampler<float> sampler(Sampling::random, optics::sampler_dimensions, 5,
-                                           std::uint32_t(row * view.width + column));
-                    const PanelHit<float> a = optics::with_way(
-                                              scene, [&]<Way way>() { return optics::trace<way>(scene, view, pixel, sampler); }),
-                                          b = optics::trace<Way::other>(scene, view, pixel, sampler);
-                    ASSERT_EQ(a.lit, b.lit);
-                    if (!a.lit) continue;
-                    ++lit;
-                    ASSERT_EQ(a.pixel, b.pixel);
-                    ASSERT_EQ(a.weight, b.weight);
-                }
-            }
-            EXPECT_GT(lit, 100);
+            EXPECT_EQ(optics::way_through(make_scene<float>(d, resolve(d))) == Way::other, ideal && lattice != LatticeKind::square);
+            expect_the_same_by(Way::other, d);
+        }
+    }
+}
+
+TEST(Ways, OfLensesByThemselvesHaveTheBitsOfTheMostGeneral) {
+    const Display aspheres = with_surfaces({{0, 0, {}, 1.9, 0.8, 1.5}, {-0.25, -0.4, {1e-3, 2e-5}, 1.9}});
+    Errors moved, all;
+    moved.decenter_sd_mm = all.decenter_sd_mm = 0.05;
+    all.height_sd_mm = 0.02;
+    all.tilt_sd_deg = 1;
+    all.curvature_sd = 0.02;
+    all.wedge_deg = {1, -2};
+    for (const auto& [lens, way] : {std::pair(example(), Way::placed_plano_convex), {aspheres, Way::placed_opaque}}) {
+        for (const Errors& errors : {moved, all}) {
+            Display d = lens;
+            d.array.pitch_mm = 4;
+            d.errors = errors;
+            d.diffuser = Diffuser{40, {8, 8}, Profile::box};
+            look_from(d, 20, 400);
+            EXPECT_EQ(optics::way_through(make_scene<float>(d, resolve(d))), way);
+            expect_the_same_by(Way::placed, d);
         }
     }
 }
