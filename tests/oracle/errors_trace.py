@@ -42,7 +42,7 @@ class MovedPath(Path):
     def _cross_holes(self, rays, t, display, lattice):
         """Notes the rays that pass a hole within t, and ends those that have come below all holes and passed none."""
         o, d = lattice.enter(self.o[rays], self.d[rays])
-        before = np.minimum(self.lowest[rays], o[:, 2])
+        before = np.where(np.isfinite(self.lowest[rays]), self.lowest[rays], o[:, 2])  # no height is passed over by rounding
         after = np.minimum(before, o[:, 2] + t * d[:, 2])
         self.lowest[rays] = after
         holes = display.stop_z + lattice.move[:, :, 2]
