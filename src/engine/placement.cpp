@@ -45,6 +45,14 @@ std::array<double, 2> sags(const PlacedSurface& surface, const Extremes& all) {
     return range;
 }
 
+/// z of the highest rim of lenses that are so much more curved, from the vertex plane.
+double highest_rim_mm(const Geometry& g, double factor) {
+    double rim = -infinity;
+    for (const PlacedSurface& s : g.surfaces)
+        rim = std::max(rim, s.z_mm + sag_mm(factor * s.curvature_per_mm, s.conic, s.even_asphere, s.semi_aperture_mm));
+    return rim - g.vertex_plane_mm;
+}
+
 }  // namespace
 
 std::vector<LensError> lenses_as_built(const Display& d, const Lattice<double>& lattice) {
@@ -111,7 +119,11 @@ void place_lenses(const Display& d, const Geometry& g, DisplayScene<S>& scene) {
     const auto [low, high] = sags(first, all);
     const double entrance = first.z_mm - g.vertex_plane_mm;
     double top = entrance + high, bottom = entrance + low;
-    if (scene.dimple) top = std::max(top, double(scene.zone_top) - g.vertex_plane_mm), bottom = top;
+    if (scene.dimple) {  // the entrance is the rim
+        const auto [lowest, highest] = std::minmax({highest_rim_mm(g, all.curvature[0]), highest_rim_mm(g, all.curvature[1])});
+        top = std::max(top, highest);
+        bottom = lowest;
+    }
     // Turned about its vertex a lens swings aside by what it reaches below that, and up and down by what it reaches aside.
     const double swing = std::sin(all.tilt) * std::max(std::abs(top), std::abs(bottom)),
                  sway = std::sin(all.tilt) * first.semi_aperture_mm;

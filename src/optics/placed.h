@@ -246,12 +246,10 @@ LFDSIM_RARE void meet_others(const Scene<Scalar<F>>& scene, const Extent<Scalar<
     });
 }
 
-/// Whether a way, seen from above, that ends at `end` from its own lens's axis, may come as near to the axis of another lens as r.
-/// One that does, and ends further away than r, has passed the foot of the perpendicular from that axis, and moves on by less than
-/// its length: it ends at most sqrt(r^2 + length^2) from there.
+/// Whether a point, from its own lens's axis and within a pitch of it, comes as near to the axis of another lens as sqrt(reach2).
 template <class F>
-LFDSIM_FN Mask<F> nears_another(const Lattice<Scalar<F>>& lattice, Place<F> end, F length2, F r) {
-    const F x = abs(end.x), y = across(lattice, abs(end.y)), px = F(lattice.pitch[0]), py = F(lattice.pitch[1]);
+LFDSIM_FN Mask<F> nears_another(const Lattice<Scalar<F>>& lattice, Place<F> at, F reach2) {
+    const F x = abs(at.x), y = across(lattice, abs(at.y)), px = F(lattice.pitch[0]), py = F(lattice.pitch[1]);
     const F ax = x - px, ay = y - py;
     F nearest = ax * ax + y * y;
     if (lattice.staggered) {  // of the next row, and, of low bricks, of the one after that
@@ -261,7 +259,7 @@ LFDSIM_FN Mask<F> nears_another(const Lattice<Scalar<F>>& lattice, Place<F> end,
     } else if (!lattice.strips) {
         nearest = min(nearest, min(x * x, ax * ax) + ay * ay);
     }
-    return (nearest <= r * r + length2) || (x > px) || (y > py);
+    return (nearest <= reach2) || (x > px) || (y > py);
 }
 
 /// The first lens that a ray meets; `ray` in the array's frame, z from the vertex plane.
@@ -283,8 +281,10 @@ LFDSIM_FN Encounter<F> enter_placed(const Scene<Scalar<F>>& scene, const Extent<
     const Mask<F> alone = in_cell(scene.lattice, from_axis.x, from_axis.y, margin) && in_cell(scene.lattice, end.x, end.y, margin);
     Mask<F> astray = alive && !alone;
     if (any(astray)) {
-        const F ex = end.x - from_axis.x, ey = across(scene.lattice, end.y - from_axis.y);
-        astray = astray && nears_another(scene.lattice, end, ex * ex + ey * ey, F(placement.radius));
+        // One that comes within r of another axis begins there, ends there, or has passed the foot of the perpendicular from it, and
+        // moves on by less than its length.
+        const F ex = end.x - from_axis.x, ey = across(scene.lattice, end.y - from_axis.y), r2 = F(placement.radius * placement.radius);
+        astray = astray && (nears_another(scene.lattice, end, r2 + (ex * ex + ey * ey)) || nears_another(scene.lattice, from_axis, r2));
     }
     if (any(astray)) {
         const Ray<F> here = ray;

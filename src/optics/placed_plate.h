@@ -56,15 +56,18 @@ struct MovedCaps {
     LFDSIM_FN void sides(bool top, bool inwards, const GlassRays<F>& rays, Cell<F> lens, const Stand<F>& stand, Mask<F> active,
                          Crossing<F>& best) const {
         const auto& surface = face(top);
-        const F sense = F(S(top ? 1 : -1)), flat = F(surface.z + surface.rim), zero = F(0), one = F(1);
+        const F sense = F(S(top ? 1 : -1)), flat = F(surface.z + surface.rim), zero = F(0), one = F(1),
+                outside = F(S(sizeof(S) == 4 ? 1e-4 : 1e-9));
         const Place<F> from = from_axis(lens, stand, rays.at.x, rays.at.y);
         const Vec3<F> to = rays.to;
         const auto offer = [&](Mask<F> valid, F t, Vec3<F> normal, Place<F> at) {
             const F z = rays.at.z + to.z * t;
             valid = active && valid && ahead(t) && (sense * (z - flat) >= -slack<F>()) &&
                     (sense * (cap(surface, stand, at) - z) >= -slack<F>());
-            if (!inwards && any(valid))
-                valid = valid && !covered(top, {rays.at.x + to.x * t, rays.at.y + to.y * t, z}, lens, valid);
+            if (!inwards && any(valid)) {  // just outside: of caps that touch there is one glass
+                const F x = rays.at.x + to.x * t + outside * normal.x, y = rays.at.y + to.y * t + outside * normal.y;
+                valid = valid && !covered(top, {x, y, z}, lens, valid);
+            }
             best.take(valid, t, normal, lens);
         };
         if (scene.aperture == Aperture::circle && !scene.lattice.strips) {
