@@ -51,6 +51,8 @@ SHORT = {
     "errors, pitch, bricks, opaque cell, 15 degrees": wrong(made(REACHING, "opaque", "cell", (15, 10), BRICK_WIDE), {"pitch_ppm": 3500.0}),
     "errors, wedge, ideal cell over layers, 30 degrees": wrong(made(IDEAL, "opaque", "cell", (30,), panel=layers(GLASS, ADHESIVE), render=EXACT), {"wedge_deg": [1.1, -1.7]}),
     "errors, bow, opaque circle, panel facing, oblique": wrong(made(TURNED, view=OBLIQUE, render=EXACT), {"bow_mm": -0.8}),
+    "errors, heights, touching plate cells, 34 degrees": wrong(made(WIDE_ASPHERE, "plate", "cell", (5, 34)), each={"dz_mm": 0.1}),
+    "errors, curvatures, hollow lenses in cells, 45 degrees": wrong(made(WIDE_HOLLOW, "opaque", "cell", (30, 32)), each={"curvature": 0.2}),
     "errors, decentres, opaque circle, 15 degrees": wrong(made(SPHERE, view=(15,)), each=LATERAL),
     "errors, heights and tilts, hexagons, opaque cell, oblique": wrong(made(ROUNDER, "opaque", "cell", OBLIQUE, HEXAGON, render=EXACT),
         each={"dz_mm": 0.3, "tilt_x_deg": 3.0, "tilt_y_deg": 3.0}),
