@@ -20,9 +20,6 @@ from lfdsim.photographs import PhotographComparison, compare_photograph, png, sc
 from lfdsim.pictures import compare, elemental_images, photograph, render
 from lfdsim.results import Result
 
-if TYPE_CHECKING:
-    from lfdsim import study
-
 __all__ = [
     "Display",
     "DisplayError",
@@ -51,8 +48,12 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> object:
-    """lfdsim.study when it is first asked for: it imports pandas and scipy."""
-    if name == "study":
-        return importlib.import_module("lfdsim.study")
-    raise AttributeError(f"module 'lfdsim' has no attribute {name!r}")
+if TYPE_CHECKING:  # type checkers, which then know that there are no other names
+    from lfdsim import study
+else:
+
+    def __getattr__(name: str) -> object:
+        """lfdsim.study when it is first asked for: it imports pandas and scipy."""
+        if name == "study":
+            return importlib.import_module("lfdsim.study")
+        raise AttributeError(f"module 'lfdsim' has no attribute {name!r}")

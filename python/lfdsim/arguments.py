@@ -8,6 +8,7 @@ import warnings
 from typing import Any, Union
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lfdsim import _core
 from lfdsim.display import Display
@@ -44,7 +45,7 @@ def seen(display: Any, model: Any, **arguments: Any) -> Display:
     return display_of(display).with_(given)._with_model(model)
 
 
-def pixels(array: Any, name: str) -> np.ndarray:
+def pixels(array: Any, name: str) -> NDArray[Any]:
     """Height x width x 3: float32, or codes of uint8 or uint16, in C order. Copies only what is not yet so."""
     try:
         given = np.asarray(array)
@@ -67,7 +68,7 @@ def whole(value: Any, name: str, low: int, high: int) -> int:
     if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__index__"):
         raise TypeError(f"{name} is a {type(value).__name__}; give a whole number")
     try:
-        number = value.__index__()
+        number: int = value.__index__()
     except TypeError:  # an array of several, or of others
         raise TypeError(f"{name} is a {type(value).__name__}; give one whole number") from None
     if not low <= number <= high:
@@ -106,9 +107,10 @@ def flag(value: Any, name: str) -> bool:
 
 
 def encoding_of(encoding: Any) -> str:
-    if text(encoding, "encoding") not in ("srgb", "linear"):
-        raise InputError([("encoding", f'is "{encoding}", allowed is srgb, linear')])
-    return encoding
+    given = text(encoding, "encoding")
+    if given not in ("srgb", "linear"):
+        raise InputError([("encoding", f'is "{given}", allowed is srgb, linear')])
+    return given
 
 
 def threads_of(threads: Any) -> int:

@@ -12,4 +12,5 @@ from lfdsim.numbers_of import numbers_of
 
 def check(display: Display) -> dict[str, Any]:
     """What `lfdsim check --json` prints: keys, geometry, theory, notes (why a figure is None) and warnings. Infinite figures are inf."""
-    return numbers_of(_core.check(display_of(display)._handle, None))
+    found: dict[str, Any] = numbers_of(_core.check(display_of(display)._handle, None))
+    return found

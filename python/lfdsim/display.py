@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from lfdsim import _core
@@ -73,7 +73,8 @@ class Display:
 
     def to_dict(self) -> dict[str, Any]:
         """All keys as nested dicts."""
-        return _tree(self._all())
+        tree: dict[str, Any] = _tree(self._all())
+        return tree
 
     def drawings(self) -> tuple[str, str]:
         """The display from the side, and a few of its lenses, to scale and with rays: SVG."""
@@ -99,7 +100,7 @@ class Display:
     def __hash__(self) -> int:
         return hash(repr(self))
 
-    def __reduce__(self) -> tuple:
+    def __reduce__(self) -> tuple[Callable[[str, str], Display], tuple[str, str]]:
         return Display.parse, (repr(self), os.sep)
 
 

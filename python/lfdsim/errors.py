@@ -50,7 +50,7 @@ class InputError(ValueError):
     def remedy(self) -> str:
         return self.problems[0].remedy if self.problems else ""
 
-    def __reduce__(self) -> tuple:
+    def __reduce__(self) -> tuple[type[InputError], tuple[list[tuple[str, str]]]]:
         return type(self), ([problem[:2] for problem in self.problems],)
 
 

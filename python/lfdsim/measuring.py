@@ -91,4 +91,5 @@ def _numbers(values: Any, name: str) -> list[float]:
         raise TypeError(f"{name} is a {type(values).__name__}; give a list of numbers") from None
     if array.dtype.kind not in "fiu" or array.ndim != 1 or array.size == 0:
         raise InputError([(name, f"has the shape {array.shape} of {array.dtype}; give a list of numbers")])
-    return array.astype(float).tolist()
+    given: list[float] = array.astype(float).tolist()
+    return given

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -118,7 +117,7 @@ def photograph(
     return image
 
 
-def compare(a: ArrayLike, b: ArrayLike, *, crop: Corners | None = None, encoding: str = "srgb") -> dict[str, Any]:
+def compare(a: ArrayLike, b: ArrayLike, *, crop: Corners | None = None, encoding: str = "srgb") -> dict[str, float]:
     """How alike two pictures of one size are: what `lfdsim compare --json` prints, "ssim" among it; "psnr_db" may be inf.
 
     Floats are linear light; uint8 and uint16 are codes in `encoding`, "srgb" or "linear".

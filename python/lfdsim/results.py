@@ -7,6 +7,9 @@ import os
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from lfdsim import _core
 from lfdsim.numbers_of import numbers_of
 from lfdsim.texts import path_text
@@ -22,17 +25,20 @@ class Result:
     @cached_property
     def figures(self) -> dict[str, Any]:
         """As in the JSON of `lfdsim analyze`; names end in their unit, the error of NAME is NAME_error. Infinite ones are inf."""
-        return numbers_of(self._measured.figures())
+        figures: dict[str, Any] = numbers_of(self._measured.figures())
+        return figures
 
     @cached_property
     def notes(self) -> dict[str, str]:
         """Why a figure is None, by its path: {"a.b_deg": "..."}."""
-        return numbers_of(self._measured.notes())
+        notes: dict[str, str] = numbers_of(self._measured.notes())
+        return notes
 
     @cached_property
     def findings(self) -> list[dict[str, Any]]:
         """The lines of the report: what, unit, measured and theory (lists of one number or two ends), error, remark."""
-        return numbers_of(self._measured.findings())
+        findings: list[dict[str, Any]] = numbers_of(self._measured.findings())
+        return findings
 
     @cached_property
     def remarks(self) -> list[str]:
@@ -54,7 +60,7 @@ class Result:
         return self._measured.plots()
 
     @cached_property
-    def pictures(self) -> dict[str, tuple[str, Any]]:
+    def pictures(self) -> dict[str, tuple[str, NDArray[np.float32]]]:
         """(caption, picture) of each: float32, height x width x 3, linear light."""
         return self._measured.pictures()
 

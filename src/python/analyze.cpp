@@ -14,7 +14,6 @@
 #include "report/svg.h"
 
 #include <fmt/format.h>
-#include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
@@ -27,7 +26,6 @@ namespace lfdsim::python {
 namespace {
 
 namespace nb = nanobind;
-namespace fs = std::filesystem;
 
 std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
@@ -41,7 +39,7 @@ struct Measured {
     std::vector<std::string> notes;  // what was dropped from the model's files or repaired
 
     /// {"table": {"column": values}}
-    nb::dict tables() const {
+    nb::typed<nb::dict, std::string, nb::typed<nb::dict, std::string, Numbers>> tables() const {
         nb::dict all;
         for (const DataTable& table : result.tables) {
             nb::dict columns;
@@ -51,14 +49,14 @@ struct Measured {
         return all;
     }
     /// Curves and maps as SVG.
-    nb::dict plots() const {
+    nb::typed<nb::dict, std::string, std::string> plots() const {
         nb::dict all;
         for (const Plot& plot : result.plots) all[plot.name.c_str()] = svg(plot);
         for (const ColourMap& map : result.maps) all[map.name.c_str()] = svg(map);
         return all;
     }
     /// {"picture": (caption, array)}
-    nb::dict pictures() const {
+    nb::typed<nb::dict, std::string, nb::typed<nb::tuple, std::string, Pictured>> pictures() const {
         nb::dict all;
         for (const NamedPicture& picture : result.pictures)
             all[picture.name.c_str()] = nb::make_tuple(picture.caption, array_of(Image(picture.image)));
@@ -77,7 +75,7 @@ struct Measured {
     }
 
     /// The files and the report that `lfdsim analyze` writes.
-    void save(const fs::path& place, const std::string& command, bool replace) const {
+    void save(const std::string& place, const std::string& command, bool replace) const {
         run(nb::none(), [&](Job&) {
             const Subject subject(display, {}, options);
             const FolderLock lock(place);
@@ -136,7 +134,7 @@ std::shared_ptr<Measured> analyze(const Display& display, const std::string& nam
     return made;
 }
 
-nb::list all_measures() {
+nb::typed<nb::list, nb::typed<nb::tuple, std::string, std::string, std::string, std::string>> all_measures() {
     nb::list all;
     for (const Measure& m : measures())
         all.append(nb::make_tuple(std::string(m.name), std::string(m.title), std::string(m.says), std::string(m.source)));

@@ -81,21 +81,21 @@ Image image_of(const AnyPixels& pixels, Encoding encoding, const std::string& na
     return image;
 }
 
-nb::ndarray<nb::numpy, float> array_of(Image&& image) {
+Pictured array_of(Image&& image) {
     auto kept = std::make_unique<Image>(std::move(image));
     float* const data = kept->rgb.data();
     const std::size_t rows = std::size_t(kept->height), columns = std::size_t(kept->width);
     const nb::capsule owner(kept.get(), [](void* p) noexcept { delete static_cast<Image*>(p); });
     kept.release();
-    return nb::ndarray<nb::numpy, float>(data, {rows, columns, 3}, owner);
+    return Pictured(data, {rows, columns, 3}, owner);
 }
 
-nb::ndarray<nb::numpy, double> array_of(const std::vector<double>& values) {
+Numbers array_of(const std::vector<double>& values) {
     auto kept = std::make_unique<std::vector<double>>(values);
     double* const data = kept->data();
     const nb::capsule owner(kept.get(), [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
     kept.release();
-    return nb::ndarray<nb::numpy, double>(data, {values.size()}, owner);
+    return Numbers(data, {values.size()}, owner);
 }
 
 }  // namespace lfdsim::python

@@ -25,10 +25,13 @@ std::int64_t columns_of(const AnyPixels&);
 Texels texels_of(const AnyPixels&, Encoding, const std::string& name);
 Image image_of(const AnyPixels&, Encoding, const std::string& name);
 
+using Pictured = nanobind::ndarray<nanobind::numpy, float>;
+using Numbers = nanobind::ndarray<nanobind::numpy, double>;
+
 /// The picture's own memory, writable.
-nanobind::ndarray<nanobind::numpy, float> array_of(Image&&);
+Pictured array_of(Image&&);
 
 /// A copy, of one dimension.
-nanobind::ndarray<nanobind::numpy, double> array_of(const std::vector<double>&);
+Numbers array_of(const std::vector<double>&);
 
 }  // namespace lfdsim::python

@@ -7,7 +7,6 @@
 #include "report/check.h"
 #include "report/side_view.h"
 
-#include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
@@ -92,7 +91,7 @@ nb::object object_of(const std::optional<T>& value) {
 }
 
 /// {"panel.pixels": (3840, 2160), ...}, in the order of a description.
-nb::dict values(const Display& display) {
+nb::typed<nb::dict, std::string, nb::any> values(const Display& display) {
     nb::dict all;
     visit_all(display, [&](const std::string& path, const KeyInfo&, ConstValueRef value, ConstValueRef) {
         all[path.c_str()] = std::visit([](const auto* v) { return object_of(*v); }, value);
@@ -171,10 +170,10 @@ std::string check(const Display& display, const nb::object& progress) {
 
 void add_display(nb::module_& m) {
     nb::class_<Display>(m, "Display")
-        .def_static("load", [](const fs::path& path) { return read([&] { return read_display(path); }); })
+        .def_static("load", [](const std::string& path) { return read([&] { return read_display(path); }); })
         .def_static(
             "parse",
-            [](const std::string& text, const fs::path& folder) {
+            [](const std::string& text, const std::string& folder) {
                 return read([&] { return parse_display(text, "text", {}, folder); });
             },
             nb::arg("text"), nb::arg("folder"))

@@ -50,7 +50,7 @@ Overlay overlay(const AnyPixels& view, const AnyPixels& photo, const Corners& co
     return made;
 }
 
-nb::dict figures(const Overlay& o) {
+nb::typed<nb::dict, std::string, nb::any> figures(const Overlay& o) {
     nb::dict all;
     all["ssim"] = o.match.ssim;
     all["rmse"] = o.match.rmse;

@@ -34,11 +34,13 @@ std::optional<Rect> rect_of(const std::optional<Corners>& c) {
     return Rect{(*c)[0], (*c)[1], (*c)[2], (*c)[3]};
 }
 
+using Notes = std::vector<std::string>;
+
 /// A picture, and what there is to warn of.
 struct Made {
     Image image;
-    std::vector<std::string> notes;
-    nb::tuple objects() { return nb::make_tuple(array_of(std::move(image)), notes); }
+    Notes notes;
+    nb::typed<nb::tuple, Pictured, Notes> objects() { return nb::make_tuple(array_of(std::move(image)), notes); }
 };
 
 Made elemental(const Display& display, const Geometry& geometry, int threads, Job& job) {
@@ -52,13 +54,14 @@ Made elemental(const Display& display, const Geometry& geometry, int threads, Jo
     return made;
 }
 
-nb::tuple elemental_images(const Display& display, int threads, const nb::object& progress) {
+nb::typed<nb::tuple, Pictured, Notes> elemental_images(const Display& display, int threads, const nb::object& progress) {
     Made made;
     run(progress, [&](Job& job) { made = elemental(display, resolve(display), threads, job); });
     return made.objects();
 }
 
-nb::tuple photograph(const Display& display, const std::optional<Corners>& crop, int threads, const nb::object& progress) {
+nb::typed<nb::tuple, Pictured, Notes> photograph(const Display& display, const std::optional<Corners>& crop, int threads,
+                                                 const nb::object& progress) {
     Made made;
     run(progress, [&](Job& job) {
         require_picture_memory(display.camera.resolution[0], display.camera.resolution[1], 0);
@@ -97,9 +100,10 @@ std::shared_ptr<const PreparedPanel> prepare(const Display& display, const AnyPi
 }
 
 /// The picture, what there is to warn of, and the seconds that a caller in C++ would have waited.
-nb::tuple render(const Display& display, const std::optional<AnyPixels>& pixels, const PreparedPanel* panel,
-                 const std::optional<Corners>& crop, int threads, const std::string& device, const std::string& kernel,
-                 const nb::object& progress) {
+nb::typed<nb::tuple, Pictured, Notes, double> render(const Display& display, const std::optional<AnyPixels>& pixels,
+                                                     const PreparedPanel* panel, const std::optional<Corners>& crop, int threads,
+                                                     const std::string& device, const std::string& kernel,
+                                                     const nb::object& progress) {
     if (pixels) check_size(columns_of(*pixels), rows_of(*pixels), display);
     if (panel) check_size(panel->columns, panel->rows, display);
     Made made;
@@ -124,8 +128,8 @@ nb::tuple render(const Display& display, const std::optional<AnyPixels>& pixels,
     return nb::make_tuple(array_of(std::move(made.image)), made.notes, seconds);
 }
 
-nb::ndarray<nb::numpy, float> test_pattern(const Display& display, const std::string& name, int cell_pixels,
-                                           const std::array<double, 2>& view, double edge_deg, double depth_mm) {
+Pictured test_pattern(const Display& display, const std::string& name, int cell_pixels, const std::array<double, 2>& view,
+                      double edge_deg, double depth_mm) {
     Image image;
     run(nb::none(), [&](Job&) {
         require_panel_memory(display);
@@ -134,7 +138,8 @@ nb::ndarray<nb::numpy, float> test_pattern(const Display& display, const std::st
     return array_of(std::move(image));
 }
 
-nb::dict compare(const AnyPixels& a, const AnyPixels& b, const std::optional<Corners>& crop, bool linear) {
+nb::typed<nb::dict, std::string, double> compare(const AnyPixels& a, const AnyPixels& b, const std::optional<Corners>& crop,
+                                                 bool linear) {
     Comparison c{};
     run(nb::none(), [&](Job&) {
         const Encoding encoding = linear ? Encoding::linear : Encoding::srgb;

@@ -9,6 +9,8 @@ if(TARGET _core)
     add_test(NAME python.${script}_full COMMAND ${LFDSIM_PYTHON_INTERPRETER} ${CMAKE_CURRENT_LIST_DIR}/${script}.py)
     set_tests_properties(python.${script}_full PROPERTIES ENVIRONMENT "${environment};LFDSIM_FULL=1" TIMEOUT 900 LABELS full)
   endforeach()
+  add_test(NAME python.typed_full COMMAND ${LFDSIM_PYTHON_INTERPRETER} ${CMAKE_CURRENT_LIST_DIR}/typed.py)
+  set_tests_properties(python.typed_full PROPERTIES ENVIRONMENT "${environment}" TIMEOUT 300 LABELS full SKIP_RETURN_CODE 77)
   # Asks PyPI for what runs notebooks.
   add_test(NAME python.notebooks_full
     COMMAND ${LFDSIM_PYTHON_INTERPRETER} ${CMAKE_CURRENT_LIST_DIR}/notebooks.py ${CMAKE_BINARY_DIR}/notebook-tools)

@@ -13,17 +13,41 @@ import pathlib
 import time
 import uuid
 import zlib
+from collections.abc import Iterator
+from typing import Any, TypedDict
 
 import pyarrow as pa
 
 from . import columns, design, files, pictures, work
+from .factors import Value
 from .planned import Plan
 from .problems import StudyError, StudyFailed
 
 REMEDY = "remove this file and run again: its rows are computed anew"
 
 
-def run(plan: Plan, chunk: int, threads: int) -> dict:
+class Record(TypedDict):
+    """A finished row, as journals have it."""
+
+    row: int
+    figures: dict[str, float | str]
+    tables: dict[str, dict[str, list[float]]]
+    error: str | None
+    seconds: float
+
+
+class Outcome(TypedDict, total=False):
+    """What became of a chunk: its rows, how many of them are impossible and how long it took; or what went wrong, see attempt()."""
+
+    rows: int
+    failed: int
+    seconds: float
+    problem: str
+    fatal: bool
+    input: bool
+
+
+def run(plan: Plan, chunk: int, threads: int) -> Outcome:
     """Computes what is left of a chunk. Says how many rows it has, how many of them are impossible, and how long they took."""
     if plan.chunk_path(chunk).exists():
         return summary(read(plan, chunk)[0], 0.0)
@@ -47,7 +71,7 @@ def run(plan: Plan, chunk: int, threads: int) -> dict:
     return summary(table, time.perf_counter() - start)
 
 
-def attempt(plan: Plan, chunk: int, threads: int) -> dict:
+def attempt(plan: Plan, chunk: int, threads: int) -> Outcome:
     """What run() says, or what went wrong; `fatal` where other chunks would not fare better, `input` where the user has to
     mend something before another try."""
     try:
@@ -58,32 +82,32 @@ def attempt(plan: Plan, chunk: int, threads: int) -> dict:
         return {"problem": f"{type(error).__name__}: {error}", "fatal": False}
 
 
-def read(plan: Plan, chunk: int) -> tuple[pa.Table, dict]:
+def read(plan: Plan, chunk: int) -> tuple[pa.Table, dict[str, Any]]:
     return files.read_table(plan.chunk_path(chunk), plan.about(chunk), REMEDY)
 
 
-def summary(table: pa.Table, seconds: float) -> dict:
+def summary(table: pa.Table, seconds: float) -> Outcome:
     return {"rows": len(table), "failed": len(table) - table["error"].null_count, "seconds": seconds}
 
 
-def overrides_of(plan: Plan, row: int) -> dict:
+def overrides_of(plan: Plan, row: int) -> dict[str, Value]:
     """All that a row changes in the display."""
     chunk, place = divmod(row, plan.rows_per_chunk)
     return _overrides(plan, plan.values_of(chunk), place)
 
 
-def _overrides(plan: Plan, values: design.Columns, place: int) -> dict:
+def _overrides(plan: Plan, values: design.Columns, place: int) -> dict[str, Value]:
     return {**plan.study.fixed, **design.overrides(values, place)}
 
 
-def _compute(plan: Plan, row: int, overrides: dict, threads: int) -> dict:
+def _compute(plan: Plan, row: int, overrides: dict[str, Value], threads: int) -> Record:
     start = time.perf_counter()
     made = work.compute(plan.display, plan.display_folder, overrides, plan.study, threads)
     pictures.write(plan, row, made.pictures)
     return {"row": row, "figures": made.figures, "tables": made.tables, "error": made.error, "seconds": time.perf_counter() - start}
 
 
-def _write(plan: Plan, chunk: int, records: list[dict]) -> pa.Table:
+def _write(plan: Plan, chunk: int, records: list[Record]) -> pa.Table:
     """Curves first: a chunk whose rows have their file is done."""
     for name in dict.fromkeys(name for r in records for name in r["tables"]):
         folder = plan.folder / "curves" / name
@@ -100,7 +124,7 @@ def _write(plan: Plan, chunk: int, records: list[dict]) -> pa.Table:
     return table
 
 
-def _curves(records: list[dict], name: str) -> pa.Table:
+def _curves(records: list[Record], name: str) -> pa.Table:
     """The curves of all rows below each other, with their row's number first."""
     curves = [(r["row"], r["tables"][name]) for r in records if name in r["tables"]]
     lengths = [max(map(len, curve.values()), default=0) for _, curve in curves]
@@ -116,7 +140,7 @@ def _journals(plan: Plan, chunk: int) -> list[pathlib.Path]:
     return sorted((plan.folder / "rows").glob(f"chunk-{chunk:06}.*.journal"))
 
 
-def _records(plan: Plan, path: pathlib.Path):
+def _records(plan: Plan, path: pathlib.Path) -> Iterator[tuple[int, Record]]:
     """Whole lines of this study; a line that was cut off is not one."""
     try:
         lines = path.read_bytes().split(b"\n")
@@ -134,12 +158,12 @@ def _line_sum(plan: Plan, text: bytes) -> bytes:
 
 
 class _Journal:
-    def __init__(self, plan: Plan, chunk: int):
+    def __init__(self, plan: Plan, chunk: int) -> None:
         self.plan, self.path = plan, plan.folder / "rows" / f"chunk-{chunk:06}.{uuid.uuid4().hex[:12]}.journal"
         with files.full_disk_told(self.path):
             self.file = os.open(self.path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_APPEND, 0o666)
 
-    def add(self, record: dict) -> None:
+    def add(self, record: Record) -> None:
         text = json.dumps(record, separators=(",", ":")).encode()
         line = _line_sum(self.plan, text) + b" " + text + b"\n"
         with files.full_disk_told(self.path):

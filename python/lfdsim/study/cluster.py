@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable
+from typing import TYPE_CHECKING
 
 from . import chunk as one_chunk
 from . import planned as plans
 from .planned import Plan
 from .problems import StudyError
 
+if TYPE_CHECKING:
+    import distributed
 
-def client_of(dask: object):
+
+def client_of(dask: object) -> "distributed.Client":
     """A distributed.Client: itself, or one for an address or a cluster."""
     try:
         import distributed
@@ -27,7 +31,7 @@ def client_of(dask: object):
         ) from error
 
 
-def run(plan: Plan, chunks: Iterable[int], dask: object, threads: int) -> Iterator[tuple[int, dict]]:
+def run(plan: Plan, chunks: Iterable[int], dask: object, threads: int) -> Generator[tuple[int, one_chunk.Outcome], None, None]:
     """Yields (chunk, what became of it) as they end. Chunks of workers that die are computed by others."""
     import distributed
 
@@ -42,8 +46,8 @@ def run(plan: Plan, chunks: Iterable[int], dask: object, threads: int) -> Iterat
     }
     try:
         for future in distributed.as_completed(futures):
-            error = future.exception()
-            yield futures[future], {"problem": f"{type(error).__name__}: {error}", "fatal": False} if error else future.result()
+            raised = future.exception()
+            yield futures[future], {"problem": f"{type(raised).__name__}: {raised}", "fatal": False} if raised else future.result()
             future.release()
     finally:
         client.cancel(list(futures))
@@ -51,7 +55,7 @@ def run(plan: Plan, chunks: Iterable[int], dask: object, threads: int) -> Iterat
             client.close()
 
 
-def _attempt(folder: str, identity: str, chunk: int, threads: int) -> dict:
+def _attempt(folder: str, identity: str, chunk: int, threads: int) -> one_chunk.Outcome:
     try:
         plan = _plan(folder, identity)
     except (StudyError, OSError) as error:

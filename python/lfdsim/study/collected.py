@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from typing import Any
 
 import pyarrow as pa
 
@@ -47,10 +48,10 @@ def _alike(parts: list[pa.Table]) -> list[pa.Table]:
     return [part.cast(pa.schema([pa.field(f.name, pa.string() if f.name in texts else f.type) for f in part.schema])) for part in parts]
 
 
-def _whole(column: pa.ChunkedArray) -> pa.Array:
+def _whole(column: pa.ChunkedArray[Any]) -> pa.Array[Any]:
     """In one piece, with NaN where a number is missing, as every chunk has it."""
-    column = column.combine_chunks()
-    return column.fill_null(float("nan")) if pa.types.is_floating(column.type) else column
+    whole = column.combine_chunks()
+    return whole.fill_null(float("nan")) if pa.types.is_floating(whole.type) else whole
 
 
 def wanted_figures(plan: Plan, measured: pa.Table) -> list[str]:
@@ -71,13 +72,11 @@ def wanted_figures(plan: Plan, measured: pa.Table) -> list[str]:
     labels = tuple(p.name + "." for p in plan.study.pictures)
     wanted += [n for n in names if n.startswith(labels)] if labels else []
     numbers = [n for n in names if pa.types.is_floating(measured.schema.field(n).type)]
-    for wish in (*plan.study.limits, *plan.study.objectives):
-        if names and wish.figure not in numbers:
-            what = "is a text here, not a number" if wish.figure in names else "is not a figure"
-            raise StudyError(
-                f"{plan.study.path}: [[limit]], [[objective]] or --loss", f'"{wish.figure}" {what}; {nearest(wish.figure, numbers)}'
-            )
-        wanted += [wish.figure] if wish.figure in names else []
+    for figure in plan.study.wished:
+        if names and figure not in numbers:
+            what = "is a text here, not a number" if figure in names else "is not a figure"
+            raise StudyError(f"{plan.study.path}: [[limit]], [[objective]] or --loss", f'"{figure}" {what}; {nearest(figure, numbers)}')
+        wanted += [figure] if figure in names else []
     return list(dict.fromkeys(wanted))
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 import pyarrow as pa
 
@@ -12,8 +13,10 @@ AS_JSON = {b"lfdsim.json": b"1"}  # a column whose values are of several types, 
 
 
 def arrow_of(columns: dict[str, list[Value]]) -> pa.Table:
-    fields, arrays = [], []
+    fields: list[pa.Field[Any]] = []
+    arrays: list[pa.Array[Any]] = []
     for name, values in columns.items():
+        kind: pa.DataType
         kinds = {type(v) for v in values if v is not None}
         if kinds <= {int, float} and kinds:
             kind, meta = (pa.int64() if kinds == {int} else pa.float64()), None
@@ -28,7 +31,7 @@ def arrow_of(columns: dict[str, list[Value]]) -> pa.Table:
             kind, meta = pa.string(), AS_JSON
             arrays.append(pa.array([None if v is None else json.dumps(v) for v in values], kind))
         fields.append(pa.field(name, kind, metadata=meta))
-    return pa.table(arrays, pa.schema(fields))
+    return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
 
 
 def values_of(table: pa.Table) -> dict[str, list[Value]]:
@@ -41,10 +44,10 @@ def values_of(table: pa.Table) -> dict[str, list[Value]]:
     return columns
 
 
-def figures_arrow(rows: list[dict[str, float | str]]) -> dict[str, pa.Array]:
+def figures_arrow(rows: list[dict[str, float | str]]) -> dict[str, pa.Array[Any]]:
     """A column for each figure, in the order in which rows first have it; where a row has none, NaN or no text."""
     names = dict.fromkeys(name for row in rows for name in row)
-    columns = {}
+    columns: dict[str, pa.Array[Any]] = {}
     for name in names:
         values = [row.get(name) for row in rows]
         if any(isinstance(v, str) for v in values):

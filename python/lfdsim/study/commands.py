@@ -24,7 +24,8 @@ def main(words: list[str]) -> int:
     arguments = _parser().parse_args(["run", *words] if short else words)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # as the program's other commands: a batch system's end is a user's
     try:
-        return arguments.command(arguments)
+        code: int = arguments.command(arguments)
+        return code
     except StudyError as error:
         print(f"lfdsim: error: {error}", file=sys.stderr)
         return 1 if isinstance(error, StudyFailed) else 2

@@ -6,6 +6,7 @@ import csv
 import itertools
 import json
 import math
+import pathlib
 
 import numpy as np
 
@@ -20,7 +21,7 @@ def rows_of(study: Study, replicate_keys: tuple[str, ...]) -> Columns:
     """One list for each key, all of the same length; `replicate` counts from 0 where a row is repeated with other seeds."""
     if study.design in SAMPLED:
         _check_count(study, study.rows * (len(study.factors) + 2 if study.design == "saltelli" else 1))
-    columns = _grid(study) if study.design == "grid" else _table(study) if study.design == "table" else _sampled(study)
+    columns = _grid(study) if study.design == "grid" else _table(study.table) if study.table else _sampled(study)
     count = len(next(iter(columns.values())))
     _check_count(study, count)
     if study.replicates == 1:
@@ -28,10 +29,11 @@ def rows_of(study: Study, replicate_keys: tuple[str, ...]) -> Columns:
     for key in replicate_keys:
         if key in columns or key in study.fixed:
             raise StudyError(f"{study.path}: replicates", f"change {key}, which the study sets itself; give other replicate_keys")
-    repeated: Columns = {"replicate": list(range(study.replicates)) * count}
+    repeats: list[Value] = list(range(study.replicates))
+    repeated: Columns = {"replicate": repeats * count}
     repeated |= {key: [v for v in values for _ in range(study.replicates)] for key, values in columns.items()}
     # The same seeds for every setting: what differs between settings is then theirs, not chance's.
-    seeds = [int(np.random.SeedSequence([study.seed, r]).generate_state(1)[0]) for r in range(study.replicates)]
+    seeds: list[Value] = [int(np.random.SeedSequence([study.seed, r]).generate_state(1)[0]) for r in range(study.replicates)]
     return repeated | {key: seeds * count for key in replicate_keys}
 
 
@@ -84,29 +86,29 @@ def _sampled(study: Study) -> Columns:
     return columns
 
 
-def _table(study: Study) -> Columns:
+def _table(path: pathlib.Path) -> Columns:
     """A CSV file with a key at the head of each column; an empty cell leaves the key as it is in the display."""
     try:
-        with open(study.table, newline="", encoding="utf-8") as file:
+        with open(path, newline="", encoding="utf-8") as file:
             lines = list(itertools.islice(csv.reader(file), MOST_ROWS + 2))
     except (OSError, ValueError, csv.Error) as error:
-        raise StudyError(study.table, f"cannot be read: {error}") from error
+        raise StudyError(path, f"cannot be read: {error}") from error
     if len(lines) < 2:
-        raise StudyError(study.table, "has no rows; give a line of keys and a line for each row")
+        raise StudyError(path, "has no rows; give a line of keys and a line for each row")
     keys = lines[0]
     if len(set(keys)) < len(keys) or "" in keys:
-        raise StudyError(f"{study.table}:1", "names a key twice or not at all; give each column one key")
+        raise StudyError(f"{path}:1", "names a key twice or not at all; give each column one key")
     for number, line in enumerate(lines[1:], 2):
         if len(line) != len(keys):
-            raise StudyError(f"{study.table}:{number}", f"has {len(line)} cells; give {len(keys)}, one for each key")
+            raise StudyError(f"{path}:{number}", f"has {len(line)} cells; give {len(keys)}, one for each key")
     return {key: [_cell(line[k]) for line in lines[1:]] for k, key in enumerate(keys)}
 
 
 def texts_of_table(study: Study) -> list[str]:
     """Each once: some are names of files."""
-    if study.design != "table":
+    if not study.table:
         return []
-    return sorted({value for values in _table(study).values() for value in values if isinstance(value, str)})
+    return sorted({value for values in _table(study.table).values() for value in values if isinstance(value, str)})
 
 
 def _cell(text: str) -> Value:

@@ -94,7 +94,7 @@ def _units(key: str, size: float | list[float], draws: int, seed: int) -> np.nda
 
 
 def _value(key: str, size: float | list[float], scale: float, units: np.ndarray) -> float | list[float]:
-    if key.removeprefix("errors.") in EACH:
+    if not isinstance(size, list) and key.removeprefix("errors.") in EACH:
         return size * scale
     values = [float(s * scale * u) for s, u in zip(np.atleast_1d(size), units)]
     return values if isinstance(size, list) else values[0]

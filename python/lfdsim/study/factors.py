@@ -5,10 +5,12 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable
+from typing import Any, TypeGuard
 
 import numpy as np
 
-Value = bool | int | float | str | list | None
+Quantile = Callable[[np.ndarray], np.ndarray]  # of a distribution: shares of 0 to 1 -> values
+Value = bool | int | float | str | list[Any] | None
 
 
 @dataclasses.dataclass(frozen=True)
@@ -17,7 +19,7 @@ class Factor:
 
     keys: tuple[str, ...]
     levels: tuple[tuple[Value, ...], ...] = ()
-    quantile: Callable[[np.ndarray], np.ndarray] | None = None  # of the distribution: shares of 0 to 1 -> values
+    quantile: Quantile | None = None
     times: tuple[float, ...] = ()  # each key is the drawn number times this
 
     @property
@@ -35,7 +37,7 @@ class Factor:
         return {key: [self.levels[i][k] for i in indices] for k, key in enumerate(self.keys)}
 
 
-def truncated_normal(mean: float, sd: float, truncated: float) -> Callable[[np.ndarray], np.ndarray]:
+def truncated_normal(mean: float, sd: float, truncated: float) -> Quantile:
     """Beyond `truncated` standard deviations nothing is drawn."""
     from scipy.special import ndtr, ndtri
 
@@ -43,16 +45,16 @@ def truncated_normal(mean: float, sd: float, truncated: float) -> Callable[[np.n
     return lambda shares: mean + sd * np.clip(ndtri(low + shares * (high - low)), -truncated, truncated)
 
 
-def uniform(low: float, high: float) -> Callable[[np.ndarray], np.ndarray]:
+def uniform(low: float, high: float) -> Quantile:
     return lambda shares: low + shares * (high - low)
 
 
-def integers(low: int, high: int) -> Callable[[np.ndarray], np.ndarray]:
+def integers(low: int, high: int) -> Quantile:
     """Both ends included."""
     return lambda shares: low + np.minimum(np.floor(shares * (high - low + 1)), high - low).astype(np.int64)
 
 
-def triangular(low: float, mode: float, high: float) -> Callable[[np.ndarray], np.ndarray]:
+def triangular(low: float, mode: float, high: float) -> Quantile:
     share = (mode - low) / (high - low)
     return lambda shares: np.where(
         shares < share, low + np.sqrt(shares * (high - low) * (mode - low)), high - np.sqrt((1 - shares) * (high - low) * (high - mode))
@@ -66,5 +68,5 @@ def steps(low: float, high: float, count: int) -> tuple[float, ...]:
     return tuple(low if k == 0 else high if k == count - 1 else low + (high - low) * k / (count - 1) for k in range(count))
 
 
-def is_number(value: object) -> bool:
+def is_number(value: object) -> TypeGuard[float]:
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)

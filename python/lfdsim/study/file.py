@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 import pathlib
+from typing import Any
 
 from . import factors, files
-from .factors import Factor
+from .factors import Factor, Quantile, Value
 from .problems import StudyError, nearest
 from .tables import Table
 
@@ -21,7 +22,7 @@ class Measure:
 
     name: str
     label: str
-    settings: dict
+    settings: dict[str, Any]
     figures: tuple[str, ...]  # wanted in the table; empty: all
     tables: tuple[str, ...]  # curves to be kept
 
@@ -31,7 +32,7 @@ class Picture:
     """A view of the display, kept in linear light; with `compare` also its likeness to the scene itself."""
 
     name: str
-    settings: dict  # of lfdsim.render: camera_mm, target_mm, size, samples, model
+    settings: dict[str, Any]  # of lfdsim.render: camera_mm, target_mm, size, samples, model
     compare: bool
 
 
@@ -55,7 +56,7 @@ class Study:
     path: pathlib.Path
     text: str
     display_path: pathlib.Path
-    fixed: dict  # overrides of every row
+    fixed: dict[str, Any]  # overrides of every row
     factors: tuple[Factor, ...]
     design: str
     table: pathlib.Path | None  # of design "table"
@@ -68,7 +69,12 @@ class Study:
     pictures: tuple[Picture, ...]
     limits: tuple[Limit, ...]
     objectives: tuple[Objective, ...]
-    definition: dict  # what rows and their figures depend on, as it stands in the file
+    definition: dict[str, Any]  # what rows and their figures depend on, as it stands in the file
+
+    @property
+    def wished(self) -> list[str]:
+        """The figures of limits and objectives."""
+        return [limit.figure for limit in self.limits] + [objective.figure for objective in self.objectives]
 
 
 def read_study(path: str | pathlib.Path) -> Study:
@@ -129,7 +135,7 @@ def _factor(table: Table) -> Factor:
     return factor
 
 
-def _levels(table: Table, keys: tuple[str, ...]) -> tuple[tuple, ...]:
+def _levels(table: Table, keys: tuple[str, ...]) -> tuple[tuple[Value, ...], ...]:
     values = table.items("values", kind=None, allowed="a list of values")
     if len(keys) == 1:
         return tuple((v,) for v in values)
@@ -138,12 +144,12 @@ def _levels(table: Table, keys: tuple[str, ...]) -> tuple[tuple, ...]:
     return tuple(map(tuple, values))
 
 
-def _distribution(table: Table, kind: str):
+def _distribution(table: Table, kind: str) -> Quantile:
     if kind == "normal":
         made = factors.truncated_normal(table.number("mean", 0), table.number("sd", above=0), table.number("truncated", 3, above=0))
     elif kind == "integers":
-        low = table.integer("from", 0)
-        made = factors.integers(low, table.integer("to", low=low))
+        first = table.integer("from", 0)
+        made = factors.integers(first, table.integer("to", low=first))
     else:
         low = table.number("from")
         high = table.number("to", above=low)
@@ -198,7 +204,7 @@ def _objective(table: Table) -> Objective:
     return objective
 
 
-def _check_factors(top: Table, design: str, all_factors: tuple[Factor, ...], fixed: dict) -> None:
+def _check_factors(top: Table, design: str, all_factors: tuple[Factor, ...], fixed: dict[str, Any]) -> None:
     if design == "table" and all_factors:
         raise top.wrong("[[factor]]", 'has no meaning with design = "table": the table\'s columns are the factors')
     if design != "table" and not all_factors:
@@ -226,13 +232,13 @@ def _check_measures(top: Table, study: Study) -> None:
             raise top.wrong("[[measure]]", f'"{label}" becomes the name of columns and files; give letters, digits, _ and -')
         if label in ("row", "channel"):
             raise top.wrong("[[measure]] or [[picture]]", f'"{label}" is what an axis of the pictures is called; give another name')
-    for wish in (*study.limits, *study.objectives):
-        label = wish.figure.partition(".")[0]
+    for figure in study.wished:
+        label = figure.partition(".")[0]
         if label not in labels:
-            raise top.wrong(f"[[limit]] or [[objective]] {wish.figure}", f"is of no measure here; {nearest(label, labels)}")
+            raise top.wrong(f"[[limit]] or [[objective]] {figure}", f"is of no measure here; {nearest(label, labels)}")
 
 
-def _definition(values: dict) -> dict:
+def _definition(values: dict[str, Any]) -> dict[str, Any]:
     """Without what only chooses among results, which may change while finished rows stay."""
     kept = {k: v for k, v in values.items() if k not in ("limit", "objective", "rows_per_chunk", "display", "table")}
     kept["measure"] = [{k: v for k, v in m.items() if k != "figures"} for m in values.get("measure", [])]

@@ -13,6 +13,8 @@ import os
 import pathlib
 import tomllib
 import uuid
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -41,7 +43,7 @@ def read_text(path: pathlib.Path) -> str:
         raise StudyError(path, f"cannot be read: {error}") from error
 
 
-def parse_toml(text: str, path: object) -> dict:
+def parse_toml(text: str, path: object) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except RecursionError as error:
@@ -51,7 +53,7 @@ def parse_toml(text: str, path: object) -> dict:
 
 
 @contextlib.contextmanager
-def full_disk_told(path: pathlib.Path):
+def full_disk_told(path: pathlib.Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
@@ -90,7 +92,7 @@ def digest(value: object) -> str:
     return hashlib.sha256(json.dumps(value, sort_keys=True, separators=(",", ":"), default=str).encode()).hexdigest()
 
 
-def checksum(table: pa.Table, about: dict) -> str:
+def checksum(table: pa.Table, about: dict[str, Any]) -> str:
     """Of names, types and values, and of what the table belongs to; not of how a version of a library lays them out in a file."""
     sum_ = hashlib.sha256(digest(about).encode())
     for name, column in zip(table.column_names, table.columns):
@@ -105,7 +107,9 @@ def checksum(table: pa.Table, about: dict) -> str:
     return sum_.hexdigest()
 
 
-def write_table(path: pathlib.Path, table: pa.Table, about: dict, more: dict | None = None, rows_per_group: int | None = None) -> None:
+def write_table(
+    path: pathlib.Path, table: pa.Table, about: dict[str, Any], more: dict[str, Any] | None = None, rows_per_group: int | None = None
+) -> None:
     """`about` is covered by the checksum; `more` (times that things took) is not."""
     note = {"about": about, "checksum": checksum(table, about), **(more or {})}
     sink = pa.BufferOutputStream()
@@ -114,14 +118,15 @@ def write_table(path: pathlib.Path, table: pa.Table, about: dict, more: dict | N
     write_whole(path, memoryview(sink.getvalue()))
 
 
-def note_of(path: pathlib.Path) -> dict:
+def note_of(path: pathlib.Path) -> dict[str, Any]:
     try:
-        return json.loads((pq.read_schema(path).metadata or {})[NOTE])
+        note: dict[str, Any] = json.loads((pq.read_schema(path).metadata or {})[NOTE])
+        return note
     except (KeyError, ValueError, OSError, pa.ArrowException) as error:
         raise StudyError(path, f"is not a table that this study wrote ({type(error).__name__})") from error
 
 
-def read_table(path: pathlib.Path, about: dict, remedy: str) -> tuple[pa.Table, dict]:
+def read_table(path: pathlib.Path, about: dict[str, Any], remedy: str) -> tuple[pa.Table, dict[str, Any]]:
     """The table and its note, if it is as it was written."""
     try:
         table = pq.read_table(path, partitioning=None)

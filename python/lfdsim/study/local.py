@@ -9,20 +9,22 @@ import queue
 import subprocess
 import sys
 import threading
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable
+from typing import IO
 
+from .chunk import Outcome
 from .planned import Plan
 
 ATTEMPTS = 3  # at a chunk in whose work a process dies
 
 
-def run(plan: Plan, chunks: Iterable[int], workers: int, threads: int) -> Iterator[tuple[int, dict]]:
+def run(plan: Plan, chunks: Iterable[int], workers: int, threads: int) -> Generator[tuple[int, Outcome], None, None]:
     """Yields (chunk, what became of it) as they end. Processes that die are replaced. Stopped (Ctrl-C, an error), it stops them."""
     wanted: queue.SimpleQueue[int] = queue.SimpleQueue()
     for chunk in chunks:
         wanted.put(chunk)
     # Only a simple queue can be left by Ctrl-C at any moment: futures keep locks then, on which others wait for ever.
-    ended: queue.SimpleQueue[tuple[int, dict | Exception]] = queue.SimpleQueue()
+    ended: queue.SimpleQueue[tuple[int, Outcome | Exception]] = queue.SimpleQueue()
 
     def drive(process: _Process) -> None:
         while not process.stopped:
@@ -52,32 +54,36 @@ def run(plan: Plan, chunks: Iterable[int], workers: int, threads: int) -> Iterat
 class _Process:
     """A worker process, started when it is first needed. No fork, and no second run of the user's script: both have surprises."""
 
-    def __init__(self, plan: Plan, threads: int):
+    def __init__(self, plan: Plan, threads: int) -> None:
         self.command = [sys.executable, "-m", "lfdsim.study.worker", str(plan.folder), str(threads)]
-        self.child: subprocess.Popen | None = None
+        self.child: subprocess.Popen[str] | None = None
         self.stopped = False
         self.starting = threading.Lock()  # so that none is started behind stop()
 
-    def run(self, chunk: int) -> dict:
+    def run(self, chunk: int) -> Outcome:
         code = 0
         for _ in range(ATTEMPTS):
             try:
-                if not self._start():
+                child = self._start()
+                if child is None:
                     return {"problem": "stopped", "fatal": True}
-                self.child.stdin.write(f"{chunk}\n")
-                self.child.stdin.flush()
-                return json.loads(self.child.stdout.readline())
+                words, answers = _pipes(child)
+                words.write(f"{chunk}\n")
+                words.flush()
+                outcome: Outcome = json.loads(answers.readline())
+                return outcome
             except (OSError, ValueError):  # it died: its pipes are closed, its last line is not whole
                 code = self._end()
         return {"problem": f"the process that computed it died {ATTEMPTS} times (exit code {code})", "fatal": False}
 
-    def _start(self) -> bool:
+    def _start(self) -> subprocess.Popen[str] | None:
+        """None: stopped."""
         with self.starting:
             if self.child is None and not self.stopped:
                 # Python's own modules are not looked for where the user stands.
                 environment = os.environ | {"PYTHONPATH": os.pathsep.join(p or os.getcwd() for p in sys.path), "PYTHONSAFEPATH": "1"}
                 self.child = subprocess.Popen(self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment)
-            return not self.stopped
+            return None if self.stopped else self.child
 
     def _end(self) -> int:
         with self.starting:
@@ -85,12 +91,18 @@ class _Process:
         if child is None:
             return 0
         child.kill()
+        words, answers = _pipes(child)
         with contextlib.suppress(OSError):  # of a pipe that it closed
-            child.stdin.close()
-        child.stdout.close()
+            words.close()
+        answers.close()
         return child.wait()
 
     def stop(self) -> None:
         with self.starting:
             self.stopped = True
         self._end()
+
+
+def _pipes(child: subprocess.Popen[str]) -> tuple[IO[str], IO[str]]:
+    assert child.stdin and child.stdout  # it was started with both
+    return child.stdin, child.stdout

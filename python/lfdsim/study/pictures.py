@@ -5,12 +5,16 @@ from __future__ import annotations
 import functools
 import pathlib
 import warnings
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import files, work
 from .planned import Plan
 from .problems import StudyError
+
+if TYPE_CHECKING:
+    import zarr
 
 NAME = "pictures.zarr"
 
@@ -23,7 +27,9 @@ def prepare(plan: Plan) -> None:
     path = plan.folder / NAME
     if not plan.study.pictures:
         return
-    zarr = _zarr()
+    _require_zarr()
+    import zarr
+
     base = work.changed(plan.display, plan.display_folder, plan.study.fixed)
     with files.full_disk_told(path):
         group = zarr.open_group(path, mode="a", attributes={})
@@ -58,17 +64,19 @@ def write(plan: Plan, row: int, made: dict[str, np.ndarray]) -> None:
 
 
 def read(plan: Plan, row: int, name: str) -> np.ndarray:
-    return _open(plan.folder / NAME, name)[row]
+    return np.asarray(_open(plan.folder / NAME, name)[row])
 
 
 @functools.lru_cache(maxsize=16)
-def _open(path: pathlib.Path, name: str):
-    return _zarr().open_group(path, mode="r+")[name]
+def _open(path: pathlib.Path, name: str) -> "zarr.Array[Any]":
+    _require_zarr()
+    import zarr
+
+    return zarr.open_array(path / name, mode="r+")
 
 
-def _zarr():
+def _require_zarr() -> None:
     try:
-        import zarr
+        import zarr  # noqa: F401
     except ImportError as error:
         raise StudyError("[[picture]]", "needs the Python package zarr; pip install zarr xarray") from error
-    return zarr

@@ -9,7 +9,9 @@ import json
 import math
 import pathlib
 import tomllib
+from typing import Any
 
+import pyarrow as pa
 import pyarrow.parquet as pq
 
 import lfdsim
@@ -44,14 +46,14 @@ class Plan:
     def chunk_path(self, chunk: int) -> pathlib.Path:
         return self.folder / "rows" / f"chunk-{chunk:06}.parquet"
 
-    def about(self, chunk: int) -> dict:
+    def about(self, chunk: int) -> dict[str, Any]:
         return {"study": self.identity, "chunk": chunk}
 
     def values_of(self, chunk: int) -> design.Columns:
         """What the chunk's rows change, without reading the other rows."""
         return columns.values_of(self._table_file.read_row_group(chunk))
 
-    def table(self):
+    def table(self) -> pa.Table:
         """All rows, as planned."""
         path = self.folder / "plan.parquet"
         table, note = files.read_table(path, {"study": self.identity}, "take another folder, or remove this one")
@@ -178,7 +180,7 @@ def _same_study(study: Study, folder: pathlib.Path, display_text: str) -> Plan |
     return dataclasses.replace(load(folder), study=study)
 
 
-def display_in(path: pathlib.Path, fixed: dict) -> tuple[str, "lfdsim.Display"]:
+def display_in(path: pathlib.Path, fixed: dict[str, Any]) -> tuple[str, "lfdsim.Display"]:
     """A description's text and its display, which has to be possible with the overrides `fixed`."""
     text = files.read_text(path)
     try:
@@ -211,7 +213,7 @@ def _replicate_keys(study: Study, display_text: str) -> tuple[str, ...]:
     return study.replicate_keys or (("errors.seed", "render.seed") if has_errors else ("render.seed",))
 
 
-def _basis(study: Study, display_text: str) -> dict:
+def _basis(study: Study, display_text: str) -> dict[str, Any]:
     """All that rows are a function of. Comments and blanks are not."""
     display = tomllib.loads(display_text)
     return {

@@ -5,8 +5,11 @@ from __future__ import annotations
 import os
 import sys
 
+import pyarrow as pa
+
 from . import collected, local
 from . import planned as plans
+from .chunk import Outcome
 from .problems import StudyError, StudyFailed, listed
 
 
@@ -15,7 +18,9 @@ def check_machines(dask: object, workers: int | None) -> None:
         raise StudyError("workers", "are of this machine; with dask the cluster has its own. Give one of them")
 
 
-def finish(plan: plans.Plan, dask: object = None, workers: int | None = None, threads: int = 1, progress: bool | None = None):
+def finish(
+    plan: plans.Plan, dask: object = None, workers: int | None = None, threads: int = 1, progress: bool | None = None
+) -> pa.Table:
     """Computes the missing chunks, and returns the table (Arrow). StudyError names chunks that failed; the others are kept."""
     if (plan.folder / collected.NAME).exists():
         return collected.table_of(plan)
@@ -62,12 +67,12 @@ def cores() -> int:
 
 
 class _Progress:
-    def __init__(self, plan: plans.Plan, chunks: list[int], shown: bool):
+    def __init__(self, plan: plans.Plan, chunks: list[int], shown: bool) -> None:
         self.shown, self.failed = shown, 0
         self.total = plan.rows
         self.done = plan.rows - sum(len(plan.rows_of(c)) for c in chunks)
 
-    def add(self, result: dict) -> None:
+    def add(self, result: Outcome) -> None:
         self.done += result["rows"]
         self.failed += result["failed"]
         if self.shown:

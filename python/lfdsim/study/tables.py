@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import datetime
+from typing import Any, TypeVar
 
 from .factors import is_number
 from .problems import StudyError, nearest
 
-REQUIRED = object()
+REQUIRED: Any = object()  # of no type, so that the type of what is read is not wider where there is no default
+Default = TypeVar("Default")
 
 
 class Table:
     """Keys are taken one by one; `end` refuses those that nobody took."""
 
-    def __init__(self, file: str, name: str, values: dict):
+    def __init__(self, file: str, name: str, values: dict[str, Any]) -> None:
         self.file, self.name, self.values = file, name, values
         self.asked: list[str] = []
 
@@ -27,14 +29,14 @@ class Table:
         self.asked.append(key)
         return key in self.values
 
-    def take(self, key: str, default=REQUIRED, allowed: str = ""):
+    def take(self, key: str, default: object = REQUIRED, allowed: str = "") -> Any:
         if not self.has(key):
             if default is REQUIRED:
                 raise self.wrong(key, f"is missing; give {allowed}")
             return default
         return self.values[key]
 
-    def text(self, key: str, default=REQUIRED, among: tuple[str, ...] = ()) -> str:
+    def text(self, key: str, default: Default = REQUIRED, among: tuple[str, ...] = ()) -> str | Default:
         allowed = "one of " + ", ".join(f'"{a}"' for a in among) if among else "a text"
         value = self.take(key, default, allowed)
         if value is default or isinstance(value, str) and value and (not among or value in among):
@@ -42,21 +44,23 @@ class Table:
         hint = f" ({nearest(value, among)})" if among and isinstance(value, str) else ""
         raise self.wrong(key, f"is {value!r}; give {allowed}{hint}")
 
-    def number(self, key: str, default=REQUIRED, above: float | None = None) -> float:
+    def number(self, key: str, default: Default = REQUIRED, above: float | None = None) -> float | Default:
         allowed = "a number" + (f" above {above}" if above is not None else "")
         value = self.take(key, default, allowed)
         if value is default or is_number(value) and (above is None or value > above):
             return value
         raise self.wrong(key, f"is {value!r}; give {allowed}")
 
-    def integer(self, key: str, default=REQUIRED, low: int = 0, high: int = 2**53) -> int:
+    def integer(self, key: str, default: Default = REQUIRED, low: int = 0, high: int = 2**53) -> int | Default:
         allowed = f"a whole number from {low} to {high}" if low < high else str(low)
         value = self.take(key, default, allowed)
         if value is default or isinstance(value, int) and not isinstance(value, bool) and low <= value <= high:
             return value
         raise self.wrong(key, f"is {value!r}; give {allowed}")
 
-    def items(self, key: str, default=REQUIRED, kind: type | None = str, allowed: str = "a list of texts") -> list:
+    def items(
+        self, key: str, default: Default = REQUIRED, kind: type | None = str, allowed: str = "a list of texts"
+    ) -> list[Any] | Default:
         """A list with at least one entry, all of a kind."""
         value = self.take(key, default, allowed)
         if value is default or isinstance(value, list) and value and all(kind is None or isinstance(v, kind) for v in value):
@@ -69,13 +73,13 @@ class Table:
             return value
         raise self.wrong(key, f"is {value!r}; give columns and rows, as in [480, 270]")
 
-    def vector(self, key: str, count: int, default=REQUIRED) -> list[float]:
+    def vector(self, key: str, count: int, default: Default = REQUIRED) -> list[float] | Default:
         value = self.items(key, default, None, f"{count} numbers")
-        if value is default or len(value) == count and all(map(is_number, value)):
+        if value is default or isinstance(value, list) and len(value) == count and all(map(is_number, value)):
             return value
         raise self.wrong(key, f"is {value!r}; give {count} numbers")
 
-    def table(self, key: str, default=REQUIRED) -> "Table":
+    def table(self, key: str, default: object = REQUIRED) -> "Table":
         value = self.take(key, {} if default is not REQUIRED else default, "a table")
         if not isinstance(value, dict):
             raise self.wrong(key, f"is {value!r}; give a table")

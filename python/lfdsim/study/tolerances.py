@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import pathlib
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -69,7 +69,7 @@ def tolerance(
     draws: int = 200,
     *,
     alone: int | None = None,
-    measures: tuple[str | dict, ...] = MEASURES,
+    measures: tuple[str | dict[str, Any], ...] = MEASURES,
     losses: tuple[Loss, ...] = (),
     percent: float = 95.0,
     seed: int = 0,
@@ -121,7 +121,7 @@ def _keep(path: pathlib.Path, text: str) -> None:
     files.write_whole(path, text.encode())
 
 
-def _study_text(display: pathlib.Path, measures: tuple[str | dict, ...]) -> str:
+def _study_text(display: pathlib.Path, measures: tuple[str | dict[str, Any], ...]) -> str:
     text = f'schema = 1\ndisplay = {json.dumps(str(display.resolve()))}\ndesign = "table"\ntable = "draws.csv"\n'
     for measure in measures:
         if isinstance(measure, dict):
@@ -141,7 +141,8 @@ def evaluate(folder: pathlib.Path, layout: Layout, rows: "pandas.DataFrame", los
     without = rows.iloc[0]
     if isinstance(without["error"], str):
         raise StudyError(folder, f"the display without errors is impossible: {without['error']}")
-    together = rows.iloc[next(r for g, s, r in layout.blocks() if g == ALL and s == 1)]
+    block = next(r for g, s, r in layout.blocks() if g == ALL and s == 1)
+    together = rows.iloc[block.start : block.stop]
     kept = together[together["error"].isna()].reset_index(drop=True)
     names = [n for n in rows.columns[2 + len(layout.sizes) : -1] if rows[n].dtype == float]
     for loss in losses:

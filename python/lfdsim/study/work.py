@@ -5,6 +5,8 @@ from __future__ import annotations
 import dataclasses
 import inspect
 import pathlib
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -62,7 +64,7 @@ def changed(base: "lfdsim.Display", folder: pathlib.Path, overrides: dict[str, V
     return base.with_(whole) if whole else base
 
 
-def _in_folder(values: dict, folder: pathlib.Path) -> dict:
+def _in_folder(values: Mapping[str, Any], folder: pathlib.Path) -> dict[str, Any]:
     """Names of files that are there, with their folder: a worker's own is another."""
     return {k: str(folder / v) if isinstance(v, str) and names_file(folder, v) else v for k, v in values.items()}
 
@@ -91,7 +93,7 @@ def check_measures(study: Study) -> None:
             raise StudyError(f"{where} tables", "check has none; leave them out")
 
 
-def _measure(row: Row, display: "lfdsim.Display", measure: Measure, settings: dict, threads: int) -> None:
+def _measure(row: Row, display: "lfdsim.Display", measure: Measure, settings: dict[str, Any], threads: int) -> None:
     if measure.name == "check":
         found = lfdsim.check(display)
         row.figures.update(flat({k: found[k] for k in ("geometry", "theory")}, measure.label))
@@ -107,7 +109,7 @@ def _measure(row: Row, display: "lfdsim.Display", measure: Measure, settings: di
         row.tables[f"{measure.label}.{name}"] = {str(c): np.asarray(table[c], float).tolist() for c in table}
 
 
-def _picture(row: Row, display: "lfdsim.Display", picture: Picture, settings: dict, threads: int) -> None:
+def _picture(row: Row, display: "lfdsim.Display", picture: Picture, settings: dict[str, Any], threads: int) -> None:
     view = lfdsim.render(display, threads=threads, progress=False, **settings)
     row.pictures[picture.name] = np.asarray(view, np.float32)
     row.figures[f"{picture.name}.mean"] = float(np.mean(view, dtype=float))
@@ -117,7 +119,7 @@ def _picture(row: Row, display: "lfdsim.Display", picture: Picture, settings: di
         row.figures.update(flat(lfdsim.compare(view, truth), picture.name))
 
 
-def flat(value: object, name: str) -> dict[str, float | str]:
+def flat(value: Any, name: str) -> dict[str, float | str]:
     """Tables and lists as names with dots: `fov.horizontal.own_lens_deg.0`."""
     if isinstance(value, dict):
         return {k: v for key, inner in value.items() for k, v in flat(inner, f"{name}.{key}").items()}

@@ -27,7 +27,7 @@ def main(folder: str, threads: int) -> None:
         answers.write(json.dumps(chunk.attempt(the_plan, number, threads)) + "\n")
 
 
-def _listen(wanted: queue.SimpleQueue) -> None:
+def _listen(wanted: queue.SimpleQueue[int]) -> None:
     for line in sys.stdin:
         wanted.put(int(line))
     os._exit(0)  # journals are whole lines, files appear whole: nothing is lost

@@ -57,7 +57,7 @@ def _levels(column: pd.Series) -> tuple[list[str], np.ndarray]:
 
 
 def _figures(plan: Plan, rows: pd.DataFrame) -> list[str]:
-    named = [w.figure for w in (*plan.study.objectives, *plan.study.limits)]
+    named = [o.figure for o in plan.study.objectives] + [limit.figure for limit in plan.study.limits]
     if not named:
         start = list(rows.columns).index("row") + 1 + len(plan.table().column_names)
         named = [n for n in rows.columns[start:-1] if pd.api.types.is_numeric_dtype(rows[n]) and not is_uncertainty(n)]

@@ -61,11 +61,9 @@ def sobol(figure: np.ndarray, factors: int) -> Sobol | None:
     with warnings.catch_warnings():  # a factor without any effect has no spread either: its interval is NaN, and stands for 0
         warnings.simplefilter("ignore")
         spread = found.bootstrap(confidence_level=0.95, n_resamples=999)
-
-    def half(interval) -> np.ndarray:
-        return np.nan_to_num(np.ravel(interval.confidence_interval.high - interval.confidence_interval.low) / 2)
-
-    return Sobol(np.ravel(found.first_order), np.ravel(found.total_order), half(spread.first_order), half(spread.total_order))
+    intervals = (spread.first_order.confidence_interval, spread.total_order.confidence_interval)
+    halves = [np.nan_to_num(np.ravel(interval.high - interval.low) / 2) for interval in intervals]
+    return Sobol(np.ravel(found.first_order), np.ravel(found.total_order), *halves)
 
 
 def groups(values: np.ndarray, positions: np.ndarray | None, most: int = 8) -> tuple[np.ndarray, np.ndarray]:
@@ -84,7 +82,8 @@ def cell_means(first: np.ndarray, second: np.ndarray, figure: np.ndarray) -> np.
     kept = np.isfinite(figure)
     count = np.bincount(cell[kept], minlength=shape[0] * shape[1])
     with np.errstate(invalid="ignore"):
-        return (np.bincount(cell[kept], figure[kept], shape[0] * shape[1]) / count).reshape(shape)
+        means: np.ndarray = (np.bincount(cell[kept], figure[kept], shape[0] * shape[1]) / count).reshape(shape)
+    return means
 
 
 def interaction(means: np.ndarray) -> float:
@@ -95,8 +94,9 @@ def interaction(means: np.ndarray) -> float:
 
 def passes(figure: np.ndarray, limit: Limit) -> np.ndarray:
     """NaN does not pass."""
-    above = figure >= limit.low if limit.low is not None else np.isfinite(figure) | np.isinf(figure)
-    return above & (figure <= limit.high if limit.high is not None else True)
+    low = -np.inf if limit.low is None else limit.low
+    high = np.inf if limit.high is None else limit.high
+    return np.asarray((figure >= low) & (figure <= high))
 
 
 def share_with_interval(passed: int, of: int) -> tuple[float, float, float]:
@@ -108,7 +108,7 @@ def share_with_interval(passed: int, of: int) -> tuple[float, float, float]:
 def pareto(figures: np.ndarray, objectives: tuple[Objective, ...]) -> np.ndarray:
     """Of figures (rows, objectives) those rows that none surpasses: none is as good in all and better in one. NaN is not on the front."""
     costs = figures * np.array([-1.0 if o.best == "high" else 1.0 for o in objectives])
-    front = np.isfinite(costs).all(1)
+    front: np.ndarray = np.isfinite(costs).all(1)
     order = np.lexsort(costs.T[::-1])  # a row can only be surpassed by one before it
     best = np.empty((0, costs.shape[1]))
     for row in order:

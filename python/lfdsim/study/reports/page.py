@@ -72,7 +72,7 @@ def _failures(data: Data) -> str:
     if not len(data.failed):
         return ""
     causes = data.failed.groupby("error")["row"].agg(["count", "min"]).sort_values("count", ascending=False)
-    rows = [[error[:300], int(line["count"]), int(line["min"])] for error, line in causes.head(10).iterrows()]
+    rows = [[str(error)[:300], int(line["count"]), int(line["min"])] for error, line in causes.head(10).iterrows()]
     more = f"<p>{len(causes) - 10} more reasons are in study.parquet.</p>" if len(causes) > 10 else ""
     return f"<h2>Impossible rows</h2>{table(['reason', 'rows', 'the first'], rows)}{more}"
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import io
 import itertools
 import warnings
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, ParamSpec
 
 import matplotlib
 import numpy as np
@@ -16,7 +18,11 @@ with warnings.catch_warnings():  # no plot here has three dimensions, whose part
 from . import effects
 from .data import Data
 
-STYLE = {
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.typing import RcKeyType
+
+STYLE: dict[RcKeyType, Any] = {
     "svg.hashsalt": "lfdsim",
     "font.size": 9,
     "axes.spines.top": False,
@@ -26,6 +32,7 @@ STYLE = {
 }
 BLUE, ORANGE, GREY = "#2563a8", "#c8641e", "#9aa3ad"
 MOST_DOTS = 2000
+Arguments = ParamSpec("Arguments")
 
 
 def svg(figure: Figure) -> str:
@@ -34,21 +41,21 @@ def svg(figure: Figure) -> str:
     return text.getvalue()[text.getvalue().index("<svg") :]
 
 
-def panels(count: int, columns: int = 4, height: float = 2.2, **options) -> tuple[Figure, list]:
+def panels(count: int, columns: int = 4, height: float = 2.2, sharey: bool = False) -> tuple[Figure, list[Axes]]:
     columns = min(columns, count)
     rows = -(-count // columns)
     with matplotlib.rc_context(STYLE):
         figure = Figure(figsize=(2.6 * columns, height * rows), layout="constrained")
-        axes = list(np.atleast_1d(figure.subplots(rows, columns, squeeze=False, **options)).ravel())
+        axes = list(np.atleast_1d(figure.subplots(rows, columns, squeeze=False, sharey=sharey)).ravel())
     for spare in axes[count:]:
         spare.set_visible(False)
     return figure, axes
 
 
-def drawn(plot):
+def drawn(plot: Callable[Arguments, Figure]) -> Callable[Arguments, str]:
     """Styles hold while an SVG is written, too."""
 
-    def wrapped(*args, **more):
+    def wrapped(*args: Arguments.args, **more: Arguments.kwargs) -> str:
         with matplotlib.rc_context(STYLE):
             return svg(plot(*args, **more))
 
@@ -100,8 +107,11 @@ def _numeric(levels: list[str]) -> bool:
     return all(level.replace(".", "").replace("-", "").replace("e", "").replace("+", "").isdigit() for level in levels)
 
 
-def strongest_pairs(data: Data, name: str, most: int = 4) -> list[tuple[float, str, str, np.ndarray, np.ndarray]]:
-    """(strength, first factor, second factor, cell means, centres of the first's groups), the strongest first."""
+Pair = tuple[float, str, str, np.ndarray, np.ndarray]  # strength, first factor, second, cell means, centres of the first's groups
+
+
+def strongest_pairs(data: Data, name: str, most: int = 4) -> list[Pair]:
+    """The strongest first."""
     y, pairs = data.rows[name].to_numpy(float), []
     grouped = {f: effects.groups(x, data.positions.get(f), 4) for f, x in data.factors.items()}
     for first, second in itertools.combinations(data.factors, 2):
@@ -113,7 +123,7 @@ def strongest_pairs(data: Data, name: str, most: int = 4) -> list[tuple[float, s
 
 
 @drawn
-def interactions(data: Data, pairs: list, name: str) -> Figure:
+def interactions(data: Data, pairs: list[Pair], name: str) -> Figure:
     """Lines that are not parallel: what one factor does depends on the other."""
     figure, axes = panels(len(pairs), sharey=True, height=2.6)
     colours = matplotlib.colormaps["viridis"]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import html
 import pathlib
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,6 +12,10 @@ from .. import files
 from . import page, plots
 from ..errors import ALL
 from ..tolerances import Tolerance
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
 
 NAME = "tolerance.html"
 
@@ -60,18 +66,18 @@ def _budget(found: Tolerance, figure: str, percent: float) -> str:
     ]
     head = ["error", "size", f"loss of the worst {100 - percent:g} %", "allowed scale", "allowed size", ""]
     return (
-        f"<h2>Budget for {page.html.escape(figure)}</h2><p>It may {may} {first['allowed']:g} in {percent:g} % of all displays.</p>"
+        f"<h2>Budget for {html.escape(figure)}</h2><p>It may {may} {first['allowed']:g} in {percent:g} % of all displays.</p>"
         + page.table(head, rows)
         + _curves(found, lines, first["allowed"])
     )
 
 
-def _sizes(line) -> str:
+def _sizes(line: pd.Series) -> str:
     return "" if line["error"] == ALL else ", ".join(f"{x:.4g}" for x in np.atleast_1d(line["allowed size"]))
 
 
 @plots.drawn
-def _curves(found: Tolerance, lines, allowed: float):
+def _curves(found: Tolerance, lines: pd.DataFrame, allowed: float) -> Figure:
     """Loss over scale, both logarithmic: a straight line is a power law, its slope the power."""
     figure, (axis,) = plots.panels(1, height=3.4)
     figure.set_figwidth(7)
