@@ -57,6 +57,14 @@ class Program(StudyTest):
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertNotIn("Traceback", done.stderr)
 
+    def test_more_at_once_than_any_machine_takes(self):
+        for option in ("--workers", "--threads"):
+            for number in ("0", "1025", "9" * 5000, "-1", "two", "1.5"):
+                for command in ("study", "tolerance"):
+                    done = self.run_it(command, "study.toml", "-o", "out", f"{option}={number}")
+                    self.assertEqual(done.returncode, 2, done.stderr)
+                    self.assertIn(f"{option}: is {number}; give a whole number from 1 to 1024", done.stderr)
+
     def test_ctrl_c(self):
         self.lhs(3000)
         process = subprocess.Popen(

@@ -170,6 +170,14 @@ class Runs(StudyTest):
             self.assertIn(said, done.stderr)
             self.assertNotIn("Traceback", done.stderr)
 
+    def test_more_at_once_than_any_machine_takes(self):
+        display = self.folder / "display.toml"
+        for wrong in ({"workers": 0}, {"workers": 1025}, {"workers": 2.0}, {"threads": 0}, {"threads": 10**30}):
+            for work in (lambda: study.run(self.file, self.out, **wrong), lambda: study.tolerance(display, self.out, **wrong)):
+                with self.assertRaisesRegex(StudyError, r"(workers|threads): is [\d.]+; give a whole number from 1 to 1024"):
+                    work()
+        self.assertFalse(self.out.exists())
+
     def test_the_table_in_memory_is_the_file(self):
         study.run(self.file, self.out, workers=1, progress=False)
         (self.out / "study.parquet").unlink()

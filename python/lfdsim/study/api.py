@@ -22,9 +22,9 @@ def run(
     """Runs the study of a file in a folder and returns its rows.
 
     What is finished there is not computed again. `dask`: a distributed.Client or a scheduler's address; None: `workers` processes
-    here (None: one for each core), each with `threads` threads. `progress`: a line on standard error (None: where that is a terminal).
+    here (1 to 1024; None: one for each core), each with `threads` threads. `progress`: a line on standard error (None: where that is a terminal).
     """
-    runs.check_machines(dask, workers)
+    runs.check_machines(dask, workers, threads)
     return runs.finish(plan(file, folder), dask, workers, threads, progress).to_pandas()
 
 
@@ -39,6 +39,7 @@ def run_part(folder: Path, part: int, parts: int, threads: int = 1) -> int:
     """Computes every `parts`-th chunk of a planned study in this process, from chunk `part`. Returns how many rows these are."""
     if not 0 <= part < parts:
         raise StudyError("--chunk", f"is {part}; give 0 to {parts - 1}, below the {parts} of --of")
+    runs.check_machines(None, None, threads)
     the_plan = plans.load(folder)
     the_plan.table()  # as planned, or it is refused before work begins
     numbers = range(part, the_plan.chunks, parts)

@@ -6,11 +6,13 @@ import argparse
 import pathlib
 import signal
 import sys
-
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from . import api
+from .file import MOST_ROWS
 from .problems import StudyError, StudyFailed
+from .runs import MOST_AT_ONCE
 from .tolerances import MEASURES, Loss, tolerance
 
 if TYPE_CHECKING:
@@ -51,12 +53,12 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("file", help="the study's FILE.toml; with --chunk, the planned FOLDER")
     run.add_argument("-o", "--output", metavar="FOLDER", help="of the study: made if missing, continued if it is there")
     run.add_argument("--dask", metavar="ADDRESS", help="of a Dask scheduler, as in tcp://HOST:8786; its workers compute")
-    run.add_argument("--workers", type=_positive, metavar="N", help="processes on this machine; default: one for each core")
-    run.add_argument("--threads", type=_positive, default=1, metavar="N", help="of each process; default: 1")
+    run.add_argument("--workers", type=_up_to(MOST_AT_ONCE), metavar="N", help="processes on this machine, up to 1024; default: one for each core")
+    run.add_argument("--threads", type=_up_to(MOST_AT_ONCE), default=1, metavar="N", help="of each process; default: 1")
     run.add_argument(
         "--chunk", type=int, metavar="I", help="compute the I-th of N parts of the chunks, I from 0, here and now: for array jobs"
     )
-    run.add_argument("--of", type=_positive, metavar="N", help="see --chunk")
+    run.add_argument("--of", type=_up_to(MOST_ROWS), metavar="N", help="see --chunk")
     run.add_argument("--no-report", action="store_true", help="leave report.html out")
     run.set_defaults(command=_run)
 
@@ -77,7 +79,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     tolerance.add_argument("display", help="DISPLAY.toml, with the sizes of its errors")
     tolerance.add_argument("-o", "--output", metavar="FOLDER", required=True)
-    tolerance.add_argument("--draws", type=_positive, default=200, metavar="N", help="of all errors together; default: 200")
+    tolerance.add_argument("--draws", type=_up_to(MOST_ROWS), default=200, metavar="N", help="of all errors together; default: 200")
     tolerance.add_argument(
         "--alone",
         type=int,
@@ -100,17 +102,20 @@ def _parser() -> argparse.ArgumentParser:
     tolerance.add_argument("--percent", type=float, default=95.0, metavar="P", help="of displays that must keep within --loss; default: 95")
     tolerance.add_argument("--seed", type=int, default=0, help="of the draws")
     tolerance.add_argument("--dask", metavar="ADDRESS", help="as of run")
-    tolerance.add_argument("--workers", type=_positive, metavar="N", help="as of run")
-    tolerance.add_argument("--threads", type=_positive, default=1, metavar="N", help="as of run")
+    tolerance.add_argument("--workers", type=_up_to(MOST_AT_ONCE), metavar="N", help="as of run")
+    tolerance.add_argument("--threads", type=_up_to(MOST_AT_ONCE), default=1, metavar="N", help="as of run")
     tolerance.set_defaults(command=_tolerance)
     return parser
 
 
-def _positive(text: str) -> int:
-    number = int(text)
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"{text} is not possible; give a whole number from 1")
-    return number
+def _up_to(most: int) -> Callable[[str], int]:
+    def read(text: str) -> int:
+        number = int(text) if text.isdecimal() and len(text) < 20 else 0
+        if not 1 <= number <= most:
+            raise argparse.ArgumentTypeError(f"is {text}; give a whole number from 1 to {most}")
+        return number
+
+    return read
 
 
 def _run(a: argparse.Namespace) -> int:

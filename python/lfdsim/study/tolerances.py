@@ -92,7 +92,7 @@ def tolerance(
         raise StudyError("percent", f"is {percent}; give a number above 0 and below 100")
     if seed < 0 or (alone or 0) < 0:
         raise StudyError("seed" if seed < 0 else "alone", f"is {seed if seed < 0 else alone}; give a whole number from 0")
-    runs.check_machines(dask, workers)
+    runs.check_machines(dask, workers, threads)
     sizes = errors.sizes_of(planned.display_in(display, {})[0], display)
     layout = Layout(sizes, draws, max(10, draws // 5) if alone is None else alone)
     if layout.rows > MOST_ROWS:
