@@ -4,6 +4,7 @@
 #include "image/image.h"
 #include "image/ssim.h"
 #include "model/display.h"
+#include "model/job.h"
 
 #include <array>
 #include <cstdint>
@@ -21,9 +22,10 @@ struct Aligned {
 };
 
 /// `saturation`: linear light from which a photograph's value means "this or more"; infinite where values have no upper limit. Both
-/// corners must pass check_corners(). `part` restricts the screen to some pixels of the view.
+/// corners must pass check_corners(). `part` restricts the screen to some pixels of the view. Where the job is cancelled, rows stay
+/// black.
 Aligned align(const Image& photograph, const Corners& in_photograph, int view_width, int view_height, const Corners& in_view,
-              double saturation, std::optional<Rect> part = {});
+              double saturation, std::optional<Rect> part = {}, const Job& = Job());
 
 /// Light of the photograph divided by light of the simulation: R, G, B. A channel that is black in the simulation gets the mean of
 /// the others. The photograph's channels must exceed `black` somewhere. Throws InputError if there is nothing to fit: no common
@@ -32,9 +34,9 @@ std::array<double, 3> fit_gains(const Image& simulated, const Aligned& photograp
 
 /// The corners in the photograph, each moved by at most `most_px` of its pixels to where view and photograph agree best; `aligned`
 /// is the result of align() with the given corners, `gains` that of fit_gains() with `aligned`. A corner that the light does not
-/// determine stays.
+/// determine stays. Where the job is cancelled, they are as far as the fit had come.
 Corners fit_corners(const Image& view, const Corners& in_view, const Aligned& aligned, const std::array<double, 3>& gains,
-                    const Corners& in_photograph, double most_px);
+                    const Corners& in_photograph, double most_px, const Job& = Job());
 
 /// How photograph and simulation relate, and both made comparable.
 struct Match {
@@ -48,8 +50,8 @@ struct Match {
 
 /// Fits gains and, with `fit_blur`, a Gaussian blur of the simulated picture. `white` is the brightest light that the photograph
 /// can hold; `black` as in fit_gains(). Throws InputError as fit_gains() does, and where no window of 11 x 11 pixels fits into the
-/// screen.
-Match match(const Image& simulated, const Aligned& photograph, bool fit_blur, double white, double black);
+/// screen. Where the job is cancelled, the blur is as far as the fit had come.
+Match match(const Image& simulated, const Aligned& photograph, bool fit_blur, double white, double black, const Job& = Job());
 
 /// A click may miss the edge of a picture of width x height pixels, and a view may be a close-up: throws InputError at `where` for
 /// a corner that is more than so many pictures outside.
@@ -80,7 +82,7 @@ struct Overlay {
 constexpr double overlay_bytes(double view_width, double view_height) { return 160 * view_width * view_height; }
 
 /// All of the steps above. Both corners must pass check_corners(). Throws InputError as the steps do, and at `--fit-corners` for
-/// fitted corners that do not pass.
-Overlay lay_over(const Image& view, const Corners& in_view, ScreenPhoto, const OverlayOptions&);
+/// fitted corners that do not pass. Where the job is cancelled it ends soon, and what it returns means nothing.
+Overlay lay_over(const Image& view, const Corners& in_view, ScreenPhoto, const OverlayOptions&, const Job& = Job());
 
 }  // namespace lfdsim

@@ -60,7 +60,7 @@ int samples_along(const Point& derivative) {
 }  // namespace
 
 Aligned align(const Image& photograph, const Corners& in_photograph, int view_width, int view_height, const Corners& in_view,
-              double saturation, std::optional<Rect> part) {
+              double saturation, std::optional<Rect> part, const Job& job) {
     const Homography to_photograph(in_view, in_photograph);
     Aligned result{Image(view_width, view_height), Region::polygon(in_view, view_width, view_height), {}};
     result.saturated.resize(std::size_t(view_width) * std::size_t(view_height));
@@ -69,6 +69,7 @@ Aligned align(const Image& photograph, const Corners& in_photograph, int view_wi
 
     const Sampler sampler(photograph, saturation);
     tbb::parallel_for(std::size_t(0), result.screen.rows.size(), [&](std::size_t k) {
+        if (job.cancelled()) return;
         const Region::Row& row = result.screen.rows[k];
         const int y = result.screen.top + int(k);
         for (int x = row.from; x < row.to; ++x) {

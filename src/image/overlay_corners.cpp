@@ -145,7 +145,7 @@ class Level {
 }  // namespace
 
 Corners fit_corners(const Image& view, const Corners& in_view, const Aligned& photograph, const std::array<double, 3>& gains,
-                    const Corners& in_photograph, double most_px) {
+                    const Corners& in_photograph, double most_px, const Job& job) {
     const Homography to_photograph(in_view, in_photograph), to_view(in_photograph, in_view);
     std::vector<float> light(view.rgb.size() / 3), simulated(light.size());
     for (std::size_t k = 0; k < photograph.screen.rows.size(); ++k)
@@ -174,7 +174,7 @@ Corners fit_corners(const Image& view, const Corners& in_view, const Aligned& ph
     const double reach = most_px / std::sqrt(std::hypot(along_x[0], along_x[1]) * std::hypot(along_y[0], along_y[1]));
     const double click_px = 0.4 * reach;  // how accurately a corner is known before the fit, in the view's grid
     Vector by{};
-    for (double sigma = std::max(1.0, reach); sigma >= 1; sigma /= 2) {
+    for (double sigma = std::max(1.0, reach); sigma >= 1 && !job.cancelled(); sigma /= 2) {
         const Level level(light, simulated, photograph, in_view, sigma);
         Level::Sums here = level.sums(by);
         if (here.pixels == 0) break;
@@ -184,7 +184,7 @@ Corners fit_corners(const Image& view, const Corners& in_view, const Aligned& ph
         const auto cost = [&](const Level::Sums& sums, const Vector& moved_by) {
             return sums.squares / sums.pixels + known / here.pixels * dot(moved_by, moved_by);
         };
-        for (int step = 0; step < 20; ++step) {
+        for (int step = 0; step < 20 && !job.cancelled(); ++step) {
             for (std::size_t k = 0; k < unknowns; ++k) {
                 here.normal[k][k] += known;
                 here.right[k] -= known * by[k];

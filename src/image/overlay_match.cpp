@@ -113,11 +113,11 @@ double sum_over_rows(const Region& region, const OfRow& of_row) {
 }
 
 /// The place of the minimum of a function that has one in [0, most], to 0.5 % or better: brackets it by doubling from 0.5, then
-/// uses golden sections.
+/// uses golden sections. Where the job is cancelled it is somewhere in the bracket.
 template <class Function>
-double minimum(const Function& f, double most) {
+double minimum(const Function& f, double most, const Job& job) {
     double low = 0, middle = 0, high = 0.5, best = f(0);
-    for (double at_high = f(high); at_high < best && high < most; at_high = f(high)) {
+    for (double at_high = f(high); at_high < best && high < most && !job.cancelled(); at_high = f(high)) {
         best = at_high;
         low = middle;
         middle = high;
@@ -125,7 +125,7 @@ double minimum(const Function& f, double most) {
     }
     constexpr double golden = 0.6180339887498949;
     double a = high - golden * (high - low), b = low + golden * (high - low), at_a = f(a), at_b = f(b);
-    while (high - low > 0.005 * high) {
+    while (high - low > 0.005 * high && !job.cancelled()) {
         if (at_a <= at_b) {
             high = b;
             b = a;
@@ -146,7 +146,7 @@ double minimum(const Function& f, double most) {
 
 /// The blur with the least squares of photograph - k x blurred view, with the best k for each blur: a blur carries light across the
 /// borders of cells, so the gains of the sharp view differ from those of the blurred one.
-double fitted_blur(const Image& simulated, const Aligned& photo, const std::array<double, 3>& gain) {
+double fitted_blur(const Image& simulated, const Aligned& photo, const std::array<double, 3>& gain, const Job& job) {
     const std::vector<float> sharp = gray(simulated, {1, 1, 1}), seen = gray(photo.light, gain);
     const int width = simulated.width, height = simulated.height;
     const auto products = [&](const std::vector<float>& a, const std::vector<float>& b) {
@@ -166,7 +166,7 @@ double fitted_blur(const Image& simulated, const Aligned& photo, const std::arra
         const double mixed = products(blurred, seen);
         return of_seen - mixed * mixed / products(blurred, blurred);
     };
-    return minimum(squares, std::min(most_blur_px, std::min(width, height) / 8.0));
+    return minimum(squares, std::min(most_blur_px, std::min(width, height) / 8.0), job);
 }
 
 double used_share(const Aligned& photo) {
@@ -212,11 +212,11 @@ std::array<double, 3> fit_gains(const Image& simulated, const Aligned& photo, do
     return result;
 }
 
-Match match(const Image& simulated, const Aligned& photo, bool fit_blur, double white, double black) {
+Match match(const Image& simulated, const Aligned& photo, bool fit_blur, double white, double black, const Job& job) {
     const double pixels = double(photo.screen.pixels());
     Match result{fit_gains(simulated, photo, black), 0, used_share(photo), 0, 0, 0, simulated, photo.light};
     if (fit_blur) {
-        result.blur_px = fitted_blur(simulated, photo, result.gains);
+        result.blur_px = fitted_blur(simulated, photo, result.gains, job);
         if (result.blur_px > 0) {
             blur(result.simulated.rgb, simulated.width, simulated.height, 3, result.blur_px);
             result.gains = fit_gains(result.simulated, photo, black);

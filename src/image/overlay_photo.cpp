@@ -48,7 +48,7 @@ void check_near(const std::string& where, const Corners& corners, const std::str
                                                 picture, width, height));
 }
 
-Overlay lay_over(const Image& view, const Corners& in_view, ScreenPhoto photo, const OverlayOptions& options) {
+Overlay lay_over(const Image& view, const Corners& in_view, ScreenPhoto photo, const OverlayOptions& options, const Job& job) {
     const int width = photo.image.width, height = photo.image.height;
     Corners stored;
     for (std::size_t k = 0; k < 4; ++k) stored[k] = as_stored(photo.corners[k], photo.orientation, width, height);
@@ -56,16 +56,19 @@ Overlay lay_over(const Image& view, const Corners& in_view, ScreenPhoto photo, c
     const auto light = [&](double code) { return photo.encoding == Encoding::srgb ? srgb_to_linear(code / 255) : code / 255; };
     constexpr double none = std::numeric_limits<double>::infinity();
     const double saturation = photo.codes ? light(250) : none, white = photo.codes ? 1 : none, black = photo.codes ? light(5) : 0;
-    const auto laid_over = [&] { return align(photo.image, stored, view.width, view.height, in_view, saturation, options.part); };
+    const auto laid_over = [&] {
+        return align(photo.image, stored, view.width, view.height, in_view, saturation, options.part, job);
+    };
     Aligned aligned = laid_over();
-    if (options.fit_corners) {
-        stored = fit_corners(view, in_view, aligned, fit_gains(view, aligned, black), stored, 5);
+    if (options.fit_corners && !job.cancelled()) {
+        stored = fit_corners(view, in_view, aligned, fit_gains(view, aligned, black), stored, 5, job);
         for (std::size_t k = 0; k < 4; ++k) photo.corners[k] = as_shown(stored[k], photo.orientation, width, height);
         check_corners("--fit-corners", photo.corners);
         aligned = laid_over();
     }
+    if (job.cancelled()) return {};
     photo.image = {};  // its memory is needed for what follows
-    Match matched = match(view, aligned, options.fit_blur, white, black);
+    Match matched = match(view, aligned, options.fit_blur, white, black, job);
     return {photo.corners, std::move(aligned.screen), std::move(matched)};
 }
 

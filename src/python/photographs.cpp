@@ -41,11 +41,11 @@ Overlay overlay(const AnyPixels& view, const AnyPixels& photo, const Corners& co
     if (crop) options.part = Rect{(*crop)[0], (*crop)[1], (*crop)[2], (*crop)[3]};
     const Encoding encoding = linear ? Encoding::linear : Encoding::srgb;
     Overlay made;
-    run(nb::none(), [&](Job&) {
+    run(nb::none(), [&](Job& job) {
         made =
             lay_over(image_of(view, Encoding::srgb, "view"), view_corners,
                      {image_of(photo, encoding, "photograph"), !std::holds_alternative<Pixels<float>>(photo), encoding, 1, corners},
-                     options);
+                     options, job);
     });
     return made;
 }

@@ -248,6 +248,21 @@ TEST(FitCorners, FindsThemAndNoFurther) {
     EXPECT_LT(distance(fitted(Image(320, 200), 5), clicked), 1e-9);
 }
 
+// Which is not where it would have ended, and is of no use, but soon.
+TEST(LayOver, EndsWhereTheJobIsCancelled) {
+    struct Stopped : Job {
+        bool cancelled() const override { return true; }
+    };
+    const Image view = dots(320, 200);
+    const Corners all = rectangle_of(0, 0, 320, 200), clicked{Point{2, -1}, {317, 1.5}, {321, 202}, {-1, 198}};
+    EXPECT_EQ(fit_corners(view, all, align(view, clicked, 320, 200, all, none), {1, 1, 1}, clicked, 5, Stopped())[0][1], -1);
+    Image light = view;
+    blur(light.rgb, 320, 200, 3, 5);
+    EXPECT_LT(match(view, as_seen(light), true, none, 0, Stopped()).blur_px, 1);
+    EXPECT_EQ(align(view, all, 320, 200, all, none, {}, Stopped()).light.rgb, Image(320, 200).rgb);
+    EXPECT_EQ(lay_over(view, all, {light, true, Encoding::srgb, 1, clicked}, {true, true}, Stopped()).match.simulated.width, 0);
+}
+
 // A view in two colours still tells the exposure, as does a region that is no rectangle.
 TEST(Match, ColoursThatAreNotThere) {
     Image view = dots(320, 200), light = view;

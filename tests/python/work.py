@@ -16,6 +16,11 @@ import lfdsim
 from tiny import TINY, TinyTest
 
 LONG = {"size": (3840, 2160), "samples": 1000, "estimator": "point", "device": "cpu"}  # minutes
+# Of photograph and view, each a picture of its own: a fit has to search.
+NOISE = """
+NOISE = [numpy.random.default_rng(k).random((2160, 3840, 3), numpy.float32) for k in (1, 2)]
+ALL = [(0, 0), (3840, 0), (3840, 2160), (0, 2160)]
+"""
 
 
 class Interrupts(TinyTest):
@@ -24,9 +29,12 @@ class Interrupts(TinyTest):
             "lfdsim.render(d, **LONG)",
             "lfdsim.photograph(d.with_({'camera.pixel_filter': 'box'}), size=(8000, 8000), samples=1000)",
             "lfdsim.analyze(d, 'dof', size=(3840, 2160), samples=1000, estimator='point')",
+            "lfdsim.compare_photograph(*NOISE, ALL, ALL, fit_corners=True, fit_blur=True)",
         ):
             with self.subTest(work):
-                begin = f"import lfdsim\nLONG = {LONG!r}\nd = lfdsim.Display.parse({TINY!r})\nprint('begins', flush=True)\n"
+                begin = f"import lfdsim, numpy\nLONG = {LONG!r}\nd = lfdsim.Display.parse({TINY!r})\n"
+                begin += NOISE if "NOISE" in work else ""
+                begin += "print('begins', flush=True)\n"
                 script = f"{begin}{work}\nprint('ended')\n"
                 child = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
                 self.assertEqual(child.stdout.readline(), "begins\n")
