@@ -14,7 +14,7 @@ std::string escaped(std::string_view);
 /// Pixels to two decimals, without trailing zeros. 0 for values that are not finite.
 std::string px(double);
 
-/// Approximate width of a text, in pixels; fonts differ.
+/// Width of a text in pixels in DejaVu Sans, which is wider than most fonts.
 double text_width(std::string_view, double size);
 
 /// The text in lines of about `width` pixels at most, as far as its words allow.

@@ -84,7 +84,7 @@ std::string svg(const ColourMap& map) {
             wide = high * sides;
         }
     }
-    const std::vector<std::string> title = wrapped(map.title, 16, map_width - 24);
+    const std::vector<std::string> title = wrapped(map.title, 17, map_width - 24);
     const double top = 20 + 20 * double(title.size());
     const Frame frame{left, top, wide, high, x, y};
     Drawing drawing(map_width, frame.bottom() + room_below, map.title);

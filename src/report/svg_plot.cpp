@@ -118,7 +118,7 @@ struct MarkLabels {
             lines.push_back(left + wide * axis.share(m->at));
             labels.push_back(m->label);
         }
-        places = place_labels(lines, labels, 12, plot_width);
+        places = place_labels(lines, labels, 12, plot_width - 4);
         for (const LabelPlace& place : places) rows = std::max(rows, place.row + 1);
     }
 };
@@ -170,7 +170,7 @@ std::string svg(const Plot& plot) {
     }
     const PlotAxis x(r.x.low, r.x.high, 9), y(r.y.low, r.y.high, 6);
 
-    const std::vector<std::string> title = wrapped(plot.title, 16, plot_width - 24);
+    const std::vector<std::string> title = wrapped(plot.title, 17, plot_width - 24);
     const Legend legend = legend_of(plot, x, y);
     const MarkLabels marks(plot, x, left, plot_width - left - right);
     const double legend_top = 12 + row_height * double(title.size());
@@ -193,7 +193,8 @@ std::string svg(const Plot& plot) {
     frame.draw(drawing, plot.x_label, plot.y_label, true);
     for (std::size_t k = 0; k < marks.marks.size(); ++k) {
         const double at_x = frame.at(marks.marks[k]->at, y.low())[0], label_y = top - 5 - mark_row * marks.places[k].row;
-        drawing.line({at_x, label_y - 9}, {at_x, frame.bottom()}, mark_style);
+        const double rise = marks.places[k].x < at_x ? -3 : 9;  // to the top of its label, or, if that had to make way, below
+        drawing.line({at_x, label_y - rise}, {at_x, frame.bottom()}, mark_style);
         drawing.text({marks.places[k].x, label_y}, marks.marks[k]->label, "font-size=\"12\"");
     }
     double above = -1e9;

@@ -106,6 +106,20 @@ TEST(PlotSvg, HasOneScaleForBothAxesWhereAsked) {
     EXPECT_NEAR(right / up, 4, 0.01);
 }
 
+// In DejaVu Sans of 12 pixels it is 110.5 pixels wide.
+TEST(PlotSvg, LabelsEndWithinTheDrawing) {
+    EXPECT_GE(text_width("edge by geometry", 12), 110.5);
+    EXPECT_LE(text_width("edge by geometry", 12), 112.5);
+    Plot p = plot({{"", {-30, 30}, {0, 1}}});
+    p.marks = {{"edge by geometry", -29}, {"edge by geometry", 28}, {"a limit", 0.5, false}};
+    const std::string text = svg(p);
+    const std::regex place("<text x=\"([0-9.]+)\"[^>]*font-size=\"12\">([^<]*)<");
+    int labels = 0;
+    for (std::sregex_iterator at(text.begin(), text.end(), place), end; at != end; ++at, ++labels)
+        EXPECT_LE(std::stod((*at)[1]) + text_width((*at)[2].str(), 12), 600) << (*at)[2];
+    EXPECT_EQ(labels, 3);
+}
+
 TEST(Labels, NeitherTouchEachOtherNorALine) {
     const std::vector<double> lines{70, 76, 104, 133, 133, 163, 690};
     const std::vector<std::string> texts{"panel",          "lenses", "marginal plane", "diffuser", "central depth plane",
