@@ -1,8 +1,10 @@
 """What the report says of effects is right where the answer is known in closed form; the page has what the file asks for."""
 
+import re
 import unittest
 
 import numpy as np
+from scipy import stats
 
 from common import StudyTest, call
 
@@ -62,10 +64,33 @@ class Effects(unittest.TestCase):
         figure = np.array([1, 2, 3, np.nan, np.inf])
         self.assertEqual(effects.passes(figure, Limit("f", 2, None)).tolist(), [False, True, True, False, True])
         self.assertEqual(effects.passes(figure, Limit("f", None, 2)).tolist(), [True, True, False, False, False])
-        share, low, high = effects.share_with_interval(50, 100)
+        share, low, high = effects.share_with_interval(np.repeat([0, 1], 50), 1)
         self.assertAlmostEqual(share, 0.5)
         self.assertAlmostEqual(low, 0.4038, places=3)  # Wilson 1927
         self.assertAlmostEqual(high, 0.5962, places=3)
+
+    def test_yield_with_replicates(self):
+        def wilson(passed: int, of: int) -> tuple[float, float, float]:
+            interval = stats.binomtest(passed, of).proportion_ci(0.95, "wilson")
+            return passed / of, interval.low, interval.high
+
+        for passed in (0, 1, 17, 50):
+            rows = np.repeat([1, 0], [passed, 50 - passed])
+            np.testing.assert_allclose(effects.share_with_interval(rows, 1), wilson(passed, 50), atol=1e-12)
+            np.testing.assert_allclose(effects.share_with_interval(8 * rows, 8), wilson(passed, 50), atol=1e-12)  # they repeat one value
+        np.testing.assert_allclose(effects.share_with_interval(np.full(50, 3), 4), wilson(150, 200), atol=1e-12)  # rows do not differ
+        np.testing.assert_allclose(effects.share_with_interval(np.array([3]), 4)[1:], (0.1179, 0.9854), atol=1e-4)  # 0.75 of one draw
+        independent = self.random.binomial(10, 0.7, 4000)
+        np.testing.assert_allclose(effects.share_with_interval(independent, 10), wilson(independent.sum(), 40000), atol=3e-4)
+
+    def test_the_yields_interval_holds_its_share(self):
+        """95 % of intervals hold the true yield, where a row's chance to pass differs from the next one's."""
+        holds = 0
+        for _ in range(1000):
+            chances = self.random.beta(0.6, 0.3, 80)  # two thirds on average
+            _, low, high = effects.share_with_interval(self.random.binomial(10, chances), 10)
+            holds += low <= 2 / 3 <= high
+        self.assertAlmostEqual(holds / 1000, 0.95, delta=0.025)
 
     def test_groups_are_levels_or_equally_many(self):
         values = self.random.random(800)
@@ -131,6 +156,18 @@ class Page(StudyTest):
         depth = 1 / (1 / read.rows["lens.focal_length_mm"] - 1 / read.rows["array.gap_mm"])
         np.testing.assert_allclose(read.rows["check.theory.central_depth_mm"], depth)
         self.assertIn(f"{100 * np.sum(depth <= 350) / 16:.2f} %", text)
+
+    def test_replicates_that_repeat_a_value_narrow_no_interval(self):
+        """check draws nothing."""
+        lines = []
+        for replicates in (1, 3):
+            out = self.folder / f"out{replicates}"
+            file = self.write(FILE.replace('"grid"', f'"grid"\nreplicates = {replicates}'))
+            study.run(file, out, workers=1, progress=False)
+            study.report(out)
+            lines.append(re.search(r"<td>all limits</td>.*?<td>(\d+)</td><td>(.*?)</td><td>(.*?)</td>", (out / page.NAME).read_text()))
+        self.assertEqual(int(lines[1][1]), 3 * int(lines[0][1]))
+        self.assertEqual(lines[1].groups()[1:], lines[0].groups()[1:])
 
     def test_another_limit_makes_another_report(self):
         out = self.folder / "out"

@@ -99,10 +99,25 @@ def passes(figure: np.ndarray, limit: Limit) -> np.ndarray:
     return np.asarray((figure >= low) & (figure <= high))
 
 
-def share_with_interval(passed: int, of: int) -> tuple[float, float, float]:
-    """The share, and its 95 % interval (Wilson's)."""
-    interval = stats.binomtest(passed, of).proportion_ci(0.95, "wilson")
-    return passed / of, float(interval.low), float(interval.high)
+def share_with_interval(passed: np.ndarray, of: int) -> tuple[float, float, float]:
+    """The share, and its 95 % interval. `passed`: of each row of the design, how many of its `of` replicates.
+
+    Wilson's interval (J. Am. Stat. Assoc. 22, 1927) for as many independent draws as tell as much as these rows do: replicates of one
+    row resemble each other (Dean and Pagano, J. Surv. Stat. Methodol. 3, 2015, with the design effect of Kish, Survey Sampling, 1965)."""
+    draws = _independent_draws(passed / of, of)
+    share, z2 = float(passed.mean() / of), float(stats.norm.ppf(0.975)) ** 2
+    middle = (share + z2 / (2 * draws)) / (1 + z2 / draws)
+    half = np.sqrt(z2 * (share * (1 - share) / draws + z2 / (4 * draws**2))) / (1 + z2 / draws)
+    return share, max(0.0, float(middle - half)), min(1.0, float(middle + half))
+
+
+def _independent_draws(shares: np.ndarray, of: int) -> float:
+    """From one for each row, whose replicates then agree, to one for each replicate."""
+    rows, share = len(shares), shares.mean()
+    if rows == 1 or share in (0, 1):  # nothing tells how much replicates differ
+        return rows
+    variance = shares.var(ddof=1) / rows
+    return rows * of if variance == 0 else min(1 + share * (1 - share) / variance, rows * of)
 
 
 def pareto(figures: np.ndarray, objectives: tuple[Objective, ...]) -> np.ndarray:

@@ -98,20 +98,24 @@ def _yield(data: Data) -> str:
     limits = data.plan.study.limits
     if not limits:
         return ""
-    all_pass, rows, of = np.ones(len(data.rows), bool), [], data.plan.rows
+    all_pass, rows = np.ones(len(data.rows), bool), []
     for limit in limits:
         passed = effects.passes(data.rows[limit.figure].to_numpy(float), limit)
         all_pass &= passed
-        rows.append([limit.figure, "-" if limit.low is None else limit.low, "-" if limit.high is None else limit.high, *_share(passed, of)])
-    rows.append(["all limits", "", "", *_share(all_pass, of)])
+        rows.append([limit.figure, "-" if limit.low is None else limit.low, "-" if limit.high is None else limit.high, *_share(data, passed)])
+    rows.append(["all limits", "", "", *_share(data, all_pass)])
+    alike = " Replicates of one row resemble each other: they narrow the interval only as far as they differ."
+    repeated = alike if data.plan.study.replicates > 1 else ""
     return (
         f"<h2>Yield</h2>{table(['figure', 'min', 'max', 'rows that pass', 'share', '95 % interval'], rows)}"
-        "<p class=note>Impossible rows, and rows without the figure, do not pass.</p>"
+        f"<p class=note>Impossible rows, and rows without the figure, do not pass.{repeated}</p>"
     )
 
 
-def _share(passed: np.ndarray, of: int) -> list[object]:
-    share, low, high = effects.share_with_interval(int(passed.sum()), of)
+def _share(data: Data, passed: np.ndarray) -> list[object]:
+    of = data.plan.study.replicates
+    of_each = np.bincount(data.rows["row"].to_numpy() // of, passed, minlength=data.plan.rows // of)
+    share, low, high = effects.share_with_interval(of_each, of)
     return [int(passed.sum()), f"{100 * share:.2f} %", f"{100 * low:.2f} .. {100 * high:.2f} %"]
 
 
