@@ -7,6 +7,7 @@
 #include "cli/work_options.h"
 #include "engine/devices.h"
 #include "engine/memory.h"
+#include "model/counted.h"
 
 #include <fmt/format.h>
 #include <tbb/info.h>
@@ -106,9 +107,9 @@ void run(const BenchArguments& args) {
     const BenchSettings settings = settings_of(args);
     Json all = about(settings);
     if (!settings.json)
-        print(fmt::format("lfdsim {}, {}, {}\n{}, {} processors; kernel {}, {} threads; medians of {} (least .. most)\n",
-                          LFDSIM_VERSION, compiler(), build_type(), processor(), tbb::info::default_concurrency(), settings.kernel,
-                          settings.threads, settings.runs));
+        print(fmt::format("lfdsim {}, {}, {}\n{}, {}; kernel {}, {}; medians of {} (least .. most)\n", LFDSIM_VERSION, compiler(),
+                          build_type(), processor(), counted(tbb::info::default_concurrency(), "processor"), settings.kernel,
+                          counted(settings.threads, "thread"), settings.runs));
     Progress progress(args.work.progress());
     Bench bench(settings, progress);
     try {

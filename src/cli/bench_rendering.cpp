@@ -1,6 +1,7 @@
 #include "cli/bench.h"
 #include "cli/bench_cases.h"
 #include "engine/render.h"
+#include "model/counted.h"
 
 #include <fmt/format.h>
 
@@ -59,7 +60,7 @@ void bench_kernels(Bench& bench) {
     const Display d = bench_display();
     for (const KernelInfo& kernel : kernels())
         if (kernel.available)
-            renders.add(fmt::format("{}, {} lane{}", kernel.name, kernel.lanes, kernel.lanes == 1 ? "" : "s"), d,
+            renders.add(fmt::format("{}, {}", kernel.name, counted(kernel.lanes, "lane")), d,
                         {1, kernel.name, band(d, bench.settings.quick ? 16 : 48)});
     renders.report("kernels");
 }
@@ -69,8 +70,7 @@ void bench_threads(Bench& bench) {
     Renders renders(bench);
     const Display d = bench_display();
     const auto add = [&](int n) {
-        renders.add(fmt::format("{} thread{}", n, n == 1 ? "" : "s"), d,
-                    {n, bench.settings.kernel, band(d, bench.settings.quick ? 64 : 432)});
+        renders.add(counted(n, "thread"), d, {n, bench.settings.kernel, band(d, bench.settings.quick ? 64 : 432)});
     };
     for (int n = 1; n < bench.settings.threads; n *= 2) add(n);
     add(bench.settings.threads);

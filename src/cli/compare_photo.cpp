@@ -8,6 +8,7 @@
 #include "files/display_file.h"
 #include "image/overlay.h"
 #include "image/overlay_picture.h"
+#include "model/counted.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -18,8 +19,8 @@ namespace {
 
 Corners read_corners(const char* option, const std::vector<std::string>& texts) {
     if (texts.size() != 4)
-        throw InputError(option, fmt::format("has {} corner{}; give four, X,Y each: top left, top right, bottom right, bottom left",
-                                             texts.size(), texts.size() == 1 ? "" : "s"));
+        throw InputError(option, fmt::format("has {}; give four, X,Y each: top left, top right, bottom right, bottom left",
+                                             counted(texts.size(), "corner")));
     Corners corners;
     Faults faults;
     for (std::size_t k = 0; k < 4; ++k)

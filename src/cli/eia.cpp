@@ -8,6 +8,7 @@
 #include "cli/panel_source.h"
 #include "cli/work_options.h"
 #include "engine/memory.h"
+#include "model/counted.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -74,8 +75,8 @@ void run(EiaArguments& args) {
     if (args.mapping.given()) args.mapping.write(display, geometry, args.work.threads());
     if (picture.dark > 0) {
         more["dark"] = picture.dark;
-        spdlog::warn("the light of {} {} never leaves its lens: they stay black", picture.dark,
-                     display.panel.subpixels == SubpixelLayout::none ? "pixels" : "subpixels");
+        spdlog::warn("the light of {} never leaves its lens: black is shown there",
+                     counted(picture.dark, display.panel.subpixels == SubpixelLayout::none ? "pixel" : "subpixel"));
     }
     Metadata about{{"seconds", fmt::format("{:.3f}", picture.seconds)}};
     if (args.pattern.given()) about[pattern_mark] = args.pattern.name();

@@ -4,6 +4,7 @@
 #include "cli/output.h"
 #include "files/lens_table.h"
 #include "image/file.h"
+#include "model/counted.h"
 #include "model/geometry.h"
 #include "report/description.h"
 
@@ -43,7 +44,7 @@ void run(const ErrorsArguments& args) {
         all["lenses"] = lenses;
         return print_json(all);
     }
-    std::string text = fmt::format("{}: {} lenses", args.output, lenses);
+    std::string text = fmt::format("{}: {}", args.output, counted(lenses, "lens", "lenses"));
     if (largest.empty()) text += ", none of which has errors: give errors.decenter_sd_mm and the like";
     for (const Figure& f : largest) text += fmt::format("\n  {:<26} {:.6g} {}", f.name, f.values[0], f.meaning);
     print(text + "\n");

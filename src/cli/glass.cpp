@@ -4,6 +4,7 @@
 #include "cli/output.h"
 #include "files/glasses.h"
 #include "image/file.h"
+#include "model/counted.h"
 #include "model/display.h"
 #include "report/svg.h"
 
@@ -130,7 +131,8 @@ void warn_of(const GlassCatalogue& catalogue, const std::string& name) {
     std::size_t count = 0;
     for (const auto& [glass, doubt] : catalogue.doubts)
         if ((name.empty() || same_name(glass, name)) && ++count <= most_told) spdlog::warn("{}: {}", doubt.where, doubt.what);
-    if (count > most_told) spdlog::warn("{}: and {} more such glasses", catalogue.file, count - most_told);
+    if (count > most_told)
+        spdlog::warn("{}: and {}", catalogue.file, counted(count - most_told, "more such glass", "more such glasses"));
 }
 
 void run(const GlassArguments& args) {

@@ -5,6 +5,7 @@
 #include "files/import_lens.h"
 #include "files/importable.h"
 #include "files/shell.h"
+#include "model/counted.h"
 #include "model/geometry.h"
 
 #include <fmt/format.h>
@@ -148,8 +149,9 @@ std::vector<std::string> seen_from(const fs::path& description, std::vector<std:
 
 std::string lens_in_words(const Imported& made) {
     const Geometry g = resolve(made.display);
-    return fmt::format("{} surfaces, focal length {:.5g} mm, gap {:.5g} mm, {} x {} lenses of {:.4g} mm", made.surfaces.size(),
-                       g.focal_length_mm, g.gap_mm, g.lattice.count[0], g.lattice.count[1], made.display.array.pitch_mm[0]);
+    return fmt::format("{}, focal length {:.5g} mm, gap {:.5g} mm, {} x {} lenses of {:.4g} mm",
+                       counted(made.surfaces.size(), "surface"), g.focal_length_mm, g.gap_mm, g.lattice.count[0],
+                       g.lattice.count[1], made.display.array.pitch_mm[0]);
 }
 
 std::string lenticular_in_words(const Imported& made) {

@@ -14,6 +14,7 @@
 #include "engine/devices.h"
 #include "engine/memory.h"
 #include "engine/scene.h"
+#include "model/counted.h"
 #include "model/keys.h"
 #include "report/run_settings.h"
 
@@ -79,8 +80,8 @@ void render_frames(const RenderArguments& args, const Display& display, const Ca
     print_made(Made{args.output.path(), options.crop ? options.crop->x1 - options.crop->x0 : int(columns),
                     options.crop ? options.crop->y1 - options.crop->y0 : int(rows), "samples", made.samples, made.seconds},
                args.work.json(),
-               fmt::format("{}{}; {} frames, {} of them made before", made.how.empty() ? "" : ", ", made.how, made.frames,
-                           made.frames - made.rendered),
+               fmt::format("{}{}; {}, {} of them made before", made.how.empty() ? "" : ", ", made.how,
+                           counted(made.frames, "frame"), made.frames - made.rendered),
                made.more);
 }
 
@@ -145,7 +146,8 @@ void run(const RenderArguments& args) {
         facts.more["lens_mesh"] = args.lens_mesh.json(*lens);
     }
     if (facts.pixels_above_target > 0)
-        spdlog::warn("{} pixels did not reach the target error with the maximum number of samples", facts.pixels_above_target);
+        spdlog::warn("{} did not reach the target error with the maximum number of samples",
+                     counted(facts.pixels_above_target, "pixel"));
     args.output.write(r.image, Encoding::srgb, display, std::move(facts.about), r.complete, progress, std::move(facts.layers));
 
     facts.more.update(panel.made);

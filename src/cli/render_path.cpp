@@ -6,6 +6,7 @@
 #include "cli/rendered.h"
 #include "engine/ahead.h"
 #include "files/display_file.h"
+#include "model/counted.h"
 #include "model/geometry.h"
 #include "model/keys.h"
 #include "report/folder_lock.h"
@@ -100,9 +101,9 @@ void keep_apart(const PathWork& w, std::int64_t frames) {
     const std::vector<fs::path> found = others(w, frames);
     if (!found.empty() && !w.options.replace())
         throw InputError(w.output.path(),
-                         fmt::format("holds {} pictures made by another command or from other files, such as {}; give another "
+                         fmt::format("holds {} made by another command or from other files, such as {}; give another "
                                      "folder, or --replace to remove them",
-                                     found.size(), found.front().filename().string()));
+                                     counted(found.size(), "picture"), found.front().filename().string()));
     for (const fs::path& file : found)
         if (frame_of(file) == FrameOf::other)
             throw InputError(file.string(), "is a picture not made by lfdsim; give another folder for frames");
@@ -207,11 +208,12 @@ PathMade render_path(const PathWork& w, const std::function<const Texels&()>& pa
     };
     make_ahead(left.size(), renders_on_gpu(w.rendering), make, keep);
     progress.end();
-    if (above_target > 0) spdlog::warn("{} pixels did not reach the target error with the maximum number of samples", above_target);
+    if (above_target > 0)
+        spdlog::warn("{} did not reach the target error with the maximum number of samples", counted(above_target, "pixel"));
     if (w.rendering.target_error) made.more["pixels_above_target"] = above_target;
     if (made.rendered < std::int64_t(left.size())) {
-        spdlog::warn("interrupted; {} holds {} of {} frames{}", w.output.path(),
-                     made.frames - std::int64_t(left.size()) + made.rendered, made.frames,
+        spdlog::warn("interrupted; {} holds {} of {}{}", w.output.path(), made.frames - std::int64_t(left.size()) + made.rendered,
+                     counted(made.frames, "frame"),
                      keeps_metadata(w.options.file(w.output, 0, 1)) ? "; the same command with --resume continues it" : "");
         throw Interrupted{};
     }

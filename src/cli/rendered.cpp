@@ -1,5 +1,6 @@
 #include "cli/rendered.h"
 
+#include "model/counted.h"
 #include "model/keys.h"
 
 #include <fmt/format.h>
@@ -10,7 +11,7 @@ namespace lfdsim::cli {
 std::string how_made(const Rendering& r) {
     const std::string estimator(lfdsim::word(r.estimator));
     if (r.device != "cpu") return fmt::format("{}, {} ({:.1f} ms)", estimator, r.device, r.gpu_seconds * 1e3);
-    return fmt::format("{}, {}, {} threads", estimator, r.kernel, r.threads);
+    return fmt::format("{}, {}, {}", estimator, r.kernel, counted(r.threads, "thread"));
 }
 
 Json how_made_json(const Rendering& r) {

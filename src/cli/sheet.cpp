@@ -5,6 +5,7 @@
 #include "engine/memory.h"
 #include "image/image_file.h"
 #include "image/scaled.h"
+#include "model/counted.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -29,8 +30,8 @@ void run(const SheetArguments& args) {
     faults.of([&] { check_output(args.output); });
     if (!args.labels.empty() && args.labels.size() != args.images.size())
         faults.of([&] {
-            throw InputError("--label", fmt::format("there are {} labels and {} pictures; give one label for each picture, or none",
-                                                    args.labels.size(), args.images.size()));
+            throw InputError("--label", fmt::format("{} for {}; give one label for each picture, or none",
+                                                    counted(args.labels.size(), "label"), counted(args.images.size(), "picture")));
         });
     faults.report();
 
@@ -46,7 +47,7 @@ void run(const SheetArguments& args) {
 
     double cell_pixels = 0;
     for (const Image& cell : cells) cell_pixels += double(cell.width) * cell.height;
-    require_memory("--width-px", fmt::format("{} pictures {} pixels wide and their sheet", cells.size(), width),
+    require_memory("--width-px", fmt::format("{} {} pixels wide, and the sheet", counted(cells.size(), "picture"), width),
                    2.2 * 12 * cell_pixels);
     const Image sheet = contact_sheet(cells, args.labels, int(columns));
     write_image(args.output, sheet, {8, Encoding::srgb, {{"Software", "lfdsim " LFDSIM_VERSION}}});

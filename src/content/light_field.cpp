@@ -1,6 +1,7 @@
 #include "content/light_field.h"
 
 #include "image/scaled.h"
+#include "model/counted.h"
 
 #include <fmt/format.h>
 
@@ -71,8 +72,8 @@ LightField::LightField(ViewGrid grid, std::vector<Image> views, std::vector<Kapp
     : grid_(std::move(grid)), maps_(std::move(maps)) {
     if (std::vector<Problem> faults = faults_of(grid_); !faults.empty()) throw InputError(std::move(faults));
     if (views.size() != grid_.views() || (!maps_.empty() && maps_.size() != grid_.views()))
-        throw InputError("views",
-                         fmt::format("{} pictures and {} depth maps for {} cameras", views.size(), maps_.size(), grid_.views()));
+        throw InputError("views", fmt::format("{} and {} for {}", counted(views.size(), "picture"),
+                                              counted(maps_.size(), "depth map"), counted(grid_.views(), "camera")));
     for (std::size_t k = 0; k < views.size(); ++k)
         if (views[k].width < 1 || views[k].width != views[0].width || views[k].height != views[0].height)
             throw InputError(fmt::format("view {}", k), fmt::format("is {} x {} pixels, the first is {} x {}", views[k].width,

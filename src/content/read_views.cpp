@@ -28,7 +28,8 @@ std::vector<Image> tiles_of(const ViewsSource& source, const Image& quilt, std::
                                      quilt.width, quilt.height, columns, rows, std::max(1, width) * columns));
     // Some devices' own quilts have rows that do not fill the picture; views are counted from the bottom.
     if (const int rest = quilt.height % rows; rest > 0)
-        notes.push_back(fmt::format("the uppermost {} rows of pixels belong to no view", rest));
+        notes.push_back(rest == 1 ? "the uppermost row of pixels belongs to no view"
+                                  : fmt::format("the uppermost {} rows of pixels belong to no view", rest));
     // Quilts of large devices have pixels up to 1.8 times as wide as high, so this is no error.
     if (const double squares = double(width) / height;
         source.aspect && std::abs(std::log(*source.aspect / squares)) > std::log(1.2))

@@ -3,6 +3,7 @@
 #include "files/drawn_beam.h"
 #include "files/nearest.h"
 #include "model/colour.h"
+#include "model/counted.h"
 #include "model/first_order.h"
 #include "model/geometry.h"
 #include "model/keys.h"
@@ -268,9 +269,8 @@ class LensImport {
         const Geometry g = resolve_unchecked(d);
         const std::int64_t across = std::min(g.lattice.count[0], g.lattice.count[1]);
         if (across < fewest_lenses)
-            notes.push_back(
-                fmt::format("Only {} lenses of {:.4g} mm fit along the panel's shorter side; --scale makes them smaller.", across,
-                            d.array.pitch_mm[0]));
+            notes.push_back(fmt::format("The panel's shorter side has room for {} of {:.4g} mm; --scale makes them smaller.",
+                                        counted(across, "lens", "lenses"), d.array.pitch_mm[0]));
         else if (const double views = d.array.pitch_mm[0] / d.panel.pixel_pitch_mm; views < fewest_views)
             notes.push_back(
                 fmt::format("Only {:.3g} pixels lie behind a lens; --scale makes lenses larger, --pixels pixels smaller.", views));

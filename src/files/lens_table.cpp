@@ -2,6 +2,7 @@
 
 #include "files/nearest.h"
 #include "files/text_file.h"
+#include "model/counted.h"
 #include "model/geometry.h"
 #include "model/lens_errors.h"
 
@@ -104,7 +105,7 @@ class TableReader {
 
     void read_lens(std::string_view line) {
         const std::vector<std::string_view> words = cells_of(line);
-        if (words.size() != column_count) return refuse("has {} values, the header {}", words.size(), column_count);
+        if (words.size() != column_count) return refuse("has {}, the header {}", counted(words.size(), "value"), column_count);
         double values[column_count];
         for (std::size_t k = 0; k < column_count; ++k) {
             double& value = values[order_[k]];

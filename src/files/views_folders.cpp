@@ -8,6 +8,7 @@
 
 #include "files/text_file.h"
 #include "files/views_internal.h"
+#include "model/counted.h"
 #include "model/numbers.h"
 
 namespace lfdsim::detail {
@@ -104,8 +105,8 @@ std::vector<fs::path> numbered_row(const fs::path& folder, const std::string& pa
         ++next;
     }
     if (row.size() != count)
-        throw InputError(folder.string(),
-                         fmt::format("has {} pictures {}, {} says that there are {}", row.size(), pattern, counted_in, count));
+        throw InputError(folder.string(), fmt::format("has {} {}, {} says that there are {}", counted(row.size(), "picture"),
+                                                      pattern, counted_in, count));
     return row;
 }
 

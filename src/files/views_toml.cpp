@@ -11,6 +11,7 @@
 #include "files/text_file.h"
 #include "files/values.h"
 #include "files/views_internal.h"
+#include "model/counted.h"
 #include "model/keys.h"
 
 namespace lfdsim::detail {
@@ -139,9 +140,9 @@ void read_cameras(ViewsReader& reader, ViewsSource& source) {
         reader.read("camera_x_mm", x);
         reader.read("camera_y_mm", y);
         if (int(x.size()) != source.columns)
-            reader.refuse("camera_x_mm", "has {} places, there are {} columns of views", x.size(), source.columns);
+            reader.refuse("camera_x_mm", "has {} for {} of views", counted(x.size(), "place"), counted(source.columns, "column"));
         if (int(y.size()) != source.rows)
-            reader.refuse("camera_y_mm", "has {} places, there are {} rows of views", y.size(), source.rows);
+            reader.refuse("camera_y_mm", "has {} for {} of views", counted(y.size(), "place"), counted(source.rows, "row"));
         source.cameras = camera_places(x, y);
     }
     source.cone_deg = reader.number("view_cone_deg", {0, 180, true, true});

@@ -11,6 +11,7 @@
 #include "files/decode.h"
 #include "files/drawn_lens.h"
 #include "files/nearest.h"
+#include "model/counted.h"
 
 // Zemax's .zmx: a line is a keyword and its values. "SURF n" begins a surface, whose lines are indented.
 namespace lfdsim {
@@ -246,7 +247,7 @@ class ZmxReader {
             refuse(last.line, "ends with surface {}, which is not the image: another one follows at DISZ {}; the file is cut",
                    surfaces.size() - 1, last.drawn.distance_mm);
         else if (surfaces.size() < 3)
-            refuse(last.line, "has {} surfaces; a lens stands between an object and an image", surfaces.size());
+            refuse(last.line, "has {}; a lens stands between an object and an image", counted(surfaces.size(), "surface"));
         if (unit_mm == 0) lens.notes.push_back("The file names no unit of length; taken as mm.");
         if (cut_line && !text.starts_with("VERS"))
             lens.notes.push_back("The file's last line has no end; if it was cut there, something may be missing.");

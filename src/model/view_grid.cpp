@@ -1,5 +1,6 @@
 #include "model/view_grid.h"
 
+#include "model/counted.h"
 #include "model/keys.h"
 #include "model/numbers.h"
 
@@ -51,7 +52,8 @@ std::vector<Problem> faults_of(const ViewGrid& grid) {
         all.push_back({"columns, rows", fmt::format("{} x {} views; allowed are 1 to {} along each side and {} in all",
                                                     grid.columns, grid.rows, most_views_a_side, most_views)});
     else if (grid.views() != std::size_t(grid.columns) * std::size_t(grid.rows))
-        all.push_back({"columns, rows", fmt::format("{} x {} views have {} cameras", grid.columns, grid.rows, grid.views())});
+        all.push_back(
+            {"columns, rows", fmt::format("{} x {} views have {}", grid.columns, grid.rows, counted(grid.views(), "camera"))});
     length("distance_mm", grid.distance_mm, positive_length);
     length("width_mm", grid.width_mm, positive_length);
     length("height_mm", grid.height_mm, positive_length);

@@ -4,6 +4,7 @@
 #include "engine/render.h"
 #include "image/compare.h"
 #include "image/encoding.h"
+#include "model/counted.h"
 #include "model/geometry.h"
 #include "python/arrays.h"
 #include "python/content.h"
@@ -48,8 +49,9 @@ Made elemental(const Display& display, const Geometry& geometry, int threads, Jo
     Made made;
     Picture picture = elemental_images(display, geometry, scene_of(display, geometry, made.notes, job), threads, job);
     if (picture.dark > 0)
-        made.notes.push_back(fmt::format("the light of {} {} never leaves its lens: they stay black", picture.dark,
-                                         display.panel.subpixels == SubpixelLayout::none ? "pixels" : "subpixels"));
+        made.notes.push_back(
+            fmt::format("the light of {} never leaves its lens: black is shown there",
+                        counted(picture.dark, display.panel.subpixels == SubpixelLayout::none ? "pixel" : "subpixel")));
     made.image = std::move(picture.image);
     return made;
 }

@@ -2,6 +2,7 @@
 
 #include "analysis/eye_rays.h"
 #include "engine/scene.h"
+#include "model/counted.h"
 #include "model/geometry.h"
 #include "model/numbers.h"
 #include "model/vec.h"
@@ -88,8 +89,8 @@ std::string cone(const Display& d, const Geometry& g, const SideRay& sight) {
     double height = 0;
     for (const auto& [row, seen] : rows) height += seen.high - seen.low;
     return rows.empty() ? ""
-                        : fmt::format("; with the diffuser, {:.2f} mm of the panel's height behind {} {} of lenses", height,
-                                      rows.size(), rows.size() == 1 ? "row" : "rows");
+                        : fmt::format("; with the diffuser, {:.2f} mm of the panel's height behind {} of lenses", height,
+                                      counted(rows.size(), "row"));
 }
 
 std::vector<std::vector<Place>> fan(const Display& d, const Geometry& g, const SideRay& sight) {

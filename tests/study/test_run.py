@@ -58,7 +58,7 @@ class Runs(StudyTest):
         self.assertEqual(call("plan", self.file, "-o", self.out).returncode, 0)
         early = call("collect", self.out)
         self.assertEqual(early.returncode, 2)
-        self.assertIn("is not finished: 16 of 16 chunks are missing", early.stderr)
+        self.assertIn("is not finished: 16 chunks of 16 missing", early.stderr)
         for part in (2, 0, 1):
             done = call("run", self.out, "--chunk", part, "--of", 3)
             self.assertEqual(done.returncode, 0, done.stderr)

@@ -8,7 +8,7 @@ import pyarrow as pa
 
 from . import chunk, files
 from .planned import Plan
-from .problems import StudyError, listed, nearest
+from .problems import StudyError, counted, listed, nearest
 
 NAME = "study.parquet"
 
@@ -25,7 +25,7 @@ def table_of(plan: Plan) -> pa.Table:
     if missing:
         raise StudyError(
             plan.folder,
-            f"is not finished: {len(missing)} of {plan.chunks} chunks are missing ({listed(map(str, missing))}); run them first",
+            f"is not finished: {counted(len(missing), 'chunk')} of {plan.chunks} missing ({listed(map(str, missing))}); run them first",
         )
     table = _joined(plan, [chunk.read(plan, c)[0] for c in range(plan.chunks)])
     files.write_table(path, table, about)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from . import api
 from .file import MOST_ROWS
-from .problems import StudyError, StudyFailed
+from .problems import StudyError, StudyFailed, counted
 from .runs import MOST_AT_ONCE
 from .tolerances import MEASURES, Loss, tolerance
 
@@ -125,7 +125,7 @@ def _run(a: argparse.Namespace) -> int:
         if a.output or a.dask or a.workers:
             raise StudyError("--chunk", "computes in this process: -o, --dask and --workers have no meaning with it; leave them out")
         rows = api.run_part(a.file, a.chunk, a.of, a.threads)
-        print(f"{a.file}: part {a.chunk} of {a.of}: {rows} rows are there")
+        print(f"{a.file}: part {a.chunk} of {a.of}: {counted(rows, 'row')} finished")
         return 0
     if not a.output:
         raise StudyError("-o", "is missing; give the folder for the study")
@@ -145,12 +145,12 @@ def _run(a: argparse.Namespace) -> int:
 def _tell(folder: str, table: "pandas.DataFrame") -> None:
     reasons = table["error"].dropna()
     often = f", most often because: {reasons.value_counts().index[0]}" if len(reasons) else ""
-    print(f"{pathlib.Path(folder) / 'study.parquet'}: {len(table)} rows, {len(reasons)} of them impossible{often}")
+    print(f"{pathlib.Path(folder) / 'study.parquet'}: {counted(len(table), 'row')}, {len(reasons)} of them impossible{often}")
 
 
 def _plan(a: argparse.Namespace) -> int:
     plan = api.plan(a.file, a.output)
-    print(f"{plan.folder}: {plan.rows} rows in {plan.chunks} chunks of {plan.rows_per_chunk}")
+    print(f"{plan.folder}: {counted(plan.rows, 'row')} in {counted(plan.chunks, 'chunk')} of {plan.rows_per_chunk}")
     return 0
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from .factors import Value
 from .file import MOST_ROWS, SAMPLED, Study
-from .problems import StudyError
+from .problems import StudyError, counted
 
 Columns = dict[str, list[Value]]
 
@@ -100,7 +100,7 @@ def _table(path: pathlib.Path) -> Columns:
         raise StudyError(f"{path}:1", "names a key twice or not at all; give each column one key")
     for number, line in enumerate(lines[1:], 2):
         if len(line) != len(keys):
-            raise StudyError(f"{path}:{number}", f"has {len(line)} cells; give {len(keys)}, one for each key")
+            raise StudyError(f"{path}:{number}", f"has {counted(len(line), 'cell')}; give {len(keys)}, one for each key")
     return {key: [_cell(line[k]) for line in lines[1:]] for k, key in enumerate(keys)}
 
 

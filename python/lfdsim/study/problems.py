@@ -18,6 +18,11 @@ class StudyFailed(StudyError):
     """Work that failed though the input is right: a process died, memory or a device was missing. It may succeed another time."""
 
 
+def counted(count: int, one: str) -> str:
+    """1 row, 2 rows."""
+    return f"{count} {one}" if count == 1 else f"{count} {one}s"
+
+
 def listed(names: Iterable[str], most: int = 12) -> str:
     names = list(names)
     return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")

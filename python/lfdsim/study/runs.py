@@ -10,7 +10,7 @@ import pyarrow as pa
 from . import collected, local
 from . import planned as plans
 from .chunk import Outcome
-from .problems import StudyError, StudyFailed, listed
+from .problems import StudyError, StudyFailed, counted, listed
 
 
 MOST_AT_ONCE = 1024  # processes, and threads of each, as of the program's --threads
@@ -83,7 +83,7 @@ class _Progress:
         self.failed += result["failed"]
         if self.shown:
             impossible = f", {self.failed} impossible" if self.failed else ""
-            print(f"\rlfdsim: {self.done} of {self.total} rows{impossible} ", end="", file=sys.stderr, flush=True)
+            print(f"\rlfdsim: {self.done} of {counted(self.total, 'row')}{impossible} ", end="", file=sys.stderr, flush=True)
 
     def end(self) -> None:
         if self.shown:

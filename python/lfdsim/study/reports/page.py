@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import files
 from ..planned import Plan
+from ..problems import counted
 from . import data as reading
 from . import effects, kept, plots
 from .data import Data
@@ -63,7 +64,7 @@ def _head(data: Data) -> str:
     }[study.design]
     repeated = f", each {study.replicates} times with other seeds" if study.replicates > 1 else ""
     return (
-        f"<h1>{_text(data.plan.name)}</h1><p>{data.plan.rows} rows, {len(data.failed)} of them impossible; {how}{repeated}; display "
+        f"<h1>{_text(data.plan.name)}</h1><p>{counted(data.plan.rows, 'row')}, {len(data.failed)} of them impossible; {how}{repeated}; display "
         f"{_text(study.display_path.name)}. All rows are in study.parquet; study {data.plan.identity[:12]}.</p>"
     )
 
@@ -73,7 +74,7 @@ def _failures(data: Data) -> str:
         return ""
     causes = data.failed.groupby("error")["row"].agg(["count", "min"]).sort_values("count", ascending=False)
     rows = [[str(error)[:300], int(line["count"]), int(line["min"])] for error, line in causes.head(10).iterrows()]
-    more = f"<p>{len(causes) - 10} more reasons are in study.parquet.</p>" if len(causes) > 10 else ""
+    more = f"<p>{counted(len(causes) - 10, 'more reason')} in study.parquet.</p>" if len(causes) > 10 else ""
     return f"<h2>Impossible rows</h2>{table(['reason', 'rows', 'the first'], rows)}{more}"
 
 
@@ -169,7 +170,7 @@ def _sobol(data: Data, figure: str, y: np.ndarray) -> str:
     if found is None:
         return (
             f"<p>{_text(figure)}: no Sobol indices: they need the figure, finite, of every row of the design, once"
-            f"{f'; {len(data.failed)} rows were impossible' if len(data.failed) else ''}.</p>"
+            f"{f'; impossible rows: {len(data.failed)}' if len(data.failed) else ''}.</p>"
         )
     return f"<p>{_text(figure)}: Sobol indices, shares of the variance, with 95 % intervals.</p>" + plots.bars(
         names,
@@ -193,7 +194,7 @@ def _pareto(data: Data) -> str:
     rows = data.rows[front].sort_values(names[0])
     shown = rows.iloc[np.linspace(0, len(rows) - 1, min(len(rows), 30)).astype(int)]
     return (
-        f"<h2>Pareto front</h2><p>{len(rows)} rows are surpassed by none in all objectives at once; {len(shown)} of them below.</p>"
+        f"<h2>Pareto front</h2><p>Rows that none surpasses in all objectives at once: {len(rows)}; {len(shown)} of them below.</p>"
         + plots.pareto(data, front)
         + table(["row", *names, *keys], shown[["row", *names, *keys]].astype(object).values.tolist())
     )

@@ -11,6 +11,7 @@ import numpy as np
 from .. import files
 from . import page, plots
 from ..errors import ALL
+from ..problems import counted
 from ..tolerances import Tolerance
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ def write(found: Tolerance, percent: float) -> pathlib.Path:
     layout = found.layout
     impossible = layout.draws - len(found.draws)
     parts = [
-        f"<h1>Tolerances</h1><p>{layout.draws} draws of all errors together, {impossible} of them impossible. "
+        f"<h1>Tolerances</h1><p>{counted(layout.draws, 'draw')} of all errors together, {impossible} of them impossible. "
         "All rows are in study.parquet.</p>",
         "<h2>Sizes of the errors</h2>" + page.table(["error", "size"], [[k, str(v)] for k, v in layout.sizes.items()]),
         "<p class=note>Of the whole array: the standard deviation of a normal distribution about zero, cut off at 3. Of each lens "
