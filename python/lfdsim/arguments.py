@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from lfdsim import _core
 from lfdsim.display import Display
-from lfdsim.errors import InputError, LfdsimWarning
+from lfdsim.errors import DisplayError, InputError, LfdsimWarning
 from lfdsim.texts import text
 
 Corners = tuple[int, int, int, int]
@@ -38,11 +38,17 @@ KEYS = {  # of arguments that stand for a key of the description
 
 
 def seen(display: Any, model: Any, **arguments: Any) -> Display:
-    """The display with another model and, where arguments have a value, with their KEYS changed."""
+    """The display with another model and, where arguments have a value, with their KEYS changed. Errors name the arguments, too."""
     given = {KEYS[name]: value for name, value in arguments.items() if value is not None}
     if "camera.frame_width_mm" in given:
         given = {"camera.fov_deg": None, **given}
-    return display_of(display).with_(given)._with_model(model)
+    try:
+        changed = display_of(display).with_(given)
+    except DisplayError as error:
+        arguments_of = {KEYS[name]: name for name in arguments}
+        named = [(arguments_of.get(p.key.partition("[")[0], p.where), p.what) for p in error.problems]
+        raise DisplayError(named) from None
+    return changed._with_model(model)
 
 
 def pixels(array: Any, name: str) -> NDArray[Any]:

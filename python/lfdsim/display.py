@@ -106,7 +106,7 @@ class Display:
 
 def _unknown(key: str) -> UnknownKeyError:
     meant = _core.meant(key)
-    return UnknownKeyError([("", f"{key}: is unknown; " + (f"did you mean {meant}?" if meant else "docs/format.md lists all keys"))])
+    return UnknownKeyError([("", f"{key or repr(key)}: is unknown; " + (f"did you mean {meant}?" if meant else "docs/format.md lists all keys"))])
 
 
 def _override(key: Any, value: Any) -> str:

@@ -74,9 +74,12 @@ def analyze(
         "eye_distance_mm": number(eye_distance_mm, "eye_distance_mm"),
         "wavelength_nm": number(wavelength_nm, "wavelength_nm"),
     }
+    known = [m.name for m in measures()]
+    if text(measure, "measure") not in known:
+        raise InputError([("measure", f'"{measure}" is not a measure; there are: {", ".join(known)}')])
     with shown(progress) as report:
         measured = _core.analyze(
-            of._handle, text(measure, "measure"), **settings, threads=threads_of(threads), device=text(device, "device"), progress=report
+            of._handle, measure, **settings, threads=threads_of(threads), device=text(device, "device"), progress=report
         )
     warn(measured.warnings())
     return Result(measured, measure)
@@ -89,7 +92,9 @@ def _numbers(values: Any, name: str) -> list[float]:
         array = np.asarray(values if isinstance(values, np.ndarray) else list(values))
     except (TypeError, ValueError):
         raise TypeError(f"{name} is a {type(values).__name__}; give a list of numbers") from None
-    if array.dtype.kind not in "fiu" or array.ndim != 1 or array.size == 0:
+    if array.size == 0:
+        raise InputError([(name, "is empty; give a list of numbers")])
+    if array.dtype.kind not in "fiu" or array.ndim != 1:
         raise InputError([(name, f"has the shape {array.shape} of {array.dtype}; give a list of numbers")])
     given: list[float] = array.astype(float).tolist()
     return given

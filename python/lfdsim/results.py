@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lfdsim import _core
+from lfdsim.arguments import flag
 from lfdsim.numbers_of import numbers_of
 from lfdsim.texts import path_text
 
@@ -72,7 +73,7 @@ class Result:
     def save(self, folder: str | os.PathLike[str], *, replace: bool = False) -> None:
         """Writes what `lfdsim analyze -o FOLDER` writes: figures, tables, plots, pictures, report.html. InputError where the folder
         holds results of another display or other settings, unless those are to be replaced."""
-        self._measured.save(path_text(folder, "folder"), f"lfdsim.analyze(display, {self.measure!r})", bool(replace))
+        self._measured.save(path_text(folder, "folder"), f"lfdsim.analyze(display, {self.measure!r})", flag(replace, "replace"))
 
     def __repr__(self) -> str:
         lines = [_line(finding) for finding in self.findings]

@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 from typing import Any
 
+from lfdsim.errors import InputError
+
 
 def text(value: Any, name: str) -> str:
     """TypeError unless it is a text; ValueError for one with half of a surrogate pair."""
@@ -18,10 +20,12 @@ def text(value: Any, name: str) -> str:
 
 
 def path_text(value: Any, name: str) -> str:
-    """Of a path of any kind."""
+    """Of a path of any kind; InputError for an empty one."""
     if not isinstance(value, (str, bytes, os.PathLike)):
         raise TypeError(f"{name} is a {type(value).__name__}; give a path")
     path = text(os.fsdecode(value), name)
+    if not path:
+        raise InputError([(name, "is empty; give a path")])
     if "\0" in path:
         raise ValueError(f"{name} is {path!r}; no file's name has a null character")
     return path

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "files/nearest.h"
+#include "model/counted.h"
 
 namespace lfdsim {
 namespace {
@@ -142,7 +143,7 @@ std::string read_value(const toml::node& node, Glass& glass) {
     fault = read(form.key.data(), glass.coefficients);
     const std::size_t count = glass.coefficients.size();
     if (fault.empty() && (!takes(form.formula, count) || count > most_coefficients))
-        fault = fmt::format("{} has {} elements; give {}", form.key, count, form.wanted);
+        fault = fmt::format("{} has {}; give {}", form.key, counted(count, "element"), form.wanted);
     return fault;
 }
 

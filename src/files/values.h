@@ -1,5 +1,6 @@
 // One TOML value into one field of a display, and back. Floor 2.
 #pragma once
+#include "model/counted.h"
 #include "model/keys.h"
 
 #include <optional>
@@ -36,7 +37,7 @@ std::string read_value(const toml::node& node, std::array<T, n>& values) {
     const toml::array* array = node.as_array();
     const std::string wanted = "a list of " + std::to_string(n) + (std::is_integral_v<T> ? " integers" : " numbers");
     if (!array) return "is " + std::string(kind_of(node)) + "; give " + wanted;
-    if (array->size() != n) return "has " + std::to_string(array->size()) + " elements; give " + wanted;
+    if (array->size() != n) return "has " + counted(array->size(), "element") + "; give " + wanted;
     for (std::size_t i = 0; i < n; ++i)
         if (std::string fault = read_value((*array)[i], values[i]); !fault.empty())
             return "element " + std::to_string(i) + " " + fault;

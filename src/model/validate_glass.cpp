@@ -1,4 +1,5 @@
 #include "model/colour.h"
+#include "model/counted.h"
 #include "model/findings.h"
 
 namespace lfdsim {
@@ -28,7 +29,8 @@ void check_wavelengths(const std::string& where, const Glass& glass, const Displ
 void check_glass(const std::string& where, const Glass& glass, const Display& d, Findings& findings) {
     if (glass.formula == Formula::unknown) return findings.add(where, "{} has not been looked up in a catalogue", named(glass));
     if (!takes(glass.formula, glass.coefficients.size()))
-        return findings.add(where, "{} has {} coefficients, which do not fit its formula", named(glass), glass.coefficients.size());
+        return findings.add(where, "{} has {}, too few or too many for its formula", named(glass),
+                            counted(glass.coefficients.size(), "coefficient"));
     if (glass.formula == Formula::nd_vd && !(glass.coefficients[1] > 0))
         return findings.add(where, "has vd = {}; an Abbe number is more than 0", glass.coefficients[1]);
     if (findings.sound("panel.wavelengths_nm") && findings.sound("panel.primary_widths_nm") && findings.sound("render."))

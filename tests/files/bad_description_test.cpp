@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Bad{with("7.28", "1979-05-27"), "d:8:20", "is a date or time; give a number"},
                     Bad{with("7.28", "[7.28]"), "d:8:20", "is a list; give a number"},
                     Bad{with("[43, 24]", "43"), "d:12:9", "array.count: is an integer; give a list of 2 integers"},
-                    Bad{with("[43, 24]", "[43]"), "d:12:9", "has 1 elements; give a list of 2 integers"},
+                    Bad{with("[43, 24]", "[43]"), "d:12:9", "has 1 element; give a list of 2 integers"},
                     Bad{with("[43, 24]", "[43, 24.0]"), "d:12:9", "element 1 is a number with a fraction; give an integer"},
                     Bad{with("[0, 0, 2000]", "[0, 'x', 2000]"), "d:16:15", "element 1 is a string; give a number"},
                     Bad{with("\"example\"", "7"), "d:2:8", "name: is an integer; give a string"},

@@ -88,7 +88,7 @@ TEST(GlassKey, MistakesAreToldOnce) {
              {"{ cauchy = [] }", "cauchy has 0 elements; give a list of 3 numbers"},
              {"{ cauchy = [1.5, 0.01] }", "cauchy has 2 elements; give a list of 3 numbers"},
              {"{ sellmeier = [1, 0.01, 1, 0.02, 1] }", "sellmeier has 5 elements; give pairs B, C, as a list of 6 numbers"},
-             {"{ power_series = [2.2] }", "power_series has 1 elements; give pairs of a coefficient and a power"},
+             {"{ power_series = [2.2] }", "power_series has 1 element; give pairs of a coefficient and a power"},
              {"{ name = \"MINE\" }", "has no formula"},
              {"{ name = 5, nd = 1.5, vd = 60 }", "name is an integer; give a string"},
              {"{ nd = 1.5, vd = 60, range_nm = [700, 400] }", "range_nm is not two wavelengths, the shorter first"},

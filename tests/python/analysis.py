@@ -42,6 +42,8 @@ class Results(TinyTest):
         result.save("theirs")  # which refuses results of other settings
         with self.assertRaisesRegex(lfdsim.InputError, "theirs: holds results of other settings: fov"):
             lfdsim.analyze(self.display, "spot", eye_distance_mm=60).save("theirs")
+        with self.assertRaisesRegex(TypeError, "replace is a str; give True or False"):
+            result.save("theirs", replace="no")
         lfdsim.analyze(self.display, "spot", eye_distance_mm=60).save("theirs", replace=True)
         self.assertEqual([p.stem for p in pathlib.Path("theirs").glob("*.json")], ["spot"])
 
@@ -72,9 +74,10 @@ class Results(TinyTest):
 
     def test_refusals(self) -> None:
         for words, measure, named in [
-            ('measure: "fob" is not a measure; there are: .*fov', "fob", {}),
+            ('measure: "fob" is not a measure; there are: components, .*fov', "fob", {}),
+            ('measure: "all" is not a measure; there are: components', "all", {}),
+            ("angles_deg: is empty; give a list", "fov", {"angles_deg": []}),
             ("angles_deg: has 1 at place 1; give rising values within -80 to 80", "fov", {"angles_deg": [3, 1]}),
-            ("angles_deg", "fov", {"angles_deg": []}),
             ("eye_distance_mm: is 0", "fov", {"eye_distance_mm": 0}),
             ("wavelength_nm: is nan", "fov", {"wavelength_nm": math.nan}),
             ("depths_mm: the depth of field needs three depths", "dof", {"depths_mm": [1, 2]}),

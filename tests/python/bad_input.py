@@ -46,12 +46,13 @@ class Named(TinyTest):
     def test_options(self) -> None:
         d = self.display
         for kind, words, named in [
-            (lfdsim.DisplayError, "camera.position_mm: .*3 numbers|camera.position_mm", {"camera_mm": (1, 2)}),
-            (lfdsim.DisplayError, "camera.position_mm", {"camera_mm": "here"}),
-            (lfdsim.DisplayError, "camera.resolution", {"size": (0, 5)}),
-            (lfdsim.DisplayError, "camera.resolution", {"size": 7}),
-            (lfdsim.DisplayError, "render.samples", {"samples": 2.5}),
-            (lfdsim.DisplayError, "render.estimator", {"estimator": "magic"}),
+            (lfdsim.DisplayError, "camera_mm: camera.position_mm: has 2 elements; give a list of 3 numbers", {"camera_mm": (1, 2)}),
+            (lfdsim.DisplayError, "camera_mm: camera.position_mm: has 1 element;", {"camera_mm": (1,)}),
+            (lfdsim.DisplayError, "camera_mm: camera.position_mm: is a string", {"camera_mm": "here"}),
+            (lfdsim.DisplayError, r"size: camera.resolution\[0\]: is 0, allowed is 1", {"size": (0, 5)}),
+            (lfdsim.DisplayError, "size: camera.resolution", {"size": 7}),
+            (lfdsim.DisplayError, "samples: render.samples", {"samples": 2.5}),
+            (lfdsim.DisplayError, "estimator: render.estimator", {"estimator": "magic"}),
             (lfdsim.DisplayError, "camera.resolution", {"size": (10**6, 10**6)}),
             (lfdsim.InputError, "threads: is -1", {"threads": -1}),
             (TypeError, "threads is a float", {"threads": 1.0}),
@@ -62,12 +63,17 @@ class Named(TinyTest):
             (lfdsim.InputError, "crop", {"crop": (0, 0, 1)}),
             (TypeError, "crop is 'all'|crop is", {"crop": 5}),
             (lfdsim.InputError, "nowhere.glb", {"model": "nowhere.glb"}),
-            (lfdsim.InputError, "model: the name is empty", {"model": ""}),
+            (lfdsim.InputError, "model: is empty; give a path", {"model": ""}),
             (TypeError, "progress", {"progress": "bar"}),
         ]:
             with self.subTest(words):
                 self.refused(kind, words, lfdsim.render, d, **named)
         self.refused(TypeError, "display is a str", lfdsim.render, "tiny.toml")
+        with self.assertRaises(lfdsim.DisplayError) as caught:
+            lfdsim.render(d, size=7, samples=0)
+        self.assertEqual([p.key for p in caught.exception.problems], ["camera.resolution", "render.samples"])
+        self.refused(lfdsim.InputError, "path: is empty; give a path", lfdsim.Display.load, "")
+        self.refused(lfdsim.DisplayError, "'': is unknown", d.with_, {"": 3})
         self.refused(TypeError, "text is a bytes; give a text", lfdsim.Display.parse, b"schema = 1")
         self.refused(TypeError, "array.gap_mm: a object", d.with_, {"array.gap_mm": object()})
         self.refused(TypeError, "key is a int", d.with_, {3: 4})

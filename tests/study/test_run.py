@@ -64,7 +64,7 @@ class Runs(StudyTest):
             self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(call("collect", self.out).returncode, 0)
         self.assertEqual(self.expected, (self.out / "study.parquet").read_bytes())
-        self.assertIn("give 0 to 2", call("run", self.out, "--chunk", 3, "--of", 3).stderr)
+        self.assertIn("give a whole number from 0 to 2", call("run", self.out, "--chunk", 3, "--of", 3).stderr)
 
     def test_a_killed_run_continues(self):
         process = start("run", self.file, "-o", self.out, "--no-report", "--workers", 2)
@@ -169,6 +169,19 @@ class Runs(StudyTest):
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(said, done.stderr)
             self.assertNotIn("Traceback", done.stderr)
+
+    def test_wrong_arguments_are_named(self):
+        for kind, words, work in (
+            (TypeError, "file is a int; give a path", lambda: study.run(5, self.out)),
+            (TypeError, "folder is a NoneType; give a path", lambda: study.plan(self.file, None)),
+            (TypeError, "folder is a int; give a path", lambda: study.collect(5)),
+            (StudyError, "folder: is empty; give a path", lambda: study.report("")),
+            (StudyError, r"part \(--chunk\): is 4; give a whole number from 0 to 3", lambda: study.run_part(self.out, 4, 4)),
+            (StudyError, r"part \(--chunk\): is 0.5", lambda: study.run_part(self.out, 0.5, 4)),
+            (StudyError, r"parts \(--of\): is '4'; give a whole number from 1", lambda: study.run_part(self.out, 1, "4")),
+        ):
+            with self.subTest(words), self.assertRaisesRegex(kind, words):
+                work()
 
     def test_more_at_once_than_any_machine_takes(self):
         display = self.folder / "display.toml"

@@ -90,6 +90,29 @@ class Budgets(unittest.TestCase):
         for wrong in ("f", "f=", "=1", "f=x", "f=0", "f=nan"):
             with self.assertRaisesRegex(StudyError, "is not FIGURE=AMOUNT"):
                 Loss.parse(wrong)
+        for wrong in (("f", -1.0), ("f", "1"), ("f", 1.0, "up")):
+            with self.assertRaisesRegex(StudyError, "give an amount above 0, and one of"):
+                Loss(*wrong)
+
+
+class Arguments(StudyTest):
+    def test_wrong_ones_are_named(self):
+        display, out = self.folder / "display.toml", self.folder / "out"
+        for words, named in (
+            ("draws: is 2.5; give a whole number from 1", {"draws": 2.5}),
+            ("draws: is 'many'; give a whole number from 1", {"draws": "many"}),
+            ("alone: is -1; give a whole number from 0", {"alone": -1}),
+            ("seed: is 0.5; give a whole number from 0", {"seed": 0.5}),
+            ("percent: is '95'; give a number above 0", {"percent": "95"}),
+            ("percent: is 100; give a number above 0", {"percent": 100}),
+            ("measures: is 'fov'; give a tuple of names", {"measures": "fov"}),
+            ("losses: is .*; give a tuple of losses", {"losses": ("check.a=5",)}),
+        ):
+            with self.subTest(words), self.assertRaisesRegex(StudyError, words):
+                tolerances.tolerance(display, out, **named)
+        with self.assertRaisesRegex(TypeError, "display is a int; give a path"):
+            tolerances.tolerance(5, out)
+        self.assertFalse(out.exists())
 
 
 class KnownAnswers(StudyTest):

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 from . import chunk, collected, pictures, runs
 from . import planned as plans
+from .file import MOST_ROWS
 from .planned import Plan
-from .problems import StudyError, StudyFailed
+from .problems import StudyError, StudyFailed, whole
 
 if TYPE_CHECKING:
     import pandas
@@ -37,8 +38,8 @@ def plan(file: Path, folder: Path) -> Plan:
 
 def run_part(folder: Path, part: int, parts: int, threads: int = 1) -> int:
     """Computes every `parts`-th chunk of a planned study in this process, from chunk `part`. Returns how many rows these are."""
-    if not 0 <= part < parts:
-        raise StudyError("--chunk", f"is {part}; give 0 to {parts - 1}, below the {parts} of --of")
+    whole(parts, "parts (--of)", 1, MOST_ROWS)
+    whole(part, "part (--chunk)", 0, parts - 1)
     runs.check_machines(None, None, threads)
     the_plan = plans.load(folder)
     the_plan.table()  # as planned, or it is refused before work begins

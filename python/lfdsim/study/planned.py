@@ -18,7 +18,7 @@ import lfdsim
 
 from . import columns, design, files, work
 from .file import Study, read_study
-from .problems import StudyError, listed
+from .problems import StudyError, listed, path_of
 
 FORMAT = 1  # of the folder
 
@@ -76,7 +76,8 @@ class Plan:
 
 def make(path: str | pathlib.Path, folder: str | pathlib.Path) -> Plan:
     """Plans the study of a file in a folder, or finds that it is planned there. Refuses a folder of another study."""
-    study, folder = read_study(path), pathlib.Path(folder)
+    folder = path_of(folder, "folder")
+    study = read_study(path_of(path, "file"))
     display_text, display = _display(study)
     planned = _same_study(study, folder, display_text)
     if planned:
@@ -117,7 +118,7 @@ def make(path: str | pathlib.Path, folder: str | pathlib.Path) -> Plan:
 
 def load(folder: str | pathlib.Path) -> Plan:
     """The plan of a folder, as `make` left it."""
-    folder = pathlib.Path(folder)
+    folder = path_of(folder, "folder")
     path = folder / "plan.json"
     try:
         plan = json.loads(path.read_text())

@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 import difflib
+import pathlib
 from collections.abc import Iterable
+from typing import SupportsIndex
+
+from lfdsim.errors import InputError
+from lfdsim.texts import path_text
 
 
 class StudyError(ValueError):
@@ -16,6 +21,19 @@ class StudyError(ValueError):
 
 class StudyFailed(StudyError):
     """Work that failed though the input is right: a process died, memory or a device was missing. It may succeed another time."""
+
+
+def whole(value: object, name: str, low: int, high: int) -> int:
+    if isinstance(value, SupportsIndex) and not isinstance(value, bool) and low <= value.__index__() <= high:
+        return value.__index__()
+    raise StudyError(name, f"is {value!r}; give a whole number from {low} to {high}")
+
+
+def path_of(value: object, name: str) -> pathlib.Path:
+    try:
+        return pathlib.Path(path_text(value, name))
+    except InputError as error:
+        raise StudyError("", str(error)) from None
 
 
 def counted(count: int, one: str) -> str:

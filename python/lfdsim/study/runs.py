@@ -10,16 +10,16 @@ import pyarrow as pa
 from . import collected, local
 from . import planned as plans
 from .chunk import Outcome
-from .problems import StudyError, StudyFailed, counted, listed
+from .problems import StudyError, StudyFailed, counted, listed, whole
 
 
 MOST_AT_ONCE = 1024  # processes, and threads of each, as of the program's --threads
 
 
 def check_machines(dask: object, workers: int | None, threads: int) -> None:
-    for name, number in (("workers", 1 if workers is None else workers), ("threads", threads)):
-        if not isinstance(number, int) or not 1 <= number <= MOST_AT_ONCE:
-            raise StudyError(name, f"is {number!r}; give a whole number from 1 to {MOST_AT_ONCE}")
+    if workers is not None:
+        whole(workers, "workers", 1, MOST_AT_ONCE)
+    whole(threads, "threads", 1, MOST_AT_ONCE)
     if dask is not None and workers is not None:
         raise StudyError("workers", "are of this machine; with dask the cluster has its own. Give one of them")
 

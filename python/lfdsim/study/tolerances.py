@@ -12,14 +12,16 @@ import numpy as np
 from . import api, errors, files, planned, runs
 from .columns import is_uncertainty
 from .errors import ALL, Layout
+from .factors import is_number
 from .file import MOST_ROWS, Objective
-from .problems import StudyError, nearest
+from .problems import StudyError, nearest, path_of, whole
 
 if TYPE_CHECKING:
     import pandas
 
 PERCENT = (1, 5, 25, 50, 75, 95, 99)
 SIZE = [480, 270]
+WAYS = ("change", "fall", "rise")
 MEASURES = ("picture", "fov", "crosstalk")
 
 
@@ -30,6 +32,10 @@ class Loss:
     figure: str
     amount: float
     way: str = "change"
+
+    def __post_init__(self) -> None:
+        if not (is_number(self.amount) and self.amount > 0) or self.way not in WAYS:
+            raise StudyError(f"Loss of {self.figure}", f"is {self.amount!r}, {self.way!r}; give an amount above 0, and one of {WAYS}")
 
     def of(self, figure: np.ndarray, without: float) -> np.ndarray:
         change = np.asarray(figure, float) - without
@@ -85,13 +91,15 @@ def tolerance(
     `draws`; 0: none, and no budget). `measures`: names (`picture`: likeness to the scene), or tables as in a study's file. `losses`: what
     `percent` of all displays must keep; the budget says which sizes allow that.
     """
-    display, folder = pathlib.Path(display), pathlib.Path(folder)
-    if draws < 1:
-        raise StudyError("draws", f"is {draws}; give a whole number from 1")
-    if not 0 < percent < 100:
-        raise StudyError("percent", f"is {percent}; give a number above 0 and below 100")
-    if seed < 0 or (alone or 0) < 0:
-        raise StudyError("seed" if seed < 0 else "alone", f"is {seed if seed < 0 else alone}; give a whole number from 0")
+    display, folder = path_of(display, "display"), path_of(folder, "folder")
+    draws, seed = whole(draws, "draws", 1, MOST_ROWS), whole(seed, "seed", 0, 2**63 - 1)
+    alone = alone if alone is None else whole(alone, "alone", 0, MOST_ROWS)
+    if not (is_number(percent) and 0 < percent < 100):
+        raise StudyError("percent", f"is {percent!r}; give a number above 0 and below 100")
+    if not (isinstance(measures, (tuple, list)) and all(isinstance(m, (str, dict)) for m in measures)):
+        raise StudyError("measures", f"is {measures!r}; give a tuple of names or tables, as in {MEASURES}")
+    if not (isinstance(losses, (tuple, list)) and all(isinstance(loss, Loss) for loss in losses)):
+        raise StudyError("losses", f'is {losses!r}; give a tuple of losses, as in (Loss.parse("picture.ssim=-0.02"),)')
     runs.check_machines(dask, workers, threads)
     sizes = errors.sizes_of(planned.display_in(display, {})[0], display)
     layout = Layout(sizes, draws, max(10, draws // 5) if alone is None else alone)
