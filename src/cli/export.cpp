@@ -8,6 +8,7 @@
 #include "cli/work_options.h"
 #include "engine/memory.h"
 #include "files/display_file.h"
+#include "files/lens_table.h"
 #include "files/shell.h"
 #include "files/text_file.h"
 #include "image/file.h"
@@ -99,6 +100,15 @@ void write_file(const fs::path& path, std::string_view bytes) {
     file.commit();
 }
 
+/// Lets the scene's folder hold the table of errors that its display.toml names: what is drawn is in it, too.
+void take_lens_table(PeerScene& scene) {
+    Errors& errors = scene.shown.errors;
+    if (!errors.given) return;
+    errors.table = "lenses.csv";
+    scene.files.push_back({errors.table, write_lens_table(scene.shown)});
+    errors.decenter_sd_mm = errors.height_sd_mm = errors.tilt_sd_deg = errors.curvature_sd = 0;
+}
+
 Image picture_of(const Texels& texels) {
     Image image(int(texels.columns()), int(texels.rows()));
     const float* from = texels.data();
@@ -148,6 +158,7 @@ void run(const ExportArguments& args) {
     Progress progress(args.work.progress());
     const fs::path folder = args.folder;
     PeerScene scene = peer_scene(peer, fine.display, shown_geometry, options);
+    take_lens_table(scene);
     scene.deviations.insert(scene.deviations.end(), fine.deviations.begin(), fine.deviations.end());
     Json files = Json::array({scene.panel_file, "display.toml", "README.txt"});
     for (const PeerFile& file : scene.files) files.push_back(file.name);

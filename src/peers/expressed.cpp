@@ -3,11 +3,15 @@
 #include "meshed/lens_mesh.h"
 #include "model/colour.h"
 #include "model/lens_errors.h"
+#include "peers/pov_stand.h"
 
 #include <fmt/format.h>
 #include <cmath>
 
 namespace lfdsim {
+
+using namespace peers;
+
 namespace {
 
 constexpr std::int64_t least_triangles = 100;  // so that the outline of a lens has some points on each side of its cell
@@ -23,10 +27,9 @@ class Refusals {
                                  : "a pinhole has no surfaces to make triangles of; export pov without --triangles");
             return std::move(problems_);
         }
-        if (lenses_differ(d_.errors) || (is_wedged(d_.errors) && peer_ != Peer::pov))
-            add("errors", fmt::format("let lenses stand by themselves{}, which this scene does not cover; give shift_mm, gap_mm, "
-                                      "rotation_deg{} and pitch_ppm only",
-                                      peer_ == Peer::pov ? "" : ", or the array lean", peer_ == Peer::pov ? ", wedge_deg" : ""));
+        if (lenses_differ(d_.errors)) differing();
+        if (is_wedged(d_.errors) && peer_ != Peer::pov)
+            add("errors.wedge_deg", "lets the array lean, which this scene does not cover; make it [0, 0], or export pov");
         array();
         if (disperses(d_)) colour();
         if (d_.camera.pupil_diameter_mm.value_or(0) > 0)
@@ -41,6 +44,35 @@ class Refusals {
   private:
     void add(std::string where, std::string what) { problems_.push_back({std::move(where), std::move(what)}); }
     bool meshed() const { return peer_ != Peer::pov || options_.triangles; }
+
+    // Errors of single lenses, and a bow.
+    void differing() {
+        if (peer_ != Peer::pov)
+            return add(
+                "errors",
+                "let lenses differ, and this scene has one mesh for all of them and for what lies between them; give shift_mm, "
+                "gap_mm, rotation_deg and pitch_ppm only, or export pov");
+        if (options_.triangles)
+            return add("--triangles", "are those of one lens, and [errors] let lenses differ; leave it out for true surfaces");
+        const double lenses = g_.lattice.count[0] * g_.lattice.count[1];
+        if (lenses > most_pov_lenses)
+            return add("errors",
+                       fmt::format("let {:.0f} lenses differ, each of which has shapes of its own in the scene; at most {:.0f} "
+                                   "may: give a smaller array.count, or give shift_mm, gap_mm, rotation_deg, wedge_deg and "
+                                   "pitch_ppm only",
+                                   lenses, most_pov_lenses));
+        const PovStands stands(d_, g_);
+        if (d_.array.surround == Surround::opaque && !stands.walls())
+            add("errors",
+                "move lenses so far up, down or aslant that their walls share no height, at which the scene's black sheet could "
+                "be; give "
+                "smaller bow_mm, height_sd_mm, tilt_sd_deg and table, or thicker lenses");
+        if (d_.lens.stop_radius_mm && !stands.level())
+            add("lens.stop_radius_mm",
+                "is that of holes in one sheet, and [errors] let lenses stand at different heights; leave out bow_mm, height_sd_mm "
+                "and "
+                "heights in the table, or the stop");
+    }
 
     void array() {
         const bool filled = d_.array.aperture == Aperture::cell;

@@ -1,12 +1,16 @@
 #include "peers/pov.h"
 
 #include "engine/scene.h"
+#include "model/lens_errors.h"
 #include "model/numbers.h"
 #include "model/prescription.h"
 #include "peers/cell.h"
 #include "peers/pov_cell.h"
 #include "peers/pov_limits.h"
+#include "peers/pov_matter.h"
 #include "peers/pov_mesh.h"
+#include "peers/pov_moved_caps.h"
+#include "peers/pov_placed.h"
 #include "peers/pov_surface.h"
 #include "peers/text.h"
 
@@ -26,9 +30,6 @@ namespace lfdsim::peers {
 namespace {
 
 constexpr double overlap_mm = 1e-6;  // of walls of neighbouring cells
-
-std::string black() { return "texture { Black }"; }
-std::string medium(double index) { return fmt::format("texture {{ Clear }} interior {{ ior {} }}", text(index)); }
 
 class Writer {
   public:
@@ -54,20 +55,26 @@ class Writer {
             "#declare Clear = texture {{ pigment {{ rgbt 1 }} finish {{ ambient 0 diffuse 0{} }} }}\n",
             fresnel() ? " reflection { 0, 1 fresnel on } conserve_energy" : "");
         all += place();
-        all += panel(panel_file) + layers() + "\n// One lens, about the z axis\n";
+        all += panel(panel_file) + layers();
+        if (differ()) return all + "\n// Each lens\n" + (one_sheet ? pov_moved_caps(d_, g_) : pov_placed(d_, g_));
+        all += "\n// One lens, about the z axis\n";
         all += "#declare Lens = " + (options_.triangles ? meshed_lens() : lens()) + "\n";
         all += one_sheet ? sheet() : lenses();
         return all;
     }
 
     bool fresnel() const { return d_.render.fresnel == Fresnel::exact; }
+    bool differ() const { return lenses_differ(d_.errors); }
+    // What is seen in reflections: nothing, where they are only the loss that Fresnel's equations tell, or end in black.
+    std::string flag() const { return fresnel() || (differ() && d_.array.surround == Surround::opaque) ? " no_reflection" : ""; }
 
     // Hits on the way: all surfaces once, or up to 16, then the layers and the panel. A glued face, unless it vanishes between
     // equal indices, is one of both; beside a glued body of glass, light that meets as many surfaces may so be lost.
     int trace_levels() const {
         const int below = int(g_.layers.size()) + 1;
         if (d_.lens.is_thin()) return below;
-        if (d_.array.surround == Surround::opaque) return below + int(g_.surfaces.size()) - (glued_ ? 1 : 0);
+        if (d_.array.surround == Surround::opaque)
+            return below + int(g_.surfaces.size()) - (glued_ ? 1 : 0) + (differ() ? pov_passed_by : 0);
         return below + 16 - (glued_ && glued_->index_below != glued_->index_above ? 1 : 0);
     }
 
@@ -109,7 +116,7 @@ class Writer {
         return fmt::format(
             "plane {{ z, 0\n  pigment {{ image_map {{ png \"{}\" gamma 1.0 map_type 0 once }} scale {} translate {} }}\n"
             "  finish {{ ambient 0 diffuse 0 emission 1 }}\n  scale {}{} }}\n",
-            file, vector(w, h, 1), vector(-w / 2, -h / 2, 0), text(units_per_mm_), fresnel() ? " no_reflection" : "");
+            file, vector(w, h, 1), vector(-w / 2, -h / 2, 0), text(units_per_mm_), flag());
     }
 
     // The layers' upper faces, except where the lens's own face is that. Their interior texture is seen from below.
@@ -120,7 +127,7 @@ class Writer {
             const bool of_lens = glued_ && d_.array.surround == Surround::opaque && k + 1 == g_.layers.size();
             if (!of_lens)
                 all += fmt::format("{}{} interior_texture {{ Black }} scale {}{} }}\n", face(z), medium(g_.layers[k].index),
-                                   text(units_per_mm_), fresnel() ? " no_reflection" : "");
+                                   text(units_per_mm_), flag());
         }
         return all;
     }
@@ -274,10 +281,9 @@ class Writer {
     }
 
     std::string lenses() const {
-        const std::string flag = fresnel() ? " no_reflection" : "";
         std::string all = fmt::format(
             "#for (J, 0, {}) #for (I, 0, {})\n  object {{ Lens translate <{}, {}, 0> transform {{ Place }}{} }}\n#end #end\n",
-            cell_.last(1), cell_.last(0), cell_.axis_x(), cell_.axis_y(), flag);
+            cell_.last(1), cell_.last(0), cell_.axis_x(), cell_.axis_y(), flag());
         const std::vector<Ring> rings = black_rings(d_, g_);
         std::vector<double> heights;
         if (!rings.empty()) heights = {above_panel(rings.front().z_mm), above_panel(rings.back().z_mm)};
@@ -292,7 +298,7 @@ class Writer {
         if (options_.triangles && d_.array.surround == Surround::opaque)  // flat faces are common to all lenses
             for (const PlacedSurface& s : g_.surfaces)
                 if (is_plane(s) && !on_panel(s))
-                    all += face(s.z_mm) + medium(s.index_below) + " transform { Place }" + flag + " }\n";
+                    all += face(s.z_mm) + medium(s.index_below) + " transform { Place }" + flag() + " }\n";
         return all;
     }
 

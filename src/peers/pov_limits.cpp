@@ -1,7 +1,9 @@
 #include "peers/pov_limits.h"
 
+#include "model/lens_errors.h"
 #include "model/vec.h"
 #include "peers/cell.h"
+#include "peers/pov_stand.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -36,6 +38,9 @@ std::vector<std::string> pov_deviations(Display& shown, const Geometry& geometry
         all.push_back(
             fmt::format("array.aperture: bodies of glass that fill their cells are {} pitches of air apart; in lfdsim they touch",
                         2 * pov_gap_pitches));
+    if (opaque && lenses_differ(shown.errors) && PovStands(shown, geometry).overlap())
+        all.push_back(
+            "errors: where lenses overlap, light may leave through the neighbour's faces; in lfdsim each is a body of its own");
     const double least_mm = least_units / pov_units_per_mm(shown, geometry);
     if (least_mm > 1e-4 * shown.array.pitch_mm.least())
         all.push_back(

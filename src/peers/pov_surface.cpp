@@ -81,6 +81,8 @@ std::string pov_skin(const PlacedSurface& s, const LensArray& array, const PovCe
     return (s.conic == 0 ? ball(s, cell, true) : quadric(s, cell)) + clip;
 }
 
+bool pov_faces_up(const PlacedSurface& s) { return is_plane(s) || !is_conic(s) || (s.conic == 0 && s.curvature_per_mm < 0); }
+
 std::string pov_space(const PlacedSurface& s, const PovCell& cell, bool above, double reach, double low, double high) {
     if (is_plane(s))
         return above ? fmt::format("plane {{ -z, {} }}", text(-s.z_mm)) : fmt::format("plane {{ z, {} }}", text(s.z_mm));

@@ -13,6 +13,9 @@ namespace lfdsim::peers {
 /// the closing brace, so that a material can be added.
 std::string pov_skin(const PlacedSurface&, const LensArray&, const PovCell&);
 
+/// Whether POV-Ray's normal of that skin shows to the viewer: an interior_texture is what is seen from the other side.
+bool pov_faces_up(const PlacedSurface&);
+
 /// The space above a surface, or below it, near its vertex: valid within `reach` of the axis, of strips of its plane, and for low
 /// <= z <= high.
 std::string pov_space(const PlacedSurface&, const PovCell&, bool above, double reach, double low, double high);

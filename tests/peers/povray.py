@@ -23,6 +23,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "oracle"
 import cases  # noqa: E402
 import colour  # noqa: E402
 import colour_cases  # noqa: E402
+import errors  # noqa: E402
 import errors_cases  # noqa: E402
 import lattice_cases  # noqa: E402
 import tracer  # noqa: E402
@@ -35,11 +36,35 @@ QUICK = ("opaque circle, on axis", "opaque circle, 15 degrees", "opaque circle, 
          "slanted strips, opaque cell, on axis", "strips slanted to the left, plate cell", "three layers, clear", "glued onto two layers, clear", "pinhole, hexagon",
          "subpixels rgb_stripe, on axis", "subpixels delta, clear", "errors, wedge")
 
-OF_ARRAY = {key: value for key, value in errors_cases.OF_ARRAY.items() if key != "bow_mm"}  # lenses all stand alike
-WEDGED = {
-    "errors, wedge, opaque circle, rotated and offset, oblique": errors_cases.wrong(lattice_cases.made(cases.SPHERE, view=cases.OBLIQUE, array=cases.TILTED), OF_ARRAY),
-    "errors, wedge, plate circle over a layer, 15 degrees": errors_cases.wrong(
-        lattice_cases.made(cases.SPHERE, "plate", view=(15,), panel=lattice_cases.layers(lattice_cases.GLASS)), OF_ARRAY),
+# Lenses apart, whose edges have heights in common: of others POV-Ray's scenes deviate, or there are none.
+APART = {"pitch_mm": 8.8}
+TALL = {**cases.SPHERE, "cylinder_height_mm": 2.0}
+EACH = {"dx_mm": 0.21, "dy_mm": 0.21, "dz_mm": 0.2, "tilt_x_deg": 1.3, "tilt_y_deg": 1.3, "curvature": 0.035}
+KINDS = {"decentres": ("dx_mm", "dy_mm"), "heights": ("dz_mm",), "tilts": ("tilt_x_deg", "tilt_y_deg"), "curvatures": ("curvature",)}
+OF_ARRAY = {**errors_cases.OF_ARRAY, "bow_mm": 0.2}
+WEDGE = {key: value for key, value in errors_cases.OF_ARRAY.items() if key != "bow_mm"}  # lenses all stand alike
+DRAWN = {"decenter_sd_mm": 0.08, "height_sd_mm": 0.06, "tilt_sd_deg": 0.5, "curvature_sd": 0.01, "seed": 11}
+made, wrong = lattice_cases.made, errors_cases.wrong
+
+
+def lattice(name, **array):
+    return {**lattice_cases.lattice(name, 8.8), **array}
+
+
+ERRORS = {
+    "errors, wedge, opaque circle, rotated and offset, oblique": wrong(made(cases.SPHERE, view=cases.OBLIQUE, array=cases.TILTED), WEDGE),
+    "errors, wedge, plate circle over a layer, 15 degrees": wrong(made(cases.SPHERE, "plate", view=(15,), panel=lattice_cases.layers(lattice_cases.GLASS)), WEDGE),
+    **{f"errors, {kind}, opaque circle, 15 degrees": wrong(made(TALL, view=(15,), array=APART, render=cases.EXACT), each={key: EACH[key] for key in keys})
+       for kind, keys in KINDS.items()},
+    "errors, bow, opaque circle, 30 degrees": wrong(made(TALL, view=(30,), array=APART), {"bow_mm": 0.3}),
+    "errors of all kinds, opaque circle, rotated and offset, oblique": wrong(made(TALL, view=cases.OBLIQUE, array={**APART, **cases.TILTED}, render=cases.EXACT), OF_ARRAY, EACH),
+    "errors of all kinds, hexagons over a layer, 15 degrees": wrong(made(TALL, view=(15,), array=lattice("hexagon"), panel=lattice_cases.layers(lattice_cases.GLASS)), OF_ARRAY, EACH),
+    "errors of all kinds, slanted strips, 30 degrees": wrong(made(TALL, view=(30,), array=lattice("strips", slant_deg=9.46)), OF_ARRAY, EACH),
+    "errors of caps, plate circle, bow, 15 degrees": wrong(made(cases.SPHERE, "plate", view=(15,)), {"bow_mm": 0.3}, errors_cases.CAPS),
+    "errors of caps, biconvex plate, hexagons, rotated and offset, oblique": wrong(made(cases.CONICS, "plate", view=cases.OBLIQUE, array={**lattice_cases.HEXAGON, **cases.TILTED}), OF_ARRAY,
+        errors_cases.CAPS),
+    "errors drawn, opaque circle, oblique": wrong(made(TALL, view=cases.OBLIQUE, array=APART), DRAWN),
+    "errors drawn and by table, bricks, 15 degrees": wrong(made(TALL, view=(15,), array=lattice("brick")), DRAWN, {"dx_mm": 0.05, "tilt_y_deg": 0.5}, share=0.5),
 }
 CHANNELS = {"glass of Sellmeier, opaque, oblique": "r", "glass by name, asphere, gap, subpixels delta, hexagons": "b"}  # where time is short
 
@@ -68,7 +93,7 @@ def run(command, folder):
 
 def pictures(program, description, image, folder, options):
     """POV-Ray's picture and lfdsim's, (rows, columns, 3); or the message of an export that was refused."""
-    (folder / "given.toml").write_text(cases.to_toml(description))
+    cases.write(folder, description).rename(folder / "given.toml")
     Image.fromarray(image).save(folder / "given.png", compress_level=1)
     code, said = run([program, "export", "pov", "given.toml", "--panel-image", "given.png", *options, "-o", "scene", "--json"], folder)
     if code:
@@ -171,7 +196,7 @@ def main():
     # Where subpixels are shrunk, or of odd sizes, finer pixels round their borders.
     coloured = {name: case for name, case in colour_cases.SHORT.items() if name.startswith("subpixels") and ", q " not in name}
     glassy = {name: case for name, case in {**colour_cases.SHORT, **colour_cases.MORE}.items() if name.startswith("glass") and "odd cell" not in name and not refusal(case, False)}
-    for name, description in {**cases.SHARP, **lattice_cases.SHORT, **lattice_cases.MORE, **coloured, **WEDGED}.items():
+    for name, description in {**cases.SHARP, **lattice_cases.SHORT, **lattice_cases.MORE, **coloured, **ERRORS}.items():
         if options.only not in name or not (options.full or options.only or any(name.startswith(part) for part in QUICK)):
             continue
         columns, rows = description["array"].get("count", [0, 0])
