@@ -145,11 +145,13 @@ def place_array(array):
     """Places the cells on the vertices of a parent, so that all share one mesh."""
     axes = lens_axes(array)
     lattice = thing("lattice", np.pad(axes, ((0, 0), (0, 1))), np.zeros((0, 3)), [])
-    lattice.matrix_world = Matrix.Translation((*array["offset_mm"], array["base_z_mm"])) @ Matrix.Rotation(math.radians(array["rotation_deg"]), 4, "Z")
+    lattice.matrix_world = Matrix(array_place(array).tolist())
     lattice.instance_type = "VERTS"
     patches("cell", SCENE["cell"]).parent = lattice
-    if SCENE["sheet"]:
-        patches("sheet", SCENE["sheet"]).matrix_world = lattice.matrix_world
+    for name, leans, place in (("sheet", 1, array_place), ("layers", 0, level_place)):
+        parts = [part for part in SCENE["sheet"] if part["leans"] == leans]
+        if parts:
+            patches(name, parts).matrix_world = Matrix(place(array).tolist())
 
 
 def place_panel(panel):

@@ -28,8 +28,6 @@ class Refusals {
             return std::move(problems_);
         }
         if (lenses_differ(d_.errors)) differing();
-        if (is_wedged(d_.errors) && peer_ != Peer::pov)
-            add("errors.wedge_deg", "lets the array lean, which this scene does not cover; make it [0, 0], or export pov");
         array();
         if (disperses(d_)) colour();
         if (d_.camera.pupil_diameter_mm.value_or(0) > 0)
@@ -51,7 +49,7 @@ class Refusals {
             return add(
                 "errors",
                 "let lenses differ, and this scene has one mesh for all of them and for what lies between them; give shift_mm, "
-                "gap_mm, rotation_deg and pitch_ppm only, or export pov");
+                "gap_mm, rotation_deg, wedge_deg and pitch_ppm only, or export pov");
         if (options_.triangles)
             return add("--triangles", "are those of one lens, and [errors] let lenses differ; leave it out for true surfaces");
         const double lenses = g_.lattice.count[0] * g_.lattice.count[1];

@@ -90,9 +90,8 @@ def plugins():
 def patch(part, axes):
     """The triangles of a file about each lens axis, as a single mesh: Mitsuba would compile a program for each instance."""
     array, (vertices, triangles) = SCENE["array"], read_ply(part["file"])
-    turn = math.radians(array["rotation_deg"])
-    rotation = np.array([[math.cos(turn), -math.sin(turn), 0], [math.sin(turn), math.cos(turn), 0], [0, 0, 1]])
-    shift = np.array([*array["offset_mm"], array["base_z_mm"]])
+    place = (array_place if part["leans"] else level_place)(array)
+    rotation, shift = place[:3, :3], place[:3, 3]
     places = ((vertices[None, :, :3] + np.pad(axes, ((0, 0), (0, 1)))[:, None, :]) @ rotation.T + shift).reshape(-1, 3)
     normals = np.tile(vertices[:, 3:] @ rotation.T, (len(axes), 1))
     faces = (triangles[None] + len(vertices) * np.arange(len(axes))[:, None, None]).reshape(-1, 3)

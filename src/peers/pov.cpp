@@ -2,8 +2,8 @@
 
 #include "engine/scene.h"
 #include "model/lens_errors.h"
-#include "model/numbers.h"
 #include "model/prescription.h"
+#include "peers/array_frame.h"
 #include "peers/cell.h"
 #include "peers/pov_cell.h"
 #include "peers/pov_limits.h"
@@ -92,22 +92,14 @@ class Writer {
                            vector(right), vector(up));
     }
 
-    // From the array's frame to the display's: turned about z and, by a wedge, about the panel's axes, about the array's middle in
-    // the plane of the vertices. POV-Ray's order of a matrix: images of the axes, then the shift.
+    // From the array's frame to the display's. POV-Ray's order of a matrix: images of the axes, then the shift.
     std::string place() const {
-        const auto& wedge = d_.errors.wedge_deg;
-        const double cx = std::cos(wedge[0] * degree), sx = std::sin(wedge[0] * degree), cy = std::cos(wedge[1] * degree),
-                     sy = std::sin(wedge[1] * degree);
-        const auto leant = [&](double x, double y, double z) {
-            return std::array{cy * x + sy * (sx * y + cx * z), cx * y - sx * z, cy * (sx * y + cx * z) - sy * x};
-        };
-        const double c = lattice_.cos_turn, s = lattice_.sin_turn, v = g_.vertex_plane_mm;
-        const auto up = leant(0, 0, 1);
+        const ArrayFrame frame = array_frame(d_, g_);
         std::string numbers;
-        for (const auto& image : {leant(c, s, 0), leant(-s, c, 0), up})
-            for (const double x : image) numbers += text(x) + ",";
-        return fmt::format("#declare Place = transform {{ matrix <{}{},{},{}> scale {} }}\n", numbers,
-                           text(lattice_.offset[0] - up[0] * v), text(lattice_.offset[1] - up[1] * v), text(v - up[2] * v),
+        for (int axis = 0; axis < 3; ++axis)
+            for (const auto& row : frame.turn) numbers += text(row[axis]) + ",";
+        const auto& [x, y, z] = frame.shift_mm;
+        return fmt::format("#declare Place = transform {{ matrix <{}{},{},{}> scale {} }}\n", numbers, text(x), text(y), text(z),
                            text(units_per_mm_));
     }
 

@@ -1,6 +1,7 @@
 #include "peers/python.h"
 
 #include "engine/scene.h"
+#include "peers/array_frame.h"
 #include "peers/cell.h"
 #include "peers/ply.h"
 #include "peers/text.h"
@@ -39,6 +40,7 @@ Json patches(const std::vector<Patch>& all, bool opaque, std::vector<PeerFile>& 
                         {"black", patch.black ? 1 : 0},
                         {"front", patch.index_front},
                         {"back", patch.index_back},
+                        {"leans", patch.of_lens ? 1 : 0},  // with the array, where that is not parallel to the panel
                         {"reflects", !opaque && patch.of_lens ? 1 : 0}});  // totally reflected light continues
         files.push_back({name, ply(patch)});
     }
@@ -79,6 +81,7 @@ void write_python(Peer peer, const Display& display, const Geometry& geometry, c
     Display points = scene.shown;
     points.render.estimator = Estimator::point;
     const LensArray& array = display.array;
+    const ArrayFrame frame = array_frame(display, geometry);
     const Json data{
         {"camera", camera(display, geometry)},
         {"panel",
@@ -91,8 +94,8 @@ void write_python(Peer peer, const Display& display, const Geometry& geometry, c
           {"pitch_mm", geometry.lattice.pitch},
           {"staggered", is_staggered(array) ? 1 : 0},
           {"base_z_mm", geometry.base_z_mm},
-          {"rotation_deg", geometry.turn_deg},
-          {"offset_mm", geometry.lattice.offset}}},
+          {"turn", frame.turn},
+          {"shift_mm", frame.shift_mm}}},
         {"diffuser", diffuser(display, geometry)},
         {"fresnel", word(scene.shown.render.fresnel)},
         // Opaque: each surface once. Otherwise: up to 16.

@@ -16,3 +16,18 @@ def lens_axes(array):
     if array["staggered"]:  # odd rows to the right
         axes[:, :, 0] += (np.arange(len(y))[:, None] % 2 - 0.5) * array["pitch_mm"][0] / 2
     return axes.reshape(-1, 2)
+
+
+def array_place(array):
+    """(4, 4), from the array's frame, z from its lowest point, to the display's."""
+    place = np.eye(4)
+    place[:3, :3] = array["turn"]
+    place[:3, 3] = array["shift_mm"] + place[:3, 2] * array["base_z_mm"]
+    return place
+
+
+def level_place(array):
+    """The same of what lies on the panel, whatever way the array leans."""
+    place = np.eye(4)
+    place[2, 3] = array["base_z_mm"]
+    return place

@@ -33,6 +33,8 @@ CASES = [
                                         "array.base_z_mm=3.5", "panel.layer=[{thickness_mm=1.5,index=1.52},{thickness_mm=2.0,index=1.6}]"], 0.99, 0.03),
     ("slanted strips, clear", [*SHARP, "array.lattice=\"strips\"", "array.slant_deg=9.0", "array.count=none", "array.surround=\"clear\""], 0.99, 0.03),
     ("clear, glued on", [*SHARP, "array.surround=\"clear\"", "array.gap_mm=none", "array.base_z_mm=3.5", "panel.layer=[{thickness_mm=3.5,index=1.52}]"], 0.99, 0.03),
+    ("wedge, over a layer, turned", [*SHARP, "array.surround=\"plate\"", "array.rotation_deg=7.0", "errors.wedge_deg=[1.5,-2.0]", "panel.layer=[{thickness_mm=1.1,index=1.52}]"], 0.99, 0.03),
+    ("wedge, opaque", [*SHARP, "errors.wedge_deg=[-2.0,1.0]", "errors.gap_mm=0.3"], 0.99, 0.03),
     ("panel of exponent 3", [*SHARP, "panel.emission_exponent=3.0"], 0.99, 0.0005),
     ("pixels as squares", [*SHARP, "camera.pixel_filter=\"box\"", "render.samples=256"], 0.99, 0.02),
     ("diffuser", ["--set", "render.samples=256"], 0.97, 0.04),
