@@ -127,10 +127,10 @@ std::string PovStands::tile_box(std::size_t k, double low, double high) const {
 
 std::string PovStands::flat(std::size_t k, double z, const std::vector<std::string>& holes) const {
     const auto [x0, y0, x1, y1] = tile(k);
-    std::string clip;
+    std::string clip = tile_box(k, z - 1, z + 1);
     for (const std::string& hole : holes) clip += " object { " + hole + " inverse }";
-    return fmt::format("polygon {{ 5, {0}, {1}, {2}, {3}, {0}{4} ", vector(x0, y0, z), vector(x1, y0, z), vector(x1, y1, z),
-                       vector(x0, y1, z), clip.empty() ? "" : " clipped_by {" + clip + " }");
+    return fmt::format("disc {{ {}, z, {} clipped_by {{ {} }} ", vector((x0 + x1) / 2, (y0 + y1) / 2, z),
+                       text(std::hypot(x1 - x0, y1 - y0)), clip);
 }
 
 std::string PovStands::row_box(std::size_t k) const {

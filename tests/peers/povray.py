@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """What `lfdsim export pov` writes, rendered by POV-Ray, against lfdsim's own picture: povray.py LFDSIM [--full] [--only TEXT] [--triangles N].
 
-The displays of tests/oracle/cases.py, lattice_cases.py and some of colour_cases.py, each seen once a pixel. Away from edges all pixels agree within 1/255 (an edge is where the exact picture changes
-within 0.02 pixels: tests/oracle/README.md). The panel shows addresses, so that a wrong panel pixel is a wrong colour. Displays whose glass disperses are exported one channel
+The displays of tests/oracle/cases.py, lattice_cases.py, some of colour_cases.py and, below, displays with errors, each seen once a pixel. Away from edges all
+pixels agree within 1/255 (an edge is where the exact picture changes within 0.02 pixels: tests/oracle/README.md). The panel shows addresses, so that a wrong panel pixel is a wrong colour. Displays whose glass disperses are exported one channel
 at a time, of a panel with noise, and each is held against that channel of lfdsim's picture of the display. Skipped without the program povray.
 """
 import argparse
@@ -23,18 +23,17 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "oracle"
 import cases  # noqa: E402
 import colour  # noqa: E402
 import colour_cases  # noqa: E402
-import errors  # noqa: E402
 import errors_cases  # noqa: E402
 import lattice_cases  # noqa: E402
 import tracer  # noqa: E402
 from display import resolve  # noqa: E402
-from run import panel_images  # noqa: E402
+from run import Harness, panel_images  # noqa: E402
 
 TOLERANCE = 1 / 255 + 1e-5
 QUICK = ("opaque circle, on axis", "opaque circle, 15 degrees", "opaque circle, rotated", "opaque square, 15", "clear circle, 30", "plate circle, 45", "asphere, 15", "cemented", "spaced",
          "hexagon lattice, opaque cell, 30", "hexagon lattice, clear cell, rotated", "brick lattice, glued onto a layer, plate cell",
          "slanted strips, opaque cell, on axis", "strips slanted to the left, plate cell", "three layers, clear", "glued onto two layers, clear", "pinhole, hexagon",
-         "subpixels rgb_stripe, on axis", "subpixels delta, clear", "errors, wedge")
+         "subpixels rgb_stripe, on axis", "subpixels delta, clear", "errors, wedge", "errors of all kinds, hexagons over a layer")
 
 # Lenses apart, whose edges have heights in common: of others POV-Ray's scenes deviate, or there are none.
 APART = {"pitch_mm": 8.8}
@@ -63,9 +62,27 @@ ERRORS = {
     "errors of caps, plate circle, bow, 15 degrees": wrong(made(cases.SPHERE, "plate", view=(15,)), {"bow_mm": 0.3}, errors_cases.CAPS),
     "errors of caps, biconvex plate, hexagons, rotated and offset, oblique": wrong(made(cases.CONICS, "plate", view=cases.OBLIQUE, array={**lattice_cases.HEXAGON, **cases.TILTED}), OF_ARRAY,
         errors_cases.CAPS),
+    "errors of decentres, pinholes, hexagons over a layer, oblique": wrong(made(lattice_cases.PINHOLE, view=cases.OBLIQUE, array=lattice_cases.HEXAGON,
+        panel=lattice_cases.layers(lattice_cases.GLASS)), each=errors_cases.LATERAL),
+    "errors of caps, plate circle, stop, 15 degrees": wrong(made({**cases.SPHERE, "stop_radius_mm": 2.0}, "plate", view=(15,)), each={**errors_cases.LATERAL, "curvature": 0.03}),
+    "errors of caps, strips, plate cell, 45 degrees": wrong(made(cases.ROUNDER, "plate", "cell", (30, 32), lattice_cases.LEAN), OF_ARRAY, errors_cases.CAPS),
+    "errors of caps, a glued plate, hexagon cell, oblique": wrong(made(cases.ROUNDER, "plate", "cell", cases.OBLIQUE, {**lattice_cases.HEXAGON, **lattice_cases.on_top(lattice_cases.THICK)},
+        panel=lattice_cases.layers(lattice_cases.THICK)), errors_cases.LEVEL, errors_cases.FLAT),
+    "errors of all kinds, cemented doublets, oblique": wrong(made(cases.CEMENTED, view=cases.OBLIQUE, array=APART, render=cases.EXACT), OF_ARRAY, EACH),
+    "errors of all kinds, hollow conics, strips, 30 degrees": wrong(made(cases.MENISCUS, view=(30,), array=lattice("strips", slant_deg=-23.0)), OF_ARRAY, EACH),
+    "errors of all kinds, aspheres, bricks, stop, 15 degrees": wrong(made({**cases.ASPHERE, "stop_radius_mm": 2.1}, view=(15,), array=lattice("brick")), WEDGE,
+        {**errors_cases.LATERAL, "tilt_x_deg": 1.3, "tilt_y_deg": 1.3, "curvature": 0.03}),
+    "errors of lenses glued onto layers, opaque circle, 20 degrees": errors_cases.SHORT["errors of lenses glued onto layers, opaque circle, 20 degrees"],
+    "errors of all kinds, slanted strips, opaque cell, 30 degrees": errors_cases.SHORT["errors of all kinds, slanted strips, opaque cell, 30 degrees"],
     "errors drawn, opaque circle, oblique": wrong(made(TALL, view=cases.OBLIQUE, array=APART), DRAWN),
     "errors drawn and by table, bricks, 15 degrees": wrong(made(TALL, view=(15,), array=lattice("brick")), DRAWN, {"dx_mm": 0.05, "tilt_y_deg": 0.5}, share=0.5),
 }
+# Filled cells, moved into each other: as POV-Ray's scenes say, a few rays there have another way.
+OVERLAPPING = {
+    "errors of decentres and curvatures, opaque square, 30 degrees": wrong(made(cases.ROUNDER, "opaque", "cell", (30,)), each=errors_cases.FLAT),
+    "errors of all kinds, hexagons, opaque cell, oblique": wrong(made({**cases.ROUNDER, "cylinder_height_mm": 2.0}, "opaque", "cell", cases.OBLIQUE, lattice_cases.HEXAGON), OF_ARRAY, EACH),
+}
+OF_OVERLAPPING = 0.005  # of all pixels, off the edges
 CHANNELS = {"glass of Sellmeier, opaque, oblique": "r", "glass by name, asphere, gap, subpixels delta, hexagons": "b"}  # where time is short
 
 
@@ -77,6 +94,8 @@ def refusal(d, meshed):
         return "Lambertian"
     if meshed and d["lens"]["type"] == "pinhole":
         return "a pinhole"
+    if meshed and {"table", "bow_mm", "decenter_sd_mm"} & set(d.get("errors", {})):
+        return "those of one lens"
     filled, surround = d["array"].get("aperture") == "cell", d["array"].get("surround")
     return {"clear": "no defined order", "plate": "as triangles"}.get(surround) if filled and meshed else None
 
@@ -148,6 +167,7 @@ def check(program, name, description, options):
     image = panel_images(*description["panel"]["pixels"])["address"]
     with tempfile.TemporaryDirectory() as folder:
         got = pictures(program, description, image, pathlib.Path(folder), options)
+        told = Harness(program, pathlib.Path(folder), "").told(description)  # of drawn errors the tracer needs the numbers
     if isinstance(got, str):
         return (None if refused and refused in got else False), got.strip()
     if refused:
@@ -159,12 +179,13 @@ def check(program, name, description, options):
     differs = np.flatnonzero(wrong.any(axis=1))
     odd = differs
     if len(odd):
-        display = resolve(description)
+        display = resolve(told)
         x, y = tracer.centers(display)
         odd = odd[(wrong[odd] & ~colour.near_edge(display, image / 255, x[odd], y[odd], spokes=48, rings=5)).any(axis=1)]
     places = [(int(k) % description["camera"]["resolution"][0], int(k) // description["camera"]["resolution"][0]) for k in odd[:5]]
     lit = (ours.max(axis=1) > 0).mean()
-    return not len(odd) and lit > 0.01, f"{100 * lit:.0f} % lit, {len(differs)} of {len(ours)} pixels differ, {len(odd)} off the edges {places if len(odd) else ''}"
+    most = OF_OVERLAPPING * len(ours) if name in OVERLAPPING else 0
+    return len(odd) <= most and lit > 0.01, f"{100 * lit:.0f} % lit, {len(differs)} of {len(ours)} pixels differ, {len(odd)} off the edges {places if len(odd) else ''}"
 
 
 def address(picture):
@@ -196,7 +217,7 @@ def main():
     # Where subpixels are shrunk, or of odd sizes, finer pixels round their borders.
     coloured = {name: case for name, case in colour_cases.SHORT.items() if name.startswith("subpixels") and ", q " not in name}
     glassy = {name: case for name, case in {**colour_cases.SHORT, **colour_cases.MORE}.items() if name.startswith("glass") and "odd cell" not in name and not refusal(case, False)}
-    for name, description in {**cases.SHARP, **lattice_cases.SHORT, **lattice_cases.MORE, **coloured, **ERRORS}.items():
+    for name, description in {**cases.SHARP, **lattice_cases.SHORT, **lattice_cases.MORE, **coloured, **ERRORS, **OVERLAPPING}.items():
         if options.only not in name or not (options.full or options.only or any(name.startswith(part) for part in QUICK)):
             continue
         columns, rows = description["array"].get("count", [0, 0])

@@ -1,10 +1,12 @@
 // Scenes for other renderers as text and triangles: sizes, places, names from strangers, what is refused.
 #include "engine/scene.h"
 #include "files/display_file.h"
+#include "model/lens_errors.h"
 #include "peers/cell.h"
 #include "peers/peers.h"
 #include "peers/ply.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -205,6 +207,67 @@ TEST(Scene, SaysThatLightIsCutOff) {
     panel.data()[5] = 1.5;
     EXPECT_TRUE(panel_deviation(pov, panel));
     EXPECT_FALSE(panel_deviation(cycles, panel));
+}
+
+// Errors of the array and of each lens.
+
+TEST(Errors, OfSingleLensesAreForPovRayAlone) {
+    const std::vector<std::string> kinds{"errors.decenter_sd_mm=0.02", "errors.height_sd_mm=0.02", "errors.tilt_sd_deg=0.1",
+                                         "errors.curvature_sd=0.01", "errors.bow_mm=0.05"};
+    for (const std::string& kind : kinds) {
+        const Display d = example({kind});
+        EXPECT_THAT(refused_keys(Peer::pov, d), ElementsAre()) << kind;
+        EXPECT_THAT(refused_keys(Peer::cycles, d), ElementsAre("errors")) << kind;
+        EXPECT_THAT(refused_keys(Peer::mitsuba, d), ElementsAre("errors")) << kind;
+        PeerOptions meshed;
+        meshed.triangles = 1000;
+        EXPECT_THAT(refused_keys(Peer::pov, d, meshed), ElementsAre("--triangles")) << kind;
+    }
+}
+
+TEST(Errors, ThatLeaveNoPlaceForABlackSheetAreRefused) {
+    EXPECT_THAT(refused_keys(Peer::pov, example({"errors.height_sd_mm=0.5", "array.count=[30,30]"})), ElementsAre("errors"));
+    EXPECT_THAT(refused_keys(Peer::pov, example({"errors.bow_mm=3.0", "array.count=[6,4]"})), ElementsAre("errors"));
+    EXPECT_THAT(refused_keys(Peer::pov, example({"errors.bow_mm=3.0", "array.count=[6,4]", "array.surround=\"plate\""})),
+                ElementsAre());
+    EXPECT_THAT(refused_keys(Peer::pov, example({"errors.height_sd_mm=0.01", "lens.stop_radius_mm=2.0"})),
+                ElementsAre("lens.stop_radius_mm"));
+    EXPECT_THAT(refused_keys(Peer::pov, example({"errors.decenter_sd_mm=0.01", "lens.stop_radius_mm=2.0"})), ElementsAre());
+}
+
+TEST(Errors, OfTooManyLensesAreRefused) {
+    EXPECT_THAT(refused_keys(Peer::pov, example({"errors.decenter_sd_mm=0.01", "array.count=[201,100]"})), ElementsAre("errors"));
+    EXPECT_THAT(refused_keys(Peer::pov, example({"errors.rotation_deg=0.5", "array.count=[201,100]"})), ElementsAre());
+}
+
+TEST(Errors, PutEachLensInItsPlace) {
+    const Display d = example({"array.count=[2,1]", "errors.bow_mm=0.0", "errors.decenter_sd_mm=0.02", "errors.seed=3"});
+    const Geometry g = resolve(d);
+    const std::string text = scene_text(Peer::pov, d);
+    for (std::size_t k = 0; k < 2; ++k) {
+        const LensError e = lens_errors(d, g.lattice)[k];
+        EXPECT_THAT(text, HasSubstr(fmt::format("translate <{},{},0>", (double(k) - 0.5) * 12 + e.aside_mm[0], e.aside_mm[1])));
+    }
+    for (const char* none : {"nan", "inf,", "inf>", "inf "}) EXPECT_EQ(text.find(none), text.npos);
+    EXPECT_THAT(text, HasSubstr("max_trace_level 19 "));
+}
+
+TEST(Errors, SayWhereLensesOverlap) {
+    const Display apart = example({"errors.decenter_sd_mm=0.01", "array.pitch_mm=12.5"}),
+                  filled = example({"errors.decenter_sd_mm=0.01", "array.aperture=\"cell\"", "lens.sphere_radius_mm=9.0"});
+    EXPECT_TRUE(peer_scene(Peer::pov, apart, resolve(apart), {}).deviations.empty());
+    EXPECT_THAT(peer_scene(Peer::pov, filled, resolve(filled), {}).deviations,
+                testing::Contains(HasSubstr("where lenses overlap")));
+}
+
+TEST(Errors, OfAWedgeLeaveThePanelsLayersLevel) {
+    const Display d = example({"panel.layer=[{thickness_mm=2.0,index=1.5}]", "errors.wedge_deg=[1.0,-2.0]"});
+    for (const Peer peer : {Peer::cycles, Peer::mitsuba}) {
+        const std::string text = scene_text(peer, d);
+        EXPECT_THAT(text, HasSubstr("\"layer-1.ply\",\"black\":0,\"front\":1.0,\"back\":1.5,\"leans\":0"));
+        EXPECT_THAT(text, HasSubstr("\"surface-1.ply\",\"black\":0,\"front\":1.4918,\"back\":1.0,\"leans\":1"));
+        EXPECT_THAT(text, HasSubstr("\"turn\":[[0.9993908"));
+    }
 }
 
 // The triangles of a cell.
