@@ -1,12 +1,11 @@
 // Scenes for other renderers as text and triangles: sizes, places, names from strangers, what is refused.
 #include "engine/scene.h"
+#include "examples.h"
 #include "files/display_file.h"
-#include "model/lens_errors.h"
 #include "peers/cell.h"
 #include "peers/peers.h"
 #include "peers/ply.h"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,28 +22,12 @@ using peers::Patch;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-Display example(const std::vector<std::string>& overrides = {}) {
-    std::vector<std::string> all{"diffuser=none", "render.fresnel=\"none\""};
-    all.insert(all.end(), overrides.begin(), overrides.end());
-    return read_display(LFDSIM_SOURCE_DIR "/displays/desktop-spherical.toml", all);
-}
-
-std::string scene_text(Peer peer, const Display& d, const PeerOptions& options = {}) {
-    return peer_scene(peer, d, resolve(d), options).files.front().bytes;
-}
-
-std::vector<std::string> refused_keys(Peer peer, const Display& d, const PeerOptions& options = {}) {
-    std::vector<std::string> keys;
-    for (const Problem& p : not_expressed(peer, d, resolve(d), options)) keys.push_back(p.where);
-    return keys;
-}
-
 constexpr Peer all_peers[] = {Peer::pov, Peer::cycles, Peer::mitsuba};
 
 TEST(Scene, HasNoNumberThatIsNone) {
     for (const Peer peer : all_peers)
         for (const char* surround : {"opaque", "clear", "plate"}) {
-            const std::string text = scene_text(peer, example({std::string("array.surround=\"") + surround + '"'}));
+            const std::string text = scene_text(peer, desktop({std::string("array.surround=\"") + surround + '"'}));
             for (const char* none : {"nan", "inf,", "inf>", "inf ", "null", "true", "false"})
                 EXPECT_EQ(text.find(none), text.npos) << none << " in " << text;
         }
@@ -53,7 +36,7 @@ TEST(Scene, HasNoNumberThatIsNone) {
 TEST(Scene, OfAHundredThousandLensesIsAsShort) {
     for (const Peer peer : all_peers) {
         const auto begun = std::chrono::steady_clock::now();
-        const Display few = example(), many = example({"array.count=[400,250]", "camera.position_mm=[0.0,0.0,9000.0]"});
+        const Display few = desktop(), many = desktop({"array.count=[400,250]", "camera.position_mm=[0.0,0.0,9000.0]"});
         const PeerScene a = peer_scene(peer, few, resolve(few), {}), b = peer_scene(peer, many, resolve(many), {});
         ASSERT_EQ(a.files.size(), b.files.size());
         for (std::size_t i = 0; i < a.files.size(); ++i)
@@ -63,7 +46,7 @@ TEST(Scene, OfAHundredThousandLensesIsAsShort) {
 }
 
 TEST(Scene, NamesFromOthersStayInTheirComment) {
-    Display d = example();
+    Display d = desktop();
     d.name = "x\n#declare Evil = 1;\r*/ \"\"\" ''' \\ \xc3\xa9 \x1b[31m";
     for (const Peer peer : all_peers) {
         std::istringstream lines(scene_text(peer, d));
@@ -76,28 +59,28 @@ TEST(Scene, NamesFromOthersStayInTheirComment) {
 }
 
 TEST(Scene, SaysWhatDeviatesInItsHead) {
-    const Display exact = example({"render.fresnel=\"exact\"", "array.surround=\"plate\""});
+    const Display exact = desktop({"render.fresnel=\"exact\"", "array.surround=\"plate\""});
     const PeerScene plate = peer_scene(Peer::pov, exact, resolve(exact), {});
     EXPECT_THAT(plate.deviations, ElementsAre(HasSubstr("render.fresnel")));
     EXPECT_THAT(plate.files.front().bytes, HasSubstr("// Deviates: render.fresnel"));
     EXPECT_EQ(plate.shown.render.fresnel, Fresnel::none);
 
-    const Display opaque = example({"render.fresnel=\"exact\""});
+    const Display opaque = desktop({"render.fresnel=\"exact\""});
     const PeerScene scene = peer_scene(Peer::pov, opaque, resolve(opaque), {});
     EXPECT_TRUE(scene.deviations.empty());
     EXPECT_EQ(scene.shown.render.fresnel, Fresnel::exact);
     EXPECT_THAT(scene.files.front().bytes, HasSubstr("fresnel on"));
 
-    const Display schlick = example({"render.fresnel=\"schlick\""});
+    const Display schlick = desktop({"render.fresnel=\"schlick\""});
     EXPECT_EQ(peer_scene(Peer::pov, schlick, resolve(schlick), {}).shown.render.fresnel, Fresnel::none);
     EXPECT_EQ(peer_scene(Peer::cycles, schlick, resolve(schlick), {}).shown.render.fresnel, Fresnel::exact);
     EXPECT_EQ(peer_scene(Peer::mitsuba, schlick, resolve(schlick), {}).shown.render.fresnel, Fresnel::schlick);
 }
 
 TEST(Scene, SaysWhenPovRaysNumbersEnd) {
-    const Display near = example({"camera.position_mm=[0.0,0.0,20000.0]"}),
-                  far = example({"camera.position_mm=[0.0,0.0,999000.0]"}),
-                  fine = example({"camera.position_mm=[0.0,0.0,999000.0]", "array.pitch_mm=0.1", "lens.aperture_radius_mm=0.04",
+    const Display near = desktop({"camera.position_mm=[0.0,0.0,20000.0]"}),
+                  far = desktop({"camera.position_mm=[0.0,0.0,999000.0]"}),
+                  fine = desktop({"camera.position_mm=[0.0,0.0,999000.0]", "array.pitch_mm=0.1", "lens.aperture_radius_mm=0.04",
                                   "lens.sphere_radius_mm=0.06", "lens.cylinder_height_mm=0.02"});
     EXPECT_TRUE(peer_scene(Peer::pov, near, resolve(near), {}).deviations.empty());
     EXPECT_TRUE(peer_scene(Peer::pov, far, resolve(far), {}).deviations.empty());
@@ -105,10 +88,10 @@ TEST(Scene, SaysWhenPovRaysNumbersEnd) {
 }
 
 TEST(Scene, TracesNoRayFurtherThanTheModel) {
-    EXPECT_THAT(scene_text(Peer::pov, example()), HasSubstr("max_trace_level 3 "));
-    EXPECT_THAT(scene_text(Peer::pov, example({"array.surround=\"clear\""})), HasSubstr("max_trace_level 17 "));
-    EXPECT_THAT(scene_text(Peer::cycles, example()), HasSubstr("\"hits\": 2,"));
-    EXPECT_THAT(scene_text(Peer::mitsuba, example({"array.surround=\"plate\""})), HasSubstr("\"hits\": 16,"));
+    EXPECT_THAT(scene_text(Peer::pov, desktop()), HasSubstr("max_trace_level 3 "));
+    EXPECT_THAT(scene_text(Peer::pov, desktop({"array.surround=\"clear\""})), HasSubstr("max_trace_level 17 "));
+    EXPECT_THAT(scene_text(Peer::cycles, desktop()), HasSubstr("\"hits\": 2,"));
+    EXPECT_THAT(scene_text(Peer::mitsuba, desktop({"array.surround=\"plate\""})), HasSubstr("\"hits\": 16,"));
 }
 
 TEST(Scene, RefusesWhatItCannotShow) {
@@ -121,51 +104,51 @@ TEST(Scene, RefusesWhatItCannotShow) {
     const Display ideal = read_display(LFDSIM_SOURCE_DIR "/displays/desktop-ideal.toml", {"diffuser=none"});
     for (const Peer peer : all_peers) {
         EXPECT_THAT(refused_keys(peer, ideal), ElementsAre("lens.type"));
-        EXPECT_THAT(refused_keys(peer, example({"camera.pupil_diameter_mm=4.0"})), ElementsAre("camera.pupil_diameter_mm"));
+        EXPECT_THAT(refused_keys(peer, desktop({"camera.pupil_diameter_mm=4.0"})), ElementsAre("camera.pupil_diameter_mm"));
         PeerOptions options;
         options.triangles = 99;
-        EXPECT_THAT(refused_keys(peer, example(), options), ElementsAre("--triangles"));
+        EXPECT_THAT(refused_keys(peer, desktop(), options), ElementsAre("--triangles"));
         options.triangles = 4'000'001;
-        EXPECT_THAT(refused_keys(peer, example(), options), ElementsAre("--triangles"));
-        EXPECT_THROW(peer_scene(peer, example(), resolve(example()), options), InputError);
+        EXPECT_THAT(refused_keys(peer, desktop(), options), ElementsAre("--triangles"));
+        EXPECT_THROW(peer_scene(peer, desktop(), resolve(desktop()), options), InputError);
         for (const char* surround : {"clear", "plate"}) {  // triangles of square bodies: see docs/peers.md
-            const Display square = example(
+            const Display square = desktop(
                 {"array.aperture=\"cell\"", std::string("array.surround=\"") + surround + '"', "lens.sphere_radius_mm=9.0"});
             options.triangles = 1000;
             EXPECT_THAT(refused_keys(peer, square, options), ElementsAre("array.aperture"));
             EXPECT_EQ(refused_keys(peer, square).empty(), peer == Peer::pov);
         }
     }
-    EXPECT_THAT(refused_keys(Peer::pov, example({"panel.emission_exponent=1.0", "camera.pixel_filter=\"box\""})),
+    EXPECT_THAT(refused_keys(Peer::pov, desktop({"panel.emission_exponent=1.0", "camera.pixel_filter=\"box\""})),
                 ElementsAre("camera.pixel_filter", "panel.emission_exponent"));
 }
 
 Display hexagons(const std::vector<std::string>& overrides = {}) {
     std::vector<std::string> all{"array.lattice=\"hexagon\"", "array.count=[5,4]"};
     all.insert(all.end(), overrides.begin(), overrides.end());
-    return example(all);
+    return desktop(all);
 }
 
 Display on_plates(const std::vector<std::string>& overrides = {}) {
     std::vector<std::string> all{"panel.layer=[{thickness_mm=2.0,index=1.5},{thickness_mm=0.5,index=1.4}]"};
     all.insert(all.end(), overrides.begin(), overrides.end());
-    return example(all);
+    return desktop(all);
 }
 
 TEST(Scene, OfStaggeredRowsHasTheirPlaces) {
     const Display d = hexagons();
     EXPECT_THAT(scene_text(Peer::pov, d), HasSubstr("(I - 2) * 12 + (mod(J + 2, 2) - 0.5) * 6"));
     EXPECT_THAT(scene_text(Peer::mitsuba, d), HasSubstr("\"staggered\":1"));
-    EXPECT_THAT(scene_text(Peer::mitsuba, example()), HasSubstr("\"staggered\":0"));
+    EXPECT_THAT(scene_text(Peer::mitsuba, desktop()), HasSubstr("\"staggered\":0"));
     // As many as cover the panel, where no number is given
-    const Display counted = example({"array.lattice=\"hexagon\"", "array.count=none"});
+    const Display counted = desktop({"array.lattice=\"hexagon\"", "array.count=none"});
     const auto [columns, rows] = lens_count(counted.panel, counted.array);
     EXPECT_THAT(scene_text(Peer::pov, counted),
                 HasSubstr("#for (J, 0, " + std::to_string(rows - 1) + ") #for (I, 0, " + std::to_string(columns - 1) + ")"));
 }
 
 TEST(Scene, OfStripsHasCylinders) {
-    const Display d = example({"array.lattice=\"strips\"", "array.slant_deg=10.0", "array.count=none"});
+    const Display d = desktop({"array.lattice=\"strips\"", "array.slant_deg=10.0", "array.count=none"});
     const std::string text = scene_text(Peer::pov, d);
     EXPECT_THAT(text, HasSubstr("cylinder"));
     EXPECT_EQ(text.find("sphere"), text.npos);
@@ -184,7 +167,7 @@ TEST(Scene, OfLayersCountsTheirHits) {
 }
 
 TEST(Scene, SaysThatLayersAreTooThinForPovRay) {
-    const Display thin = example({"panel.layer=[{thickness_mm=0.00005,index=1.5}]"});
+    const Display thin = desktop({"panel.layer=[{thickness_mm=0.00005,index=1.5}]"});
     EXPECT_THAT(peer_scene(Peer::pov, thin, resolve(thin), {}).deviations, ElementsAre(HasSubstr("panel.layer.0.thickness_mm")));
     const Display thick = on_plates();
     EXPECT_TRUE(peer_scene(Peer::pov, thick, resolve(thick), {}).deviations.empty());
@@ -199,7 +182,7 @@ TEST(Scene, OfPinholesIsForPovRayAlone) {
 }
 
 TEST(Scene, SaysThatLightIsCutOff) {
-    const Display d = example();
+    const Display d = desktop();
     const PeerScene pov = peer_scene(Peer::pov, d, resolve(d), {}), cycles = peer_scene(Peer::cycles, d, resolve(d), {});
     Texels panel(2, 2);
     panel.data()[5] = 1;
@@ -207,67 +190,6 @@ TEST(Scene, SaysThatLightIsCutOff) {
     panel.data()[5] = 1.5;
     EXPECT_TRUE(panel_deviation(pov, panel));
     EXPECT_FALSE(panel_deviation(cycles, panel));
-}
-
-// Errors of the array and of each lens.
-
-TEST(Errors, OfSingleLensesAreForPovRayAlone) {
-    const std::vector<std::string> kinds{"errors.decenter_sd_mm=0.02", "errors.height_sd_mm=0.02", "errors.tilt_sd_deg=0.1",
-                                         "errors.curvature_sd=0.01", "errors.bow_mm=0.05"};
-    for (const std::string& kind : kinds) {
-        const Display d = example({kind});
-        EXPECT_THAT(refused_keys(Peer::pov, d), ElementsAre()) << kind;
-        EXPECT_THAT(refused_keys(Peer::cycles, d), ElementsAre("errors")) << kind;
-        EXPECT_THAT(refused_keys(Peer::mitsuba, d), ElementsAre("errors")) << kind;
-        PeerOptions meshed;
-        meshed.triangles = 1000;
-        EXPECT_THAT(refused_keys(Peer::pov, d, meshed), ElementsAre("--triangles")) << kind;
-    }
-}
-
-TEST(Errors, ThatLeaveNoPlaceForABlackSheetAreRefused) {
-    EXPECT_THAT(refused_keys(Peer::pov, example({"errors.height_sd_mm=0.5", "array.count=[30,30]"})), ElementsAre("errors"));
-    EXPECT_THAT(refused_keys(Peer::pov, example({"errors.bow_mm=3.0", "array.count=[6,4]"})), ElementsAre("errors"));
-    EXPECT_THAT(refused_keys(Peer::pov, example({"errors.bow_mm=3.0", "array.count=[6,4]", "array.surround=\"plate\""})),
-                ElementsAre());
-    EXPECT_THAT(refused_keys(Peer::pov, example({"errors.height_sd_mm=0.01", "lens.stop_radius_mm=2.0"})),
-                ElementsAre("lens.stop_radius_mm"));
-    EXPECT_THAT(refused_keys(Peer::pov, example({"errors.decenter_sd_mm=0.01", "lens.stop_radius_mm=2.0"})), ElementsAre());
-}
-
-TEST(Errors, OfTooManyLensesAreRefused) {
-    EXPECT_THAT(refused_keys(Peer::pov, example({"errors.decenter_sd_mm=0.01", "array.count=[201,100]"})), ElementsAre("errors"));
-    EXPECT_THAT(refused_keys(Peer::pov, example({"errors.rotation_deg=0.5", "array.count=[201,100]"})), ElementsAre());
-}
-
-TEST(Errors, PutEachLensInItsPlace) {
-    const Display d = example({"array.count=[2,1]", "errors.bow_mm=0.0", "errors.decenter_sd_mm=0.02", "errors.seed=3"});
-    const Geometry g = resolve(d);
-    const std::string text = scene_text(Peer::pov, d);
-    for (std::size_t k = 0; k < 2; ++k) {
-        const LensError e = lens_errors(d, g.lattice)[k];
-        EXPECT_THAT(text, HasSubstr(fmt::format("translate <{},{},0>", (double(k) - 0.5) * 12 + e.aside_mm[0], e.aside_mm[1])));
-    }
-    for (const char* none : {"nan", "inf,", "inf>", "inf "}) EXPECT_EQ(text.find(none), text.npos);
-    EXPECT_THAT(text, HasSubstr("max_trace_level 19 "));
-}
-
-TEST(Errors, SayWhereLensesOverlap) {
-    const Display apart = example({"errors.decenter_sd_mm=0.01", "array.pitch_mm=12.5"}),
-                  filled = example({"errors.decenter_sd_mm=0.01", "array.aperture=\"cell\"", "lens.sphere_radius_mm=9.0"});
-    EXPECT_TRUE(peer_scene(Peer::pov, apart, resolve(apart), {}).deviations.empty());
-    EXPECT_THAT(peer_scene(Peer::pov, filled, resolve(filled), {}).deviations,
-                testing::Contains(HasSubstr("where lenses overlap")));
-}
-
-TEST(Errors, OfAWedgeLeaveThePanelsLayersLevel) {
-    const Display d = example({"panel.layer=[{thickness_mm=2.0,index=1.5}]", "errors.wedge_deg=[1.0,-2.0]"});
-    for (const Peer peer : {Peer::cycles, Peer::mitsuba}) {
-        const std::string text = scene_text(peer, d);
-        EXPECT_THAT(text, HasSubstr("\"layer-1.ply\",\"black\":0,\"front\":1.0,\"back\":1.5,\"leans\":0"));
-        EXPECT_THAT(text, HasSubstr("\"surface-1.ply\",\"black\":0,\"front\":1.4918,\"back\":1.0,\"leans\":1"));
-        EXPECT_THAT(text, HasSubstr("\"turn\":[[0.9993908"));
-    }
 }
 
 // The triangles of a cell.
@@ -290,7 +212,7 @@ const Patch* named(const std::vector<Patch>& list, std::string_view name) {
 }
 
 TEST(Cell, OfAPlateIsCoveredOnce) {
-    const Display d = example({"array.surround=\"plate\"", "lens.aperture_radius_mm=5.5"});
+    const Display d = desktop({"array.surround=\"plate\"", "lens.aperture_radius_mm=5.5"});
     const MeshedArray made = peers::mesh_array(d, resolve(d), 5000);
     const Patch *cap = named(made.cell, "surface-2"), *flat = named(made.cell, "flat-2");
     ASSERT_TRUE(cap && flat);
@@ -331,7 +253,7 @@ TEST(Cell, OfAHexagonThatIsFilledEndsAtItsBorder) {
 
 TEST(Cell, OfAStripIsCoveredOnce) {
     const Display d =
-        example({"array.lattice=\"strips\"", "array.count=none", "array.surround=\"plate\"", "lens.aperture_radius_mm=5.5"});
+        desktop({"array.lattice=\"strips\"", "array.count=none", "array.surround=\"plate\"", "lens.aperture_radius_mm=5.5"});
     const Geometry g = resolve(d);
     const MeshedArray made = peers::mesh_array(d, g, 1000);
     const Patch *cap = named(made.cell, "surface-2"), *flat = named(made.cell, "flat-2");
@@ -341,7 +263,7 @@ TEST(Cell, OfAStripIsCoveredOnce) {
     EXPECT_NEAR(area_from_above(*flat), length, 1e-6 * length);
     // A stop's slit
     const Display stopped =
-        example({"array.lattice=\"strips\"", "array.count=none", "array.surround=\"plate\"", "lens.stop_radius_mm=2.0"});
+        desktop({"array.lattice=\"strips\"", "array.count=none", "array.surround=\"plate\"", "lens.stop_radius_mm=2.0"});
     const Geometry of_stopped = resolve(stopped);
     const Patch black = *named(peers::mesh_array(stopped, of_stopped, 1000).cell, "black");
     EXPECT_NEAR(area_from_above(black) / (2 * cell_half(stopped, of_stopped)[1]), 12 - 4, 0.01);
@@ -370,12 +292,12 @@ TEST(Cell, HasFacesOfLayers) {
     EXPECT_EQ(beside->index_front, 1);
     EXPECT_NEAR(area_from_above(*under) + area_from_above(*beside), 144, 1e-4);
     // On the bare panel there is no face.
-    const Display bare = example({"array.gap_mm=none", "array.base_z_mm=0.0"});
+    const Display bare = desktop({"array.gap_mm=none", "array.base_z_mm=0.0"});
     EXPECT_EQ(named(peers::mesh_array(bare, resolve(bare), 1000).sheet, "surface-1"), nullptr);
 }
 
 TEST(Cell, OfAnOpaqueArrayIsBlackBesideTheLens) {
-    const Display d = example({"lens.aperture_radius_mm=5.5"});
+    const Display d = desktop({"lens.aperture_radius_mm=5.5"});
     const Geometry g = resolve(d);
     const MeshedArray made = peers::mesh_array(d, g, 5000);
     const Patch *cap = named(made.cell, "surface-2"), *black = named(made.cell, "black");
@@ -388,7 +310,7 @@ TEST(Cell, OfAnOpaqueArrayIsBlackBesideTheLens) {
 }
 
 TEST(Cell, OfClearGlassIsClosed) {
-    const Display d = example({"array.surround=\"clear\"", "array.pitch_mm=12.5"});
+    const Display d = desktop({"array.surround=\"clear\"", "array.pitch_mm=12.5"});
     const MeshedArray made = peers::mesh_array(d, resolve(d), 3386);
     ASSERT_EQ(made.cell.size(), 3u);
     EXPECT_TRUE(made.sheet.empty());
@@ -413,7 +335,7 @@ TEST(Cell, OfClearGlassIsClosed) {
 TEST(Cell, EveryMeshHoldsTogether) {
     for (const char* surround : {"opaque", "clear", "plate"})
         for (const char* facing : {"viewer", "panel"}) {
-            const Display d = example({std::string("array.surround=\"") + surround + '"',
+            const Display d = desktop({std::string("array.surround=\"") + surround + '"',
                                        std::string("lens.facing=\"") + facing + '"', "lens.stop_radius_mm=2.0"});
             const MeshedArray made = peers::mesh_array(d, resolve(d), 100);
             for (const auto* list : {&made.cell, &made.sheet})
@@ -439,7 +361,7 @@ TEST(Cell, EveryMeshHoldsTogether) {
 }
 
 TEST(Ply, HoldsWhatItsHeadSays) {
-    const Display d = example();
+    const Display d = desktop();
     for (const Patch& patch : peers::mesh_array(d, resolve(d), 1000).cell) {
         const std::string bytes = peers::ply(patch);
         const std::size_t head = bytes.find("end_header\n") + 11;
