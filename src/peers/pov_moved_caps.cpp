@@ -20,19 +20,21 @@ class MovedCaps {
         const PlacedSurface &lower = g_.surfaces.front(), &upper = g_.surfaces.back();
         const auto columns = std::size_t(stands_.cell().last(0) + 1);
         std::string parts, beside;  // rows in boxes, so that a ray is tested against few; and what goes on without end
+        std::string declared;
         for (std::size_t first = 0; first < stands_.count(); first += columns) {
             std::string row;
             for (std::size_t k = first; k < first + columns; ++k)
                 for (const bool top : {false, true}) {
                     if (is_plane(top ? upper : lower)) continue;
+                    declared += fmt::format("#declare {} = {} }}\n", name(k, top), glass(k, top));
                     row += cap(k, top);
-                    (stands_.at_border(k) ? beside : row) += flat(k, top);
+                    (stands_.at_border(k) ? beside : row) += "  " + flat(k, top) + (stands_.at_border(k) ? "" : bounds(k)) + "}\n";
                 }
             parts += fmt::format("union {{\n{}  bounded_by {{ {} }} }}\n", row, stands_.row_box(first));
         }
         if (is_plane(lower) && !g_.glued) beside += face(lower.z_mm);
         if (is_plane(upper)) beside += face(upper.z_mm);
-        return fmt::format("union {{\n{}{}  {} transform {{ Place }}\n}}\n", parts, beside, medium(lower.index_above)) +
+        return declared + fmt::format("union {{\n{}{}  {} transform {{ Place }}\n}}\n", parts, beside, medium(lower.index_above)) +
                stands_.stops();
     }
 
@@ -52,18 +54,22 @@ class MovedCaps {
                            pov_space(own, stands_.cell(), !top, reach, stands_.low(), stands_.high()), stands_.frame(k));
     }
 
+    static std::string name(std::size_t k, bool top) { return fmt::format("{}{}", top ? "Upper" : "Lower", k); }
+
     std::string cap(std::size_t k, bool top) const {
         std::string outside =
             top ? fmt::format("plane {{ -z, {} }}", text(-slab_z(top))) : fmt::format("plane {{ z, {} }}", text(slab_z(top)));
-        for (const std::size_t m : stands_.near(k)) outside += " object { " + glass(m, top) + " } inverse }";
-        return fmt::format("  {} clipped_by {{ {} }} }}\n", glass(k, top), outside);
+        for (const std::size_t m : stands_.near(k)) outside += fmt::format(" object {{ {} inverse }}", name(m, top));
+        return fmt::format("  {} clipped_by {{ {} }} {}}}\n", "object { " + name(k, top), outside, bounds(k));
     }
 
-    // The slab's face over a tile.
+    std::string bounds(std::size_t k) const { return "bounded_by { " + stands_.box(k) + " } "; }
+
+    // The slab's face over a tile; without the closing brace.
     std::string flat(std::size_t k, bool top) const {
-        std::vector<std::string> covered{glass(k, top) + " }"};
-        for (const std::size_t m : stands_.near(k)) covered.push_back(glass(m, top) + " }");
-        return "  " + stands_.flat(k, slab_z(top), covered) + "}\n";
+        std::vector<std::string> covered{name(k, top)};
+        for (const std::size_t m : stands_.near(k)) covered.push_back(name(m, top));
+        return stands_.flat(k, slab_z(top), covered);
     }
 
     const Display& d_;

@@ -27,6 +27,11 @@ class Placed {
 
     std::string all() const {
         std::string text = "#declare Through = texture { pigment { rgbt 1 } finish { ambient 0 diffuse 0 } }\n";
+        if (!d_.lens.is_thin()) text += "#declare Lens = " + faces(g_.surfaces) + " }\n";
+        for (std::size_t k = 0; k < stands_.count(); ++k) {
+            text += fmt::format("#declare Column{} = {}\n", k, stands_.placed(k, stands_.column(radius(), 0)));
+            if (!d_.lens.is_thin() && !stands_.near(k).empty()) text += fmt::format("#declare Body{} = {}\n", k, body(k));
+        }
         for (std::size_t k = 0; k < stands_.count(); ++k) {
             if (!d_.lens.is_thin()) {
                 add(text, lens(k));
@@ -44,15 +49,22 @@ class Placed {
         if (!object.empty()) text += object + " transform { Place } no_reflection }\n";
     }
 
+    // Lenses that differ in place and turn alone are copies of one.
     std::string lens(std::size_t k) const {
+        const std::string shape = stands_.error(k).curvature == 0 ? "object { Lens" : faces(stands_.surfaces(k));
+        return shape + " " + stands_.frame(k);
+    }
+
+    // Without the closing brace.
+    std::string faces(const std::vector<PlacedSurface>& surfaces) const {
         std::string parts;
-        for (const PlacedSurface& s : stands_.surfaces(k)) {
+        for (const PlacedSurface& s : surfaces) {
             if (g_.glued && g_.layers.empty() && s.z_mm == g_.surfaces.front().z_mm) continue;  // the panel itself lies there
             parts += fmt::format("  {} texture {{ {} }} interior_texture {{ {} }} interior {{ ior {} }} }}\n",
                                  pov_skin(s, d_.array, stands_.cell()), pov_faces_up(s) ? "Clear" : "Black",
                                  pov_faces_up(s) ? "Black" : "Clear", text(s.index_below));
         }
-        return fmt::format("union {{\n{}  {}", parts, stands_.frame(k));
+        return "union {\n" + parts + " ";
     }
 
     // Heights of the lowest rim and the highest, and the widest radius, in the lens's own frame.
@@ -92,7 +104,11 @@ class Placed {
         return stands_.placed(k, fmt::format("intersection {{ {} {} {} }}", stands_.column(rims(surfaces).radius, 0),
                                              below_top(surfaces), above_bottom(surfaces)));
     }
-    std::string column(std::size_t k) const { return stands_.placed(k, stands_.column(radius(), 0)); }
+
+    // As declared, and as parts of other shapes.
+    static std::string column(std::size_t k) { return fmt::format("object {{ Column{} }}", k); }
+    static std::string within(std::size_t k) { return fmt::format("object {{ Body{} }}", k); }
+
     double radius() const { return d_.lens.is_thin() ? g_.surfaces.front().semi_aperture_mm : rims(g_.surfaces).radius; }
 
     // Of lenses that fill their cells walls would lie in each other's planes: each is a little inside its own cell.
@@ -104,8 +120,8 @@ class Placed {
         const std::string seen = "texture { Through } interior_texture { Black }";
         std::string others, beside;
         for (const std::size_t m : stands_.near(k)) {
-            others += " " + body(m);
-            beside += " object { " + body(m) + " inverse }";
+            others += " " + within(m);
+            beside += fmt::format(" object {{ Body{} inverse }}", m);
         }
         if (others.empty()) return sides + " " + seen;
         // Within a neighbour it is met in glass.
@@ -118,19 +134,24 @@ class Placed {
         const std::string outer =
             stands_.placed(k, fmt::format("intersection {{ {} {} }}", stands_.column(radius(), gap_mm_), below_top(surfaces)));
         std::string others;
-        for (const std::size_t m : stands_.near(k)) others += " " + body(m);
+        for (const std::size_t m : stands_.near(k)) others += " " + within(m);
         return fmt::format("difference {{ intersection {{ {} plane {{ -z, {} }} }} {}{} {}", outer, text(-middle(k)), column(k),
                            others, black());
     }
 
+    // Of the heights that walls share.
     double middle(std::size_t k) const { return (walls_[0] + walls_[1]) / 2 + stands_.raised(k); }
 
+    // Within a quarter of the walls' height from their middle, to overlap with the neighbours' where a bow makes steps; if they
+    // have no height, flat.
     std::string sheet(std::size_t k) const {
-        const double half = std::max((walls_[1] - walls_[0]) / 4, gap_mm_), low = std::max(middle(k) - half, gap_mm_);
-        std::string columns = column(k);
-        for (const std::size_t m : stands_.near(k)) columns += " " + column(m);
-        return fmt::format("difference {{ {} {} {}", stands_.tile_box(k, low, std::max(middle(k) + half, 2 * gap_mm_)), columns,
-                           black());
+        std::vector<std::string> columns{fmt::format("Column{}", k)};
+        for (const std::size_t m : stands_.near(k)) columns.push_back(fmt::format("Column{}", m));
+        const double quarter = (walls_[1] - walls_[0]) / 4;
+        if (quarter < gap_mm_) return stands_.flat(k, std::max(middle(k), gap_mm_), columns) + black();
+        std::string holes;
+        for (const std::string& column : columns) holes += " object { " + column + " }";
+        return fmt::format("difference {{ {}{} {}", stands_.tile_box(k, middle(k) - quarter, middle(k) + quarter), holes, black());
     }
 
     const Display& d_;

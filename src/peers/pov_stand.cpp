@@ -133,6 +133,13 @@ std::string PovStands::flat(std::size_t k, double z, const std::vector<std::stri
                        text(std::hypot(x1 - x0, y1 - y0)), clip);
 }
 
+std::string PovStands::box(std::size_t k) const {
+    const Stand& s = stands_[k];
+    const double x = std::max(s.reach, g_.lattice.pitch[0] / 2) + spare_mm,
+                 y = cell_.strips() ? 1.1 * cell_.half_length() : std::max(s.reach, g_.lattice.pitch[1] / 2) + spare_mm;
+    return fmt::format("box {{ {}, {} }}", vector(s.at[0] - x, s.at[1] - y, low_), vector(s.at[0] + x, s.at[1] + y, high_));
+}
+
 std::string PovStands::row_box(std::size_t k) const {
     double x = 0, y = 0;
     for (std::size_t m = k; m < count() && stands_[m].j == stands_[k].j; ++m) {

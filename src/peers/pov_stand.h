@@ -53,7 +53,8 @@ class PovStands {
     /// Its tile at one height, in the array's frame, less the holes. Without the closing brace.
     std::string flat(std::size_t k, double z, const std::vector<std::string>& holes) const;
 
-    /// A box about all lenses of its row.
+    /// Boxes about all that belongs to a lens and its tile, and about all lenses of its row.
+    std::string box(std::size_t k) const;
     std::string row_box(std::size_t k) const;
 
     /// The black sheet of the stops' holes, which are moved with the lenses but do not turn; nothing without stops.
