@@ -17,6 +17,7 @@
 // - what no lens covers is a black sheet at a height at which all lenses have walls, so that light that enters any lens is above it
 //   and light that leaves any is below it. It follows the bow in steps;
 // - a black sleeve on the outside of a wall reaches from the sheet to the lens's rim, where a lens stands out of its neighbours.
+// What they do is wrong only where lenses overlap, for light that enters one of them within the other's walls.
 namespace lfdsim::peers {
 namespace {
 
@@ -30,7 +31,7 @@ class Placed {
         if (!d_.lens.is_thin()) text += "#declare Lens = " + faces(g_.surfaces) + " }\n";
         for (std::size_t k = 0; k < stands_.count(); ++k) {
             text += fmt::format("#declare Column{} = {}\n", k, stands_.placed(k, stands_.column(radius(), 0)));
-            if (!d_.lens.is_thin() && !stands_.near(k).empty()) text += fmt::format("#declare Body{} = {}\n", k, body(k));
+            if (!d_.lens.is_thin()) text += fmt::format("#declare Body{} = {}\n", k, body(k));
         }
         for (std::size_t k = 0; k < stands_.count(); ++k) {
             if (!d_.lens.is_thin()) {
@@ -105,10 +106,6 @@ class Placed {
                                              below_top(surfaces), above_bottom(surfaces)));
     }
 
-    // As declared, and as parts of other shapes.
-    static std::string column(std::size_t k) { return fmt::format("object {{ Column{} }}", k); }
-    static std::string within(std::size_t k) { return fmt::format("object {{ Body{} }}", k); }
-
     double radius() const { return d_.lens.is_thin() ? g_.surfaces.front().semi_aperture_mm : rims(g_.surfaces).radius; }
 
     // Of lenses that fill their cells walls would lie in each other's planes: each is a little inside its own cell.
@@ -120,7 +117,7 @@ class Placed {
         const std::string seen = "texture { Through } interior_texture { Black }";
         std::string others, beside;
         for (const std::size_t m : stands_.near(k)) {
-            others += " " + within(m);
+            others += fmt::format(" object {{ Body{} }}", m);
             beside += fmt::format(" object {{ Body{} inverse }}", m);
         }
         if (others.empty()) return sides + " " + seen;
@@ -134,9 +131,9 @@ class Placed {
         const std::string outer =
             stands_.placed(k, fmt::format("intersection {{ {} {} }}", stands_.column(radius(), gap_mm_), below_top(surfaces)));
         std::string others;
-        for (const std::size_t m : stands_.near(k)) others += " " + within(m);
-        return fmt::format("difference {{ intersection {{ {} plane {{ -z, {} }} }} {}{} {}", outer, text(-middle(k)), column(k),
-                           others, black());
+        for (const std::size_t m : stands_.near(k)) others += fmt::format(" object {{ Body{} }}", m);
+        return fmt::format("difference {{ intersection {{ {} plane {{ -z, {} }} }} object {{ Column{} }}{} {}", outer,
+                           text(-middle(k)), k, others, black());
     }
 
     // Of the heights that walls share.

@@ -65,7 +65,7 @@ ERRORS = {
     "errors of decentres, pinholes, hexagons over a layer, oblique": wrong(made(lattice_cases.PINHOLE, view=cases.OBLIQUE, array=lattice_cases.HEXAGON,
         panel=lattice_cases.layers(lattice_cases.GLASS)), each=errors_cases.LATERAL),
     "errors of caps, plate circle, stop, 15 degrees": wrong(made({**cases.SPHERE, "stop_radius_mm": 2.0}, "plate", view=(15,)), each={**errors_cases.LATERAL, "curvature": 0.03}),
-    "errors of caps, strips, plate cell, 15 degrees": wrong(made(cases.ROUNDER, "plate", "cell", (15,), lattice_cases.LEAN), OF_ARRAY, errors_cases.CAPS),
+    "errors of caps, plate cell, panel facing, 30 degrees": errors_cases.MORE["errors of caps, plate cell, panel facing, 30 degrees"],
     "errors drawn and by table, slanted strips, plate": errors_cases.SHORT["errors drawn and by table, slanted strips, plate"],
     "errors of caps, a glued plate, hexagon cell, oblique": wrong(made(cases.ROUNDER, "plate", "cell", cases.OBLIQUE, {**lattice_cases.HEXAGON, **lattice_cases.on_top(lattice_cases.THICK)},
         panel=lattice_cases.layers(lattice_cases.THICK)), errors_cases.LEVEL, errors_cases.FLAT),

@@ -50,6 +50,17 @@ for peer, panel, scene in (("pov", "panel.png", "scene.pov"), ("cycles", "panel.
         path.unlink()
     folder.rmdir()
 
+# Errors of single lenses go along as a table, drawn ones in it.
+DRAWN = "errors.decenter_sd_mm=0.02 errors.curvature_sd=0.01 errors.seed=7"
+program.must("errors tiny.toml --set errors.tilt_sd_deg=0.1 -o tilts.csv")
+wrong = f"{BARE} {DRAWN} errors.table=\"{program.folder / 'tilts.csv'}\" render.fresnel=\"exact\""
+told = json.loads(program.must(f"export pov tiny.toml --panel-image panel.png {wrong} -o wrong --json"))
+checks.that("lenses.csv" in told["files"] and (program.folder / "wrong/lenses.csv").exists(), f"errors: {told['files']}")
+program.must("render wrong/display.toml --panel-image wrong/panel.png -o shown.npy")
+program.must(f"render tiny.toml --panel-image panel.png {wrong} --estimator point -o given.npy")
+worst = np.abs(np.load(program.folder / "shown.npy") - np.load(program.folder / "given.npy")).max()
+checks.that(worst <= 1e-5, f"errors: the display in the folder differs by {worst}")
+
 # A name that would be code, if it could.
 (program.folder / "evil.toml").write_text(TINY.replace('"tiny"', '"a\\n*/ import os; #declare\\u2028 \\"\\"\\" \\u001b"'))
 for peer in ("pov", "cycles", "mitsuba"):
@@ -68,6 +79,8 @@ for name, arguments, *words in [
     ("ideal lenses", f"export mitsuba tiny.toml --pattern white {BARE} --set lens.type=\"ideal\" lens.focal_length_mm=5 lens.sphere_radius_mm=none "
                      "lens.cylinder_height_mm=none lens.index=none -o out", "lens.type", "a real lens"),
     ("dispersing glass", f"export pov tiny.toml --pattern white {BARE} --set lens.index=none lens.glass=PMMA -o out", "panel.wavelengths_nm", "--channel r, g or b"),
+    ("errors of single lenses for Cycles", f"export cycles tiny.toml --pattern white {BARE} errors.decenter_sd_mm=0.01 -o out", "errors", "wedge_deg", "export pov"),
+    ("errors of single lenses as triangles", f"export pov tiny.toml --pattern white {BARE} errors.bow_mm=0.01 --triangles 500 -o out", "--triangles", "leave it out"),
     ("unknown channel", f"export pov tiny.toml --pattern white {BARE} --channel x -o out", "--channel", "r, g, b"),
     ("pupil", f"export cycles tiny.toml --pattern white {BARE} --set camera.pupil_diameter_mm=3 -o out", "camera.pupil_diameter_mm=none"),
     ("two contents", f"export pov tiny.toml --pattern white --panel-image panel.png {BARE} -o out", "give one of them"),
