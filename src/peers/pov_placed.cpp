@@ -7,6 +7,7 @@
 #include "peers/pov_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 // A ray that has entered a lens knows that lens alone, and one that has left it knows no lens any more; but what POV-Ray's shapes
