@@ -23,9 +23,14 @@ struct MovedCaps {
         return {x - axis.x - stand.x, y - axis.y - stand.y};
     }
     LFDSIM_FN Mask<F> in_aperture(const SurfaceData<S>& surface, Place<F> at, F margin) const {
-        if (scene.aperture == Aperture::cell) return in_cell(scene.lattice, at.x, at.y, margin);
         const F y = across(scene.lattice, at.y), r = F(surface.semi_aperture) + margin;
-        return at.x * at.x + y * y <= r * r;
+        const Mask<F> round = at.x * at.x + y * y <= r * r;
+        return scene.aperture == Aperture::cell ? round && in_cell(scene.lattice, at.x, at.y, margin) : round;
+    }
+    /// Does a cell's corner lie within the semi-aperture? Those of an array that is stretched by an error may not.
+    LFDSIM_FN bool holds_cell(const SurfaceData<S>& surface) const {
+        const S x = scene.lattice.half_pitch[0], y = scene.lattice.hexagonal ? x * S(0.57735026918962576) : scene.lattice.half_pitch[1];
+        return x * x + y * y <= surface.semi_aperture * surface.semi_aperture;
     }
     /// z of a lens's cap there.
     LFDSIM_FN F cap(const SurfaceData<S>& surface, const Stand<F>& stand, Place<F> at) const {
@@ -70,19 +75,20 @@ struct MovedCaps {
             }
             best.take(valid, t, normal, lens);
         };
-        if (scene.aperture == Aperture::circle && !scene.lattice.strips) {
+        const bool fills = scene.aperture == Aperture::cell;
+        if (!scene.lattice.strips && !(fills && holds_cell(surface))) {
             const F r = F(surface.semi_aperture), per = one / r;
             Mask<F> real;
             const F t = root(to.x * to.x + to.y * to.y, from.x * to.x + from.y * to.y, from.x * from.x + from.y * from.y - r * r,
                              !inwards, real);
             const Place<F> at{from.x + to.x * t, from.y + to.y * t};
-            offer(real, t, {at.x * per, at.y * per, zero}, at);
-            return;
+            offer(real && in_aperture(surface, at, slack<F>()), t, {at.x * per, at.y * per, zero}, at);
         }
+        if (!scene.lattice.strips && !fills) return;
         for (int pair = 0; pair < border_pairs(scene.lattice); ++pair) {
             const Borders<S> wall = borders(scene.lattice, pair);
-            const F half = scene.aperture == Aperture::circle ? F(surface.semi_aperture) : F(wall.half);
-            const F nx = F(wall.x), ny = F(wall.y), slope = nx * to.x + ny * to.y;
+            const S r = surface.semi_aperture, half_width = scene.lattice.strips && (!fills || r < wall.half) ? r : wall.half;
+            const F half = F(half_width), nx = F(wall.x), ny = F(wall.y), slope = nx * to.x + ny * to.y;
             const F sign = select(slope < zero, -one, one), side = inwards ? -sign : sign;
             const F t = (side * half - (nx * from.x + ny * from.y)) / slope;
             const Place<F> at{from.x + to.x * t, from.y + to.y * t};
