@@ -80,6 +80,7 @@ Json spread(const Measured&);
 void bench_rendering(Bench&);
 void bench_lenses(Bench&);
 void bench_colour(Bench&);
+void bench_errors(Bench&);
 void bench_kernels(Bench&);
 void bench_threads(Bench&);
 void bench_gpu(Bench&);

@@ -61,6 +61,10 @@ checks.that([(row["name"].split(",")[0], row["estimator"]) for row in colour] ==
 for row in colour:
     checks.that(row["ratio"] > 0 and abs(row["error"]["value"]) < (1e-3 if "bands" in row["name"] else 0.01), f"colour: {row}")
 
+# Lenses by themselves that stand where they should give the same picture, but for rays at edges.
+errors = result("bench errors --quick")["errors"]
+checks.that(len(errors) == 14 and all(row["ratio"] > 0 and row["greatest_difference_of_none"] < 0.05 for row in errors), f"errors: {errors}")
+
 # Where there is a GPU it gives the CPU's likenesses, else it is told what is missing.
 gpu = json.loads(program.must("doctor --json"))["gpu"]
 made = {row["name"]: row for row in result("bench gpu sweep --quick")["sweep"]}
