@@ -5,8 +5,6 @@
 #pragma once
 #include <immintrin.h>
 
-#include <utility>
-
 #include "optics/lane.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
@@ -97,15 +95,19 @@ struct LaneTraits<Lane<N>> {
     }
 
   private:
-    /// Each quarter of the result takes these of the same quarters' numbers: 0 to 3 of a, 4 to 7 of b.
-    template <int... of, class V, std::size_t... lane>
-    static LFDSIM_FN V shuffled(V a, V b, std::index_sequence<lane...>) {
+    template <int...>
+    struct Numbers {};
+    template <int... of, class V, int... lane>
+    static LFDSIM_FN V shuffled(V a, V b, Numbers<lane...>) {
         constexpr int from[4] = {of...};
-        return __builtin_shufflevector(a, b, (from[lane % 4] % 4 + int(lane / 4) * 4 + from[lane % 4] / 4 * N)...);
+        return __builtin_shufflevector(a, b, (from[lane % 4] % 4 + lane / 4 * 4 + from[lane % 4] / 4 * N)...);
     }
+    /// Each quarter of the result takes these of the same quarters' numbers: 0 to 3 of a, 4 to 7 of b.
     template <int... of, class V>
     static LFDSIM_FN V quarters(V a, V b) {
-        return shuffled<of...>(a, b, std::make_index_sequence<std::size_t(N)>());
+        if constexpr (N == 4) return shuffled<of...>(a, b, Numbers<0, 1, 2, 3>());
+        if constexpr (N == 8) return shuffled<of...>(a, b, Numbers<0, 1, 2, 3, 4, 5, 6, 7>());
+        if constexpr (N == 16) return shuffled<of...>(a, b, Numbers<0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15>());
     }
 };
 
