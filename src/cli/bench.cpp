@@ -24,10 +24,9 @@ struct Group {
     void (*run)(Bench&);
 };
 constexpr Group groups[] = {
-    {"paper", bench_paper},       {"rendering", bench_rendering},   {"lenses", bench_lenses},
-    {"colour", bench_colour},     {"errors", bench_errors},         {"kernels", bench_kernels},
-    {"threads", bench_threads},   {"gpu", bench_gpu},               {"sweep", bench_sweep},
-    {"content", bench_content},   {"pictures", bench_pictures},     {"estimators", bench_estimators},
+    {"paper", bench_paper},   {"rendering", bench_rendering}, {"lenses", bench_lenses},     {"colour", bench_colour},
+    {"errors", bench_errors}, {"kernels", bench_kernels},     {"threads", bench_threads},   {"gpu", bench_gpu},
+    {"sweep", bench_sweep},   {"content", bench_content},     {"pictures", bench_pictures}, {"estimators", bench_estimators},
 };
 
 std::vector<std::string> group_names() {

@@ -55,7 +55,8 @@ void compare(const Duty& array, const Texels& panel, Bench& bench) {
     for (const Duty& kind : errors) {
         Display wrong = plain;
         kind.change(wrong);
-        if (plain.array.surround == Surround::opaque || wrong.errors.tilt_sd_deg == 0) add(kind.name, wrong);  // no cap of a plate turns
+        if (plain.array.surround == Surround::opaque || wrong.errors.tilt_sd_deg == 0)
+            add(kind.name, wrong);  // no cap of a plate turns
     }
     Display nothing = plain;
     nothing.errors.given = std::make_shared<const std::vector<GivenLensError>>();

@@ -29,7 +29,8 @@ struct MovedCaps {
     }
     /// Does a cell's corner lie within the semi-aperture? Those of an array that is stretched by an error may not.
     LFDSIM_FN bool holds_cell(const SurfaceData<S>& surface) const {
-        const S x = scene.lattice.half_pitch[0], y = scene.lattice.hexagonal ? x * S(0.57735026918962576) : scene.lattice.half_pitch[1];
+        const S x = scene.lattice.half_pitch[0],
+                y = scene.lattice.hexagonal ? x * S(0.57735026918962576) : scene.lattice.half_pitch[1];
         return x * x + y * y <= surface.semi_aperture * surface.semi_aperture;
     }
     /// z of a lens's cap there.
