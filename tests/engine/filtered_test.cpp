@@ -150,6 +150,43 @@ TEST(FilteredEstimator, KeepsItsBitsWhereBlocksGrow) {
     EXPECT_EQ(bits.hash(), 0x571400c98fad8);
 }
 
+// And where lenses are cut one by one: diffusers that span about a lens, a black matrix, picture pixels as wide as lenses.
+TEST(FilteredEstimator, KeepsItsBitsLensByLens) {
+    Bits bits;
+    const auto add = [&](Display d) {
+        d.render.estimator = Estimator::filtered;
+        bits.add(picture(d, patterned_panel(d), {1, "scalar", {}}));
+    };
+    Display hexagons = example();
+    hexagons.array.lattice = LatticeKind::hexagon;
+    hexagons.camera.resolution = {80, 56};
+    for (const double angle_deg : {2.0, 2.9, 3.9, 4.2, 6.0}) {
+        Display d = hexagons;
+        d.diffuser = Diffuser{40, {angle_deg, angle_deg}, Profile::box};
+        d.render.samples = 1;
+        add(d);
+        d.panel.aperture_ratio = 0.4;
+        d.render.samples = 16;
+        add(d);
+    }
+    for (const double distance_mm : {12, 14, 16, 19}) {  // lenses out of focus there: footprints a few panel pixels wide
+        Display d = hexagons;
+        d.diffuser = Diffuser{distance_mm, {15, 15}, Profile::box};
+        d.panel.aperture_ratio = 0.5;
+        for (const std::int64_t samples : {1, 4}) {
+            d.render.samples = samples;
+            add(d);
+        }
+    }
+    for (const std::int64_t columns : {10, 14, 18, 22}) {
+        Display d = hexagons;
+        d.camera.pixel_filter = PixelFilter::box;
+        d.camera.resolution = {columns, 14};
+        add(d);
+    }
+    EXPECT_EQ(bits.hash(), 0x2d54bd85c442d1b7);
+}
+
 TEST(FilteredEstimator, SeesAWhitePanelWhite) {
     Display d = ideal_example();
     d.diffuser = Diffuser{40, {5.7, 5.7}, Profile::box};
