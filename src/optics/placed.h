@@ -118,7 +118,7 @@ LFDSIM_FN Mask<F> nears_one_border(const Lattice<Scalar<F>>& lattice, Cell<F> ow
         const Borders<S> of = borders(lattice, k);
         const F a = F(of.x) * from.x + F(of.y) * from.y, b = F(of.x) * end.x + F(of.y) * end.y;
         const F low = min(a, b), high = max(a, b), inside = F(of.half) - reach;
-        const Mask<F> below = low<-inside, above = high> inside;
+        const Mask<F> below = -inside > low, above = inside < high;
         borders_near = borders_near + (select(below, one, zero) + select(above, one, zero));
         pair = select(below || above, F(S(k)), pair);
         side = select(above, one, select(below, -one, side));
