@@ -6,8 +6,8 @@ endif()
 # Each takes the sanitizers a minute or more to compile, together twice as long as one of them. The kernels are the same source.
 if(LFDSIM_QUICK_SANITIZERS)
   set(LFDSIM_KERNELS scalar baseline)
-  set(scalar_quick -fno-sanitize=undefined)
-  set(baseline_quick -fno-sanitize=address)
+  set(scalar_quick -fno-sanitize=undefined -DLFDSIM_FEW_WAYS)
+  set(baseline_quick -fno-sanitize=address -DLFDSIM_FEW_WAYS)
 endif()
 # One object for each kernel: the same source for each instruction set. No errno and no traps in mathematics; contraction is off
 # everywhere.

@@ -40,28 +40,39 @@ constexpr Way for_few_rays(Way way) {
     return way == Way::plano_convex || way == Way::staggered || way == Way::glass || way == Way::placed ? way : Way::other;
 }
 
+/// The way that code is compiled for: that of the display, or, where LFDSIM_FEW_WAYS says so, the general one that has its bits.
+/// The others only know more of the display while they are compiled.
+constexpr Way compiled(Way way) {
+#ifdef LFDSIM_FEW_WAYS
+    if (way == Way::placed_plano_convex || way == Way::placed_opaque) return Way::placed;
+    return way == Way::glass || way == Way::placed ? way : Way::other;
+#else
+    return way;
+#endif
+}
+
 /// do_it.operator()<way>() for the way through a display.
 template <class S, class Do>
 inline decltype(auto) with_way(const Scene<S>& scene, const Do& do_it) {
     switch (way_through(scene)) {
         case Way::plano_convex:
-            return do_it.template operator()<Way::plano_convex>();
+            return do_it.template operator()<compiled(Way::plano_convex)>();
         case Way::strips:
-            return do_it.template operator()<Way::strips>();
+            return do_it.template operator()<compiled(Way::strips)>();
         case Way::staggered:
-            return do_it.template operator()<Way::staggered>();
+            return do_it.template operator()<compiled(Way::staggered)>();
         case Way::opaque:
-            return do_it.template operator()<Way::opaque>();
+            return do_it.template operator()<compiled(Way::opaque)>();
         case Way::ideal:
-            return do_it.template operator()<Way::ideal>();
+            return do_it.template operator()<compiled(Way::ideal)>();
         case Way::glass:
-            return do_it.template operator()<Way::glass>();
+            return do_it.template operator()<compiled(Way::glass)>();
         case Way::placed_plano_convex:
-            return do_it.template operator()<Way::placed_plano_convex>();
+            return do_it.template operator()<compiled(Way::placed_plano_convex)>();
         case Way::placed_opaque:
-            return do_it.template operator()<Way::placed_opaque>();
+            return do_it.template operator()<compiled(Way::placed_opaque)>();
         case Way::placed:
-            return do_it.template operator()<Way::placed>();
+            return do_it.template operator()<compiled(Way::placed)>();
         case Way::other:
             break;
     }
