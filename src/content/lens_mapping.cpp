@@ -15,7 +15,7 @@ namespace {
 
 constexpr int nodes_per_pitch = 32, most_steps = 256;
 constexpr int aperture_rays = 4096;  // of each panel point
-constexpr double window_pixels = 2;  // about the line on which most of them travel
+constexpr double window_pixels = 2.5, window_of_spread = 0.5;  // about the line on which most of them travel, the wider one
 constexpr double rounding = 1e-9;    // mm and slopes: what is smaller is taken for 0, so that ideal lenses keep their nodal lines
 
 /// How far from a lens's axis, along the array's axes, panel points are that belong to it: half an elemental image, and what the
@@ -126,8 +126,8 @@ class LensMapping::Tracing {
 
     /// The mean line of the rays about the place in the central depth plane where they are densest. Aberrations throw a pixel's
     /// outer rays far aside, all to one side: their mean line is where little of its light goes. What counts for a picture is how
-    /// much arrives within a few pixels of where it is meant. Found by mean shifts (K. Fukunaga and L. Hostetler 1975) through
-    /// ever narrower windows, from all of the rays to `window_`.
+    /// much arrives within a few pixels of where it is meant, or, where the rays are spread farther than that, within half of their
+    /// root mean square. Found by mean shifts (K. Fukunaga and L. Hostetler 1975) through ever narrower windows.
     Line where_most_travel(const std::vector<Line>& lines) const {
         const auto place = [&](const Line& l) { return Point{l[2] + l[0] * vergence_, l[3] + l[1] * vergence_}; };
         Line mean{};
@@ -143,8 +143,7 @@ class LensMapping::Tracing {
             widest2 = std::max(widest2, d2);
             square += d2 / double(lines.size());
         }
-        constexpr double least_of_spread = 0.25;  // a window with a few dozen rays at least
-        const double least = std::max(window_, least_of_spread * std::sqrt(square));
+        const double least = std::max(window_, window_of_spread * std::sqrt(square));
         for (double radius = 2 * std::sqrt(widest2); radius > least;) {
             radius = std::max(radius / 1.5, least);
             for (int step = 0; step < 40; ++step) {
