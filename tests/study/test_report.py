@@ -23,9 +23,27 @@ class Effects(unittest.TestCase):
         y = 3 * x[:, 0] - 0.2 * x[:, 1] + self.random.normal(size=4000)
         found = effects.regression(x, y)
         expected = np.array([3, -0.2, 0]) * x.std(0)
-        self.assertTrue(np.all(np.abs(found.coefficients - expected) < 4 * found.errors))
-        np.testing.assert_allclose(found.errors, 1 / np.sqrt(4000), rtol=0.1)
+        self.assertTrue(np.all(np.abs(found.coefficients - expected) < 2 * found.errors))
+        np.testing.assert_allclose(found.errors, 1.96 / np.sqrt(4000), rtol=0.1)
         self.assertAlmostEqual(found.explained, 13 / 14, delta=0.01)
+
+    def test_the_regressions_intervals_hold_the_truth(self):
+        """95 % of them, though replicates of a row share what that row has beyond the sum; some of them are missing."""
+        holds = np.zeros(2)
+        of, spread = np.repeat(np.arange(25), 8), np.array([1.0, 4.0])
+        for _ in range(1000):
+            x = self.random.normal(size=(25, 2)) * spread
+            y = (x @ [1, 0.2] + self.random.normal(size=25))[of] + 0.3 * self.random.normal(size=200)
+            y[self.random.random(200) < 0.1] = np.nan
+            found = effects.regression(x[of], y, of)
+            holds += np.abs(found.coefficients - [1, 0.2] * x.std(0)) <= found.errors
+        np.testing.assert_allclose(holds / 1000, 0.95, atol=0.025)
+
+    def test_replicates_that_repeat_a_value_say_no_more_than_one(self):
+        x, y = self.random.normal(size=(30, 2)), self.random.normal(size=30)
+        once, often = effects.regression(x, y), effects.regression(x.repeat(5, 0), y.repeat(5), np.arange(150) // 5)
+        for name in ("coefficients", "errors", "explained"):
+            np.testing.assert_allclose(getattr(often, name), getattr(once, name), rtol=1e-12)
 
     def test_no_regression_where_there_is_none(self):
         x = self.random.normal(size=(20, 2))

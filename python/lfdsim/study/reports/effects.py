@@ -11,34 +11,34 @@ from scipy import stats
 from ..file import Limit, Objective
 
 
-def finite(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    kept = np.isfinite(y)
-    return x[kept], y[kept]
-
-
 @dataclasses.dataclass(frozen=True)
 class Regression:
     """y = sum of coefficient x (factor - mean)/sd + rest. A coefficient is what one standard deviation of the factor does to the
-    figure, in the figure's unit; `error` its standard error; `explained` the share of the figure's variance (R squared)."""
+    figure, in the figure's unit; `errors` are half-widths of 95 % intervals; `explained` the share of the figure's variance (R squared)."""
 
     coefficients: np.ndarray
     errors: np.ndarray
     explained: float
 
 
-def regression(factors: np.ndarray, figure: np.ndarray) -> Regression | None:
-    """factors (rows, factors). None where there are too few rows, or factors that follow from each other."""
-    x, y = finite(factors, figure)
-    if len(y) < x.shape[1] + 2 or np.any(x.std(0) == 0) or np.ptp(y) == 0:
+def regression(factors: np.ndarray, figure: np.ndarray, of: np.ndarray | None = None) -> Regression | None:
+    """factors (rows, factors). `of`: which row of the design each one repeats; replicates count as one, by their mean, since what a row
+    has beyond the sum is the same in all of them. None where there are too few rows, or factors that follow from each other."""
+    kept = np.isfinite(figure)
+    y = figure[kept]
+    _, first, place = np.unique((np.arange(len(figure)) if of is None else of)[kept], return_index=True, return_inverse=True)
+    x, means = factors[kept][first], np.bincount(place, y) / np.bincount(place)
+    free = len(means) - x.shape[1] - 1
+    if free < 1 or np.any(x.std(0) == 0) or np.ptp(y) == 0:
         return None
-    design = np.column_stack([np.ones(len(y)), (x - x.mean(0)) / x.std(0)])
-    found, _, rank, _ = np.linalg.lstsq(design, y, rcond=None)
+    design = np.column_stack([np.ones(len(means)), (x - x.mean(0)) / x.std(0)])
+    found, _, rank, _ = np.linalg.lstsq(design, means, rcond=None)
     if rank < design.shape[1]:
         return None
-    rest = y - design @ found
-    variance = rest @ rest / (len(y) - design.shape[1])
-    errors = np.sqrt(variance * np.diag(np.linalg.inv(design.T @ design)))
-    return Regression(found[1:], errors[1:], float(1 - rest @ rest / np.sum((y - y.mean()) ** 2)))
+    fitted = design @ found
+    variance = np.sum((means - fitted) ** 2) / free
+    errors = stats.t.ppf(0.975, free) * np.sqrt(variance * np.diag(np.linalg.inv(design.T @ design)))
+    return Regression(found[1:], errors[1:], float(1 - np.sum((y - fitted[place]) ** 2) / np.sum((y - y.mean()) ** 2)))
 
 
 @dataclasses.dataclass(frozen=True)

@@ -147,16 +147,18 @@ def _cost(data: Data) -> str:
     if not names:
         return ""
     matrix = np.column_stack([data.factors[n] for n in names])
+    replicates = data.plan.study.replicates
+    repeated = "; replicates of one row count by their mean" if replicates > 1 else ""
     for figure in data.figures:
         y = data.rows[figure].to_numpy(float)
-        found = effects.regression(matrix, y)
+        found = effects.regression(matrix, y, data.rows["row"].to_numpy() // replicates)
         if found:
             doubt = (
                 "" if found.explained > 0.5 else " That is little: the figure does not follow straight lines, and the bars say little, too."
             )
             parts.append(
-                f"<p>{_text(figure)}: what one standard deviation of each factor does, by linear regression, which explains "
-                f"{100 * found.explained:.1f} % of the variance.{doubt}</p>"
+                f"<p>{_text(figure)}: what one standard deviation of each factor does, with 95 % intervals, by linear regression, which "
+                f"explains {100 * found.explained:.1f} % of the variance{repeated}.{doubt}</p>"
                 + plots.bars(names, found.coefficients, found.errors, f"change of {figure}")
             )
         if data.plan.study.design == "saltelli":
