@@ -8,6 +8,8 @@ import time
 from collections.abc import Callable, Iterator
 from typing import Any, Union
 
+import numpy as np
+
 Report = Callable[[str, int, int], None]  # the stage, units done, units in all
 Progress = Union[bool, Report, None]
 
@@ -23,6 +25,8 @@ def shown(progress: Progress) -> Iterator[Report | None]:
     if callable(progress):
         yield progress
         return
+    if isinstance(progress, np.bool_):
+        progress = bool(progress)
     if progress is not None and not isinstance(progress, bool):
         raise TypeError(f"progress is a {type(progress).__name__}; give True, False, None or a function of (stage, done, units)")
     in_notebook = progress is not False and _in_notebook()

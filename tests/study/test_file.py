@@ -50,6 +50,13 @@ WRONG = [
         'name = "check"\n[[picture]]\nname = "front"\nsize = [0, 10]',
         ["[[picture]] 1 size", "[0, 10]", "columns and rows"],
     ),
+    ('name = "check"', 'name = "fov"\n[measure.settings]\nsize = [0, 9]', ["[[measure]] 1 settings", "size: camera.resolution[0]: is 0"]),
+    ('name = "check"', 'name = "fov"\n[measure.settings]\nmodel = "none.obj"', ["[[measure]] 1 settings", "none.obj: no such model"]),
+    (
+        'name = "check"',
+        'name = "check"\n[[picture]]\nname = "front"\ncamera_mm = [0, 0, -5]',
+        ["[[picture]] 1", "camera_mm", "behind the panel"],
+    ),
     ('name = "check"', 'name = "check"\n[[picture]]\nname = "front"\ncompare = 1', ["[[picture]] 1 compare", "true or false"]),
     ('name = "check"', 'name = "check"\n[[limit]]\nfigure = "check.theory.fov_deg"', ["[[limit]] 1", "limits nothing"]),
     ('name = "check"', 'name = "check"\n[[limit]]\nfigure = "chek.fov"\nmin = 3', ["chek.fov", "did you mean check"]),
@@ -111,6 +118,7 @@ class BadFiles(StudyTest):
             ("array.gap_mm,array.gap_mm\n1,2\n", "rows.csv:1: names a key twice"),
             ("array.gap_mm\n1\n1,2\n", "rows.csv:3: has 2 cells"),
             ("array.gap\n1\n", "array.gap: is not a key"),
+            ("array.gap_mm,replicate\n16,1\n", "rows.csv:1: replicate is what"),
             ("array.gap_mm\n" + "1" * 200_000 + "\n", "rows.csv: cannot be read"),
         ):
             with self.subTest(text):
@@ -122,6 +130,22 @@ class BadFiles(StudyTest):
                         ),
                         self.folder / "out",
                     )
+
+
+    def test_a_table_that_is_no_file(self):
+        """Reading it would not end."""
+        with self.assertRaisesRegex(StudyError, "/dev/zero: is not a file"):
+            plan(self.write('schema = 1\ndisplay = "display.toml"\ndesign = "table"\ntable = "/dev/zero"\n[[measure]]\nname = "check"\n'), "out")
+
+    def test_a_table_of_a_spreadsheet(self):
+        (self.folder / "rows.csv").write_text("\ufeffarray.gap_mm, lens.focal_length_mm\r\n16.4, 15.7\r\n")
+        text = 'schema = 1\ndisplay = "display.toml"\ndesign = "table"\ntable = "rows.csv"\n[[measure]]\nname = "check"\n'
+        self.assertEqual(plan(self.write(text), self.folder / "out").table().column_names, ["array.gap_mm", "lens.focal_length_mm"])
+
+    def test_absurd_cells_are_texts(self):
+        (self.folder / "rows.csv").write_text(f"array.gap_mm\n{'1' * 5000}\n{'[' * 100_000}\n")
+        text = 'schema = 1\ndisplay = "display.toml"\ndesign = "table"\ntable = "rows.csv"\n[[measure]]\nname = "check"\n'
+        self.assertEqual(plan(self.write(text), self.folder / "out").rows, 2)
 
 
 if __name__ == "__main__":

@@ -148,6 +148,14 @@ class Runs(StudyTest):
         lfdsim.check = original
         self.check_finishes_with_what_is_there()
 
+    def test_a_device_that_is_not_there_makes_no_row_impossible(self):
+        text = LHS.replace("ROWS", "3").replace('name = "check"', 'name = "spot"\nsettings = { device = "cuda:999" }')
+        text = text.replace('figures = ["theory.central_depth_mm", "theory.fov_exact_deg"]', "")
+        done = call("run", self.write(text, "gpu.toml"), "-o", self.folder / "gpu", "--workers", 1)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("device: cuda:999", done.stderr)
+        self.assertFalse(list((self.folder / "gpu" / "rows").glob("*.parquet")))
+
     def test_figures_are_those_of_check(self):
         table = study.run(self.file, self.out, workers=1, progress=False)
         base = lfdsim.Display.load(self.folder / "display.toml")
@@ -182,6 +190,13 @@ class Runs(StudyTest):
         ):
             with self.subTest(words), self.assertRaisesRegex(kind, words):
                 work()
+
+    def test_progress_is_no_word(self):
+        for work in (study.run, study.tolerance):
+            for wrong in ("no", 0, print):
+                with self.assertRaisesRegex(StudyError, "progress: is .*; give True, False or None"):
+                    work(self.file, self.out, progress=wrong)
+        self.assertFalse(self.out.exists())
 
     def test_more_at_once_than_any_machine_takes(self):
         display = self.folder / "display.toml"

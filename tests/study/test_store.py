@@ -177,11 +177,26 @@ class Kept(StudyTest):
         self.run_it()
         path = self.out / "plan.json"
         whole = path.read_text()
-        for damaged in ("", "{}", whole[:100], whole.replace('"rows": 8', '"rows": "8"'), whole.replace('"seed": 5', '"seed": 6')):
-            with self.subTest(damaged[:20]):
-                path.write_text(damaged)
+        for old, new in (
+            ('"rows": 8', '"rows": "8"'),
+            ('"rows": 8', '"rows": -8'),
+            ('"rows": 8', '"rows": 9'),
+            ('"rows_per_chunk": 3', '"rows_per_chunk": 0'),
+            ('"rows_per_chunk": 3', '"rows_per_chunk": 2'),
+            ('"seed": 5', '"seed": 6'),
+            ('"version"', '"vision"'),
+        ):
+            with self.subTest(new):
+                self.assertIn(old, whole)
+                path.write_text(whole.replace(old, new))
                 with self.assertRaises(StudyError):
                     planned.load(self.out).table()
+        for damaged in ("", "{}", "[]", '{"basis": []}', "[" * 100_000, whole[:100], b"\xff\xfe"):
+            with self.subTest(damaged[:20]):
+                path.write_bytes(damaged if isinstance(damaged, bytes) else damaged.encode())
+                for work in (self.run_it, lambda: planned.load(self.out)):
+                    with self.assertRaisesRegex(StudyError, "plan.json: is not the plan of a study, or damaged"):
+                        work()
         with self.assertRaisesRegex(StudyError, "holds no study"):
             planned.load(self.folder / "nowhere")
 

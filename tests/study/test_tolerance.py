@@ -230,11 +230,15 @@ class BadInput(StudyTest):
             ((self.folder / "none.toml",), "cannot be read"),
             ((self.folder / "display.toml", "--loss", "x"), "is not FIGURE=AMOUNT"),
             ((self.folder / "display.toml", "--percent", 100), "percent"),
+            ((self.folder / "display.toml", "--measure", "fow"), '"fow" is not a measure; did you mean fov'),
+            ((self.folder / "display.toml", "--measure", "fov,fov"), '"fov" is given more than once'),
+            ((self.folder / "display.toml", "--loss", "zone.x=1"), "zone.x: is of no measure here; there are: picture, fov, crosstalk"),
         ):
             done = call("tolerance", words[0], "-o", self.folder / "out", *words[1:])
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(said, done.stderr)
             self.assertNotIn("Traceback", done.stderr)
+            self.assertFalse((self.folder / "out").exists())
 
 
 if __name__ == "__main__":

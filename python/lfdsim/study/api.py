@@ -25,7 +25,7 @@ def run(
     What is finished there is not computed again. `dask`: a distributed.Client or a scheduler's address; None: `workers` processes
     here (1 to 1024; None: one for each core), each with `threads` threads. `progress`: a line on standard error (None: where that is a terminal).
     """
-    runs.check_machines(dask, workers, threads)
+    runs.check_machines(dask, workers, threads, progress)
     return runs.finish(plan(file, folder), dask, workers, threads, progress).to_pandas()
 
 

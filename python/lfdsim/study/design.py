@@ -88,14 +88,18 @@ def _sampled(study: Study) -> Columns:
 
 def _table(path: pathlib.Path) -> Columns:
     """A CSV file with a key at the head of each column; an empty cell leaves the key as it is in the display."""
+    if path.exists() and not path.is_file():
+        raise StudyError(path, "is not a file; give a table of rows")
     try:
-        with open(path, newline="", encoding="utf-8") as file:
+        with open(path, newline="", encoding="utf-8-sig") as file:
             lines = list(itertools.islice(csv.reader(file), MOST_ROWS + 2))
     except (OSError, ValueError, csv.Error) as error:
         raise StudyError(path, f"cannot be read: {error}") from error
     if len(lines) < 2:
         raise StudyError(path, "has no rows; give a line of keys and a line for each row")
-    keys = lines[0]
+    keys = [key.strip() for key in lines[0]]
+    if "replicate" in keys:
+        raise StudyError(f"{path}:1", "replicate is what the study calls its own repetitions, and no key; give another column")
     if len(set(keys)) < len(keys) or "" in keys:
         raise StudyError(f"{path}:1", "names a key twice or not at all; give each column one key")
     for number, line in enumerate(lines[1:], 2):
@@ -117,7 +121,7 @@ def _cell(text: str) -> Value:
         return None
     try:
         value = json.loads(text)
-    except json.JSONDecodeError:
+    except (ValueError, RecursionError):  # a number of thousands of digits, lists in lists
         return text
     return value if isinstance(value, (bool, int, float, str, list)) else text
 

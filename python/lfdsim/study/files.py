@@ -123,7 +123,9 @@ def note_of(path: pathlib.Path) -> dict[str, Any]:
         note: dict[str, Any] = json.loads((pq.read_schema(path).metadata or {})[NOTE])
         return note
     except (KeyError, ValueError, OSError, pa.ArrowException) as error:
-        raise StudyError(path, f"is not a table that this study wrote ({type(error).__name__})") from error
+        raise StudyError(
+            path, f"is not a table that this study wrote ({type(error).__name__}); remove it (it is made again from rows/), or rename it"
+        ) from error
 
 
 def read_table(path: pathlib.Path, about: dict[str, Any], remedy: str) -> tuple[pa.Table, dict[str, Any]]:

@@ -21,6 +21,17 @@ from .file import Study, read_study
 from .problems import StudyError, listed, path_of
 
 FORMAT = 1  # of the folder
+KINDS = {  # of what stands in plan.json
+    "format": int,
+    "name": str,
+    "identity": str,
+    "rows": int,
+    "rows_per_chunk": int,
+    "checksum": str,
+    "display_folder": str,
+    "display_text": str,
+    "basis": dict,
+}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -57,7 +68,7 @@ class Plan:
         """All rows, as planned."""
         path = self.folder / "plan.parquet"
         table, note = files.read_table(path, {"study": self.identity}, "take another folder, or remove this one")
-        if note["checksum"] != self.checksum:
+        if (note["checksum"], len(table), self._table_file.num_row_groups) != (self.checksum, self.rows, self.chunks):
             raise StudyError(path, "is not the one that plan.json speaks of; take another folder, or remove this one")
         return table
 
@@ -88,6 +99,7 @@ def make(path: str | pathlib.Path, folder: str | pathlib.Path) -> Plan:
     keys = _replicate_keys(study, display_text)
     rows = design.rows_of(study, keys)
     _check_keys(study, display, [k for k in rows if k != "replicate"])
+    work.check_settings(study, _possible(study, display, rows), study.display_path.parent)
     table = columns.arrow_of(rows)
     per_chunk = study.rows_per_chunk or math.ceil(math.sqrt(len(table)) / 4)
     basis = _basis(study, display_text)
@@ -120,37 +132,50 @@ def load(folder: str | pathlib.Path) -> Plan:
     """The plan of a folder, as `make` left it."""
     folder = path_of(folder, "folder")
     path = folder / "plan.json"
-    try:
-        plan = json.loads(path.read_text())
-        if plan["format"] != FORMAT:
-            raise StudyError(path, f"has format {plan['format']}, which this version does not know; give another folder")
-        known = Plan(
-            folder,
-            plan["name"],
-            read_study(folder / "study.toml"),
-            plan["identity"],
-            plan["display_text"],
-            pathlib.Path(plan["display_folder"]),
-            plan["rows"],
-            plan["rows_per_chunk"],
-            plan["checksum"],
-            plan["basis"]["files"],
-        )
-        if files.digest(plan["basis"]) != known.identity or files.digest(known.study.definition) != files.digest(plan["basis"]["study"]):
-            raise StudyError(path, "does not fit its own contents or study.toml beside it: one was changed by hand; give another folder")
-        if plan["basis"]["version"] != _version():
-            raise StudyError(
-                path,
-                f"was made by lfdsim {plan['basis']['version']}, and this is {_version()}: rows of both would be mixed; use "
-                "that version, or another folder",
-            )
-        return known
-    except FileNotFoundError as error:
+    if not path.exists():
+        raise StudyError(folder, "holds no study (no plan.json); plan one there: python -m lfdsim.study plan FILE.toml -o FOLDER")
+    plan = _kept(path)
+    if plan["format"] != FORMAT:
+        raise StudyError(path, f"has format {plan['format']}, which this version does not know; give another folder")
+    known = Plan(
+        folder,
+        plan["name"],
+        read_study(folder / "study.toml"),
+        plan["identity"],
+        plan["display_text"],
+        pathlib.Path(plan["display_folder"]),
+        plan["rows"],
+        plan["rows_per_chunk"],
+        plan["checksum"],
+        plan["basis"]["files"],
+    )
+    if files.digest(plan["basis"]) != known.identity or files.digest(known.study.definition) != files.digest(plan["basis"]["study"]):
+        raise StudyError(path, "does not fit its own contents or study.toml beside it: one was changed by hand; give another folder")
+    if plan["basis"]["version"] != _version():
         raise StudyError(
-            folder, "holds no study (no plan.json); plan one there: python -m lfdsim.study plan FILE.toml -o FOLDER"
-        ) from error
-    except (OSError, KeyError, TypeError, json.JSONDecodeError) as error:
-        raise StudyError(path, f"is damaged ({type(error).__name__}: {error}); give another folder") from error
+            path,
+            f"was made by lfdsim {plan['basis']['version']}, and this is {_version()}: rows of both would be mixed; use "
+            "that version, or another folder",
+        )
+    return known
+
+
+def _kept(path: pathlib.Path) -> dict[str, Any]:
+    """A plan.json with all that make() writes there."""
+    try:
+        plan: dict[str, Any] = json.loads(path.read_text())
+        basis = plan["basis"]
+        if (
+            all(isinstance(plan[key], kind) for key, kind in KINDS.items())
+            and min(plan["rows"], plan["rows_per_chunk"]) > 0
+            and all(isinstance(basis[key], dict) for key in ("study", "files"))
+            and "version" in basis
+        ):
+            return plan
+        why = "it lacks what a plan says"
+    except (OSError, KeyError, TypeError, ValueError, RecursionError) as error:
+        why = f"{type(error).__name__}: {error}"
+    raise StudyError(path, f"is not the plan of a study, or damaged ({why}); give another folder")
 
 
 def _same_study(study: Study, folder: pathlib.Path, display_text: str) -> Plan | None:
@@ -158,11 +183,8 @@ def _same_study(study: Study, folder: pathlib.Path, display_text: str) -> Plan |
     path = folder / "plan.json"
     if not path.exists():
         return None
-    try:
-        there = json.loads(path.read_text())
-        basis, per_chunk = there["basis"], there["rows_per_chunk"]
-    except (OSError, KeyError, TypeError, json.JSONDecodeError) as error:
-        raise StudyError(path, f"is damaged ({type(error).__name__}: {error}); give another folder") from error
+    there = _kept(path)
+    basis, per_chunk = there["basis"], there["rows_per_chunk"]
     mine = json.loads(json.dumps(_basis(study, display_text), default=str))
     if files.digest(basis) != files.digest(mine):
         differing = [k for k in mine if mine[k] != basis.get(k)]
@@ -197,6 +219,17 @@ def _display(study: Study) -> tuple[str, "lfdsim.Display"]:
         return display_in(study.display_path, study.fixed)
     except StudyError as error:
         raise StudyError(f"{study.path}: display", str(error)) from error
+
+
+def _possible(study: Study, display: "lfdsim.Display", rows: design.Columns) -> list["lfdsim.Display"]:
+    """Of the first and the last row, those that are."""
+    found = []
+    for row in (0, -1):
+        try:
+            found.append(work.changed(display, study.display_path.parent, {**study.fixed, **design.overrides(rows, row)}))
+        except (TypeError, ValueError):  # which will be the row's reason
+            continue
+    return found
 
 
 def _check_keys(study: Study, display: "lfdsim.Display", keys: list[str]) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
+import numpy as np
 import pyarrow as pa
 
 from . import collected, local
@@ -16,10 +17,12 @@ from .problems import StudyError, StudyFailed, counted, listed, whole
 MOST_AT_ONCE = 1024  # processes, and threads of each, as of the program's --threads
 
 
-def check_machines(dask: object, workers: int | None, threads: int) -> None:
+def check_machines(dask: object, workers: int | None, threads: int, progress: object = None) -> None:
     if workers is not None:
         whole(workers, "workers", 1, MOST_AT_ONCE)
     whole(threads, "threads", 1, MOST_AT_ONCE)
+    if not (progress is None or isinstance(progress, (bool, np.bool_))):
+        raise StudyError("progress", f"is {progress!r}; give True, False or None")
     if dask is not None and workers is not None:
         raise StudyError("workers", "are of this machine; with dask the cluster has its own. Give one of them")
 

@@ -71,7 +71,7 @@ class Table:
         value = self.take(key, None)
         if value is None or isinstance(value, list) and len(value) == 2 and all(type(v) is int and 0 < v < 65536 for v in value):
             return value
-        raise self.wrong(key, f"is {value!r}; give columns and rows, as in [480, 270]")
+        raise self.wrong(key, f"is {value!r}; give columns and rows, 1 to 65535 each, as in [480, 270]")
 
     def vector(self, key: str, count: int, default: Default = REQUIRED) -> list[float] | Default:
         value = self.items(key, default, None, f"{count} numbers")

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+import lfdsim
+
 from . import api, errors, files, planned, runs
 from .columns import is_uncertainty
 from .errors import ALL, Layout
@@ -100,7 +102,8 @@ def tolerance(
         raise StudyError("measures", f"is {measures!r}; give a tuple of names or tables, as in {MEASURES}")
     if not (isinstance(losses, (tuple, list)) and all(isinstance(loss, Loss) for loss in losses)):
         raise StudyError("losses", f'is {losses!r}; give a tuple of losses, as in (Loss.parse("picture.ssim=-0.02"),)')
-    runs.check_machines(dask, workers, threads)
+    _check_names(measures, losses)
+    runs.check_machines(dask, workers, threads, progress)
     sizes = errors.sizes_of(planned.display_in(display, {})[0], display)
     layout = Layout(sizes, draws, max(10, draws // 5) if alone is None else alone)
     if layout.rows > MOST_ROWS:
@@ -118,6 +121,21 @@ def tolerance(
     plan = dataclasses.replace(plan, study=dataclasses.replace(plan.study, objectives=wishes))
     table = runs.finish(plan, dask, workers, threads, progress).to_pandas()
     return evaluate(folder, layout, table, losses, percent)
+
+
+def _check_names(measures: tuple[str | dict[str, Any], ...], losses: tuple[Loss, ...]) -> None:
+    """Before anything is written or measured. What tables say is checked with the study's file."""
+    known = ["picture", "check", *(m.name for m in lfdsim.measures())]
+    for name in (m for m in measures if isinstance(m, str)):
+        if name not in known:
+            raise StudyError("measures (--measure)", f'"{name}" is not a measure; {nearest(name, known)}')
+        if measures.count(name) > 1:
+            raise StudyError("measures (--measure)", f'"{name}" is given more than once')
+    labels = [m if isinstance(m, str) else str(m.get("label", m.get("name"))) for m in measures]
+    for loss in losses:
+        label = loss.figure.partition(".")[0]
+        if label not in labels:
+            raise StudyError(f"losses (--loss) {loss.figure}", f"is of no measure here; {nearest(label, labels)}")
 
 
 def _keep(path: pathlib.Path, text: str) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
+import os
 import pathlib
 from collections.abc import Mapping
 from typing import Any
@@ -11,10 +12,11 @@ from typing import Any
 import numpy as np
 
 import lfdsim
+from lfdsim.arguments import KEYS, seen
 
 from .factors import Value
 from .file import Measure, Picture, Study
-from .problems import StudyError, nearest
+from .problems import StudyError, StudyFailed, nearest
 
 INFINITE = {"infinite": float("inf"), "-infinite": float("-inf")}
 
@@ -39,12 +41,14 @@ def compute(base: "lfdsim.Display", folder: pathlib.Path, overrides: dict[str, V
     try:
         display = changed(base, folder, overrides)
         for measure in study.measures:
-            _measure(row, display, measure, _in_folder(measure.settings, folder), threads)
+            _measure(row, display, measure, _in_folder(measure.settings, folder), threads, study.path)
         for picture in study.pictures:
             _picture(row, display, picture, _in_folder(picture.settings, folder), threads)
     except StudyError:
         raise
     except ValueError as error:
+        if isinstance(error, lfdsim.InputError) and error.key == "device":  # another machine, or this one another day, has it
+            raise StudyFailed("", str(error)) from error
         return Row(error=" ".join(str(error).split()))
     return row
 
@@ -93,7 +97,29 @@ def check_measures(study: Study) -> None:
             raise StudyError(f"{where} tables", "check has none; leave them out")
 
 
-def _measure(row: Row, display: "lfdsim.Display", measure: Measure, settings: dict[str, Any], threads: int) -> None:
+def check_settings(study: Study, displays: list["lfdsim.Display"], folder: pathlib.Path) -> None:
+    """Settings that lfdsim refuses with each of these displays would make all rows impossible."""
+    named = [(f"[[measure]] {n} settings", m.settings) for n, m in enumerate(study.measures, 1) if m.name != "check"]
+    for where, settings in named + [(f"[[picture]] {n}", p.settings) for n, p in enumerate(study.pictures, 1)]:
+        given = {k: v for k, v in _in_folder(settings, folder).items() if k in (*KEYS, "model")}
+        model = given.pop("model", None)
+        reasons = [_refused(display, model, given) for display in displays]
+        if reasons and all(reasons):
+            raise StudyError(f"{study.path}: {where}", reasons[0])
+
+
+def _refused(display: "lfdsim.Display", model: Any, settings: dict[str, Any]) -> str:
+    """Why, or nothing."""
+    try:
+        found = seen(display, model, **settings)
+        if model is not None and not os.path.isfile(found["content.model"]) and not str(model).startswith("built-in:"):
+            return f"model: {model}: no such model file"
+    except (TypeError, ValueError) as error:
+        return " ".join(str(error).split())
+    return ""
+
+
+def _measure(row: Row, display: "lfdsim.Display", measure: Measure, settings: dict[str, Any], threads: int, path: pathlib.Path) -> None:
     if measure.name == "check":
         found = lfdsim.check(display)
         row.figures.update(flat({k: found[k] for k in ("geometry", "theory")}, measure.label))
@@ -103,7 +129,7 @@ def _measure(row: Row, display: "lfdsim.Display", measure: Measure, settings: di
     for name in measure.tables:
         if name not in result.tables:
             raise StudyError(
-                f"[[measure]] {measure.label}: tables", f'"{name}" is not a table of {measure.name}; {nearest(name, result.tables)}'
+                f"{path}: [[measure]] {measure.label}: tables", f'"{name}" is not a table of {measure.name}; {nearest(name, result.tables)}'
             )
         table = result.tables[name]
         row.tables[f"{measure.label}.{name}"] = {str(c): np.asarray(table[c], float).tolist() for c in table}
