@@ -51,8 +51,9 @@ def seen(display: Any, model: Any, **arguments: Any) -> Display:
     return changed._with_model(model)
 
 
-def pixels(array: Any, name: str) -> NDArray[Any]:
-    """Height x width x 3: float32, or codes of uint8 or uint16, in C order. Copies only what is not yet so."""
+def pixels(array: Any, name: str, needed: int = 4) -> NDArray[Any]:
+    """Height x width x 3: float32, or codes of uint8 or uint16, in C order. Copies only what is not yet so. `needed`: bytes of memory
+    for each value, of all that will be there at a time."""
     try:
         given = np.asarray(array)
     except (ValueError, TypeError) as error:
@@ -64,8 +65,8 @@ def pixels(array: Any, name: str) -> NDArray[Any]:
         raise InputError([(name, f"has the shape {given.shape}; give (height, width, 3)")])
     if given.size == 0 or max(given.shape) >= 2**31 or given.shape[0] * given.shape[1] >= 2**31:
         raise InputError([(name, f"has the shape {given.shape}; there must be 1 to 2^31 - 1 pixels")])
-    if given.size * 4 > _core.memory_bytes():  # of what has to be copied, or is no real memory
-        raise InputError([(name, f"has the shape {given.shape}, which as float32 is more than this machine's memory")])
+    if given.size * needed > _core.memory_bytes():  # of what has to be copied, or is no real memory
+        raise InputError([(name, f"has the shape {given.shape}, which needs more than this machine's memory")])
     with np.errstate(over="ignore"):  # what float32 cannot hold becomes infinite, which is refused with its place
         return np.ascontiguousarray(given, dtype=given.dtype.newbyteorder("=") if codes else np.float32)
 

@@ -105,7 +105,7 @@ def screen_corners(
 
 def png(picture: ArrayLike) -> bytes:
     """The PNG file, 8 bits in sRGB, that the program would write: for files, and for pictures in notebooks."""
-    return _core.png(pixels(picture, "picture"))
+    return _core.png(pixels(picture, "picture", 6))  # and the file
 
 
 def _points(points: Any, name: str) -> list[list[float]]:

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -49,8 +50,9 @@ void fill(const AnyPixels& pixels, float* to, int stride, Encoding encoding, boo
         const std::int64_t columns = columns_of(pixels);
         for (int c = 0; c < 3; ++c)
             if (const float value = light->data()[bad * 3 + c]; !(value >= least && value <= std::numeric_limits<float>::max()))
-                throw InputError(name, fmt::format("holds {} in channel {} at column {}, row {}; values must be finite{}", value,
-                                                   "RGB"[c], bad % columns, bad / columns, panel ? " and not negative" : ""));
+                throw InputError(name, fmt::format("holds {} in channel {} at column {}, row {}; values must be finite{}",
+                                                   std::isnan(value) ? std::abs(value) : value, "RGB"[c], bad % columns,
+                                                   bad / columns, panel ? " and not negative" : ""));
     }
     const auto decode = [&](const auto& codes, int bits) {
         const std::vector<float>& light = decode_table(encoding, bits);

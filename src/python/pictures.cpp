@@ -145,7 +145,12 @@ nb::typed<nb::dict, std::string, double> compare(const AnyPixels& a, const AnyPi
     Comparison c{};
     run(nb::none(), [&](Job&) {
         const Encoding encoding = linear ? Encoding::linear : Encoding::srgb;
-        c = lfdsim::compare(image_of(a, encoding, "a"), image_of(b, encoding, "b"), rect_of(crop));
+        const Image first = image_of(a, encoding, "a"), second = image_of(b, encoding, "b");
+        try {
+            c = lfdsim::compare(first, second, rect_of(crop));
+        } catch (const InputError& error) {
+            throw InputError(crop ? "crop" : "a, b", error.problems.front().what);
+        }
     });
     nb::dict all;
     all["ssim"] = c.ssim;

@@ -41,6 +41,9 @@ class Named(TinyTest):
         self.refused(lfdsim.InputError, "more than this machine's memory|pixels", lfdsim.compare, huge, huge)
         with mock.patch("lfdsim._core.memory_bytes", return_value=1000):
             self.refused(lfdsim.InputError, "panel: .* more than this machine's memory", lfdsim.render, d, good)
+        with mock.patch("lfdsim._core.memory_bytes", return_value=5 * good.size):  # of one picture, but not of what is made of it
+            self.refused(lfdsim.InputError, "picture: .* more than this machine's memory", lfdsim.png, good)
+            self.refused(lfdsim.InputError, "a: .* more than this machine's memory", lfdsim.compare, good, good)
         self.refused(lfdsim.InputError, "give one of them", lfdsim.render, d, good, model="pyramid.obj")
 
     def test_options(self) -> None:
@@ -64,7 +67,7 @@ class Named(TinyTest):
             (TypeError, "crop is 'all'|crop is", {"crop": 5}),
             (lfdsim.InputError, "nowhere.glb", {"model": "nowhere.glb"}),
             (lfdsim.InputError, "model: is empty; give a path", {"model": ""}),
-            (TypeError, "progress", {"progress": "bar"}),
+            (TypeError, "progress is a str; give True, False, None or a function", {"progress": "no"}),
         ]:
             with self.subTest(words):
                 self.refused(kind, words, lfdsim.render, d, **named)
@@ -101,8 +104,10 @@ class Named(TinyTest):
         a = np.zeros((20, 20, 3))
         self.refused(lfdsim.InputError, r"b: has the shape \(20, 21, 3\), a has", lfdsim.compare, a, np.zeros((20, 21, 3)))
         self.refused(lfdsim.InputError, "encoding", lfdsim.compare, a, a, encoding="gamma")
-        self.refused(ValueError, "11", lfdsim.compare, a[:5, :5], a[:5, :5])
-        self.refused(lfdsim.InputError, "b: holds nan", lfdsim.compare, a, np.full_like(a, np.nan))
+        self.refused(lfdsim.InputError, "a, b: 5 x 5 pixels are too few", lfdsim.compare, a[:5, :5], a[:5, :5])
+        self.refused(lfdsim.InputError, "crop: 5 x 9 pixels are too few", lfdsim.compare, a, a, crop=(0, 0, 5, 9))
+        for nan in (np.nan, -np.nan):
+            self.refused(lfdsim.InputError, "b: holds nan", lfdsim.compare, a, np.full_like(a, nan))
 
 
 if __name__ == "__main__":
