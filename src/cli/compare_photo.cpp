@@ -92,7 +92,7 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
     faults.of([&] { check_input("B", photo_path); });
     if (difference_option_.count() > 0) faults.of([&] { check_output(difference_, "--difference"); });
     if (overlay_option_.count() > 0) faults.of([&] { check_output(overlay_, "--overlay"); });
-    if (overlay_option_.count() > 0 && overlay_ == difference_)
+    if (!overlay_.empty() && overlay_ == difference_)
         faults.of([] { throw InputError("--overlay, --difference", "are two pictures of one name; give two names"); });
     faults.report();
     faults.of([&] {

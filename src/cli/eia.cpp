@@ -52,7 +52,7 @@ void run(EiaArguments& args) {
     faults.of([&] { args.views.check(); });
     faults.of([&] { args.work.check(); });
     faults.of([&] { args.output.check(); });
-    faults.of([&] { args.mapping.check(); });
+    faults.of([&] { args.mapping.check(args.output.path()); });
     faults.of([&] { check_effects(args.command); });
     faults.report();
 

@@ -26,6 +26,7 @@ struct ErrorsArguments {
 
 void run(const ErrorsArguments& args) {
     const Display display = args.display.read();
+    if (args.output.empty()) throw InputError("--output", "the name is empty; give the file to write");
     if (std::filesystem::path(args.output).extension() != ".csv")
         throw InputError("--output", fmt::format("{}: a table's name ends in .csv", args.output));
     guard_output(args.output);

@@ -79,10 +79,8 @@ PeerOptions options_of(const ExportArguments& args) {
 }
 
 void check_folder(const std::string& folder) {
-    std::error_code error;
     if (folder.empty()) throw InputError("--output", "the name is empty; give a folder for the scene");
-    if (fs::exists(folder, error) && !fs::is_directory(folder, error))
-        throw InputError(folder, "is not a folder; give one for the scene");
+    detail::check_folder(folder);
 }
 
 /// Throws InputError if the folder holds another display's scene, of which files by other names would stay beside this one's.

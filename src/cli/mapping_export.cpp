@@ -166,8 +166,10 @@ MappingOption::MappingOption(Command command) {
         .type_name("FILE");
 }
 
-void MappingOption::check() const {
+void MappingOption::check(const std::string& output) const {
     if (path_.empty()) return;
+    if (fs::weakly_canonical(fs::absolute(path_)) == fs::weakly_canonical(fs::absolute(output)))
+        throw InputError("--output, --mapping", "are two files of one name; give two names");
     const fs::path ending = fs::path(path_).extension();
     if (ending != ".npy" && ending != ".exr")
         throw InputError(mapping_option, fmt::format("{}: the name must end in .npy or .exr", path_));

@@ -15,8 +15,8 @@ class MappingOption {
   public:
     explicit MappingOption(Command);
     bool given() const { return !path_.empty(); }
-    /// To be called before long work. Throws InputError unless all three files can be written.
-    void check() const;
+    /// To be called before long work. Throws InputError unless all three files can be written, and none is `output`.
+    void check(const std::string& output) const;
     void write(const Display&, const Geometry&, int threads) const;
 
   private:

@@ -102,6 +102,10 @@ Target target_of(const ViewsArguments& args, const Display& display) {
         faults.of([&] { args.output.check_bits(path); });
         faults.of([&] { detail::check_replaceable(fs::path(path).replace_extension(".toml")); });
     } else {
+        faults.of([&] {
+            if (quilt_name(path) || kind == ".jpg" || kind == ".jpeg" || kind == ".tif" || kind == ".tiff")
+                throw InputError(path.string(), "a quilt's name ends in .png, .exr or .npy; give one of these, or a folder");
+        });
         if (is_strips(display.array)) target.rows = 1;
         if (!args.count.empty())
             faults.of([&] {
@@ -116,8 +120,7 @@ Target target_of(const ViewsArguments& args, const Display& display) {
         faults.of([&] {
             std::error_code error;
             if (path.empty()) throw InputError("--output", "the name is empty; give a folder for the views, or a quilt's name");
-            if (fs::exists(path, error) && !fs::is_directory(path, error))
-                throw InputError(path.string(), "is not a folder; give one for the views");
+            detail::check_folder(path);
             if (fs::is_directory(path, error) && !fs::is_empty(path, error))
                 throw InputError(path.string(), "holds other files; give an empty folder for the views, or remove it");
         });

@@ -98,10 +98,24 @@ void check_replaceable(const fs::path& path) {
     const fs::file_status status = fs::status(path, error);
     if (fs::is_directory(status)) throw InputError(path.string(), "is a folder; give the name of a file");
     if (fs::exists(status) && !fs::is_regular_file(status)) throw InputError(path.string(), "exists and is not a regular file");
+    if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+        throw InputError(path.string(), fmt::format("{} is not a folder", folder.string()));
     if (!fs::is_directory(folder, error))
         throw InputError(path.string(), fmt::format("the folder {} does not exist; make it first", folder.string()));
     if (faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0)
         throw InputError(path.string(), fmt::format("the folder {} cannot be written: {}", folder.string(), reason(errno)));
+}
+
+void check_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::path there = fs::absolute(folder);
+    while (!fs::exists(there, error) && there != there.parent_path()) there = there.parent_path();
+    if (!fs::is_directory(there, error)) {
+        const std::string own = there == fs::absolute(folder) ? "is" : fmt::format("cannot be made: {} is", there.string());
+        throw InputError(folder.string(), own + " not a folder; give another one");
+    }
+    if (faccessat(AT_FDCWD, there.c_str(), W_OK | X_OK, AT_EACCESS) != 0)
+        throw InputError(folder.string(), fmt::format("the folder {} cannot be written: {}", there.string(), reason(errno)));
 }
 
 }  // namespace lfdsim::detail

@@ -88,4 +88,8 @@ class OutputFile : public Output {
 /// Throws InputError unless a file can be made or replaced at `path`, as far as can be checked without writing.
 void check_replaceable(const std::filesystem::path& path);
 
+/// Throws InputError unless files can be made in this folder, which may have to be made itself, as far as can be checked without
+/// writing.
+void check_folder(const std::filesystem::path& folder);
+
 }  // namespace lfdsim::detail

@@ -11,10 +11,12 @@
 namespace lfdsim {
 
 FolderLock::FolderLock(const std::filesystem::path& folder) {
+    detail::check_folder(folder);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor_ < 0) throw InputError(folder.string(), "is not a folder and cannot be created");
+    if (descriptor_ < 0)
+        throw InputError(folder.string(), "cannot be made: " + std::generic_category().message(error ? error.value() : errno));
     // File systems that know no locks give other errors: there, runs are not kept apart.
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         close(descriptor_);

@@ -71,6 +71,9 @@ for key, value, words in VALUES:
 
 CASES = [  # name, arguments, words of the message
     ("unknown key", "check tiny.toml --set array.pich_mm=4", "did you mean pitch_mm?"),
+    ("unknown key in an override", ["check", "tiny.toml", "--set", "diffuser={distance_mm=9,angle_deg=[1,1],profil='box'}"],
+     "--set diffuser={distance_mm=9,angle_deg=[1,1],profil='box'}: diffuser.profil: is unknown; did you mean profile?"),
+    ("an object that is not there", "check tiny.toml --set content.object.3.height_mm=4", "there is no element 3 to change"),
     ("unknown table", "check tiny.toml --set aray.pitch_mm=4", "aray"),
     ("override without value", "check tiny.toml --set array.pitch_mm", "array.pitch_mm"),
     ("override without key", "check tiny.toml --set =4", "=4"),
@@ -159,6 +162,11 @@ CASES = [  # name, arguments, words of the message
     ("output folder missing", "render tiny.toml --panel-image panel.png -o none/out.png", "the folder none does not exist"),
     # found before the work, or the render would take hours and the test time out
     ("output that cannot be made", "render tiny.toml --panel-image panel.png --samples 16777216 -o /proc/out.png", "/proc"),
+    ("output in a file", "render tiny.toml --panel-image panel.png -o tiny.toml/out.png", "tiny.toml is not a folder"),
+    ("a folder in a file", "export cycles tiny.toml --pattern white -o tiny.toml/scene", "cannot be made: ", "tiny.toml is not a folder"),
+    ("results in a file", "analyze spot tiny.toml -o tiny.toml/results", "cannot be made: ", "tiny.toml is not a folder"),
+    ("two outputs of one name", "eia tiny.toml --pickup traced -o out.npy --mapping ./out.npy", "--output, --mapping: are two files of one name"),
+    ("a table without a name", ["errors", "tiny.toml", "-o", ""], "--output: the name is empty"),
     ("output with too long a name", f"render tiny.toml --panel-image panel.png --samples 16777216 -o {'x' * 300}.png", "name too long"),
     ("output is a folder", "render tiny.toml --panel-image panel.png -o folder.png", "is a folder"),
     ("output of unknown kind", "render tiny.toml --panel-image panel.png -o out.tiff", ".png, .exr and .npy"),
@@ -180,8 +188,8 @@ CASES = [  # name, arguments, words of the message
 (folder / "panel.tiff").write_bytes((folder / "panel.png").read_bytes())
 (folder / "folder.png").mkdir()
 program.must(["eia", "tiny.toml", "--pattern", "white", "--set", "panel.pixels=[8, 6]", "-o", "small.png"])
-for name, arguments, words in CASES:
-    checks.refused(program, name, arguments, words)
+for name, arguments, *words in CASES:
+    checks.refused(program, name, arguments, *words)
 
 # All faults are told at once: description, options and output together.
 several = "render tiny.toml --panel-image panel.png --set lens.index=9 array.pitch_mm=-1 --samples x --threads 0 --kernel k -o none/out.png"
