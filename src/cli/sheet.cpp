@@ -54,7 +54,7 @@ void run(const SheetArguments& args) {
     if (args.json)
         return print_json(
             Json{{"output", args.output}, {"width", sheet.width}, {"height", sheet.height}, {"pictures", cells.size()}});
-    print(fmt::format("{}: {} pictures, {} x {} pixels\n", args.output, cells.size(), sheet.width, sheet.height));
+    print(fmt::format("{}: {}, {} x {} pixels\n", args.output, counted(cells.size(), "picture"), sheet.width, sheet.height));
 }
 
 }  // namespace

@@ -86,6 +86,11 @@ std::optional<ReadViews> read_views(const ViewsSource& source, const ViewsWish& 
     else
         views.push_back(std::move(first));
     const int width = views.front().width, height = views.front().height;
+    if (source.form == ViewsForm::hci && std::abs(*source.aspect * height - width) > 1)
+        throw InputError(
+            source.pictures.front().string(),
+            fmt::format("is {} x {} pixels, but the camera of parameters.cfg makes pictures {:.4g} times as wide as high", width,
+                        height, *source.aspect));
     const ViewGrid grid = placed(source, wish, place, source.aspect.value_or(double(width) / height), notes);
     require_views_memory(source, source.views() + source.depths.size(), width, height);
     for (std::size_t k = views.size(); k < source.pictures.size(); ++k) {

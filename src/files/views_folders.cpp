@@ -54,7 +54,8 @@ class Parameters {
         if (found == values_.end()) throw InputError(name_, fmt::format("{} is missing", key));
         const double value = number_of(found->second);
         if (!(value > 0 && value < 1e9))
-            throw InputError(name_, fmt::format("{} is \"{}\"; give a number above 0", key, found->second.substr(0, 40)));
+            throw InputError(name_,
+                             fmt::format("{} is \"{}\"; give a number above 0, below 1e9", key, found->second.substr(0, 40)));
         return value;
     }
     int count(const std::string& key) const {
@@ -94,19 +95,19 @@ std::vector<fs::path> numbered_row(const fs::path& folder, const std::string& pa
                                    const std::string& counted_in) {
     const std::map<std::int64_t, fs::path> files = numbered_files(folder, pattern);
     if (files.empty())
-        throw InputError(folder.string(), fmt::format("has no pictures {}, {} says that there are {}", pattern, counted_in, count));
+        throw InputError(folder.string(), fmt::format("has no pictures {}, {} asks for {}", pattern, counted_in, count));
     std::vector<fs::path> row;
     std::int64_t next = files.begin()->first;
     for (const auto& [number, path] : files) {
         if (number != next)
-            throw InputError(folder.string(), fmt::format("number {} of the pictures {} is missing; {} says that there are {}",
-                                                          next, pattern, counted_in, count));
+            throw InputError(folder.string(), fmt::format("number {} of the pictures {} is missing; {} asks for {}", next, pattern,
+                                                          counted_in, count));
         row.push_back(path);
         ++next;
     }
     if (row.size() != count)
-        throw InputError(folder.string(), fmt::format("has {} {}, {} says that there are {}", counted(row.size(), "picture"),
-                                                      pattern, counted_in, count));
+        throw InputError(folder.string(),
+                         fmt::format("has {} {}, {} asks for {}", counted(row.size(), "picture"), pattern, counted_in, count));
     return row;
 }
 
@@ -125,6 +126,7 @@ ViewsSource hci_views(const fs::path& folder) {
     const double columns = parameters.positive("image_resolution_x_px"), rows = parameters.positive("image_resolution_y_px");
     source.width_mm = parameters.positive("sensor_size_mm") / parameters.positive("focal_length_mm") * *source.distance_mm *
                       columns / std::max(columns, rows);
+    source.aspect = columns / rows;
     source.cameras = camera_places(even_places(source.columns, baseline_mm), even_places(source.rows, -baseline_mm));
     source.pictures = numbered_row(folder, "input_Cam*.png", source.views(), file.string());
 

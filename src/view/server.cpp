@@ -1,5 +1,6 @@
 #include "view/server.h"
 
+#include "model/counted.h"
 #include "model/error.h"
 #include "view/http.h"
 #include "view/session.h"
@@ -171,8 +172,8 @@ void Server::Impl::upgrade(const std::shared_ptr<Caller>& caller) {
     group.insert(session);
     callers.remove(caller);
     if (full)
-        session->turn_away(caller->parser.get(),
-                           fmt::format("The viewer already has {} visitors. Close one of its pages first.", options.most_visitors));
+        session->turn_away(caller->parser.get(), fmt::format("The viewer already has {}. Close one of its pages first.",
+                                                             counted(options.most_visitors, "visitor")));
     else
         session->welcome(caller->parser.get(), connect);
 }

@@ -1,4 +1,4 @@
-"""Models that must be refused, those among them that crash or exhaust readers of such files."""
+"""Models that must be refused, those among them that crash or exhaust readers of such files, and what is missing of others."""
 import pathlib
 
 from program import Checks, Program, skip
@@ -17,6 +17,13 @@ checks.refused(program, "missing model for render", "render tiny.toml --model no
 checks.refused(program, "missing model of the description", "photo tiny.toml --set content.model=none.obj -o out.png", "none.obj")
 checks.refused(program, "no reader", "photo tiny.toml --model pyramid.obj -o out.png", "lfdsim-model-reader", code=1,
                env={"LFDSIM_MODEL_READER": "/none"})
+
+# Of many textures that are missing the first are named, the others counted.
+(program.folder / "bare.mtl").write_text("".join(f"newmtl m{k}\nmap_Kd none{k}.png\n" for k in range(40)))
+(program.folder / "bare.obj").write_text("mtllib bare.mtl\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n" +
+                                         "".join(f"usemtl m{k}\nf 1/1 2/2 3/3\n" for k in range(40)))
+code, _, err = program.run("photo tiny.toml --model bare.obj -o bare.png")
+checks.that(code == 0 and err.count("left out, shown grey") == 6 and "35 more textures left out" in err, f"40 missing textures: {code} {err}")
 
 broken = pathlib.Path("/usr/share/assimp/models/glTF2")
 names = ["IndexOutOfRange/AllIndicesOutOfRange.gltf", "IndexOutOfRange/IndexOutOfRange.gltf",

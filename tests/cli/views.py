@@ -187,6 +187,10 @@ refused("no toml", text_of(lambda t: "columns = [\n"), "views.toml")
 refused("absurd baseline", lambda f: None, "baseline", arguments="--baseline-mm 1e12")
 refused("no baseline", lambda f: None, "baseline", arguments="--baseline-mm 0")
 refused("no number", lambda f: None, "--focus-depth-mm", arguments="--focus-depth-mm nan")
+shutil.copytree(hci, folder / "wide")
+(folder / "wide/parameters.cfg").write_text((hci / "parameters.cfg").read_text().replace("x_px = 240", "x_px = 480"))
+code, _, err = program.run("eia tiny.toml --views wide -o never.png")
+checks.that(code == 2 and "input_Cam000.png: is 240 x 160 pixels" in err and "3 times as wide as high" in err, f"shape of HCI 4D: {code} {err!r}")
 shutil.copy(folder / "quilt_qs4x2a1.5.npy", folder / "quilt_qs3x2a1.5.npy")
 checks.that("80 x 40" in eia("--views quilt_qs3x2a1.5.npy")[2], "views are stretched silently")
 for name, said in (("quilt_qs7x2a1.5.npy", "238"), ("quilt_qs0x2a1.5.npy", "0 x 2")):
@@ -195,7 +199,8 @@ for name, said in (("quilt_qs7x2a1.5.npy", "238"), ("quilt_qs0x2a1.5.npy", "0 x 
     checks.that(code == 2 and name in err and said in err, f"{name}: {code} {err!r}")
 code, _, err = program.run("eia tiny.toml --views absent -o never.png")
 checks.that(code == 2 and "absent" in err, f"{err}")
-for arguments, said in (("-o quilt.png", "qs8x6a0.75"), ("--grid 3x3 -o a_qs2x2a1.png", "--grid"), ("--grid 0x3 -o f", "--grid"), ("--grid 200x200 -o f", "16384"),
+for arguments, said in (("-o quilt.png", "qs8x6a0.75"), ("-o a_qs2x2a1.jpg", "ends in .png, .exr or .npy"), ("-o views.tif", "ends in .png, .exr or .npy"),
+                        ("-o tiny.toml/views", "tiny.toml is not a folder"), ("--grid 3x3 -o a_qs2x2a1.png", "--grid"), ("--grid 0x3 -o f", "--grid"), ("--grid 200x200 -o f", "16384"),
                         ("-o good", "empty folder"), ("--of display --depth -o f", "--depth"), ("--pattern white -o f", "--of display"),
                         ("--view-size 1000000x1000000 -o f", "--view-size"), ("--of mirror -o f", "--of")):
     before = program.files()

@@ -7,6 +7,7 @@
 #include "content/reader/textures.h"
 #include "content/reader/warnings.h"
 #include "image/encoding.h"
+#include "model/counted.h"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/importerdesc.h>
@@ -61,8 +62,9 @@ class Conversion {
         for (unsigned m = 0; m < scene_.mNumMeshes; ++m) add(*scene_.mMeshes[m]);
         model_.textures = std::move(textures_.textures);
         model_.files = std::move(textures_.files);
-        model_.notes.insert(model_.notes.end(), textures_.notes.begin(), textures_.notes.end());
-        if (dropped_ > 0) model_.notes.push_back(std::to_string(dropped_) + " faces left out: degenerate");
+        const std::vector<std::string> notes = textures_.notes();
+        model_.notes.insert(model_.notes.end(), notes.begin(), notes.end());
+        if (dropped_ > 0) model_.notes.push_back(counted(dropped_, "face") + " left out: degenerate");
         if (!linear_ && std::any_of(model_.textures.begin(), model_.textures.end(), has_alpha)) transparent_ = true;
         if (transparent_) model_.notes.push_back("transparent materials are shown opaque");
         if (scene_.mNumAnimations > 0) left_out_.insert("animations");

@@ -76,7 +76,15 @@ int Textures::index(const std::string& name) {
 
 void Textures::leave_out(const std::string& name, const std::string& why) {
     const std::string note = "texture \"" + name + "\" left out, shown grey: " + why;
-    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+    if (std::find(left_out_.begin(), left_out_.end(), note) == left_out_.end()) left_out_.push_back(note);
+}
+
+std::vector<std::string> Textures::notes() const {
+    constexpr std::size_t most = 5;
+    if (left_out_.size() <= most + 1) return left_out_;
+    std::vector<std::string> first(left_out_.begin(), left_out_.begin() + most);
+    first.push_back(std::to_string(left_out_.size() - most) + " more textures left out, shown grey");
+    return first;
 }
 
 int Textures::load(const std::string& name) {

@@ -26,9 +26,10 @@ class Textures {
 
     /// Notes, once for each texture and reason, that it is not shown, and what it covers in grey.
     void leave_out(const std::string& name, const std::string& why);
+    /// These notes; of many the first, and how many more there are.
+    std::vector<std::string> notes() const;
 
     std::vector<Texture> textures;
-    std::vector<std::string> notes;
     std::vector<std::string> files;  // that textures were read from
 
   private:
@@ -37,6 +38,7 @@ class Textures {
     const aiScene& scene_;
     const Folder& folder_;
     std::map<std::string, int> known_;
+    std::vector<std::string> left_out_;
 };
 
 }  // namespace lfdsim::reader

@@ -63,7 +63,7 @@ export class Path {
     // Between poses the eye moves in a straight line: where it stood still, a pose is added at the end of that time.
     if (time_s - last.time_s > 0.1) this.poses.push({ time_s: Math.round(1000 * time_s - 20) / 1000, position_mm: last.position_mm });
     this.poses.push({ time_s, position_mm: eye });
-    path_says(`Recording: ${this.poses.length} poses, ${time_s.toFixed(1)} s.`);
+    this.tell("Recording");
     if (this.poses.length >= most_poses) this.stop();
   }
   stop() {
@@ -77,7 +77,8 @@ export class Path {
     this.buttons();
   }
   tell(what) {
-    path_says(`${what}: ${this.poses.length} poses, ${this.poses.at(-1).time_s.toFixed(1)} s.`);
+    const poses = this.poses.length === 1 ? "1 pose" : `${this.poses.length} poses`;
+    path_says(`${what}: ${poses}, ${this.poses.at(-1).time_s.toFixed(1)} s.`);
   }
   replay() {
     const start = this.replaying = performance.now();
