@@ -24,8 +24,6 @@ std::vector<std::string_view> split(std::string_view path) {
     }
 }
 
-bool is_number(std::string_view part) { return !part.empty() && part.find_first_not_of("0123456789") == part.npos; }
-
 // The index that a part of a path means in a list; none beyond its end, as an override changes elements and adds none.
 std::optional<std::size_t> element(std::string_view part, const toml::array& array) {
     std::size_t index = 0;
@@ -102,7 +100,6 @@ void Source::apply(const std::string& override_text) {
     for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
         toml::node* next = child(*node, parts[i]);
         if (!next && removes) return;
-        if (!next && is_number(parts[i + 1])) throw InputError("", fmt::format("there is no element {} to change", parts[i + 1]));
         if (!next && node->is_table()) next = &node->as_table()->insert(parts[i], toml::table{}).first->second;
         if (!next) throw InputError("", fmt::format("there is no element {} to change", parts[i]));
         if (!next->is_table() && !next->is_array()) throw InputError("", fmt::format("{} is a value, and has no parts", parts[i]));

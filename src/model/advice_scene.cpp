@@ -59,6 +59,11 @@ void advise_on_size(Advised& a, double eye) {
             "Make it smaller (--set content.height_mm={:.3g}), or move it farther behind (--set content.depth_mm)",
             width > 0 ? fmt::format("{:.5g} x ", width) : "a height of ", height, screen_width, screen_height,
             0.9 * full_height / excess);
+    if (excess < 0.1)
+        a.say(
+            "the scene is small: from the eye it covers a height of {:.3g} mm of the screen's {:.5g} mm. Make it larger "
+            "(--set content.height_mm={:.3g})",
+            height, screen_height, 0.5 * full_height / excess);
 }
 
 }  // namespace

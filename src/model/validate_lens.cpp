@@ -88,8 +88,10 @@ class LensCheck {
                          corner ? "the cell's circumradius" : "the aperture radius r", r);
         else if (findings.sound("lens.cylinder_height_mm") && h > highest)
             findings.add("lens.cylinder_height_mm",
-                         "h = {} mm, but the ball of R = {} mm would cut the flat face; at most 2 sqrt(R^2 - r^2) = {} mm", h, R,
-                         highest);
+                         "h = {} mm, but the ball of R = {} mm would cut the flat face; at most 2 sqrt(R^2 - r^2) = {} mm, and the "
+                         "rest as a "
+                         "[[panel.layer]] under it",
+                         h, R, highest);
     }
 
     void check_sag(std::size_t i, const PlacedSurface& s) {

@@ -115,6 +115,7 @@ TEST(Advice, ForEachFault) {
         {"is behind the eye", "content.depth_mm", tablet(), [](Display& d) { d.content.depth_mm = 700; }},
         {"larger than the display", "content.height_mm", tablet(), [](Display& d) { d.content.height_mm = 200; }},
         {"larger than the display", "content.height_mm", tablet(), [](Display& d) { d.content.depth_mm = 400; }},
+        {"the scene is small", "content.height_mm=77", tablet(), [](Display& d) { d.content.height_mm = 9; }},
         {"nearer than eyes can focus", "content.depth_mm=-1500", near_eye(), [](Display&) {}},
         {"nearer than eyes can focus", "content.depth_mm=149", tablet(), [](Display& d) { d.content.depth_mm = 520; }},
         // The lenses of a meniscus lie before its principal planes.
