@@ -123,6 +123,7 @@ Display DisplayOptions::read(const std::string& path, const std::string& last) c
         try {
             display = read_display(path, set);
             for (const std::string& file : display.glass_catalogues) remember_input("a glass catalogue", file);
+            if (!display.errors.table.empty()) remember_input("the table of errors", display.errors.table);
         } catch (InputError& e) {
             for (Problem& p : e.problems)
                 if (const auto option = places.find(p.where); option != places.end()) p.where = option->second;

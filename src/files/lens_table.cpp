@@ -97,7 +97,7 @@ class TableReader {
                 refuse("the column {} stands there twice", word);
             order_.push_back(at);
         }
-        for (std::size_t k = 0; k < column_count; ++k)
+        for (std::size_t k = 0; k < column_count && problems_.empty(); ++k)
             if (std::ranges::find(order_, k) == order_.end())
                 refuse("the column {} is missing; the header is {}", table_columns[k], fmt::join(table_columns, ","));
         return problems_.empty();

@@ -60,6 +60,7 @@ os.symlink("../tiny.toml", folder / "results/report.html")
 (folder / "skin.obj").write_text("mtllib skin.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl skin\nf 1/1 2/2 3/3\n")
 (folder / "skin.mtl").write_text("newmtl skin\nmap_Kd skin.png\n")
 (folder / "skin.png").write_bytes((folder / "small.png").read_bytes())
+program.must("errors tiny.toml --set errors.height_sd_mm=0.01 -o lenses.csv")
 CORNERS = "--corners 9,9 79,9 79,40 9,40 --view-corners 9,9 79,9 79,40 9,40"
 for name, arguments, *words in [
     ("the panel image", "render tiny.toml --panel-image eia.png -o eia.png", "--panel-image, eia.png"),
@@ -74,6 +75,7 @@ for name, arguments, *words in [
     ("an overlay", f"compare view.png eia.png {CORNERS} -o view.png", "view.png: is the same file as A"),
     ("a difference", f"compare view.png eia.png {CORNERS} --difference link.png", "link.png: is the same file as B"),
     ("two pictures of one name", f"compare view.png eia.png {CORNERS} -o x.png --difference x.png", "--overlay, --difference"),
+    ("a table of errors", "errors tiny.toml --set errors.table=lenses.csv -o lenses.csv", "lenses.csv: is the same file as the table of errors"),
     ("a sheet", "sheet view.png eia.png -o view.png", "view.png: is the same file as IMAGE"),
 ]:
     checks.refused(program, name, arguments, *words)

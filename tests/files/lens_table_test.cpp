@@ -109,6 +109,7 @@ TEST_F(LensTable, RefusesWithTheLine) {
     expect("", "lenses.csv");
     expect("i,j,dx_mm,dy_mm,dz_mm,tilt_x_deg,tilt_y_deg\n", "lenses.csv:1: the column curvature is missing");
     expect("i,j,dx_mm,dy_mm,dz_mm,tilt_x_deg,tilt_y_deg,curvatur\n", "did you mean curvature?");
+    EXPECT_EQ(said("i;j;dx_mm;dy_mm\n1;2;0;0\n").find('\n'), std::string::npos);  // one fault, not one for each column, too
     expect(std::string(header) + "48,2,0,0,0,0,0,0\n", "lenses.csv:2: there is no lens i = 48");
     expect(std::string(header) + "-1,2,0,0,0,0,0,0\n", "lenses.csv:2: there is no lens i = -1");
     expect(std::string(header) + "1.5,2,0,0,0,0,0,0\n", "whole numbers");
