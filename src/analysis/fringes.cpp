@@ -5,6 +5,7 @@
 #include "engine/render.h"
 #include "image/sheet.h"
 #include "model/camera.h"
+#include "model/depth_words.h"
 #include "model/numbers.h"
 
 #include <fmt/format.h>
@@ -123,9 +124,9 @@ void show_edge_fringes(const Subject& s, double depth_mm, const std::vector<doub
     result.pictures.push_back(
         {"mtf-edge",
          fmt::format(
-             "A black and white edge {:.4g} mm in front of the lenses, {:g} lenses wide, beside what should be seen, as bright "
-             "as white is in the mean; light times {:.3g}",
-             depth_mm, lenses_across, exposure),
+             "A black and white edge {}, {:g} lenses wide, beside what should be seen, as bright as white is in the mean; light "
+             "times {:.3g}",
+             depth_in_words(depth_mm), lenses_across, exposure),
          contact_sheet(pictures, labels, 2)});
 }
 

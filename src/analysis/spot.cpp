@@ -2,6 +2,7 @@
 
 #include "analysis/spot_colour.h"
 
+#include "model/depth_words.h"
 #include "model/numbers.h"
 #include "optics/lattice.h"
 
@@ -136,7 +137,7 @@ Plot diagram(const Subject& s, const LensTrace& lens, const Field& field, const 
             right = std::max(right, ray.x + ray.mx * z - middle.x);
         }
         x0 += 1.1 * left;
-        Series spot{fmt::format("{:.4g} mm in front of the lenses", z + from_vertex), {}, {}, true};
+        Series spot{depth_in_words(z + from_vertex), {}, {}, true};
         for (const LensRay& ray : light.rays) {
             spot.x.push_back(x0 + ray.x + ray.mx * z - middle.x);
             spot.y.push_back(ray.y + ray.my * z - middle.y);

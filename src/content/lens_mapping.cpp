@@ -14,9 +14,9 @@ namespace lfdsim {
 namespace {
 
 constexpr int nodes_per_pitch = 32, most_steps = 256;
-constexpr int aperture_rays = 4096;  // of each panel point
+constexpr int aperture_rays = 4096;                            // of each panel point
 constexpr double window_pixels = 2.5, window_of_spread = 0.5;  // about the line on which most of them travel, the wider one
-constexpr double rounding = 1e-9;    // mm and slopes: what is smaller is taken for 0, so that ideal lenses keep their nodal lines
+constexpr double rounding = 1e-9;  // mm and slopes: what is smaller is taken for 0, so that ideal lenses keep their nodal lines
 
 /// How far from a lens's axis, along the array's axes, panel points are that belong to it: half an elemental image, and what the
 /// farthest lens's image is shifted against it. Lenses whose image lies beside the panel do not count.

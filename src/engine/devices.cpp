@@ -90,7 +90,7 @@ ChosenDevice choose_device(const std::string& wanted, const std::string& kernel)
     const cuda::Found& found = found_gpus();
     if (!found.missing.empty()) throw InputError(where, word + ": " + found.missing);
     if (std::size_t(*n) >= found.gpus.size())
-        throw InputError(where, word + ": there are " + std::to_string(found.gpus.size()) + " GPUs, counted from 0");
+        throw InputError(where, word + ": the last one is cuda:" + std::to_string(found.gpus.size() - 1));
     const cuda::Gpu& gpu = found.gpus[std::size_t(*n)];
     if (!gpu.why_not.empty()) throw InputError(where, word + ": " + gpu.name + ": " + gpu.why_not);
     return {*n, true};

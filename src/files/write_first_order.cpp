@@ -1,6 +1,7 @@
 #include "files/write_first_order.h"
 
 #include "files/commented.h"
+#include "model/depth_words.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,7 @@ namespace {
 /// The depth whose inverse is given, in words.
 std::string end_of_depth(double per_mm) {
     if (per_mm == 0) return "infinity";
-    return per_mm > 0 ? fmt::format("{:.4g} mm in front of the lenses", 1 / per_mm)
-                      : fmt::format("{:.4g} mm behind the lenses", -1 / per_mm);
+    return depth_in_words(1 / per_mm);
 }
 
 void write_panel(const FirstOrder& o, CommentedText& text) {

@@ -1,0 +1,14 @@
+// A depth in words. Floor 0.
+#pragma once
+#include <fmt/format.h>
+#include <cmath>
+#include <string>
+
+namespace lfdsim {
+
+/// "12.5 mm in front of the lenses" or "12.5 mm behind the lenses", of a depth towards the viewer.
+inline std::string depth_in_words(double mm) {
+    return fmt::format("{:.4g} mm {} the lenses", std::abs(mm), mm < 0 ? "behind" : "in front of");
+}
+
+}  // namespace lfdsim
