@@ -52,7 +52,7 @@ double Subject::white_field(const Job& job) {
     const ShownPanel panel(std::move(white), threads());
     const Display seen = seen_from(display_, 0, 0);
     const Region screen = screen_region(seen, geometry_);
-    const Rect box = screen.bounds();
+    const Rect box = screen_box(screen);
     Quiet quiet(job);
     RenderOptions how = rendering();
     how.crop = box;

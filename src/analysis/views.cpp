@@ -86,6 +86,12 @@ void refuse_depth_in_lenses(const Geometry& g, double depth_mm, const std::strin
                                  depth_mm, bottom, top));
 }
 
+Rect screen_box(const Region& screen) {
+    const Rect box = screen.bounds();
+    if (box.x0 >= box.x1) throw InputError("camera", "no pixel of the camera sees the lens array; move it or widen its frame");
+    return box;
+}
+
 float exposure(double white) { return float(1 / white); }
 
 void expose(Image& image, double white) {
@@ -95,8 +101,7 @@ void expose(Image& image, double white) {
 
 ExpectedView expected_view(const Display& seen, const Geometry& geometry, const ContentScene& scene, int threads, const Job& job) {
     const Region screen = screen_region(seen, geometry);
-    const Rect box = screen.bounds();
-    if (box.x0 >= box.x1) throw InputError("camera", "no pixel of the camera sees the lens array; move it or widen its frame");
+    const Rect box = screen_box(screen);
     Quiet quiet(job);
     Picture photograph = reference_photograph(seen, geometry, scene, threads, box, quiet);
     if (!photograph.complete) throw Stopped{};

@@ -14,6 +14,8 @@ Display seen_from(const Display&, double horizontal_deg, double vertical_deg);
 
 /// The pixels of the display's camera that see the array's rectangle, in the vertex plane. Empty if the camera is not in front.
 Region screen_region(const Display&, const Geometry&);
+/// The rectangle about it. InputError where no pixel sees the screen.
+Rect screen_box(const Region& screen);
 
 /// The rectangle about the pixels that may show the scene's box, where they see the screen too.
 Region content_region(const Display&, const Geometry&, const ContentScene&);
