@@ -114,13 +114,6 @@ void SeenThroughLenses::trace(const Subject& s, const Geometry& g, const Vec3d& 
     });
 }
 
-SeenThroughLenses::SeenThroughLenses(const Subject& s, const Vec3d& eye)
-    : principal_mm_(s.geometry().rear_principal_mm), vertex_mm_(s.geometry().vertex_plane_mm) {
-    trace(s, s.geometry(), eye, spread_lines_a_set, [](const std::array<double, 2>& place) {
-        return std::optional(Shown{std::floor(place[0]), std::floor(place[1]), 1});
-    });
-}
-
 SeenThroughLenses::SeenThroughLenses(const Subject& s, const Vec3d& eye, std::size_t channel)
     : principal_mm_(s.geometry().rear_principal_mm), vertex_mm_(s.geometry().vertex_plane_mm) {
     const Display& d = s.display();

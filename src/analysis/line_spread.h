@@ -45,8 +45,6 @@ class LineSpread {
 /// What one eye sees of a display whose elemental images are those of the nodal pick-up.
 class SeenThroughLenses {
   public:
-    /// In green light, of pixels that shine all over.
-    SeenThroughLenses(const Subject&, const Vec3d& eye_mm);
     /// Of one channel, where it shines and at its wavelengths.
     SeenThroughLenses(const Subject&, const Vec3d& eye_mm, std::size_t channel);
     /// Of red, green and blue together, as luminance counts them.

@@ -56,7 +56,7 @@ double MtfCurves::theory_below(double level, std::size_t channel) const {
 }
 
 SeenInColours seen_in_colours(const Subject& s, const Vec3d& eye) {
-    if (!has_colours(s.display())) return {SeenThroughLenses(s, eye), {}};
+    if (!has_colours(s.display())) return {SeenThroughLenses(s, eye, green_channel), {}};
     const std::array channels{SeenThroughLenses(s, eye, 0), SeenThroughLenses(s, eye, 1), SeenThroughLenses(s, eye, 2)};
     return {SeenThroughLenses(channels), {channels.begin(), channels.end()}};
 }

@@ -56,7 +56,12 @@ bool at_the_lenses(const Display& d, const Geometry& g, double z_mm) {
 
 Blur blur(const Display& d, const Geometry& g, const Theory& t, double z_mm, double angle_deg) {
     const double defocus = std::abs(1 - (z_mm - g.rear_principal_mm) / t.central_depth_mm);
-    Blur b{pixel_image_mm(d, g, z_mm), aperture_shape(d, g), defocus, d.array.turn_deg() * degree, {0, 0}, false};
+    Blur b{pixel_image_mm(d, g, z_mm) * std::sqrt(d.panel.aperture_ratio),
+           aperture_shape(d, g),
+           defocus,
+           d.array.turn_deg() * degree,
+           {0, 0},
+           false};
     if (!d.diffuser) return b;
     const double away = std::abs(z_mm - *g.diffuser_z_mm), angle = angle_deg * degree;
     const auto half = [&](std::size_t axis) { return 0.5 * d.diffuser->angle_deg[axis] * degree; };

@@ -26,7 +26,7 @@ double pixel_limit_per_mm(const Subject&, const Direction&, double z_mm);
 
 /// The distance in a plane between a line of sight and the nodal line of the pixel that it sees: a sum of independent parts.
 struct Blur {
-    double pixel_mm;                    // uniform over a square
+    double pixel_mm;                    // of what shines of a pixel: uniform over a square
     ApertureShape aperture;             // the lens's spot is uniform over this ...
     double defocus;                     // ... times this, |1 - z/L|
     double array_rad;                   // the turn of the aperture's axes

@@ -73,13 +73,11 @@ Offsets stripe_offsets(const Display& d, int channel, double depth, double angle
         for (int k = 0; k < 2; ++k) seen[k] = at[k] - (lens_z - thick) * below[k] - thick * inside * below[k];
         if (std::abs(seen[0]) > 100 || std::abs(seen[1]) > 75) continue;
         const double column = std::floor(seen[0] / pixel), row = std::floor(seen[1] / pixel);
-        double middle = 0.5;
-        if (stripes) {
-            const double stripe = (channel + 0.5) / 3;
-            if (std::abs(seen[0] / pixel - column - stripe) > shrink / 6 || std::abs(seen[1] / pixel - row - 0.5) > shrink / 2)
-                continue;
-            if (d.content.sampling == ContentSampling::subpixel) middle = stripe;
-        }
+        const double lit = stripes ? (channel + 0.5) / 3 : 0.5;
+        if (std::abs(seen[0] / pixel - column - lit) > shrink / (stripes ? 6 : 2) ||
+            std::abs(seen[1] / pixel - row - 0.5) > shrink / 2)
+            continue;
+        const double middle = d.content.sampling == ContentSampling::subpixel ? lit : 0.5;
         shown[0] = (column + middle) * pixel, shown[1] = (row + 0.5) * pixel;
         for (int k = 0; k < 2; ++k) {
             const double owner = (std::floor(shown[k] / (1 + gap / (eye_mm - lens_z)) / pitch) + 0.5) * pitch;
@@ -168,6 +166,22 @@ void expect_that_of_nodal_rays(std::initializer_list<double> angles_deg, std::in
 
 TEST(MtfOfColours, IsThatOfTheNodalRaysDifferencesAndOfTheory) { expect_that_of_nodal_rays({9}, {170}); }
 TEST(MtfOfColours, IsThatOfTheNodalRaysDifferencesAndOfTheoryAtLength) { expect_that_of_nodal_rays({0, 9}, {80, 170}); }
+
+// A black matrix by itself leaves one colour for all, and pixels as wide as what shines of them.
+TEST(MtfOfColours, ABlackMatrixNarrowsTheImagesOfPixels) {
+    constexpr double depth = 170;
+    Display d = coloured(SubpixelLayout::none, ContentSampling::pixel, false);
+    d.panel.aperture_ratio = 0.36;
+    const Subject s = subject_of(d, {});
+    const MtfCurves m = mtf_curves(s, seen_in_colours(s, {0, 0, eye_mm}), depth, 0, directions(s.display()).front());
+    const std::vector<double> expected = stripe_offsets(d, 1, depth, 0, 1)[0];
+    EXPECT_TRUE(m.channels.empty());
+    for (std::size_t n = 0; n < m.frequencies_per_mm.size(); n += 10) {
+        const double f = m.frequencies_per_mm[n];
+        EXPECT_NEAR(m.modulation.all[n], std::abs(transform(expected, f)), 0.015) << f;
+        EXPECT_NEAR(m.theory[n], m.pixels_anywhere[n], 0.03) << f;
+    }
+}
 
 // By pixels, red's stripe shows what is a third of a pixel's image to its side.
 TEST(MtfOfColours, ContentByPixelsMakesFringesAsWideAsAThirdOfAPixelsImage) {
