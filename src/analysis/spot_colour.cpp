@@ -1,16 +1,20 @@
 #include "analysis/spot_colour.h"
 
+#include "analysis/estimate.h"
 #include "model/colour.h"
 #include "model/numbers.h"
 
 #include <fmt/format.h>
+#include <array>
 #include <cmath>
 
 // docs/model.md, "Colour of one lens".
 namespace lfdsim {
 namespace {
 
-constexpr int colour_rays = 256, drawn_rays = 14;
+/// Across: each grid meets the rims elsewhere, which tells the centroids' error.
+constexpr std::array colour_rays{193, 181, 173, 163};
+constexpr int drawn_rays = 14;
 constexpr const char* channel_names[] = {"r", "g", "b"};
 constexpr const char* colour_names[] = {"red", "green", "blue"};
 
@@ -84,30 +88,43 @@ void tell_colours(const Subject& s, const std::vector<SpotField>& fields, Result
                     {{"panel_x_mm", {}}, {"panel_y_mm", {}}, {"channel", {}}, {"x_mm", {}}, {"y_mm", {}}, {"rms_radius_mm", {}}}};
     Json& lateral = json["lateral"] = Json::array();
     for (const SpotField& field : fields) {
-        std::array<Bundle, 3> light, shown;
-        std::array<Centroid, 3> middle{};
+        std::array<Bundle, 3> shown;
+        std::array<std::array<Centroid, colour_rays.size()>, 3> middle{};
         bool through = true;
         for (std::size_t c = 0; c < 3; ++c) {
-            light[c] = at[c].light(field.panel, colour_rays);
             shown[c] = at[c].light(field.panel, drawn_rays);
-            through = through && !light[c].rays.empty();
-            middle[c] = light[c].rays.empty() ? Centroid{nan, nan, nan} : centroid_at(light[c], depth);
-            const double row[] = {field.panel[0], field.panel[1], double(c), middle[c].x, middle[c].y, middle[c].rms};
+            for (std::size_t grid = 0; grid < colour_rays.size(); ++grid) {
+                const Bundle light = at[c].light(field.panel, colour_rays[grid]);
+                through = through && !light.rays.empty();
+                middle[c][grid] = light.rays.empty() ? Centroid{nan, nan, nan} : centroid_at(light, depth);
+            }
+            const Centroid& finest = middle[c].front();
+            const double row[] = {field.panel[0], field.panel[1], double(c), finest.x, finest.y, finest.rms};
             for (std::size_t k = 0; k < 6; ++k) table.columns[k].values.push_back(row[k]);
         }
-        const auto from_green = [&](std::size_t c) { return std::hypot(middle[c].x - middle[1].x, middle[c].y - middle[1].y); };
-        const auto told = [](double mm) { return mm < 1e-9 ? 0 : mm; };  // within double precision
-        lateral.push_back(
-            {{"field", field.name}, {"red_mm", number_json(told(from_green(0)))}, {"blue_mm", number_json(told(from_green(2)))}});
+        const auto from_green = [&](std::size_t c) {
+            std::array<double, colour_rays.size()> found;
+            for (std::size_t grid = 0; grid < found.size(); ++grid) {
+                const Centroid &here = middle[c][grid], &green = middle[1][grid];
+                const double mm = std::hypot(here.x - green.x, here.y - green.y);
+                found[grid] = mm < 1e-9 ? 0 : mm;  // within double precision
+            }
+            return estimate(found);
+        };
+        const Estimate red = from_green(0), blue = from_green(2);
+        Json& row_json = lateral.emplace_back(Json{{"field", field.name}});
+        add_figure(row_json, "red_mm", red);
+        add_figure(row_json, "blue_mm", blue);
         if (!through) {
             result.note(fmt::format("colour.lateral.{}", lateral.size() - 1), "no light of this panel point gets through the lens");
             continue;
         }
         result.findings.push_back({fmt::format("Lateral colour, {}: red and blue from green", field.title),
                                    "mm",
-                                   {told(from_green(0)), told(from_green(2))},
+                                   {red.value, blue.value},
                                    {},
-                                   fmt::format("centroids of spots {:.4g} mm in front of the lenses", depth + from_vertex)});
+                                   fmt::format("centroids of spots {:.4g} mm in front of the lenses", depth + from_vertex),
+                                   {red.error, blue.error}});
         result.plots.push_back(colour_diagram(field, shown, depth, from_vertex));
     }
     result.tables.push_back(std::move(table));
