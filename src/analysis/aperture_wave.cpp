@@ -3,6 +3,7 @@
 #include "analysis/fourier.h"
 #include "model/numbers.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -46,6 +47,13 @@ bool ApertureShape::holds(double x, double y) const {
             break;
     }
     return std::abs(x) <= half_x && 0.5 * std::abs(x) + 0.5 * std::numbers::sqrt3 * std::abs(y) <= half_x;
+}
+
+double ApertureShape::most(double nu) const {
+    const double border_per_area = form == Form::slit        ? 2 / width_mm[0]
+                                   : form == Form::rectangle ? 2 / width_mm[0] + 2 / width_mm[1]
+                                                             : 4 / width_mm[0];
+    return std::min(1., border_per_area / (2 * pi * nu));
 }
 
 double ApertureShape::mean(double nu_x, double nu_y) const {

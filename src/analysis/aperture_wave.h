@@ -18,6 +18,9 @@ struct ApertureShape {
     /// strips move light along x' alone.
     double mean(double nu_x, double nu_y) const;
 
+    /// What |mean()| is not above for waves of nu periods per mm or more: its border over its area, over 2 pi nu (Green's theorem).
+    double most(double nu) const;
+
     /// Whether a place, from the lens's axis, lies within.
     bool holds(double x, double y) const;
 };

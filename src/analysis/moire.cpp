@@ -108,7 +108,8 @@ Pattern pattern_of(const WhiteSeen& screen, const Subject& s, const Vec3d& eye, 
     const WhiteLines lines(screen, s.display().render.seed, eye, window, parts);
     if (!(lines.mean() > 0)) throw InputError("camera", "sees no light of a white panel from straight in front of it");
     Pattern pattern;
-    pattern.search = find_moire(lines, mm_per_degree(eye[2] - s.geometry().vertex_plane_mm), parts);
+    const HarmonicLines harmonics(screen, s.display().render.seed, eye, window, parts);
+    pattern.search = find_moire(lines, harmonics, mm_per_degree(eye[2] - s.geometry().vertex_plane_mm), parts);
     if (const std::optional<MeasuredBeat>& m = pattern.search.strongest) {
         pattern.found = {m->period_mm, m->direction_deg, m->seen, m->contrast};
         return pattern;
@@ -166,21 +167,20 @@ Result measure_moire(Subject& s, Job& job) {
     const Vec3d eye{0, 0, distance};
     const Window window = middle_of_screen(d, s.geometry(), distance);
     result.figures["window_mm"] = {window.width_mm(), window.height_mm()};
-    Parts parts(job, s.threads(), colours(d) * (window.rows + moire_search_parts) + map_side, moire_steps(s));
+    Parts parts(job, s.threads(), colours(d) * (window.rows + HarmonicLines::rows + moire_search_parts) + map_side, moire_steps(s));
     for (int colour = 0; colour < colours(d); ++colour) {
         const bool all = colour == 0;
         const auto channel = std::size_t(colour - 1);
         const WaveNames names{all ? "" : std::string(1, "rgb"[channel])};
         const Geometry geometry = all ? s.geometry() : resolve(d, d.panel.wavelengths_nm[channel]);
         const ChannelWeights weights = all ? luminance_weights : only(channel);
-        const EyeRays rays(d, geometry);
-        const WhiteSeen screen{rays, d.panel, {d.panel, weights}};
+        const WhiteSeen screen(d, s.geometry(), weights);
         const std::optional<Beat> theory = MoireTheory(d, geometry, distance, weights).strongest();
         const Pattern pattern = pattern_of(screen, s, eye, window, parts);
         add_wave(result, "white", names, pattern.found, true, pattern.missing);
-        add_wave(
-            result, "theory", names, theory_wave(theory), false,
-            fmt::format("all beats are finer than {:g} cycles per degree, which eyes do not resolve", eye_limit_cycles_per_degree));
+        add_wave(result, "theory", names, theory_wave(theory), false,
+                 fmt::format("all beats are finer than {:g} cycles per degree, which eyes do not resolve, or next to nothing",
+                             eye_limit_cycles_per_degree));
         if (!all) continue;
         double side = std::min(window.width_mm(), window.height_mm());
         remark_on(pattern, theory, side, result);

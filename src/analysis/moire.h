@@ -1,7 +1,7 @@
 // The pattern that the lens lattice makes with the panel's pixels: period, direction and contrast. Floor 3.
 #pragma once
 #include "analysis/estimate.h"
-#include "analysis/white_lines.h"
+#include "analysis/harmonic_lines.h"
 
 #include <optional>
 
@@ -25,10 +25,10 @@ struct MoireSearch {
 /// and array, in squares that tell waves of up to 50 cycles a degree apart.
 Window middle_of_screen(const Display&, const Geometry&, double eye_mm);
 
-/// Takes moire_search_parts parts beside those of WhiteLines.
-MoireSearch find_moire(const WhiteLines&, double mm_per_degree, Parts&);
+/// Takes moire_search_parts parts beside those of the lines.
+MoireSearch find_moire(const WhiteLines&, const HarmonicLines&, double mm_per_degree, Parts&);
 constexpr int moire_candidates = 8;
-constexpr int moire_search_parts = 2 * moire_candidates * WhiteLines::near_parts;
+constexpr int moire_search_parts = moire_candidates * WhiteLines::near_parts;
 
 std::int64_t moire_steps(const Subject&);
 Result measure_moire(Subject&, Job&);

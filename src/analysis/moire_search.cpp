@@ -63,33 +63,26 @@ std::vector<Candidate> strongest_waves(const WhiteLines& lines, double mm_per_de
     return all;
 }
 
-/// The wave near a candidate, without a set of lines; its amplitude is `near`'s.
-Beat beat_at(const WhiteLines::Near& near, const Frequency& f, double mean, double mm_per_degree, int without) {
-    Beat beat{f, 2 * std::abs(near.wave(f, without)) / mean, 0};
+/// The wave near a candidate, without a set of lines.
+Beat beat_at(const WaveSums& sums, const Frequency& f, double mean, double mm_per_degree, int without) {
+    Beat beat{f, 2 * std::abs(sums.wave(f, without)) / mean, 0};
     beat.seen = beat.contrast * eye_filter(std::hypot(f[0], f[1]) * mm_per_degree);
     return beat;
 }
 
-MeasuredBeat measured(const WhiteLines& lines, const WhiteLines::Near& near, const Frequency& from, double mm_per_degree) {
+MeasuredBeat measured(const WaveSums& sums, const Frequency& from, double mean, double mm_per_degree) {
     std::array<Beat, independent_sets + 1> found;  // without none, and without each set
     for (int without = -1; without < independent_sets; ++without)
-        found[std::size_t(without + 1)] = beat_at(near, near.peak(from, without), lines.mean(), mm_per_degree, without);
+        found[std::size_t(without + 1)] = beat_at(sums, sums.peak(from, without), mean, mm_per_degree, without);
     const auto figure = [&](auto of) { return jackknife([&](int without) { return of(found[std::size_t(without + 1)]); }); };
     MeasuredBeat m;
     m.beat = found[0];
-    // Other waves too near to be told apart shift the peak, and add to it: in the window's transform one of the share r, half a
-    // period of the window or more away, leaves a third of r or more beside the peak.
-    const double company = 3 * near.company(m.beat.frequency);
-    const std::array step{1 / lines.window().width_mm(), 1 / lines.window().height_mm()};
-    for (std::size_t k = 0; k < 2; ++k)
-        m.frequency_error[k] = figure([&](const Beat& b) { return b.frequency[k]; }).error + company * step[k];
+    for (std::size_t k = 0; k < 2; ++k) m.frequency_error[k] = figure([&](const Beat& b) { return b.frequency[k]; }).error;
     const double error = std::hypot(m.frequency_error[0], m.frequency_error[1]), period = period_mm(m.beat.frequency);
     m.period_mm = {period, error * period * period};
     m.direction_deg = {direction_deg(m.beat.frequency), std::min(error * period / degree, 90.)};
     m.contrast = figure([](const Beat& b) { return b.contrast; });
     m.seen = figure([](const Beat& b) { return b.seen; });
-    m.contrast.error += company * m.contrast.value;
-    m.seen.error += company * m.seen.value;
     return m;
 }
 
@@ -113,13 +106,15 @@ Window middle_of_screen(const Display& d, const Geometry& g, double eye_mm) {
     return {squares(half_x), squares(half_y), square};
 }
 
-MoireSearch find_moire(const WhiteLines& lines, double mm_per_degree, Parts& parts) {
+MoireSearch find_moire(const WhiteLines& lines, const HarmonicLines& harmonics, double mm_per_degree, Parts& parts) {
     MoireSearch search;
     search.least = 2 * least_over_noise * lines.noise() / std::sqrt(2.);
     std::vector<MeasuredBeat> all;
     for (const Candidate& c : strongest_waves(lines, mm_per_degree)) {
-        const Frequency rough = lines.near(c.frequency, parts).peak(c.frequency);
-        const MeasuredBeat m = measured(lines, lines.near(rough, parts), rough, mm_per_degree);
+        const WaveSums change = lines.near(c.frequency, parts);
+        const Frequency rough = change.peak(c.frequency);
+        const WaveSums wave = harmonics.near(rough, 2 * std::abs(change.wave(rough)) / lines.mean());
+        const MeasuredBeat m = measured(wave, wave.peak(rough), harmonics.mean(), mm_per_degree);
         if (m.beat.contrast > search.least) all.push_back(m);
     }
     // Of waves of the same period that may be equally strong, as symmetry makes them, that of the least direction

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace lfdsim {
 namespace {
 
 constexpr double least_contrast = 1e-6;  // below it a harmonic is rounding
+constexpr double least_seen = 1e-5;      // after the eye's filter: less is nothing
 constexpr double tied = 0.99;            // of the strongest wave's contrast: no measurement tells such twins apart
 
 }  // namespace
@@ -101,34 +103,54 @@ std::optional<Beat> MoireTheory::strongest() const {
     const ApertureShape aperture = aperture_shape(display_, geometry_);
     const double per_degree = mm_per_degree(eye_mm_ - geometry_.vertex_plane_mm), finest = eye_limit_cycles_per_degree / per_degree;
     const double above = geometry_.diffuser_z_mm.value_or(geometry_.rear_principal_mm) - geometry_.rear_principal_mm;
-    std::vector<Beat> strong;  // within `tied` of the strongest so far
-    double greatest = 0;
+    struct Harmonic {
+        int k, l;
+        double most;
+    };
+    std::vector<Harmonic> harmonics;
     const auto [highest_k, highest_l] = panel_.highest_order();
     for (int k = 0; k <= highest_k; ++k)
-        for (int l = k == 0 ? 1 : -highest_l; l <= highest_l; ++l) {
-            const double most = 2 * std::abs(panel_.harmonic(k, l));
-            if (most < least_contrast) continue;
-            if (most < tied * greatest) continue;
+        for (int l = k == 0 ? 1 : -highest_l; l <= highest_l; ++l)
+            if (const double most = 2 * std::abs(panel_.harmonic(k, l)); most >= least_contrast) harmonics.push_back({k, l, most});
+    std::ranges::stable_sort(harmonics, std::greater(), &Harmonic::most);
+    std::vector<Beat> strong;  // within `tied` of the strongest so far
+    double greatest = least_seen;
+    // Of lens harmonics, before near eyes a million for each of the panel's, most are known to be weak by bounds alone: those near
+    // the greatest mean over the aperture come first.
+    for (const double nearest : {2., infinity})
+        for (const auto& [k, l, most] : harmonics) {
+            if (most < tied * greatest) break;
             const Place seen = seen_harmonic(k, l), panel{seen.x / scale_.x, seen.y / scale_.y};
-            const Range across = lens_orders(0, seen.x, finest), up = lens_orders(1, seen.y, finest);
-            for (int m = across.from; m <= across.to; ++m)
+            const Place on_lens{glass_.x * panel.x, glass_.y * panel.y};
+            const auto orders = [&](int axis, double of_panel, double of_aperture) {
+                const Range fine = lens_orders(axis, of_panel, finest);
+                if (!std::isfinite(nearest)) return fine;
+                const Range near = lens_orders(axis, of_aperture, nearest / lattice.pitch[std::size_t(axis)]);
+                return Range{std::max(fine.from, near.from), std::min(fine.to, near.to)};
+            };
+            const Range across = orders(0, seen.x, on_lens.x), up = orders(1, seen.y, on_lens.y);
+            for (int m = across.from; m <= across.to; ++m) {
+                if (most * aperture.most(std::abs(on_lens.x - lens_harmonic(m, 0).x)) < tied * greatest) continue;
                 for (int n = up.from; n <= up.to; ++n) {
                     if (lattice.staggered && (m + n) % 2 != 0) continue;
-                    const Place of_lens = lens_harmonic(m, n), f{seen.x - of_lens.x, seen.y - of_lens.y};
-                    const double fine = std::hypot(f.x, f.y);
-                    if (fine > finest) continue;
+                    const Place of_lens = lens_harmonic(m, n), f{seen.x - of_lens.x, seen.y - of_lens.y},
+                                nu{on_lens.x - of_lens.x, on_lens.y - of_lens.y};
+                    const double fine = std::hypot(f.x, f.y),
+                                 at_most = most * aperture.most(lattice.strips ? std::abs(nu.x) : std::hypot(nu.x, nu.y));
+                    if (fine > finest || at_most < tied * greatest) continue;
                     // A diffuser's angle t moves a line by `above` t in the lens and by g t more on the panel.
                     const Place spread{above * (panel.x - of_lens.x) + geometry_.gap_mm * panel.x,
                                        above * (panel.y - of_lens.y) +
                                            (lattice.strips ? geometry_.reduced_vertex_plane_mm : geometry_.gap_mm) * panel.y};
-                    Beat beat{to_display(f), most, 0};
-                    beat.contrast *=
-                        std::abs(aperture.mean(glass_.x * panel.x - of_lens.x, glass_.y * panel.y - of_lens.y) * diffuser(spread));
-                    beat.seen = beat.contrast * eye_filter(fine * per_degree);
-                    if (beat.seen <= 0 || beat.seen < tied * greatest) continue;
+                    const double diffused = std::abs(diffuser(spread)), filter = eye_filter(fine * per_degree);
+                    if (at_most * diffused * filter < tied * greatest) continue;
+                    Beat beat{to_display(f), most * diffused * std::abs(aperture.mean(nu.x, nu.y)), 0};
+                    beat.seen = beat.contrast * filter;
+                    if (beat.seen < tied * greatest) continue;
                     greatest = std::max(greatest, beat.seen);
                     strong.push_back(beat);
                 }
+            }
         }
     const auto first = std::ranges::max_element(strong, {}, &Beat::seen);
     if (first == strong.end()) return {};

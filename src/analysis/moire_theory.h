@@ -1,5 +1,6 @@
 // The beats of the lens lattice with the panel's pixels, in closed form. docs/model.md, "Moire". Floor 3.
 #pragma once
+#include "analysis/wave_sums.h"
 #include "model/display.h"
 #include "model/geometry.h"
 #include "model/subpixels.h"
@@ -8,9 +9,6 @@
 #include <optional>
 
 namespace lfdsim {
-
-/// A wave exp(2 pi i f r) over the viewer-side vertex plane, f in cycles per mm along the display's x and y.
-using Frequency = std::array<double, 2>;
 
 double period_mm(const Frequency&);
 /// Of the wave vector, counter-clockwise from +x, 0 to below 180.

@@ -1,22 +1,15 @@
 #include "analysis/white_lines.h"
 
 #include "analysis/fourier.h"
+#include "model/colour.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace lfdsim {
-namespace {
-
-/// Blackman's window over [0, 1], 1 in the mean.
 double blackman(double u) { return 1 - (0.5 * std::cos(2 * pi * u) - 0.08 * std::cos(4 * pi * u)) / 0.42; }
 
-/// Its transform, for whole periods.
-double blackman_wave(double periods) {
-    return sinc(periods) + (0.25 * (sinc(periods - 1) + sinc(periods + 1)) + 0.04 * (sinc(periods - 2) + sinc(periods + 2))) / 0.42;
-}
-
-/// A number in [0, 1) for each counter (Steele, Lea, Flood 2014: splitmix64).
+// splitmix64 (Steele, Lea, Flood 2014)
 double counted_random(std::uint64_t counter) {
     std::uint64_t z = counter * 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -24,14 +17,36 @@ double counted_random(std::uint64_t counter) {
     return double((z ^ (z >> 31)) >> 11) * 0x1p-53;
 }
 
-}  // namespace
+WhiteSeen::WhiteSeen(const Display& d, const Geometry& green, const ChannelWeights& weights)
+    : panel_(d.panel), vertex_plane_(green.vertex_plane_mm) {
+    if (!disperses(d)) {
+        paths_.push_back({EyeRays(d, green), {d.panel, weights}});
+        return;
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+        if (weights[c] == 0) continue;
+        ChannelWeights own{};
+        own[c] = weights[c];
+        paths_.push_back({EyeRays(d, resolve(d, d.panel.wavelengths_nm[c])), {d.panel, own}});
+    }
+}
+
+WhiteSeen::End WhiteSeen::end(std::size_t path, const Vec3d& eye, double x, double y, double a, double b) const {
+    const Sight sight = paths_[path].rays.look_through(eye, {x, y, vertex_plane_}, a, b);
+    if (!(sight.light > 0)) return {};
+    return {sight.x / panel_.pixel_pitch_mm + 0.5 * double(panel_.pixels[0]),
+            0.5 * double(panel_.pixels[1]) - sight.y / panel_.pixel_pitch_mm, sight.light};
+}
 
 WhiteLight WhiteSeen::light(const Vec3d& eye, double x, double y, double a, double b) const {
-    const Sight sight = rays.look_through(eye, {x, y, rays.point(0, 0)[2]}, a, b);
-    if (!(sight.light > 0)) return {sight.light, 0};
-    const double column = sight.x / panel.pixel_pitch_mm + 0.5 * double(panel.pixels[0]),
-                 row = 0.5 * double(panel.pixels[1]) - sight.y / panel.pixel_pitch_mm;
-    return {sight.light, sight.light * white.at(column, row)};
+    WhiteLight light;
+    for (std::size_t path = 0; path < paths(); ++path) {
+        const End at = end(path, eye, x, y, a, b);
+        if (!(at.light > 0)) continue;
+        light.plain += at.light * white(path).mean();
+        light.seen += at.light * white(path).at(at.column, at.row);
+    }
+    return light;
 }
 
 WhiteLines::Line WhiteLines::line(int set, int column, int row) const {
@@ -90,77 +105,23 @@ std::vector<double> WhiteLines::weighted_change() const {
     return all;
 }
 
-WhiteLines::Near WhiteLines::near(const Frequency& f, Parts& parts) const {
-    Near result;
-    result.about_ = f;
-    result.width_ = window_.width_mm();
-    result.height_ = window_.height_mm();
-    result.blocks_.resize(std::size_t(Near::side) * Near::side);
+WaveSums WhiteLines::near(const Frequency& f, Parts& parts) const {
+    WaveSums result(f, window_.width_mm(), window_.height_mm());
     const std::size_t squares = std::size_t(window_.columns) * std::size_t(window_.rows);
-    parts.run(Near::side, [&](int j) {  // blocks of row j
-        for (int row = j * window_.rows / Near::side; row < (j + 1) * window_.rows / Near::side; ++row)
+    parts.run(WaveSums::side, [&](int j) {  // blocks of row j
+        for (int row = j * window_.rows / WaveSums::side; row < (j + 1) * window_.rows / WaveSums::side; ++row)
             for (int set = 0; set < independent_sets; ++set)
                 for (int column = 0; column < window_.columns; ++column) {
                     const std::size_t square = std::size_t(row) * std::size_t(window_.columns) + std::size_t(column);
                     const double change = double(change_[std::size_t(set) * squares + square]);
                     if (change == 0) continue;
                     const Line at = line(set, column, row);
-                    const std::size_t i = std::size_t(column * Near::side / window_.columns);
-                    result.blocks_[std::size_t(j) * Near::side + i][std::size_t(set)] +=
-                        std::polar(change * across_[std::size_t(column)] * up_[std::size_t(row)] / double(squares),
-                                   -2 * pi * (f[0] * at.x + f[1] * at.y));
+                    result.add(set, column * WaveSums::side / window_.columns, j,
+                               std::polar(change * across_[std::size_t(column)] * up_[std::size_t(row)] / double(squares),
+                                          -2 * pi * (f[0] * at.x + f[1] * at.y)));
                 }
     });
     return result;
-}
-
-std::complex<double> WhiteLines::Near::wave(const Frequency& f, int without) const {
-    const double step_x = (f[0] - about_[0]) * width_ / side, step_y = (f[1] - about_[1]) * height_ / side;  // periods a block
-    std::array<std::complex<double>, side> turn_x, turn_y;
-    for (int k = 0; k < side; ++k) {
-        turn_x[std::size_t(k)] = std::polar(1., -2 * pi * step_x * (k + 0.5 - 0.5 * side));
-        turn_y[std::size_t(k)] = std::polar(1., -2 * pi * step_y * (k + 0.5 - 0.5 * side));
-    }
-    std::complex<double> sum = 0;
-    for (std::size_t j = 0; j < side; ++j) {
-        std::complex<double> row = 0;
-        for (std::size_t i = 0; i < side; ++i)
-            for (int set = 0; set < independent_sets; ++set)
-                if (set != without) row += blocks_[j * side + i][std::size_t(set)] * turn_x[i];
-        sum += row * turn_y[j];
-    }
-    return sum / (double(independent_sets - (without >= 0)) * sinc(step_x) * sinc(step_y));
-}
-
-Frequency WhiteLines::Near::peak(const Frequency& from, int without) const {
-    Frequency best = from;
-    double most = std::abs(wave(best, without));
-    for (double step = 0.5; step > 1e-5; step *= 0.5)
-        for (bool moved = true; moved;) {
-            moved = false;
-            for (const auto& [x, y] : {std::array{step, 0.}, {-step, 0.}, {0., step}, {0., -step}}) {
-                const Frequency next{best[0] + x / width_, best[1] + y / height_};
-                if (std::abs(next[0] - about_[0]) * width_ > 1.5 || std::abs(next[1] - about_[1]) * height_ > 1.5) continue;
-                if (const double here = std::abs(wave(next, without)); here > most) {
-                    best = next;
-                    most = here;
-                    moved = true;
-                }
-            }
-        }
-    return best;
-}
-
-double WhiteLines::Near::company(const Frequency& f) const {
-    const std::complex<double> own = wave(f);
-    double most = 0;
-    constexpr int steps = 3;  // half a period of the window each: waves further away have their own peaks
-    for (int y = -steps; y <= steps; ++y)
-        for (int x = -steps; x <= steps; ++x) {
-            const Frequency at{f[0] + 0.5 * x / width_, f[1] + 0.5 * y / height_};
-            most = std::max(most, std::abs(wave(at) - own * (blackman_wave(0.5 * x) * blackman_wave(0.5 * y))));
-        }
-    return most / std::abs(own);
 }
 
 }  // namespace lfdsim

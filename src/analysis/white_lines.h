@@ -7,8 +7,8 @@
 #include "analysis/eye_rays.h"
 #include "analysis/moire_theory.h"
 #include "analysis/parallel.h"
+#include "analysis/wave_sums.h"
 
-#include <complex>
 #include <vector>
 
 namespace lfdsim {
@@ -21,20 +21,45 @@ struct Window {
     double height_mm() const { return rows * square_mm; }
 };
 
+/// Blackman's window over [0, 1], 1 in the mean.
+double blackman(double u);
+
+/// A number in [0, 1) for each counter.
+double counted_random(std::uint64_t counter);
+
 /// Light that a line of sight brings from a white panel, over the panel's own along its normal.
 struct WhiteLight {
-    double plain;  // of a panel without subpixels and black matrix: the mean
-    double seen;   // where the line ends
+    double plain = 0;  // of a panel without subpixels and black matrix: the mean
+    double seen = 0;   // where the line ends
 };
 
-/// A white panel behind the lenses, of which some channels count.
-struct WhiteSeen {
-    const EyeRays& rays;
-    const Panel& panel;
-    WhitePanel white;
+/// A white panel behind the lenses, of which some channels count, each in its own light.
+class WhiteSeen {
+  public:
+    /// `green`: the display's own geometry.
+    WhiteSeen(const Display&, const Geometry& green, const ChannelWeights&);
 
     /// Of the line from an eye that aims at (x, y) of the vertex plane, with the diffuser's numbers a and b.
     WhiteLight light(const Vec3d& eye, double x, double y, double a, double b) const;
+
+    /// Colours that take the same path count as one.
+    std::size_t paths() const { return paths_.size(); }
+    const WhitePanel& white(std::size_t path) const { return paths_[path].white; }
+    /// Where such a line ends in the light of one path: columns and rows of the panel from its corner; the mean light there is 0
+    /// where the line is blocked or ends beside the panel.
+    struct End {
+        double column = 0, row = 0, light = 0;
+    };
+    End end(std::size_t path, const Vec3d& eye, double x, double y, double a, double b) const;
+
+  private:
+    struct Path {  // of channels whose light takes it
+        EyeRays rays;
+        WhitePanel white;
+    };
+    const Panel& panel_;
+    double vertex_plane_;
+    std::vector<Path> paths_;
 };
 
 class WhiteLines {
@@ -54,11 +79,9 @@ class WhiteLines {
     /// Standard deviation of |wave()| over mean(), all sets together, if each line's light were chance.
     double noise() const;
 
-    /// What finds the amplitudes of waves near one: sums over blocks of the window with that wave, set by set.
-    class Near;
-    Near near(const Frequency&, Parts&) const;
-    /// The parts that near() takes.
-    static constexpr int near_parts = 32;
+    /// The amplitudes of waves near one in the change. Takes near_parts parts.
+    WaveSums near(const Frequency&, Parts&) const;
+    static constexpr int near_parts = WaveSums::side;
 
   private:
     struct Line {
@@ -72,27 +95,6 @@ class WhiteLines {
     std::vector<double> across_, up_;  // weights of columns and rows
     std::vector<float> change_;        // of each line: set, row, column
     Sums light_{}, squares_{};         // weighted sums
-};
-
-/// Amplitudes of waves near a frequency.
-class WhiteLines::Near {
-  public:
-    /// Amplitude and phase of the wave with this frequency, without one of the sets (-1: all): half of mean() for full contrast.
-    std::complex<double> wave(const Frequency&, int without = -1) const;
-
-    /// The frequency near the given one where the wave is strongest, within 1.5 periods
-    /// of the window of the one that the sums are about.
-    Frequency peak(const Frequency& from, int without = -1) const;
-
-    /// The greatest amplitude that other waves seem to have next to the one at `f`, over its own: 0 where it stands alone.
-    double company(const Frequency& f) const;
-
-  private:
-    friend class WhiteLines;
-    static constexpr int side = near_parts;  // blocks along each axis
-    Frequency about_{};
-    double width_ = 0, height_ = 0;
-    std::vector<std::array<std::complex<double>, independent_sets>> blocks_;  // means over all lines of a set
 };
 
 }  // namespace lfdsim

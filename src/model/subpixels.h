@@ -49,12 +49,13 @@ constexpr ChannelWeights only(std::size_t channel) {
     return weights;
 }
 
-/// A white panel in units of its mean.
+/// A white panel of which red, green and blue count with these weights.
 class WhitePanel {
   public:
     WhitePanel(const Panel&, const ChannelWeights&);
     /// At a place, in pixels to the right of and below the panel's top left corner.
     double at(double column, double row) const;
+    double mean() const { return weights_[0] + weights_[1] + weights_[2]; }
     /// The amplitude of its wave with (k, l) periods in a cell().
     std::complex<double> harmonic(int k, int l) const;
     std::array<int, 2> cell() const { return cell_; }

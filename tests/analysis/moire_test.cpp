@@ -5,6 +5,7 @@
 #include "analysis/fourier.h"
 #include "analysis/measure.h"
 #include "analysis/moire_theory.h"
+#include "analysis/white_lines.h"
 #include "model/numbers.h"
 
 namespace lfdsim {
@@ -163,6 +164,31 @@ TEST(Moire, ColoursHaveTheBeatsOfTheory) {
 TEST(Moire, ColoursHaveTheBeatsOfTheoryAtLength) {
     expect_beats_in_each_colour({{0.83, 2.2, 0.24, 600, -5, SubpixelLayout::bgr_stripe, true},
                                  {0.6, 1.5, 0.05, 400, 40, SubpixelLayout::rgb_stripe, false}});
+}
+
+// Under glass that disperses the luminance is that of three colours, each of which takes its own path.
+TEST(Moire, LuminanceIsTheSumOfColoursInTheirOwnLight) {
+    Display d = in_focus(LatticeKind::square, 0.961, 3.2, 0.24, 600);
+    d.panel.subpixels = SubpixelLayout::rgb_stripe;
+    d.panel.layers = {{3, {}, Glass{"", Formula::nd_vd, {1.6, 12}}}};
+    const Geometry green = resolve(d);
+    const WhiteSeen white(d, green, luminance_weights);
+    const std::array colours{WhiteSeen(d, green, only(0)), WhiteSeen(d, green, only(1)), WhiteSeen(d, green, only(2))};
+    const Vec3d eye{0, 0, 603};
+    for (double x = -15; x < 15; x += 0.173) {
+        const WhiteLight all = white.light(eye, x, 0.4 * x, 0, 0);
+        WhiteLight sum;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const WhiteLight one = colours[c].light(eye, x, 0.4 * x, 0, 0);
+            sum.plain += luminance_weights[c] * one.plain;
+            sum.seen += luminance_weights[c] * one.seen;
+        }
+        EXPECT_NEAR(all.plain, sum.plain, 1e-12) << x;
+        EXPECT_NEAR(all.seen, sum.seen, 1e-12) << x;
+    }
+    const EyeRays red(d, resolve(d, d.panel.wavelengths_nm[0])), blue(d, resolve(d, d.panel.wavelengths_nm[2]));
+    const Vec3d aside{14, 0, green.vertex_plane_mm};
+    EXPECT_GT(std::abs(red.look_through(eye, aside, 0, 0).x - blue.look_through(eye, aside, 0, 0).x), 1e-4);
 }
 
 TEST(Moire, ThereIsNoneWithoutABlackMatrix) {
