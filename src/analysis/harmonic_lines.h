@@ -6,6 +6,7 @@
 #include "analysis/white_lines.h"
 
 #include <complex>
+#include <optional>
 #include <vector>
 
 namespace lfdsim {
@@ -14,11 +15,16 @@ class HarmonicLines {
   public:
     /// A window of the screen as WhiteLines has it, with fewer lines. Takes `rows` parts.
     HarmonicLines(const WhiteSeen&, std::int64_t seed, const Vec3d& eye, const Window&, Parts&);
-    static constexpr int rows = 128;
+    static constexpr int rows = 256;
 
-    /// The wave within 1.5 periods of the window of a frequency: of the harmonic that gives most to it there, and of those whose
-    /// own waves have the same frequency. `contrast`: about what it is.
-    WaveSums near(const Frequency&, double contrast) const;
+    struct Wave {
+        WaveSums main;  // of the harmonic that gives most, which tells the frequency
+        WaveSums all;   // of all harmonics whose waves have that frequency
+        double noise;   // standard deviation of its amplitude, if each line's light were chance
+    };
+    /// The wave within 1.5 periods of the window of a frequency. `contrast`: about what it is. None where no harmonic gives
+    /// anything for sure.
+    std::optional<Wave> near(const Frequency&, double contrast) const;
 
     /// The mean light, weighted as waves are.
     double mean() const { return mean_; }
@@ -27,20 +33,33 @@ class HarmonicLines {
     struct Line {
         double x, y;         // share of the window, from its middle
         double column, row;  // on the panel
-        double light;        // weighted; 0 for lines that end nowhere
+        double light;        // weighted
+        int set;
     };
     struct Harmonic {
         std::size_t path;
+        int k, l;            // periods per cell of pixels
         double column, row;  // periods per pixel
         std::complex<double> c;
     };
+    struct Part {
+        const Harmonic* harmonic;
+        double amplitude;
+    };
+    /// What harmonics surely give to a wave, the strongest first; those that may give `least` or more.
+    std::vector<Part> parts(const Frequency&, double least) const;
     std::complex<double> of_line(const Line&, const Harmonic&, const Frequency&) const;
     WaveSums sums(const Harmonic&, const Frequency&) const;
 
     double width_, height_, mean_ = 0;
-    std::vector<std::vector<Line>> paths_;  // of each path of light the lines, set by set
+    std::vector<std::vector<Line>> paths_;  // of each path of light the lines that end on the panel
+    struct Cell {
+        double columns, rows;  // pixels
+        int squares;           // that lines are gathered in, along each axis
+    };
+    std::vector<Cell> cells_;    // of each path
+    std::vector<double> noise_;  // of each path: standard deviation of a mean over all lines
     std::vector<Harmonic> harmonics_;
-    std::vector<double> noise_;  // of each path: standard deviation of a mean over few_lines
 };
 
 }  // namespace lfdsim

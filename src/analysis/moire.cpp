@@ -104,12 +104,13 @@ struct Pattern {
     std::string missing;  // why there is no period
 };
 
-Pattern pattern_of(const WhiteSeen& screen, const Subject& s, const Vec3d& eye, const Window& window, Parts& parts) {
+Pattern pattern_of(const WhiteSeen& screen, const std::optional<Beat>& theory, const Subject& s, const Vec3d& eye,
+                   const Window& window, Parts& parts) {
     const WhiteLines lines(screen, s.display().render.seed, eye, window, parts);
     if (!(lines.mean() > 0)) throw InputError("camera", "sees no light of a white panel from straight in front of it");
     Pattern pattern;
     const HarmonicLines harmonics(screen, s.display().render.seed, eye, window, parts);
-    pattern.search = find_moire(lines, harmonics, mm_per_degree(eye[2] - s.geometry().vertex_plane_mm), parts);
+    pattern.search = find_moire(lines, harmonics, theory, mm_per_degree(eye[2] - s.geometry().vertex_plane_mm), parts);
     if (const std::optional<MeasuredBeat>& m = pattern.search.strongest) {
         pattern.found = {m->period_mm, m->direction_deg, m->seen, m->contrast};
         return pattern;
@@ -176,7 +177,7 @@ Result measure_moire(Subject& s, Job& job) {
         const ChannelWeights weights = all ? luminance_weights : only(channel);
         const WhiteSeen screen(d, s.geometry(), weights);
         const std::optional<Beat> theory = MoireTheory(d, geometry, distance, weights).strongest();
-        const Pattern pattern = pattern_of(screen, s, eye, window, parts);
+        const Pattern pattern = pattern_of(screen, theory, s, eye, window, parts);
         add_wave(result, "white", names, pattern.found, true, pattern.missing);
         add_wave(result, "theory", names, theory_wave(theory), false,
                  fmt::format("all beats are finer than {:g} cycles per degree, which eyes do not resolve, or next to nothing",

@@ -26,7 +26,7 @@ struct MoireSearch {
 Window middle_of_screen(const Display&, const Geometry&, double eye_mm);
 
 /// Takes moire_search_parts parts beside those of the lines.
-MoireSearch find_moire(const WhiteLines&, const HarmonicLines&, double mm_per_degree, Parts&);
+MoireSearch find_moire(const WhiteLines&, const HarmonicLines&, const std::optional<Beat>& theory, double mm_per_degree, Parts&);
 constexpr int moire_candidates = 8;
 constexpr int moire_search_parts = moire_candidates * WhiteLines::near_parts;
 

@@ -12,13 +12,18 @@ namespace lfdsim {
 namespace {
 
 constexpr double window_deg = 10, finest_cycles_per_degree = 50;
-constexpr double least_periods = 3;     // in the window: fewer are not told from their mirror image, the wave of frequency -f
-constexpr double least_over_noise = 6;  // the greatest of a million frequencies' noise is at some 5
+constexpr double least_periods = 3;  // in the window: fewer are not told from their mirror image, the wave of frequency -f
+constexpr double least_squares = 500'000, most_along = 1000;  // in the window: with fewer lines of sight their noise hides waves
+constexpr double least_over_noise = 6;                        // the greatest of a million frequencies' noise is at some 5
 
 struct Candidate {
     Frequency frequency;
     double strength;
 };
+
+bool is_measurable(const Frequency& f, const Window& w) {
+    return std::hypot(f[0] * w.width_mm(), f[1] * w.height_mm()) >= least_periods;
+}
 
 /// The frequencies where the squares' transform is greatest after the eye's filter, the strongest first.
 std::vector<Candidate> strongest_waves(const WhiteLines& lines, double mm_per_degree) {
@@ -41,8 +46,7 @@ std::vector<Candidate> strongest_waves(const WhiteLines& lines, double mm_per_de
         for (int k = 0; k < n; ++k) {
             const Frequency f = frequency(k, l);
             const double cycles = std::hypot(f[0], f[1]) * mm_per_degree;
-            const bool coarse = std::hypot(f[0] * w.width_mm(), f[1] * w.height_mm()) < least_periods;
-            if (coarse || cycles > finest_cycles_per_degree) continue;
+            if (!is_measurable(f, w) || cycles > finest_cycles_per_degree) continue;
             strength[std::size_t(l) * std::size_t(n) + std::size_t(k)] =
                 std::abs(plane[std::size_t(l) * std::size_t(n) + std::size_t(k)]) * eye_filter(cycles) /
                 (sinc(f[0] * w.square_mm) * sinc(f[1] * w.square_mm));  // squares average waves
@@ -64,20 +68,22 @@ std::vector<Candidate> strongest_waves(const WhiteLines& lines, double mm_per_de
 }
 
 /// The wave near a candidate, without a set of lines.
-Beat beat_at(const WaveSums& sums, const Frequency& f, double mean, double mm_per_degree, int without) {
-    Beat beat{f, 2 * std::abs(sums.wave(f, without)) / mean, 0};
+Beat beat_of(const HarmonicLines::Wave& wave, const Frequency& from, double mean, double mm_per_degree, int without) {
+    const Frequency f = wave.main.peak(from, without);
+    Beat beat{f, 2 * std::abs(wave.all.wave(f, without)) / mean, 0};
     beat.seen = beat.contrast * eye_filter(std::hypot(f[0], f[1]) * mm_per_degree);
     return beat;
 }
 
-MeasuredBeat measured(const WaveSums& sums, const Frequency& from, double mean, double mm_per_degree) {
+MeasuredBeat measured(const HarmonicLines::Wave& wave, const Frequency& from, double mean, double mm_per_degree) {
     std::array<Beat, independent_sets + 1> found;  // without none, and without each set
     for (int without = -1; without < independent_sets; ++without)
-        found[std::size_t(without + 1)] = beat_at(sums, sums.peak(from, without), mean, mm_per_degree, without);
+        found[std::size_t(without + 1)] = beat_of(wave, from, mean, mm_per_degree, without);
     const auto figure = [&](auto of) { return jackknife([&](int without) { return of(found[std::size_t(without + 1)]); }); };
     MeasuredBeat m;
     m.beat = found[0];
-    for (std::size_t k = 0; k < 2; ++k) m.frequency_error[k] = figure([&](const Beat& b) { return b.frequency[k]; }).error;
+    for (std::size_t k = 0; k < 2; ++k)
+        m.frequency_error[k] = figure([&](const Beat& b) { return b.frequency[k]; }).error + wave.main.closest()[k];
     const double error = std::hypot(m.frequency_error[0], m.frequency_error[1]), period = period_mm(m.beat.frequency);
     m.period_mm = {period, error * period * period};
     m.direction_deg = {direction_deg(m.beat.frequency), std::min(error * period / degree, 90.)};
@@ -89,7 +95,7 @@ MeasuredBeat measured(const WaveSums& sums, const Frequency& from, double mean, 
 }  // namespace
 
 Window middle_of_screen(const Display& d, const Geometry& g, double eye_mm) {
-    const double away = eye_mm - g.vertex_plane_mm, square = mm_per_degree(away) / (2 * finest_cycles_per_degree);
+    const double away = eye_mm - g.vertex_plane_mm, finest = mm_per_degree(away) / (2 * finest_cycles_per_degree);
     const double scale = away / eye_mm;  // the panel, as it is seen in the vertex plane
     double half_x = std::min(0.5 * window_deg * mm_per_degree(away), 0.5 * g.panel_width_mm * scale),
            half_y = std::min(0.5 * window_deg * mm_per_degree(away), 0.5 * g.panel_height_mm * scale);
@@ -102,22 +108,36 @@ Window middle_of_screen(const Display& d, const Geometry& g, double eye_mm) {
     const double fits =
         std::min({1., (0.5 * g.array_width_mm - std::abs(move_x)) / wide,
                   d.array.lattice == LatticeKind::strips ? 1. : (0.5 * g.array_height_mm - std::abs(move_y)) / high});
-    const auto squares = [&](double half) { return std::max(1, int(2 * half * std::max(fits, 0.) / square)); };
+    const double inside = 2 * std::max(fits, 0.);
+    // Small windows have finer ones, for as many lines of sight.
+    const double small = inside * std::max(std::sqrt(half_x * half_y / least_squares), std::max(half_x, half_y) / most_along),
+                 square = small > 0 ? std::min(finest, small) : finest;
+    const auto squares = [&](double half) { return std::max(1, int(inside * half / square)); };
     return {squares(half_x), squares(half_y), square};
 }
 
-MoireSearch find_moire(const WhiteLines& lines, const HarmonicLines& harmonics, double mm_per_degree, Parts& parts) {
+MoireSearch find_moire(const WhiteLines& lines, const HarmonicLines& harmonics, const std::optional<Beat>& theory,
+                       double mm_per_degree, Parts& parts) {
     MoireSearch search;
     search.least = 2 * least_over_noise * lines.noise() / std::sqrt(2.);
     std::vector<MeasuredBeat> all;
+    const auto measure = [&](const Frequency& from, double contrast) {
+        const auto wave = harmonics.near(from, contrast);
+        if (!wave) return;
+        const MeasuredBeat m = measured(*wave, from, harmonics.mean(), mm_per_degree);
+        const double least = 2 * least_over_noise * wave->noise / std::sqrt(2.) / harmonics.mean();
+        if (m.beat.contrast > least && is_measurable(m.beat.frequency, lines.window())) all.push_back(m);
+    };
     for (const Candidate& c : strongest_waves(lines, mm_per_degree)) {
         const WaveSums change = lines.near(c.frequency, parts);
         const Frequency rough = change.peak(c.frequency);
-        const WaveSums wave = harmonics.near(rough, 2 * std::abs(change.wave(rough)) / lines.mean());
-        const MeasuredBeat m = measured(wave, wave.peak(rough), harmonics.mean(), mm_per_degree);
-        if (m.beat.contrast > search.least) all.push_back(m);
+        const double contrast = 2 * std::abs(change.wave(rough)) / lines.mean();
+        measure(rough, contrast);
     }
+    // It may be too weak to stand out of the noise of all other waves.
+    if (theory && is_measurable(theory->frequency, lines.window())) measure(theory->frequency, theory->contrast);
     // Of waves of the same period that may be equally strong, as symmetry makes them, that of the least direction
+    if (all.empty()) return search;
     const auto strongest = std::ranges::max_element(all, {}, [](const MeasuredBeat& m) { return m.seen.value; });
     for (const MeasuredBeat& m : all) {
         const auto may_equal = [&](const Estimate& a, const Estimate& b, double most) {

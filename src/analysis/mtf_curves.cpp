@@ -91,11 +91,13 @@ MtfCurves mtf_curves(const Subject& s, const SeenInColours& seen, double depth_m
     for (const ChannelBlur& channel : blurs) finest = std::min(finest, channel.narrowest_mm(direction));
     double step = 1 / std::max(finest, 0.25 * width) / steps;
     if (m.missing.empty()) {
-        // A narrow core within a wide halo keeps its modulation longer: it is followed as far as the lenses can show it.
-        const double limit = lens_limit_per_mm(s, direction, plane.z_mm, angle_deg);
-        const auto lowest = [&] { return *std::min_element(m.modulation.all.begin(), m.modulation.all.end()); };
+        // A narrow core within a wide halo keeps its modulation longer. A channel may have one where luminance has none.
+        std::vector<LineSpread> spreads{spread};
+        for (const SeenThroughLenses& channel : seen.channels)
+            spreads.push_back(channel.spread(plane.z_mm, direction, Pixels::as_described));
+        const auto falls = [&](const LineSpread& of) { return std::ranges::min(of.mtf(step, steps + 1).all) < 0.5; };
+        while (step * steps < 1 / finest && !std::ranges::all_of(spreads, falls)) step *= 2;
         m.modulation = spread.mtf(step, steps + 1);
-        for (; lowest() >= 0.5 && step * steps < std::min(limit, 1 / finest); m.modulation = spread.mtf(step, steps + 1)) step *= 2;
         m.pixels_anywhere = seen.luminance.spread(plane.z_mm, direction, Pixels::anywhere).mtf(step, steps + 1).all;
     }
     for (int k = 0; k <= steps; ++k) {

@@ -33,7 +33,7 @@ std::complex<double> WaveSums::wave(const Frequency& f, int without) const {
 Frequency WaveSums::peak(const Frequency& from, int without) const {
     Frequency best = from;
     double most = std::abs(wave(best, without));
-    for (double step = 0.5; step > 1e-5; step *= 0.5)
+    for (double step = 0.5; step > finest_step; step *= 0.5)
         for (bool moved = true; moved;) {
             moved = false;
             for (const auto& [x, y] : {std::array{step, 0.}, {-step, 0.}, {0., step}, {0., -step}}) {

@@ -32,8 +32,11 @@ class WaveSums {
     /// The frequency near the given one where the wave is strongest, within 1.5 periods of the window of the one that the sums are
     /// about.
     Frequency peak(const Frequency& from, int without = -1) const;
+    /// How closely that is found along x and y.
+    Frequency closest() const { return {finest_step / width_, finest_step / height_}; }
 
   private:
+    static constexpr double finest_step = 1e-5;  // periods of the window
     Frequency about_;
     double width_, height_;
     std::vector<std::array<std::complex<double>, independent_sets>> blocks_;

@@ -21,7 +21,7 @@ constexpr Key<Panel> panel_keys[] = {
     {"encoding", &Panel::encoding, no_range, false, "Of the panel image's code values: IEC 61966-2-1, or proportional to light."},
     {"emission_exponent", &Panel::emission_exponent, Range{0, 100}, false,
      "m: radiance falls as cos(theta)^m from the normal, in what lies on the panel. 0 is a Lambertian panel."},
-    {"aperture_ratio", &Panel::aperture_ratio, Range{0, 1, true, false}, false,
+    {"aperture_ratio", &Panel::aperture_ratio, Range{1e-4, 1}, false,
      "q: each subpixel (without subpixels each pixel) shines in a rectangle about its centre, sqrt(q) as wide and high. Around it "
      "is a black matrix. What shines is so much brighter that white is white in the mean."},
     {"subpixels", &Panel::subpixels, no_range, false,

@@ -110,6 +110,7 @@ TEST(Moire, RaysFindTheBeatsOfTheory) {
     cases[4].display.lens.kind = IdealLens{{}, 3};
     cases[4].display.array.pitch_mm = {0.95, 1.13};
     cases[4].display.diffuser = Diffuser{2, {0.5, 0.8}, Profile::box};
+    constexpr double chance = 1.5;  // fifteen figures, each with the error that it is within nineteen times in twenty
     for (const Case& c : cases) {
         const Json json = moire_of(c.display);
         const Json &white = json["white"], &theory = json["theory"];
@@ -118,9 +119,11 @@ TEST(Moire, RaysFindTheBeatsOfTheory) {
                     theory["period_mm"].get<double>(), white["direction_deg"].get<double>(),
                     white["direction_deg_error"].get<double>(), theory["direction_deg"].get<double>(),
                     white["contrast"].get<double>(), white["contrast_error"].get<double>(), theory["contrast"].get<double>());
-        EXPECT_NEAR(white["period_mm"], theory["period_mm"].get<double>(), white["period_mm_error"].get<double>()) << c.name;
-        EXPECT_LT(apart_deg(white["direction_deg"], theory["direction_deg"]), white["direction_deg_error"].get<double>()) << c.name;
-        EXPECT_NEAR(white["contrast"], theory["contrast"].get<double>(), white["contrast_error"].get<double>()) << c.name;
+        EXPECT_NEAR(white["period_mm"], theory["period_mm"].get<double>(), chance * white["period_mm_error"].get<double>())
+            << c.name;
+        EXPECT_LT(apart_deg(white["direction_deg"], theory["direction_deg"]), chance * white["direction_deg_error"].get<double>())
+            << c.name;
+        EXPECT_NEAR(white["contrast"], theory["contrast"].get<double>(), chance * white["contrast_error"].get<double>()) << c.name;
         EXPECT_LT(white["period_mm_error"], 0.02 * theory["period_mm"].get<double>()) << c.name;
     }
 }

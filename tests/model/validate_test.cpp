@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(Ranges, Fault, testing::Values(
     Case{"panel.pixel_pitch_mm", "is nan", [](Display& d) { d.panel.pixel_pitch_mm = -nan; }},
     Case{"panel.pixel_pitch_mm", "is -1", [](Display& d) { d.panel.pixel_pitch_mm = -1; }},
     Case{"panel.emission_exponent", "is 101", [](Display& d) { d.panel.emission_exponent = 101; }},
-    Case{"panel.aperture_ratio", "is 0, allowed is more than 0 to 1", [](Display& d) { d.panel.aperture_ratio = 0; }},
+    Case{"panel.aperture_ratio", "is 0, allowed is 0.0001 to 1", [](Display& d) { d.panel.aperture_ratio = 0; }},
     Case{"panel.aperture_ratio", "is 1.01", [](Display& d) { d.panel.aperture_ratio = 1.01; }},
     Case{"panel.subpixel_cell", "but panel.subpixels is \"rgb_stripe\"", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.subpixels = SubpixelLayout::rgb_stripe; d.panel.custom.clear(); }},
     Case{"panel.subpixel", "but panel.subpixels is \"none\"", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.subpixels = SubpixelLayout::none; d.panel.subpixel_cell.reset(); }},
