@@ -18,7 +18,6 @@ constexpr int most_squares = 2048;    // along a cell
 constexpr double least_share = 1e-3;  // of a harmonic in the mean light: what is less is left out
 constexpr double least_part = 0.05;   // of a wave, that another harmonic must give to be looked at
 constexpr double surely = 4;          // standard deviations
-constexpr double one_wave = 0.1;      // periods of the window: waves no farther apart are one
 
 }  // namespace
 
@@ -113,7 +112,7 @@ std::optional<HarmonicLines::Wave> HarmonicLines::near(const Frequency& f, doubl
     for (std::size_t n = 1; n < found.size() && found[n].amplitude > least_part * found.front().amplitude; ++n) {
         const WaveSums other = sums(*found[n].harmonic, f);
         const Frequency at = other.peak(f);
-        if (std::hypot((at[0] - own[0]) * width_, (at[1] - own[1]) * height_) <= one_wave) wave.all.add(other);
+        if (std::hypot((at[0] - own[0]) * width_, (at[1] - own[1]) * height_) <= WaveSums::one_wave) wave.all.add(other);
     }
     return wave;
 }

@@ -13,7 +13,8 @@ using Frequency = std::array<double, 2>;
 
 class WaveSums {
   public:
-    static constexpr int side = 32;  // blocks along each axis of the window
+    static constexpr int side = 32;          // blocks along each axis of the window
+    static constexpr double one_wave = 0.1;  // periods of the window: waves no farther apart are one
 
     WaveSums(const Frequency& about, double width_mm, double height_mm)
         : about_(about), width_(width_mm), height_(height_mm), blocks_(std::size_t(side) * side) {}
@@ -32,8 +33,9 @@ class WaveSums {
     /// The frequency near the given one where the wave is strongest, within 1.5 periods of the window of the one that the sums are
     /// about.
     Frequency peak(const Frequency& from, int without = -1) const;
-    /// How closely that is found along x and y.
-    Frequency closest() const { return {finest_step / width_, finest_step / height_}; }
+    /// How closely a frequency is known along x and y, however little noise there is: lenses with aberrations make waves that are
+    /// not quite of one frequency, and a window weights their parts.
+    Frequency closest() const { return {0.5 * one_wave / width_, 0.5 * one_wave / height_}; }
 
   private:
     static constexpr double finest_step = 1e-5;  // periods of the window

@@ -52,6 +52,8 @@ def draw(number, most_pixels):
     if rng.random() < 0.5:
         description["diffuser"] = draw_diffuser(rng, pitch, eye)
     as_others_are_built(np.random.default_rng([2026, number]), description)
+    if number % 2:
+        in_colour(np.random.default_rng([2027, number]), description)
     return description
 
 
@@ -85,6 +87,66 @@ def as_others_are_built(rng, description):
         if glued:
             del array["gap_mm"]
             array["base_z_mm"] = float(reduced @ indices)
+
+
+LAYOUTS = ("none", "rgb_stripe", "bgr_stripe", "rgb_rows", "pentile_rgbg", "delta", "custom", "custom")
+GLASSES = ("PMMA", "N-BK7", "PC")
+
+
+def in_colour(rng, description):
+    """Subpixels, a black matrix or both, and to two of three lenses of glass, and some layers, a glass that disperses.
+
+    With numbers of its own, for odd displays alone: the others stay as they are. The gap keeps its share of the focal length.
+    """
+    panel, lens, array = description["panel"], description["lens"], description["array"]
+    layout = str(rng.choice(LAYOUTS))
+    if layout == "none" or rng.random() < 0.5:
+        panel["aperture_ratio"] = float(rng.uniform(0.3, 1))
+    if layout != "none":
+        panel["subpixels"] = layout
+    if layout == "custom":
+        panel |= draw_cell(rng)
+    rows = [lens] if lens["type"] == "plano_convex" else lens.get("surface", [])[:-1]
+    focal = oracle.resolve(description).paraxial.f
+    for row, share in [(row, 0.67) for row in rows] + [(layer, 0.4) for layer in panel.get("layer", [])]:
+        if rng.random() < share:
+            row["glass"] = draw_glass(rng, row.pop("index"))
+    if "gap_mm" in array and rows:
+        array["gap_mm"] *= oracle.resolve(description).paraxial.f / focal
+    if rng.random() < 0.2:
+        panel["primary_widths_nm"] = [float(v) for v in rng.uniform(10, 60, 3)]
+        description["render"]["wavelength_samples"] = int(rng.integers(2, 5))
+
+
+def draw_cell(rng):
+    """A cell of 1 x 1 to 3 x 2 pixels cut into columns and rows of places, most with a rectangle in it; all are moved alike, some over the cell's border."""
+    size = [int(rng.integers(1, 4)), int(rng.integers(1, 3))]
+    columns, rows = int(rng.integers(3, 6)), int(rng.integers(1, 4))
+    cuts = [np.concatenate([[0.0], np.cumsum(part / part.sum())]) * n for n, part in zip(size, (rng.uniform(0.5, 1, columns), rng.uniform(0.5, 1, rows)))]
+    channels = list(rng.permutation(list("rgb"))) + list(rng.choice(list("rgb"), columns * rows - 3))
+    moved, found = rng.uniform(-0.5, 0.5, 2), []
+    for k, channel in enumerate(channels):
+        low = np.array([cuts[0][k % columns], cuts[1][k // columns]])
+        high = np.array([cuts[0][k % columns + 1], cuts[1][k // columns + 1]])
+        corners = [low + rng.uniform(0, 0.3, 2) * (high - low) + moved, high - rng.uniform(0, 0.3, 2) * (high - low) + moved]
+        if k < 3 or rng.random() < 0.8:
+            found.append({"channel": str(channel), "pixel": [int(v) for v in (low + high) / 2], "rect": [float(v) for v in np.concatenate(corners)]})
+    return {"subpixel_cell": size, "subpixel": found}
+
+
+def draw_glass(rng, index):
+    """By its name, or with about this index."""
+    abbe, kind = float(rng.uniform(20, 80)), int(rng.integers(5))
+    if kind == 0:
+        return str(rng.choice(GLASSES))
+    b = (index - 1) / abbe / 1.9099  # between F and C 1/l^2 differs by 1.9099 per square micrometre
+    if kind == 1:
+        return {"cauchy": [index - b / 0.345, b, 1e-3 * b]}
+    if kind == 2:  # mostly one resonance
+        square = index**2 - 1
+        c = 2 * index * b / square
+        return {"sellmeier": [square * (1 - c / 0.345), c, 0.01, 100.0, 0.0, 200.0]}
+    return {"nd": index, "vd": abbe}
 
 
 def draw_sides(number, aperture):

@@ -1,23 +1,30 @@
 """Which figures of `lfdsim check` and `lfdsim analyze` are held against which form, and what the program is told to measure for them."""
+import functools
 import math
 
 import numpy as np
 
+import colours
 import crosstalk
 import field_of_view
+import moire
 import one_lens
+import oracle
 import paraxial
 import sharpness
 import viewing_zone
 import white
-from edges import Unsure
-from sight import Sight, without_diffuser
+from edges import Unsure, error_of
+from sight import SETS, Sight, without_diffuser
 from table import UNSURE
 
 LINES = 128   # of sight in each set
 MANY = 512    # for shares of 1 %, means and spreads
 BETWEEN_EYES_MM = 65.0
 LOOSE = 0.05  # of a frequency: a form that knows it no better does not tell
+SCREEN_LINES = 1 << 16  # of sight in each set, all parts of the screen together, for colours
+COLOUR_UNSURE = 0.002   # in u', v': a form that knows a distance no better does not tell
+VISIBLE = 0.01          # contrast: a wave of less need not be found
 
 
 def least(form, limit):
@@ -38,16 +45,22 @@ class Forms:
         stretch = 1 + display.gap / (self.viewing - display.paraxial.rear)
         self.stretch = stretch
         self.axes = (0,) if display.strips else (0, 1)  # along which the lenses image
-        self.in_rows = display.array.lattice in ("square", "rectangle")
-        self.covered = bool(display.layers) or display.glued
+        in_rows = display.array.lattice in ("square", "rectangle")
+        self.one_lens = in_rows and not display.layers and not display.glued  # one_lens.py knows it
+        self.coloured, self.dispersing = colours.has_colours(display), len(display.colours) > 1
+        self.structured = display.panel.subpixels != "none" or display.panel.aperture_ratio < 1
         power = 1 / display.paraxial.f - 1 / display.gap
         self.central_depth = 1 / power if power else math.inf
         self.hint = np.degrees(np.arctan(stretch * display.cell.width / (2 * display.gap)))  # along x' and y'
 
     def takes(self, measure):
         """Whether there are forms for it: pinholes image nothing, one_lens.py knows rows of lenses in air, crosstalk.py no pixels askew to strips."""
-        if measure in ("dof", "spot"):
-            return self.display.lens.type != "pinhole" and self.in_rows and not self.covered
+        if measure == "dof":
+            return self.display.lens.type != "pinhole" and self.one_lens
+        if measure == "spot":
+            return self.display.lens.type != "pinhole" and (self.one_lens or self.dispersing)
+        if measure == "moire":
+            return self.structured
         return not (measure == "mtf" and self.display.lens.type == "pinhole") and not (measure == "crosstalk" and self.display.strips)
 
     def sight(self, lines, with_diffuser):
@@ -96,8 +109,36 @@ class Forms:
         middle = Sight(self.display, self.viewing, 8 * MANY, self.seed, True, middle_half=True)
         for axis, name in self.named_axes():
             out[f"bands.{name}_contrast"] = white.band_contrast(middle, eye, axis)
-        if self.in_rows and not self.covered:
+        if self.one_lens:
             out["light.efficiency"] = white.efficiency(without_diffuser(self.display), MANY, self.seed)
+        if self.coloured:
+            out |= self.colour_of_white(result["colour"])
+        return out
+
+    def colour_of_white(self, told):
+        """Of blocks of the screen, and of the middle one from angles: how far their colours are from that of all of them."""
+        d, out = self.display, {}
+        count, share = np.array(d.array.count), 1 / max(sum(shares.any() for shares, _ in d.colours), 1)
+
+        def add(name, first, number, weights, eye):
+            parts = len(weights)
+            each = max(int(SCREEN_LINES * share) // parts, 8)  # of each set
+            blocks = [np.repeat(v, each, axis=0) for v in (first, number)]
+            sight = Sight(d, self.viewing, parts * each, self.seed, True, blocks=blocks)
+            light = colours.light_of_parts(sight, eye if np.ndim(eye) == 1 else np.tile(np.repeat(eye, each, axis=0), (SETS, 1)), parts)
+            for figure, form in colours.distances(light, weights).items():
+                out[f"colour.{name}_delta_uv_{figure}"] = UNSURE if form and form[1] > COLOUR_UNSURE else form
+
+        first, number = colours.blocks_of_screen(count)
+        add("screen", first, number, number.prod(axis=1).astype(float), np.array([0.0, 0.0, self.eye]))
+        across = d.panel.pixel_pitch_mm * (np.abs(oracle.Lattice(d).turn[0, 0]) if d.strips else 1)
+        each_side = min(max(math.ceil(4 * d.cell.width[0] / across - 1e-9), 16), 128)
+        angles = np.radians(np.linspace(*told["angle_deg"], 2 * each_side + 1))
+        block = [np.tile(v, (len(angles), 1)) for v in colours.middle_block(count)]
+        for axis, name in ((0, "horizontal"), (1, "vertical")):
+            eyes = np.zeros((len(angles), 3))
+            eyes[:, axis], eyes[:, 2] = self.eye * np.sin(angles), self.eye * np.cos(angles)
+            add(name, *block, np.ones(len(angles)), eyes)
         return out
 
     def crosstalk(self, result):
@@ -108,31 +149,96 @@ class Forms:
         return {"between_views.woods_percent": crosstalk.middle_view_percent(lines, self.eye), **sides}
 
     def mtf(self, result):
-        lines, d, out = self.sight(MANY, True), self.display, {}
+        d, out = self.display, {}
+        wavelengths = max(d.render.wavelength_samples if self.dispersing else 1, 1)
+        lines = self.sight(4 * MANY // wavelengths if self.coloured or self.structured else MANY, True)
+        narrow = (d.subpixels.high - d.subpixels.low).min(axis=0)  # the narrowest rectangle along x and y, in pixels
+
+        @functools.cache
+        def white(angle):
+            eye = np.array([self.eye * math.sin(angle), 0.0, self.eye * math.cos(angle)])
+            return eye, colours.White(lines, eye)
+
         for k, m in enumerate(result["measurements"]):
-            angle = math.radians(m["angle_deg"])
+            eye, seen = white(math.radians(m["angle_deg"]))
+            axis, path = int(m["direction"] == "vertical"), f"measurements.{k}"
             z = m["depth_mm"] + d.vertex_plane - d.paraxial.rear
             step = d.panel.pixel_pitch_mm * (np.abs(lines.axes[0]).max() if d.strips else 1)  # from pixel to pixel
-            greatest = 0.8 * d.gap / (step * max(abs(z), 1e-3 * self.eye))  # 0.6 is the limit of a pixel's image
-            eye = [self.eye * math.sin(angle), 0.0, self.eye * math.cos(angle)]
-            form = sure(sharpness.mtf50, lines, eye, m["depth_mm"], int(m["direction"] == "vertical"), greatest)
-            form = UNSURE if form and form != UNSURE and form[1] > LOOSE * form[0] else form
-            out[f"measurements.{k}.mtf50_per_mm.green"] = form
-            lens = (eye[2] - d.vertex_plane) / (2 * d.cell.width[int(m["direction"] == "vertical")] * (eye[2] - d.vertex_plane - m["depth_mm"]))
+            finest = step * (narrow.min() if d.strips else narrow[axis])
+            greatest = 0.8 * d.gap / (finest * max(abs(z), 1e-3 * self.eye))  # 0.6 is the limit of a pixel's image
+            spreads = [sharpness.differences(lines, seen, eye, m["depth_mm"], c) for c in ((0, 1, 2) if self.coloured else (1,))]
+            named = {"green": spreads[0]}
+            if self.coloured:
+                named = {"red": spreads[0], "green": spreads[1], "blue": spreads[2], "luminance": sharpness.together(spreads)}
+            forms = {name: sure(sharpness.mtf50, lines, spread, eye, m["depth_mm"], axis, greatest) for name, spread in named.items()}
+            forms = {name: UNSURE if form and form != UNSURE and form[1] > LOOSE * form[0] else form for name, form in forms.items()}
+            out |= {f"{path}.mtf50_per_mm.{name}": form for name, form in forms.items()}
+            lens = (eye[2] - d.vertex_plane) / (2 * d.cell.width[axis] * (eye[2] - d.vertex_plane - m["depth_mm"]))
             pixel = d.gap / (2 * step * max(abs(z), 1e-300))
-            out[f"measurements.{k}.resolution_per_mm"] = least(form, min(lens, pixel))
+            out[f"{path}.resolution_per_mm"] = least(forms["luminance" if self.coloured else "green"], min(lens, pixel))
+            if self.coloured and forms["luminance"] != UNSURE:
+                for name in ("red", "blue"):
+                    out[f"{path}.colour.from_green_mm.{name}"] = *sharpness.from_green(named[name], named["green"], axis), step * abs(z) / d.gap
         return out
 
     def spot(self, result):
         d, out = self.display, {}
-        fans = [("meridional", one_lens.fan(d, 0)), ("sagittal", one_lens.fan(d, 1))]
+        fans = [("meridional", one_lens.fan(d, 0)), ("sagittal", one_lens.fan(d, 1))] if self.one_lens else []
         for k, spot in enumerate(result["spots"]):
             if spot["field"] == "axis" and spot["depth_mm"] is not None:
                 z = spot["depth_mm"] + d.vertex_plane - d.paraxial.rear
                 for name, rays in fans:
                     width = one_lens.width_over_depth(rays, 1 / z) * abs(z)
                     out[f"spots.{k}.{name}_width_mm"] = width, 1e-5 * width + 1e-9
+        return out | (self.colour_of_lens(result) if self.dispersing else {})
+
+    def colour_of_lens(self, result):
+        """Where red, green and blue come together, and how far apart they are at green's central depth plane."""
+        d, out = self.display, {}
+        planes = [depth + at.paraxial.rear for at, (_, depth) in zip(d.primaries, oracle.focus(d))]
+        exact = [paraxial.ROUNDING * depth**2 / f for f, depth in oracle.focus(d)]
+        out["colour.axial_mm"] = planes[0] - planes[2], exact[0] + exact[2]
+        if not self.one_lens or not math.isfinite(planes[1]) or exact[1] > 1e-3 * abs(planes[1]):  # too far away to be known to the millimetre
+            return out
+        for k, field in enumerate(result["colour"]["lateral"]):
+            half = d.array.pitch_mm / 2
+            start = half * {"axis": (0, 0), "half": (0.5, 0), "edge": (1, 0), "corner": (1, 1)}[field["field"]]
+            red, green, blue = (one_lens.centroids(at, start, planes[1]) for at in d.primaries)
+            pixel = d.panel.pixel_pitch_mm * abs(self.central_depth) / d.gap
+            for name, other in (("red", red), ("blue", blue)):
+                apart = None if other is None or green is None else np.hypot(*(other - green).T)
+                out[f"colour.lateral.{k}.{name}_mm"] = apart if apart is None else (apart.mean(), error_of(apart) + 1e-9, pixel)
         return out
+
+    def moire(self, result):
+        screen, out = moire.Screen(self.display, self.eye, result["window_mm"], self.seed), {}
+        for name, weights in screen.patterns(self.coloured).items():
+            out |= {f"{name}.{figure}": form for figure, form in moire_of(screen, weights, functools.reduce(dict.get, name.split("."), result)).items()}
+        return out
+
+
+def moire_of(screen, weights, told):
+    """Forms of what is told of a pattern: of the wave that is seen best or, where several may be within the errors, of that which is told."""
+    claim = told["period_mm"] and [wave_vector(told["period_mm"], told["direction_deg"])]
+    waves = screen.waves(weights, claim or ())
+    best = max(waves, key=lambda wave: wave.seen, default=None)
+    if best is None or best.seen < moire.HEARD * best.seen_error or best.frequency_error * best.period > LOOSE:
+        return dict.fromkeys(("period_mm", "direction_deg", "contrast", "contrast_unfiltered"), UNSURE)
+    if not claim:
+        visible = None if best.seen < VISIBLE else (best.period, best.frequency_error * best.period**2)
+        return {"period_mm": visible, "contrast": (best.seen, best.seen_error)}
+    near = [wave for wave in waves if min(np.hypot(*((wave.frequency - s * claim[0]) * screen.window)) for s in (-1, 1)) < 1]
+    if not near and told["contrast_unfiltered"] < screen.least(weights):
+        return dict.fromkeys(("period_mm", "direction_deg", "contrast", "contrast_unfiltered"), UNSURE)
+    tied = [wave for wave in waves if wave.seen + 3 * math.hypot(wave.seen_error, best.seen_error) + told["contrast_error"] >= best.seen]
+    wave = min(tied, key=lambda wave: min(np.hypot(*(wave.frequency - s * claim[0])) for s in (-1, 1)))
+    turn = wave.direction + 180 * round((told["direction_deg"] - wave.direction) / 180)
+    return {"period_mm": (wave.period, wave.frequency_error * wave.period**2), "direction_deg": (turn, math.degrees(wave.frequency_error * wave.period)),
+            "contrast": (wave.seen, wave.seen_error), "contrast_unfiltered": (wave.contrast, wave.contrast_error)}
+
+
+def wave_vector(period, degrees):
+    return np.array([math.cos(math.radians(degrees)), math.sin(math.radians(degrees))]) / period
 
 
 def sure(form, *arguments):

@@ -1,4 +1,4 @@
-"""Light of a panel point through one lens by itself, forward, in the plane of the point and the lens's axis: fans of rays and their width at depths.
+"""Light of a panel point through one lens by itself, forward: fans of rays in the plane of the point and the lens's axis, their width at depths, and all of it.
 
 A lens's own frame: x and y from its axis, z from the panel; depths from the rear principal plane. A fan along y (axis 1) is reckoned as one along x
 that ends at the other borders of the cell: all else of a lens is round.
@@ -12,32 +12,39 @@ FAN = 4001  # rays tried
 
 def through(display, axis, x, slopes):
     """Rays from (x, 0, 0) with dx/dz = slopes: (place at the rear principal plane, slope) of each behind the lens, nan where it does not get through."""
-    border = display.array.pitch_mm[axis] / 2 if display.fills_cell else np.inf
-    o = np.tile([float(x), 0.0, 0.0], (len(slopes), 1))
-    d = np.column_stack([slopes, np.zeros_like(slopes), np.ones_like(slopes)])
-    d /= np.linalg.norm(d, axis=1, keepdims=True)
+    border = np.array([display.array.pitch_mm[axis] / 2, np.inf]) if display.fills_cell else np.full(2, np.inf)
+    places, out = bent(display, border, [x, 0.0], np.column_stack([slopes, np.zeros_like(slopes), np.ones_like(slopes)]))
+    return places[:, 0], out[:, 0]
+
+
+def bent(display, border, start, d):
+    """Rays from a point of the panel, along d (n, 3): (places (n, 2) at the rear principal plane, nan where they do not get through; slopes (n, 2))."""
+    o = np.tile([*map(float, start), 0.0], (len(d), 1))
+    d = d / np.linalg.norm(d, axis=1, keepdims=True)
     if display.ideal:
-        q = x + slopes * display.lens_z
-        inside = np.abs(q) <= (border if display.fills_cell else display.lens.aperture_radius_mm) + EPS
-        inside &= np.abs(q) <= (display.stop_radius or np.inf) + EPS
-        return np.where(inside, q, np.nan), slopes - q / display.lens.focal_length_mm
+        slopes = d[:, :2] / d[:, 2:]
+        q = o[:, :2] + slopes * display.lens_z
+        inside = (np.abs(q) <= border + EPS).all(axis=1) & (np.hypot(*q.T) <= (display.stop_radius or np.inf) + EPS)
+        if not display.fills_cell:
+            inside &= np.hypot(*q.T) <= display.lens.aperture_radius_mm + EPS
+        return np.where(inside[:, None], q, np.nan), slopes - q / display.lens.focal_length_mm
     ok = in_stop(display, o, d) if display.stop_z < display.surfaces[-1].z else np.ones(len(o), bool)
     for surface in display.surfaces:
         t, normal = forward(surface, o, d)
         ok &= np.isfinite(t)
         o = o + np.where(ok, t, 0.0)[:, None] * d
-        ok &= np.abs(o[:, 0]) <= border + EPS
-        bent, _, _, _, total = refract(d, normal, np.full(len(o), surface.n_below), np.full(len(o), surface.n_above))
+        ok &= (np.abs(o[:, :2]) <= border + EPS).all(axis=1)
+        turned, _, _, _, total = refract(d, normal, np.full(len(o), surface.n_below), np.full(len(o), surface.n_above))
         ok &= ~total
-        d = np.where(ok[:, None], bent, d)
+        d = np.where(ok[:, None], turned, d)
     ok &= in_stop(display, o, d) if display.stop_z >= display.surfaces[-1].z else True
-    slope = d[:, 0] / d[:, 2]
-    return np.where(ok, o[:, 0] + (display.paraxial.rear - o[:, 2]) * slope, np.nan), slope
+    slopes = d[:, :2] / d[:, 2:]
+    return np.where(ok[:, None], o[:, :2] + (display.paraxial.rear - o[:, 2:]) * slopes, np.nan), slopes
 
 
 def in_stop(display, o, d):
-    at = o[:, 0] + (display.stop_z - o[:, 2]) * d[:, 0] / d[:, 2]
-    return np.abs(at) <= (display.stop_radius or np.inf)
+    at = o[:, :2] + ((display.stop_z - o[:, 2]) / d[:, 2])[:, None] * d[:, :2]
+    return np.hypot(*at.T) <= (display.stop_radius or np.inf)
 
 
 def forward(surface, o, d):
@@ -75,6 +82,31 @@ def rim(display, axis, x, passes, fails):
         else:
             fails = middle
     return passes
+
+
+GRIDS = (311, 293, 277, 263)  # of directions, across: each meets the rims elsewhere
+
+
+def centroids(display, start, z):
+    """(GRIDS, 2) mean places in the plane z = `z` of a panel point's light through the lens; None if none gets through.
+
+    The light is equally dense in direction cosines. Each of the grids of these tells the place anew: by what they differ they are wrong.
+    """
+    border = display.array.pitch_mm / 2 if display.fills_cell else np.full(2, np.inf)
+    low, high, found = np.full(2, -1.0), np.full(2, 1.0), []
+    for n in (150, 150, *GRIDS):  # ever closer about those that get through
+        step = (high - low) / n
+        l, m = (v.ravel() for v in np.meshgrid(*(low[k] + step[k] * (np.arange(n) + 0.5) for k in (0, 1))))
+        up = l**2 + m**2 < 1
+        l, m = l[up], m[up]
+        places, slopes = bent(display, border, start, np.column_stack([l, m, np.sqrt(1 - l**2 - m**2)]))
+        lit = np.isfinite(places[:, 0])
+        if not lit.any():
+            return None
+        found.append((places[lit] + (z - display.paraxial.rear) * slopes[lit]).mean(axis=0))
+        if n not in GRIDS:
+            low, high = np.array([l[lit].min(), m[lit].min()]) - step, np.array([l[lit].max(), m[lit].max()]) + step
+    return np.array(found[2:])
 
 
 def width_over_depth(rays, u):

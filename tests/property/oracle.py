@@ -8,12 +8,12 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "oracle"
 import display as _display  # noqa: E402
 import tracer as _tracer  # noqa: E402
 from lattice import Lattice  # noqa: E402, F401
-from pickup import nodal_lines  # noqa: E402, F401
+from pickup import nodal_lines, subpixel_points  # noqa: E402, F401
 from cases import to_toml  # noqa: E402, F401
 from path import OFF_PANEL, PANEL  # noqa: E402, F401
 from surface import Surface  # noqa: E402
 
-by_axis, trace = _display.by_axis, _tracer.trace
+by_axis, focus, trace = _display.by_axis, _display.focus, _tracer.trace
 
 
 class SmoothSurface(Surface):
@@ -41,6 +41,7 @@ def resolve(description):
     """tests/oracle's display of a description: lengths in mm, z from the panel."""
     panel = {"pixels": [1, 1], "pixel_pitch_mm": 1.0}
     d = _display.resolve({"panel": panel, **description, "array": {"count": [1, 1], **description["array"]}})
-    for surface in d.surfaces:
-        surface.__class__ = SmoothSurface
+    for at in [d, *d.primaries, *(at for _, at in d.colours)]:
+        for surface in at.surfaces:
+            surface.__class__ = SmoothSurface
     return d

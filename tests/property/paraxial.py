@@ -47,6 +47,10 @@ def forms(display, description):
             out[path] = told(figures)
     if display.lens.type == "pinhole":  # which images nothing
         return {path: form for path, form in out.items() if path not in ("theory.focal_length_mm", "theory.gap_closing_diffuser_deg")}
+    if len(display.colours) > 1:
+        for name, at in zip("rgb", display.primaries):
+            out[f"theory.colour.{name}.focal_length_mm"], out[f"theory.colour.{name}.gap_mm"] = told(at.paraxial.f), told(at.gap)
+            dioptres[f"theory.colour.{name}.central_depth_mm"] = 1000 * (1 / at.paraxial.f - 1 / at.gap)
     return out | {path: (value, ROUNDING * 1000 / f) for path, value in dioptres.items()}
 
 

@@ -22,7 +22,7 @@ import table
 from forms import Forms
 
 # --quick: one display of as many has the measure. "likeness" is `analyze fov` with all its views.
-EVERY = {"fov": 2, "likeness": 10, "dof": 4, "zone": 10, "crosstalk": 8, "uniformity": 8, "spot": 4, "mtf": 10}
+EVERY = {"fov": 2, "likeness": 10, "dof": 5, "zone": 10, "crosstalk": 9, "uniformity": 9, "spot": 5, "mtf": 9, "moire": 5}
 TRIES = 20  # drawings for one display, where `check` refuses some
 
 
@@ -79,16 +79,21 @@ def look_up(result, path):
 
 def label(measure, path):
     path = path.replace("_y_", "_").removesuffix("_y")  # along the array's own y: a figure of the same kind
-    return measure + " " + ".".join(p for p in path.split(".") if not p.isdigit() and p not in ("horizontal", "vertical", "theory", "green"))
+    left_out = ("horizontal", "vertical", "theory", "green")
+    names = [p for p in path.replace("horizontal_delta", "angle_delta").replace("vertical_delta", "angle_delta").split(".") if not p.isdigit()]
+    alike = {"r": "rgb", "g": "rgb", "b": "rgb", "red": "red_blue", "blue": "red_blue", "red_mm": "red_blue_mm", "blue_mm": "red_blue_mm"}
+    return measure + " " + ".".join(alike.get(p, p) for p in names if p not in left_out)
 
 
 def error_at(result, path):
     """The stated error of a figure, as an object of colours has it; None where there is none."""
-    name, _, colour = path.partition("_per_mm.")
-    try:
-        return look_up(result, f"{name}_per_mm_error.{colour}" if colour else path + "_error")
-    except KeyError:
-        return None
+    before, _, colour = path.rpartition(".")
+    for name in (path + "_error", f"{before}_error.{colour}"):
+        try:
+            return look_up(result, name)
+        except (KeyError, ValueError):  # ValueError: the row of a list
+            pass
+    return None
 
 
 def cases_of(measure, display, result, forms):
@@ -105,7 +110,7 @@ def cases_of(measure, display, result, forms):
         values, errors = values or [None] * len(here), errors or [0.0] * len(here)
         if measure == "check" and "depth" in path and path.endswith("_mm"):  # told in mm, compared in dioptres: infinitely far is 0
             values = [0.0 if v == "infinite" else v and 1000 / v for v in values]
-        scale = max((abs(f[0]) for f in here if isinstance(f, tuple)), default=1.0) or 1.0
+        scale = max((abs(f[-1] if len(f) == 3 else f[0]) for f in here if isinstance(f, tuple)), default=1.0) or 1.0
         noted = any(path.startswith(key) or key.startswith(path) for key in result.get("notes", {}))
         for f, value, error in zip(here, values, errors):
             yield table.Case(name, display, f, value, error or 0.0, scale, noted)

@@ -21,9 +21,12 @@ def even_points(n, dimensions, seed):
 
 
 class Sight:
-    """What eyes see of a display through n lines in each set; with_diffuser: turned by its angles, too. middle_half: of the lenses across and up alone."""
+    """What eyes see of a display through n lines in each set; with_diffuser: turned by its angles, too. middle_half: of the lenses across and up alone.
 
-    def __init__(self, display, viewing_distance, n, seed, with_diffuser=False, middle_half=False):
+    blocks: for each line of a set the first lens, across and up, of those that it may go through, and their number: two arrays (n, 2).
+    """
+
+    def __init__(self, display, viewing_distance, n, seed, with_diffuser=False, middle_half=False, blocks=None):
         self.display = display if with_diffuser else without_diffuser(display)
         d = self.display
         u = even_points(n, 6, seed).reshape(-1, 6)
@@ -34,8 +37,9 @@ class Sight:
         if d.strips:  # one row, as long as the panel reaches along it
             self.pitch[1] = 2 * np.abs(self.axes[1]) @ self.half_panel
         first = count // 4 if middle_half else np.zeros(2)
+        first, number = (np.tile(part, (SETS, 1)) for part in blocks) if blocks else (first, count - 2 * first)
         self.in_cell = u[:, 2:4]  # places within a cell's box, from its corner, in pitches
-        lens = (first + np.floor(u[:, :2] * (count - 2 * first))).astype(np.int64)
+        lens = (first + np.floor(u[:, :2] * number)).astype(np.int64)
         axis, within = self.lattice.axis(lens[:, 0], lens[:, 1]), np.column_stack([(self.in_cell - 0.5) * self.pitch, np.zeros(len(u))])
         if d.array.lattice == "hexagon" and not middle_half:  # the box's corners are other hexagons': the same place in this one
             i, j, _ = self.lattice.cell(axis + within)
@@ -60,9 +64,12 @@ class Sight:
         """Whether places (n, 2), along x' and y' from the centre of an elemental image, lie in that image."""
         return self.lattice.in_cell(off / self.stretch, 0.0)
 
-    def see(self, eye):
-        """The rays from an eye (x, y, z): the tracer's hits with `at`, where they end on the panel (n, 2), and `off`, at from the centre along x' and y'."""
-        hits = oracle.trace(self.display, np.broadcast_to(np.asarray(eye, float), self.aim.shape), self.aim - eye, self.turns)
+    def see(self, eye, display=None):
+        """The rays from an eye (x, y, z): the tracer's hits with `at`, where they end on the panel (n, 2), and `off`, at from the centre along x' and y'.
+
+        eye: one for all lines, or (n, 3). display: in light of another colour.
+        """
+        hits = oracle.trace(display or self.display, np.broadcast_to(np.asarray(eye, float), self.aim.shape), self.aim - eye, self.turns)
         pitch = self.display.panel.pixel_pitch_mm
         hits.at = np.column_stack([hits.x, -hits.y]) * pitch + [-self.half_panel[0], self.half_panel[1]]
         hits.off = (hits.at - self.centres(hits.lens)) @ self.axes.T * self.lattice.across

@@ -7,16 +7,22 @@ UNSURE = "unsure"        # the form's own error is too large to tell
 AGREEMENT = 0.95         # least share of cases
 MOST_NULL = 0.10         # of cases where the form is defined
 MOST_ERROR = 0.02        # median of stated errors, of the figure
-MOST_ERROR_DEG = 0.1     # the same for the field of view
-MOST_ERROR_CONTRAST = 0.01  # the same for contrasts, which are shares of 1: bands of less are not seen
+MOST_ERRORS = (          # the same of figures that are not judged by their own size: how the measure starts, what is in it, the most, its unit
+    ("fov ", "_deg", 0.1, "°"),
+    ("likeness ", "_deg", 0.1, "°"),
+    ("moire ", "_deg", 1.0, "°"),
+    ("", "contrast", 0.01, ""),     # shares of 1: bands of less are not seen
+    ("", "_delta_uv_", 0.002, ""),  # 0.004 is just seen
+    ("mtf ", "from_green", 0.05, "%"),  # of a pixel's image: a fringe of less is not seen beside its blur
+)
 FEW = 20                 # of fewer cases one may disagree: 19 of 20 is the rate that is stated
-A_MEDIAN = 5             # of fewer cases the median of the stated errors tells one display, not the measure
+A_MEDIAN = 5             # of fewer displays the median of the stated errors tells one display, not the measure
 FORM_ERRORS = 3          # as many standard errors of the form are added to the stated error
 
 
 @dataclass
 class Case:
-    """One figure of one display. form: (value, standard error), None where undefined, or UNSURE. measured: None where null; absent: not in the result."""
+    """One figure of one display. form: (value, standard error), perhaps with a third number that sets the scale, None where undefined, or UNSURE. measured: None where null; absent: not in the result."""
     measure: str
     display: int
     form: tuple | str | None
@@ -70,11 +76,8 @@ class Row:
         self.agreement = sum(c.agrees for c in told) / len(told) if told else 0.0
         self.silent = sum(c.measured is None and not c.noted for c in self.cases)
         self.largest = max((c.over for c in both), default=0.0)
-        self.degrees = measure.startswith(("fov ", "likeness ")) and measure.endswith("_deg")
-        self.contrast = measure.endswith("_contrast")
-        self.absolute = self.degrees or self.contrast
-        self.error = statistics.median(c.error / (1 if self.absolute else c.scale) for c in both) if both else 0.0
-        self.goal = MOST_ERROR_DEG if self.degrees else MOST_ERROR_CONTRAST if self.contrast else MOST_ERROR
+        self.goal, self.unit = next(((most, unit) for start, part, most, unit in MOST_ERRORS if measure.startswith(start) and part in measure), (MOST_ERROR, "%"))
+        self.error = statistics.median(c.error / (c.scale if self.unit == "%" else 1) for c in both) if both else 0.0
         self.wrong = [c for c in told if not c.agrees]
 
     @property
@@ -90,7 +93,7 @@ class Row:
             return found
         if self.nulls > MOST_NULL:
             found.append("null")
-        if self.error > self.goal and len(self.cases) >= A_MEDIAN:
+        if self.error > self.goal and len({c.display for c in self.cases}) >= A_MEDIAN:
             found.append("stated error")
         return found
 
@@ -106,7 +109,7 @@ def text(table):
     """The table as Markdown."""
     lines = ["| measure | cases | undefined | agreement | largest error over stated | median stated error | null | |", "|---|---|---|---|---|---|---|---|"]
     for row in table:
-        error = f"{row.error:.2g}°" if row.degrees else f"{row.error:.2g}" if row.contrast else f"{100 * row.error:.2g} %"
+        error = f"{100 * row.error:.2g} %" if row.unit == "%" else f"{row.error:.2g}{row.unit}"
         lines.append(f"| {row.measure} | {len(row.cases)} | {row.undefined} | {100 * row.agreement:.1f} % | {row.largest:.2g} | {error} | "
                      f"{100 * row.nulls:.1f} % | {', '.join(row.faults)} |")
     return "\n".join(lines)

@@ -1,0 +1,88 @@
+"""A white panel in red, green and blue: each channel seen where it shines, in its own light. And colours' distances."""
+import numpy as np
+
+import oracle
+from edges import error_of
+from sight import SETS
+from white import radiance
+
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # of linear red, green and blue
+XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])  # IEC 61966-2-1
+DARK = 0.1  # of the mean luminance: parts that are darker have no colour
+
+
+class White:
+    """What an eye, or an eye for each line, sees of it along lines of sight."""
+
+    def __init__(self, sight, eye):
+        self.display = sight.display
+        self.traced = [(shares, sight.see(eye, display)) for shares, display in self.display.colours]
+
+    def shining(self, channel):
+        """(light, column, row) of each wavelength in a channel: light is 0 where the channel does not shine; column and row of the pixel shown."""
+        subpixels = self.display.subpixels
+        for shares, hits in self.traced:
+            if shares[channel]:
+                met = subpixels.met(channel, hits.x, hits.y)
+                light = shares[channel] * subpixels.gain[channel] * radiance(self.display, hits)
+                yield np.where(subpixels.shown(*met), light, 0.0), met[1], met[2]
+
+
+def has_colours(display):
+    """Whether colours have light paths, or places on the panel, of their own."""
+    return display.panel.subpixels != "none" or len(display.colours) > 1
+
+
+def blocks_of_screen(count, most=48):
+    """(first lenses (n, 2), their numbers (n, 2)) of blocks of as few whole lenses as make no more than `most` along the longer side."""
+    together = -(-count.max() // most)
+    parts = np.maximum(count // together, 1)
+    at = np.stack(np.meshgrid(*map(np.arange, parts), indexing="ij"), axis=-1).reshape(-1, 2)
+    first = at * count // parts
+    return first, (at + 1) * count // parts - first
+
+
+def middle_block(count, most=48):
+    """(first lens, number) of one such block in the middle."""
+    together = np.minimum(-(-count.max() // most), count)
+    return (count - together) // 2, together
+
+
+def chromaticity(rgb):
+    """(u', v') of linear colours (3, ...)."""
+    x, y, z = np.tensordot(XYZ, rgb, 1)
+    with np.errstate(invalid="ignore"):
+        return np.array([4 * x, 9 * y]) / (x + 15 * y + 3 * z)
+
+
+def distances(light, weights):
+    """({"largest": (distance of a part's colour from that of all light together, error), "mean": ...}); None in place of both where all is dark.
+
+    light (3, SETS, parts). In turn all sets but one find the largest distance and the parts' directions, and that one tells how far they are.
+    """
+    luminance = np.tensordot(LUMINANCE, light.sum(axis=1), 1)
+    lit = luminance >= DARK * np.average(luminance, weights=weights)
+    if not luminance.any():
+        return {"largest": None, "mean": None}
+    light, weights = light[:, :, lit], weights[lit] / weights[lit].sum()
+
+    def off(parts):
+        return chromaticity(parts) - chromaticity(parts @ weights)[:, None]
+
+    whole = light.sum(axis=1)
+    length = np.hypot(*off(whole))
+    told = {"largest": [], "mean": []}
+    for one in range(SETS):
+        others = off(whole - light[:, one])
+        far = np.hypot(*others)
+        own = ((SETS * off(whole) - (SETS - 1) * others) * others).sum(axis=0) / np.maximum(far, 1e-300)
+        told["largest"].append(own[far.argmax()])
+        told["mean"].append(own @ weights)
+    of_all = {"largest": length.max(), "mean": length @ weights}  # which noise raises
+    return {name: (np.mean(found), np.hypot(error_of(np.array(found)), (of_all[name] - np.mean(found)) / 3)) for name, found in told.items()}
+
+
+def light_of_parts(sight, eye, parts):
+    """(3, SETS, parts): the lines of each set are as many for each part, one part after the other."""
+    white = White(sight, eye)
+    return np.array([sum(light for light, _, _ in white.shining(c)).reshape(SETS, parts, -1).mean(axis=2) for c in range(3)])
