@@ -1,5 +1,6 @@
 #include "report/folder_lock.h"
 
+#include "image/file.h"
 #include "model/error.h"
 
 #include <fcntl.h>
