@@ -106,13 +106,12 @@ std::optional<HarmonicLines::Wave> HarmonicLines::near(const Frequency& f, doubl
     const std::vector<Part> found = parts(f, least_part * contrast);
     if (found.empty()) return {};
     const Harmonic& harmonic = *found.front().harmonic;
-    const WaveSums main = sums(harmonic, f);
-    Wave wave{main, main, std::abs(harmonic.c) * noise_[harmonic.path]};
-    const Frequency own = main.peak(f);
+    Wave wave{sums(harmonic, f), std::abs(harmonic.c) * noise_[harmonic.path]};
+    const Frequency own = wave.sums.peak(f);
     for (std::size_t n = 1; n < found.size() && found[n].amplitude > least_part * found.front().amplitude; ++n) {
         const WaveSums other = sums(*found[n].harmonic, f);
         const Frequency at = other.peak(f);
-        if (std::hypot((at[0] - own[0]) * width_, (at[1] - own[1]) * height_) <= WaveSums::one_wave) wave.all.add(other);
+        if (std::hypot((at[0] - own[0]) * width_, (at[1] - own[1]) * height_) <= WaveSums::one_wave) wave.sums.add(other);
     }
     return wave;
 }

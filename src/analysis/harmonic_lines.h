@@ -18,8 +18,7 @@ class HarmonicLines {
     static constexpr int rows = 256;
 
     struct Wave {
-        WaveSums main;  // of the harmonic that gives most, which tells the frequency
-        WaveSums all;   // of all harmonics whose waves have that frequency
+        WaveSums sums;  // of the harmonic that gives most and of those whose waves have its frequency
         double noise;   // standard deviation of its amplitude, if each line's light were chance
     };
     /// The wave within 1.5 periods of the window of a frequency. `contrast`: about what it is. None where no harmonic gives

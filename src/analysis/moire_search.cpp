@@ -69,8 +69,8 @@ std::vector<Candidate> strongest_waves(const WhiteLines& lines, double mm_per_de
 
 /// The wave near a candidate, without a set of lines.
 Beat beat_of(const HarmonicLines::Wave& wave, const Frequency& from, double mean, double mm_per_degree, int without) {
-    const Frequency f = wave.main.peak(from, without);
-    Beat beat{f, 2 * std::abs(wave.all.wave(f, without)) / mean, 0};
+    const Frequency f = wave.sums.peak(from, without);
+    Beat beat{f, 2 * std::abs(wave.sums.wave(f, without)) / mean, 0};
     beat.seen = beat.contrast * eye_filter(std::hypot(f[0], f[1]) * mm_per_degree);
     return beat;
 }
@@ -83,7 +83,7 @@ MeasuredBeat measured(const HarmonicLines::Wave& wave, const Frequency& from, do
     MeasuredBeat m;
     m.beat = found[0];
     for (std::size_t k = 0; k < 2; ++k)
-        m.frequency_error[k] = figure([&](const Beat& b) { return b.frequency[k]; }).error + wave.main.closest()[k];
+        m.frequency_error[k] = figure([&](const Beat& b) { return b.frequency[k]; }).error + wave.sums.closest()[k];
     const double error = std::hypot(m.frequency_error[0], m.frequency_error[1]), period = period_mm(m.beat.frequency);
     m.period_mm = {period, error * period * period};
     m.direction_deg = {direction_deg(m.beat.frequency), std::min(error * period / degree, 90.)};

@@ -14,7 +14,7 @@ using Frequency = std::array<double, 2>;
 class WaveSums {
   public:
     static constexpr int side = 32;          // blocks along each axis of the window
-    static constexpr double one_wave = 0.1;  // periods of the window: waves no farther apart are one
+    static constexpr double one_wave = 0.3;  // periods of the window: waves no farther apart are one
 
     WaveSums(const Frequency& about, double width_mm, double height_mm)
         : about_(about), width_(width_mm), height_(height_mm), blocks_(std::size_t(side) * side) {}
@@ -35,7 +35,7 @@ class WaveSums {
     Frequency peak(const Frequency& from, int without = -1) const;
     /// How closely a frequency is known along x and y, however little noise there is: lenses with aberrations make waves that are
     /// not quite of one frequency, and a window weights their parts.
-    Frequency closest() const { return {0.5 * one_wave / width_, 0.5 * one_wave / height_}; }
+    Frequency closest() const { return {0.05 / width_, 0.05 / height_}; }
 
   private:
     static constexpr double finest_step = 1e-5;  // periods of the window
