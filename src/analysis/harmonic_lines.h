@@ -41,6 +41,10 @@ class HarmonicLines {
         double column, row;  // periods per pixel
         std::complex<double> c;
     };
+    struct Cell {
+        double columns, rows;  // pixels
+        int squares;           // that lines are gathered in, along each axis
+    };
     struct Part {
         const Harmonic* harmonic;
         double amplitude;
@@ -52,12 +56,8 @@ class HarmonicLines {
 
     double width_, height_, mean_ = 0;
     std::vector<std::vector<Line>> paths_;  // of each path of light the lines that end on the panel
-    struct Cell {
-        double columns, rows;  // pixels
-        int squares;           // that lines are gathered in, along each axis
-    };
-    std::vector<Cell> cells_;    // of each path
-    std::vector<double> noise_;  // of each path: standard deviation of a mean over all lines
+    std::vector<Cell> cells_;               // of each path
+    std::vector<double> noise_;             // of each path: standard deviation of a mean over all lines
     std::vector<Harmonic> harmonics_;
 };
 

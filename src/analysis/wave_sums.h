@@ -35,10 +35,10 @@ class WaveSums {
     Frequency peak(const Frequency& from, int without = -1) const;
     /// How closely a frequency is known along x and y, however little noise there is: lenses with aberrations make waves that are
     /// not quite of one frequency, and a window weights their parts.
-    Frequency closest() const { return {0.05 / width_, 0.05 / height_}; }
+    Frequency closest() const { return {closest_step / width_, closest_step / height_}; }
 
   private:
-    static constexpr double finest_step = 1e-5;  // periods of the window
+    static constexpr double finest_step = 1e-5, closest_step = 0.05;  // periods of the window: searched, and known
     Frequency about_;
     double width_, height_;
     std::vector<std::array<std::complex<double>, independent_sets>> blocks_;
