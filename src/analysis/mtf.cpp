@@ -10,7 +10,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <iterator>
+#include <string>
+#include <utility>
 
 // docs/model.md, "Resolution".
 namespace lfdsim {
@@ -37,14 +40,14 @@ Json to_json(const MtfCurves& m, const Resolution& r) {
         json[std::string("lens_sampling_limit") + unit] = number_json(r.lens_limit_per_mm * scale);
         json[std::string("pixel_image_limit") + unit] = number_json(r.pixel_limit_per_mm * scale);
         for (const auto& [name, level] : levels) {
-            add_channels(json, std::string(name) + unit, scale, [&, at = level](std::size_t c) { return m.below(at, c); });
+            add_channels(json, std::string(name) + unit, scale, [&, at = level](std::size_t c) { return m.below(at, c).found; });
             if (!m.channels.empty()) {
-                const Estimate luminance = m.below(level);
+                const Estimate luminance = m.below(level).found;
                 json[std::string(name) + unit]["luminance"] = number_json(luminance.value * scale);
                 json[std::string(name) + unit + "_error"]["luminance"] = number_json(luminance.error * scale);
             }
             add_channels(json, std::string("edge_") + name + unit, scale,
-                         [&, at = level](std::size_t c) { return m.edges_below(c, at); });
+                         [&, at = level](std::size_t c) { return m.edges_below(c, at).found; });
         }
         json[std::string("theory_mtf50") + unit] = number_json(m.theory_below(0.5) * scale);
         json[std::string("theory_resolution") + unit] = number_json(r.theory_per_mm * scale);
@@ -66,17 +69,26 @@ void add_notes(const MtfCurves& m, const Resolution& r, std::size_t n, Result& r
                                     100 * m.astray));
     if (!r.missing.empty()) return result.note(path, r.missing);
     for (const auto& [name, level] : levels) {
-        const std::string never = fmt::format("modulation is never below {:.0f} % as far as was measured, {:.4g} per mm",
-                                              100 * level, m.frequencies_per_mm.back());
-        const auto misses = [&, at = level](auto&& figure) {
-            return std::isnan(figure(0, at)) || std::isnan(figure(1, at)) || std::isnan(figure(2, at));
+        const double last = m.frequencies_per_mm.back();
+        const std::string never =
+            fmt::format("modulation is never below {:.0f} % as far as was measured, {:.4g} per mm", 100 * level, last);
+        const auto reason = [&, at = level](std::initializer_list<Crossing> figures) -> std::string {  // empty: none is missing
+            for (const Crossing& of : figures)
+                if (std::isnan(of.found.value))
+                    return std::isnan(of.least)
+                               ? never
+                               : fmt::format(
+                                     "modulation grazes {:.0f} %: within its error it falls below it from {:.4g} per mm on, "
+                                     "or never as far as was measured, {:.4g} per mm",
+                                     100 * at, of.least, last);
+            return {};
         };
-        if (misses([&](std::size_t c, double at) { return m.below(at, c).value; }))
-            result.note(fmt::format("{}.{}", path, name), never);
-        if (misses([&](std::size_t c, double at) { return m.edges_below(c, at).value; }))
-            result.note(
-                fmt::format("{}.edge_{}", path, name),
-                m.edges[1].all.empty() ? "the screen shows too little of the plane about an edge for the edge's light" : never);
+        if (std::string why = reason({m.below(level), m.below(level, 0), m.below(level, 1), m.below(level, 2)}); !why.empty())
+            result.note(fmt::format("{}.{}", path, name), std::move(why));
+        if (std::string why = reason({m.edges_below(0, level), m.edges_below(1, level), m.edges_below(2, level)}); !why.empty())
+            result.note(fmt::format("{}.edge_{}", path, name),
+                        m.edges[1].all.empty() ? "the screen shows too little of the plane about an edge for the edge's light"
+                                               : std::move(why));
     }
 }
 
@@ -91,12 +103,12 @@ double plotted_depth_mm(const Subject& s, const std::vector<double>& depths) {
 std::string label(const Direction& direction, double angle) { return fmt::format("{}, {:.3g} degrees", direction.told, angle); }
 
 void add_findings(const MtfCurves& m, const Resolution& r, Result& result) {
-    const double mtf50 = m.below(0.5).value;
+    const double mtf50 = m.below(0.5).found.value;
     std::string remark = r.missing;
     if (remark.empty()) {
         remark = fmt::format("{:.4g} cycles per degree, limited by {}", r.per_mm.value * m.mm_per_deg, r.limited_by);
         if (std::isnan(mtf50))
-            remark += "; MTF is never below one half as far as was measured";
+            remark += "; MTF is not surely below one half as far as was measured";
         else if (mtf50 > r.per_mm.value)
             remark += fmt::format("; MTF50 by itself is {:.4g} per mm", mtf50);
         if (r.per_mm.value < 0.9 * r.theory_per_mm)
@@ -171,8 +183,8 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
                    resolved = column("resolution");
             for (const MtfCurves& m : all) {
                 if (m.direction.axis != direction.axis || m.angle_deg != angle) continue;
-                mtf50.values.push_back(m.below(0.5).value);
-                edges.values.push_back(m.edges_below(1, 0.5).value);
+                mtf50.values.push_back(m.below(0.5).found.value);
+                edges.values.push_back(m.edges_below(1, 0.5).found.value);
                 theory.values.push_back(m.theory_below(0.5));
                 resolved.values.push_back(resolution(s, m).per_mm.value);
                 for (std::size_t k = 0; k < m.frequencies_per_mm.size(); ++k) {

@@ -74,14 +74,14 @@ void tell_mtf_of_colours(std::span<const MtfCurves* const> at_depth, Result& res
     }
     if (!first) return;
     for (std::size_t c = 0; c < 3; ++c) {
-        const Estimate mtf50 = first->below(0.5, c);
+        const Estimate mtf50 = first->below(0.5, c).found;
         result.findings.push_back({fmt::format("MTF50 of {} at {:.4g} mm, {}, {:.3g} degrees", colour_of_channel[c],
                                                first->depth_mm, first->direction.told, first->angle_deg),
                                    "per mm",
                                    {mtf50.value},
                                    {first->theory_below(0.5, c)},
                                    std::isnan(mtf50.value)
-                                       ? "MTF is never below one half as far as was measured"
+                                       ? "MTF is not surely below one half as far as was measured"
                                        : fmt::format("{:.4g} cycles per degree", mtf50.value * first->mm_per_deg),
                                    {mtf50.error}});
     }

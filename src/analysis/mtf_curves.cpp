@@ -11,18 +11,36 @@
 namespace lfdsim {
 namespace {
 
-Estimate crossing(const std::vector<double>& frequencies, const Modulation& m, double level) {
-    if (m.all.empty()) return {nan, nan};
-    return jackknife([&](int k) { return falls_below(frequencies, k < 0 ? m.all : m.without[std::size_t(k)], level); });
+/// Of modulation at each frequency. `pixels_anywhere` may be empty.
+std::vector<double> errors(const Modulation& m, const std::vector<double>& pixels_anywhere) {
+    std::vector<double> found(m.all.size());
+    for (std::size_t n = 0; n < found.size(); ++n) {
+        found[n] = jackknife([&](int k) { return k < 0 ? m.all[n] : m.without[std::size_t(k)][n]; }).error;
+        if (!pixels_anywhere.empty()) found[n] = std::hypot(found[n], m.all[n] - pixels_anywhere[n]);
+    }
+    return found;
 }
 
-/// Where modulation crosses a level, and the error by chance and by the pixels' phases.
-Estimate crossing(const std::vector<double>& frequencies, const Modulation& m, const std::vector<double>& pixels_anywhere,
+Crossing crossing(const std::vector<double>& frequencies, const Modulation& m, const std::vector<double>& pixels_anywhere,
                   double level) {
-    Estimate found = crossing(frequencies, m, level);
+    if (m.all.empty()) return {};
+    Estimate found = jackknife([&](int k) { return falls_below(frequencies, k < 0 ? m.all : m.without[std::size_t(k)], level); });
     if (const double anywhere = falls_below(frequencies, pixels_anywhere, level); std::isfinite(anywhere))
         found.error = std::hypot(found.error, found.value - anywhere);
-    return found;
+    std::vector<double> low = m.all, high = m.all;
+    const std::vector<double> error = errors(m, pixels_anywhere);
+    for (std::size_t n = 0; n < error.size(); ++n) low[n] -= error[n], high[n] += error[n];
+    const double least = falls_below(frequencies, low, level), most = falls_below(frequencies, high, level);
+    if (std::isnan(most)) return {{}, least, most};
+    return {{found.value, std::max({found.error, found.value - least, most - found.value})}, least, most};
+}
+
+/// Whether that is sure of one half.
+bool falls_below_half(const Modulation& m) {
+    const std::vector<double> error = errors(m, {});
+    for (std::size_t n = 0; n < error.size(); ++n)
+        if (m.all[n] + error[n] < 0.5) return true;
+    return false;
 }
 
 /// The mean of exp(2 pi i nu off) in luminance, as theory has it.
@@ -34,18 +52,18 @@ std::complex<double> luminance_wave(const std::vector<ChannelBlur>& channels, do
 
 }  // namespace
 
-Estimate MtfCurves::below(double level) const { return crossing(frequencies_per_mm, modulation, pixels_anywhere, level); }
+Crossing MtfCurves::below(double level) const { return crossing(frequencies_per_mm, modulation, pixels_anywhere, level); }
 
-Estimate MtfCurves::below(double level, std::size_t channel) const {
+Crossing MtfCurves::below(double level, std::size_t channel) const {
     if (channels.empty()) return below(level);
     const ChannelMtf& of = channels[channel];
     return crossing(frequencies_per_mm, of.modulation, of.pixels_anywhere, level);
 }
 
-Estimate MtfCurves::edges_below(std::size_t channel, double level) const {
-    Estimate found = crossing(frequencies_per_mm, edges[channel], level);
-    found.error = std::hypot(found.error, found.value - below(level, channel).value);
-    return found;
+Crossing MtfCurves::edges_below(std::size_t channel, double level) const {
+    Crossing crossed = crossing(frequencies_per_mm, edges[channel], {}, level);
+    crossed.found.error = std::hypot(crossed.found.error, crossed.found.value - below(level, channel).found.value);
+    return crossed;
 }
 
 double MtfCurves::theory_below(double level) const { return has_theory() ? falls_below(frequencies_per_mm, theory, level) : nan; }
@@ -95,7 +113,7 @@ MtfCurves mtf_curves(const Subject& s, const SeenInColours& seen, double depth_m
         std::vector<LineSpread> spreads{spread};
         for (const SeenThroughLenses& channel : seen.channels)
             spreads.push_back(channel.spread(plane.z_mm, direction, Pixels::as_described));
-        const auto falls = [&](const LineSpread& of) { return std::ranges::min(of.mtf(step, steps + 1).all) < 0.5; };
+        const auto falls = [&](const LineSpread& of) { return falls_below_half(of.mtf(step, steps + 1)); };
         while (step * steps < 1 / finest && !std::ranges::all_of(spreads, falls)) step *= 2;
         m.modulation = spread.mtf(step, steps + 1);
         m.pixels_anywhere = seen.luminance.spread(plane.z_mm, direction, Pixels::anywhere).mtf(step, steps + 1).all;

@@ -3,6 +3,7 @@
 #include "analysis/edge_view.h"
 #include "analysis/line_spread.h"
 #include "analysis/subject.h"
+#include "model/numbers.h"
 
 #include <array>
 #include <string>
@@ -17,6 +18,14 @@ struct ChannelMtf {
     std::vector<double> theory;
     Estimate middle_mm;  // mean distance from the point looked at to the one shown; differs by colour: fringes
     double theory_middle_mm;
+};
+
+/// The frequency per mm at which modulation first falls below a level; NaN: it never does, as far as was measured. Where the curve
+/// less its error falls below it, and where the curve plus its error does: far apart where the curve grazes the level. `found` is
+/// NaN, too, where the latter never does.
+struct Crossing {
+    Estimate found;
+    double least = nan, most = nan;
 };
 
 struct MtfCurves {
@@ -37,13 +46,12 @@ struct MtfCurves {
     int lenses = 0;  // that the edges crossed
 
     bool has_theory() const { return astray < 0.01; }
-    /// The frequency at which modulation first falls below a level; NaN: it never does. The error includes the effect of the phases
-    /// in which this screen's pixels happen to meet its lenses.
-    Estimate below(double level) const;
-    Estimate below(double level, std::size_t channel) const;
+    /// The error includes the effect of the phases in which this screen's pixels happen to meet its lenses.
+    Crossing below(double level) const;
+    Crossing below(double level, std::size_t channel) const;
     /// The same of a colour's edges. They are a sample of all the places where edges may be, so the error is at least their
     /// difference from lines of sight.
-    Estimate edges_below(std::size_t channel, double level) const;
+    Crossing edges_below(std::size_t channel, double level) const;
     double theory_below(double level) const;
     double theory_below(double level, std::size_t channel) const;
 };

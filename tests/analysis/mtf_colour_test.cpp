@@ -258,7 +258,7 @@ TEST(MtfOfColours, WithoutThemAllIsOne) {
     const MtfCurves m = mtf_curves(s, seen_in_colours(s, {0, 0, eye_mm}), 150, 0, directions(s.display()).front());
     EXPECT_TRUE(m.channels.empty());
     for (std::size_t c = 0; c < 3; ++c) {
-        EXPECT_EQ(m.below(0.5, c).value, m.below(0.5).value);
+        EXPECT_EQ(m.below(0.5, c).found.value, m.below(0.5).found.value);
         EXPECT_EQ(m.theory_below(0.5, c), m.theory_below(0.5));
     }
 }

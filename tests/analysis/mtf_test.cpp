@@ -186,8 +186,33 @@ TEST(Mtf, IsFollowedToOneHalfOrToTheLensesLimit) {
     const MtfCurves m = mtf_curves(s, seen_in_colours(s, {x, 0, z}), 62, angle, directions(s.display()).front());
     ASSERT_EQ(m.missing, "");
     EXPECT_GT(m.spread_mm, 20);  // the halo
-    EXPECT_NEAR(m.below(0.5).value, 0.106, 0.003);
+    EXPECT_NEAR(m.below(0.5).found.value, 0.106, 0.003);
     EXPECT_EQ(resolution(s, m).limited_by, std::string("mtf50"));
+}
+
+// A curve that comes down to the level and turns back may fall below it there or only where it comes down again: its error tells.
+TEST(Mtf, ACurveThatGrazesTheLevelIsAsUnsureAsItIs) {
+    const auto grazing = [](double by, double end) {
+        MtfCurves m{};
+        m.frequencies_per_mm = {0, 1, 2, 3, 4};
+        m.modulation.all = {1, 0.5 + by, 0.8, 0.6, end};
+        for (std::size_t k = 0; k < m.modulation.without.size(); ++k) {
+            m.modulation.without[k] = m.modulation.all;
+            for (double& y : m.modulation.without[k]) y += k % 2 ? 0.001 : -0.001;  // errors of 0.0063
+        }
+        return m.below(0.5);
+    };
+    const Crossing clear = grazing(0.02, 0.2), above = grazing(0.002, 0.2), below = grazing(-0.002, 0.2),
+                   perhaps = grazing(0.002, 0.51), never = grazing(0.02, 0.51);
+    EXPECT_NEAR(clear.found.value, 3.25, 1e-12);
+    EXPECT_LT(clear.found.error, 0.02);
+    EXPECT_NEAR(above.found.value, 3.25, 1e-12);
+    EXPECT_NEAR(above.found.value - above.found.error, 1, 0.01);
+    EXPECT_NEAR(below.found.value, 1, 0.01);
+    EXPECT_NEAR(below.found.value + below.found.error, 3.25, 0.02);
+    EXPECT_TRUE(std::isnan(perhaps.found.value));
+    EXPECT_NEAR(perhaps.least, 1, 0.01);
+    EXPECT_TRUE(std::isnan(never.found.value) && std::isnan(never.least));
 }
 
 TEST(Mtf, WithoutALensToSeeThroughIsNull) {
