@@ -110,7 +110,7 @@ Pattern pattern_of(const WhiteSeen& screen, const std::optional<Beat>& theory, c
     if (!(lines.mean() > 0)) throw InputError("camera", "sees no light of a white panel from straight in front of it");
     Pattern pattern;
     const HarmonicLines harmonics(screen, s.display().render.seed, eye, window, parts);
-    pattern.search = find_moire(lines, harmonics, theory, mm_per_degree(eye[2] - s.geometry().vertex_plane_mm), parts);
+    pattern.search = find_moire(lines, harmonics, theory, mm_per_degree(eye[2] - s.geometry().vertex_plane_mm));
     if (const std::optional<MeasuredBeat>& m = pattern.search.strongest) {
         pattern.found = {m->period_mm, m->direction_deg, m->seen, m->contrast};
         return pattern;
@@ -168,7 +168,7 @@ Result measure_moire(Subject& s, Job& job) {
     const Vec3d eye{0, 0, distance};
     const Window window = middle_of_screen(d, s.geometry(), distance);
     result.figures["window_mm"] = {window.width_mm(), window.height_mm()};
-    Parts parts(job, s.threads(), colours(d) * (window.rows + HarmonicLines::rows + moire_search_parts) + map_side, moire_steps(s));
+    Parts parts(job, s.threads(), colours(d) * (window.rows + HarmonicLines::rows) + map_side, moire_steps(s));
     for (int colour = 0; colour < colours(d); ++colour) {
         const bool all = colour == 0;
         const auto channel = std::size_t(colour - 1);

@@ -25,10 +25,7 @@ struct MoireSearch {
 /// and array, in squares that tell waves of up to 50 cycles a degree apart.
 Window middle_of_screen(const Display&, const Geometry&, double eye_mm);
 
-/// Takes moire_search_parts parts beside those of the lines.
-MoireSearch find_moire(const WhiteLines&, const HarmonicLines&, const std::optional<Beat>& theory, double mm_per_degree, Parts&);
-constexpr int moire_candidates = 8;
-constexpr int moire_search_parts = moire_candidates * WhiteLines::near_parts;
+MoireSearch find_moire(const WhiteLines&, const HarmonicLines&, const std::optional<Beat>& theory, double mm_per_degree);
 
 std::int64_t moire_steps(const Subject&);
 Result measure_moire(Subject&, Job&);

@@ -14,11 +14,12 @@ namespace {
 constexpr double window_deg = 10, finest_cycles_per_degree = 50;
 constexpr double least_periods = 3;  // in the window: fewer are not told from their mirror image, the wave of frequency -f
 constexpr double least_squares = 500'000, most_along = 1000;  // in the window: with fewer lines of sight their noise hides waves
-constexpr double least_over_noise = 6;                        // the greatest of a million frequencies' noise is at some 5
+constexpr std::size_t most_candidates = 8;
+constexpr double least_over_noise = 6;  // the greatest of a million frequencies' noise is at some 5
 
 struct Candidate {
     Frequency frequency;
-    double strength;
+    double contrast, seen;  // before and after the eye's filter
 };
 
 bool is_measurable(const Frequency& f, const Window& w) {
@@ -41,29 +42,32 @@ std::vector<Candidate> strongest_waves(const WhiteLines& lines, double mm_per_de
         const auto signed_order = [&](int order) { return order < n / 2 ? order : order - n; };
         return Frequency{signed_order(k) / (n * w.square_mm), signed_order(l) / (n * w.square_mm)};
     };
-    std::vector<double> strength(plane.size());
+    std::vector<double> contrast(plane.size()), seen(plane.size());
+    const double scale = 2 / (double(change.size()) * lines.mean());
     for (int l = 0; l < n; ++l)
         for (int k = 0; k < n; ++k) {
             const Frequency f = frequency(k, l);
             const double cycles = std::hypot(f[0], f[1]) * mm_per_degree;
             if (!is_measurable(f, w) || cycles > finest_cycles_per_degree) continue;
-            strength[std::size_t(l) * std::size_t(n) + std::size_t(k)] =
-                std::abs(plane[std::size_t(l) * std::size_t(n) + std::size_t(k)]) * eye_filter(cycles) /
-                (sinc(f[0] * w.square_mm) * sinc(f[1] * w.square_mm));  // squares average waves
+            const std::size_t here = std::size_t(l) * std::size_t(n) + std::size_t(k);
+            contrast[here] =
+                scale * std::abs(plane[here]) / (sinc(f[0] * w.square_mm) * sinc(f[1] * w.square_mm));  // squares average waves
+            seen[here] = contrast[here] * eye_filter(cycles);
         }
     std::vector<Candidate> all;
-    const auto at = [&](int k, int l) { return strength[std::size_t((l + n) % n) * std::size_t(n) + std::size_t((k + n) % n)]; };
+    const auto place = [&](int k, int l) { return std::size_t((l + n) % n) * std::size_t(n) + std::size_t((k + n) % n); };
     for (int l = 0; l < n; ++l)
         for (int k = 0; k < n; ++k) {
             const Frequency f = frequency(k, l);
-            if (f[1] < 0 || (f[1] == 0 && f[0] <= 0) || at(k, l) == 0) continue;
+            const double here = seen[place(k, l)];
+            if (f[1] < 0 || (f[1] == 0 && f[0] <= 0) || here == 0) continue;
             bool greatest = true;
             for (int dl = -2; dl <= 2; ++dl)
-                for (int dk = -2; dk <= 2; ++dk) greatest = greatest && at(k, l) >= at(k + dk, l + dl);
-            if (greatest) all.push_back({f, at(k, l)});
+                for (int dk = -2; dk <= 2; ++dk) greatest = greatest && here >= seen[place(k + dk, l + dl)];
+            if (greatest) all.push_back({f, contrast[place(k, l)], here});
         }
-    std::ranges::stable_sort(all, std::greater(), &Candidate::strength);
-    if (all.size() > moire_candidates) all.resize(moire_candidates);
+    std::ranges::stable_sort(all, std::greater(), &Candidate::seen);
+    if (all.size() > most_candidates) all.resize(most_candidates);
     return all;
 }
 
@@ -117,7 +121,7 @@ Window middle_of_screen(const Display& d, const Geometry& g, double eye_mm) {
 }
 
 MoireSearch find_moire(const WhiteLines& lines, const HarmonicLines& harmonics, const std::optional<Beat>& theory,
-                       double mm_per_degree, Parts& parts) {
+                       double mm_per_degree) {
     MoireSearch search;
     search.least = 2 * least_over_noise * lines.noise() / std::sqrt(2.);
     std::vector<MeasuredBeat> all;
@@ -128,12 +132,7 @@ MoireSearch find_moire(const WhiteLines& lines, const HarmonicLines& harmonics, 
         const double least = 2 * least_over_noise * wave->noise / std::sqrt(2.) / harmonics.mean();
         if (m.beat.contrast > least && is_measurable(m.beat.frequency, lines.window())) all.push_back(m);
     };
-    for (const Candidate& c : strongest_waves(lines, mm_per_degree)) {
-        const WaveSums change = lines.near(c.frequency, parts);
-        const Frequency rough = change.peak(c.frequency);
-        const double contrast = 2 * std::abs(change.wave(rough)) / lines.mean();
-        measure(rough, contrast);
-    }
+    for (const Candidate& c : strongest_waves(lines, mm_per_degree)) measure(c.frequency, c.contrast);
     // It may be too weak to stand out of the noise of all other waves.
     if (theory && is_measurable(theory->frequency, lines.window())) measure(theory->frequency, theory->contrast);
     // Of waves of the same period that may be equally strong, as symmetry makes them, that of the least direction

@@ -70,31 +70,19 @@ class WhiteLines {
     const Window& window() const { return window_; }
 
     /// The mean luminance, weighted as waves are, of a panel without structure.
-    double mean() const;
+    double mean() const { return mean_; }
 
     /// By how much subpixels and black matrix change the light in each square, all sets together, times weights that fall to 0 at
     /// the window's border: Blackman's along both axes, 1 in the mean.
-    std::vector<double> weighted_change() const;
+    const std::vector<double>& weighted_change() const { return change_; }
 
-    /// Standard deviation of |wave()| over mean(), all sets together, if each line's light were chance.
-    double noise() const;
-
-    /// The amplitudes of waves near one in the change. Takes near_parts parts.
-    WaveSums near(const Frequency&, Parts&) const;
-    static constexpr int near_parts = WaveSums::side;
+    /// Standard deviation of a wave's amplitude over mean(), all sets together, if each line's light were chance.
+    double noise() const { return noise_; }
 
   private:
-    struct Line {
-        double x, y;  // mm from the window's middle
-        double a, b;  // the diffuser's numbers
-    };
-    Line line(int set, int column, int row) const;
-
     Window window_;
-    std::uint64_t seed_;
-    std::vector<double> across_, up_;  // weights of columns and rows
-    std::vector<float> change_;        // of each line: set, row, column
-    Sums light_{}, squares_{};         // weighted sums
+    std::vector<double> change_;  // weighted: row, column
+    double mean_ = 0, noise_ = 0;
 };
 
 }  // namespace lfdsim
