@@ -78,12 +78,14 @@ class ViewsReader {
         if (!range.contains(value)) refuse(key, "is {}, allowed is {}", value, range.text());
         return value;
     }
+    /// 0 where it is refused.
     int count(std::string_view key) {
-        std::int64_t value = 1;
+        std::int64_t value = 0;
         if (!has(key)) refuse(key, "is missing; give the number of views");
-        if (read(key, value) && (value < 1 || value > most_views_a_side))
-            refuse(key, "is {}, allowed is 1 to {}", value, most_views_a_side);
-        return int(std::clamp<std::int64_t>(value, 1, most_views_a_side));
+        if (!read(key, value)) return 0;
+        if (value >= 1 && value <= most_views_a_side) return int(value);
+        refuse(key, "is {}, allowed is 1 to {}", value, most_views_a_side);
+        return 0;
     }
     /// The name of numbered files, with one "*" and without a folder.
     std::string pattern(std::string_view key, const std::string& otherwise) {
@@ -139,9 +141,9 @@ void read_cameras(ViewsReader& reader, ViewsSource& source) {
         std::vector<double> x, y;
         reader.read("camera_x_mm", x);
         reader.read("camera_y_mm", y);
-        if (int(x.size()) != source.columns)
+        if (source.columns > 0 && int(x.size()) != source.columns)
             reader.refuse("camera_x_mm", "has {} for {} of views", counted(x.size(), "place"), counted(source.columns, "column"));
-        if (int(y.size()) != source.rows)
+        if (source.rows > 0 && int(y.size()) != source.rows)
             reader.refuse("camera_y_mm", "has {} for {} of views", counted(y.size(), "place"), counted(source.rows, "row"));
         source.cameras = camera_places(x, y);
     }
@@ -195,7 +197,7 @@ ViewsSource described_views(const fs::path& toml) {
     const std::string pictures = reader.pattern("pictures", "view_*.png"), depths = reader.pattern("depth_pictures", "");
     read_geometry(reader, source);
     source.depth_unit_mm = reader.number("depth_unit_mm", positive_length).value_or(1);
-    if (!depths.empty() && !(source.distance_mm && source.width_mm && !source.cameras.empty()))
+    if (source.views() > 0 && !depths.empty() && !(source.distance_mm && source.width_mm && !source.cameras.empty()))
         reader.refuse("depth_pictures", "need the cameras' places, distance_mm and width_mm beside them");
     const bool reversed = reader.flag("pseudoscopic");
     reader.report();

@@ -16,6 +16,7 @@ namespace {
 using namespace lfdsim;
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 /// Files without pictures in them: none is read here.
 class ViewsSourceTest : public testing::Test {
@@ -239,6 +240,9 @@ TEST_F(ViewsSourceTest, BadDescriptions) {
         write("views.toml", text);
         EXPECT_THAT(refused(folder), HasSubstr(words)) << text;
     }
+    // What follows from a wrong number of views is not told besides.
+    write("views.toml", "schema = 1\ncolumns = 0\nrows = 2\ncamera_x_mm = [1, 2]\ncamera_y_mm = [1, 0]\n");
+    EXPECT_THAT(refused(folder), Not(HasSubstr("places")));
     // Possible each by itself, impossible together: cameras that look along the focus.
     write("views.toml", "schema = 1\ncolumns = 3\nrows = 2\nbaseline_mm = [1000, 5]\ndistance_mm = 20\nwidth_mm = 100\n");
     std::vector<std::string> notes;
