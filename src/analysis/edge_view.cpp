@@ -77,9 +77,9 @@ double scale_to_plane(const Geometry& g, double z_mm, const Eye& eye) {
     return (eye.z_mm() - z_mm) / (eye.z_mm() - g.vertex_plane_mm);
 }
 
-double across_mm(const Bars& bars, double x, double y) {
+std::array<double, 2> across(const Bars& bars) {
     const double c = std::cos(bars.lean_deg * degree), s = std::sin(bars.lean_deg * degree);
-    return bars.upright ? x * c - y * s : x * s - y * c;
+    return bars.upright ? std::array{c, -s} : std::array{s, -c};
 }
 
 std::unique_ptr<ShownPanel> bars_panel(const Display& display, const Geometry& geometry, const std::optional<Bars>& bars,
@@ -87,6 +87,7 @@ std::unique_ptr<ShownPanel> bars_panel(const Display& display, const Geometry& g
     const Pickup pickup(display, geometry);
     Texels texels(display.panel.pixels[0], display.panel.pixels[1]);
     const double height = bars ? bars->z_mm - pickup.z_rear : 0;
+    const std::array<double, 2> axis = bars ? across(*bars) : std::array<double, 2>{};
     const std::vector<ShownPoints> points = shown_points(display);
     const std::size_t alike = 3 / points.size();  // channels that are made for the same points
     tbb::parallel_for(std::int64_t(0), texels.rows(), [&](std::int64_t row) {
@@ -98,7 +99,7 @@ std::unique_ptr<ShownPanel> bars_panel(const Display& display, const Geometry& g
                 const NodalLine l = pickup.line(pickup.x_mm(double(k) + (*shown)[0]), pickup.y_mm(double(row) + (*shown)[1]));
                 if (!l.owned) continue;
                 if (bars) {
-                    const double u = across_mm(*bars, l.x + height * l.mx, l.y + height * l.my) - bars->offset_mm;
+                    const double u = (l.x + height * l.mx) * axis[0] + (l.y + height * l.my) * axis[1] - bars->offset_mm;
                     if (std::fmod(std::floor(u / bars->width_mm), 2) != 0) continue;
                 }
                 std::fill_n(texel + channel, alike, 1.f);

@@ -33,8 +33,9 @@ struct Bars {
 /// Bars whose edges stand across a direction but for `slant_deg`; without width and length yet.
 Bars bars_across(const Direction&, double z_mm);
 
-/// How far across the bars' direction a point of their plane lies, from the display's axis.
-double across_mm(const Bars&, double x, double y);
+/// The unit vector in x and y that points across the bars: a point of their plane lies as far across them, from the display's axis,
+/// as its place does along this.
+std::array<double, 2> across(const Bars&);
 
 /// The panel that shows the bars by the nodal pick-up. A pixel, or a channel of it, is white or black as the point is that its
 /// nodal line meets, from its centre or its subpixel's, as elemental images of scenes are made: none is grey at an edge. Without

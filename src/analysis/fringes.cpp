@@ -64,6 +64,7 @@ Image bars_picture(const Display& d, const Bars& bars, double white) {
     const CameraAxes axes = camera_axes(d.camera);
     const Vec3d& from = d.camera.position_mm;
     const double step = *d.camera.frame_width_mm / near_columns / parts;
+    const std::array<double, 2> axis = across(bars);
     Image image(near_columns, near_rows);
     for (int row = 0; row < near_rows * parts; ++row)
         for (int column = 0; column < near_columns * parts; ++column) {
@@ -73,8 +74,8 @@ Image bars_picture(const Display& d, const Bars& bars, double white) {
             for (std::size_t k = 0; k < 3; ++k)
                 to[k] = axes.forward[k] * axes.distance_mm + axes.right[k] * right + axes.up[k] * up;
             const double far = (bars.z_mm - from[2]) / to[2];
-            const double across = across_mm(bars, from[0] + far * to[0], from[1] + far * to[1]) - bars.offset_mm;
-            if (across < 0 || across >= bars.width_mm) continue;
+            const double place = (from[0] + far * to[0]) * axis[0] + (from[1] + far * to[1]) * axis[1] - bars.offset_mm;
+            if (place < 0 || place >= bars.width_mm) continue;
             float* const pixel = image.at(column / parts, row / parts);
             for (int c = 0; c < 3; ++c) pixel[c] += float(white / (parts * parts));
         }

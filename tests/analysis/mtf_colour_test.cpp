@@ -244,8 +244,8 @@ TEST(MtfOfColours, EdgesAreMadeForSubpixels) {
                         const double owner = (std::floor(at[k] / (1 + gap / (eye_mm - gap)) / pitch) + 0.5) * pitch;
                         shown[k] = owner + 120 * (owner - at[k]) / gap;
                     }
-                    const double across = across_mm(bars, shown[0], shown[1]);
-                    wrong += std::abs(across) > 1e-6 && (texel[c] == 1) != (across > 0);
+                    const double far = shown[0] * across(bars)[0] + shown[1] * across(bars)[1];
+                    wrong += std::abs(far) > 1e-6 && (texel[c] == 1) != (far > 0);
                 }
             }
         EXPECT_EQ(wrong, 0);
