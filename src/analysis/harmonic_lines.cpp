@@ -16,7 +16,7 @@ constexpr double all_lines = double(independent_sets) * lines_a_set;
 constexpr int finest_order = 800;     // of harmonics; of finer ones, of pixels that hardly shine, no wave is looked for
 constexpr int most_squares = 2048;    // along a cell
 constexpr double least_share = 1e-3;  // of a harmonic in the mean light: what is less is left out
-constexpr double least_part = 0.05;   // of a wave, that another harmonic must give to be looked at
+constexpr double least_part = 0.01;   // of a wave, that another harmonic must give to be looked at by itself
 constexpr double surely = 4;          // standard deviations
 
 }  // namespace
@@ -103,16 +103,24 @@ std::vector<HarmonicLines::Part> HarmonicLines::parts(const Frequency& f, double
 }
 
 std::optional<HarmonicLines::Wave> HarmonicLines::near(const Frequency& f, double contrast) const {
-    const std::vector<Part> found = parts(f, least_part * contrast);
+    const std::vector<Part> found = parts(f, 0.1 * least_part * contrast);
     if (found.empty()) return {};
     const Harmonic& harmonic = *found.front().harmonic;
-    Wave wave{sums(harmonic, f), std::abs(harmonic.c) * noise_[harmonic.path]};
+    Wave wave{sums(harmonic, f), std::abs(harmonic.c) * noise_[harmonic.path], 0};
     const Frequency own = wave.sums.peak(f);
-    for (std::size_t n = 1; n < found.size() && found[n].amplitude > least_part * found.front().amplitude; ++n) {
+    double left_out = 0;  // squares
+    for (std::size_t n = 1; n < found.size(); ++n) {
+        if (found[n].amplitude < least_part * found.front().amplitude) {
+            left_out += found[n].amplitude * found[n].amplitude;
+            continue;
+        }
         const WaveSums other = sums(*found[n].harmonic, f);
         const Frequency at = other.peak(f);
-        if (std::hypot((at[0] - own[0]) * width_, (at[1] - own[1]) * height_) <= WaveSums::one_wave) wave.sums.add(other);
+        const double apart = std::hypot((at[0] - own[0]) * width_, (at[1] - own[1]) * height_) / WaveSums::one_wave;
+        if (apart <= 1) wave.sums.add(other);
+        if (apart > 0.5 && apart < 2) wave.unclear += found[n].amplitude;
     }
+    wave.unclear = std::hypot(wave.unclear, std::sqrt(left_out));
     return wave;
 }
 

@@ -18,8 +18,9 @@ class HarmonicLines {
     static constexpr int rows = 256;
 
     struct Wave {
-        WaveSums sums;  // of the harmonic that gives most and of those whose waves have its frequency
-        double noise;   // standard deviation of its amplitude, if each line's light were chance
+        WaveSums sums;   // of the harmonic that gives most and of those whose waves have its frequency
+        double noise;    // standard deviation of its amplitude, if each line's light were chance
+        double unclear;  // amplitude of what is neither clearly of its frequency nor clearly of another
     };
     /// The wave within 1.5 periods of the window of a frequency. `contrast`: about what it is. None where no harmonic gives
     /// anything for sure.

@@ -91,8 +91,12 @@ MeasuredBeat measured(const HarmonicLines::Wave& wave, const Frequency& from, do
     const double error = std::hypot(m.frequency_error[0], m.frequency_error[1]), period = period_mm(m.beat.frequency);
     m.period_mm = {period, error * period * period};
     m.direction_deg = {direction_deg(m.beat.frequency), std::min(error * period / degree, 90.)};
+    const double unclear = 2 * wave.unclear / mean;
     m.contrast = figure([](const Beat& b) { return b.contrast; });
+    m.contrast.error = std::hypot(m.contrast.error, unclear);
     m.seen = figure([](const Beat& b) { return b.seen; });
+    m.seen.error =
+        std::hypot(m.seen.error, unclear * eye_filter(std::hypot(m.beat.frequency[0], m.beat.frequency[1]) * mm_per_degree));
     return m;
 }
 

@@ -142,7 +142,7 @@ def trace_glass(path, display, lattice, glass=None):
             down = glass.glued & leaving & (normal[:, 2] < 0)  # through the face that is glued on; a lower face is flat then
             n2[down] = glass.lower.n_below
             path.met[rays] += n1 != n2  # a face between equal indices is none
-            path.meet(rays, i, j)
+            path.meet(rays, i, j, glass.plate & (normal[:, :2] == 0).all(axis=1))
             many = path.met[rays] > MOST_SURFACES
             path.status[rays[many]] = TOO_MANY
             path.advance(rays, t, display, lattice)

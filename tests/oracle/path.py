@@ -17,11 +17,11 @@ class Path:
         self.o, self.d, self.weight = o.copy(), d.copy(), np.ones(n)
         self.status, self.met, self.way = np.full(n, ALIVE), np.zeros(n, np.int64), np.zeros(n, np.uint64)
         self.stop_seen = np.zeros(n, bool)
-        self.lens = np.full((n, 2), -1)  # -1: none, or the face of a sheet between lenses
+        self.lens = np.full((n, 2), -1)  # the first one met; -1: none, or flat faces of a sheet alone
 
-    def meet(self, rays, i, j):
-        """Adds lenses (i, j), -1 between lenses, to the ways of the rays."""
-        fresh = self.way[rays] == 0
+    def meet(self, rays, i, j, flat=False):
+        """Adds lenses (i, j), -1 between lenses, to the ways of the rays. Where `flat` the face is the same as between lenses: none is met."""
+        fresh = (self.lens[rays, 0] < 0) & ~np.broadcast_to(flat, len(rays))
         self.lens[rays[fresh]] = np.column_stack([i, j])[fresh]
         here = ((i + 1) * 65536 + j + 2).astype(np.uint64)
         self.way[rays] = self.way[rays] * np.uint64(1000003) + here

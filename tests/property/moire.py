@@ -16,16 +16,17 @@ from sight import SETS, diffuser_turns
 from white import radiance
 
 SIDE = 110           # squares along each axis of the window, with a line through each in each set; where most are blocked up to three times as many
-HARMONICS = 40       # looked at, the strongest of any channel
+HARMONICS = 100      # looked at, the strongest of any channel
+SEARCHED = 30        # of these, for waves
 ORDERS = 8           # of harmonics, in periods per narrowest rectangle
 PEAKS = 6            # of each harmonic and wavelength
 WAVES = 12           # of each pattern that are measured
 FINEST = 50.0        # cycles per degree
 LEAST_PERIODS = 3.0  # in the window
-BLOCKS = 16          # along each axis, in which sums are kept while a peak is sought
+BLOCKS = 64          # along each axis, in which sums are kept while a peak is sought
 HEARD = 4            # standard errors: what is surely there
 CLOSE = 1e-4         # steps to which a peak is sought
-ONE_WAVE = 0.1       # steps of frequency, a period of the window each: harmonics whose waves are no farther apart make one
+ONE_WAVE = 0.3       # steps of frequency, a period of the window each: harmonics whose waves are no farther apart make one
 
 
 @dataclass
@@ -137,7 +138,7 @@ class Screen:
         factor[(np.hypot(order[0][:, None], order[1]) < LEAST_PERIODS) | (cycles > FINEST)] = 0.0
         found = []
         for wavelength, moved in enumerate(self.moved):
-            for number, light in enumerate(moved):
+            for number, light in enumerate(moved[:SEARCHED]):
                 plane = np.bincount(square, light.real, bins.prod()) + 1j * np.bincount(square, light.imag, bins.prod())
                 strength = np.abs(np.fft.fft2(plane.reshape(bins))) * factor
                 for _ in range(PEAKS):
@@ -176,7 +177,7 @@ class Screen:
         sums, unclear = self.sums(*found[0][1:], way), 0.0
         together, own = sums, peak(sums.mean(axis=0))
         for part, *one in found[1:]:
-            if part < 0.02 * found[0][0]:
+            if part < 0.01 * found[0][0]:
                 continue
             other = self.sums(*one, way)
             away = np.hypot(*(peak(other.mean(axis=0)) - own))

@@ -57,18 +57,24 @@ def mtf50(sight, spread, eye, depth, axis, greatest):
         raise Unsure
 
     frequencies = np.linspace(0, greatest, STEPS)[1:]
-    step = frequencies[1] - frequencies[0]
-    turn, wave, whole = np.exp(2j * np.pi * step * by), light.astype(complex), light.sum(axis=1)
-    before = None
-    for frequency in frequencies:
+    turn, wave, whole = np.exp(2j * np.pi * frequencies[0] * by), light.astype(complex), light.sum(axis=1)
+    modulation = []  # of each set
+    for _ in frequencies:
         wave *= turn
-        now = np.abs(wave.sum(axis=1)) / whole
-        if now.mean() < 0.5:
-            break
-        before = now
-    else:
+        modulation.append(np.abs(wave.sum(axis=1)) / whole)
+    mean, error = np.mean(modulation, axis=1), np.array([error_of(sets) for sets in modulation])
+    value, least, most = (falls_below_half(frequencies, mean + k * error) for k in (0, -3, 3))
+    if value is None:
         return None
-    if before is None:
+    if least is None or most is None:  # it may touch a half and rise again
+        raise Unsure
+    return value, max(value - least, most - value) / 3 + 0.02 * frequencies[0]
+
+
+def falls_below_half(frequencies, curve):
+    """Where a curve first does so, after its first value; None if it never does."""
+    below = curve < 0.5
+    if below[0] or not below.any():
         return None
-    fall = before.mean() - now.mean()
-    return frequency - step * (0.5 - now.mean()) / fall, step * max(error_of(now), error_of(before)) / fall + 0.02 * step
+    k = below.argmax()
+    return frequencies[k - 1] + (frequencies[1] - frequencies[0]) * (curve[k - 1] - 0.5) / (curve[k - 1] - curve[k])
