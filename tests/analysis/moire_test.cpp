@@ -125,6 +125,7 @@ TEST(Moire, RaysFindTheBeatsOfTheory) {
             << c.name;
         EXPECT_NEAR(white["contrast"], theory["contrast"].get<double>(), chance * white["contrast_error"].get<double>()) << c.name;
         EXPECT_LT(white["period_mm_error"], 0.02 * theory["period_mm"].get<double>()) << c.name;
+        EXPECT_LT(white["contrast_error"], 0.02 * theory["contrast"].get<double>()) << c.name;
     }
 }
 
@@ -157,7 +158,8 @@ void expect_beats_in_each_colour(std::initializer_list<SlantedSheet> sheets) {
             EXPECT_NEAR(theory["period_mm"], period, 1e-3 * period) << c.slant;
             EXPECT_NEAR(white["period_mm"], period, 0.02 * period) << c.slant << channel;
             EXPECT_LT(apart_deg(white["direction_deg"], theory["direction_deg"]), 2) << c.slant << channel;
-            EXPECT_NEAR(white["contrast"], theory["contrast"].get<double>(), white["contrast_error"].get<double>() + 0.01);
+            EXPECT_NEAR(white["contrast"], theory["contrast"].get<double>(), 1.5 * white["contrast_error"].get<double>());
+            EXPECT_LT(white["contrast_error"], 0.02 * white["contrast"].get<double>()) << c.slant << channel;
         }
     }
 }
