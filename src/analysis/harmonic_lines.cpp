@@ -13,11 +13,12 @@ namespace {
 
 constexpr int lines_a_set = HarmonicLines::rows * HarmonicLines::rows;
 constexpr double all_lines = double(independent_sets) * lines_a_set;
-constexpr int finest_order = 800;     // of harmonics; of finer ones, of pixels that hardly shine, no wave is looked for
-constexpr int most_squares = 2048;    // along a cell
-constexpr double least_share = 1e-3;  // of a harmonic in the mean light: what is less is left out
-constexpr double least_part = 0.01;   // of a wave, that another harmonic must give to be looked at by itself
-constexpr double surely = 4;          // standard deviations
+constexpr int finest_order = 800;       // of harmonics; of finer ones, of pixels that hardly shine, no wave is looked for
+constexpr int most_squares = 2048;      // along a cell
+constexpr double least_share = 1e-3;    // of a harmonic in the mean light: what is less is left out
+constexpr double least_part = 0.01;     // of a wave, that another harmonic must give to be looked at by itself
+constexpr double least_counted = 1e-3;  // of a wave: what a harmonic gives that is less than least_part adds to the error alone
+constexpr double surely = 4;            // standard deviations
 
 }  // namespace
 
@@ -103,7 +104,7 @@ std::vector<HarmonicLines::Part> HarmonicLines::parts(const Frequency& f, double
 }
 
 std::optional<HarmonicLines::Wave> HarmonicLines::near(const Frequency& f, double contrast) const {
-    const std::vector<Part> found = parts(f, 0.1 * least_part * contrast);
+    const std::vector<Part> found = parts(f, least_counted * contrast);
     if (found.empty()) return {};
     const Harmonic& harmonic = *found.front().harmonic;
     Wave wave{sums(harmonic, f), std::abs(harmonic.c) * noise_[harmonic.path], 0};
@@ -118,9 +119,9 @@ std::optional<HarmonicLines::Wave> HarmonicLines::near(const Frequency& f, doubl
         const Frequency at = other.peak(f);
         const double apart = std::hypot((at[0] - own[0]) * width_, (at[1] - own[1]) * height_) / WaveSums::one_wave;
         if (apart <= 1) wave.sums.add(other);
-        if (apart > 0.5 && apart < 2) wave.unclear += found[n].amplitude;
+        if (apart > 0.5 && apart < 2) wave.unclear += found[n].amplitude;  // the window does not tell whether they are one
     }
-    wave.unclear = std::hypot(wave.unclear, std::sqrt(left_out));
+    wave.unclear = std::sqrt(wave.unclear * wave.unclear + left_out);
     return wave;
 }
 

@@ -31,11 +31,11 @@ Crossing crossing(const std::vector<double>& frequencies, const Modulation& m, c
     const std::vector<double> error = errors(m, pixels_anywhere);
     for (std::size_t n = 0; n < error.size(); ++n) low[n] -= error[n], high[n] += error[n];
     const double least = falls_below(frequencies, low, level), most = falls_below(frequencies, high, level);
-    if (std::isnan(most)) return {{}, least, most};
-    return {{found.value, std::max({found.error, found.value - least, most - found.value})}, least, most};
+    if (std::isnan(most)) return {{}, least};
+    return {{found.value, std::max({found.error, found.value - least, most - found.value})}, least};
 }
 
-/// Whether that is sure of one half.
+/// Whether modulation does so for sure, whatever its error.
 bool falls_below_half(const Modulation& m) {
     const std::vector<double> error = errors(m, {});
     for (std::size_t n = 0; n < error.size(); ++n)

@@ -20,12 +20,12 @@ struct ChannelMtf {
     double theory_middle_mm;
 };
 
-/// The frequency per mm at which modulation first falls below a level; NaN: it never does, as far as was measured. Where the curve
-/// less its error falls below it, and where the curve plus its error does: far apart where the curve grazes the level. `found` is
-/// NaN, too, where the latter never does.
+/// The frequency per mm at which modulation first falls below a level, with an error that reaches from where the curve less its own
+/// error does so to where the curve plus its error does: far apart where it grazes the level. NaN where the latter never does, as
+/// far as was measured.
 struct Crossing {
     Estimate found;
-    double least = nan, most = nan;
+    double least = nan;  // where the curve less its error falls below the level
 };
 
 struct MtfCurves {
