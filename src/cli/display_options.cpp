@@ -112,12 +112,15 @@ std::vector<std::string> DisplayOptions::overrides() const {
     return all;
 }
 
-Display DisplayOptions::read(const std::string& path, const std::string& last) const {
+Display DisplayOptions::read(const std::string& path, const std::string& compared) const {
     if (path.empty()) throw InputError("DISPLAY.toml", "the name is empty; give the description of a display");
     remember_input("the description", path);
     Faults faults;
     auto [overrides, written] = all_overrides(faults);
-    if (!last.empty()) overrides.push_back(last);
+    if (!compared.empty()) {
+        overrides.push_back(compared);
+        written["--set " + compared] = fmt::format("--compare {}", compared);
+    }
     Display display;
     faults.of([&, &set = overrides, &places = written] {
         try {

@@ -38,8 +38,8 @@ class DisplayOptions {
 
     /// The description with all overrides, validated. Throws InputError with all problems; those of an option carry its name.
     Display read() const { return read(path_); }
-    /// Another description with the same overrides, and one more after them if it is not empty.
-    Display read(const std::string& path, const std::string& last = {}) const;
+    /// Another description with the same overrides, and after them one of --compare if it is not empty.
+    Display read(const std::string& path, const std::string& compared = {}) const;
     /// --set and the options as "key=value", in the order in which they apply. Throws InputError.
     std::vector<std::string> overrides() const;
     const std::string& path() const { return path_; }

@@ -117,6 +117,7 @@ CASES = [  # name, arguments, words of the message
     ("lens mesh to an error", "render tiny.toml --panel-image panel.png --lens-mesh 860 --target-error 0.01 -o out.png", "--target-error"),
     ("unknown device", "render tiny.toml --panel-image panel.png --device gpu -o out.png", "auto, cpu, cuda"),
     ("half a device", "analyze fov tiny.toml --device cuda: -o out", "auto, cpu, cuda"),
+    ("compare a display with an impossible one", "analyze fov tiny.toml --compare array.gap_mm=3,x -o out", "--compare array.gap_mm=\"x\""),
     ("an array out of sight", "analyze fov tiny.toml --set array.offset_mm=[2000,0] -o out", "no pixel of the camera sees the lens array"),
     ("a GPU that is not there", "view tiny.toml --device cuda:999", "--device"),
     ("lens mesh on a GPU", "render tiny.toml --panel-image panel.png --lens-mesh 860 --device cuda -o out.png", "--device"),
