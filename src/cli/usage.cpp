@@ -20,6 +20,17 @@ bool is_option(const std::string& text) {
     return text.size() > 1 && text[0] == '-' && !std::isdigit(static_cast<unsigned char>(text[1]));
 }
 
+// Options that may be given again and again: which words after one's value are further values, with no need to repeat its name.
+struct Repeated {
+    std::string_view option;
+    bool (*takes)(const std::string&);
+};
+constexpr Repeated repeated[] = {
+    {"--set", is_setting},
+    {"--glass", [](const std::string& text) { return !is_option(text) && text.find('=') != text.npos; }},
+    {"--catalogue", [](const std::string& text) { return text.ends_with(".agf") || text.ends_with(".AGF"); }},
+};
+
 std::string suggestion(const std::string& given, const std::vector<std::string>& known) {
     const std::vector<std::string_view> candidates(known.begin(), known.end());
     const std::string_view near = nearest(given, candidates);
@@ -49,14 +60,16 @@ std::string reworded(const Misuse& misuse) {
 
 std::vector<std::string> arguments(int argc, char** argv) {
     std::vector<std::string> all;
-    bool setting = false;  // the words after --set, as long as they look like key=value
+    const Repeated* open = nullptr;  // the option whose values the words are
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i];
-        if (setting && all.back() != "--set") {
-            setting = is_setting(word);
-            if (setting) all.push_back("--set");
+        if (open && all.back() != open->option) {
+            if (open->takes(word))
+                all.emplace_back(open->option);
+            else
+                open = nullptr;
         }
-        setting |= word == "--set";
+        if (const auto* named = std::ranges::find(repeated, word, &Repeated::option); named != std::end(repeated)) open = named;
         all.push_back(word);
     }
     if (!all.empty() && all.front() == "help")

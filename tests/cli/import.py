@@ -49,6 +49,9 @@ checks.that('glass_catalogues = ["glass/my.agf"]' in (folder / "catalogue.toml")
 program.must("import doublet.zmx --catalogue glass/my.agf -o glass/elsewhere.toml")
 checks.that('glass_catalogues = ["my.agf"]' in (folder / "glass" / "elsewhere.toml").read_text(), "the catalogue is not named from there")
 program.must("check glass/elsewhere.toml")
+(folder / "glass" / "other.agf").write_text(CATALOGUE.replace("MYSF5", "OTHER"))
+program.must("import doublet.zmx --catalogue glass/other.agf glass/my.agf --glass N-BK7=OTHER MYSF5=OTHER -o both.toml")
+program.must("import --catalogue glass/other.agf glass/my.agf doublet.zmx -o first.toml")
 
 # A picture through a lens whose stop stands between its glasses.
 TRIPLET = zmx([(1 / 22.01359, 3.25896, "GLAS N-SK16"), (-1 / 435.76044, 6.00755), (-1 / 22.21328, 0.99997, "GLAS F2"), (1 / 20.29192, 4.75041),
