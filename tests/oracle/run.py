@@ -35,7 +35,7 @@ COMPARED = 0.5       # the least share of a coloured picture that must be off th
 MANY = 300           # so many pixels near edges that few directions do not find are something else
 NEAR_ENOUGH = 0.015  # root mean square over a picture by which filtered light may differ from exact means, beyond chance
 MOST_STRATA = 3844   # samples of the filtered estimator
-ERRORS_LANDED = True  # whether lfdsim knows `[errors]`; until then only --only errors asks it
+QUICK = {"camera": {"resolution": [80, 45]}}  # of --quick
 
 
 @functools.lru_cache(maxsize=1)
@@ -268,7 +268,7 @@ def main():
         if options.quick and (name in cases.LONG or name in lattice_cases.MORE):
             continue
         if options.quick:
-            description = cases.merge(description, {"camera": {"resolution": [96, 54]}})
+            description = cases.merge(description, QUICK)
         off_axis = "clear" in name and "on axis" not in name
         todo.append((f"{name}, address", lambda d=description, o=off_axis: single_rays(harness, address_of(d), "address", 0.994 if o else 0.999)))
         panel = description["panel"]
@@ -277,23 +277,21 @@ def main():
         todo.append((f"{name}, theory", lambda d=description: paraxial(harness, d)))
     for name, description in {**colour_cases.SHORT, **({} if options.quick else colour_cases.MORE)}.items():
         if options.quick:
-            description = cases.merge(description, {"camera": {"resolution": [96, 54]}})
+            description = cases.merge(description, QUICK)
         todo.append((f"{name}, noise", lambda d=description: single_rays(harness, d, "noise", 0.997, COMPARED)))
         todo.append((f"{name}, theory", lambda d=description: paraxial(harness, d)))
-    wrong = errors_cases if ERRORS_LANDED or "errors" in options.only else None
-    for name, description in {**wrong.SHORT, **({} if options.quick else wrong.MORE)}.items() if wrong else ():
+    for name, description in {**errors_cases.SHORT, **({} if options.quick else errors_cases.MORE)}.items():
         if options.quick:
-            description = cases.merge(description, {"camera": {"resolution": [96, 54]}})
+            description = cases.merge(description, QUICK)
         todo.append((f"{name}, address", lambda d=description: single_rays(harness, address_of(d), "address", 0.994 if "caps" in name else 0.999)))
         todo.append((f"{name}, checker", lambda d=description: single_rays(harness, d, "checker", None)))
-    for name, description in {**wrong.COLOURED_SHORT, **({} if options.quick else wrong.COLOURED_MORE)}.items() if wrong else ():
+    for name, description in {**errors_cases.COLOURED_SHORT, **({} if options.quick else errors_cases.COLOURED_MORE)}.items():
         todo.append((f"{name}, noise", lambda d=description: single_rays(harness, d, "noise", 0.997, COMPARED)))
-    count, samplings = (4096, ["sobol"]) if options.quick else (16384, ["random", "sobol"])
+    count, samplings = (2048, ["sobol"]) if options.quick else (16384, ["random", "sobol"])
     more = {} if options.quick else colour_cases.BLURRED_MORE
     fine = {**colour_cases.FINE_SHORT, **({} if options.quick else colour_cases.FINE_MORE)}
-    coloured = {**colour_cases.BLURRED_SHORT, **more, **fine}
-    if wrong:
-        coloured |= {**wrong.BLURRED_SHORT, **({} if options.quick else wrong.BLURRED_MORE)}
+    wrong = {**errors_cases.BLURRED_SHORT, **({} if options.quick else errors_cases.BLURRED_MORE)}
+    coloured = {**colour_cases.BLURRED_SHORT, **more, **fine, **wrong}
     for name, description in {**cases.BLURRED, **coloured}.items():
         pattern = "noise" if name in fine else "waves"
         for s in samplings:
