@@ -27,4 +27,5 @@ if(TARGET _core)
       set_tests_properties(study.${script} PROPERTIES LABELS full)
     endif()
   endforeach()
+  set_tests_properties(study.run PROPERTIES COST 100)  # it takes long, and begins early
 endif()
