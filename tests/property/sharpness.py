@@ -9,10 +9,11 @@ import numpy as np
 
 import oracle
 from colours import LUMINANCE
-from edges import Unsure, error_of
+from edges import SURE, Unsure, error_of
 from sight import SETS
 
-STEPS = 400  # frequencies tried between 0 and the greatest
+STEPS = 400        # frequencies tried between 0 and the greatest, at least,
+STEPS_A_TURN = 20  # and in the frequency that turns once over the line spread: the transform bends no faster
 
 
 def differences(sight, white, eye, depth, channel):
@@ -56,25 +57,27 @@ def mtf50(sight, spread, eye, depth, axis, greatest):
     if high - low > MOST_OF_SCREEN * sight.display.array.count[axis] * sight.pitch[axis] * (1 - depth / eye[2]):
         raise Unsure
 
-    frequencies = np.linspace(0, greatest, STEPS)[1:]
-    turn, wave, whole = np.exp(2j * np.pi * frequencies[0] * by), light.astype(complex), light.sum(axis=1)
-    modulation = []  # of each set
-    for _ in frequencies:
+    step = min(greatest / STEPS, 1 / (STEPS_A_TURN * max(high - low, 1e-300)))
+    turn, wave, whole = np.exp(2j * np.pi * step * by), light.astype(complex), light.sum(axis=1)
+    curves = []  # modulation at each step: its mean, the least and the most that it may be
+    for _ in range(math.ceil(greatest / step)):
         wave *= turn
-        modulation.append(np.abs(wave.sum(axis=1)) / whole)
-    mean, error = np.mean(modulation, axis=1), np.array([error_of(sets) for sets in modulation])
-    value, least, most = (falls_below_half(frequencies, mean + k * error) for k in (0, -3, 3))
+        sets = np.abs(wave.sum(axis=1)) / whole
+        curves.append([sets.mean() + k * error_of(sets) for k in (0, -SURE, SURE)])
+        if curves[-1][-1] < 0.5:
+            break
+    value, least, most = (falls_below_half(step, curve) for curve in np.array(curves).T)
     if value is None:
         return None
     if least is None or most is None:  # it may touch a half and rise again
         raise Unsure
-    return value, max(value - least, most - value) / 3 + 0.02 * frequencies[0]
+    return value, max(value - least, most - value) / SURE + 0.02 * step
 
 
-def falls_below_half(frequencies, curve):
-    """Where a curve first does so, after its first value; None if it never does."""
+def falls_below_half(step, curve):
+    """The frequency where a curve, at step, 2 step and so on, first does so, after its first value; None if it never does."""
     below = curve < 0.5
     if below[0] or not below.any():
         return None
     k = below.argmax()
-    return frequencies[k - 1] + (frequencies[1] - frequencies[0]) * (curve[k - 1] - 0.5) / (curve[k - 1] - curve[k])
+    return step * (k + (curve[k - 1] - 0.5) / (curve[k - 1] - curve[k]))
