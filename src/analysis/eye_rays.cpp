@@ -17,8 +17,7 @@ optics::PanelPoint<double> trace(const optics::Scene<double>& scene, const optic
                                  const optics::Ray<double>& ray, double raised) {
     const optics::PanelBase<double> base{0, 0, 0, 0,
                                          raised};  // the point is then relative to where the base lens's axis meets the panel
-    return optics::with_way(scene,
-                            [&]<optics::Way through>() { return optics::trace_array<through>(scene, extent, base, ray, true); });
+    return optics::trace_any<double>(scene, extent, base, ray, true);
 }
 
 /// Whether a line in a glass surround meets a lens, and the first that it meets. In `clear` all glass is lenses; in `plate` what is

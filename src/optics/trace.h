@@ -14,8 +14,9 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 /// Three are for plano-convex lenses, in rows and columns, as strips, and in staggered rows, the next two for rows and columns, all
 /// with air under them; `glass` is for light between the lenses; three are for arrays with errors, of which two do what
 /// `plano_convex` and `opaque` do without; `other` is for the rest. A new one takes a name here, a line in each of the functions
-/// below, and a function that traces it.
-enum class Way { plano_convex, strips, staggered, opaque, ideal, glass, placed_plano_convex, placed_opaque, placed, other };
+/// below, and a function that traces it. `any` is all of them: it asks for the display's at each packet of rays, so that code
+/// around few rays is compiled once.
+enum class Way { plano_convex, strips, staggered, opaque, ideal, glass, placed_plano_convex, placed_opaque, placed, other, any };
 
 template <class S>
 LFDSIM_FN Way way_through(const Scene<S>& scene) {
@@ -33,8 +34,8 @@ LFDSIM_FN Way way_through(const Scene<S>& scene) {
     return rows ? Way::opaque : Way::other;
 }
 
-/// The way that the filtered estimator takes, which traces few rays: `other` has the same bits, and each way is much code to
-/// compile.
+/// The way of the filtered estimator on a GPU, where a call, as `any` needs it, takes registers for all that it may reach. Few rays
+/// are traced there: general ways, which have the same bits, serve.
 constexpr Way for_few_rays(Way way) {
     if (way == Way::placed_plano_convex || way == Way::placed_opaque) return Way::placed;
     return way == Way::plano_convex || way == Way::staggered || way == Way::glass || way == Way::placed ? way : Way::other;
@@ -74,12 +75,22 @@ inline decltype(auto) with_way(const Scene<S>& scene, const Do& do_it) {
         case Way::placed:
             return do_it.template operator()<compiled(Way::placed)>();
         case Way::other:
+        case Way::any:
             break;
     }
     return do_it.template operator()<Way::other>();
 }
 
-/// The same for all ways, one after the other.
+/// do_it.operator()<way>() for a way that is known while the code is compiled, or `any`.
+template <Way through, class S, class Do>
+LFDSIM_FN decltype(auto) by_way(const Scene<S>& scene, const Do& do_it) {
+    if constexpr (through == Way::any)
+        return with_way(scene, do_it);
+    else
+        return do_it.template operator()<through>();
+}
+
+/// do_it.operator()<way>() for all ways, one after the other.
 template <class Do>
 inline void for_all_ways(const Do& do_it) {
     do_it.template operator()<Way::plano_convex>();
@@ -116,10 +127,16 @@ LFDSIM_FN void to_first_vertex(const Scene<Scalar<F>>& scene, Passage<F>& way) {
     }
 }
 
+/// trace_array() by the display's way.
+template <class F>
+inline PanelPoint<F> trace_any(const Scene<Scalar<F>>&, const Extent<Scalar<F>>&, const PanelBase<Scalar<F>>&, const Ray<F>&,
+                               const Mask<F>& alive);
+
 /// From the first plane, where the ray starts with its direction after the diffuser, to the panel.
 template <Way through, class F>
 LFDSIM_FN PanelPoint<F> trace_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
                                     const PanelBase<Scalar<F>>& base, Ray<F> ray, Mask<F> alive) {
+    if constexpr (through == Way::any) return trace_any<F>(scene, extent, base, ray, alive);
     constexpr bool plano_convex = through == Way::plano_convex || through == Way::placed_plano_convex,
                    in_rows = through == Way::opaque || through == Way::ideal || through == Way::placed_opaque;
     constexpr Shapes shapes = plano_convex                ? Shapes::plano_convex
@@ -143,6 +160,19 @@ LFDSIM_FN PanelPoint<F> trace_array(const Scene<Scalar<F>>& scene, const Extent<
         if (through == Way::other && scene.thin) return trace_ideal(scene, extent, base, way);
         return trace_opaque<shapes>(scene, extent, base, way);
     }
+}
+
+/// trace_array(), compiled as a function of its own.
+template <Way through, class F>
+LFDSIM_APART PanelPoint<F> trace_apart(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
+                                       const PanelBase<Scalar<F>>& base, const Ray<F>& ray, const Mask<F>& alive) {
+    return trace_array<through>(scene, extent, base, ray, alive);
+}
+
+template <class F>
+inline PanelPoint<F> trace_any(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const PanelBase<Scalar<F>>& base,
+                               const Ray<F>& ray, const Mask<F>& alive) {
+    return with_way(scene, [&]<Way through>() { return trace_apart<through, F>(scene, extent, base, ray, alive); });
 }
 
 /// The ray of one sample of each pixel of a packet, in the first plane and after the diffuser; sampler(d) is the sample's number of

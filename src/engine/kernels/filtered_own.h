@@ -25,17 +25,22 @@ struct Start {
     F right = F(0), up = F(0), lens_x = F(0), lens_y = F(0);
 };
 
-/// Where each pixel's ray ends on the panel if the diffuser turns it by the angles of the numbers (a, b); without a diffuser, the
-/// ray through that point of the pixel.
-template <optics::Way through>
-LFDSIM_APART optics::PanelPoint<F> trace_own(const Tile& tile, const optics::PixelRays<F>& pixels, const Start& start, F a, F b) {
+/// Each pixel's ray if the diffuser turns it by the angles of the numbers (a, b); without a diffuser, the ray through that point of
+/// the pixel.
+LFDSIM_FN optics::Ray<F> own_ray(const Tile& tile, const optics::PixelRays<F>& pixels, const Start& start, F a, F b) {
     const optics::Scene<S>& scene = *tile.scene;
     optics::Ray<F> ray{{pixels.x, pixels.y, F(0)}, pixels.to};
     if (!scene.has_diffuser || scene.box_filter || scene.thin_lens)
         ray = optics::displaced(*tile.view, pixels, scene.has_diffuser ? start.right : a, scene.has_diffuser ? start.up : b,
                                 start.lens_x, start.lens_y);
     if (scene.has_diffuser) ray.to = optics::scatter(scene, ray.to, a, b);
-    return optics::trace_array<through>(scene, pixels.extent, pixels.base, ray, pixels.alive);
+    return ray;
+}
+
+/// Where it ends on the panel.
+template <optics::Way through>
+LFDSIM_APART optics::PanelPoint<F> trace_own(const Tile& tile, const optics::PixelRays<F>& pixels, const Start& start, F a, F b) {
+    return optics::trace_array<through>(*tile.scene, pixels.extent, pixels.base, own_ray(tile, pixels, start, a, b), pixels.alive);
 }
 
 /// A random start, of the sampler's current sample.
@@ -147,6 +152,15 @@ struct FourRays {
     F weight;
 };
 
+/// Where they end on the panel.
+template <optics::Way through>
+LFDSIM_APART void trace_four(const Tile& tile, const optics::PixelRays<F>& pixels, const Start& start, const FourRays& rays,
+                             optics::PanelPoint<F> (&end)[4]) {
+    for (int p = 0; p < 4; ++p)
+        end[p] = optics::trace_array<through>(*tile.scene, pixels.extent, pixels.base,
+                                              own_ray(tile, pixels, start, rays.a[p], rays.b[p]), pixels.alive);
+}
+
 /// The rays of a packet's pixels that wait to be traced. Pixels of a packet see different lenses and different parts of them: as
 /// long as no pixel has rays through two, all of them are traced at once. Each pixel's light is added in the order of its own rays.
 template <optics::Way through>
@@ -179,7 +193,7 @@ class WaitingRays {
         if (optics::none(waits)) return;
         const F none = F(0);
         optics::PanelPoint<F> end[4];
-        for (int p = 0; p < 4; ++p) end[p] = trace_own<through>(tile, pixels, spread.start, rays.a[p], rays.b[p]);
+        optics::by_way<through>(*tile.scene, [&]<optics::Way way>() { trace_four<way>(tile, pixels, spread.start, rays, end); });
         for (int p = 0; p < 4; ++p) {
             F wide = spread.width, high = spread.height;  // squared: the spreads of two directions add up like variances
             for (int step = 1; step <= 2; ++step) {

@@ -49,15 +49,11 @@ void render_points(const Tile& tile) {
     }
 }
 
-template <optics::Way through>
-void render_tile(const Tile& tile) {
-    tile.strata > 0 ? render_filtered<optics::for_few_rays(through)>(tile) : render_points<through>(tile);
-}
-
 }  // namespace
 
 void LFDSIM_KERNEL(const Tile& tile) {
-    optics::with_way(*tile.scene, [&]<optics::Way through>() { render_tile<through>(tile); });
+    if (tile.strata > 0) return render_filtered<optics::Way::any>(tile);
+    optics::with_way(*tile.scene, [&]<optics::Way through>() { render_points<through>(tile); });
 }
 
 }  // namespace lfdsim
