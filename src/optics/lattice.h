@@ -30,10 +30,16 @@ LFDSIM_FN F cell_along(const Lattice<Scalar<F>>& lattice, int axis, F place) {
     return floor(place * F(lattice.per_pitch[axis]) + F(Scalar<F>(0.5)));
 }
 
+/// 1 for odd numbers, 0 for even ones.
+template <class F>
+LFDSIM_FN F parity(F number) {
+    return number - F(2) * floor(F(Scalar<F>(0.5)) * number);
+}
+
 /// By how much the axes of row j are to the right of those of even rows.
 template <class F>
 LFDSIM_FN F stagger(const Lattice<Scalar<F>>& lattice, F j) {
-    return (j - F(2) * floor(F(Scalar<F>(0.5)) * j)) * F(lattice.half_pitch[0]);
+    return parity(j) * F(lattice.half_pitch[0]);
 }
 
 template <class F>
@@ -41,24 +47,6 @@ LFDSIM_FN Place<F> axis_of(const Lattice<Scalar<F>>& lattice, Cell<F> cell) {
     const F x = cell.i * F(lattice.pitch[0]), y = cell.j * F(lattice.pitch[1]);
     if (lattice.staggered) return {x + stagger(lattice, cell.j), y};
     return {x, y};
-}
-
-template <class F>
-LFDSIM_FN Cell<F> cell_at(const Lattice<Scalar<F>>& lattice, F x, F y) {
-    if (!lattice.staggered) return {cell_along(lattice, 0, x), cell_along(lattice, 1, y)};
-    if (!lattice.hexagonal) {
-        const F j = cell_along(lattice, 1, y);
-        return {cell_along(lattice, 0, x - stagger(lattice, j)), j};
-    }
-    // A hexagon holds the points that are nearest to its axis, and its corners do not reach the next row's axes: the point is in
-    // the row below it or in the one above, of which one is staggered.
-    const F below = floor(y * F(lattice.per_pitch[1])), above = below + F(1);
-    const F aside = stagger(lattice, below), aside_above = F(lattice.half_pitch[0]) - aside;
-    const F i = cell_along(lattice, 0, x - aside), i_above = cell_along(lattice, 0, x - aside_above);
-    const F dx = x - (i * F(lattice.pitch[0]) + aside), dx_above = x - (i_above * F(lattice.pitch[0]) + aside_above),
-            dy = y - below * F(lattice.pitch[1]), dy_above = y - above * F(lattice.pitch[1]);
-    const Mask<F> lower = dx * dx + dy * dy <= dx_above * dx_above + dy_above * dy_above;
-    return {select(lower, i, i_above), select(lower, below, above)};
 }
 
 /// A pair of opposite borders of a cell: the lines at +-half from its axis along the unit vector (x, y).
@@ -75,6 +63,23 @@ LFDSIM_FN Borders<S> borders(const Lattice<S>& lattice, int pair) {
     if (pair == 0) return {S(1), S(0), lattice.half_pitch[0]};
     if (!lattice.hexagonal) return {S(0), S(1), lattice.half_pitch[1]};
     return {S(pair == 1 ? 0.5 : -0.5), S(0.86602540378443865), lattice.half_pitch[0]};  // at 60 and 120 degrees
+}
+
+template <class F>
+LFDSIM_FN Cell<F> cell_at(const Lattice<Scalar<F>>& lattice, F x, F y) {
+    if (!lattice.staggered) return {cell_along(lattice, 0, x), cell_along(lattice, 1, y)};
+    if (!lattice.hexagonal) {
+        const F j = cell_along(lattice, 1, y);
+        return {cell_along(lattice, 0, x - stagger(lattice, j)), j};
+    }
+    // A hexagon holds the points that are nearest to its axis, and its corners do not reach the next row's axes: the point is in
+    // the row below it or in the one above, whose axes are half a pitch to the left and to the right.
+    const F below = floor(y * F(lattice.per_pitch[1])), odd = parity(below), aside = odd * F(lattice.half_pitch[0]);
+    const F i = cell_along(lattice, 0, x - aside), dx = x - (i * F(lattice.pitch[0]) + aside), dy = y - below * F(lattice.pitch[1]);
+    const Borders<Scalar<F>> oblique = borders(lattice, 1);
+    const Mask<F> beyond = F(oblique.x) * abs(dx) + F(oblique.y) * dy > F(oblique.half);
+    const F i_above = i + odd - select(dx < F(0), F(1), F(0));
+    return {select(beyond, i_above, i), select(beyond, below + F(1), below)};
 }
 
 /// The cell on the other side of a border of `cell`: of this pair, on this side (-1 or +1), at x' = place.
