@@ -58,10 +58,12 @@ struct LevelReader {
                 below = max(F(1) - (whole_r + F(1) - r) * per_height, F(0));
         const Uint<F> i = to_int(whole_c), j = to_int(whole_r);
         const F upper = weight * (F(1) - below), lower = weight * below, left = F(1) - right;
-        add_cell(light, i, j, upper * left);
-        add_cell(light, i + Uint<F>(1u), j, upper * right);
-        add_cell(light, i, j + Uint<F>(1u), lower * left);
-        add_cell(light, i + Uint<F>(1u), j + Uint<F>(1u), lower * right);
+        Light<F> sum = light;  // in registers
+        add_cell(sum, i, j, upper * left);
+        add_cell(sum, i + Uint<F>(1u), j, upper * right);
+        add_cell(sum, i, j + Uint<F>(1u), lower * left);
+        add_cell(sum, i + Uint<F>(1u), j + Uint<F>(1u), lower * right);
+        light = sum;
     }
 
   private:

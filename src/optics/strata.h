@@ -94,4 +94,17 @@ LFDSIM_FN F hole_cover(const Span<F>& a, const Span<F>& b) {
     return select((width >= F(0)) && (height >= F(0)), min(max(cover, F(0)), F(1)), F(0));
 }
 
+/// The same for spans whose circle_part is not known yet. Where pixels see little of a lens most lie well inside its hole.
+template <class F>
+LFDSIM_FN F hole_cover_alone(Span<F> a, Span<F> b) {
+    const F x = max(abs(a.from), abs(a.to)), y = max(abs(b.from), abs(b.to));
+    const Mask<F> inside = (x * x + y * y <= F(1)) && (a.to >= a.from) && (b.to >= b.from);
+    if (!any(!inside)) return F(1);
+    for (Span<F>* span : {&a, &b}) {
+        span->part_from = circle_part(span->from);
+        span->part_to = circle_part(span->to);
+    }
+    return select(inside, F(1), hole_cover(a, b));
+}
+
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -147,7 +147,8 @@ LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>*
     }
 }
 
-/// The strata of an axis, x' (0) or y' (1), for each pixel of a packet; dx and dy: its position in the block, -1 .. 1.
+/// The strata of an axis, x' (0) or y' (1), for each pixel of a packet; dx and dy: its position in the block, -1 .. 1. Of moving
+/// strata parts of the circle are left out.
 LFDSIM_BOTH void spans_of(const optics::Scene<S>& scene, const Axis& axis, int along, F dx, F dy, Span<F>* spans) {
     const Lattice<S>& lattice = scene.lattice;
     const int strata = axis.strata;
@@ -170,8 +171,10 @@ LFDSIM_BOTH void spans_of(const optics::Scene<S>& scene, const Axis& axis, int a
             const F half = F(lattice.half_pitch[along]), per = F(1 / scene.hole_radius);
             span.from = optics::max(optics::min(place, next_place) - at, -half) * per;
             span.to = optics::min(optics::max(place, next_place) - at, half) * per;
-            span.part_from = optics::circle_part(span.from);
-            span.part_to = optics::circle_part(span.to);
+            if (!axis.moving) {
+                span.part_from = optics::circle_part(span.from);
+                span.part_to = optics::circle_part(span.to);
+            }
         }
         number = next_number;
         place = next_place;
@@ -215,6 +218,7 @@ LFDSIM_BOTH bool within_a_pitch(const optics::Scene<S>& scene, const Axis& axis,
 
 /// Such a stratum for each pixel of a packet, cut where the pixel sees the border of two lenses in it: the part in the cell of the
 /// stratum's middle, and the part beyond, in the next cell. Over so little of a lens, position is taken as linear in the number.
+/// Parts of the circle are left out.
 LFDSIM_BOTH void cut_at_border(const optics::Scene<S>& scene, const Axis& axis, int along, int stratum, F dx, F dy,
                                Span<F> (&parts)[2]) {
     const Cut &first = axis.cut[stratum], &last = axis.cut[stratum + 1];
@@ -237,8 +241,6 @@ LFDSIM_BOTH void cut_at_border(const optics::Scene<S>& scene, const Axis& axis, 
         span.share = F(0.5f) * (span.high - span.low);
         span.from = (optics::min(from, to) - at) * per;
         span.to = (optics::max(from, to) - at) * per;
-        span.part_from = optics::circle_part(span.from);
-        span.part_to = optics::circle_part(span.to);
     }
 }
 

@@ -217,7 +217,9 @@ class BlockWork {
     /// The share of a stratum that the lens's hole covers; `share`: that of the stratum.
     LFDSIM_BOTH F cover_of(const Seen& seen, F share) const {
         if (scene.hole_radius == 0) return F(1);
-        const F cover = optics::hole_cover(*seen.across, *seen.up);
+        const Axis(&axis)[2] = seen.grid->axis;
+        const F cover = axis[0].moving || axis[1].moving ? optics::hole_cover_alone(*seen.across, *seen.up)
+                                                         : optics::hole_cover(*seen.across, *seen.up);
         if (seen.corners->count == 0) return cover;
         // Only a part of the stratum is the lens's.
         const F whole = seen.across->share * seen.up->share * cover;
@@ -245,24 +247,31 @@ class BlockWork {
     LFDSIM_BOTH void add_sharp(int x, int y, F right, F down, F dx, F dy, PacketLight& to) const {
         const int corner = y / place_step * at.per_axis + x / place_step;
         const F per = F(S(1) / S(place_step)), s = (right + F(S(x % place_step))) * per, t = (down + F(S(y % place_step))) * per;
+        optics::Light<F> sum = to.boxes;
         for (const Sharp* k = at.sharp; k < at.sharp + at.sharps; ++k) {
             const S *const upper = k->weight + corner, *const lower = upper + at.per_axis;
             if (!(upper[0] + upper[1] + lower[0] + lower[1] > S(0))) continue;
             const F above = F(upper[0]) + F(upper[1] - upper[0]) * s, beneath = F(lower[0]) + F(lower[1] - lower[0]) * s;
-            add_box(*k->bundle, dx, dy, above + (beneath - above) * t, to);
+            add_box(*k->bundle, dx, dy, above + (beneath - above) * t, sum);
         }
+        to.boxes = sum;
     }
 
-    LFDSIM_BOTH void add_box(const SharedBundle& b, F dx, F dy, F weight, PacketLight& to) const {
+    LFDSIM_FN void add_box(const SharedBundle& b, F dx, F dy, F weight, optics::Light<F>& light) const {
         const F column = F(b.column) + F(b.column_right) * dx + F(b.column_down) * dy,
                 row = F(b.row) + F(b.row_right) * dx + F(b.row_down) * dy;
         const bool small = !tile.levels.sums || optics::max(b.width, b.height) <= S(optics::most_box);
-        if (small && !scene.emission.whole)
-            return optics::add_subpixels(tile.levels, at.block.lens.panel, b.width, b.height, column, row, weight, to.boxes);
-        if (small) return b.footprint.add(to.boxes, column, row, weight);
+        if (small && scene.emission.whole) return b.footprint.add(light, column, row, weight);
+        optics::Light<F> sum = light;  // the function below wants an address: `light` itself stays in registers
+        add_other_box(b, small, column, row, weight, sum);
+        light = sum;
+    }
+    LFDSIM_APART void add_other_box(const SharedBundle& b, bool small, const F& column, const F& row, const F& weight,
+                                    optics::Light<F>& light) const {
+        if (small) return optics::add_subpixels(tile.levels, at.block.lens.panel, b.width, b.height, column, row, weight, light);
         S in_box[Packet::lanes][4];
         optics::light_of_boxes(tile.levels, at.block.lens.panel, column, row, F(b.width), F(b.height), weight, in_box);
-        to.boxes.add(in_box);
+        light.add(in_box);
     }
 
     /// Adds what each pixel of the packet at (x, y) of the frame computes by itself: all strata where there are no places, else the
@@ -335,7 +344,7 @@ class BlockWork {
                     for (int c = 0; c < 3; ++c) to.flat[c] = to.flat[c] + weight * soft_light(bundle, dx, dy, c);
                 } else {
                     waiting.trace();
-                    add_box(bundle, dx * F(reach), dy * F(reach), weight, to);
+                    add_box(bundle, dx * F(reach), dy * F(reach), weight, to.boxes);
                 }
             };
             if (at.per_axis == 0) add(b.through, share * cover);

@@ -95,7 +95,7 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
         };
         const F corner_x = towards_axis(x, x.from, x.to), corner_y = towards_axis(y, y.from, y.to);
         const optics::Mask<F> corner_in = corner_x * corner_x + corner_y * corner_y < F(1);
-        const F cover = optics::hole_cover(x, y);
+        const F cover = optics::hole_cover_alone(x, y);
         const optics::Mask<F> at_edge = (cover > F(S(FilteredLimits::hole_edge))) && (cover < F(S(1 - FilteredLimits::hole_edge)));
         a = optics::select(at_edge, optics::select(corner_in, towards_axis(x, x.high, x.low), next_to_axis(x, x.high, x.low)), a);
         b = optics::select(at_edge, optics::select(corner_in, towards_axis(y, y.low, y.high), next_to_axis(y, y.low, y.high)), b);
@@ -280,7 +280,7 @@ LFDSIM_APART void add_own_probes(const optics::Scene<S>& scene, const Span<F>& x
                                  WaitingRays<through>& waiting) {
     const F none = F(0), one = F(1), quarter = F(0.25f);
     const bool round = scene.hole_radius > 0;
-    if (round) weight = weight * optics::hole_cover(x, y);
+    if (round) weight = weight * optics::hole_cover_alone(x, y);
     const optics::Mask<F> seen = weight > none;
     if (optics::none(seen)) return;
 

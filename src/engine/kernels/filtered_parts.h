@@ -114,8 +114,6 @@ LFDSIM_BOTH Span<F> part_of_span(const Span<F>& of, bool against, int k, int n, 
     if (!with_positions) return part;
     part.from = of.from + from * way;
     part.to = of.from + to * way;
-    part.part_from = optics::circle_part(part.from);
-    part.part_to = optics::circle_part(part.to);
     return part;
 }
 
