@@ -46,9 +46,14 @@ class Filtered : public testing::TestWithParam<std::size_t> {
 };
 INSTANTIATE_TEST_SUITE_P(EveryWay, Filtered, testing::Range(std::size_t(0), diffused().size()));
 
+// The bits below tell when one of them changes; then all are to be held against brute force, which ./test --full does.
+class FilteredAndBruteForce : public Filtered {};
+INSTANTIATE_TEST_SUITE_P(SomeWays, FilteredAndBruteForce, testing::Range(std::size_t(0), diffused().size(), std::size_t(4)));
+INSTANTIATE_TEST_SUITE_P(AtLength, FilteredAndBruteForce, testing::Range(std::size_t(0), diffused().size()));
+
 // On these displays, whose picture and panel pixels are coarse, 16 samples are nearly as good as 100 random points, and 1024 tend
 // to the truth.
-TEST_P(Filtered, TendsToBruteForce) {
+TEST_P(FilteredAndBruteForce, Agree) {
     const Image truth = points(8192, Sampling::sobol), papers = points(100, Sampling::random);
     const double wanted = rmse(papers, truth);
     EXPECT_LT(rmse(filtered(16), truth), 2.5 * wanted) << name;
