@@ -32,6 +32,14 @@ std::optional<std::size_t> element(std::string_view part, const toml::array& arr
     return index;
 }
 
+// No key is a number: in a table it means an element of a list that there is not.
+bool is_number(std::string_view part) { return !part.empty() && part.find_first_not_of("0123456789") == part.npos; }
+
+InputError no_element(std::string_view part) {
+    return {"", fmt::format("there is no element {} to change; they count from 0, and new ones come with the whole list, key=[...]",
+                            part)};
+}
+
 template <class Node>  // toml::node or const toml::node
 Node* child(Node& node, std::string_view part) {
     if (auto* table = node.as_table()) return table->get(part);
@@ -100,8 +108,9 @@ void Source::apply(const std::string& override_text) {
     for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
         toml::node* next = child(*node, parts[i]);
         if (!next && removes) return;
-        if (!next && node->is_table()) next = &node->as_table()->insert(parts[i], toml::table{}).first->second;
-        if (!next) throw InputError("", fmt::format("there is no element {} to change", parts[i]));
+        if (!next && node->is_table() && !is_number(parts[i]))
+            next = &node->as_table()->insert(parts[i], toml::table{}).first->second;
+        if (!next) throw no_element(parts[i]);
         if (!next->is_table() && !next->is_array()) throw InputError("", fmt::format("{} is a value, and has no parts", parts[i]));
         node = next;
     }
@@ -114,12 +123,12 @@ void Source::apply(const std::string& override_text) {
     }
     toml::table holder = parse_value(path, value);
     holder.get("value")->visit([&](auto& given) {
-        if (toml::table* table = node->as_table())
+        if (toml::table* table = node->as_table(); table && !is_number(parts.back()))
             table->insert_or_assign(parts.back(), std::move(given));
-        else if (const auto index = element(parts.back(), *node->as_array()))
+        else if (const auto index = table ? std::nullopt : element(parts.back(), *node->as_array()))
             node->as_array()->replace(node->as_array()->cbegin() + std::ptrdiff_t(*index), std::move(given));
         else
-            throw InputError("", fmt::format("there is no element {} to change", parts.back()));
+            throw no_element(parts.back());
     });
     set_[std::string(path)] = override_text;
 }

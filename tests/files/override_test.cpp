@@ -75,6 +75,8 @@ TEST(Override, FaultsNameTheOption) {
     EXPECT_THAT(fault_of({"array.pitch_mm.x=3"}), HasSubstr("pitch_mm is a value, and has no parts"));
     EXPECT_THAT(fault_of({"a.b.c.d.e=3"}), HasSubstr("the key has 5 parts, allowed are 4"));
     EXPECT_THAT(fault_of({"array.count.7=3"}), HasSubstr("there is no element 7"));
+    EXPECT_THAT(fault_of({"content.object.0.depth_mm=3"}), HasSubstr("there is no element 0"));  // there is no list
+    EXPECT_THAT(fault_of({"content.object.0={}"}), HasSubstr("there is no element 0"));
     EXPECT_THAT(fault_of({"array.count.0=none"}), HasSubstr("cannot be removed"));
     EXPECT_THAT(fault_of({"..=3"}), HasSubstr("--set ..=3: "));
     EXPECT_THAT(fault_of({"lens=" + std::string(100, '[')}), HasSubstr("nested"));
