@@ -1,6 +1,7 @@
 #include "engine/pyramid.h"
 
 #include "engine/gpu.h"
+#include "engine/scene.h"
 #include "model/geometry.h"
 #include "optics/scene.h"
 
@@ -8,6 +9,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -109,18 +111,28 @@ Long long_footprints(const Geometry& geometry) {
 }
 
 PanelReading panel_reading(const Display& display, const Geometry& geometry) {
-    return {long_footprints(geometry), planes(display.panel)};
+    if (estimator_of(display) == Estimator::point) return {.coarser = false};
+    return {.footprints = long_footprints(geometry), .planes = planes(display.panel)};
 }
 
 struct Pyramid::Parts {
+    optics::PanelLevel image;
     tbb::task_arena arena;
     std::mutex mutex;
     std::map<PanelReading, Levels> of;
 
-    /// Adds a plane's levels, as many as the panel itself has.
-    void add_plane(const PanelPlane& plane, std::size_t count, Levels& to) {
-        to.add(picked(to.all[0], plane, arena));
-        for (std::size_t k = 1; k < count; ++k) to.add(halved(to.all.back(), arena));
+    Levels made(const PanelReading& reading) {
+        std::size_t count = 1;  // of levels of the panel, and of each plane
+        for (std::uint32_t n = std::max(image.columns, image.rows); reading.coarser && n > 1; n = (n + 1) / 2) ++count;
+        Levels levels;
+        for (const PanelPlane& plane : reading.planes) {
+            const std::size_t first = levels.all.size();
+            first == 0 ? levels.all.push_back(image) : levels.add(picked(image, plane, arena));
+            for (std::size_t k = 1; k < count; ++k) levels.add(halved(levels.all.back(), arena));
+            if (reading.footprints == Long::none) continue;
+            for (std::size_t k = 0; k < count; ++k) levels.add(sums(levels.all[first + k], reading.footprints, arena));
+        }
+        return levels;
     }
 };
 
@@ -129,28 +141,14 @@ Pyramid::Pyramid(Pyramid&&) noexcept = default;
 Pyramid& Pyramid::operator=(Pyramid&&) noexcept = default;
 
 Pyramid::Pyramid(const Texels& panel, int threads) : parts_(std::make_unique<Parts>()) {
+    parts_->image = level(panel);
     parts_->arena.initialize(threads > 0 ? threads : tbb::task_arena::automatic);
-    Levels& plain = parts_->of[PanelReading()];
-    plain.all.push_back(level(panel));
-    while (plain.all.back().columns > 1 || plain.all.back().rows > 1) plain.add(halved(plain.all.back(), parts_->arena));
 }
 
 const std::vector<optics::PanelLevel>& Pyramid::levels(const PanelReading& reading) const {
     const std::lock_guard lock(parts_->mutex);
     Levels& wanted = parts_->of[reading];
-    if (!wanted.all.empty()) return wanted.all;
-    const std::vector<optics::PanelLevel>& plain = parts_->of[PanelReading()].all;
-    Levels made;
-    for (std::size_t p = 0; p < reading.planes.size(); ++p) {
-        const std::size_t first = made.all.size();
-        if (p == 0)
-            made.all = plain;
-        else
-            parts_->add_plane(reading.planes[p], plain.size(), made);
-        if (reading.footprints == Long::none) continue;
-        for (std::size_t k = 0; k < plain.size(); ++k) made.add(sums(made.all[first + k], reading.footprints, parts_->arena));
-    }
-    wanted = std::move(made);
+    if (wanted.all.empty()) wanted = parts_->made(reading);
     return wanted.all;
 }
 

@@ -27,10 +27,10 @@ Rect checked_crop(const std::optional<Rect>& crop, const Camera& camera) {
 /// Of point samples there may be the panel alone.
 optics::PanelLevels panel_levels(const Display& display, const Geometry& geometry, const std::vector<optics::PanelLevel>& levels,
                                  const optics::Emission<float>& emission) {
-    const bool alone = levels.size() == 1;
-    const Long along = alone ? Long::none : long_footprints(geometry);
-    const int lists = (along == Long::none ? 1 : 2) * (alone ? 1 : int(planes(display.panel).size()));
-    return {levels.data(), int(levels.size()) / lists, along != Long::none, along == Long::down, &emission};
+    const PanelReading reading = levels.size() == 1 ? PanelReading{.coarser = false} : panel_reading(display, geometry);
+    const bool sums = reading.footprints != Long::none;
+    const int lists = (sums ? 2 : 1) * int(reading.planes.size());
+    return {levels.data(), int(levels.size()) / lists, sums, reading.footprints == Long::down, &emission};
 }
 
 }  // namespace

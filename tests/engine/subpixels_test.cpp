@@ -98,7 +98,7 @@ TEST_P(OfLayout, WhiteIsWhiteInTheMean) {
 void expect_means_of_points(const Display& d, std::array<double, 2> from, std::array<double, 2> to) {
     const Texels shown = noise_panel(d);
     const Pyramid pyramid(shown);
-    const PanelReading reading{Long::none, planes(d.panel)};
+    const PanelReading reading{.planes = planes(d.panel)};
     const auto& levels = pyramid.levels(reading);
     const optics::Scene<float> scene = make_scene<float>(d, resolve(d));
     const optics::PanelLevels read{levels.data(), int(levels.size() / reading.planes.size()), false, false, &scene.emission};
