@@ -86,8 +86,9 @@ TEST(Override, FaultsNameTheOption) {
 // Numbers as people write them: the message has what to write.
 TEST(Override, HintsForNumbers) {
     const auto hint = [](const std::string& override_text, const char* remedy) {
-        EXPECT_THAT(fault_of({override_text}), HasSubstr("the value is not TOML: ")) << override_text;
-        EXPECT_THAT(fault_of({override_text}), testing::EndsWith(remedy)) << override_text;
+        const std::string fault = fault_of({"lens.surface=[{}]", override_text});
+        EXPECT_THAT(fault, HasSubstr("the value is not TOML: ")) << override_text;
+        EXPECT_THAT(fault, testing::EndsWith(remedy)) << override_text;
     };
     hint("lens.index=.6", "write 0.6");
     hint("lens.index=-.6", "write -0.6");
