@@ -328,7 +328,7 @@ struct InLattice {
             next_in_plate(scene, extent, rays, alive, next);
     }
     /// Ends rays that meet the stop beside its holes within the path length `way`.
-    LFDSIM_FN void stop(const GlassRays<F>& rays, F way, Mask<F>& ahead, Mask<F>& alive) const {
+    LFDSIM_FN void stop(const GlassRays<F>& rays, F way, F, Mask<F>& ahead, Mask<F>& alive) const {
         const F t = (F(scene.stop_z) - rays.at.z) / rays.to.z;
         const Mask<F> crosses = ahead && (t >= F(0)) && (t <= way);
         const Mask<F> through = passes_stop(scene, extent, rays.at.x + rays.to.x * t, rays.at.y + rays.to.y * t);
@@ -346,6 +346,7 @@ LFDSIM_FN void pass_glass(const Scene<Scalar<F>>& scene, const Bodies& bodies, G
     using S = Scalar<F>;
     const Mask<F> no_ray = F(0) > F(1);
     Mask<F> stop_ahead = alive;
+    F lowest = rays.at.z;  // that each ray has been
     arrived = in_layer = no_ray;
     const auto& last = scene.surface[scene.surface_count - 1];
     const bool vanishes = scene.glued && last.media.n_above == last.media.n_below;  // the glued face is none
@@ -353,7 +354,10 @@ LFDSIM_FN void pass_glass(const Scene<Scalar<F>>& scene, const Bodies& bodies, G
         Crossing<F> next{F(S(1e30)), {F(0), F(0), F(1)}, {F(0), F(0)}, F(0) > F(1)};
         bodies.next(rays, alive, next);
         const Mask<F> leaves = alive && !next.found;
-        if (scene.has_stop) bodies.stop(rays, next.t, stop_ahead, alive);
+        if (scene.has_stop) {
+            bodies.stop(rays, next.t, lowest, stop_ahead, alive);
+            lowest = min(lowest, rays.at.z + rays.to.z * next.t);
+        }
         arrived = arrived || (alive && leaves && !rays.inside && (rays.to.z < F(0)));
         alive = alive && next.found;
         const Mask<F> at_glue = scene.glued ? alive && rays.inside && (next.normal.z < F(0)) : no_ray;

@@ -158,11 +158,13 @@ struct MovedCaps {
         if (any(above)) next_on_face(true, true, rays, above, next);
         if (any(below)) next_on_face(false, true, rays, below, next);
     }
-    /// Takes the rays from `ahead` that pass a hole within the path length `way`.
-    LFDSIM_FN void stop(const GlassRays<F>& rays, F way, Mask<F>& ahead, Mask<F>&) const {
+    /// Takes the rays from `ahead` that go down through a hole within the path length `way`, below the lowest that they have been:
+    /// one that comes back up has met the black beside that hole.
+    LFDSIM_FN void stop(const GlassRays<F>& rays, F way, F lowest, Mask<F>& ahead, Mask<F>&) const {
         const Vec3<F> at{rays.at.x, rays.at.y, rays.at.z - F(scene.placement.vertex_z)}, to = rays.to;
-        const F near = (F(scene.stop_z) - rays.at.z) / to.z, start = F(0);
-        if (any(ahead)) ahead = ahead && !passes_any_hole(scene, extent, at, to, near, start, way, ahead);
+        const F near = (F(scene.stop_z) - rays.at.z) / to.z, start = max((lowest - rays.at.z) / to.z, F(0));
+        const Mask<F> down = ahead && (to.z < F(0));
+        if (any(down)) ahead = ahead && !passes_any_hole(scene, extent, at, to, near, start, way, down);
     }
     LFDSIM_FN void end(Mask<F> ahead, Mask<F>& arrived) const { arrived = arrived && !ahead; }
 };

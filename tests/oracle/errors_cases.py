@@ -107,6 +107,8 @@ MORE = {
     "errors of caps, plate of aspheres, 30 degrees": wrong(made(WIDE_ASPHERE, "plate", "cell", (30,)), OF_ARRAY, CAPS, seed=23),
     "errors of caps, strips, plate cell, 45 degrees": wrong(made(ROUNDER, "plate", "cell", (30, 32), LEAN), OF_ARRAY, CAPS, seed=24),
     "errors of caps, plate circle, stop, 15 degrees": wrong(made({**SPHERE, "stop_radius_mm": 2.0}, "plate", view=(15,)), OF_ARRAY, CAPS, seed=25),
+    "errors of caps, plate cell, panel facing, stop, 30 degrees": wrong(made({**ROUNDER_TURNED, "stop_radius_mm": 2.0}, "plate", "cell", (30,), render=EXACT),
+        each=CAPS, seed=41),
     "errors of caps, plate circle, 58 degrees, wedge": wrong(made(SPHERE, "plate", view=STEEP, render=EXACT), {"wedge_deg": [1.5, -1.0]}, CAPS, seed=26),
     "errors of a glued plate, hexagon cell, oblique": wrong(made(ROUNDER, "plate", "cell", OBLIQUE, {**HEXAGON, **on_top(THICK)}, panel=layers(THICK), render=EXACT),
         LEVEL, FLAT, seed=27),
