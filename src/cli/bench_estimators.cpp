@@ -110,11 +110,15 @@ std::optional<Reference> reference_of(const View& view, Bench& bench) {
     return r;
 }
 
-// Seconds are those of the whole call, so that what an estimator prepares is not left out.
+// Seconds are those of the whole call, so that what an estimator prepares is not left out, but for the panel's levels.
 std::vector<Spent> points_of(const View& view, const Image& truth, Bench& bench) {
     std::vector<Spent> points;
-    for (const Contender& e : estimators)
+    for (const Contender& e : estimators) {
+        Display d = view.display;
+        e.choose(d);
+        view.pyramid.levels(panel_reading(d, resolve(d)));
         for (const std::int64_t samples : sample_counts) points.push_back({&e, samples, {}, {}});
+    }
     std::vector<Case> cases;
     for (Spent& p : points)
         cases.push_back({fmt::format("{}, {} samples", p.estimator->name, p.samples), [&](Job& job) {

@@ -156,14 +156,12 @@ Rendering render(const Display& display, const Geometry& geometry, const Pyramid
 
 Rendering render(const Display& display, const Geometry& geometry, const Texels& panel, const RenderOptions& options, Job& job) {
     check_threads(options);
-    const optics::PanelLevel level{panel.data(), std::uint32_t(panel.columns()), std::uint32_t(panel.rows())};
-    if (estimator_of(display) == Estimator::point) return render(display, geometry, std::vector{level}, nullptr, options, job);
     const auto start = std::chrono::steady_clock::now();
     const Pyramid pyramid(panel, options.threads);
     const std::vector<optics::PanelLevel>& levels = pyramid.levels(panel_reading(display, geometry));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     Rendering result = render(display, geometry, levels, nullptr, options, job);
-    result.prepare_seconds = seconds;
+    if (levels.size() > 1) result.prepare_seconds = seconds;
     return result;
 }
 
