@@ -23,13 +23,33 @@ LFDSIM_FN Hit<F> meet_first(const Scene<Scalar<F>>& scene, Ray<F> ray, Cell<F> c
     return hit;
 }
 
+/// Whether no lens but those of its first and its last cell is on a way from (x, y) to (x + ex, y + ey).
+template <class F>
+LFDSIM_FN Mask<F> passes_two_cells(const Scene<Scalar<F>>& scene, Cell<F> first, Cell<F> last, F x, F y, F ex, F ey) {
+    using S = Scalar<F>;
+    const Lattice<S>& lattice = scene.lattice;
+    // Across one border. (A line between neighbours in a comb may cut a third cell, but not its lens.)
+    if (!lattice.staggered) return abs(last.i - first.i) + abs(last.j - first.j) <= F(S(1.5));
+    if (!lattice.hexagonal) return F(0) > F(1);
+    // The axes of neighbours are a pitch apart, and those of the two lenses beside both stand sqrt(3)/2 pitches off the line
+    // through them: farther from the way than the lenses are wide, where neither of its ends is far off that line.
+    const S pitch = lattice.pitch[0], far = S(0.866) * pitch - scene.surface[0].semi_aperture;
+    const Place<F> from = axis_of(lattice, first), to = axis_of(lattice, last);
+    const F dx = to.x - from.x, dy = to.y - from.y, ax = x - from.x, ay = y - from.y;
+    const F start = ax * dy - ay * dx, end = start + (ex * dy - ey * dx);
+    return (dx * dx + dy * dy <= F(S(1.1) * pitch * pitch)) && (max(abs(start), abs(end)) <= F(pitch * far));
+}
+
 /// The rays of `astray` miss the cap of the cell they point at: finds the cap of another cell, if any, that they meet before they
 /// are down at the rims, and writes hit and cell of those that do. (x, y): where they enter the zone of the caps, zone_bottom <= z
 /// <= zone_top, from the base lens's axis; m = -d(x, y)/dz, the lateral displacement per mm of descent.
 template <Shapes shapes, class F>
 LFDSIM_RARE void meet_neighbours(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F x, F y, F mx,
                                  F my, Mask<F> astray, Hit<F>& hit, Cell<F>& cell) {
+    const Cell<F> own = cell;
     auto try_cell = [&](Cell<F> here, Mask<F> active) {
+        active = active && !((here.i == own.i) && (here.j == own.j));
+        if (none(active)) return active;
         const Hit<F> next = meet_first<shapes>(scene, ray, here);
         const Mask<F> met = active && next.ok;
         auto choose = [&](F a, F b) { return select(met, a, b); };
@@ -43,9 +63,7 @@ LFDSIM_RARE void meet_neighbours(const Scene<Scalar<F>>& scene, const Extent<Sca
     };
     const F depth = F(scene.zone_top - scene.zone_bottom);
     const Cell<F> last = cell_at(scene.lattice, x + mx * depth, y + my * depth);
-    const F steps = abs(last.i - cell.i) + abs(last.j - cell.j);
-    // Where all cross one border, the last cell is the only other one (a line between neighbours in a comb may cut a third).
-    if (!scene.lattice.staggered && none(astray && (steps > F(Scalar<F>(1.5))))) {
+    if (none(astray && !passes_two_cells(scene, cell, last, x, y, mx * depth, my * depth))) {
         try_cell(last, astray && extent.holds(last));
         return;
     }

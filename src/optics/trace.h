@@ -90,18 +90,18 @@ LFDSIM_FN decltype(auto) by_way(const Scene<S>& scene, const Do& do_it) {
         return do_it.template operator()<through>();
 }
 
-/// do_it.operator()<way>() for all ways, one after the other.
+/// do_it.operator()<way>() for all ways that code is compiled for, one after the other (some several times, where it is for few).
 template <class Do>
 inline void for_all_ways(const Do& do_it) {
-    do_it.template operator()<Way::plano_convex>();
-    do_it.template operator()<Way::strips>();
-    do_it.template operator()<Way::staggered>();
-    do_it.template operator()<Way::opaque>();
-    do_it.template operator()<Way::ideal>();
-    do_it.template operator()<Way::glass>();
-    do_it.template operator()<Way::placed_plano_convex>();
-    do_it.template operator()<Way::placed_opaque>();
-    do_it.template operator()<Way::placed>();
+    do_it.template operator()<compiled(Way::plano_convex)>();
+    do_it.template operator()<compiled(Way::strips)>();
+    do_it.template operator()<compiled(Way::staggered)>();
+    do_it.template operator()<compiled(Way::opaque)>();
+    do_it.template operator()<compiled(Way::ideal)>();
+    do_it.template operator()<compiled(Way::glass)>();
+    do_it.template operator()<compiled(Way::placed_plano_convex)>();
+    do_it.template operator()<compiled(Way::placed_opaque)>();
+    do_it.template operator()<compiled(Way::placed)>();
     do_it.template operator()<Way::other>();
 }
 

@@ -35,7 +35,7 @@ COMPARED = 0.5       # the least share of a coloured picture that must be off th
 MANY = 300           # so many pixels near edges that few directions do not find are something else
 NEAR_ENOUGH = 0.015  # root mean square over a picture by which filtered light may differ from exact means, beyond chance
 MOST_STRATA = 3844   # samples of the filtered estimator
-QUICK = {"camera": {"resolution": [80, 45]}}  # of --quick
+QUICK = {"camera": {"resolution": [64, 36]}}  # of --quick
 
 
 @functools.lru_cache(maxsize=1)
