@@ -11,7 +11,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr int lines_a_set = HarmonicLines::rows * HarmonicLines::rows;
+constexpr int lines_a_set = LineEnds::rows * LineEnds::rows;
 constexpr double all_lines = double(independent_sets) * lines_a_set;
 constexpr int finest_order = 800;       // of harmonics; of finer ones, of pixels that hardly shine, no wave is looked for
 constexpr int most_squares = 2048;      // along a cell
@@ -22,9 +22,9 @@ constexpr double surely = 4;            // standard deviations
 
 }  // namespace
 
-HarmonicLines::HarmonicLines(const WhiteSeen& screen, std::int64_t seed, const Vec3d& eye, const Window& window, Parts& parts)
-    : width_(window.width_mm()), height_(window.height_mm()), paths_(screen.paths()) {
-    std::vector<std::vector<std::vector<Line>>> by_row(paths_.size(), std::vector<std::vector<Line>>(rows));
+LineEnds::LineEnds(const WhiteSeen& screen, std::int64_t seed, const Vec3d& eye, const Window& window, Parts& parts)
+    : width_mm(window.width_mm()), height_mm(window.height_mm()), paths(screen.paths()) {
+    std::vector<std::vector<std::vector<Line>>> by_row(paths.size(), std::vector<std::vector<Line>>(rows));
     parts.run(rows, [&](int row) {
         for (int set = 0; set < independent_sets; ++set)
             for (int column = 0; column < rows; ++column) {
@@ -34,44 +34,52 @@ HarmonicLines::HarmonicLines(const WhiteSeen& screen, std::int64_t seed, const V
                 };
                 const double x = (column + random(0)) / rows - 0.5, y = (row + random(1)) / rows - 0.5,
                              weight = blackman(x + 0.5) * blackman(y + 0.5);
-                for (std::size_t path = 0; path < paths_.size(); ++path) {
-                    const WhiteSeen::End end = screen.end(path, eye, x * width_, y * height_, 2 * random(2) - 1, 2 * random(3) - 1);
+                for (std::size_t path = 0; path < paths.size(); ++path) {
+                    const WhiteSeen::End end =
+                        screen.end(path, eye, x * width_mm, y * height_mm, 2 * random(2) - 1, 2 * random(3) - 1);
                     if (end.light > 0)
                         by_row[path][std::size_t(row)].push_back({x, y, end.column, end.row, weight * end.light, set});
                 }
             }
     });
-    for (std::size_t path = 0; path < paths_.size(); ++path) {
-        for (const std::vector<Line>& row : by_row[path]) paths_[path].insert(paths_[path].end(), row.begin(), row.end());
+    for (std::size_t path = 0; path < paths.size(); ++path)
+        for (const std::vector<Line>& row : by_row[path]) paths[path].insert(paths[path].end(), row.begin(), row.end());
+}
+
+HarmonicLines::HarmonicLines(const LineEnds& ends, const WhiteSeen& screen, std::size_t mixture)
+    : ends_(ends), cells_(ends.paths.size()), noise_(ends.paths.size()) {
+    for (std::size_t path = 0; path < ends.paths.size(); ++path) {
+        const WhitePanel* white = screen.white(path, mixture);
+        if (!white) continue;
         double light = 0, squares = 0;
-        for (const Line& line : paths_[path]) {
+        for (const Line& line : ends.paths[path]) {
             light += line.light;
             squares += line.light * line.light;
         }
-        const WhitePanel& white = screen.white(path);
-        mean_ += light / all_lines * white.mean();
-        noise_.push_back(std::sqrt(squares) / all_lines);
-        const auto [highest_k, highest_l] = white.highest_order();
+        mean_ += light / all_lines * white->mean();
+        noise_[path] = std::sqrt(squares) / all_lines;
+        const auto [highest_k, highest_l] = white->highest_order();
         const int last_k = std::min(highest_k, finest_order), last_l = std::min(highest_l, finest_order);
-        Cell cell{double(white.cell()[0]), double(white.cell()[1]), 32};
+        Cell cell{double(white->cell()[0]), double(white->cell()[1]), 32};
         while (cell.squares < most_squares && cell.squares < 4 * std::max(last_k, last_l)) cell.squares *= 2;
-        cells_.push_back(cell);
+        cells_[path] = cell;
         for (int k = -last_k; k <= last_k; ++k)
             for (int l = -last_l; l <= last_l; ++l)
-                if (const std::complex<double> c = white.harmonic(k, l); (k != 0 || l != 0) && std::abs(c) >= least_share)
+                if (const std::complex<double> c = white->harmonic(k, l); (k != 0 || l != 0) && std::abs(c) >= least_share)
                     harmonics_.push_back({path, k, l, k / cell.columns, l / cell.rows, c});
     }
 }
 
 std::complex<double> HarmonicLines::of_line(const Line& line, const Harmonic& h, const Frequency& f) const {
-    return std::polar(line.light,
-                      2 * pi * (h.column * line.column + h.row * line.row - f[0] * line.x * width_ - f[1] * line.y * height_));
+    return std::polar(
+        line.light,
+        2 * pi * (h.column * line.column + h.row * line.row - f[0] * line.x * ends_.width_mm - f[1] * line.y * ends_.height_mm));
 }
 
 WaveSums HarmonicLines::sums(const Harmonic& harmonic, const Frequency& f) const {
-    WaveSums result(f, width_, height_);
+    WaveSums result(f, ends_.width_mm, ends_.height_mm);
     const std::complex<double> share = harmonic.c / double(lines_a_set);
-    for (const Line& line : paths_[harmonic.path])
+    for (const Line& line : ends_.paths[harmonic.path])
         result.add(line.set, int((line.x + 0.5) * WaveSums::side), int((line.y + 0.5) * WaveSums::side),
                    share * of_line(line, harmonic, f));
     return result;
@@ -80,17 +88,18 @@ WaveSums HarmonicLines::sums(const Harmonic& harmonic, const Frequency& f) const
 // Lines are gathered in squares by where in the cell they end: the transform of the squares has what all harmonics give.
 std::vector<HarmonicLines::Part> HarmonicLines::parts(const Frequency& f, double least) const {
     std::vector<Part> found;
-    for (std::size_t path = 0; path < paths_.size(); ++path) {
+    for (std::size_t path = 0; path < cells_.size(); ++path) {
         const Cell& cell = cells_[path];
         const int n = cell.squares;
+        if (n == 0) continue;  // nothing of the mixture takes this path
         const auto square = [&](double place, double size) {
             const double turns = place / size;
             return std::min(int((turns - std::floor(turns)) * n), n - 1);
         };
         std::vector<std::complex<double>> plane(std::size_t(n) * std::size_t(n));
-        for (const Line& line : paths_[path])
+        for (const Line& line : ends_.paths[path])
             plane[std::size_t(square(line.row, cell.rows)) * std::size_t(n) + std::size_t(square(line.column, cell.columns))] +=
-                std::polar(line.light, -2 * pi * (f[0] * line.x * width_ + f[1] * line.y * height_));
+                std::polar(line.light, -2 * pi * (f[0] * line.x * ends_.width_mm + f[1] * line.y * ends_.height_mm));
         fourier(plane, n);
         for (const Harmonic& h : harmonics_) {
             if (h.path != path || 2 * std::abs(h.c) < least) continue;
@@ -117,7 +126,7 @@ std::optional<HarmonicLines::Wave> HarmonicLines::near(const Frequency& f, doubl
         }
         const WaveSums other = sums(*found[n].harmonic, f);
         const Frequency at = other.peak(f);
-        const double apart = std::hypot((at[0] - own[0]) * width_, (at[1] - own[1]) * height_) / WaveSums::one_wave;
+        const double apart = std::hypot((at[0] - own[0]) * ends_.width_mm, (at[1] - own[1]) * ends_.height_mm) / WaveSums::one_wave;
         if (apart <= 1) wave.sums.add(other);
         if (apart > 0.5 && apart < 2) wave.unclear += found[n].amplitude;  // the window does not tell whether they are one
     }

@@ -11,11 +11,29 @@
 
 namespace lfdsim {
 
+/// Lines through a window of the screen as WhiteLines has it, fewer of them, that end on the panel.
+class LineEnds {
+  public:
+    struct Line {
+        double x, y;         // share of the window, from its middle
+        double column, row;  // on the panel
+        double light;        // weighted
+        int set;
+    };
+    static constexpr int rows = 256;
+
+    /// Takes `rows` parts.
+    LineEnds(const WhiteSeen&, std::int64_t seed, const Vec3d& eye, const Window&, Parts&);
+
+    double width_mm, height_mm;            // of the window
+    std::vector<std::vector<Line>> paths;  // of each path of light
+};
+
+/// What they see of one mixture.
 class HarmonicLines {
   public:
-    /// A window of the screen as WhiteLines has it, with fewer lines. Takes `rows` parts.
-    HarmonicLines(const WhiteSeen&, std::int64_t seed, const Vec3d& eye, const Window&, Parts&);
-    static constexpr int rows = 256;
+    /// Both must live as long.
+    HarmonicLines(const LineEnds&, const WhiteSeen&, std::size_t mixture);
 
     struct Wave {
         WaveSums sums;   // of the harmonic that gives most and of those whose waves have its frequency
@@ -30,12 +48,7 @@ class HarmonicLines {
     double mean() const { return mean_; }
 
   private:
-    struct Line {
-        double x, y;         // share of the window, from its middle
-        double column, row;  // on the panel
-        double light;        // weighted
-        int set;
-    };
+    using Line = LineEnds::Line;
     struct Harmonic {
         std::size_t path;
         int k, l;            // periods per cell of pixels
@@ -44,7 +57,7 @@ class HarmonicLines {
     };
     struct Cell {
         double columns, rows;  // pixels
-        int squares;           // that lines are gathered in, along each axis
+        int squares = 0;       // that lines are gathered in, along each axis; 0: nothing takes the path
     };
     struct Part {
         const Harmonic* harmonic;
@@ -55,10 +68,10 @@ class HarmonicLines {
     std::complex<double> of_line(const Line&, const Harmonic&, const Frequency&) const;
     WaveSums sums(const Harmonic&, const Frequency&) const;
 
-    double width_, height_, mean_ = 0;
-    std::vector<std::vector<Line>> paths_;  // of each path of light the lines that end on the panel
-    std::vector<Cell> cells_;               // of each path
-    std::vector<double> noise_;             // of each path: standard deviation of a mean over all lines
+    const LineEnds& ends_;
+    double mean_ = 0;
+    std::vector<Cell> cells_;    // of each path
+    std::vector<double> noise_;  // of each path: standard deviation of a mean over all lines
     std::vector<Harmonic> harmonics_;
 };
 

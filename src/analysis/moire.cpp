@@ -15,19 +15,20 @@ namespace {
 
 constexpr int map_side = 64, map_lines = 256;  // squares along each axis, and lines in each
 
-/// The screen's middle as it is seen, over some periods. Takes map_side parts.
+/// The luminance, mixture 0, of the screen's middle as it is seen, over some periods. Takes map_side parts.
 ColourMap moire_map(const WhiteSeen& screen, const Vec3d& eye, double side, Parts& parts) {
     const std::vector<Choice> choices = even_choices(map_lines);
     std::vector<double> values(std::size_t(map_side) * map_side);
     const double square = side / map_side;
     parts.run(map_side, [&](int row) {
+        std::vector<WhiteLight> light;
         for (int column = 0; column < map_side; ++column) {
             double sum = 0;
-            for (const Choice& c : choices)
-                sum += screen
-                           .light(eye, (column + 0.5 + 0.5 * c[0]) * square - side / 2,
-                                  side / 2 - (row + 0.5 + 0.5 * c[1]) * square, c[2], c[3])
-                           .seen;
+            for (const Choice& c : choices) {
+                screen.look(eye, (column + 0.5 + 0.5 * c[0]) * square - side / 2, side / 2 - (row + 0.5 + 0.5 * c[1]) * square,
+                            c[2], c[3], light);
+                sum += light[0].seen;
+            }
             values[std::size_t(row) * map_side + std::size_t(column)] = sum / map_lines;
         }
     });
@@ -104,13 +105,10 @@ struct Pattern {
     std::string missing;  // why there is no period
 };
 
-Pattern pattern_of(const WhiteSeen& screen, const std::optional<Beat>& theory, const Subject& s, const Vec3d& eye,
-                   const Window& window, Parts& parts) {
-    const WhiteLines lines(screen, s.display().render.seed, eye, window, parts);
-    if (!(lines.mean() > 0)) throw InputError("camera", "sees no light of a white panel from straight in front of it");
+Pattern pattern_of(const WhiteLines& lines, const HarmonicLines& harmonics, const std::optional<Beat>& theory,
+                   double mm_per_degree) {
     Pattern pattern;
-    const HarmonicLines harmonics(screen, s.display().render.seed, eye, window, parts);
-    pattern.search = find_moire(lines, harmonics, theory, mm_per_degree(eye[2] - s.geometry().vertex_plane_mm));
+    pattern.search = find_moire(lines, harmonics, theory, mm_per_degree);
     if (const std::optional<MeasuredBeat>& m = pattern.search.strongest) {
         pattern.found = {m->period_mm, m->direction_deg, m->seen, m->contrast};
         return pattern;
@@ -120,7 +118,7 @@ Pattern pattern_of(const WhiteSeen& screen, const std::optional<Beat>& theory, c
         "no wave with 3 periods or more in the middle of the screen, {:.3g} x {:.3g} mm, has more than the contrast {:.2g}, which "
         "the "
         "noise of the lines of sight allows to see",
-        window.width_mm(), window.height_mm(), pattern.search.least);
+        lines.window().width_mm(), lines.window().height_mm(), pattern.search.least);
     return pattern;
 }
 
@@ -141,13 +139,15 @@ void remark_on(const Pattern& pattern, const std::optional<Beat>& theory, double
             "at.");
 }
 
-int colours(const Display& d) { return has_colours(d) ? 4 : 1; }
+/// Luminance, and the channels if they differ.
+std::vector<ChannelWeights> mixtures(const Display& d) {
+    if (!has_colours(d)) return {luminance_weights};
+    return {luminance_weights, only(0), only(1), only(2)};
+}
 
 }  // namespace
 
-std::int64_t moire_steps(const Subject& s) {
-    return pictures_worth(s, shines_all_over(s.display().panel) ? 1 : colours(s.display()) * 9'000'000);
-}
+std::int64_t moire_steps(const Subject& s) { return pictures_worth(s, shines_all_over(s.display().panel) ? 1 : 9'000'000); }
 
 Result measure_moire(Subject& s, Job& job) {
     const double distance = checked_viewing_distance_mm(s);
@@ -168,16 +168,20 @@ Result measure_moire(Subject& s, Job& job) {
     const Vec3d eye{0, 0, distance};
     const Window window = middle_of_screen(d, s.geometry(), distance);
     result.figures["window_mm"] = {window.width_mm(), window.height_mm()};
-    Parts parts(job, s.threads(), colours(d) * (window.rows + HarmonicLines::rows) + map_side, moire_steps(s));
-    for (int colour = 0; colour < colours(d); ++colour) {
-        const bool all = colour == 0;
-        const auto channel = std::size_t(colour - 1);
+    Parts parts(job, s.threads(), window.rows + LineEnds::rows + map_side, moire_steps(s));
+    const std::vector<ChannelWeights> weights = mixtures(d);
+    const WhiteSeen screen(d, s.geometry(), weights);
+    const std::vector<WhiteLines> lines = WhiteLines::of(screen, d.render.seed, eye, window, parts);
+    const LineEnds ends(screen, d.render.seed, eye, window, parts);
+    for (std::size_t mixture = 0; mixture < weights.size(); ++mixture) {
+        if (!(lines[mixture].mean() > 0)) throw InputError("camera", "sees no light of a white panel from straight in front of it");
+        const bool all = mixture == 0;
+        const std::size_t channel = mixture - 1;
         const WaveNames names{all ? "" : std::string(1, "rgb"[channel])};
         const Geometry geometry = all ? s.geometry() : resolve(d, d.panel.wavelengths_nm[channel]);
-        const ChannelWeights weights = all ? luminance_weights : only(channel);
-        const WhiteSeen screen(d, s.geometry(), weights);
-        const std::optional<Beat> theory = MoireTheory(d, geometry, distance, weights).strongest();
-        const Pattern pattern = pattern_of(screen, theory, s, eye, window, parts);
+        const std::optional<Beat> theory = MoireTheory(d, geometry, distance, weights[mixture]).strongest();
+        const Pattern pattern = pattern_of(lines[mixture], HarmonicLines(ends, screen, mixture), theory,
+                                           mm_per_degree(distance - s.geometry().vertex_plane_mm));
         add_wave(result, "white", names, pattern.found, true, pattern.missing);
         add_wave(result, "theory", names, theory_wave(theory), false,
                  fmt::format("all beats are finer than {:g} cycles per degree, which eyes do not resolve, or next to nothing",

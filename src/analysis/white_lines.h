@@ -9,6 +9,7 @@
 #include "analysis/parallel.h"
 #include "analysis/wave_sums.h"
 
+#include <optional>
 #include <vector>
 
 namespace lfdsim {
@@ -33,18 +34,25 @@ struct WhiteLight {
     double seen = 0;   // where the line ends
 };
 
-/// A white panel behind the lenses, of which some channels count, each in its own light.
+/// A white panel behind the lenses, each channel in its own light. It is looked at in one or several mixtures of its channels, such
+/// as luminance and red alone: they share the lines, which take most of the time.
 class WhiteSeen {
   public:
     /// `green`: the display's own geometry.
-    WhiteSeen(const Display&, const Geometry& green, const ChannelWeights&);
+    WhiteSeen(const Display&, const Geometry& green, std::vector<ChannelWeights> mixtures);
+    std::size_t mixtures() const { return mixtures_; }
 
-    /// Of the line from an eye that aims at (x, y) of the vertex plane, with the diffuser's numbers a and b.
-    WhiteLight light(const Vec3d& eye, double x, double y, double a, double b) const;
+    /// Of the line from an eye that aims at (x, y) of the vertex plane, with the diffuser's numbers a and b: light[m] is that of
+    /// mixture m.
+    void look(const Vec3d& eye, double x, double y, double a, double b, std::vector<WhiteLight>& light) const;
 
     /// Colours that take the same path count as one.
     std::size_t paths() const { return paths_.size(); }
-    const WhitePanel& white(std::size_t path) const { return paths_[path].white; }
+    /// What of a mixture takes a path; null if nothing does.
+    const WhitePanel* white(std::size_t path, std::size_t mixture) const {
+        const std::optional<WhitePanel>& white = paths_[path].white[mixture];
+        return white ? &*white : nullptr;
+    }
     /// Where such a line ends in the light of one path: columns and rows of the panel from its corner; the mean light there is 0
     /// where the line is blocked or ends beside the panel.
     struct End {
@@ -55,17 +63,19 @@ class WhiteSeen {
   private:
     struct Path {  // of channels whose light takes it
         EyeRays rays;
-        WhitePanel white;
+        std::vector<std::optional<WhitePanel>> white;  // of each mixture
     };
     const Panel& panel_;
     double vertex_plane_;
+    std::size_t mixtures_;
     std::vector<Path> paths_;
 };
 
+/// What such lines see of one mixture.
 class WhiteLines {
   public:
-    /// Takes rows parts.
-    WhiteLines(const WhiteSeen&, std::int64_t seed, const Vec3d& eye, const Window&, Parts&);
+    /// Of each mixture. Takes window.rows parts.
+    static std::vector<WhiteLines> of(const WhiteSeen&, std::int64_t seed, const Vec3d& eye, const Window&, Parts&);
 
     const Window& window() const { return window_; }
 
@@ -80,6 +90,8 @@ class WhiteLines {
     double noise() const { return noise_; }
 
   private:
+    explicit WhiteLines(const Window& window) : window_(window) {}
+
     Window window_;
     std::vector<double> change_;  // weighted: row, column
     double mean_ = 0, noise_ = 0;

@@ -177,19 +177,20 @@ TEST(Moire, LuminanceIsTheSumOfColoursInTheirOwnLight) {
     d.panel.subpixels = SubpixelLayout::rgb_stripe;
     d.panel.layers = {{3, {}, Glass{"", Formula::nd_vd, {1.6, 12}}}};
     const Geometry green = resolve(d);
-    const WhiteSeen white(d, green, luminance_weights);
-    const std::array colours{WhiteSeen(d, green, only(0)), WhiteSeen(d, green, only(1)), WhiteSeen(d, green, only(2))};
+    const WhiteSeen white(d, green, {luminance_weights}), colours(d, green, {only(0), only(1), only(2)});
+    EXPECT_EQ(white.paths(), 3u);
+    std::vector<WhiteLight> all, one;
     const Vec3d eye{0, 0, 603};
     for (double x = -15; x < 15; x += 0.173) {
-        const WhiteLight all = white.light(eye, x, 0.4 * x, 0, 0);
+        white.look(eye, x, 0.4 * x, 0, 0, all);
+        colours.look(eye, x, 0.4 * x, 0, 0, one);
         WhiteLight sum;
         for (std::size_t c = 0; c < 3; ++c) {
-            const WhiteLight one = colours[c].light(eye, x, 0.4 * x, 0, 0);
-            sum.plain += luminance_weights[c] * one.plain;
-            sum.seen += luminance_weights[c] * one.seen;
+            sum.plain += luminance_weights[c] * one[c].plain;
+            sum.seen += luminance_weights[c] * one[c].seen;
         }
-        EXPECT_NEAR(all.plain, sum.plain, 1e-12) << x;
-        EXPECT_NEAR(all.seen, sum.seen, 1e-12) << x;
+        EXPECT_NEAR(all[0].plain, sum.plain, 1e-12) << x;
+        EXPECT_NEAR(all[0].seen, sum.seen, 1e-12) << x;
     }
     const EyeRays red(d, resolve(d, d.panel.wavelengths_nm[0])), blue(d, resolve(d, d.panel.wavelengths_nm[2]));
     const Vec3d aside{14, 0, green.vertex_plane_mm};
