@@ -67,7 +67,7 @@ TEST(Wide, FilteredHasTheSameBits) {
         for (const int samples : {4, 25, 64, 100}) {
             d.render.samples = samples;
             HostQueue queue;
-            const RenderOptions options{0, "", samples > 25 ? Rect{50, 41, 90, 60} : Rect{35, 23, 130, 92}};
+            const RenderOptions options{0, "", samples > 25 ? Rect{50, 41, 90, 60} : Rect{35, 23, 99, 71}};
             expect_same(by_host(d, panel, options, queue).image, by_cpu(d, panel, options).image,
                         name + ", " + std::to_string(samples));
             EXPECT_EQ(queue.runs[wide::Step::points], 0);
