@@ -44,9 +44,9 @@ LFDSIM_FN F stagger(const Lattice<Scalar<F>>& lattice, F j) {
 
 template <class F>
 LFDSIM_FN Place<F> axis_of(const Lattice<Scalar<F>>& lattice, Cell<F> cell) {
-    const F x = cell.i * F(lattice.pitch[0]), y = cell.j * F(lattice.pitch[1]);
-    if (lattice.staggered) return {x + stagger(lattice, cell.j), y};
-    return {x, y};
+    const F x = cell.i * F(lattice.pitch[0]);
+    if (lattice.staggered) return {x + stagger(lattice, cell.j), cell.j * F(lattice.pitch[1])};
+    return {x, lattice.strips ? F(0) : cell.j * F(lattice.pitch[1])};  // strips: there is one row, without end
 }
 
 /// A pair of opposite borders of a cell: the lines at +-half from its axis along the unit vector (x, y).
@@ -67,7 +67,7 @@ LFDSIM_FN Borders<S> borders(const Lattice<S>& lattice, int pair) {
 
 template <class F>
 LFDSIM_FN Cell<F> cell_at(const Lattice<Scalar<F>>& lattice, F x, F y) {
-    if (!lattice.staggered) return {cell_along(lattice, 0, x), cell_along(lattice, 1, y)};
+    if (!lattice.staggered) return {cell_along(lattice, 0, x), lattice.strips ? F(0) : cell_along(lattice, 1, y)};
     if (!lattice.hexagonal) {
         const F j = cell_along(lattice, 1, y);
         return {cell_along(lattice, 0, x - stagger(lattice, j)), j};

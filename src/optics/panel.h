@@ -39,7 +39,8 @@ template <class F>
 LFDSIM_FN PanelPoint<F> panel_point(const Scene<Scalar<F>>& scene, const PanelBase<Scalar<F>>& base, Cell<F> cell, F x, F y,
                                     F weight, Mask<F> alive) {
     const F k = F(scene.pixels_per_mm);
-    Place<F> at{x * k + cell.i * F(scene.pitch_pixels[0]), y * k + cell.j * F(scene.pitch_pixels[1])};
+    Place<F> at{x * k + cell.i * F(scene.pitch_pixels[0]),
+                scene.lattice.strips ? y * k : y * k + cell.j * F(scene.pitch_pixels[1])};
     if (scene.lattice.staggered) at.x = at.x + stagger(scene.lattice, cell.j) * k;
     if (scene.rotated) at = to_display(scene.lattice, at.x, at.y);
     return {F(base.column_rest) + at.x, F(base.row_rest) - at.y, weight, alive, cell};

@@ -46,6 +46,7 @@ LFDSIM_FN Mask<F> passes_two_cells(const Scene<Scalar<F>>& scene, Cell<F> first,
 template <Shapes shapes, class F>
 LFDSIM_RARE void meet_neighbours(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F x, F y, F mx,
                                  F my, Mask<F> astray, Hit<F>& hit, Cell<F>& cell) {
+    assume<shapes>(scene);
     const Cell<F> own = cell;
     auto try_cell = [&](Cell<F> here, Mask<F> active) {
         active = active && !((here.i == own.i) && (here.j == own.j));
@@ -77,6 +78,10 @@ LFDSIM_RARE void meet_neighbours(const Scene<Scalar<F>>& scene, const Extent<Sca
 template <class F>
 LFDSIM_FN Mask<F> may_meet_neighbours(const Lattice<Scalar<F>>& lattice, Cell<F> cell, F x, F y, F ex, F ey, F r) {
     const Place<F> axis = axis_of(lattice, cell);
+    if (lattice.strips) {  // across them alone; such a ray ends from r on this side of the axis to ex beyond it
+        const F ux = abs(x - axis.x + ex), px = F(lattice.pitch[0]), ax = px - ux;
+        return (ux > F(lattice.half_pitch[0])) && ((ax * ax <= r * r + ex * ex) || (ux > px));
+    }
     const F reach2 = r * r + (ex * ex + ey * ey);
     const F ux = abs(x - axis.x + ex), uy = abs(y - axis.y + ey), px = F(lattice.pitch[0]), py = F(lattice.pitch[1]);
     if (lattice.staggered) {
@@ -88,7 +93,7 @@ LFDSIM_FN Mask<F> may_meet_neighbours(const Lattice<Scalar<F>>& lattice, Cell<F>
     }
     // Of the neighbour across the one border that it crosses; where it crosses more, any may be near.
     const Mask<F> out_x = ux > F(lattice.half_pitch[0]), out_y = uy > F(lattice.half_pitch[1]);
-    const F ax = min(ux, px - ux), ay = min(across(lattice, uy), across(lattice, py - uy));
+    const F ax = min(ux, px - ux), ay = min(uy, py - uy);
     const Mask<F> near = (ax * ax + ay * ay <= reach2) || (out_x && out_y) || (ux > px) || (uy > py);
     return (out_x || out_y) && near;
 }
