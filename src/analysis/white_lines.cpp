@@ -23,7 +23,7 @@ double counted_random(std::uint64_t counter) {
     return double((z ^ (z >> 31)) >> 11) * 0x1p-53;
 }
 
-WhiteSeen::WhiteSeen(const Display& d, const Geometry& green, std::vector<ChannelWeights> mixtures)
+WhiteSeen::WhiteSeen(const Display& d, const Geometry& green, const std::vector<ChannelWeights>& mixtures)
     : panel_(d.panel), vertex_plane_(green.vertex_plane_mm), mixtures_(mixtures.size()) {
     if (!disperses(d)) {
         Path& path = paths_.emplace_back(Path{EyeRays(d, green), {}});

@@ -39,7 +39,7 @@ struct WhiteLight {
 class WhiteSeen {
   public:
     /// `green`: the display's own geometry.
-    WhiteSeen(const Display&, const Geometry& green, std::vector<ChannelWeights> mixtures);
+    WhiteSeen(const Display&, const Geometry& green, const std::vector<ChannelWeights>& mixtures);
     std::size_t mixtures() const { return mixtures_; }
 
     /// Of the line from an eye that aims at (x, y) of the vertex plane, with the diffuser's numbers a and b: light[m] is that of
