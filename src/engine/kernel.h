@@ -4,6 +4,15 @@
 
 namespace lfdsim {
 
+/// Filtered estimator: the square of two numbers that pixels are cut by, the diffuser's or those of a point of the pixel's area.
+struct Square {
+    bool weak;      // the diffuser is so weak that strata move with the pixels in every block
+    bool of_pixel;  // the numbers are those of the pixel's area
+    // More samples divide into cells not only the square, but also what else spreads a pixel's own rays: the pixel's area or the
+    // diffuser's angles, whichever the square is not, and the pupil.
+    bool divides_other, divides_pupil;
+};
+
 /// A tile of the picture: pixels x0 .. x1-1, y0 .. y1-1 of the whole frame. Pixel (x, y) goes to
 /// out[((y - crop_y) crop_width + x - crop_x) 3].
 struct Tile {
@@ -18,7 +27,7 @@ struct Tile {
     std::uint32_t samples;
     int strata;      // filtered estimator: rows and columns of strata, 1 .. max_strata - more_strata; 0: point samples
     int block_side;  // filtered estimator: pixels, a multiple of 4
-    bool weak;       // filtered estimator: the diffuser is so weak that strata move with the pixels in every block
+    Square square;
     Sampling sampling;
     int dimensions;  // of the sampler, those in use
 };

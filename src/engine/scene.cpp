@@ -153,6 +153,17 @@ optics::Emission<S> make_emission(const Panel& panel) {
     return to;
 }
 
+/// Does the camera's pupil move rays over a good part of a hole?
+bool moves_by_pupil(const optics::Scene<float>& scene, const optics::View& view) {
+    if (!scene.thin_lens) return false;
+    const double away = std::abs((view.position[2] - view.start_z + double(scene.holes_below[0])) / view.forward[2]);
+    const double shift = view.pupil_radius * std::abs(1 - away * view.frame_per_focus / view.distance);
+    const Lattice<float>& lattice = scene.lattice;
+    const float hole =
+        scene.hole_radius > 0 ? scene.hole_radius : std::min({scene.hole_half, lattice.half_pitch[0], lattice.half_pitch[1]});
+    return shift > FilteredLimits::aside * double(hole);
+}
+
 }  // namespace
 
 template <class S>
@@ -253,24 +264,37 @@ int sample_dimensions(const Display& display) {
     return display.diffuser ? 2 : 0;
 }
 
-BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& view, int strata, bool rough) {
+BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& view, int strata, bool rough, bool converges) {
     using L = FilteredLimits;
     // Compares the picture's pixels, projected along the line of sight onto the diffuser's plane, with a lens pitch and with what a
     // diffused ray spans in the plane of the holes; mm.
     const double pixel = view.pixel_mm * std::abs((view.position[2] - view.start_z) / (view.forward[2] * view.distance));
     double seen = std::min(scene.lattice.pitch[0], scene.lattice.pitch[1]);
     // Without a diffuser pixels share a block's list of lenses and what the pupil spreads.
-    if (!scene.has_diffuser) return {16 * pixel < seen ? 16 : 8 * pixel < 4 * seen ? 8 : 4, true};
+    const int many = 16 * pixel < seen ? 16 : 8 * pixel < 4 * seen ? 8 : 4;
+    const bool divides_pupil = converges || moves_by_pupil(scene, view);
+    if (!scene.has_diffuser) return {many, {.weak = true, .of_pixel = true, .divides_pupil = divides_pupil}};
     double span[2];
-    BlockShape shape{4, true};
+    bool weak = true;
     for (int k = 0; k < 2; ++k) {
         span[k] = 2 * double(scene.holes_below[k]) * std::tan(std::min(double(scene.half_angle[k]), 1.5));
-        shape.weak = shape.weak && span[k] < L::weak_span * pixel && span[k] < L::weak * double(scene.lattice.pitch[k]);
+        weak = weak && span[k] < L::weak_span * pixel && span[k] < L::weak * double(scene.lattice.pitch[k]);
     }
     // Lens by lens, pixels behind a weak diffuser share a block's list of lenses too, and parts of it what the camera spreads.
-    if (shape.weak && scene.by_lens) return {8 * pixel < seen ? 8 : 4, true};
-    bool moving = shape.weak;
-    for (int k = 0; k < 2 && !shape.weak; ++k) span[k] > L::moving_span* pixel ? seen = std::min(seen, span[k]) : moving = true;
+    if (weak && scene.by_lens) {
+        const double diffused = std::max(span[0], span[1]);
+        // Edges of holes are taken as straight; an oblique view makes pixels wider.
+        const bool straight = scene.hole_radius == 0 || 2 * pixel < L::straight * double(scene.hole_radius);
+        const bool of_pixel = scene.box_filter && straight && diffused < pixel;
+        // One box is a poor bell, and no box is right to the last. But a round hole that cuts the diffuser's angles has one place.
+        const bool moves = of_pixel || scene.hole_radius == 0;
+        const bool bell = of_pixel && scene.diffuser_profile == Profile::gaussian;
+        const bool divides_other = converges || bell || strata > 2 * few_strata;
+        const int few = 8 * pixel < seen ? 8 : 4;
+        return {of_pixel ? many : few, {weak, of_pixel, moves && divides_other, moves && divides_pupil}};
+    }
+    bool moving = weak;
+    for (int k = 0; k < 2 && !weak; ++k) span[k] > L::moving_span* pixel ? seen = std::min(seen, span[k]) : moving = true;
     // Many strata ask for a fine picture, in which nonlinear motion over a block would show. Where strata move with the pixels, the
     // edges of lenses, where bundles break, are sharp in the picture.
     const double wide = strata > 2 * few_strata ? L::block_finest
@@ -279,8 +303,7 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
                         : rough                 ? L::block_rough
                                                 : L::block_usual;
     const double half_as_wide = std::min(2 * wide, rough ? L::half_block_rough : L::half_block_usual);
-    shape.side = 16 * pixel < wide * seen ? 16 : 8 * pixel < half_as_wide * seen ? 8 : 4;
-    return shape;
+    return {16 * pixel < wide * seen ? 16 : 8 * pixel < half_as_wide * seen ? 8 : 4, {.weak = weak}};
 }
 
 const optics::DirectionNumbers& sobol_directions() {

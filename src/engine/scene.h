@@ -1,5 +1,6 @@
 // From a display description to the tracer's plain numbers. Floor 2.
 #pragma once
+#include "engine/kernel.h"
 #include "model/display.h"
 #include "model/geometry.h"
 #include "optics/scene.h"
@@ -36,12 +37,12 @@ int sample_dimensions(const Display&);
 
 /// The blocks of pixels in which the filtered estimator shares its rays.
 struct BlockShape {
-    int side;   // pixels: 16, 8 or 4
-    bool weak;  // the diffuser is weak: pixels see so little of a lens that strata move with them
+    int side;  // pixels: 16, 8 or 4
+    Square square;
 };
 /// For so many strata an axis: a block spans less than a pixel sees of a lens, much less where many strata ask for a fine picture,
-/// nearly as much for a rough one.
-BlockShape block_shape(const optics::Scene<float>&, const optics::View&, int strata, bool rough = false);
+/// nearly as much for a rough one. `converges`: with more samples everything shall be divided.
+BlockShape block_shape(const optics::Scene<float>&, const optics::View&, int strata, bool rough = false, bool converges = false);
 
 const optics::DirectionNumbers& sobol_directions();
 

@@ -57,7 +57,9 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
         throw InputError("render.samples",
                          fmt::format("{}; at most {} filtered samples, or use the estimator \"point\"", samples, most));
     if (dimensions > 0) target_error = options.target_error;
-    const BlockShape shape = block_shape(scene, view, target_error ? 2 * few_strata : strata, options.rough);
+    // An error is estimated from what more samples change: all has to converge.
+    const BlockShape shape =
+        block_shape(scene, view, target_error ? 2 * few_strata : strata, options.rough, target_error.has_value());
 
     tile = {&scene,
             &view,
@@ -75,7 +77,7 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
             std::uint32_t(samples),
             strata,
             shape.side,
-            shape.weak,
+            shape.square,
             display.render.sampling,
             dimensions};
 }

@@ -13,6 +13,14 @@ LFDSIM_FN F diffuser_angle(const Scene<Scalar<F>>& scene, int axis, F uniform) {
     return F(scene.half_angle[axis]) * erfinv(uniform * F(scene.gaussian_tail[axis]));
 }
 
+/// The tangent of that angle.
+template <class F>
+LFDSIM_FN F diffuser_tangent(const Scene<Scalar<F>>& scene, int axis, F uniform) {
+    F sine, cosine;
+    sincos(diffuser_angle(scene, axis, uniform), scene.small_angles, sine, cosine);
+    return sine / cosine;
+}
+
 /// The inverse of diffuser_angle: the number whose angle has this tangent; outside [-1, 1] where the diffuser does not turn a ray
 /// that far.
 template <class F>

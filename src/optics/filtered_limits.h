@@ -38,6 +38,11 @@ struct FilteredLimits {
     static constexpr double least_span = 0.25;
     // Radii of a round hole: up to this half width of a picture pixel its edge counts as straight.
     static constexpr double straight = 0.5;
+    // Half widths of a hole: by how much the pupil may move rays there and yet be left undivided, in the width of boxes alone,
+    // however many samples there are.
+    static constexpr double aside = 0.05;
+    // Widths of the box by which the diffuser and the pupil widen a ray: one ray serves for four where the pixel's area adds less.
+    static constexpr double beside = 0.25;
     // Radii of a lens, or half widths of a strip: rays up to here from its axis tell how the camera's pupil spreads all of them.
     static constexpr double well_inside = 0.7;
 

@@ -96,13 +96,38 @@ TEST(FilteredEstimator, NeedsFewSamples) {
     }
 }
 
+// Seen by an eye whose pixels are wider than what a diffuser on the lenses spreads: one sample is better than 100 random points,
+// and 1024 tell the truth; round holes let through what they should.
+TEST(FilteredEstimator, CutsThePixelsAreaWhereADiffuserSpreadsLess) {
+    for (const LatticeKind lattice : {LatticeKind::square, LatticeKind::hexagon}) {
+        Display d = in_lattice(example(), lattice);
+        d.diffuser = Diffuser{3, {1, 1}, Profile::box};
+        d.camera.frame_width_mm = 24;
+        d.camera.pixel_filter = PixelFilter::box;
+        d.camera.pupil_diameter_mm = 2;
+        const Texels panel = patterned_panel(d);
+        const auto of = [&](Estimator estimator, std::int64_t samples, Sampling sampling) {
+            d.render.estimator = estimator;
+            d.render.samples = samples;
+            d.render.sampling = sampling;
+            return picture(d, panel, {0, "", Rect{40, 30, 120, 80}});
+        };
+        const Image truth = of(Estimator::point, 1 << 14, Sampling::sobol), one = of(Estimator::filtered, 1, Sampling::sobol),
+                    many = of(Estimator::filtered, 1024, Sampling::sobol);
+        EXPECT_LT(rmse(one, truth), rmse(of(Estimator::point, 100, Sampling::random), truth));
+        EXPECT_LT(rmse(many, truth), 1.0 / 512);
+        EXPECT_NEAR(mean_light(one) / mean_light(truth), 1, 1e-3);
+        EXPECT_NEAR(mean_light(many) / mean_light(truth), 1, 1e-3);
+    }
+}
+
 // Of the whole picture by the widest kernel; every kernel gives its parts. The hashes keep the limits of its shortcuts where they
 // are (optics/filtered_limits.h): tests/limits/mutate.py shows which of them each limit changes.
 constexpr std::uint64_t kept_bits[] = {
     0x22480ab7c2168baa, 0x718c48a911c36ab1, 0xb3bd8be76cbbcf20, 0xd521daa79cb2806d, 0x1d538b1fd75c4114, 0xee8d3535aef1054d,
     0xe08a0aff131fbca4, 0xaf4e7826986d3b3e, 0x44f97c85a44c26ec, 0xf9c2b20b8763fef8, 0x79dc1c0db756f768, 0x10136d611e0fd55a,
     0xf74dadf8d20bfa04, 0x5fae646c19ae51da, 0xc36e141c74fc66cd, 0xfecad94b0c447d74, 0xbe0c67ff88e3452e, 0x562927faa0479af1,
-    0xe18f42544ad7d368, 0x7b558288870e1b34, 0x2eedac16d3ba3d04, 0x46758edd0c5be139, 0xcee1468c9c7c9d8d, 0x8c49b0230fef0098,
+    0xe18f42544ad7d368, 0x7b558288870e1b34, 0x2eedac16d3ba3d04, 0x46758edd0c5be139, 0xcee1468c9c7c9d8d, 0x7c1459eba2dea400,
     0xddfe5ed2f42473b7, 0x23795b150761ca7c, 0x39789d93b9c920a6, 0xa645472b6d98edea, 0x425049d403c2ce24, 0xa88a5003214b5d1e,
     0x50d281a45d39669c};
 
@@ -189,7 +214,20 @@ TEST(FilteredEstimator, KeepsItsBitsLensByLens) {
         d.camera.resolution = {columns, 14};
         add(d);
     }
-    EXPECT_EQ(bits.hash(), 0x72184b95203aa2a6);
+    // Diffusers about as wide as a picture pixel and less, pupils that move rays over more and less of a lens.
+    hexagons.camera.pixel_filter = PixelFilter::box;
+    hexagons.camera.resolution = {40, 28};
+    hexagons.camera.frame_width_mm = 12;
+    for (const double angle_deg : {0.5, 2.0, 7.0, 10.0}) {
+        for (const double pupil_mm : {0.0, 3.0, 13.0}) {
+            Display d = hexagons;
+            d.diffuser = Diffuser{4, {angle_deg, angle_deg}, Profile::box};
+            if (pupil_mm > 0) d.camera.pupil_diameter_mm = pupil_mm;
+            d.render.samples = pupil_mm == 3 ? 9 : pupil_mm == 13 ? 400 : 1;
+            add(d);
+        }
+    }
+    EXPECT_EQ(bits.hash(), 0x456d7c67d67217af);
 }
 
 TEST(FilteredEstimator, SeesAWhitePanelWhite) {

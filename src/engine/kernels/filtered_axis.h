@@ -77,11 +77,7 @@ struct EvenCuts {
     }
     LFDSIM_BOTH void set(const optics::Scene<S>& scene, int k) {
         number[k] = S(2 * k - strata) / S(strata);
-        for (int a = 0; a < 2; ++a) {
-            S sine, cosine;
-            optics::sincos(optics::diffuser_angle(scene, a, number[k]), scene.small_angles, sine, cosine);
-            tangent[a][k] = sine / cosine;
-        }
+        for (int a = 0; a < 2; ++a) tangent[a][k] = optics::diffuser_tangent(scene, a, number[k]);
     }
 };
 

@@ -208,7 +208,7 @@ class BlockWork {
         for (int a = 0; a < 2; ++a) {
             grid.axis[a].cut = at.grids.cut + a * (most + 1);
             grid.axis[a].stratum = at.grids.stratum + a * (most + 1);
-            cut_axis(scene, at.block.sweep[a], tile.weak || !at.block.alive, a, even, grid.axis[a]);
+            cut_axis(scene, at.block.sweep[a], tile.square.weak || !at.block.alive, a, even, grid.axis[a]);
         }
         at.grids.count = 1;
         at.grids.strata = grid.strata();
@@ -285,7 +285,7 @@ class BlockWork {
         const S reach = S(at.block.reach), per_reach = S(1) / reach;
         dx = dx * F(per_reach);
         dy = dy * F(per_reach);
-        const int squares = blurs_an_axis(scene, tile.block_side), in_square = tile.block_side / squares,
+        const int squares = blurs_an_axis(tile), in_square = tile.block_side / squares,
                   square = (y - at.y0) / in_square * squares + (x - at.x0) / in_square;
         for_strata<most_strata>(dx, dy, [&](const Seen& seen) {
             const Bundles& b = *seen.bundles;

@@ -1,4 +1,5 @@
-// The filtered estimator: what the camera's pixel and pupil spread where pixels trace rays of their own.
+// The filtered estimator: what a pixel's area, the pupil and a diffuser spread where pixels trace rays of their own, besides what
+// the square's two numbers do.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
 #include "engine/kernel.h"
@@ -12,27 +13,40 @@ namespace {
 
 using SharedBundle = optics::SharedBundle<S>;
 
-/// What the camera's pixel and pupil add to the boxes of the pixels' own rays; squared widths (optics::blur).
+/// What the pixel's area, or the diffuser where the square is that area, and the pupil add to the boxes of the pixels' own rays;
+/// squared widths (optics::blur).
 struct Blur {
     S width, height;
+    bool one_ray;  // a part of the square is so narrow beside them that one ray serves for four; they include its width
 };
 
-/// Behind a weak diffuser it is measured for each of a block's squares of so many pixels, at most four, row after row; without one
-/// it is the pupil's alone, and once a block is enough.
+/// The pixel's is measured for each of a block's squares of so many pixels, at most four, row after row; what the others add
+/// changes less, and once a block is enough.
 constexpr int blur_step = 4, most_blurs = 4;
 /// How many squares along an axis.
-LFDSIM_BOTH int blurs_an_axis(const optics::Scene<S>& scene, int block_side) {
-    return scene.has_diffuser ? optics::min(block_side / blur_step, 2) : 1;
+LFDSIM_BOTH int blurs_an_axis(const Tile& tile) { return tile.square.of_pixel ? 1 : optics::min(tile.block_side / blur_step, 2); }
+
+/// Into how many parts along each axis a pixel that finds out what it sees of a lens divides the square: each takes four rays, or
+/// one.
+LFDSIM_BOTH int parts_an_axis(const Tile& tile) { return tile.square.weak ? (tile.strata + 1) / 2 : 1; }
+
+/// By how much the diffuser changes a ray's slope along axis a: by the largest turn of a box, or by sqrt 2 standard deviations.
+LFDSIM_BOTH S turn_of_diffuser(const optics::Scene<S>& scene, const optics::Sweep<S>& sweep, int a) {
+    S sine, cosine;
+    optics::sincos(scene.half_angle[a], scene.small_angles, sine, cosine);
+    return sweep.turned(sine / cosine) - sweep.slope;
 }
 
-/// By how much the camera's pixel and pupil spread a ray, for square number n of a block's. That ray goes through the middle of
-/// what the square sees of the lens, or as near to it as lies well inside the lens: near its edge rays may end far from each other
-/// that start close together. `across` and `up` are the grid's stratum along x and y; `rays` is overwritten.
+/// By how much they spread a ray, for square number n of a block's. That ray goes through the middle of what the square sees of the
+/// lens, or as near to it as lies well inside the lens: near its edge rays may end far from each other that start close together.
+/// `across` and `up` are the grid's stratum along x and y; `rays` is overwritten.
 template <optics::Way through>
-LFDSIM_BOTH Blur blur_alone(const optics::Scene<S>& scene, const optics::PixelBlock<S>& block, int n, const Grid& grid,
-                            const Stratum& across, const Stratum& up, optics::Probes<S>& rays) {
-    Blur blur{0, 0};
-    const int squares = blurs_an_axis(scene, 2 * block.reach);
+LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block, int n, const Grid& grid, const Stratum& across,
+                            const Stratum& up, optics::Probes<S>& rays) {
+    Blur blur{0, 0, false};
+    const bool of_pixel = tile.square.of_pixel;
+    const optics::Scene<S>& scene = *tile.scene;
+    const int squares = blurs_an_axis(tile);
     const S size = S(1) / S(squares), right = S(2 * (n % squares) + 1) * size - S(1), down = S(2 * (n / squares) + 1) * size - S(1);
     const auto middle = [&](const Gradient& g) { return g.middle + g.right * right + g.down * down; };
     const Stratum* const of[2] = {&across, &up};
@@ -53,37 +67,57 @@ LFDSIM_BOTH Blur blur_alone(const optics::Scene<S>& scene, const optics::PixelBl
     for (int a = 0; a < 2; ++a) {
         const S place = of[a]->axis + at[a], below = scene.holes_below[a];
         const optics::Sweep<S>* const sweep = block.sweep[a];
-        slope[a] = scene.has_diffuser ? (place - middle(Gradient::of(sweep[0].at, sweep[1].at, sweep[2].at))) / below
-                                      : middle(Gradient::of(sweep[0].slope, sweep[1].slope, sweep[2].slope));
+        slope[a] = of_pixel ? middle(Gradient::of(sweep[0].slope, sweep[1].slope, sweep[2].slope))
+                            : (place - middle(Gradient::of(sweep[0].at, sweep[1].at, sweep[2].at))) / below;
         at[a] = place - slope[a] * below;
     }
+    // The middle; the pair that is not the square's: a pixel to the right and one down, or the diffuser's two turns; the pupil's
+    // right and upper edge; and where the square is the pixel's area, a pixel to the right and one down.
+    const int count = of_pixel ? 7 : 5;
     const S per = S(1) / S(block.reach);
-    for (int p = 0; p < 5; ++p) {  // the middle; a pixel to the right, and down; at the pupil's right and upper edge
+    for (int p = 0; p < count; ++p) {
+        const int of_pair = (p + 1) % 2;
         for (int a = 0; a < 2; ++a) {
             const optics::Sweep<S>* const sweep = block.sweep[a];
             S moved = 0, turned = 0;
-            if (p == 1 || p == 2) {
-                moved = (sweep[p].at - sweep[0].at) * per;
-                turned = (sweep[p].slope - sweep[0].slope) * per;
+            if (p > 4 || (!of_pixel && (p == 1 || p == 2))) {
+                moved = (sweep[of_pair + 1].at - sweep[0].at) * per;
+                turned = (sweep[of_pair + 1].slope - sweep[0].slope) * per;
             } else if (p > 2 && scene.thin_lens) {
-                moved = block.pupil_at[p - 3][a];
-                turned = block.pupil_slope[p - 3][a];
+                moved = block.pupil_at[of_pair][a];
+                turned = block.pupil_slope[of_pair][a];
+            } else if ((p == 1 || p == 2) && scene.has_diffuser && a == of_pair) {
+                turned = turn_of_diffuser(scene, sweep[0], a);
             }
             (a == 0 ? rays.at_x : rays.at_y)[p] = at[a] + moved;
             (a == 0 ? rays.x : rays.y)[p] = at[a] + moved + slope[a] + turned;
         }
     }
     const S one_below[2] = {1, 1};
-    optics::trace_probes<through, F>(scene, block, rays, 5, one_below);
-    for (int p = 1; p < 5; ++p) {
-        const bool counts = p < 3 ? scene.box_filter && scene.has_diffuser : scene.thin_lens;
-        const bool same =
-            rays.weight[0] * rays.weight[p] > S(0) && rays.cell_i[p] == rays.cell_i[0] && rays.cell_j[p] == rays.cell_j[0];
-        if (!counts || !same) continue;
-        const S c = rays.column[p] - rays.column[0], r = rays.row[p] - rays.row[0], share = p < 3 ? S(1) : S(3);
+    optics::trace_probes<through, F>(scene, block, rays, count, one_below);
+    const auto same = [&](int p) {
+        return rays.weight[0] * rays.weight[p] > S(0) && rays.cell_i[p] == rays.cell_i[0] && rays.cell_j[p] == rays.cell_j[0];
+    };
+    const auto widen = [&](int p, S share) {
+        const S c = rays.column[p] - rays.column[0], r = rays.row[p] - rays.row[0];
         blur.width = blur.width + share * c * c;
         blur.height = blur.height + share * r * r;
-    }
+    };
+    // The width of a box that varies as much, in steps; squared. Of the variance, the shares that lie within cells; a pupil's are
+    // mapped to a disk.
+    const S diffuser = scene.diffuser_profile == Profile::box ? 4 : 6, pupil = 3;
+    const S cells = S(parts_an_axis(tile) * parts_an_axis(tile)), in_other = tile.square.divides_other ? S(1) / cells : S(1),
+            in_pupil = tile.square.divides_pupil ? optics::min(S(2) / cells, S(1)) : S(1);
+    for (int p = 1; p < 5; ++p)
+        if ((p < 3 ? scene.box_filter && scene.has_diffuser : scene.thin_lens) && same(p))
+            widen(p, p > 2 ? pupil * in_pupil : of_pixel ? diffuser * in_other : in_other);
+    if (!of_pixel || !same(5) || !same(6)) return blur;
+    const Blur others = blur;
+    widen(5, S(1) / cells);
+    widen(6, S(1) / cells);
+    const S most_wide = S(1 + FilteredLimits::beside * FilteredLimits::beside);
+    blur.one_ray = blur.width <= most_wide * others.width && blur.height <= most_wide * others.height;
+    if (!blur.one_ray) return others;
     return blur;
 }
 

@@ -111,12 +111,12 @@ class BundleMaker {
         Range hole_x = x, hole_y = y;
         b.through.state = b.beside.state = SharedBundle::State::dark;
         b.straddles = across.straddles || up.straddles;
-        if (scene.by_lens && tile.weak) {
+        if (scene.by_lens && tile.square.weak) {
             b.through.state = SharedBundle::State::broken;
-            const int squares = blurs_an_axis(scene, tile.block_side);
+            const int squares = blurs_an_axis(tile);
             if (scene.thin_lens || (scene.box_filter && scene.has_diffuser))
                 for (int n = 0; n < squares * squares; ++n)
-                    b.blur[n] = blur_alone<through>(scene, block, n, *grid, across, up, rays);
+                    b.blur[n] = blur_alone<through>(tile, block, n, *grid, across, up, rays);
             return;
         }
         if (b.straddles || (r > 0 && hole_edge_near(x, y))) {

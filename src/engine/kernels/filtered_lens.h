@@ -20,9 +20,11 @@ struct Grids {
     Cut* cut;
     Stratum* stratum;
     int count, strata;  // in all
-    // By how much the light of all pixels moves in the plane of the holes, mm along x and y: from the pupil's middle to its right
-    // and upper edge, and the change of the square's numbers for a place that stays; half a pixel to the right and upwards.
-    S aside[2][2], pupil[2][2], pixel[2][2];
+    // By how much the light of all pixels moves in the plane of the holes, mm along x and y, and how the square's numbers change
+    // for a place that stays: with a ray from the pupil's right edge and from its upper one, and per tangent of the diffuser's
+    // turns, where those are divided into cells of which each has its own cuts.
+    S aside[4][2], moved[4][2];
+    S pixel[2][2];  // mm, half a pixel to the right and upwards
 };
 
 constexpr int most_grids = 64;
@@ -47,10 +49,9 @@ class LensCutter {
     LFDSIM_BOTH LensCutter(const Tile& t, const optics::PixelBlock<S>& of, Grids& to)
         : tile(t), scene(*t.scene), block(of), room(t.strata, true), grids(to) {
         for (int a = 0; a < 2; ++a) {
-            S sine, cosine;
-            optics::sincos(optics::diffuser_angle(scene, a, S(1)), scene.small_angles, sine, cosine);
-            first[a] = place_of(a, -sine / cosine);
-            last[a] = place_of(a, sine / cosine);
+            const S tangent = tile.square.of_pixel ? S(0) : optics::diffuser_tangent(scene, a, S(1));
+            first[a] = place_of(a, -tangent);
+            last[a] = place_of(a, tangent);
             span[a] = optics::abs(last[a].middle - first[a].middle);
             rising[a] = S(optics::sense(a));
             const S reach = first[a].reach();
@@ -61,16 +62,23 @@ class LensCutter {
             linear[a] = !(span[a] > least);
             per[a] = rising[a] / optics::max(S(0.5) * least, S(1e-12));
         }
-        if (!scene.has_diffuser) of_pixel();
-        for (int k = 0; k < 2; ++k) {
-            S aside[2] = {0, 0};
-            for (int a = 0; a < 2 && scene.thin_lens; ++a) {
-                aside[a] = block.pupil_at[k][a] + scene.holes_below[a] * block.pupil_slope[k][a];
-                low[a] = low[a] - optics::abs(aside[a]);
-                high[a] = high[a] + optics::abs(aside[a]);
+        if (tile.square.of_pixel) of_pixel();
+        const bool turned = tile.square.of_pixel && tile.square.divides_other && scene.has_diffuser;
+        for (int k = 0; k < 4; ++k) {
+            S(&aside)[2] = grids.aside[k];
+            for (int a = 0; a < 2; ++a) {
+                aside[a] = 0;
+                S most = 1;
+                if (k < 2 && scene.thin_lens) aside[a] = block.pupil_at[k][a] + scene.holes_below[a] * block.pupil_slope[k][a];
+                if (a == k - 2 && turned) {
+                    const S slope = block.sweep[a][0].slope;
+                    aside[a] = S(optics::sense(a)) * scene.holes_below[a] * (1 + slope * slope);
+                    most = S(2) * scene.half_angle[a];  // a bell's outermost cell is 1.6 half angles off
+                }
+                low[a] = low[a] - optics::abs(aside[a]) * most;
+                high[a] = high[a] + optics::abs(aside[a]) * most;
             }
-            numbers_for(-aside[0], -aside[1], grids.pupil[k]);
-            for (int a = 0; a < 2; ++a) grids.aside[k][a] = aside[a];
+            numbers_for(-aside[0], -aside[1], grids.moved[k]);
         }
     }
 
@@ -80,7 +88,7 @@ class LensCutter {
         const Lattice<S>& lattice = scene.lattice;
         grids.count = grids.strata = 0;
         cuts = 0;
-        if (!scene.has_diffuser && scene.hole_radius > 0) {
+        if (tile.square.of_pixel && scene.hole_radius > 0) {
             // A pixel is to see an edge as straight.
             const S(&to)[2][2] = grids.pixel;
             const S most = S(FilteredLimits::straight) * scene.hole_radius;
@@ -149,7 +157,7 @@ class LensCutter {
         for (int a = 0; a < 2; ++a) {
             const optics::Sweep<S>& sweep = block.sweep[a][0];
             const S above = sweep.height - raised;  // of the diffuser
-            seen[a] = to[a] + raised * (scene.has_diffuser && above > S(0) ? (to[a] - sweep.at) / above : sweep.slope);
+            seen[a] = to[a] + raised * (!tile.square.of_pixel && above > S(0) ? (to[a] - sweep.at) / above : sweep.slope);
         }
         const optics::Place<S> at = optics::to_array(scene.lattice, seen[0], seen[1]);
         return {at.x - axis.x, at.y - (scene.lattice.strips ? y : axis.y)};
@@ -203,9 +211,7 @@ class LensCutter {
         length.moving = true;
         for (int k = 0; k <= length.strata; ++k) {
             const S number = S(2 * k - length.strata) / rows;
-            S sine, cosine;
-            optics::sincos(optics::diffuser_angle(scene, along, number), scene.small_angles, sine, cosine);
-            length.cut[k] = {{number, 0, 0}, place_of(along, sine / cosine)};
+            length.cut[k] = {{number, 0, 0}, place_of(along, optics::diffuser_tangent(scene, along, number))};
         }
         for (int k = 0; k < length.strata; ++k) {
             const S here = length.cut[k].place.middle - at[along], there = length.cut[k + 1].place.middle - at[along];
@@ -223,11 +229,11 @@ class LensCutter {
     }
 
     /// Do pixels cut the whole square at the lens's outline?
-    LFDSIM_BOTH bool whole_square() const { return tile.weak && !(scene.hole_radius > 0 && scene.has_diffuser); }
+    LFDSIM_BOTH bool whole_square() const { return tile.square.weak && (tile.square.of_pixel || scene.hole_radius == 0); }
 
     /// A whole number of strata that an axis may have.
     LFDSIM_BOTH S whole(S wanted) const {
-        if (tile.weak) return 1;
+        if (tile.square.weak) return 1;
         return optics::min(optics::max(-optics::floor(S(1e-3) - wanted), S(1)), S(room.an_axis));
     }
     /// Takes memory for an axis of so many strata.
@@ -246,7 +252,7 @@ class LensCutter {
         grid.corners = cell.corners;
         for (int k = 0; k < grid.corners; ++k) {
             const S place[2] = {axis.x + cell.corner[k].x, axis.y + cell.corner[k].y};
-            if (scene.has_diffuser) {
+            if (!tile.square.of_pixel) {
                 for (int a = 0; a < 2; ++a) grid.corner[k][a] = number_of(a, place[a]);
                 continue;
             }
@@ -296,7 +302,7 @@ class LensCutter {
         return true;
     }
 
-    /// Without a diffuser the square is that of the pixel's area: numbers are half pixels to the right and upwards from its centre.
+    /// Where the square is that of the pixel's area, numbers are half pixels to the right and upwards from its centre.
     LFDSIM_BOTH void of_pixel() {
         const S half = S(0.5) / S(block.reach);
         for (int a = 0; a < 2; ++a) {
@@ -312,7 +318,7 @@ class LensCutter {
     }
     /// How the numbers change over a distance (x, y), near the middle of the square.
     LFDSIM_BOTH void numbers_for(S x, S y, S (&number)[2]) const {
-        if (!scene.has_diffuser) {
+        if (tile.square.of_pixel) {
             for (int a = 0; a < 2; ++a) number[a] = numbers[a][0] * x + numbers[a][1] * y;
             return;
         }

@@ -19,21 +19,20 @@ namespace lfdsim {
 
 namespace {
 
-/// Where a pixel's ray starts: at a point of its area, in half pixels to the right and upwards from its centre, and at one of the
-/// pupil, in radii.
+/// What else a pixel's ray has than the square's two numbers: a place in the pupil, in radii, and the other two numbers: those of
+/// a point of its area, in half pixels to the right and upwards from its centre, or the diffuser's, where the square is that area.
 struct Start {
-    F right = F(0), up = F(0), lens_x = F(0), lens_y = F(0);
+    F x = F(0), y = F(0), lens_x = F(0), lens_y = F(0);
 };
 
-/// Each pixel's ray if the diffuser turns it by the angles of the numbers (a, b); without a diffuser, the ray through that point of
-/// the pixel.
+/// Each pixel's ray with the square's numbers (a, b): the diffuser's, or those of a point of the pixel's area.
 LFDSIM_FN optics::Ray<F> own_ray(const Tile& tile, const optics::PixelRays<F>& pixels, const Start& start, F a, F b) {
     const optics::Scene<S>& scene = *tile.scene;
+    const bool of_pixel = tile.square.of_pixel;
     optics::Ray<F> ray{{pixels.x, pixels.y, F(0)}, pixels.to};
-    if (!scene.has_diffuser || scene.box_filter || scene.thin_lens)
-        ray = optics::displaced(*tile.view, pixels, scene.has_diffuser ? start.right : a, scene.has_diffuser ? start.up : b,
-                                start.lens_x, start.lens_y);
-    if (scene.has_diffuser) ray.to = optics::scatter(scene, ray.to, a, b);
+    if (of_pixel || scene.box_filter || scene.thin_lens)
+        ray = optics::displaced(*tile.view, pixels, of_pixel ? a : start.x, of_pixel ? b : start.y, start.lens_x, start.lens_y);
+    if (scene.has_diffuser) ray.to = optics::scatter(scene, ray.to, of_pixel ? start.x : a, of_pixel ? start.y : b);
     return ray;
 }
 
@@ -47,8 +46,8 @@ LFDSIM_APART optics::PanelPoint<F> trace_own(const Tile& tile, const optics::Pix
 LFDSIM_BOTH Start random_start(const optics::Scene<S>& scene, const optics::Sampler<F>& sampler) {
     Start start;
     if (scene.box_filter) {
-        start.right = sampler(2);
-        start.up = sampler(3);
+        start.x = sampler(2);
+        start.y = sampler(3);
     }
     if (scene.thin_lens) optics::disk(sampler(4), sampler(5), start.lens_x, start.lens_y);
     return start;
@@ -139,13 +138,14 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
     light.add(scene.emission, tile.texels, optics::Fetch<F>(optics::panel_pixel(scene, pixels.base, one)));
 }
 
-/// Where rays start, and what the camera's pixel and pupil add to the width and height of each box; squared.
+/// Where rays start, and what else than the square's numbers adds to the width and height of each box; squared.
 struct Spread {
     Start start;
     F width = F(0), height = F(0);
+    bool one_ray = false;  // so wide that one ray serves for four
 };
 
-/// Four rays of each pixel, two by two at the diffuser's numbers (a, b), of which those that count carry `weight` each.
+/// Four rays of each pixel, two by two at the square's numbers (a, b), of which those that count carry `weight` each.
 struct FourRays {
     F a[4], b[4];
     optics::Mask<F> counts[4];
@@ -156,9 +156,11 @@ struct FourRays {
 template <optics::Way through>
 LFDSIM_APART void trace_four(const Tile& tile, const optics::PixelRays<F>& pixels, const Start& start, const FourRays& rays,
                              optics::PanelPoint<F> (&end)[4]) {
-    for (int p = 0; p < 4; ++p)
+    for (int p = 0; p < 4; ++p) {
+        if (optics::none(rays.counts[p])) continue;
         end[p] = optics::trace_array<through>(*tile.scene, pixels.extent, pixels.base,
                                               own_ray(tile, pixels, start, rays.a[p], rays.b[p]), pixels.alive);
+    }
 }
 
 /// The rays of a packet's pixels that wait to be traced. Pixels of a packet see different lenses and different parts of them: as
@@ -178,8 +180,8 @@ class WaitingRays {
             rays.counts[p] = (seen && more.counts[p]) || (!seen && rays.counts[p]);
         }
         take(rays.weight, more.weight);
-        take(spread.start.right, with.start.right);
-        take(spread.start.up, with.start.up);
+        take(spread.start.x, with.start.x);
+        take(spread.start.y, with.start.y);
         take(spread.start.lens_x, with.start.lens_x);
         take(spread.start.lens_y, with.start.lens_y);
         take(spread.width, with.width);
@@ -192,9 +194,10 @@ class WaitingRays {
     LFDSIM_APART void trace() {
         if (optics::none(waits)) return;
         const F none = F(0);
-        optics::PanelPoint<F> end[4];
+        optics::PanelPoint<F> end[4]{};
         optics::by_way<through>(*tile.scene, [&]<optics::Way way>() { trace_four<way>(tile, pixels, spread.start, rays, end); });
         for (int p = 0; p < 4; ++p) {
+            if (optics::none(rays.counts[p])) continue;
             F wide = spread.width, high = spread.height;  // squared: the spreads of two directions add up like variances
             for (int step = 1; step <= 2; ++step) {
                 const optics::PanelPoint<F>& next = end[p ^ step];
@@ -244,8 +247,8 @@ LFDSIM_BOTH optics::Moments<F> choose(optics::Mask<F> first, const optics::Momen
             optics::select(first, a.half_width, b.half_width), optics::select(first, a.half_height, b.half_height)};
 }
 
-/// Adds the light that pixels see through the part of a box of the diffuser's numbers (x, y) that is inside a lens's cell, by four
-/// rays around its middle.
+/// Adds the light that pixels see through the part of a box of the square's numbers (x, y) that is inside a lens's cell, by four
+/// rays around its middle or one through it.
 template <optics::Way through>
 LFDSIM_APART void add_own_part(const Span<F>& x, const Span<F>& y, const optics::Corners<F>& cell, const Spread& spread,
                                WaitingRays<through>& waiting) {
@@ -258,6 +261,14 @@ LFDSIM_APART void add_own_part(const Span<F>& x, const Span<F>& y, const optics:
     const optics::Mask<F> seen = near && (part.area > F(0));
     if (optics::none(seen)) return;
     FourRays rays;
+    if (spread.one_ray) {
+        const F none = F(0);
+        rays = {{part.x, none, none, none},
+                {part.y, none, none, none},
+                {seen, none > none, none > none, none > none},
+                F(0.25f) * part.area};
+        return waiting.add(rays, spread, seen);
+    }
     rays.weight = F(S(1.0 / 16)) * part.area;  // a quarter each, of the square's area of 4
     for (int p = 0; p < 4; ++p) {
         rays.a[p] = part.x + F(p % 2 == 0 ? -0.5f : 0.5f) * part.half_width;

@@ -61,14 +61,24 @@ LFDSIM_BOTH optics::Corners<F> corners_at(const Grid& grid, F dx, F dy) {
     return corners;
 }
 
+/// A part's place in the pupil, and the tangents of the diffuser's turns.
+struct Moves {
+    F by[4];
+
+    /// from, moved along axis a: Grids' aside or moved.
+    LFDSIM_BOTH F apply(F from, const S (&per)[4][2], int a) const {
+        for (int k = 0; k < 4; ++k) from = from + by[k] * F(per[k][a]);
+        return from;
+    }
+};
+
 /// The part of a pixel's area beside the edge of a round hole, which is taken as straight there: a square about it. The hole bulges
 /// beyond its chord by the mean of t^2 / 2r, t along the edge.
 LFDSIM_BOTH optics::Corners<F> inside_edge(const optics::Scene<S>& scene, const Grids& grids, const Grid& grid, F dx, F dy,
-                                           const Start& start) {
+                                           const Moves& moves) {
     F at[2];
     for (int a = 0; a < 2; ++a)
-        at[a] = grid.axis[a].first.at(dx, dy) + start.lens_x * F(grids.aside[0][a]) + start.lens_y * F(grids.aside[1][a]) -
-                F(grid.axis[a].stratum[0].axis);
+        at[a] = moves.apply(grid.axis[a].first.at(dx, dy), grids.aside, a) - F(grid.axis[a].stratum[0].axis);
     const F far = optics::sqrt(at[0] * at[0] + at[1] * at[1]), per_far = F(1) / optics::max(far, F(1e-9f)),
             n[2] = {optics::select(far > F(0), at[0] * per_far, F(1)), at[1] * per_far};
     const S(&to)[2][2] = grids.pixel;
@@ -132,46 +142,44 @@ struct OwnPixels {
     }
 };
 
-/// Into how many parts along each axis a pixel that finds out what it sees of a lens divides the square: each takes four rays.
-LFDSIM_BOTH int parts_an_axis(const Tile& tile) { return tile.weak ? (tile.strata + 1) / 2 : 1; }
-
-/// Adds the light that pixels see of a lens by rays of their own, four through each part of the stratum.
-/// The rays of a part start in one of as many cells of the pixel and of the pupil, in an order in which each column and row of
-/// cells goes with each column and row of parts (an orthogonal array) and neighbouring parts have cells far from each other; boxes
-/// are wider by what a cell spreads.
+/// Adds the light that pixels see of a lens by rays of their own, four or one through each part of the stratum.
+/// Boxes are wider by what the numbers spread that are not the square's. Where those are divided too, the rays of a part have them
+/// in one of as many cells as there are parts, in an order in which each column and row of cells goes with each column and row of
+/// parts (an orthogonal array) and neighbouring parts have cells far from each other; boxes are wider by what a cell spreads.
 template <optics::Way through>
 LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const OwnPixels& pixels, const Seen& seen,
                             WaitingRays<through>& waiting) {
     const optics::Scene<S>& scene = *tile.scene;
     const Grid& grid = *seen.grid;
     const Blur& known = seen.bundles->blur[pixels.square];
-    const bool spreads = scene.thin_lens || (scene.box_filter && scene.has_diffuser), round = scene.hole_radius > 0;
+    const bool two_pairs = scene.box_filter && scene.has_diffuser, spreads = scene.thin_lens || two_pairs,
+               round = scene.hole_radius > 0;
     const int n = parts_an_axis(tile), all = n * n;
-    // Of the pixel's variance and, mapped to the disk, of the pupil's that lies within cells.
-    const S left = optics::min(S(scene.thin_lens ? 2 : 1) / S(all), S(1));
     const int far = far_step(n);
     for (int k = 0; k < all; ++k) {
         Spread spread;
-        if (spreads && tile.weak) {
-            spread.width = F(known.width * left);
-            spread.height = F(known.height * left);
+        if (spreads && tile.square.weak) {
+            spread.width = F(known.width);
+            spread.height = F(known.height);
+            spread.one_ray = known.one_ray;
         }
-        if (spreads && !tile.weak) {
+        if (spreads && !tile.square.weak) {
             spread.start = random_start(scene, pixels.sampler(tile, seen.number * 8));
         } else if (spreads && all > 1) {
             const auto cell = [&](int column, int row) {
                 return F(S(2 * (far * (column * (k % n) + row * (k / n)) % n) + 1 - n) / S(n));
             };
-            if (scene.box_filter && scene.has_diffuser) {
-                spread.start.right = cell(2, 1);
-                spread.start.up = cell(1, 3);
+            if (two_pairs && tile.square.divides_other) {
+                spread.start.x = cell(2, 1);
+                spread.start.y = cell(1, 3);
             }
-            if (scene.thin_lens) optics::disk(cell(1, 1), cell(1, 2), spread.start.lens_x, spread.start.lens_y);
+            if (scene.thin_lens && tile.square.divides_pupil)
+                optics::disk(cell(1, 1), cell(1, 2), spread.start.lens_x, spread.start.lens_y);
         }
         const Start& start = spread.start;
-        const F half_pixel = F(S(0.5) * pixels.per_reach), right = pixels.dx + start.right * half_pixel,
-                down = pixels.dy - start.up * half_pixel;
-        const bool with_holes = round && scene.has_diffuser;
+        const F half_pixel = F(tile.square.of_pixel ? S(0) : S(0.5) * pixels.per_reach), right = pixels.dx + start.x * half_pixel,
+                down = pixels.dy - start.y * half_pixel;
+        const bool with_holes = round && !tile.square.of_pixel;
         const Span<F> x = part_of_span(*seen.across, true, k % n, n, with_holes),
                       y = part_of_span(*seen.up, false, k / n, n, with_holes);
         if (with_holes) {
@@ -182,14 +190,19 @@ LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const OwnPixel
             add_own_part(x, y, *seen.corners, spread, waiting);
             continue;
         }
+        Moves moves{{start.lens_x, start.lens_y, F(0), F(0)}};
+        if (two_pairs && tile.square.of_pixel && tile.square.divides_other) {
+            moves.by[2] = optics::diffuser_tangent(scene, 0, start.x);
+            moves.by[3] = optics::diffuser_tangent(scene, 1, start.y);
+        }
         optics::Corners<F> corners;
         if (round) {
-            corners = inside_edge(scene, grids, grid, right, down, start);
+            corners = inside_edge(scene, grids, grid, right, down, moves);
         } else {
             corners = corners_at(grid, right, down);
             for (int c = 0; c < corners.count; ++c) {
-                corners.x[c] = corners.x[c] + start.lens_x * F(grids.pupil[0][0]) + start.lens_y * F(grids.pupil[1][0]);
-                corners.y[c] = corners.y[c] + start.lens_x * F(grids.pupil[0][1]) + start.lens_y * F(grids.pupil[1][1]);
+                corners.x[c] = moves.apply(corners.x[c], grids.moved, 0);
+                corners.y[c] = moves.apply(corners.y[c], grids.moved, 1);
             }
         }
         add_own_part(x, y, corners, spread, waiting);
@@ -199,7 +212,7 @@ LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const OwnPixel
 /// The same where light also passes beside round lenses: through each part of the stratum one random ray, with two more beside it.
 template <optics::Way through>
 LFDSIM_APART void add_random_parts(const Tile& tile, const OwnPixels& pixels, const Seen& seen, optics::Light<F>& light) {
-    const int n = tile.weak ? tile.strata : 1;
+    const int n = tile.square.weak ? tile.strata : 1;
     optics::Sampler<F> sampler = pixels.sampler(tile, 0);
     for (int k = 0; k < n * n; ++k) {
         const Span<F> x = part_of_span(*seen.across, true, k % n, n, true), y = part_of_span(*seen.up, false, k / n, n, true);
