@@ -39,11 +39,11 @@ class BlockRenderer {
     void render() {
         for (int k = 0; k < state.per_axis * state.per_axis; k += Packet::lanes)
             work.template look_at_places<few_strata + more_strata>(k);
-        if (state.any_soft)
-            interpolate();
-        else
+        if (state.any_soft) interpolate();
+        if (state.sharps > 0 || state.any_alone)
+            look_up_pixels();
+        else if (!state.any_soft)
             __builtin_memset(picture, 0, sizeof picture);
-        if (state.sharps > 0 || state.any_alone) add_pixels();
         write();
     }
 
@@ -67,8 +67,8 @@ class BlockRenderer {
         }
     }
 
-    /// Adds the light that is looked up for each pixel.
-    void add_pixels() {
+    /// Light that is looked up for each pixel; it comes on top of what is interpolated.
+    void look_up_pixels() {
         const std::int32_t x0 = state.x0, y0 = state.y0;
         for (std::int32_t y = y0; y < y0 + tile.block_side; y += Packet::height) {
             for (std::int32_t x = x0; x < x0 + tile.block_side; x += Packet::width) {
@@ -77,7 +77,10 @@ class BlockRenderer {
                 work.template look_from<max_strata>(x, y).store(found[0], state.per_axis == 0);
                 for (int row = 0; row < Packet::height; ++row) {
                     S* const to = picture[y - y0 + row][x - x0];
-                    for (int k = 0; k < Packet::width * 4; ++k) to[k] = to[k] + found[row][k];
+                    if (state.any_soft)
+                        for (int k = 0; k < Packet::width * 4; ++k) to[k] = to[k] + found[row][k];
+                    else
+                        __builtin_memcpy(to, found[row], sizeof found[row]);
                 }
             }
         }
