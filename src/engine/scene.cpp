@@ -273,7 +273,7 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
     // Without a diffuser pixels share a block's list of lenses and what the pupil spreads.
     const int many = 16 * pixel < seen ? 16 : 8 * pixel < 4 * seen ? 8 : 4;
     const bool divides_pupil = converges || moves_by_pupil(scene, view);
-    if (!scene.has_diffuser) return {many, {.weak = true, .of_pixel = true, .divides_pupil = divides_pupil}};
+    if (!scene.has_diffuser) return {many, {true, true, false, divides_pupil}};
     double span[2];
     bool weak = true;
     for (int k = 0; k < 2; ++k) {
@@ -303,7 +303,7 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
                         : rough                 ? L::block_rough
                                                 : L::block_usual;
     const double half_as_wide = std::min(2 * wide, rough ? L::half_block_rough : L::half_block_usual);
-    return {16 * pixel < wide * seen ? 16 : 8 * pixel < half_as_wide * seen ? 8 : 4, {.weak = weak}};
+    return {16 * pixel < wide * seen ? 16 : 8 * pixel < half_as_wide * seen ? 8 : 4, {weak, false, false, false}};
 }
 
 const optics::DirectionNumbers& sobol_directions() {
