@@ -37,7 +37,7 @@ LFDSIM_BOTH S turn_of_diffuser(const optics::Scene<S>& scene, const optics::Swee
     return sweep.turned(sine / cosine) - sweep.slope;
 }
 
-/// By how much they spread a ray, for square number n of a block's. That ray goes through the middle of what the square sees of the
+/// By how much they spread a ray, for the n-th of those squares of pixels. That ray goes through the middle of what they see of the
 /// lens, or as near to it as lies well inside the lens: near its edge rays may end far from each other that start close together.
 /// `across` and `up` are the grid's stratum along x and y; `rays` is overwritten.
 template <optics::Way through>
@@ -56,7 +56,7 @@ LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block
         const S reach = first.reach() * size, from = middle(first), to = middle(last);
         const S low = optics::max(of[a]->from, optics::min(from, to) - reach - of[a]->axis),
                 high = optics::min(of[a]->to, optics::max(from, to) + reach - of[a]->axis);
-        if (a != grid.strip && squares > 1 && !(low < high)) return blur;  // the square does not see the lens
+        if (a != grid.strip && squares > 1 && !(low < high)) return blur;  // those pixels do not see the lens
         at[a] = a == grid.strip ? S(0) : S(0.5) * (low + high);
     }
     const S radius =
@@ -117,8 +117,7 @@ LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block
     widen(6, S(1) / cells);
     const S most_wide = S(1 + FilteredLimits::beside * FilteredLimits::beside);
     blur.one_ray = blur.width <= most_wide * others.width && blur.height <= most_wide * others.height;
-    if (!blur.one_ray) return others;
-    return blur;
+    return blur.one_ray ? blur : others;
 }
 
 }  // namespace
