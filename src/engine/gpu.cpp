@@ -156,14 +156,14 @@ std::optional<GpuComparison> compare_on_gpu(const ChosenDevice& device, const Py
             const std::lock_guard lock(photographs.mutex);
             const std::size_t sent = photographs.copies.contains(*device.gpu) ? 0 : wide::Photograph::bytes(image);
             panel = &panel_on(queue, *device.gpu, pyramid.on_gpus(levels), levels,
-                              wide::picture_bytes(queue, work.tile) + wide::likeness_bytes(image.width, image.height) + sent);
+                              wide::picture_bytes(queue, work.tile) + wide::Comparison::bytes(image.width, image.height) + sent);
             photograph = &copy_on(photographs, *device.gpu, [&] { return wide::Photograph(queue, image); });
         }
+        wide::Comparison comparison(queue, *photograph, expected.screen, expected.content);
         const wide::Buffer<float> view(queue, image.rgb.size());
         const Done done = wide::render_there(queue, *panel, work.tile, view.get(), job);
         GpuComparison result{{}, {}};
-        if (done.complete)
-            result.likeness = wide::likeness(queue, view.get(), gain, *photograph, expected.screen, expected.content);
+        if (done.complete) result.likeness = comparison.with(view.get(), gain);
         result.run = {queue.name(), queue.seconds() - before, done};
         return result;
     });

@@ -171,9 +171,10 @@ TEST(Wide, LikenessHasTheSameBits) {
         const wide::DevicePanel there(queue, pyramid.levels());
         const wide::Photograph photograph(queue, expected.photograph());
         const Work work(d, resolve(d), pyramid.levels(), options);
+        wide::Comparison comparison(queue, photograph, expected.screen, expected.content);
         const wide::Buffer<float> seen(queue, view.rgb.size());
         EXPECT_TRUE(wide::render_there(queue, there, work.tile, seen.get(), job).complete);
-        const Likeness wide = wide::likeness(queue, seen.get(), 1.3f, photograph, expected.screen, expected.content),
+        const Likeness wide = comparison.with(seen.get(), 1.3f),
                        cpu = compare_view(d, resolve(d), pyramid, expected, 1.3f, options, job).likeness;
         if (view.height > 11) {
             expect_same(wide, cpu);

@@ -46,63 +46,69 @@ Photograph::Photograph(Queue& queue, const Image& photograph)
 
 std::size_t Photograph::bytes(const Image& photograph) { return pixels_of(photograph) * 5 * sizeof(float); }
 
-std::size_t likeness_bytes(int width, int height) {
+std::size_t Comparison::bytes(int width, int height) {
     const std::size_t w = std::size_t(width), h = std::size_t(height);
-    return w * h * sizeof(float) + w * rows_at_once * moments * sizeof(double) +
-           likeness_sums * h * chunks_of(width) * sizeof(double);
+    return w * h * sizeof(float) + w * rows_at_once * (moments + 1) * sizeof(double) +
+           likeness_sums * h * (chunks_of(width) + 1) * sizeof(double);
 }
 
-Likeness likeness(Queue& queue, const float* view, float gain, const Photograph& photograph, const Region& screen,
-                  const Region& content) {
+Comparison::Comparison(Queue& queue, const Photograph& photograph, const Region& screen, const Region& content) : queue_(queue) {
     const int width = photograph.width, height = photograph.height;
     std::vector<Region::Row> columns;
-    std::int64_t windows[likeness_regions];
     const Region* const regions[] = {&screen, &content};
     for (int k = 0; k < likeness_regions; ++k) {
         const Region middles = ssim_middles(*regions[k], width, height);
-        windows[k] = middles.pixels();
+        windows_[k] = middles.pixels();
         append_columns(columns, middles, width, height);
     }
     append_columns(columns, screen, width, height);
+    on_screen_ = screen.intersected(Region::of({0, 0, width, height})).pixels();
 
     const std::size_t w = std::size_t(width), h = std::size_t(height);
-    const Buffer<Region::Row> columns_there = uploaded(queue, columns);
-    const Buffer<float> view_code(queue, w * h);
-    const Buffer<double> moments_there(queue, w * rows_at_once * moments), parts(queue, likeness_sums * h * chunks_of(width)),
-        sums(queue, likeness_sums * h);
-    LikenessFrame frame{width,
-                        height,
-                        photograph.srgb.get(),
-                        ssim_weights(),
-                        gain,
-                        view,
-                        photograph.code.get(),
-                        photograph.light.get(),
-                        view_code.get(),
-                        columns_there.get(),
-                        0,
-                        0,
-                        moments_there.get(),
-                        parts.get(),
-                        sums.get()};
-    queue.run(LikenessStep::view, frame, std::int64_t(w * h));
+    columns_ = uploaded(queue, columns);
+    view_code_ = Buffer<float>(queue, w * h);
+    moments_ = Buffer<double>(queue, w * rows_at_once * moments);
+    values_ = Buffer<double>(queue, w * rows_at_once);
+    parts_ = Buffer<double>(queue, likeness_sums * h * chunks_of(width));
+    sums_ = Buffer<double>(queue, likeness_sums * h);
+    frame_.width = width;
+    frame_.height = height;
+    frame_.srgb = photograph.srgb.get();
+    frame_.weights = ssim_weights();
+    frame_.photograph_code = photograph.code.get();
+    frame_.photograph_light = photograph.light.get();
+    frame_.view_code = view_code_.get();
+    frame_.columns = columns_.get();
+    frame_.moments = moments_.get();
+    frame_.values = values_.get();
+    frame_.parts = parts_.get();
+    frame_.sums = sums_.get();
+}
+
+Likeness Comparison::with(const float* view, float gain) {
+    const std::int64_t width = frame_.width, height = frame_.height, chunks = std::int64_t(chunks_of(frame_.width));
+    LikenessFrame frame = frame_;
+    frame.picture = view;
+    frame.gain = gain;
+    queue_.run(LikenessStep::view, frame, width * height);
     for (int row = 0; row < height; row += rows_at_once) {
         frame.first_row = row;
-        frame.row_count = std::min(rows_at_once, height - row);
-        queue.run(LikenessStep::moments, frame, std::int64_t(frame.row_count) * width);
-        queue.run(LikenessStep::windows, frame, frame.row_count * std::int64_t(chunks_of(width)));
+        frame.row_count = std::min(rows_at_once, frame.height - row);
+        queue_.run(LikenessStep::moments, frame, frame.row_count * width);
+        queue_.run(LikenessStep::values, frame, frame.row_count * width);
+        queue_.run(LikenessStep::windows, frame, frame.row_count * chunks);
     }
-    queue.run(LikenessStep::cover, frame, height * std::int64_t(chunks_of(width)));
-    queue.run(LikenessStep::rows, frame, likeness_sums * std::int64_t(height));
+    queue_.run(LikenessStep::cover, frame, height * chunks);
+    queue_.run(LikenessStep::rows, frame, likeness_sums * height);
 
+    const std::size_t h = std::size_t(height);
     std::vector<double> rows(likeness_sums * h);
-    queue.download(rows.data(), sums.get(), rows.size() * sizeof(double));
+    queue_.download(rows.data(), sums_.get(), rows.size() * sizeof(double));
     double totals[likeness_sums] = {}, cover[cover_sums];
     for (std::size_t k = 0; k < likeness_sums; ++k)
         for (std::size_t y = 0; y < h; ++y) totals[k] += rows[k * h + y];
     std::copy_n(totals + likeness_regions, int(cover_sums), cover);
-    return {totals[0] / double(windows[0]), totals[1] / double(windows[1]),
-            covered_share(cover, screen.intersected(Region::of({0, 0, width, height})).pixels())};
+    return {totals[0] / double(windows_[0]), totals[1] / double(windows_[1]), covered_share(cover, on_screen_)};
 }
 
 }  // namespace lfdsim::wide

@@ -17,10 +17,23 @@ struct Photograph {
     Buffer<float> code, light;  // of sRGB codes, of light; height x width each
 };
 
-/// Bytes that likeness() needs.
-std::size_t likeness_bytes(int width, int height);
+/// Compares a view with a photograph as image/likeness.h does. To be made before the view is rendered: it waits for all earlier
+/// work. Both functions throw DeviceError.
+class Comparison {
+  public:
+    Comparison(Queue&, const Photograph&, const Region& screen, const Region& content);
+    static std::size_t bytes(int width, int height);
 
-/// As image/likeness.h. `view`: light in the machine's memory, 3 floats a pixel, of the photograph's size. Throws DeviceError.
-Likeness likeness(Queue&, const float* view, float gain, const Photograph&, const Region& screen, const Region& content);
+    /// `view`: light in the machine's memory, 3 floats a pixel, of the photograph's size.
+    Likeness with(const float* view, float gain);
+
+  private:
+    Queue& queue_;
+    std::int64_t windows_[likeness_regions], on_screen_;
+    Buffer<Region::Row> columns_;
+    Buffer<float> view_code_;
+    Buffer<double> moments_, values_, parts_, sums_;
+    LikenessFrame frame_{};
+};
 
 }  // namespace lfdsim::wide

@@ -7,13 +7,10 @@ namespace lfdsim::wide {
 
 LFDSIM_FN std::int32_t chunks_of(const LikenessFrame& f) { return (f.width + columns_at_once - 1) / columns_at_once; }
 
-/// Sum of value(x) over one chunk of a row's columns.
-template <class Value>
-LFDSIM_FN double sum_of_chunk(Region::Row row, std::int32_t chunk, Value value) {
+/// The columns of a region's row that lie in one chunk.
+LFDSIM_FN Region::Row in_chunk(Region::Row row, std::int32_t chunk) {
     const std::int32_t begin = chunk * columns_at_once, end = begin + columns_at_once;
-    double sum = 0;
-    for (std::int32_t x = row.from > begin ? row.from : begin; x < row.to && x < end; ++x) sum += value(x);
-    return sum;
+    return {row.from > begin ? row.from : begin, row.to < end ? row.to : end};
 }
 
 LFDSIM_FN void moment_item(const LikenessFrame& f, std::int64_t i) {
@@ -33,41 +30,43 @@ LFDSIM_FN double* part_of(const LikenessFrame& f, int which, std::int32_t y, std
     return f.parts + (std::int64_t(which) * f.height + y) * chunks_of(f) + chunk;
 }
 
+LFDSIM_FN bool holds(Region::Row row, std::int32_t x) { return x >= row.from && x < row.to; }
+
+LFDSIM_FN void value_item(const LikenessFrame& f, std::int64_t i) {
+    const std::int32_t x = std::int32_t(i % f.width), y = f.first_row + std::int32_t(i / f.width);
+    if (!holds(f.columns[y], x) && !holds(f.columns[f.height + y], x)) return;
+    const std::int64_t each = std::int64_t(f.row_count) * f.width;
+    const double* const v = f.moments + i - ssim_border;
+    const auto across = [&](int moment) { return weighted(f.weights, [&](int k) { return v[moment * each + k]; }); };
+    f.values[i] = ssim_value(across(of_a), across(of_b), across(of_squares), across(of_product));
+}
+
 LFDSIM_FN void window_item(const LikenessFrame& f, std::int64_t i) {
     const std::int32_t chunk = std::int32_t(i % chunks_of(f)), row = std::int32_t(i / chunks_of(f)), y = f.first_row + row;
-    const std::int64_t each = std::int64_t(f.row_count) * f.width;
-    const auto value = [&](std::int32_t x) {
-        const double* const v = f.moments + std::int64_t(row) * f.width + x - ssim_border;
-        const auto across = [&](int moment) { return weighted(f.weights, [&](int k) { return v[moment * each + k]; }); };
-        return ssim_value(across(of_a), across(of_b), across(of_squares), across(of_product));
-    };
-    const Region::Row screen = f.columns[y], content = f.columns[f.height + y];
-    double of_screen = 0, of_content = 0;
-    for (std::int32_t x = chunk * columns_at_once; x < (chunk + 1) * columns_at_once; ++x) {
-        const bool in_screen = x >= screen.from && x < screen.to, in_content = x >= content.from && x < content.to;
-        if (!in_screen && !in_content) continue;
-        const double v = value(x);
-        if (in_screen) of_screen += v;
-        if (in_content) of_content += v;
+    const double* const value = f.values + std::int64_t(row) * f.width;
+    for (int region = 0; region < likeness_regions; ++region) {
+        const Region::Row columns = in_chunk(f.columns[std::int64_t(region) * f.height + y], chunk);
+        double sum = 0;
+        for (std::int32_t x = columns.from; x < columns.to; ++x) sum += value[x];
+        *part_of(f, region, y, chunk) = sum;
     }
-    *part_of(f, 0, y, chunk) = of_screen;
-    *part_of(f, 1, y, chunk) = of_content;
 }
 
 LFDSIM_FN void cover_item(const LikenessFrame& f, std::int64_t i) {
     const std::int32_t chunk = std::int32_t(i % chunks_of(f)), y = std::int32_t(i / chunks_of(f));
-    const Region::Row row = f.columns[std::int64_t(likeness_regions) * f.height + y];
-    const auto a = [&](std::int32_t x) {
-        const float* const p = f.picture + (std::int64_t(y) * f.width + x) * 3;
+    const Region::Row columns = in_chunk(f.columns[std::int64_t(likeness_regions) * f.height + y], chunk);
+    double sums[cover_sums] = {};
+    for (std::int32_t x = columns.from; x < columns.to; ++x) {
+        const std::int64_t at = std::int64_t(y) * f.width + x;
+        const float* const p = f.picture + at * 3;
         const float light[3] = {p[0] * f.gain, p[1] * f.gain, p[2] * f.gain};
-        return double(luma(light));
-    };
-    const auto b = [&](std::int32_t x) { return double(f.photograph_light[std::int64_t(y) * f.width + x]); };
-    *part_of(f, likeness_regions + of_view, y, chunk) = sum_of_chunk(row, chunk, a);
-    *part_of(f, likeness_regions + of_photograph, y, chunk) = sum_of_chunk(row, chunk, b);
-    *part_of(f, likeness_regions + of_both, y, chunk) = sum_of_chunk(row, chunk, [&](std::int32_t x) { return a(x) * b(x); });
-    *part_of(f, likeness_regions + of_photograph_squared, y, chunk) =
-        sum_of_chunk(row, chunk, [&](std::int32_t x) { return b(x) * b(x); });
+        const double a = double(luma(light)), b = double(f.photograph_light[at]);
+        sums[of_view] += a;
+        sums[of_photograph] += b;
+        sums[of_both] += a * b;
+        sums[of_photograph_squared] += b * b;
+    }
+    for (int k = 0; k < cover_sums; ++k) *part_of(f, likeness_regions + k, y, chunk) = sums[k];
 }
 
 /// Item i of a step.
@@ -83,6 +82,7 @@ LFDSIM_FN void likeness_item(const LikenessFrame& f, std::int64_t i) {
         f.view_code[i] = code_luma(f.srgb, light);
     }
     if constexpr (step == LikenessStep::moments) moment_item(f, i);
+    if constexpr (step == LikenessStep::values) value_item(f, i);
     if constexpr (step == LikenessStep::windows) window_item(f, i);
     if constexpr (step == LikenessStep::cover) cover_item(f, i);
     if constexpr (step == LikenessStep::rows) {
@@ -103,6 +103,8 @@ void choose_likeness_item(LikenessStep step, Do do_it) {
             return do_it.template operator()<LikenessStep::view>();
         case LikenessStep::moments:
             return do_it.template operator()<LikenessStep::moments>();
+        case LikenessStep::values:
+            return do_it.template operator()<LikenessStep::values>();
         case LikenessStep::windows:
             return do_it.template operator()<LikenessStep::windows>();
         case LikenessStep::cover:
