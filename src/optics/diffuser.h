@@ -7,9 +7,10 @@
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
 /// The angle in radians for a number uniform in [-1, 1]: box or normal distribution, the normal one cut at +-89 degrees.
-template <class F>
+/// `box` promises the first.
+template <bool box = false, class F>
 LFDSIM_FN F diffuser_angle(const Scene<Scalar<F>>& scene, int axis, F uniform) {
-    if (scene.diffuser_profile == Profile::box) return uniform * F(scene.half_angle[axis]);
+    if (box || scene.diffuser_profile == Profile::box) return uniform * F(scene.half_angle[axis]);
     return F(scene.half_angle[axis]) * erfinv(uniform * F(scene.gaussian_tail[axis]));
 }
 
@@ -36,11 +37,11 @@ LFDSIM_FN Vec3<F> turn(Vec3<F> i, F sin_a, F cos_a, F sin_b, F cos_b) {
     return {x, cos_b * i.y - sin_b * z, sin_b * i.y + cos_b * z};
 }
 
-template <class F>
+template <bool box = false, class F>
 LFDSIM_FN Vec3<F> scatter(const Scene<Scalar<F>>& scene, Vec3<F> to, F uniform_a, F uniform_b) {
     F sin_a, cos_a, sin_b, cos_b;
-    sincos(diffuser_angle(scene, 0, uniform_a), scene.small_angles, sin_a, cos_a);
-    sincos(diffuser_angle(scene, 1, uniform_b), scene.small_angles, sin_b, cos_b);
+    sincos(diffuser_angle<box>(scene, 0, uniform_a), scene.small_angles, sin_a, cos_a);
+    sincos(diffuser_angle<box>(scene, 1, uniform_b), scene.small_angles, sin_b, cos_b);
     return turn(to, sin_a, cos_a, sin_b, cos_b);
 }
 

@@ -394,7 +394,7 @@ LFDSIM_FN PanelPoint<F> trace_glass(const Scene<Scalar<F>>& scene, const Extent<
     pass_glass(scene, InLattice<F>{scene, extent}, rays, weight, way.alive, arrived, in_layer);
     const Place<F> end = down_to_panel(scene, rays.at, in_layer, rays.to, weight, arrived);
     if (scene.emission_exponent != S(0)) weight = weight * power(abs(rays.to.z), scene.emission_exponent);
-    return panel_point(scene, base, {F(0), F(0)}, end.x, end.y, weight, arrived);
+    return panel_point(scene, scene.lattice, base, {F(0), F(0)}, end.x, end.y, weight, arrived);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -24,12 +24,13 @@ LFDSIM_FN PanelPoint<F> trace_ideal(const Scene<Scalar<F>>& scene, const Extent<
         Vec3<F> to{-mx * per, -my * per, -per};
         const Place<F> end = down_to_panel(scene, {qx, qy, F(scene.ideal_z)}, F(0) > F(1), to, way.weight, way.alive);
         if (scene.emission_exponent != S(0)) way.weight = way.weight * power(-to.z, scene.emission_exponent);
-        return panel_point(scene, base, way.cell, end.x, end.y, way.weight, way.alive);
+        return panel_point(scene, scene.lattice, base, way.cell, end.x, end.y, way.weight, way.alive);
     }
     if (scene.emission_exponent != S(0)) {
         way.weight = way.weight * power(F(1) / sqrt(F(1) + mx * mx + my * my), scene.emission_exponent);
     }
-    return panel_point(scene, base, way.cell, qx - mx * F(scene.ideal_z), qy - my * F(scene.ideal_z), way.weight, way.alive);
+    return panel_point(scene, scene.lattice, base, way.cell, qx - mx * F(scene.ideal_z), qy - my * F(scene.ideal_z), way.weight,
+                       way.alive);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

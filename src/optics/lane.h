@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "optics/config.h"
 
@@ -63,11 +64,67 @@ LFDSIM_FN int trailing_zeros(std::uint32_t a) {
 #endif
 }
 
+#ifdef __CUDA_ARCH__
+LFDSIM_FN float reciprocal_estimate(float a) {
+    float r;
+    asm("rcp.approx.ftz.f32 %0, %1;" : "=f"(r) : "f"(a));
+    return r;
+}
+LFDSIM_FN float inverse_root_estimate(float a) {
+    float r;
+    asm("rsqrt.approx.ftz.f32 %0, %1;" : "=f"(r) : "f"(a));
+    return r;
+}
+#endif
+
 /// A whole-numbered `a` as 32-bit two's complement; out of range, NaN too, gives 0x80000000.
 template <class F>
 LFDSIM_FN std::uint32_t to_int(F a) {
     return a >= F(-2147483648.0) && a < F(2147483648.0) ? std::uint32_t(std::int32_t(a)) : 0x80000000u;
 }
+/// floor(a) as to_int() gives it, but that a number that is too large gives on a GPU 0x7fffffff.
+template <class F>
+LFDSIM_FN auto floor_to_int(F a) {
+#ifdef __CUDA_ARCH__
+    if constexpr (std::is_same_v<F, float>) return std::uint32_t(__float2int_rd(fmaxf(a, -2147483648.0f)));
+#endif
+    return to_int(floor(a));
+}
+
+// Division and root of numbers of ordinary size, as rays have: b, a / b and the root's argument are within 1e-30 .. 1e30, and a
+// may be 0, too. Other numbers give anything: what uses it must have given up such a ray anyway. On a GPU this needs no branch for
+// other numbers. The steps are Newton's with a residual that is exact (Markstein 1990), and give the bits of IEEE 754's operations.
+template <class F>
+LFDSIM_FN F inverse(F b) {
+#ifdef __CUDA_ARCH__
+    if constexpr (std::is_same_v<F, float>) {
+        const float about = reciprocal_estimate(b);
+        return __fmaf_rn(about, __fmaf_rn(-b, about, 1.0f), about);
+    }
+#endif
+    return F(1) / b;
+}
+template <class F>
+LFDSIM_FN F quotient(F a, F b) {
+#ifdef __CUDA_ARCH__
+    if constexpr (std::is_same_v<F, float>) {
+        const float per = inverse(b), near = __fmul_rn(a, per);
+        return __fmaf_rn(per, __fmaf_rn(-b, near, a), near);
+    }
+#endif
+    return a / b;
+}
+template <class F>
+LFDSIM_FN F root(F a) {
+#ifdef __CUDA_ARCH__
+    if constexpr (std::is_same_v<F, float>) {
+        const float inverse = inverse_root_estimate(fmaxf(a, 1e-37f)), near = __fmul_rn(a, inverse);
+        return __fmaf_rn(__fmaf_rn(-near, near, a), __fmul_rn(inverse, 0.5f), near);
+    }
+#endif
+    return sqrt(a);
+}
+
 /// The pattern of a float, for logarithms and powers.
 LFDSIM_FN std::uint32_t float_bits(float a) { return __builtin_bit_cast(std::uint32_t, a); }
 LFDSIM_FN std::uint32_t float_bits(double a) { return __builtin_bit_cast(std::uint32_t, float(a)); }

@@ -11,12 +11,14 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 /// The texel that each ray of a packet reaches, and the share of its light that the ray carries: 0 where it reaches none.
 template <class F>
 struct Fetch {
-    Uint<F> pairs = Uint<F>(0u);  // the texel's offset in pairs of floats: addresses scale by 8 bytes, so they need no shift
+    // The texel's number; of several lanes its offset in pairs of floats, as addresses scale by 8 bytes at most.
+    static constexpr int shift = LaneTraits<F>::width == 1 ? 0 : 1;
+    Uint<F> place = Uint<F>(0u);
     F weight = F(0);
 
     Fetch() = default;
     LFDSIM_FN explicit Fetch(const PanelHit<F>& hit)
-        : pairs(select(hit.lit, hit.pixel, Uint<F>(0u)) << 1), weight(select(hit.lit, hit.weight, F(0))) {}
+        : place(select(hit.lit, hit.pixel, Uint<F>(0u)) << shift), weight(select(hit.lit, hit.weight, F(0))) {}
 };
 
 /// The light of subpixels, one of which each ray of a packet meets: R, G, B and an unused number of each lane.
@@ -28,7 +30,7 @@ struct SubpixelLight {
         // Through arrays of its own, so that the Fetch of panels without subpixels stays in registers.
         std::uint32_t code[LaneTraits<F>::width];
         Scalar<F> weight[LaneTraits<F>::width];
-        store(fetch.pairs >> 1, code);
+        store(fetch.place >> Fetch<F>::shift, code);
         store(fetch.weight, weight);
         load_all(texels, code, weight);
     }
@@ -49,7 +51,7 @@ template <class F>
 class Fetching {
   public:
     LFDSIM_FN explicit Fetching(const Fetch<F>& fetch) : weight_(fetch.weight) {
-        __builtin_memcpy(index_, &fetch.pairs, sizeof index_);
+        __builtin_memcpy(index_, &fetch.place, sizeof index_);
 #ifndef __CUDACC__
         // Through memory: compilers tend to extract the offsets from the vector register, which is slower.
         if constexpr (N > 1) asm("" : "+m"(index_));
@@ -60,7 +62,7 @@ class Fetching {
     LFDSIM_FN F light(const float* texels) const {
         if constexpr (N == 1) {
             // All four are one load.
-            const void* const texel = __builtin_assume_aligned(texels + std::size_t(index_[0]) * 2, 16);
+            const void* const texel = __builtin_assume_aligned(texels + std::size_t(index_[0]) * 4, 16);
             return F(static_cast<const float*>(texel)[quarter]) * weight_;
         } else {
             constexpr int first = quarter * (N / 4);
@@ -90,6 +92,12 @@ struct Light {
     static constexpr int N = LaneTraits<F>::width;
     F sum[4] = {F(0), F(0), F(0), F(0)};
 
+    /// That of one sample.
+    LFDSIM_FN static Light of(const float* texels, const Fetch<F>& fetch) {
+        const Fetching<F> a(fetch);
+        return {
+            {a.template light<0>(texels), a.template light<1>(texels), a.template light<2>(texels), a.template light<3>(texels)}};
+    }
     LFDSIM_FN void add(const float* texels, const Fetch<F>& fetch) {
         const Fetching<F> a(fetch);
         sum[0] = sum[0] + a.template light<0>(texels);

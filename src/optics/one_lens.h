@@ -3,6 +3,8 @@
 // Rays go down, from the viewer's side to the panel's. Light that goes up is traced downwards through the lens turned over
 // (turned_over() in model/prescription.h), its mirror image in the plane of the panel.
 #pragma once
+#include <type_traits>
+
 #include "optics/lens_array.h"
 #include "optics/scene.h"
 #include "optics/surface.h"
@@ -19,14 +21,52 @@ struct Passage {
 };
 
 /// The forms of surface that a kernel is compiled for, so that the 2019 paper's lens without a stop does not pay for the others:
-/// that lens's in rows and columns, as strips, and in staggered rows; any of revolution in rows and columns; all of them in all
-/// lattices, glued too. All but the last have air under them. For triangles in place of surfaces (src/meshed) the caller supplies
-/// meet_mesh(scene, k, ray).
-enum class Shapes { plano_convex, plano_convex_strips, plano_convex_staggered, any, all, meshed };
+/// that lens's in rows and columns, with plain light (for_plain_facts) or any; as strips, and in staggered rows; any of revolution
+/// in rows and columns; all of them in all lattices, glued too. All but the last have air under them. For triangles in place of
+/// surfaces (src/meshed) the caller supplies meet_mesh(scene, k, ray).
+enum class Shapes { plain, plano_convex, plano_convex_strips, plano_convex_staggered, any, all, meshed };
 
 template <Shapes shapes>
-constexpr bool are_plano_convex =
-    shapes == Shapes::plano_convex || shapes == Shapes::plano_convex_strips || shapes == Shapes::plano_convex_staggered;
+constexpr bool are_plano_convex = shapes == Shapes::plain || shapes == Shapes::plano_convex ||
+                                  shapes == Shapes::plano_convex_strips || shapes == Shapes::plano_convex_staggered;
+
+/// Air is under the lenses, whose lattice is known.
+template <Shapes shapes>
+constexpr bool are_known = are_plano_convex<shapes> || shapes == Shapes::any;
+
+/// What most displays and cameras have in common.
+template <class S, class Fact>
+LFDSIM_FN void for_plain_facts(const Scene<S>& scene, const Fact& fact) {
+    fact(!scene.box_filter);
+    fact(!scene.thin_lens);
+    fact(scene.has_diffuser);
+    fact(scene.diffuser_profile == Profile::box);
+    fact(scene.fresnel == Fresnel::schlick);
+    fact(scene.emission_exponent == S(0));
+    fact(scene.emission.whole);
+    fact(scene.aperture == Aperture::circle);
+}
+
+#ifdef __CUDACC__
+constexpr bool copies_lattice = true;  // CUDA's compiler does not heed assume(), but it follows the numbers of a copy
+#else
+constexpr bool copies_lattice = false;
+#endif
+
+/// The lattice as a kernel is compiled for it.
+template <Shapes shapes, class S>
+LFDSIM_FN auto lattice_of(const Scene<S>& scene)
+    -> std::conditional_t<copies_lattice && are_known<shapes>, Lattice<S>, const Lattice<S>&> {
+    if constexpr (copies_lattice && are_known<shapes>) {
+        Lattice<S> lattice = scene.lattice;
+        lattice.strips = shapes == Shapes::plano_convex_strips;
+        lattice.staggered = shapes == Shapes::plano_convex_staggered;
+        lattice.hexagonal = lattice.hexagonal && lattice.staggered;
+        return lattice;
+    } else {
+        return scene.lattice;
+    }
+}
 
 /// Tells the compiler, which leaves out what cannot be, which lattices and what under the lenses a kernel is compiled for. It takes
 /// these one by one only, and forgets them where a function is called.
@@ -90,25 +130,25 @@ LFDSIM_FN Hit<F> meet(const Scene<Scalar<F>>& scene, int k, Ray<F> in_vertex_pla
     if constexpr (shapes == Shapes::meshed)
         return meet_mesh(scene, k, in_vertex_plane);
     else
-        return (shapes == Shapes::all || shapes == Shapes::plano_convex_strips) && scene.lattice.strips
+        return (shapes == Shapes::all || shapes == Shapes::plano_convex_strips) && lattice_of<shapes>(scene).strips
                    ? meet_cylinder(scene.surface[k].shape, scene.surface[k], in_vertex_plane)
                    : meet(shape_of<shapes>(scene, k), scene.surface[k], in_vertex_plane);
 }
 
 /// Within the walls of its cell? Those of a round lens are its surfaces' semi-apertures, which `ok` has tested.
-template <class F>
+template <Shapes shapes, class F>
 LFDSIM_FN Mask<F> inside_cell(const Scene<Scalar<F>>& scene, Vec3<F> at, Mask<F> ok) {
-    if (scene.aperture == Aperture::circle) return ok;
-    return ok && in_cell(scene.lattice, at.x, at.y);
+    if (shapes == Shapes::plain || scene.aperture == Aperture::circle) return ok;
+    return ok && in_cell(lattice_of<shapes>(scene), at.x, at.y);
 }
 
 /// Refracts a ray that comes down from the viewer's side (Snell's law as vectors; total internal reflection ends it).
-template <class F>
+template <Shapes shapes, class F>
 LFDSIM_FN void refract_down(const Scene<Scalar<F>>& scene, Shape shape, const SurfaceData<Scalar<F>>& surface, const Hit<F>& hit,
                             Passage<F>& way) {
     const F eta = F(surface.media.eta);
     const F cos2 = (F(1) - eta * eta) + (eta * eta) * hit.cos2;
-    const F cosine = sqrt(max(cos2, F(0)));
+    const F cosine = root(max(cos2, F(0)));
     way.alive = way.alive && (cos2 > F(0));
     const Vec3<F> i = way.ray.to;
     if (shape == Shape::plane) {
@@ -118,11 +158,13 @@ LFDSIM_FN void refract_down(const Scene<Scalar<F>>& scene, Shape shape, const Su
         way.ray.to = {eta * i.x + m * hit.normal.x, eta * i.y + m * hit.normal.y, eta * i.z + m * hit.normal.z};
     }
     way.ray.at = hit.at;
-    const bool vanishes = scene.glued && surface.media.n_above == surface.media.n_below;  // the lens's medium goes on
-    if (scene.fresnel != Fresnel::none && !vanishes) {
-        way.weight = way.weight * transmittance(scene.fresnel, F(surface.media.schlick_t0), F(surface.media.n_above),
-                                                F(surface.media.n_below), hit.cos, cosine,
-                                                surface.media.n_above < surface.media.n_below ? hit.cos : cosine);
+    const bool vanishes =
+        !are_known<shapes> && scene.glued && surface.media.n_above == surface.media.n_below;  // the lens's medium goes on
+    const Fresnel fresnel = shapes == Shapes::plain ? Fresnel::schlick : scene.fresnel;
+    if (fresnel != Fresnel::none && !vanishes) {
+        way.weight =
+            way.weight * transmittance(fresnel, F(surface.media.schlick_t0), F(surface.media.n_above), F(surface.media.n_below),
+                                       hit.cos, cosine, surface.media.n_above < surface.media.n_below ? hit.cos : cosine);
     }
 }
 
@@ -188,10 +230,10 @@ LFDSIM_FN void pass_lens(const Scene<Scalar<F>>& scene, Rules&& rules, const Ray
     }
     rules.meets(0, entering, hit, above_all, hit.at.z + F(scene.surface[0].z), way);
     if (rules.over(way.alive)) return;
-    refract_down(scene, shape_of<shapes>(scene, 0), scene.surface[0], hit, way);
+    refract_down<shapes>(scene, shape_of<shapes>(scene, 0), scene.surface[0], hit, way);
     for (int k = 1; k < count; ++k) {
         const SurfaceData<S>&above = scene.surface[k - 1], &surface = scene.surface[k];
-        const F t = (F(surface.z - above.z) - way.ray.at.z) / way.ray.to.z;  // to its vertex plane
+        const F t = quotient(F(surface.z - above.z) - way.ray.at.z, way.ray.to.z);  // to its vertex plane
         Ray<F> ray = way.ray;
         ray.at = {ray.at.x + ray.to.x * t, ray.at.y + ray.to.y * t, F(0)};
         if constexpr (by_itself)
@@ -205,7 +247,7 @@ LFDSIM_FN void pass_lens(const Scene<Scalar<F>>& scene, Rules&& rules, const Ray
         way.alive = way.alive && (way.ray.to.z < F(0));
         if (shape_of<shapes>(scene, k) != Shape::plane) way.alive = way.alive && (z <= from_z);
         if (rules.over(way.alive)) return;
-        refract_down(scene, shape_of<shapes>(scene, k), surface, hit, way);
+        refract_down<shapes>(scene, shape_of<shapes>(scene, k), surface, hit, way);
     }
     const F z = way.ray.at.z + F(scene.surface[count - 1].z);
     if (has_stop) stop_between(z, -above_all, way.ray.at, way.ray.to, z);

@@ -36,12 +36,11 @@ struct PanelHit {
 /// The point (x, y), mm from the axis of the lens `cell` in the array's frame. Numbers stay small, so that the position is accurate
 /// to a few millionths of a pixel on any panel.
 template <class F>
-LFDSIM_FN PanelPoint<F> panel_point(const Scene<Scalar<F>>& scene, const PanelBase<Scalar<F>>& base, Cell<F> cell, F x, F y,
-                                    F weight, Mask<F> alive) {
+LFDSIM_FN PanelPoint<F> panel_point(const Scene<Scalar<F>>& scene, const Lattice<Scalar<F>>& lattice,
+                                    const PanelBase<Scalar<F>>& base, Cell<F> cell, F x, F y, F weight, Mask<F> alive) {
     const F k = F(scene.pixels_per_mm);
-    Place<F> at{x * k + cell.i * F(scene.pitch_pixels[0]),
-                scene.lattice.strips ? y * k : y * k + cell.j * F(scene.pitch_pixels[1])};
-    if (scene.lattice.staggered) at.x = at.x + stagger(scene.lattice, cell.j) * k;
+    Place<F> at{x * k + cell.i * F(scene.pitch_pixels[0]), lattice.strips ? y * k : y * k + cell.j * F(scene.pitch_pixels[1])};
+    if (lattice.staggered) at.x = at.x + stagger(lattice, cell.j) * k;
     if (scene.rotated) at = to_display(scene.lattice, at.x, at.y);
     return {F(base.column_rest) + at.x, F(base.row_rest) - at.y, weight, alive, cell};
 }
@@ -85,13 +84,13 @@ LFDSIM_FN PanelHit<F> subpixel_under(const Scene<Scalar<F>>& scene, const PanelB
     return hit;
 }
 
-/// The pixel under a point.
-template <class F>
+/// The pixel under a point. `whole` promises a panel without subpixels.
+template <bool whole = false, class F>
 LFDSIM_FN PanelHit<F> panel_pixel(const Scene<Scalar<F>>& scene, const PanelBase<Scalar<F>>& base, const PanelPoint<F>& point) {
-    const Uint<F> column = Uint<F>(base.column) + to_int(floor(point.column));
-    const Uint<F> row = Uint<F>(base.row) + to_int(floor(point.row));
+    const Uint<F> column = Uint<F>(base.column) + floor_to_int(point.column);
+    const Uint<F> row = Uint<F>(base.row) + floor_to_int(point.row);
     const Mask<F> lit = point.alive && (column < Uint<F>(scene.columns)) && (row < Uint<F>(scene.rows));
-    if (!scene.emission.whole) [[unlikely]]
+    if (!whole && !scene.emission.whole) [[unlikely]]
         return subpixel_under(scene, base, point, column, row, lit);
     return {row * Uint<F>(scene.columns) + column, point.weight, lit};
 }

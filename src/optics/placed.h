@@ -54,11 +54,11 @@ LFDSIM_FN Encounter<F> meet_placed(const Scene<Scalar<F>>& scene, const Extent<S
         at.enters = comes && at.hit.ok;
     } else {
         at.hit = meet_curved<shapes>(scene, 0, at.entering, at.stand.curvature);
-        at.hit.ok = inside_cell(scene, at.hit.at, at.hit.ok);
+        at.hit.ok = inside_cell<Shapes::all>(scene, at.hit.at, at.hit.ok);
         if (!are_plano_convex<shapes> && scene.dimple) {  // the entrance is the rim
             const F down = (outmost_rim(scene, true, at.stand.curvature) - F(vertex)) * fall;
             const F x = p.x + to.x * down, y = across(scene.lattice, p.y + to.y * down), r = F(scene.surface[0].semi_aperture);
-            at.enters = inside_cell(scene, Vec3<F>{x, p.y + to.y * down, F(0)}, comes && (x * x + y * y <= r * r));
+            at.enters = inside_cell<Shapes::all>(scene, Vec3<F>{x, p.y + to.y * down, F(0)}, comes && (x * x + y * y <= r * r));
             at.way = at.way + down;
         } else {
             at.enters = comes && at.hit.ok;
@@ -241,7 +241,7 @@ LFDSIM_RARE Mask<F> passes_any_hole(const Scene<Scalar<F>>& scene, const Extent<
 /// The rules of pass_lens() for a lens that stands by itself. Its stop's hole stands in the array's frame, moved with the lens but
 /// not turned; a ray may pass that of any lens.
 template <Shapes shapes, class F>
-struct Placed : InArray<F> {
+struct Placed : InArray<Shapes::all, F> {
     const Stand<F> stand;
 
     LFDSIM_FN Place<F> axis() const { return {F(0), F(0)}; }
@@ -317,7 +317,7 @@ LFDSIM_FN PanelPoint<F> out_of_array(const Scene<Scalar<F>>& scene, const PanelB
     ray.at.z = ray.at.z + F(placement.vertex_z + base.raised);
     const Place<F> end = down_to_panel(scene, ray.at, glued, ray.to, weight, alive);
     if (scene.emission_exponent != Scalar<F>(0)) weight = weight * power(abs(ray.to.z), scene.emission_exponent);
-    return panel_point(scene, base, Cell<F>{F(0), F(0)}, end.x, end.y, weight, alive);
+    return panel_point(scene, scene.lattice, base, Cell<F>{F(0), F(0)}, end.x, end.y, weight, alive);
 }
 
 /// From the plane z = entrance, in which way.ray starts, to the panel.

@@ -15,11 +15,11 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 /// `cell`. The hit is relative to the axis of that lens.
 template <Shapes shapes, class F>
 LFDSIM_FN Hit<F> meet_first(const Scene<Scalar<F>>& scene, Ray<F> ray, Cell<F> cell) {
-    const Place<F> axis = axis_of(scene.lattice, cell);
+    const Place<F> axis = axis_of(lattice_of<shapes>(scene), cell);
     ray.at.x = ray.at.x - axis.x;
     ray.at.y = ray.at.y - axis.y;
     Hit<F> hit = meet<shapes>(scene, 0, ray);
-    hit.ok = inside_cell(scene, hit.at, hit.ok);
+    hit.ok = inside_cell<shapes>(scene, hit.at, hit.ok);
     return hit;
 }
 
@@ -113,7 +113,7 @@ LFDSIM_FN Mask<F> may_enter(const Scene<Scalar<F>>& scene, const Extent<Scalar<F
 template <Shapes shapes, class F>
 LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, Passage<F>& way) {
     const auto& first = scene.surface[0];
-    const F fall = F(1) / ray.to.z;  // dx/dz = to.x fall
+    const F fall = inverse(ray.to.z);  // dx/dz = to.x fall
     // The cell is that at the point where the ray enters the zone of the caps (the plane of the rims, if they are the highest).
     F x = ray.at.x, y = ray.at.y;
     if (!are_plano_convex<shapes> && scene.zone_top != first.z) {
@@ -121,7 +121,7 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<
         x = x + ray.to.x * up;
         y = y + ray.to.y * up;
     }
-    way.cell = cell_at(scene.lattice, x, y);
+    way.cell = cell_at(lattice_of<shapes>(scene), x, y);
     Hit<F> hit = meet_first<shapes>(scene, ray, way.cell);
     hit.ok = hit.ok && extent.holds(way.cell);
     if (!are_plano_convex<shapes> && scene.dimple) {  // the entrance is the rim's circle or cell
@@ -130,8 +130,9 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<
         hit.ok = hit.ok && (lx * lx + ly * ly <= r * r);
     } else if (are_plano_convex<shapes> || scene.zone_top > scene.zone_bottom) {
         const F kd = F(scene.zone_bottom - scene.zone_top) * fall;
-        Mask<F> astray = way.alive && !hit.ok &&
-                         may_meet_neighbours(scene.lattice, way.cell, x, y, ray.to.x * kd, ray.to.y * kd, F(first.semi_aperture));
+        Mask<F> astray =
+            way.alive && !hit.ok &&
+            may_meet_neighbours(lattice_of<shapes>(scene), way.cell, x, y, ray.to.x * kd, ray.to.y * kd, F(first.semi_aperture));
         if (any(astray)) astray = astray && may_enter(scene, extent, way.cell, x + ray.to.x * kd, y + ray.to.y * kd);
         if (any(astray)) {
             Hit<F> found = hit;
@@ -147,22 +148,22 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<
 }
 
 /// The rules of pass_lens() for a lens in an array: apertures and cells, as masks over a packet's rays.
-template <class F>
+template <Shapes shapes, class F>
 struct InArray {
     const Scene<Scalar<F>>& scene;
     const Extent<Scalar<F>>& extent;
     const Cell<F> cell;
 
-    LFDSIM_FN Place<F> axis() const { return axis_of(scene.lattice, cell); }
+    LFDSIM_FN Place<F> axis() const { return axis_of(lattice_of<shapes>(scene), cell); }
     LFDSIM_FN void meets(int k, const Ray<F>&, const Hit<F>& hit, F, F, Passage<F>& way) const {
-        if (k > 0) way.alive = way.alive && inside_cell(scene, hit.at, hit.ok);  // enter_array() has tested the first
+        if (k > 0) way.alive = way.alive && inside_cell<shapes>(scene, hit.at, hit.ok);  // enter_array() has tested the first
     }
     LFDSIM_FN Mask<F> passes_stop(Mask<F>, F x, F y) const { return optics::passes_stop(scene, extent, x, y); }
     LFDSIM_FN void leaves(const Passage<F>&) const {}
     LFDSIM_FN Mask<F> passes_back(F x, F y) const {
         const F r = F(scene.surface[scene.surface_count - 1].semi_aperture);
         const F z = F(0), from_middle = across(scene.lattice, y);
-        return inside_cell(scene, Vec3<F>{x, y, z}, x * x + from_middle * from_middle <= r * r);
+        return inside_cell<shapes>(scene, Vec3<F>{x, y, z}, x * x + from_middle * from_middle <= r * r);
     }
     LFDSIM_FN bool over(Mask<F>) const { return false; }
 };
@@ -177,18 +178,19 @@ LFDSIM_FN PanelPoint<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent
     const Ray<F> entering = way.ray;
     const Hit<F> hit = enter_array<shapes>(scene, extent, entering, way);
     assume<shapes>(scene);
-    pass_lens<shapes>(scene, InArray<F>{scene, extent, way.cell}, entering, hit, way);
+    pass_lens<shapes>(scene, InArray<shapes, F>{scene, extent, way.cell}, entering, hit, way);
     const Vec3<F> leaves{way.ray.at.x, way.ray.at.y, way.ray.at.z + F(scene.surface[count - 1].z)};
     Place<F> end;
     if constexpr (shapes != Shapes::all) {
-        const F t = -leaves.z / way.ray.to.z;
+        const F t = quotient(-leaves.z, way.ray.to.z);
         end = {leaves.x + way.ray.to.x * t, leaves.y + way.ray.to.y * t};
     } else {
         const Mask<F> glued = F(scene.glued ? 1 : 0) > F(0);
         end = down_to_panel(scene, leaves, glued, way.ray.to, way.weight, way.alive);
     }
-    if (scene.emission_exponent != S(0)) way.weight = way.weight * power(-way.ray.to.z, scene.emission_exponent);
-    return panel_point(scene, base, way.cell, end.x, end.y, way.weight, way.alive);
+    if (shapes != Shapes::plain && scene.emission_exponent != S(0))
+        way.weight = way.weight * power(-way.ray.to.z, scene.emission_exponent);
+    return panel_point(scene, lattice_of<shapes>(scene), base, way.cell, end.x, end.y, way.weight, way.alive);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

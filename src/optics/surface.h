@@ -60,8 +60,8 @@ LFDSIM_FN Hit<F> meet_sphere(const Surface& surface, Ray<F> ray) {
     const F cs2 = c * (ray.at.x * ray.at.x + ray.at.y * ray.at.y);
     const F g = ray.to.z - c * (ray.at.x * ray.to.x + ray.at.y * ray.to.y);
     const F cos2 = g * g - c * cs2;
-    const F cosine = sqrt(max(cos2, F(0)));
-    const F t = cs2 / (g - cosine);
+    const F cosine = root(max(cos2, F(0)));
+    const F t = quotient(cs2, g - cosine);
     const F x = ray.at.x + ray.to.x * t, y = ray.at.y + ray.to.y * t, z = ray.to.z * t;
     const F cz = c * z;
     Hit<F> hit{{x, y, z}, {-(c * x), -(c * y), F(1) - cz}, cosine, cos2, {}};
@@ -77,8 +77,8 @@ LFDSIM_FN Hit<F> meet_round_cylinder(const Surface& surface, Ray<F> ray, F lengt
     const F cs2 = c * (ray.at.x * ray.at.x);
     const F g = ray.to.z - c * (ray.at.x * ray.to.x);
     const F cos2 = g * g - length2 * (c * cs2);
-    const F cosine = sqrt(max(cos2, F(0)));
-    const F t = cs2 / (g - cosine);
+    const F cosine = root(max(cos2, F(0)));
+    const F t = quotient(cs2, g - cosine);
     const F x = ray.at.x + ray.to.x * t, y = ray.at.y + ray.to.y * t, z = ray.to.z * t;
     const F cz = c * z;
     Hit<F> hit{{x, y, z}, {-(c * x), F(0), F(1) - cz}, cosine, cos2, {}};

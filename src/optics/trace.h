@@ -16,7 +16,20 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 /// `plano_convex` and `opaque` do without; `other` is for the rest. A new one takes a name here, a line in each of the functions
 /// below, and a function that traces it. `any` is all of them: it asks for the display's at each packet of rays, so that code
 /// around few rays is compiled once.
-enum class Way { plano_convex, strips, staggered, opaque, ideal, glass, placed_plano_convex, placed_opaque, placed, other, any };
+enum class Way {
+    plain,
+    plano_convex,
+    strips,
+    staggered,
+    opaque,
+    ideal,
+    glass,
+    placed_plano_convex,
+    placed_opaque,
+    placed,
+    other,
+    any
+};
 
 template <class S>
 LFDSIM_FN Way way_through(const Scene<S>& scene) {
@@ -30,7 +43,12 @@ LFDSIM_FN Way way_through(const Scene<S>& scene) {
     if (!scene.thin && scene.surround != Surround::opaque) return Way::glass;
     if (!on_air) return Way::other;
     if (scene.thin) return rows ? Way::ideal : Way::other;
-    if (plain) return rows ? Way::plano_convex : scene.lattice.strips ? Way::strips : Way::staggered;
+    if (plain && rows) {
+        bool all = true;
+        for_plain_facts(scene, [&](bool holds) { all = all && holds; });
+        return all ? Way::plain : Way::plano_convex;
+    }
+    if (plain) return scene.lattice.strips ? Way::strips : Way::staggered;
     return rows ? Way::opaque : Way::other;
 }
 
@@ -38,6 +56,7 @@ LFDSIM_FN Way way_through(const Scene<S>& scene) {
 /// are traced there: general ways, which have the same bits, serve.
 constexpr Way for_few_rays(Way way) {
     if (way == Way::placed_plano_convex || way == Way::placed_opaque) return Way::placed;
+    if (way == Way::plain) return Way::plano_convex;
     return way == Way::plano_convex || way == Way::staggered || way == Way::glass || way == Way::placed ? way : Way::other;
 }
 
@@ -48,6 +67,9 @@ constexpr Way compiled(Way way) {
     if (way == Way::placed_plano_convex || way == Way::placed_opaque) return Way::placed;
     return way == Way::glass || way == Way::placed ? way : Way::other;
 #else
+#ifndef LFDSIM_PLAIN_WAY
+    if (way == Way::plain) return Way::plano_convex;
+#endif
     return way;
 #endif
 }
@@ -56,6 +78,8 @@ constexpr Way compiled(Way way) {
 template <class S, class Do>
 inline decltype(auto) with_way(const Scene<S>& scene, const Do& do_it) {
     switch (way_through(scene)) {
+        case Way::plain:
+            return do_it.template operator()<compiled(Way::plain)>();
         case Way::plano_convex:
             return do_it.template operator()<compiled(Way::plano_convex)>();
         case Way::strips:
@@ -93,6 +117,7 @@ LFDSIM_FN decltype(auto) by_way(const Scene<S>& scene, const Do& do_it) {
 /// do_it.operator()<way>() for all ways that code is compiled for, one after the other (some several times, where it is for few).
 template <class Do>
 inline void for_all_ways(const Do& do_it) {
+    do_it.template operator()<compiled(Way::plain)>();
     do_it.template operator()<compiled(Way::plano_convex)>();
     do_it.template operator()<compiled(Way::strips)>();
     do_it.template operator()<compiled(Way::staggered)>();
@@ -121,7 +146,7 @@ LFDSIM_FN void to_first_vertex(const Scene<Scalar<F>>& scene, Passage<F>& way) {
         to.y = turned.y;
     }
     if (scene.start_above != S(0)) {
-        const F t = F(-scene.start_above) / to.z;
+        const F t = quotient(F(-scene.start_above), to.z);
         at.x = at.x + to.x * t;
         at.y = at.y + to.y * t;
     }
@@ -139,7 +164,8 @@ LFDSIM_FN PanelPoint<F> trace_array(const Scene<Scalar<F>>& scene, const Extent<
     if constexpr (through == Way::any) return trace_any<F>(scene, extent, base, ray, alive);
     constexpr bool plano_convex = through == Way::plano_convex || through == Way::placed_plano_convex,
                    in_rows = through == Way::opaque || through == Way::ideal || through == Way::placed_opaque;
-    constexpr Shapes shapes = plano_convex                ? Shapes::plano_convex
+    constexpr Shapes shapes = through == Way::plain       ? Shapes::plain
+                              : plano_convex              ? Shapes::plano_convex
                               : through == Way::strips    ? Shapes::plano_convex_strips
                               : through == Way::staggered ? Shapes::plano_convex_staggered
                               : in_rows                   ? Shapes::any
@@ -176,12 +202,12 @@ inline PanelPoint<F> trace_any(const Scene<Scalar<F>>& scene, const Extent<Scala
 }
 
 /// The ray of one sample of each pixel of a packet, in the first plane and after the diffuser; sampler(d) is the sample's number of
-/// dimension d, in [-1, 1]. `pinhole` promises a camera without pupil and pixel filter.
-template <bool pinhole = false, class F, class Samples>
+/// dimension d, in [-1, 1]. `plain` promises for_plain_facts().
+template <bool plain = false, class F, class Samples>
 LFDSIM_FN void sample_ray(const Scene<Scalar<F>>& scene, const View& view, const PixelRays<F>& pixels, const Samples& sampler,
                           Ray<F>& ray) {
     ray = {{pixels.x, pixels.y, F(0)}, pixels.to};
-    if (!pinhole && (scene.box_filter || scene.thin_lens)) {
+    if (!plain && (scene.box_filter || scene.thin_lens)) {
         F jitter_x = F(0), jitter_y = F(0), lens_x = F(0), lens_y = F(0);
         if (scene.box_filter) {
             jitter_x = sampler(2);
@@ -191,15 +217,16 @@ LFDSIM_FN void sample_ray(const Scene<Scalar<F>>& scene, const View& view, const
         const PixelRays<F> centres = pixels;  // a copy, so that the original may stay in registers
         ray = displaced(view, centres, jitter_x, jitter_y, lens_x, lens_y);
     }
-    if (scene.has_diffuser) ray.to = scatter(scene, ray.to, sampler(0), sampler(1));
+    if (plain || scene.has_diffuser) ray.to = scatter<plain>(scene, ray.to, sampler(0), sampler(1));
 }
 
 /// The panel pixel that one sample of each pixel reaches.
-template <Way through, bool pinhole = false, class F, class Samples>
+template <Way through, class F, class Samples>
 LFDSIM_FN PanelHit<F> trace(const Scene<Scalar<F>>& scene, const View& view, const PixelRays<F>& pixels, const Samples& sampler) {
     Ray<F> ray;
-    sample_ray<pinhole>(scene, view, pixels, sampler, ray);
-    return panel_pixel(scene, pixels.base, trace_array<through>(scene, pixels.extent, pixels.base, ray, pixels.alive));
+    sample_ray<through == Way::plain>(scene, view, pixels, sampler, ray);
+    const PanelPoint<F> point = trace_array<through>(scene, pixels.extent, pixels.base, ray, pixels.alive);
+    return panel_pixel<through == Way::plain>(scene, pixels.base, point);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -113,6 +113,7 @@ class CudaQueue : public wide::Queue {
             step_kernel<s, way, simple><<<thread_blocks(items), threads, 0, steps_>>>(frame, items);
         });
         check(cudaGetLastError(), "starting work");
+        check(cudaEventRecord(ended_, steps_), "starting work");
     }
     void run(wide::LikenessStep step, const wide::LikenessFrame& frame, std::int64_t items) override {
         if (items <= 0) return;
@@ -120,11 +121,11 @@ class CudaQueue : public wide::Queue {
         wide::choose_likeness_item(
             step, [&]<wide::LikenessStep s>() { likeness_kernel<s><<<thread_blocks(items), threads, 0, steps_>>>(frame, items); });
         check(cudaGetLastError(), "starting work");
+        check(cudaEventRecord(ended_, steps_), "starting work");
     }
     double seconds() override {
         use();
         if (timing_) {
-            check(cudaEventRecord(ended_, steps_), "ending work");
             check(cudaEventSynchronize(ended_), "rendering");
             float milliseconds = 0;
             check(cudaEventElapsedTime(&milliseconds, begun_, ended_), "reading its clock");

@@ -11,21 +11,55 @@ namespace {
 
 constexpr std::uint32_t block_samples = 256;  // samples summed in one go (even), so that rounding does not grow with their number
 
-template <optics::Way through, bool pinhole>
+template <optics::Way through>
 LFDSIM_APART optics::PanelHit<F> trace_one(const Tile& tile, const optics::PixelRays<F>& pixels,
                                            const optics::Sampler<F>& sampler) {
-    return optics::trace<through, pinhole>(*tile.scene, *tile.view, pixels, sampler);
+    return optics::trace<through>(*tile.scene, *tile.view, pixels, sampler);
+}
+
+/// The light of one pixel, for a GPU's thread: there other threads hide latency, while code that does not fit into the cache of
+/// instructions, and registers, are dear. So one loop traces all samples. The sums are those of gather(). It does not call
+/// trace_one(), which would keep the sampler out of the registers.
+template <optics::Way through, bool sobol>
+LFDSIM_FN optics::Light<F> gather_one(const Tile& tile, const optics::PixelRays<F>& pixels, std::uint32_t pixel) {
+    const optics::Scene<float>& scene = *tile.scene;
+    optics::Sampler<F> sampler(sobol ? Sampling::sobol : tile.sampling, through == optics::Way::plain ? 2 : tile.dimensions,
+                               tile.view->seed, pixel);
+    optics::Light<F> total, block, even;
+    const std::uint32_t paired = tile.samples & ~1u;
+#ifdef __CUDACC__
+#pragma unroll 1
+#endif
+    for (std::uint32_t sample = 0; sample < tile.samples; ++sample) {
+        const optics::Fetch<F> fetch(optics::trace<through>(scene, *tile.view, pixels, sampler));
+        optics::Light<F> light;
+        if constexpr (through == optics::Way::plain)
+            light = optics::Light<F>::of(tile.texels, fetch);
+        else
+            light.add(scene.emission, tile.texels, fetch);
+        sampler.next(*tile.directions);
+        if (sample >= paired) {  // the last of an odd number
+            total.add(light);
+        } else if (sample % 2 == 0) {
+            even = light;
+        } else {
+            even.add(light);
+            block.add(even);
+            if ((sample + 1) % block_samples == 0 || sample + 1 == paired) {
+                total.add(block);
+                block = {};
+            }
+        }
+    }
+    return total;
 }
 
 /// Lanes are neighbouring pixels, and each adds its samples in order, two at a time, so that no bit depends on the packet a pixel
-/// is in. The light of two samples is fetched while the next two are traced, so that memory latency is hidden.
-///
-/// With several lanes two samples are traced side by side (optics/pair.h). A GPU thread traces one after the other: there other
-/// threads hide latency, and registers are scarce. It does not call trace_one() either, which would keep the sampler out of the
-/// registers.
-template <optics::Way through, bool pinhole = false>
+/// is in. The light of two samples is fetched while the next two, traced side by side (optics/pair.h), are on their way, so that
+/// memory latency is hidden.
+template <optics::Way through>
 LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& pixels, optics::Uint<F> pixel) {
-    constexpr bool one_lane = optics::LaneTraits<F>::width == 1;
+    if constexpr (optics::LaneTraits<F>::width == 1) return gather_one<through, false>(tile, pixels, pixel);
     const optics::Scene<float>& scene = *tile.scene;
     optics::Sampler<F> even(tile.sampling, tile.dimensions, tile.view->seed, pixel), odd = even;
     odd.next(*tile.directions);
@@ -36,18 +70,10 @@ LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& 
         optics::Fetch<F> first, second;  // of the last two samples
         const std::uint32_t end = tile.samples - sample < block_samples ? tile.samples : sample + block_samples;
         for (; sample + 1 < end; sample += 2) {
-            optics::PanelHit<F> a, b;
-            if constexpr (one_lane) {
-                a = optics::trace<through, pinhole>(scene, *tile.view, pixels, even);
-                b = optics::trace<through, pinhole>(scene, *tile.view, pixels, odd);
-            } else {
-                const auto hit = optics::trace<through, pinhole>(scene, *tile.view, twice, optics::SamplerPair<F>{even, odd});
-                a = {hit.pixel.a, hit.weight.a, hit.lit.a};
-                b = {hit.pixel.b, hit.weight.b, hit.lit.b};
-            }
+            const auto hit = optics::trace<through>(scene, *tile.view, twice, optics::SamplerPair<F>{even, odd});
             block.add(scene.emission, tile.texels, first, second);
-            first = optics::Fetch<F>(a);
-            second = optics::Fetch<F>(b);
+            first = optics::Fetch<F>({hit.pixel.a, hit.weight.a, hit.lit.a});
+            second = optics::Fetch<F>({hit.pixel.b, hit.weight.b, hit.lit.b});
             even.next(*tile.directions);
             even.next(*tile.directions);
             odd.next(*tile.directions);
@@ -56,13 +82,7 @@ LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& 
         block.add(scene.emission, tile.texels, first, second);
         total.add(block);
     }
-    if (tile.samples % 2 == 1) {
-        if constexpr (one_lane)
-            total.add(scene.emission, tile.texels,
-                      optics::Fetch<F>(optics::trace<through, pinhole>(scene, *tile.view, pixels, even)));
-        else
-            total.add(scene.emission, tile.texels, optics::Fetch<F>(trace_one<through, pinhole>(tile, pixels, even)));
-    }
+    if (tile.samples % 2 == 1) total.add(scene.emission, tile.texels, optics::Fetch<F>(trace_one<through>(tile, pixels, even)));
     return total;
 }
 

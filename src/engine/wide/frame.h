@@ -6,15 +6,23 @@
 
 namespace lfdsim::wide {
 
-/// The steps, and what one item of each is. A step begins when all items of the step before are done.
+/// The steps, and what one item of each is. A step begins when all items of the step before are done. A worker takes every n-th
+/// entry of a list (WorkList), n being their number.
 enum class Step {
     points,   // point samples: a pixel
     even,     // filtered estimator: an even cut of the diffuser's angles
-    blocks,   // a block: its place and its axes
-    bundles,  // a stratum of a block
-    survey,   // a block: what its bundles are
+    blocks,   // a block: its place and its axes; lists its bundles
+    bundles,  // a worker: bundles, one for each stratum of a block
+    survey,   // a block: what its bundles are; lists blocks whose pixels look for light by themselves
     places,   // a place of a block
-    pixels    // a pixel of a block
+    soft,     // a pixel of a block that is not listed: light between places
+    pixels    // a worker: pixels of the listed blocks
+};
+
+/// What a later step has to do, found out by an earlier one, in any order.
+struct WorkList {
+    std::uint32_t* count;
+    std::uint32_t* number;
 };
 
 /// A block of the frame to be rendered: its first pixel, and the number of the output square (refined_side x refined_side pixels,
@@ -40,6 +48,9 @@ struct Frame {
     void* even;
     std::byte* memory;
     std::size_t bytes_per_block;
+    WorkList bundles;  // block x strata of the room for a block + stratum
+    WorkList busy;     // blocks
+    std::int64_t workers;
 };
 
 }  // namespace lfdsim::wide

@@ -4,6 +4,7 @@
 #ifndef LFDSIM_LANES
 #define LFDSIM_LANES 1
 #endif
+#define LFDSIM_PLAIN_WAY  // worth its code there (optics/trace.h)
 #include "engine/wide/frame.h"
 #include "optics/lane.h"
 
@@ -77,7 +78,17 @@ LFDSIM_FN BlockState& state_of(const Frame& frame, std::int64_t block) {
     return *reinterpret_cast<BlockState*>(frame.memory + std::size_t(block) * frame.bytes_per_block);
 }
 
-template <optics::Way through, bool pinhole>
+/// Adds first, first + 1, ... to a list.
+LFDSIM_FN void append(const WorkList& list, std::uint32_t first, std::uint32_t count) {
+#ifdef __CUDA_ARCH__
+    std::uint32_t* to = list.number + atomicAdd(list.count, count);
+#else
+    std::uint32_t* to = list.number + __atomic_fetch_add(list.count, count, __ATOMIC_RELAXED);
+#endif
+    for (std::uint32_t k = 0; k < count; ++k) to[k] = first + k;
+}
+
+template <optics::Way through, bool sobol>
 LFDSIM_FN void point_item(const Frame& frame, std::int64_t i) {
     const Tile tile = tile_of(frame);
     const int pixels = tile.block_side * tile.block_side;
@@ -86,7 +97,7 @@ LFDSIM_FN void point_item(const Frame& frame, std::int64_t i) {
     float* const out = output(frame, i / pixels, x, y);
     if (!out) return;
     const std::uint32_t number = std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x);
-    const optics::Light<F> light = gather<through, pinhole>(tile, optics::pixel_rays<F>(*tile.view, x, y), number);
+    const optics::Light<F> light = gather_one<through, sobol>(tile, optics::pixel_rays<F>(*tile.view, x, y), number);
     for (int c = 0; c < 3; ++c) out[c] = light(0, c) / float(tile.samples);
 }
 
@@ -109,21 +120,30 @@ LFDSIM_FN void block_item(const Frame& frame, std::int64_t i) {
     state.grids.stratum = reinterpret_cast<Stratum*>(at + layout.stratum);
     state.bundles = reinterpret_cast<Bundles*>(at + layout.bundles);
     const Pixel corner = corner_of(frame, i);
-    BlockWork<through>(tile, state).begin(*static_cast<const EvenCuts*>(frame.even), corner.x, corner.y);
+    BlockWork<through> work(tile, state);
+    work.begin(*static_cast<const EvenCuts*>(frame.even), corner.x, corner.y);
+    append(frame.bundles, std::uint32_t(i) * std::uint32_t(room_of(frame).strata), std::uint32_t(work.strata()));
 }
 
 template <optics::Way through>
-LFDSIM_FN void bundle_item(const Frame& frame, std::int64_t i) {
+LFDSIM_FN void bundle_worker(const Frame& frame, std::int64_t worker) {
     const Tile tile = tile_of(frame);
-    const int each = room_of(frame).strata;
-    BlockWork<through> work(tile, state_of(frame, i / each));
-    if (int(i % each) < work.strata()) work.make_bundle(int(i % each));
+    const std::uint32_t each = std::uint32_t(room_of(frame).strata), count = *frame.bundles.count;
+    for (std::int64_t k = worker; k < count; k += frame.workers) {
+        const std::uint32_t number = frame.bundles.number[k];
+        BlockWork<through>(tile, state_of(frame, number / each)).make_bundle(int(number % each));
+    }
 }
+
+/// Do its pixels look for light by themselves?
+LFDSIM_FN bool is_busy(const BlockState& block) { return block.sharps > 0 || block.any_alone; }
 
 template <optics::Way through>
 LFDSIM_FN void survey_item(const Frame& frame, std::int64_t i) {
     const Tile tile = tile_of(frame);
-    BlockWork<through>(tile, state_of(frame, i)).survey();
+    BlockState& state = state_of(frame, i);
+    BlockWork<through>(tile, state).survey();
+    if (is_busy(state)) append(frame.busy, std::uint32_t(i), 1);
 }
 
 template <optics::Way through>
@@ -133,42 +153,59 @@ LFDSIM_FN void place_item(const Frame& frame, std::int64_t i) {
     BlockWork<through>(tile, state_of(frame, i / each)).template look_at_places<few_strata + more_strata>(int(i % each));
 }
 
-template <optics::Way through, int most>
-LFDSIM_FN void pixel_item(const Frame& frame, std::int64_t i) {
-    const Tile tile = tile_of(frame);
-    const int side = tile.block_side;
-    BlockState& state = state_of(frame, i / (side * side));
+/// The light of soft bundles at a pixel of a block.
+LFDSIM_FN void soft_light_at(const BlockState& state, Pixel in, S (&light)[3]) {
+    if (!state.any_soft) return;
+    const S per = S(1) / S(place_step), s = (S(in.x % place_step) + S(0.5)) * per, t = (S(in.y % place_step) + S(0.5)) * per;
+    const S(*const upper)[4] = state.light + in.y / place_step * state.per_axis + in.x / place_step;
+    const S(*const lower)[4] = upper + state.per_axis;
+    for (int c = 0; c < 3; ++c)
+        light[c] = between_places(between_places(upper[0][c], lower[0][c], t), between_places(upper[1][c], lower[1][c], t), s);
+}
+
+LFDSIM_FN void soft_item(const Frame& frame, std::int64_t i) {
+    const int side = frame.tile.block_side;
+    const std::int64_t block = i / (side * side);
+    const BlockState& state = state_of(frame, block);
+    if (is_busy(state)) return;
     const Pixel in = pixel_of(side, int(i % (side * side)));
-    float* const out = output(frame, i / (side * side), state.x0 + in.x, state.y0 + in.y);
+    float* const out = output(frame, block, state.x0 + in.x, state.y0 + in.y);
     if (!out) return;
-    S light[4] = {};
-    if (state.any_soft) {
-        const S per = S(1) / S(place_step), s = (S(in.x % place_step) + S(0.5)) * per, t = (S(in.y % place_step) + S(0.5)) * per;
-        const S(*const upper)[4] = state.light + in.y / place_step * state.per_axis + in.x / place_step;
-        const S(*const lower)[4] = upper + state.per_axis;
-        for (int c = 0; c < 3; ++c)
-            light[c] = between_places(between_places(upper[0][c], lower[0][c], t), between_places(upper[1][c], lower[1][c], t), s);
-    }
-    if (state.sharps > 0 || state.any_alone) {
-        S found[4];
-        BlockWork<through>(tile, state)
-            .template look_from<most>(state.x0 + in.x, state.y0 + in.y)
-            .store(found, state.per_axis == 0);
-        for (int c = 0; c < 3; ++c) light[c] = light[c] + found[c];
-    }
+    S light[3] = {};
+    soft_light_at(state, in, light);
     for (int c = 0; c < 3; ++c) out[c] = light[c];
 }
 
-/// Item i of a step. `simple`: for points, a pinhole camera; for pixels, few strata.
+template <optics::Way through, int most>
+LFDSIM_FN void pixel_worker(const Frame& frame, std::int64_t worker) {
+    const Tile tile = tile_of(frame);
+    const int side = tile.block_side, pixels = side * side;
+    const std::int64_t count = std::int64_t(*frame.busy.count) * pixels;
+    for (std::int64_t k = worker; k < count; k += frame.workers) {
+        const std::int64_t block = frame.busy.number[k / pixels];
+        BlockState& state = state_of(frame, block);
+        const Pixel in = pixel_of(side, int(k % pixels));
+        const std::int32_t x = state.x0 + in.x, y = state.y0 + in.y;
+        float* const out = output(frame, block, x, y);
+        if (!out) continue;
+        S light[3] = {}, found[4];
+        soft_light_at(state, in, light);
+        BlockWork<through>(tile, state).template look_from<most>(x, y).store(found, state.per_axis == 0);
+        for (int c = 0; c < 3; ++c) out[c] = light[c] + found[c];
+    }
+}
+
+/// Item i of a step. `simple`: for points, Sobol points; for pixels, few strata.
 template <Step step, optics::Way through, bool simple>
 LFDSIM_FN void item(const Frame& frame, std::int64_t i) {
     if constexpr (step == Step::points) point_item<through, simple>(frame, i);
     if constexpr (step == Step::even) even_item(frame, i);
     if constexpr (step == Step::blocks) block_item<through>(frame, i);
-    if constexpr (step == Step::bundles) bundle_item<through>(frame, i);
+    if constexpr (step == Step::bundles) bundle_worker<through>(frame, i);
     if constexpr (step == Step::survey) survey_item<through>(frame, i);
     if constexpr (step == Step::places) place_item<through>(frame, i);
-    if constexpr (step == Step::pixels) pixel_item<through, simple ? few_strata + more_strata : max_strata>(frame, i);
+    if constexpr (step == Step::soft) soft_item(frame, i);
+    if constexpr (step == Step::pixels) pixel_worker<through, simple ? few_strata + more_strata : max_strata>(frame, i);
 }
 
 /// do_it.template operator()<step, way, simple>() for the step and the frame at hand: each combination is compiled separately.
@@ -181,8 +218,8 @@ void choose_item(Step step, const Frame& frame, Do do_it) {
     };
     switch (step) {
         case Step::points:
-            return frame.scene.box_filter || frame.scene.thin_lens ? by_way.template operator()<Step::points, false>()
-                                                                   : by_way.template operator()<Step::points, true>();
+            return frame.tile.sampling == Sampling::sobol ? by_way.template operator()<Step::points, true>()
+                                                          : by_way.template operator()<Step::points, false>();
         case Step::even:  // the same for every way
             return do_it.template operator()<Step::even, optics::Way::ideal, true>();
         case Step::blocks:
@@ -193,6 +230,8 @@ void choose_item(Step step, const Frame& frame, Do do_it) {
             return do_it.template operator()<Step::survey, optics::Way::ideal, true>();
         case Step::places:
             return do_it.template operator()<Step::places, optics::Way::ideal, true>();
+        case Step::soft:
+            return do_it.template operator()<Step::soft, optics::Way::ideal, true>();
         case Step::pixels:
             return frame.tile.strata <= few_strata ? by_way.template operator()<Step::pixels, true>()
                                                    : by_way.template operator()<Step::pixels, false>();

@@ -11,15 +11,26 @@ namespace {
 constexpr std::int64_t most_points = std::int64_t(1) << 31;  // in one step: a fraction of a second, after which Ctrl-C takes effect
 constexpr int point_side = 16;
 
-/// Memory for the blocks at hand: enough of them to fill any machine, and at least one of the largest.
-std::size_t block_memory(const Queue& queue) {
-    return std::max(queue.block_size(max_strata - more_strata, true).bytes, std::size_t(256) << 20);
+/// Bytes for a block and its entries in lists of work.
+std::size_t listed_bytes(const BlockSize& block) { return block.bytes + (std::size_t(block.bundles) + 1) * sizeof(std::uint32_t); }
+
+/// Memory for the blocks at hand: for all of a picture, if they take no more than a gigabyte, else for enough of them to fill any
+/// machine. With a target error strata change, and any block must find room.
+std::size_t block_memory(const Queue& queue, const Tile& tile) {
+    const auto along = [&](std::int32_t from, std::int32_t to) { return std::size_t((to - from) / tile.block_side + 2); };
+    const std::size_t all = along(tile.x0, tile.x1) * along(tile.y0, tile.y1) *
+                            listed_bytes(queue.block_size(tile.strata, tile.scene->by_lens)),
+                      largest = listed_bytes(queue.block_size(max_strata - more_strata, true));
+    return std::max(largest, std::clamp(all, std::size_t(256) << 20, std::size_t(1) << 30));
 }
+
+constexpr std::int64_t most_workers = 1 << 17;  // more than any machine has threads at once
 
 /// Renders blocks, a part of them at a time.
 class Renderer {
   public:
-    Renderer(Queue& queue, const DevicePanel& panel, const Tile& tile) : queue_(queue) {
+    Renderer(Queue& queue, const DevicePanel& panel, const Tile& tile)
+        : queue_(queue), memory_bytes_(tile.strata > 0 ? block_memory(queue, tile) : 0) {
         frame_.scene = *tile.scene;
         frame_.view = *tile.view;
         frame_.directions = *tile.directions;
@@ -76,14 +87,17 @@ class Renderer {
         }
         const BlockSize block = queue_.block_size(t.strata, frame_.scene.by_lens);
         frame_.bytes_per_block = block.bytes;
-        bundles_per_block_ = block.bundles;
         if (!memory_.get()) {
             even_ = Buffer<std::byte>(queue_, queue_.even_bytes());
-            memory_bytes_ = block_memory(queue_);
+            counts_ = Buffer<std::uint32_t>(queue_, 2);
             memory_ = Buffer<std::byte>(queue_, memory_bytes_);
         }
+        at_once_ = std::int64_t(memory_bytes_ / listed_bytes(block));
+        std::byte* const lists = memory_.get() + std::size_t(at_once_) * block.bytes;
         frame_.even = even_.get();
         frame_.memory = memory_.get();
+        frame_.busy = {counts_.get(), reinterpret_cast<std::uint32_t*>(lists)};
+        frame_.bundles = {counts_.get() + 1, frame_.busy.number + at_once_};
         queue_.run(Step::even, frame_, t.strata + 1);
     }
 
@@ -91,8 +105,8 @@ class Renderer {
     bool run(std::int64_t blocks, After after) {
         const Tile& t = frame_.tile;
         const std::int64_t pixels = std::int64_t(t.block_side) * t.block_side;
-        const std::int64_t at_once = t.strata == 0 ? std::max<std::int64_t>(most_points / (pixels * std::max(t.samples, 1u)), 1)
-                                                   : std::int64_t(memory_bytes_ / frame_.bytes_per_block);
+        const std::int64_t at_once =
+            t.strata == 0 ? std::max<std::int64_t>(most_points / (pixels * std::max(t.samples, 1u)), 1) : at_once_;
         for (std::int64_t first = 0; first < blocks; first += at_once) {
             const std::int64_t count = std::min(at_once, blocks - first);
             frame_.first_block = first;
@@ -104,19 +118,26 @@ class Renderer {
 
     void run_filtered(std::int64_t blocks, std::int64_t pixels) {
         const Tile& t = frame_.tile;
+        frame_.workers = std::min(blocks * pixels, most_workers);
+        queue_.clear(counts_.get(), 2 * sizeof(std::uint32_t));
         queue_.run(Step::blocks, frame_, blocks);
-        queue_.run(Step::bundles, frame_, blocks * bundles_per_block_);
+        queue_.run(Step::bundles, frame_, frame_.workers);
         queue_.run(Step::survey, frame_, blocks);
-        if (const std::int64_t places = queue_.places_per_axis(t)) queue_.run(Step::places, frame_, blocks * places * places);
-        queue_.run(Step::pixels, frame_, blocks * pixels);
+        if (const std::int64_t places = queue_.places_per_axis(t)) {
+            queue_.run(Step::places, frame_, blocks * places * places);
+            queue_.run(Step::soft, frame_, blocks * pixels);
+        }
+        queue_.run(Step::pixels, frame_, frame_.workers);
     }
 
     Queue& queue_;
+    const std::size_t memory_bytes_;
     Frame frame_{};
     Buffer<optics::PlacedLens<float>> lenses_;
     Buffer<std::byte> even_, memory_;
-    std::size_t memory_bytes_ = 0, listed_room_ = 0;
-    std::int64_t bundles_per_block_ = 0;
+    Buffer<std::uint32_t> counts_;  // of the lists of work
+    std::size_t listed_room_ = 0;
+    std::int64_t at_once_ = 0;  // blocks
     Buffer<ListedBlock> listed_;
 };
 
@@ -194,7 +215,7 @@ std::size_t DevicePanel::bytes(const std::vector<optics::PanelLevel>& levels) {
 
 std::size_t picture_bytes(const Queue& queue, const Tile& tile) {
     const std::size_t picture = std::size_t(tile.x1 - tile.x0) * std::size_t(tile.y1 - tile.y0) * 3 * sizeof(float);
-    return picture + (tile.strata > 0 ? block_memory(queue) : 0);
+    return picture + (tile.strata > 0 ? block_memory(queue, tile) : 0);
 }
 
 Done render_there(Queue& queue, const DevicePanel& panel, const Tile& tile, float* out, Job& job) {
