@@ -17,8 +17,24 @@ struct alignas(16) Texel {
         for (int c = 0; c < 4; ++c) v[c] += b.v[c];
     }
 };
+// As one load of 16 bytes; a copy by memcpy would be 16 of one byte.
+LFDSIM_FN Texel load_texel(const float* from) {
+    const float4 v = *reinterpret_cast<const float4*>(from);
+    return {{v.x, v.y, v.z, v.w}};
+}
+LFDSIM_FN void store_texel(Texel texel, float (&to)[4]) {
+    for (int c = 0; c < 4; ++c) to[c] = texel.v[c];
+}
+LFDSIM_FN Texel texel_of(const float (&from)[4]) { return {{from[0], from[1], from[2], from[3]}}; }
 #else
 typedef float Texel __attribute__((vector_size(16)));
+LFDSIM_FN Texel load_texel(const float* from) {
+    Texel texel;
+    __builtin_memcpy(&texel, from, sizeof texel);
+    return texel;
+}
+LFDSIM_FN void store_texel(Texel texel, float (&to)[4]) { __builtin_memcpy(to, &texel, sizeof texel); }
+LFDSIM_FN Texel texel_of(const float (&from)[4]) { return load_texel(from); }
 #endif
 
 /// A level of the pyramid as the rays from one base lens read it.
@@ -169,13 +185,12 @@ LFDSIM_FN void light_of_long_boxes(const PanelLevels& levels, const PanelBase<Sc
         Texel sum{};
         for (int n = 0; n < 4; ++n) {
             Texel ends[2];
-            for (int end = 0; end < 2; ++end)
-                __builtin_memcpy(&ends[end], sums + std::size_t(place[4 * end + n][k]) * 4, sizeof ends[end]);
+            for (int end = 0; end < 2; ++end) ends[end] = load_texel(sums + std::size_t(place[4 * end + n][k]) * 4);
             Texel part = ends[1] * share[4 + n][k];
             part += ends[0] * share[n][k];
             sum += part;
         }
-        __builtin_memcpy(light[k], &sum, sizeof sum);
+        store_texel(sum, light[k]);
     }
 }
 
@@ -225,16 +240,10 @@ LFDSIM_FN void light_of_plane(const PanelLevels& levels, const PanelBase<Scalar<
         const float* const texels = levels.level[at[k]].texels;
         Texel sum{};
         for (int n = 0; n < 4; ++n) {
-            Texel texel;
-            __builtin_memcpy(&texel, texels + std::size_t(place[n][k]) * 4, sizeof texel);
-            sum += texel * share[n][k];
+            sum += load_texel(texels + std::size_t(place[n][k]) * 4) * share[n][k];
         }
-        if (any_long) {
-            Texel more;
-            __builtin_memcpy(&more, long_light[k], sizeof more);
-            sum += more;
-        }
-        __builtin_memcpy(light[k], &sum, sizeof sum);
+        if (any_long) sum += texel_of(long_light[k]);
+        store_texel(sum, light[k]);
     }
 }
 

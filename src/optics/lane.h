@@ -38,6 +38,12 @@ template <class F>
 using Uint = typename LaneTraits<F>::Uint;
 
 LFDSIM_FN bool any(bool m) { return m; }
+/// a && b, without a branch where they are single values.
+LFDSIM_FN bool both(bool a, bool b) { return a & b; }
+template <class M>
+LFDSIM_FN M both(const M& a, const M& b) {
+    return a && b;
+}
 LFDSIM_FN float select(bool m, float a, float b) { return m ? a : b; }
 LFDSIM_FN double select(bool m, double a, double b) { return m ? a : b; }
 LFDSIM_FN std::uint32_t select(bool m, std::uint32_t a, std::uint32_t b) { return m ? a : b; }
@@ -49,6 +55,7 @@ LFDSIM_FN float abs(float a) { return __builtin_fabsf(a); }
 LFDSIM_FN double abs(double a) { return __builtin_fabs(a); }
 // b if either is NaN, as with the SIMD instructions
 LFDSIM_FN float min(float a, float b) { return a < b ? a : b; }
+LFDSIM_FN std::uint32_t min(std::uint32_t a, std::uint32_t b) { return a < b ? a : b; }
 LFDSIM_FN int min(int a, int b) { return a < b ? a : b; }
 LFDSIM_FN double min(double a, double b) { return a < b ? a : b; }
 LFDSIM_FN float max(float a, float b) { return a > b ? a : b; }
@@ -68,6 +75,12 @@ LFDSIM_FN int trailing_zeros(std::uint32_t a) {
 LFDSIM_FN float reciprocal_estimate(float a) {
     float r;
     asm("rcp.approx.ftz.f32 %0, %1;" : "=f"(r) : "f"(a));
+    return r;
+}
+/// a b + c, rounded once. As text, so that a compiled kernel shows which were meant (tests/cuda/ptx.py).
+LFDSIM_FN float fused(float a, float b, float c) {
+    float r;
+    asm("fma.rn.f32 %0, %1, %2, %3;" : "=f"(r) : "f"(a), "f"(b), "f"(c));
     return r;
 }
 LFDSIM_FN float inverse_root_estimate(float a) {
@@ -99,7 +112,7 @@ LFDSIM_FN F inverse(F b) {
 #ifdef __CUDA_ARCH__
     if constexpr (std::is_same_v<F, float>) {
         const float about = reciprocal_estimate(b);
-        return __fmaf_rn(about, __fmaf_rn(-b, about, 1.0f), about);
+        return fused(about, fused(-b, about, 1.0f), about);
     }
 #endif
     return F(1) / b;
@@ -109,7 +122,7 @@ LFDSIM_FN F quotient(F a, F b) {
 #ifdef __CUDA_ARCH__
     if constexpr (std::is_same_v<F, float>) {
         const float per = inverse(b), near = __fmul_rn(a, per);
-        return __fmaf_rn(per, __fmaf_rn(-b, near, a), near);
+        return fused(per, fused(-b, near, a), near);
     }
 #endif
     return a / b;
@@ -119,7 +132,7 @@ LFDSIM_FN F root(F a) {
 #ifdef __CUDA_ARCH__
     if constexpr (std::is_same_v<F, float>) {
         const float inverse = inverse_root_estimate(fmaxf(a, 1e-37f)), near = __fmul_rn(a, inverse);
-        return __fmaf_rn(__fmaf_rn(-near, near, a), __fmul_rn(inverse, 0.5f), near);
+        return fused(fused(-near, near, a), __fmul_rn(inverse, 0.5f), near);
     }
 #endif
     return sqrt(a);

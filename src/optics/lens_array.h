@@ -16,7 +16,7 @@ struct Extent {
     S low_i, high_i, low_j, high_j;
     template <class F>
     LFDSIM_FN Mask<F> holds(Cell<F> c) const {
-        return (c.i >= F(low_i)) && (c.i <= F(high_i)) && (c.j >= F(low_j)) && (c.j <= F(high_j));
+        return both(both(c.i >= F(low_i), c.i <= F(high_i)), both(c.j >= F(low_j), c.j <= F(high_j)));
     }
 };
 

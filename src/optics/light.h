@@ -92,12 +92,6 @@ struct Light {
     static constexpr int N = LaneTraits<F>::width;
     F sum[4] = {F(0), F(0), F(0), F(0)};
 
-    /// That of one sample.
-    LFDSIM_FN static Light of(const float* texels, const Fetch<F>& fetch) {
-        const Fetching<F> a(fetch);
-        return {
-            {a.template light<0>(texels), a.template light<1>(texels), a.template light<2>(texels), a.template light<3>(texels)}};
-    }
     LFDSIM_FN void add(const float* texels, const Fetch<F>& fetch) {
         const Fetching<F> a(fetch);
         sum[0] = sum[0] + a.template light<0>(texels);

@@ -39,7 +39,8 @@ template <class S, class Fact>
 LFDSIM_FN void for_plain_facts(const Scene<S>& scene, const Fact& fact) {
     fact(!scene.box_filter);
     fact(!scene.thin_lens);
-    fact(scene.has_diffuser);
+    fact(scene.has_diffuser && scene.start_above != S(0));
+    fact(!scene.rotated);
     fact(scene.diffuser_profile == Profile::box);
     fact(scene.fresnel == Fresnel::schlick);
     fact(scene.emission_exponent == S(0));

@@ -34,14 +34,14 @@ struct PanelHit {
 };
 
 /// The point (x, y), mm from the axis of the lens `cell` in the array's frame. Numbers stay small, so that the position is accurate
-/// to a few millionths of a pixel on any panel.
-template <class F>
+/// to a few millionths of a pixel on any panel. `plain` promises that the array is not turned.
+template <bool plain = false, class F>
 LFDSIM_FN PanelPoint<F> panel_point(const Scene<Scalar<F>>& scene, const Lattice<Scalar<F>>& lattice,
                                     const PanelBase<Scalar<F>>& base, Cell<F> cell, F x, F y, F weight, Mask<F> alive) {
     const F k = F(scene.pixels_per_mm);
     Place<F> at{x * k + cell.i * F(scene.pitch_pixels[0]), lattice.strips ? y * k : y * k + cell.j * F(scene.pitch_pixels[1])};
     if (lattice.staggered) at.x = at.x + stagger(lattice, cell.j) * k;
-    if (scene.rotated) at = to_display(scene.lattice, at.x, at.y);
+    if (!plain && scene.rotated) at = to_display(scene.lattice, at.x, at.y);
     return {F(base.column_rest) + at.x, F(base.row_rest) - at.y, weight, alive, cell};
 }
 

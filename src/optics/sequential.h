@@ -123,27 +123,30 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<
     }
     way.cell = cell_at(lattice_of<shapes>(scene), x, y);
     Hit<F> hit = meet_first<shapes>(scene, ray, way.cell);
-    hit.ok = hit.ok && extent.holds(way.cell);
+    hit.ok = both(hit.ok, extent.holds(way.cell));
     if (!are_plano_convex<shapes> && scene.dimple) {  // the entrance is the rim's circle or cell
         const Place<F> axis = axis_of(scene.lattice, way.cell);
         const F lx = x - axis.x, ly = across(scene.lattice, y - axis.y), r = F(first.semi_aperture);
         hit.ok = hit.ok && (lx * lx + ly * ly <= r * r);
     } else if (are_plano_convex<shapes> || scene.zone_top > scene.zone_bottom) {
         const F kd = F(scene.zone_bottom - scene.zone_top) * fall;
-        Mask<F> astray =
-            way.alive && !hit.ok &&
-            may_meet_neighbours(lattice_of<shapes>(scene), way.cell, x, y, ray.to.x * kd, ray.to.y * kd, F(first.semi_aperture));
-        if (any(astray)) astray = astray && may_enter(scene, extent, way.cell, x + ray.to.x * kd, y + ray.to.y * kd);
-        if (any(astray)) {
-            Hit<F> found = hit;
-            Cell<F> cell = way.cell;
-            const Ray<F> from = ray;
-            meet_neighbours<shapes>(scene, extent, from, x, y, -(ray.to.x * fall), -(ray.to.y * fall), astray, found, cell);
-            hit = found;
-            way.cell = cell;
+        Mask<F> astray = both(way.alive, !hit.ok);
+        if (LaneTraits<F>::width > 1 || any(astray)) {
+            astray = both(astray, may_meet_neighbours(lattice_of<shapes>(scene), way.cell, x, y, ray.to.x * kd, ray.to.y * kd,
+                                                      F(first.semi_aperture)));
+            if (any(astray)) astray = both(astray, may_enter(scene, extent, way.cell, x + ray.to.x * kd, y + ray.to.y * kd));
+            if (any(astray)) {
+                Hit<F> found = hit;
+                Cell<F> cell = way.cell;
+                const Ray<F> from = ray;
+                meet_neighbours<shapes>(scene, extent, from, x, y, -(ray.to.x * fall), -(ray.to.y * fall), astray, found, cell);
+                hit = found;
+                hit.ok = both(found.ok, way.alive);  // else it would be kept in memory
+                way.cell = cell;
+            }
         }
     }
-    way.alive = way.alive && hit.ok;
+    way.alive = both(way.alive, hit.ok);
     return hit;
 }
 
@@ -190,7 +193,8 @@ LFDSIM_FN PanelPoint<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent
     }
     if (shapes != Shapes::plain && scene.emission_exponent != S(0))
         way.weight = way.weight * power(-way.ray.to.z, scene.emission_exponent);
-    return panel_point(scene, lattice_of<shapes>(scene), base, way.cell, end.x, end.y, way.weight, way.alive);
+    return panel_point<shapes == Shapes::plain>(scene, lattice_of<shapes>(scene), base, way.cell, end.x, end.y, way.weight,
+                                                way.alive);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -65,7 +65,7 @@ LFDSIM_FN Hit<F> meet_sphere(const Surface& surface, Ray<F> ray) {
     const F x = ray.at.x + ray.to.x * t, y = ray.at.y + ray.to.y * t, z = ray.to.z * t;
     const F cz = c * z;
     Hit<F> hit{{x, y, z}, {-(c * x), -(c * y), F(1) - cz}, cosine, cos2, {}};
-    hit.ok = (cos2 > F(0)) && (cz <= F(surface.c_rim));
+    hit.ok = both(cos2 > F(0), cz <= F(surface.c_rim));
     return hit;
 }
 

@@ -135,17 +135,17 @@ inline void for_all_ways(const Do& do_it) {
 
 /// Moves a ray in the first plane, with its direction after the diffuser, to the vertex plane of the first surfaces, and turns its
 /// direction into the array's frame.
-template <class F>
+template <bool plain = false, class F>
 LFDSIM_FN void to_first_vertex(const Scene<Scalar<F>>& scene, Passage<F>& way) {
     using S = Scalar<F>;
     Vec3<F>&at = way.ray.at, &to = way.ray.to;
     way.alive = way.alive && (to.z < F(S(-1e-9)));
-    if (scene.rotated) {
+    if (!plain && scene.rotated) {
         const Place<F> turned = to_array(scene.lattice, to.x, to.y);
         to.x = turned.x;
         to.y = turned.y;
     }
-    if (scene.start_above != S(0)) {
+    if (plain || scene.start_above != S(0)) {
         const F t = quotient(F(-scene.start_above), to.z);
         at.x = at.x + to.x * t;
         at.y = at.y + to.y * t;
@@ -172,7 +172,7 @@ LFDSIM_FN PanelPoint<F> trace_array(const Scene<Scalar<F>>& scene, const Extent<
                                                           : Shapes::all;
     assume<shapes>(scene);
     Passage<F> way{ray, {F(0), F(0)}, F(1), alive};
-    to_first_vertex(scene, way);
+    to_first_vertex<through == Way::plain>(scene, way);
     if constexpr (through == Way::glass) {
         return trace_glass(scene, extent, base, way);
     } else if constexpr (through == Way::placed_plano_convex || through == Way::placed_opaque) {

@@ -23,6 +23,7 @@ __device__ __forceinline__ void sample(const Scene<float>& scene, const View& vi
                                            const float* texels, std::uint32_t count, float* out) {                              \
         sample<Way::way>(scene, view, directions, pixels[threadIdx.x], texels, count, out);                                     \
     }
+PROBE(plain)
 PROBE(plano_convex)
 PROBE(strips)
 PROBE(staggered)

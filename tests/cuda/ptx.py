@@ -9,7 +9,7 @@ import sys
 import tempfile
 
 ARCHITECTURES = [75, 86, 90]
-WAYS = ["plano_convex", "strips", "staggered", "opaque", "ideal", "glass", "other"]
+WAYS = ["plain", "plano_convex", "strips", "staggered", "opaque", "ideal", "glass", "other"]
 
 
 def functions(ptx):
@@ -62,11 +62,13 @@ def main():
                 faults.append(f"no kernel probe_{way} in the PTX")
                 continue
             loop = loop_of(found[f"probe_{way}"])
-            divisions, roots = (sum(text in line for line in loop) for text in ("div.rn", "sqrt.rn"))
+            divisions, roots = (sum(any(t in line for t in texts) for line in loop)
+                                for texts in (("div.rn", "rcp.rn", "rcp.approx"), ("sqrt.rn", "rsqrt.approx")))
             print(f"PTX of a sample, {way}: {len(loop)} instructions in all branches, {divisions} divisions, {roots} roots")
         for name, body in found.items():
             doubles = [line.strip() for line in body.splitlines() if ".f64" in line and not line.strip().startswith(".")]
-            fused = [line.strip() for line in body.splitlines() if re.search(r"\bfma\.", line)]
+            own = re.sub(r"// begin inline asm.*?// end inline asm", "", body, flags=re.S)  # divisions' and roots' are meant
+            fused = [line.strip() for line in own.splitlines() if re.search(r"\bfma\.", line)]
             # A camera with a pupil or a pixel filter takes the view's doubles to single precision, away from the other samples.
             if doubles and "displaced" not in name:
                 faults.append(f"{name}: double precision, as in {doubles[0]}")

@@ -22,8 +22,15 @@ void check(cudaError_t result, const char* doing) {
 
 constexpr int threads = 128;  // in a thread block
 
+/// Thread blocks that a multiprocessor is to hold at once at least, which limits the registers of a step's kernel: measured on an
+/// H100 (docs/gpu.md).
+constexpr int least_blocks(Step step) {
+    return step == Step::points ? 6 : step == Step::bundles ? 4 : step == Step::pixels ? 3 : 1;
+}
+
 template <Step step, optics::Way through, bool simple>
-__global__ void __launch_bounds__(threads) step_kernel(const __grid_constant__ Frame frame, std::int64_t items) {
+__global__ void __launch_bounds__(threads, least_blocks(step))
+    step_kernel(const __grid_constant__ Frame frame, std::int64_t items) {
     const std::int64_t i = std::int64_t(blockIdx.x) * threads + threadIdx.x;
     if (i < items) wide::item<step, through, simple>(frame, i);
 }

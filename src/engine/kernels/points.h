@@ -25,30 +25,29 @@ LFDSIM_FN optics::Light<F> gather_one(const Tile& tile, const optics::PixelRays<
     const optics::Scene<float>& scene = *tile.scene;
     optics::Sampler<F> sampler(sobol ? Sampling::sobol : tile.sampling, through == optics::Way::plain ? 2 : tile.dimensions,
                                tile.view->seed, pixel);
-    optics::Light<F> total, block, even;
-    const std::uint32_t paired = tile.samples & ~1u;
+    optics::Light<F> total, block;
+    for (std::uint32_t sample = 0; sample < tile.samples; sample += 2) {
+        optics::Light<F> pair;
+        const std::uint32_t end = optics::min(sample + 2, tile.samples);
 #ifdef __CUDACC__
 #pragma unroll 1
 #endif
-    for (std::uint32_t sample = 0; sample < tile.samples; ++sample) {
-        const optics::Fetch<F> fetch(optics::trace<through>(scene, *tile.view, pixels, sampler));
-        optics::Light<F> light;
-        if constexpr (through == optics::Way::plain)
-            light = optics::Light<F>::of(tile.texels, fetch);
-        else
-            light.add(scene.emission, tile.texels, fetch);
-        sampler.next(*tile.directions);
-        if (sample >= paired) {  // the last of an odd number
-            total.add(light);
-        } else if (sample % 2 == 0) {
-            even = light;
-        } else {
-            even.add(light);
-            block.add(even);
-            if ((sample + 1) % block_samples == 0 || sample + 1 == paired) {
-                total.add(block);
-                block = {};
-            }
+        for (std::uint32_t k = sample; k < end; ++k) {
+            const optics::Fetch<F> fetch(optics::trace<through>(scene, *tile.view, pixels, sampler));
+            if constexpr (through == optics::Way::plain)
+                pair.add(tile.texels, fetch);
+            else
+                pair.add(scene.emission, tile.texels, fetch);
+            sampler.next(*tile.directions);
+        }
+        if (end == sample + 1) {  // the last of an odd number
+            total.add(pair);
+            break;
+        }
+        block.add(pair);
+        if (end % block_samples == 0 || end + 1 >= tile.samples) {
+            total.add(block);
+            block = {};
         }
     }
     return total;

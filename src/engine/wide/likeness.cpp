@@ -8,7 +8,7 @@ namespace lfdsim::wide {
 
 namespace {
 
-constexpr int rows_at_once = 256;  // of moments: thousands of items, and 32 bytes a pixel for these rows alone
+constexpr int rows_at_once = 256;  // of moments: many thousands of items, and 32 bytes a pixel for these rows alone
 
 std::size_t pixels_of(const Image& image) { return std::size_t(image.width) * std::size_t(image.height); }
 std::size_t chunks_of(int width) { return std::size_t((width + columns_at_once - 1) / columns_at_once); }
@@ -48,7 +48,7 @@ std::size_t Photograph::bytes(const Image& photograph) { return pixels_of(photog
 
 std::size_t Comparison::bytes(int width, int height) {
     const std::size_t w = std::size_t(width), h = std::size_t(height);
-    return w * h * sizeof(float) + w * rows_at_once * (moments + 1) * sizeof(double) +
+    return w * h * (sizeof(float) + sizeof(double)) + w * rows_at_once * moments * sizeof(double) +
            likeness_sums * h * (chunks_of(width) + 1) * sizeof(double);
 }
 
@@ -68,7 +68,7 @@ Comparison::Comparison(Queue& queue, const Photograph& photograph, const Region&
     columns_ = uploaded(queue, columns);
     view_code_ = Buffer<float>(queue, w * h);
     moments_ = Buffer<double>(queue, w * rows_at_once * moments);
-    values_ = Buffer<double>(queue, w * rows_at_once);
+    values_ = Buffer<double>(queue, w * h);
     parts_ = Buffer<double>(queue, likeness_sums * h * chunks_of(width));
     sums_ = Buffer<double>(queue, likeness_sums * h);
     frame_.width = width;
@@ -96,8 +96,8 @@ Likeness Comparison::with(const float* view, float gain) {
         frame.row_count = std::min(rows_at_once, frame.height - row);
         queue_.run(LikenessStep::moments, frame, frame.row_count * width);
         queue_.run(LikenessStep::values, frame, frame.row_count * width);
-        queue_.run(LikenessStep::windows, frame, frame.row_count * chunks);
     }
+    queue_.run(LikenessStep::windows, frame, height * chunks);
     queue_.run(LikenessStep::cover, frame, height * chunks);
     queue_.run(LikenessStep::rows, frame, likeness_sums * height);
 

@@ -12,7 +12,7 @@ enum class LikenessStep {
     view,        // a pixel of the view: its luma
     moments,     // a pixel of the rows at hand: the windows' sums down its column
     values,      // a pixel of the rows at hand: SSIM of its window
-    windows,     // columns_at_once pixels of the rows at hand: sums of SSIM
+    windows,     // columns_at_once pixels: sums of SSIM
     cover,       // columns_at_once pixels: sums for the covered share
     rows         // one of the sums, of a row
 };
@@ -32,7 +32,7 @@ struct LikenessFrame {
     const Region::Row* columns;
     std::int32_t first_row, row_count;  // the rows at hand
     double* moments;                    // [moments][row_count][width]
-    double* values;                     // [row_count][width]
+    double* values;                     // [height][width]
     double *parts, *sums;               // [likeness_sums][height][chunks of columns]; [likeness_sums][height]
 };
 

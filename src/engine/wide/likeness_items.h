@@ -38,12 +38,13 @@ LFDSIM_FN void value_item(const LikenessFrame& f, std::int64_t i) {
     const std::int64_t each = std::int64_t(f.row_count) * f.width;
     const double* const v = f.moments + i - ssim_border;
     const auto across = [&](int moment) { return weighted(f.weights, [&](int k) { return v[moment * each + k]; }); };
-    f.values[i] = ssim_value(across(of_a), across(of_b), across(of_squares), across(of_product));
+    f.values[std::int64_t(f.first_row) * f.width + i] =
+        ssim_value(across(of_a), across(of_b), across(of_squares), across(of_product));
 }
 
 LFDSIM_FN void window_item(const LikenessFrame& f, std::int64_t i) {
-    const std::int32_t chunk = std::int32_t(i % chunks_of(f)), row = std::int32_t(i / chunks_of(f)), y = f.first_row + row;
-    const double* const value = f.values + std::int64_t(row) * f.width;
+    const std::int32_t chunk = std::int32_t(i % chunks_of(f)), y = std::int32_t(i / chunks_of(f));
+    const double* const value = f.values + std::int64_t(y) * f.width;
     for (int region = 0; region < likeness_regions; ++region) {
         const Region::Row columns = in_chunk(f.columns[std::int64_t(region) * f.height + y], chunk);
         double sum = 0;
