@@ -24,17 +24,20 @@ struct Passage {
 /// that lens's in rows and columns, with plain light (for_plain_facts) or any; as strips, and in staggered rows; any of revolution
 /// in rows and columns; all of them in all lattices, glued too. All but the last have air under them. For triangles in place of
 /// surfaces (src/meshed) the caller supplies meet_mesh(scene, k, ray).
-enum class Shapes { plain, plano_convex, plano_convex_strips, plano_convex_staggered, any, all, meshed };
+enum class Shapes { plain, plain_schlick, plano_convex, plano_convex_strips, plano_convex_staggered, any, all, meshed };
 
 template <Shapes shapes>
-constexpr bool are_plano_convex = shapes == Shapes::plain || shapes == Shapes::plano_convex ||
-                                  shapes == Shapes::plano_convex_strips || shapes == Shapes::plano_convex_staggered;
+constexpr bool are_plain = shapes == Shapes::plain || shapes == Shapes::plain_schlick;
+
+template <Shapes shapes>
+constexpr bool are_plano_convex = are_plain<shapes> || shapes == Shapes::plano_convex || shapes == Shapes::plano_convex_strips ||
+                                  shapes == Shapes::plano_convex_staggered;
 
 /// Air is under the lenses, whose lattice is known.
 template <Shapes shapes>
 constexpr bool are_known = are_plano_convex<shapes> || shapes == Shapes::any;
 
-/// What most displays and cameras have in common.
+/// What most displays and cameras have in common. (Shapes::plain_schlick has Schlick's equation, too.)
 template <class S, class Fact>
 LFDSIM_FN void for_plain_facts(const Scene<S>& scene, const Fact& fact) {
     fact(!scene.box_filter);
@@ -42,7 +45,6 @@ LFDSIM_FN void for_plain_facts(const Scene<S>& scene, const Fact& fact) {
     fact(scene.has_diffuser && scene.start_above != S(0));
     fact(!scene.rotated);
     fact(scene.diffuser_profile == Profile::box);
-    fact(scene.fresnel == Fresnel::schlick);
     fact(scene.emission_exponent == S(0));
     fact(scene.emission.whole);
     fact(scene.aperture == Aperture::circle);
@@ -139,7 +141,7 @@ LFDSIM_FN Hit<F> meet(const Scene<Scalar<F>>& scene, int k, Ray<F> in_vertex_pla
 /// Within the walls of its cell? Those of a round lens are its surfaces' semi-apertures, which `ok` has tested.
 template <Shapes shapes, class F>
 LFDSIM_FN Mask<F> inside_cell(const Scene<Scalar<F>>& scene, Vec3<F> at, Mask<F> ok) {
-    if (shapes == Shapes::plain || scene.aperture == Aperture::circle) return ok;
+    if (are_plain<shapes> || scene.aperture == Aperture::circle) return ok;
     return ok && in_cell(lattice_of<shapes>(scene), at.x, at.y);
 }
 
@@ -160,8 +162,8 @@ LFDSIM_FN void refract_down(const Scene<Scalar<F>>& scene, Shape shape, const Su
     }
     way.ray.at = hit.at;
     const bool vanishes =
-        !are_known<shapes> && scene.glued && surface.media.n_above == surface.media.n_below;  // the lens's medium goes on
-    const Fresnel fresnel = shapes == Shapes::plain ? Fresnel::schlick : scene.fresnel;
+        !are_plano_convex<shapes> && scene.glued && surface.media.n_above == surface.media.n_below;  // the lens's medium goes on
+    const Fresnel fresnel = shapes == Shapes::plain_schlick ? Fresnel::schlick : scene.fresnel;
     if (fresnel != Fresnel::none && !vanishes) {
         way.weight =
             way.weight * transmittance(fresnel, F(surface.media.schlick_t0), F(surface.media.n_above), F(surface.media.n_below),

@@ -82,8 +82,10 @@ LFDSIM_FN Mask<F> may_meet_neighbours(const Lattice<Scalar<F>>& lattice, Cell<F>
         const F ux = abs(x - axis.x + ex), px = F(lattice.pitch[0]), ax = px - ux;
         return (ux > F(lattice.half_pitch[0])) && ((ax * ax <= r * r + ex * ex) || (ux > px));
     }
-    const F reach2 = r * r + (ex * ex + ey * ey);
     const F ux = abs(x - axis.x + ex), uy = abs(y - axis.y + ey), px = F(lattice.pitch[0]), py = F(lattice.pitch[1]);
+    const Mask<F> out_x = ux > F(lattice.half_pitch[0]), out_y = uy > F(lattice.half_pitch[1]);
+    if (LaneTraits<F>::width == 1 && !lattice.staggered && none(out_x || out_y)) return out_x;  // most single rays end here
+    const F reach2 = r * r + (ex * ex + ey * ey);
     if (lattice.staggered) {
         // Of the neighbours in its row, in the next one and in the one after that; beyond them any may be near.
         const F ax = ux - px, bx = ux - F(lattice.half_pitch[0]), by = uy - py, cy = by - py;
@@ -92,7 +94,6 @@ LFDSIM_FN Mask<F> may_meet_neighbours(const Lattice<Scalar<F>>& lattice, Cell<F>
         return !in_cell(lattice, ux, uy) && ((nearest <= reach2) || (ux > px) || (uy > py));
     }
     // Of the neighbour across the one border that it crosses; where it crosses more, any may be near.
-    const Mask<F> out_x = ux > F(lattice.half_pitch[0]), out_y = uy > F(lattice.half_pitch[1]);
     const F ax = min(ux, px - ux), ay = min(uy, py - uy);
     const Mask<F> near = (ax * ax + ay * ay <= reach2) || (out_x && out_y) || (ux > px) || (uy > py);
     return (out_x || out_y) && near;
@@ -191,10 +192,9 @@ LFDSIM_FN PanelPoint<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent
         const Mask<F> glued = F(scene.glued ? 1 : 0) > F(0);
         end = down_to_panel(scene, leaves, glued, way.ray.to, way.weight, way.alive);
     }
-    if (shapes != Shapes::plain && scene.emission_exponent != S(0))
+    if (!are_plain<shapes> && scene.emission_exponent != S(0))
         way.weight = way.weight * power(-way.ray.to.z, scene.emission_exponent);
-    return panel_point<shapes == Shapes::plain>(scene, lattice_of<shapes>(scene), base, way.cell, end.x, end.y, way.weight,
-                                                way.alive);
+    return panel_point<are_plain<shapes>>(scene, lattice_of<shapes>(scene), base, way.cell, end.x, end.y, way.weight, way.alive);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -11,13 +11,15 @@
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
 /// The ways through an array, one of which a display uses: chosen outside the loop over samples, so that none pays for another.
-/// Three are for plano-convex lenses, in rows and columns, as strips, and in staggered rows, the next two for rows and columns, all
-/// with air under them; `glass` is for light between the lenses; three are for arrays with errors, of which two do what
-/// `plano_convex` and `opaque` do without; `other` is for the rest. A new one takes a name here, a line in each of the functions
-/// below, and a function that traces it. `any` is all of them: it asks for the display's at each packet of rays, so that code
-/// around few rays is compiled once.
+/// Five are for plano-convex lenses: in rows and columns, with plain light (for_plain_facts) by any of Fresnel's equations or by
+/// Schlick's, or with all kinds of light; as strips; in staggered rows. The next two are for rows and columns; all these with air
+/// under them. `glass` is for light between the lenses; three are for arrays with errors, of which two do what `plano_convex` and
+/// `opaque` do without; `other` is for the rest. A new one takes a name here, a line in each of the functions below, and a function
+/// that traces it. `any` is all of them: it asks for the display's at each packet of rays, so that code around few rays is compiled
+/// once.
 enum class Way {
     plain,
+    plain_schlick,
     plano_convex,
     strips,
     staggered,
@@ -31,47 +33,52 @@ enum class Way {
     any
 };
 
+LFDSIM_BOTH constexpr bool is_plain(Way way) { return way == Way::plain || way == Way::plain_schlick; }
+
 template <class S>
 LFDSIM_FN Way way_through(const Scene<S>& scene) {
     const bool rows = !scene.lattice.strips && !scene.lattice.staggered, on_air = !scene.glued && scene.layer_count == 0;
-    const bool plain = scene.surface_count == 2 && scene.surface[0].shape == Shape::sphere &&
-                       scene.surface[1].shape == Shape::plane && !scene.has_stop && !scene.dimple;
+    const bool plano_convex = scene.surface_count == 2 && scene.surface[0].shape == Shape::sphere &&
+                              scene.surface[1].shape == Shape::plane && !scene.has_stop && !scene.dimple;
     if (scene.placement.given) {
         if (scene.thin || scene.surround != Surround::opaque || !on_air || !rows) return Way::placed;
-        return plain ? Way::placed_plano_convex : Way::placed_opaque;
+        return plano_convex ? Way::placed_plano_convex : Way::placed_opaque;
     }
     if (!scene.thin && scene.surround != Surround::opaque) return Way::glass;
     if (!on_air) return Way::other;
     if (scene.thin) return rows ? Way::ideal : Way::other;
-    if (plain && rows) {
+    if (plano_convex && rows) {
         bool all = true;
         for_plain_facts(scene, [&](bool holds) { all = all && holds; });
-        return all ? Way::plain : Way::plano_convex;
+        return !all ? Way::plano_convex : scene.fresnel == Fresnel::schlick ? Way::plain_schlick : Way::plain;
     }
-    if (plain) return scene.lattice.strips ? Way::strips : Way::staggered;
+    if (plano_convex) return scene.lattice.strips ? Way::strips : Way::staggered;
     return rows ? Way::opaque : Way::other;
+}
+
+/// The way that code is compiled for: that of the display, or, where LFDSIM_FEW_WAYS says so, the general one that has its bits.
+/// The others only know more of the display while they are compiled. The plain ones are worth their code on a GPU alone
+/// (LFDSIM_PLAIN_WAYS).
+constexpr Way compiled(Way way) {
+#ifdef LFDSIM_PLAIN_WAYS
+    if (is_plain(way)) return way;
+#else
+    if (is_plain(way)) way = Way::plano_convex;
+#endif
+#ifdef LFDSIM_FEW_WAYS
+    if (way == Way::placed_plano_convex || way == Way::placed_opaque) return Way::placed;
+    return way == Way::glass || way == Way::placed ? way : Way::other;
+#else
+    return way;
+#endif
 }
 
 /// The way of the filtered estimator on a GPU, where a call, as `any` needs it, takes registers for all that it may reach. Few rays
 /// are traced there: general ways, which have the same bits, serve.
 constexpr Way for_few_rays(Way way) {
     if (way == Way::placed_plano_convex || way == Way::placed_opaque) return Way::placed;
-    if (way == Way::plain) return Way::plano_convex;
+    if (is_plain(way)) return compiled(Way::plano_convex);
     return way == Way::plano_convex || way == Way::staggered || way == Way::glass || way == Way::placed ? way : Way::other;
-}
-
-/// The way that code is compiled for: that of the display, or, where LFDSIM_FEW_WAYS says so, the general one that has its bits.
-/// The others only know more of the display while they are compiled.
-constexpr Way compiled(Way way) {
-#ifdef LFDSIM_FEW_WAYS
-    if (way == Way::placed_plano_convex || way == Way::placed_opaque) return Way::placed;
-    return way == Way::glass || way == Way::placed ? way : Way::other;
-#else
-#ifndef LFDSIM_PLAIN_WAY
-    if (way == Way::plain) return Way::plano_convex;
-#endif
-    return way;
-#endif
 }
 
 /// do_it.operator()<way>() for the way through a display.
@@ -80,6 +87,8 @@ inline decltype(auto) with_way(const Scene<S>& scene, const Do& do_it) {
     switch (way_through(scene)) {
         case Way::plain:
             return do_it.template operator()<compiled(Way::plain)>();
+        case Way::plain_schlick:
+            return do_it.template operator()<compiled(Way::plain_schlick)>();
         case Way::plano_convex:
             return do_it.template operator()<compiled(Way::plano_convex)>();
         case Way::strips:
@@ -118,6 +127,7 @@ LFDSIM_FN decltype(auto) by_way(const Scene<S>& scene, const Do& do_it) {
 template <class Do>
 inline void for_all_ways(const Do& do_it) {
     do_it.template operator()<compiled(Way::plain)>();
+    do_it.template operator()<compiled(Way::plain_schlick)>();
     do_it.template operator()<compiled(Way::plano_convex)>();
     do_it.template operator()<compiled(Way::strips)>();
     do_it.template operator()<compiled(Way::staggered)>();
@@ -164,15 +174,16 @@ LFDSIM_FN PanelPoint<F> trace_array(const Scene<Scalar<F>>& scene, const Extent<
     if constexpr (through == Way::any) return trace_any<F>(scene, extent, base, ray, alive);
     constexpr bool plano_convex = through == Way::plano_convex || through == Way::placed_plano_convex,
                    in_rows = through == Way::opaque || through == Way::ideal || through == Way::placed_opaque;
-    constexpr Shapes shapes = through == Way::plain       ? Shapes::plain
-                              : plano_convex              ? Shapes::plano_convex
-                              : through == Way::strips    ? Shapes::plano_convex_strips
-                              : through == Way::staggered ? Shapes::plano_convex_staggered
-                              : in_rows                   ? Shapes::any
-                                                          : Shapes::all;
+    constexpr Shapes shapes = through == Way::plain           ? Shapes::plain
+                              : through == Way::plain_schlick ? Shapes::plain_schlick
+                              : plano_convex                  ? Shapes::plano_convex
+                              : through == Way::strips        ? Shapes::plano_convex_strips
+                              : through == Way::staggered     ? Shapes::plano_convex_staggered
+                              : in_rows                       ? Shapes::any
+                                                              : Shapes::all;
     assume<shapes>(scene);
     Passage<F> way{ray, {F(0), F(0)}, F(1), alive};
-    to_first_vertex<through == Way::plain>(scene, way);
+    to_first_vertex<is_plain(through)>(scene, way);
     if constexpr (through == Way::glass) {
         return trace_glass(scene, extent, base, way);
     } else if constexpr (through == Way::placed_plano_convex || through == Way::placed_opaque) {
@@ -224,9 +235,9 @@ LFDSIM_FN void sample_ray(const Scene<Scalar<F>>& scene, const View& view, const
 template <Way through, class F, class Samples>
 LFDSIM_FN PanelHit<F> trace(const Scene<Scalar<F>>& scene, const View& view, const PixelRays<F>& pixels, const Samples& sampler) {
     Ray<F> ray;
-    sample_ray<through == Way::plain>(scene, view, pixels, sampler, ray);
+    sample_ray<is_plain(through)>(scene, view, pixels, sampler, ray);
     const PanelPoint<F> point = trace_array<through>(scene, pixels.extent, pixels.base, ray, pixels.alive);
-    return panel_pixel<through == Way::plain>(scene, pixels.base, point);
+    return panel_pixel<is_plain(through)>(scene, pixels.base, point);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

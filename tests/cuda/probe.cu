@@ -24,6 +24,7 @@ __device__ __forceinline__ void sample(const Scene<float>& scene, const View& vi
         sample<Way::way>(scene, view, directions, pixels[threadIdx.x], texels, count, out);                                     \
     }
 PROBE(plain)
+PROBE(plain_schlick)
 PROBE(plano_convex)
 PROBE(strips)
 PROBE(staggered)

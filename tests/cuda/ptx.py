@@ -9,7 +9,7 @@ import sys
 import tempfile
 
 ARCHITECTURES = [75, 86, 90]
-WAYS = ["plain", "plano_convex", "strips", "staggered", "opaque", "ideal", "glass", "other"]
+WAYS = ["plain", "plain_schlick", "plano_convex", "strips", "staggered", "opaque", "ideal", "glass", "other"]
 
 
 def functions(ptx):

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <map>
 #include <new>
+#include <set>
 
 namespace lfdsim {
 
@@ -37,8 +38,9 @@ class HostQueue : public wide::Queue {
     /// From the last item to the first: no order among them is promised.
     void run(wide::Step step, const wide::Frame& frame, std::int64_t items) override {
         ++runs[step];
-        const auto item = host_kernel(step, frame).item;
-        for (std::int64_t i = items - 1; i >= 0; --i) item(frame, i);
+        const HostKernel kernel = host_kernel(step, frame);
+        ways[step].insert(kernel.way);
+        for (std::int64_t i = items - 1; i >= 0; --i) kernel.item(frame, i);
     }
     void run(wide::LikenessStep step, const wide::LikenessFrame& frame, std::int64_t items) override {
         const HostLikenessItem item = host_likeness_item(step);
@@ -50,6 +52,7 @@ class HostQueue : public wide::Queue {
     int places_per_axis(const Tile& tile) const override { return host_places_per_axis(tile); }
 
     std::map<wide::Step, int> runs;
+    std::map<wide::Step, std::set<int>> ways;  // optics::Way of the kernels
 
   private:
     std::size_t memory_, used_ = 0;

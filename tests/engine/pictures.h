@@ -171,6 +171,9 @@ inline std::vector<std::pair<std::string, Display>> every_kind() {
     all.back().second.errors = of_each_lens();
     all.back().second.errors.rotation_deg = 2;
     all.back().second.diffuser = Diffuser{40, {4, 4}, Profile::box};
+    all.emplace_back("plano-convex, schlick", example());
+    all.back().second.render.fresnel = Fresnel::schlick;
+    all.back().second.diffuser = Diffuser{40, {3, 5}, Profile::box};
     for (auto& [name, d] : all) {
         look_from(d, 20, 400);
         d.camera.position_mm[1] = 60;

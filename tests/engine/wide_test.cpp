@@ -15,6 +15,7 @@
 #include "engine/wide/render.h"
 #include "engine/work.h"
 #include "host_queue.h"
+#include "optics/trace.h"
 #include "pictures.h"
 
 namespace lfdsim {
@@ -48,6 +49,7 @@ Rendering by_cpu(const Display& d, const Texels& panel, RenderOptions options) {
 }
 
 TEST(Wide, PointsHaveTheSameBits) {
+    std::set<int> ways;
     for (auto& [name, d] : every_kind()) {
         const Texels panel = noise_panel(d);
         for (const std::int64_t samples : {1, 2, 7, 300}) {
@@ -57,8 +59,10 @@ TEST(Wide, PointsHaveTheSameBits) {
             const Rendering wide = by_host(d, panel, options, queue), cpu = by_cpu(d, panel, options);
             expect_same(wide.image, cpu.image, name);
             EXPECT_EQ(wide.samples, cpu.samples);
+            ways.merge(queue.ways[wide::Step::points]);
         }
     }
+    for (const optics::Way plain : {optics::Way::plain, optics::Way::plain_schlick}) EXPECT_TRUE(ways.contains(int(plain)));
 }
 
 TEST(Wide, FilteredHasTheSameBits) {

@@ -23,7 +23,7 @@ LFDSIM_APART optics::PanelHit<F> trace_one(const Tile& tile, const optics::Pixel
 template <optics::Way through, bool sobol>
 LFDSIM_FN optics::Light<F> gather_one(const Tile& tile, const optics::PixelRays<F>& pixels, std::uint32_t pixel) {
     const optics::Scene<float>& scene = *tile.scene;
-    optics::Sampler<F> sampler(sobol ? Sampling::sobol : tile.sampling, through == optics::Way::plain ? 2 : tile.dimensions,
+    optics::Sampler<F> sampler(sobol ? Sampling::sobol : tile.sampling, optics::is_plain(through) ? 2 : tile.dimensions,
                                tile.view->seed, pixel);
     optics::Light<F> total, block;
     for (std::uint32_t sample = 0; sample < tile.samples; sample += 2) {
@@ -34,7 +34,7 @@ LFDSIM_FN optics::Light<F> gather_one(const Tile& tile, const optics::PixelRays<
 #endif
         for (std::uint32_t k = sample; k < end; ++k) {
             const optics::Fetch<F> fetch(optics::trace<through>(scene, *tile.view, pixels, sampler));
-            if constexpr (through == optics::Way::plain)
+            if constexpr (optics::is_plain(through))
                 pair.add(tile.texels, fetch);
             else
                 pair.add(scene.emission, tile.texels, fetch);

@@ -4,7 +4,7 @@
 #ifndef LFDSIM_LANES
 #define LFDSIM_LANES 1
 #endif
-#define LFDSIM_PLAIN_WAY  // worth its code there (optics/trace.h)
+#define LFDSIM_PLAIN_WAYS  // worth their code there (optics/trace.h)
 #include "engine/wide/frame.h"
 #include "optics/lane.h"
 
