@@ -72,6 +72,7 @@ LFDSIM_FN int trailing_zeros(std::uint32_t a) {
 }
 
 #ifdef __CUDA_ARCH__
+// For inverse(), quotient() and root() below.
 LFDSIM_FN float reciprocal_estimate(float a) {
     float r;
     asm("rcp.approx.ftz.f32 %0, %1;" : "=f"(r) : "f"(a));
@@ -104,9 +105,10 @@ LFDSIM_FN auto floor_to_int(F a) {
     return to_int(floor(a));
 }
 
-// Division and root of numbers of ordinary size, as rays have: b, a / b and the root's argument are within 1e-30 .. 1e30, and a
+// Division and root of numbers of ordinary size, as rays have: a, b, a / b and the root's argument are within 1e-30 .. 1e30, and a
 // may be 0, too. Other numbers give anything: what uses it must have given up such a ray anyway. On a GPU this needs no branch for
-// other numbers. The steps are Newton's with a residual that is exact (Markstein 1990), and give the bits of IEEE 754's operations.
+// other numbers. The steps are Newton's, from an estimate, with a residual that is exact (Markstein 1990), and give the bits of
+// IEEE 754's operations (tests/cuda/arithmetic.cu).
 template <class F>
 LFDSIM_FN F inverse(F b) {
 #ifdef __CUDA_ARCH__

@@ -33,9 +33,9 @@ template <Shapes shapes>
 constexpr bool are_plano_convex = are_plain<shapes> || shapes == Shapes::plano_convex || shapes == Shapes::plano_convex_strips ||
                                   shapes == Shapes::plano_convex_staggered;
 
-/// Air is under the lenses, whose lattice is known.
+/// The lattice is known, and that air is under the lenses.
 template <Shapes shapes>
-constexpr bool are_known = are_plano_convex<shapes> || shapes == Shapes::any;
+constexpr bool know_lattice = are_plano_convex<shapes> || shapes == Shapes::any;
 
 /// What most displays and cameras have in common. (Shapes::plain_schlick has Schlick's equation, too.)
 template <class S, class Fact>
@@ -59,8 +59,8 @@ constexpr bool copies_lattice = false;
 /// The lattice as a kernel is compiled for it.
 template <Shapes shapes, class S>
 LFDSIM_FN auto lattice_of(const Scene<S>& scene)
-    -> std::conditional_t<copies_lattice && are_known<shapes>, Lattice<S>, const Lattice<S>&> {
-    if constexpr (copies_lattice && are_known<shapes>) {
+    -> std::conditional_t<copies_lattice && know_lattice<shapes>, Lattice<S>, const Lattice<S>&> {
+    if constexpr (copies_lattice && know_lattice<shapes>) {
         Lattice<S> lattice = scene.lattice;
         lattice.strips = shapes == Shapes::plano_convex_strips;
         lattice.staggered = shapes == Shapes::plano_convex_staggered;

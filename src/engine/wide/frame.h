@@ -48,9 +48,9 @@ struct Frame {
     void* even;
     std::byte* memory;
     std::size_t bytes_per_block;
-    WorkList bundles;  // block x strata of the room for a block + stratum
-    WorkList busy;     // blocks
-    std::int64_t workers;
+    WorkList bundles;      // block x strata of the room for a block + stratum
+    WorkList busy;         // blocks
+    std::int64_t workers;  // of the steps that take their work from a list
 };
 
 }  // namespace lfdsim::wide

@@ -8,7 +8,7 @@ namespace lfdsim::wide {
 
 namespace {
 
-constexpr int rows_at_once = 256;  // of moments: many thousands of items, and 32 bytes a pixel for these rows alone
+constexpr int rows_at_once = 256;  // of moments: thousands of items, and 32 bytes a pixel for these rows alone
 
 std::size_t pixels_of(const Image& image) { return std::size_t(image.width) * std::size_t(image.height); }
 std::size_t chunks_of(int width) { return std::size_t((width + columns_at_once - 1) / columns_at_once); }
