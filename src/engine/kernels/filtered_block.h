@@ -311,7 +311,7 @@ class BlockWork {
                 if (scene.leaky && scene.hole_radius > 0) return add_random_parts<through>(tile, own_pixels, seen, to.boxes);
                 return add_parts(tile, at.grids, own_pixels, seen, waiting);
             }
-            const F share = seen.share();
+            const F share = optics::max(seen.share(), F(0));
             if (optics::none(share > F(0))) return;  // what only other pixels of the block see
             const Axis(&axis)[2] = seen.grid->axis;
             if (own && cut_by_pixels(axis, seen.i, seen.j)) {

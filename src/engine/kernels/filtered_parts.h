@@ -217,7 +217,9 @@ LFDSIM_APART void add_random_parts(const Tile& tile, const OwnPixels& pixels, co
     for (int k = 0; k < n * n; ++k) {
         const Span<F> x = part_of_span(*seen.across, true, k % n, n, true), y = part_of_span(*seen.up, false, k / n, n, true);
         const optics::Box<F> box{x.low, x.high, y.low, y.high};
-        const F share = F(0.25f) * optics::area_within(*seen.corners, box);
+        // Decided for each pixel, as rounding leaves some area, of either sign, to those that see nothing of the part.
+        const F area = optics::area_within(*seen.corners, box);
+        const F share = F(0.25f) * optics::select(reaches(*seen.corners, box), optics::max(area, F(0)), F(0));
         if (optics::none(share > F(0))) continue;
         sampler.sample = (seen.number + std::uint32_t(k * max_strata * max_strata)) * 8;
         add_own_rays<through>(tile, pixels.rays, x, y, *seen.corners, Own::all, share, sampler, light);
