@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "files/display_file.h"
 #include "model/subpixels.h"
 #include "pictures.h"
 
@@ -28,6 +29,47 @@ class SameBits : public testing::TestWithParam<std::size_t> {
     Texels panel;
     Image reference;
 };
+// Drawn at random: rounding leaves an area to pixels that see nothing of a stratum between hexagonal caps.
+TEST(SameBitsFiltered, OfPixelsThatSeeNothingOfAStratum) {
+    const Display d = parse_display(R"(schema = 1
+[panel]
+pixels = [444, 446]
+pixel_pitch_mm = 0.0049657679630832376
+emission_exponent = 1.0
+[lens]
+type = "plano_convex"
+sphere_radius_mm = 0.7096791382412391
+aperture_radius_mm = 0.21913048504719196
+index = 1.456550629861797
+cylinder_height_mm = 0.05432976349567394
+[array]
+lattice = "hexagon"
+pitch_mm = 0.4382609700943839
+gap_mm = 1.5507798049220143
+surround = "plate"
+count = [5, 6]
+[camera]
+position_mm = [0.0, 0.0, 747.2657915518434]
+resolution = [160, 100]
+[render]
+fresnel = "schlick"
+seed = 138
+estimator = "filtered"
+samples = 4
+[diffuser]
+distance_mm = 10.447149037967447
+angle_deg = [0.9649901635789994, 3.000698120286697]
+)",
+                                    "drawn");
+    const Texels panel = noise_panel(d);
+    const Image reference = picture(d, panel, {1, "scalar", {}});
+    for (const KernelInfo& kernel : kernels()) {
+        if (!kernel.available) continue;
+        const Image image = picture(d, panel, {1, kernel.name, {}});
+        EXPECT_EQ(0, std::memcmp(image.rgb.data(), reference.rgb.data(), image.rgb.size() * sizeof(float))) << kernel.name;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(EveryKind, SameBits, testing::Range(std::size_t(0), every_kind().size()));
 
 TEST_P(SameBits, OnEveryKernelAndNumberOfThreads) {
