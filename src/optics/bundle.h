@@ -10,8 +10,8 @@
 // positions on the panel are columns and rows, in panel pixels from where that axis meets the panel (PanelBase). The method is ray
 // differentials by finite differences (Igehy 1999); docs/model.md, "Filtered estimator", and docs/design.md explain it.
 #pragma once
+#include "optics/boxes.h"
 #include "optics/filtered_limits.h"
-#include "optics/footprint.h"
 #include "optics/strata.h"
 #include "optics/trace.h"
 
@@ -342,8 +342,10 @@ struct ProbeBoxes {
     LFDSIM_FN void look(const Probes<S>& probes, const PanelLevels& levels, const PanelBase<S>& base, S column, S row,
                         S (&light)[most_probes][4]) const {
         for (int p = 0; p < most_probes; p += LaneTraits<F>::width)
-            light_of_boxes(levels, base, load<F>(probes.column + p) + F(column), load<F>(probes.row + p) + F(row),
-                           load<F>(width + p), load<F>(height + p), load<F>(weight + p), light + p);
+            light_of_boxes(levels, base,
+                           Boxes<F>{load<F>(probes.column + p) + F(column), load<F>(probes.row + p) + F(row), load<F>(width + p),
+                                    load<F>(height + p), load<F>(weight + p)},
+                           light + p);
         for (int p = 0; p < most_probes; ++p) light[p][3] = probes.in[p];
     }
 };

@@ -26,6 +26,8 @@ struct LaneTraits {
         return *from;
     }
     static LFDSIM_FN void store(F a, F* to) { *to = a; }
+    /// The first of a pair of numbers for each lane, of pairs that begin at `from`.
+    static LFDSIM_FN F gather_pairs(const F* from, std::uint32_t pair) { return from[std::size_t(pair) * 2]; }
     static LFDSIM_FN void load_rows(const F* from, const std::uint32_t* row, F (&to)[4]) {
         for (int k = 0; k < 4; ++k) to[k] = from[std::size_t(row[0]) * 4 + std::size_t(k)];
     }

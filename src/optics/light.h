@@ -19,6 +19,11 @@ struct Fetch {
     Fetch() = default;
     LFDSIM_FN explicit Fetch(const PanelHit<F>& hit)
         : place(select(hit.lit, hit.pixel, Uint<F>(0u)) << shift), weight(select(hit.lit, hit.weight, F(0))) {}
+
+    /// One colour of the texels, times their weights.
+    LFDSIM_FN F light_of(const float* texels, int colour) const {
+        return LaneTraits<F>::gather_pairs(texels + colour, place << (1 - shift)) * weight;
+    }
 };
 
 /// The light of subpixels, one of which each ray of a packet meets: R, G, B and an unused number of each lane.

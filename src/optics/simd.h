@@ -81,6 +81,17 @@ struct LaneTraits<Lane<N>> {
         return value;
     }
     static LFDSIM_FN void store(Lane<N> a, float* to) { __builtin_memcpy(to, &a.v, sizeof a.v); }
+    static LFDSIM_FN Lane<N> gather_pairs(const float* from, Uint pair) {
+#if defined(__AVX512F__)
+        return (typename Vectors<N>::Float)_mm512_i32gather_ps((__m512i)pair.v, from, 8);
+#elif defined(__AVX2__)
+        return (typename Vectors<N>::Float)_mm256_i32gather_ps(from, (__m256i)pair.v, 8);
+#else
+        Lane<N> to;
+        for (int k = 0; k < N; ++k) to.v[k] = from[std::size_t(pair.v[k]) * 2];
+        return to;
+#endif
+    }
     // A row of four is read into a quarter of a register, and the quarters' rows become columns.
     static LFDSIM_FN void load_rows(const float* from, const std::uint32_t* row, Lane<N> (&to)[4]) {
         typename Vectors<N>::Float rows[4];

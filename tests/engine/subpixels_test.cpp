@@ -6,7 +6,7 @@
 #include "../model/panels.h"
 #include "engine/scene.h"
 #include "model/keys.h"
-#include "optics/footprint.h"
+#include "optics/boxes.h"
 #include "pictures.h"
 
 namespace lfdsim {
@@ -107,7 +107,8 @@ void expect_means_of_points(const Display& d, std::array<double, 2> from, std::a
         const double wide = random(0.05, 1), high = random(0.05, 1), x = random(from[0], to[0]), y = random(from[1], to[1]);
         const optics::PanelBase<float> base{std::uint32_t(40), std::uint32_t(30), 0, 0};
         float light[1][4];
-        optics::light_of_boxes<float>(read, base, float(x - 40), float(y - 30), float(wide), float(high), 1.0f, light);
+        optics::light_of_boxes(read, base, optics::Boxes<float>{float(x - 40), float(y - 30), float(wide), float(high), 1.0f},
+                               light);
         optics::Light<float> same;
         optics::add_subpixels<float>(read, base, float(wide), float(high), float(x - 40), float(y - 30), 1.0f, same);
         constexpr int points = 64;

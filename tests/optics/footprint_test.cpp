@@ -6,7 +6,7 @@
 
 #include "engine/pyramid.h"
 #include "example.h"
-#include "optics/footprint.h"
+#include "optics/boxes.h"
 
 namespace lfdsim::optics {
 namespace {
@@ -28,7 +28,7 @@ std::array<float, 4> light_of(const Pyramid& pyramid, double column, double row,
     float light[1][4];
     static const Emission<float> whole{true, 0, {}};
     const PanelLevels levels{pyramid.levels().data(), int(pyramid.levels().size()), false, true, &whole};
-    light_of_boxes<float>(levels, base, float(column - 40), float(row - 30), float(wide), float(high), 1.0f, light);
+    light_of_boxes(levels, base, Boxes<float>{float(column - 40), float(row - 30), float(wide), float(high), 1.0f}, light);
     return {light[0][0], light[0][1], light[0][2], light[0][3]};
 }
 

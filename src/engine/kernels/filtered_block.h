@@ -270,7 +270,8 @@ class BlockWork {
                                     optics::Light<F>& light) const {
         if (small) return optics::add_subpixels(tile.levels, at.block.lens.panel, b.width, b.height, column, row, weight, light);
         S in_box[Packet::lanes][4];
-        optics::light_of_boxes(tile.levels, at.block.lens.panel, column, row, F(b.width), F(b.height), weight, in_box);
+        optics::light_of_boxes(tile.levels, at.block.lens.panel, optics::Boxes<F>{column, row, F(b.width), F(b.height), weight},
+                               in_box);
         light.add(in_box);
     }
 

@@ -8,9 +8,9 @@
 #pragma once
 #include "engine/kernel.h"
 #include "engine/kernels/filtered_axis.h"
+#include "optics/boxes.h"
 #include "optics/bundle.h"
 #include "optics/filtered_limits.h"
-#include "optics/footprint.h"
 #include "optics/outline.h"
 #include "optics/strata.h"
 #include "optics/trace.h"
@@ -129,7 +129,8 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
                 high = F(4) * (optics::abs(across_r) + optics::abs(along_r));
         const F column = one.column + across_c * to_a + along_c * to_b, row = one.row + across_r * to_a + along_r * to_b;
         S in_box[optics::LaneTraits<F>::width][4];
-        optics::light_of_boxes(tile.levels, pixels.base, column, row, wide, high, optics::select(together, weight, F(0)), in_box);
+        optics::light_of_boxes(tile.levels, pixels.base,
+                               optics::Boxes<F>{column, row, wide, high, optics::select(together, weight, F(0))}, in_box);
         light.add(in_box);
         one.alive = one.alive && !together;
     }
@@ -208,8 +209,10 @@ class WaitingRays {
                 high = high + optics::select(lit, up * up, none);
             }
             S in_box[optics::LaneTraits<F>::width][4];
-            optics::light_of_boxes(tile.levels, pixels.base, end[p].column, end[p].row, optics::sqrt(wide), optics::sqrt(high),
-                                   optics::select(rays.counts[p] && end[p].alive, rays.weight * end[p].weight, none), in_box);
+            const F weight = optics::select(rays.counts[p] && end[p].alive, rays.weight * end[p].weight, none);
+            optics::light_of_boxes(tile.levels, pixels.base,
+                                   optics::Boxes<F>{end[p].column, end[p].row, optics::sqrt(wide), optics::sqrt(high), weight},
+                                   in_box);
             light.add(in_box);
         }
         waits = none > none;
