@@ -269,32 +269,24 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
     // Compares the picture's pixels, projected along the line of sight onto the diffuser's plane, with a lens pitch and with what a
     // diffused ray spans in the plane of the holes; mm.
     const double pixel = view.pixel_mm * std::abs((view.position[2] - view.start_z) / (view.forward[2] * view.distance));
-    double seen = std::min(scene.lattice.pitch[0], scene.lattice.pitch[1]);
+    const double seen = std::min(scene.lattice.pitch[0], scene.lattice.pitch[1]);
     // Without a diffuser pixels share a block's list of lenses and what the pupil spreads.
     const int many = 16 * pixel < seen ? 16 : 8 * pixel < 4 * seen ? 8 : 4;
-    const bool divides_pupil = converges || moves_by_pupil(scene, view);
-    if (!scene.has_diffuser) return {many, {true, true, false, divides_pupil}};
+    // A pupil in cells is seen through each lens as it is, but less of what else spreads light hides how few the cells are: the
+    // gaps of a panel with subpixels ask for more, or for a box that stays wide.
+    const bool whole = scene.emission.whole, moves_pupil = moves_by_pupil(scene, view);
+    const int enough = whole ? few_strata : 2 * few_strata;
+    if (!scene.has_diffuser) return {many, {true, true, false, converges || (moves_pupil && strata > enough)}};
     double span[2];
     bool weak = true;
     for (int k = 0; k < 2; ++k) {
         span[k] = 2 * double(scene.holes_below[k]) * std::tan(std::min(double(scene.half_angle[k]), 1.5));
         weak = weak && span[k] < L::weak_span * pixel && span[k] < L::weak * double(scene.lattice.pitch[k]);
     }
-    // Lens by lens, pixels behind a weak diffuser share a block's list of lenses too, and parts of it what the camera spreads.
-    if (weak && scene.by_lens) {
-        const double diffused = std::max(span[0], span[1]);
-        // Edges of holes are taken as straight; an oblique view makes pixels wider.
-        const bool straight = scene.hole_radius == 0 || 2 * pixel < L::straight * double(scene.hole_radius);
-        const bool of_pixel = scene.box_filter && straight && diffused < pixel;
-        // One box is a poor bell, and no box is right to the last. But a round hole that cuts the diffuser's angles has one place.
-        const bool moves = of_pixel || scene.hole_radius == 0;
-        const bool bell = of_pixel && scene.diffuser_profile == Profile::gaussian;
-        const bool divides_other = converges || bell || strata > 2 * few_strata;
-        const int few = 8 * pixel < seen ? 8 : 4;
-        return {of_pixel ? many : few, {weak, of_pixel, moves && divides_other, moves && divides_pupil}};
-    }
+    double least_seen = seen;
     bool moving = weak;
-    for (int k = 0; k < 2 && !weak; ++k) span[k] > L::moving_span* pixel ? seen = std::min(seen, span[k]) : moving = true;
+    for (int k = 0; k < 2 && !weak; ++k)
+        span[k] > L::moving_span* pixel ? least_seen = std::min(least_seen, span[k]) : moving = true;
     // Many strata ask for a fine picture, in which nonlinear motion over a block would show. Where strata move with the pixels, the
     // edges of lenses, where bundles break, are sharp in the picture.
     const double wide = strata > 2 * few_strata ? L::block_finest
@@ -303,7 +295,22 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
                         : rough                 ? L::block_rough
                                                 : L::block_usual;
     const double half_as_wide = std::min(2 * wide, rough ? L::half_block_rough : L::half_block_usual);
-    return {16 * pixel < wide * seen ? 16 : 8 * pixel < half_as_wide * seen ? 8 : 4, {weak, false, false, false}};
+    const int side = 16 * pixel < wide * least_seen ? 16 : 8 * pixel < half_as_wide * least_seen ? 8 : 4;
+    if (!scene.by_lens || !(weak || side == 4)) return {side, {weak, false, false, false}};
+
+    // Lens by lens, pixels behind a weak diffuser share a block's list of lenses too, and parts of it what the camera spreads. So
+    // do those so coarse that a bundle would be shared by no more of them than it has rays.
+    const double diffused = std::max(span[0], span[1]);
+    // Edges of holes are taken as straight; an oblique view makes pixels wider.
+    const bool straight = scene.hole_radius == 0 || 2 * pixel < L::straight * double(scene.hole_radius);
+    const bool of_pixel = scene.box_filter && straight && diffused < pixel;
+    // One box is a poor bell, and no box is right to the last. But a round hole that cuts the diffuser's angles has one place.
+    const bool moves = of_pixel || scene.hole_radius == 0;
+    const bool bell = of_pixel && scene.diffuser_profile == Profile::gaussian;
+    const bool divides_other = converges || bell || strata > 2 * few_strata;
+    const int few = 8 * pixel < seen ? 8 : 4;
+    const bool divides_pupil = converges || (moves_pupil && (whole || !divides_other));
+    return {of_pixel ? many : few, {true, of_pixel, moves && divides_other, moves && divides_pupil}};
 }
 
 const optics::DirectionNumbers& sobol_directions() {

@@ -1,5 +1,6 @@
 // The mean light of the panel over boxes that differ from pixel to pixel. Floor 1.
 #pragma once
+#include "optics/filtered_limits.h"
 #include "optics/footprint.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
@@ -11,6 +12,20 @@ struct Boxes {
     F column, row, wide, high, weight;
 };
 
+/// How far light spreads on the panel: twelve times the variances of column and row, and their covariance. Those of an upright box
+/// are its width and its height squared, and 0; and how much of it is such a box.
+template <class F>
+struct PanelSpread {
+    F wide2, high2, lean2, box_wide2, box_high2;
+
+    /// Adds what spreads evenly over so many columns and rows at once; of its variance a share.
+    LFDSIM_FN void add(F columns, F rows, F share = F(1)) {
+        wide2 = wide2 + share * columns * columns;
+        high2 = high2 + share * rows * rows;
+        lean2 = lean2 + share * columns * rows;
+    }
+};
+
 /// The least level whose cells are at least `size` panel pixels wide, or the last one.
 template <class F>
 LFDSIM_FN Uint<F> level_of(F size, int count) {
@@ -19,8 +34,8 @@ LFDSIM_FN Uint<F> level_of(F size, int count) {
     return select(fitting < top, fitting, top);
 }
 
-/// Four texels make up a box's light, the n-th by its share; all lanes read one level.
-template <class F>
+/// So many texels make up a box's light, the n-th by its share; all lanes read one level.
+template <class F, int count>
 class TexelsOfALevel {
   public:
     LFDSIM_FN explicit TexelsOfALevel(const PanelLevel& level) : texels_(level.texels) {}
@@ -40,11 +55,11 @@ class TexelsOfALevel {
 
   private:
     const float* texels_;
-    Fetch<F> cell_[4];
+    Fetch<F> cell_[count];
 };
 
-/// The same of `count` texels where each lane reads a level of its own. Eight are differences of sums, pair by pair.
-template <class F, int count>
+/// The same where each lane reads a level of its own; `sums`: each texel less the one before it.
+template <class F, int count, bool sums>
 class TexelsOfLevels {
   public:
     LFDSIM_FN TexelsOfLevels(const PanelLevels& levels, Uint<F> level) {
@@ -82,104 +97,152 @@ class TexelsOfLevels {
     }
 
   private:
-    static constexpr int lanes = LaneTraits<F>::width, step = count == 8 ? 2 : 1;
+    static constexpr int lanes = LaneTraits<F>::width, step = sums ? 2 : 1;
     LFDSIM_FN const float* texel(int lane, int n) const { return texels_[lane] + std::size_t(number_[n][lane]) * 4; }
     const float* texels_[lanes];
     std::uint32_t number_[count][lanes];
     Scalar<F> share_[count][lanes];
 };
 
-/// Of boxes that are long where there are sums: at the level at which a box is at most two cells wide, of which one is read, and
-/// along its whole length. Between the sums before and after a cell the sum is linear.
+/// The cells of a level over which a box spreads along an axis, two for up to one cell, three for up to two: their numbers times
+/// `pitch`, and how much of the box lies in each. A wider box is read as if it were so wide. Positions are measured from the
+/// panel's corner in single precision: on a panel of 16384 columns accurate to 1/1000 of a pixel.
+template <class F, int count>
+struct BoxSide {
+    Uint<F> at[count];
+    Mask<F> lit[count];
+    F share[count];
+
+    /// About `place`, panel pixels from the pixel `base`, `size` wide, on a level with `scale` cells to a panel pixel; of it the
+    /// middle, `most` cells wide.
+    LFDSIM_FN BoxSide(std::uint32_t base, F place, F size, F most, F scale, Uint<F> cells, Uint<F> pitch) {
+        using S = Scalar<F>;
+        const F width = min(max(size * scale, F(S(least_box))), most),
+                first = (F(S(std::int32_t(base))) + place) * scale - F(S(0.5)) * width, whole = floor(first),
+                in_first = (whole + F(1) - first) / width;
+        const F beyond = max(F(1) - in_first, F(0));
+        share[0] = F(1) - beyond;
+        share[1] = count == 2 ? beyond : min(beyond, F(1) / width);
+        if constexpr (count == 3) share[2] = beyond - share[1];
+        const Uint<F> cell = to_int(whole);
+        for (int k = 0; k < count; ++k) {
+            const Uint<F> number = cell + Uint<F>(std::uint32_t(k));
+            lit[k] = number < cells;
+            at[k] = number * pitch;
+        }
+    }
+};
+
+/// The cells of a box with these sides.
+template <class F, int count, class Texels>
+LFDSIM_FN Texels cells_of(Texels texels, const BoxSide<F, count>& across, const BoxSide<F, count>& down, F weight) {
+    for (int n = 0; n < count * count; ++n) {
+        const int i = n % count, j = n / count;
+        texels.set(n, across.lit[i] && down.lit[j], down.at[j] + across.at[i], weight * (down.share[j] * across.share[i]));
+    }
+    return texels;
+}
+
+/// The level at which boxes so wide are at most two cells wide, and how many cells a panel pixel has there.
 template <class F>
-LFDSIM_FN TexelsOfLevels<F, 8> long_boxes(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, const Boxes<F>& box) {
+struct BoxLevel {
+    Uint<F> level;
+    F scale;
+    LFDSIM_FN BoxLevel(const PanelLevels& levels, F size)
+        : level(level_of(F(Scalar<F>(0.5)) * size, levels.count)), scale(bits_float<F>((Uint<F>(127u) - level) << 23)) {}
+    /// Of so many panel pixels.
+    LFDSIM_FN F cells(std::uint32_t pixels) const { return F(0) - floor(F(0) - F(Scalar<F>(std::int32_t(pixels))) * scale); }
+};
+
+/// Of boxes that are long where there are sums: along their whole length. Between the sums before and after a cell the sum is
+/// linear.
+template <int count, class F>
+LFDSIM_FN auto long_boxes(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, const Boxes<F>& box, F most) {
     using S = Scalar<F>;
     const bool tall = levels.tall;
-    const Uint<F> level = level_of(F(S(0.5)) * (tall ? box.wide : box.high), levels.count), one = Uint<F>(1u);
-    const F scale = bits_float<F>((Uint<F>(127u) - level) << 23), half = F(S(0.5));
-    auto cells = [&](std::uint32_t of) { return F(0) - floor(F(0) - F(S(std::int32_t(of))) * scale); };
-    const F columns = cells(levels.level[0].columns), rows = cells(levels.level[0].rows), last = tall ? rows : columns;
-    const F c = (F(S(std::int32_t(base.column))) + box.column) * scale, r = (F(S(std::int32_t(base.row))) + box.row) * scale;
-    const F across = min(max((tall ? box.wide : box.high) * scale, F(S(least_box))), F(1)),
-            length = max((tall ? box.high : box.wide) * scale, F(S(most_box)));  // shorter ones would lose the sums' digits
-    const F side = (tall ? c : r) - half * across, start = (tall ? r : c) - half * length;
-    const F line = floor(side), beyond = max(F(1) - (line + F(1) - side) / across, F(0)), per = box.weight / length;
-    const Uint<F> lines = to_int(tall ? columns : rows), pitch = to_int(tall ? columns : columns + F(1));
-    TexelsOfLevels<F, 8> texels(levels, level + Uint<F>(std::uint32_t(levels.count)));
+    const BoxLevel<F> on(levels, tall ? box.wide : box.high);
+    const F columns = on.cells(levels.level[0].columns), rows = on.cells(levels.level[0].rows), last = tall ? rows : columns;
+    const Uint<F> pitch = to_int(tall ? columns : columns + F(1)), one = Uint<F>(1u);
+    const BoxSide<F, count> lines = tall
+                                        ? BoxSide<F, count>(base.column, box.column, box.wide, most, on.scale, to_int(columns), one)
+                                        : BoxSide<F, count>(base.row, box.row, box.high, most, on.scale, to_int(rows), pitch);
+    const F middle = (F(S(std::int32_t(tall ? base.row : base.column))) + (tall ? box.row : box.column)) * on.scale,
+            length = max((tall ? box.high : box.wide) * on.scale, F(S(most_box)));  // shorter ones would lose the sums' digits
+    const F start = middle - F(S(0.5)) * length, per = box.weight / length;
+    TexelsOfLevels<F, 4 * count, true> texels(levels, on.level + Uint<F>(std::uint32_t(levels.count)));
     for (int end = 0; end < 2; ++end) {
         const F to = min(max(end == 0 ? start : start + length, F(0)), last), cell = min(floor(to), last - F(1)), rest = to - cell;
-        const Uint<F> k = to_int(cell);
-        for (int n = 0; n < 4; ++n) {
-            const Uint<F> number = to_int(line) + (n / 2 == 0 ? Uint<F>(0u) : one), sum = k + (n % 2 == 0 ? Uint<F>(0u) : one);
-            const F part = (n / 2 == 0 ? F(1) - beyond : beyond) * (n % 2 == 0 ? F(1) - rest : rest);
-            texels.set(2 * n + 1 - end, number < lines, tall ? sum * pitch + number : number * pitch + sum,
+        for (int n = 0; n < 2 * count; ++n) {
+            const Uint<F> sum = to_int(cell) + (n % 2 == 0 ? Uint<F>(0u) : one);
+            const F part = lines.share[n / 2] * (n % 2 == 0 ? F(1) - rest : rest);
+            texels.set(2 * n + 1 - end, lines.lit[n / 2], lines.at[n / 2] + (tall ? sum * pitch : sum),
                        end == 0 ? F(0) - per * part : per * part);
         }
     }
     return texels;
 }
 
-/// Of other boxes: at a level of columns x rows cells, `scale` to a panel pixel, on which none is more than two cells wide, of
-/// which one is read: the light that a coarser cell would add from outside a box is the larger error. Positions are measured from
-/// the panel's corner in single precision: on a panel of 16384 columns accurate to 1/1000 of a pixel.
-template <class F, class Texels>
-LFDSIM_FN Texels short_boxes(Texels texels, Uint<F> columns, Uint<F> rows, F scale, const PanelBase<Scalar<F>>& base,
-                             const Boxes<F>& box) {
+/// add(texels) for those of a level of its own for each lane: long boxes from sums, others from cells.
+template <int count, class F, class Add>
+LFDSIM_FN void for_levels(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, Boxes<F> box, F most, bool any_long,
+                          Add add) {
     using S = Scalar<F>;
-    const F half = F(S(0.5)), width = min(max(box.wide * scale, F(S(least_box))), F(1)),
-            height = min(max(box.high * scale, F(S(least_box))), F(1));
-    const F c = (F(S(std::int32_t(base.column))) + box.column) * scale - half * width,
-            r = (F(S(std::int32_t(base.row))) + box.row) * scale - half * height;
-    const F whole_c = floor(c), whole_r = floor(r);
-    const F right = max(F(1) - (whole_c + F(1) - c) / width, F(0)), below = max(F(1) - (whole_r + F(1) - r) / height, F(0));
-    const Uint<F> i = to_int(whole_c), j = to_int(whole_r), one = Uint<F>(1u);
-    auto cell = [&](int n, Uint<F> across, Uint<F> down, F part) {
-        texels.set(n, (across < columns) && (down < rows), down * columns + across, box.weight * part);
-    };
-    cell(0, i, j, (F(1) - below) * (F(1) - right));
-    cell(1, i + one, j, (F(1) - below) * right);
-    cell(2, i, j + one, below * (F(1) - right));
-    cell(3, i + one, j + one, below * right);
-    return texels;
-}
-
-/// add(texels) for those that make up the light of boxes of a plane, once or twice.
-template <class F, class Add>
-LFDSIM_FN void for_texels(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, Boxes<F> box, Add add) {
-    using S = Scalar<F>;
-    if (levels.sums && any((levels.tall ? box.high : box.wide) > F(S(most_box)))) {
+    if (any_long) {
         const F across = levels.tall ? box.wide : box.high, along = levels.tall ? box.high : box.wide;
         const Mask<F> lies_long = along > max(across, F(S(most_box)));
-        add(long_boxes(levels, base, Boxes<F>{box.column, box.row, box.wide, box.high, select(lies_long, box.weight, F(0))}));
+        add(long_boxes<count>(levels, base, Boxes<F>{box.column, box.row, box.wide, box.high, select(lies_long, box.weight, F(0))},
+                              most));
         box.weight = select(lies_long, F(0), box.weight);
     }
-    const F size = F(S(0.5)) * max(box.wide, box.high);  // <= 2^level
-    const PanelLevel& finest = levels.level[0];
-    if (none(size > F(1)))  // most are so small
-        return add(short_boxes(TexelsOfALevel<F>(finest), Uint<F>(finest.columns), Uint<F>(finest.rows), F(1), base, box));
-    const Uint<F> level = level_of(size, levels.count);
-    const F scale = bits_float<F>((Uint<F>(127u) - level) << 23);
-    auto cells = [&](std::uint32_t of) { return to_int(F(0) - floor(F(0) - F(S(std::int32_t(of))) * scale)); };
-    add(short_boxes(TexelsOfLevels<F, 4>(levels, level), cells(finest.columns), cells(finest.rows), scale, base, box));
+    const BoxLevel<F> on(levels, max(box.wide, box.high));
+    const Uint<F> columns = to_int(on.cells(levels.level[0].columns)), rows = to_int(on.cells(levels.level[0].rows));
+    add(cells_of(TexelsOfLevels<F, count * count, false>(levels, on.level),
+                 BoxSide<F, count>(base.column, box.column, box.wide, most, on.scale, columns, Uint<F>(1u)),
+                 BoxSide<F, count>(base.row, box.row, box.high, most, on.scale, rows, columns), box.weight));
 }
 
-/// The mean over boxes of the panel: of all that shines in them; R, G, B and an unused number of each lane.
-template <class F>
-LFDSIM_FN void light_of_boxes(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, const Boxes<F>& box,
-                              Scalar<F> (*light)[4]) {
+/// The same of the finest level.
+template <int count, class F>
+LFDSIM_FN auto finest_cells(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, const Boxes<F>& box, F most) {
+    const PanelLevel& finest = levels.level[0];
+    const Uint<F> columns = Uint<F>(finest.columns);
+    return cells_of(TexelsOfALevel<F, count * count>(finest),
+                    BoxSide<F, count>(base.column, box.column, box.wide, most, F(1), columns, Uint<F>(1u)),
+                    BoxSide<F, count>(base.row, box.row, box.high, most, F(1), Uint<F>(finest.rows), columns), box.weight);
+}
+
+/// add(texels) for those that make up the light of a plane's boxes. A box is read at the level at which it is at most two cells
+/// wide: there its middle cell's width, since a coarser cell would add light from outside, and of boxes side by side, each as wide
+/// as it is far to the next, the middles do. `fully`: all of it, by quarters where it is more than two panel pixels wide.
+template <class F, class Add>
+LFDSIM_FN void for_texels(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, const Boxes<F>& box, Mask<F> fully,
+                          Add add) {
     using S = Scalar<F>;
-    constexpr int lanes = LaneTraits<F>::width;
-    const Emission<S>& emission = *levels.emission;
-    if (emission.whole) {
-        S more[lanes][4];
-        S(*to)[4] = light;
-        return for_texels(levels, base, box, [&](const auto& texels) {
-            texels.light(to);
-            for (int n = 0; n < lanes && to == more; ++n)
-                for (int c = 0; c < 4; ++c) light[n][c] = light[n][c] + more[n][c];
-            to = more;
-        });
+    const F size = max(box.wide, box.high), one = F(1), none_of_it = F(0);
+    const bool any_long = levels.sums && any((levels.tall ? box.high : box.wide) > F(S(most_box)));
+    if (none(fully && (size > one))) {
+        if (!any_long && none(size > F(2))) return add(finest_cells<2>(levels, base, box, one));
+        return for_levels<2>(levels, base, box, one, any_long, add);
     }
+    const F most = select(fully, F(2), one);
+    if (!any_long && none(size > F(2))) return add(finest_cells<3>(levels, base, box, most));
+    const Mask<F> wide = fully && (size > F(2));
+    const F half = select(wide, F(S(0.5)), one), quarter = select(wide, F(S(0.25)), none_of_it);
+    for (int k = 0; k < 4 && (k == 0 || any(wide)); ++k) {
+        const F right = k % 2 == 0 ? -quarter : quarter, down = k < 2 ? -quarter : quarter,
+                weight = select(wide, F(S(0.25)) * box.weight, k == 0 ? box.weight : none_of_it);
+        for_levels<3>(levels, base,
+                      Boxes<F>{box.column + right * box.wide, box.row + down * box.high, half * box.wide, half * box.high, weight},
+                      most, any_long, add);
+    }
+}
+
+/// Adds the mean over boxes of a panel with subpixels, of all that shines in them: red, green and blue.
+template <class F>
+LFDSIM_FN void add_subpixels(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, const Boxes<F>& box, Mask<F> fully,
+                             F (&sum)[3]) {
+    using S = Scalar<F>;
+    const Emission<S>& emission = *levels.emission;
     const std::uint32_t number[2] = {base.column, base.row};
     const F place[2] = {box.column, box.row}, size[2] = {box.wide, box.high};
     const auto side_of = [&](const SubpixelPart<S>& part, int axis) {
@@ -188,7 +251,6 @@ LFDSIM_FN void light_of_boxes(const PanelLevels& levels, const PanelBase<Scalar<
         return side;
     };
     PlaneSide<F> side[2] = {side_of(emission.part[0], 0), side_of(emission.part[0], 1)};
-    F sum[3] = {F(0), F(0), F(0)};
     for (int k = 0; k < emission.count; ++k) {
         const SubpixelPart<S>& part = emission.part[k];
         for (int axis = 0; axis < 2 && k > 0; ++axis)
@@ -198,15 +260,75 @@ LFDSIM_FN void light_of_boxes(const PanelLevels& levels, const PanelBase<Scalar<
         from.row = side[1].base;
         const F weight = box.weight * F(part.share) * side[0].light * side[1].light;
         for_texels(plane_of(levels, part.plane), from,
-                   Boxes<F>{side[0].middle, side[1].middle, side[0].width, side[1].width, weight}, [&](const auto& texels) {
+                   Boxes<F>{side[0].middle, side[1].middle, side[0].width, side[1].width, weight}, fully, [&](const auto& texels) {
                        for (int c = 0; c < 3; ++c)
                            if (part.channel == 3 || part.channel == c) sum[c] = sum[c] + texels.light_of(c);
                    });
     }
+}
+
+/// Red, green and blue as the lanes' colours: R, G, B and an unused number.
+template <class F>
+LFDSIM_FN void by_lane(const F (&sum)[3], Scalar<F> (*light)[4]) {
+    using S = Scalar<F>;
+    constexpr int lanes = LaneTraits<F>::width;
     S colour[3][lanes];
     for (int c = 0; c < 3; ++c) store(sum[c], colour[c]);
     for (int n = 0; n < lanes; ++n)
         for (int c = 0; c < 4; ++c) light[n][c] = c < 3 ? colour[c][n] : S(0);
+}
+
+/// The mean light in boxes of the panel; R, G, B and an unused number of each lane.
+template <class F>
+LFDSIM_FN void light_of_boxes(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, const Boxes<F>& box,
+                              Scalar<F> (*light)[4], Mask<F> fully = F(0) > F(0)) {
+    using S = Scalar<F>;
+    constexpr int lanes = LaneTraits<F>::width;
+    if (!levels.emission->whole) {
+        F sum[3] = {F(0), F(0), F(0)};
+        add_subpixels(levels, base, box, fully, sum);
+        return by_lane(sum, light);
+    }
+    S more[lanes][4];
+    S(*to)[4] = light;
+    for_texels(levels, base, box, fully, [&](const auto& texels) {
+        texels.light(to);
+        for (int n = 0; n < lanes && to == more; ++n)
+            for (int c = 0; c < 4; ++c) light[n][c] = light[n][c] + more[n][c];
+        to = more;
+    });
+}
+
+/// The same over what spreads so far about the boxes' middles. Where pixels shine all over, one upright box of the same variances
+/// will do. Gaps between them tell a leaning line from such a box, and a box of one width from that of another: there `in_line`
+/// boxes share the light. They stand along the line about which light varies least, or, where a wide box hides how it leans, along
+/// a diagonal of what is added to that box.
+template <class F>
+LFDSIM_FN void light_of_spread(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, F column, F row,
+                               const PanelSpread<F>& spread, Mask<F> fully, int in_line, F weight, Scalar<F> (*light)[4]) {
+    using S = Scalar<F>;
+    const F none = F(0), one = F(1), least = F(S(least_box)), upright = F(S(FilteredLimits::upright));
+    Boxes<F> box{column, row, sqrt(spread.wide2), sqrt(spread.high2), weight};
+    if (levels.emission->whole) return light_of_boxes(levels, base, box, light, fully);
+    const F wide2 = max(spread.wide2 - spread.box_wide2, none), high2 = max(spread.high2 - spread.box_high2, none),
+            wide = sqrt(wide2), high = sqrt(high2), lean = spread.lean2 / max(max(wide, high), F(S(1e-6)));
+    const Mask<F> hidden = (spread.box_wide2 > wide2) && (spread.box_high2 > high2);
+    const F columns = select(hidden || (wide2 > high2), wide, lean), rows = select(hidden || !(wide2 > high2), high, lean);
+    const Mask<F> far = (abs(columns) > upright * max(box.wide, least)) && (abs(rows) > upright * max(box.high, least));
+    const F count = select(far, F(S(in_line)), one), per = one / count, column_step = columns * per, row_step = rows * per;
+    // They keep the variances: what lies between them is theirs.
+    const auto kept = [&](F all2, F line, F step) { return sqrt(max(all2 - line * line + step * step, none)); };
+    box.wide = select(far, kept(spread.wide2, columns, column_step), box.wide);
+    box.high = select(far, kept(spread.high2, rows, row_step), box.high);
+    F sum[3] = {none, none, none};
+    for (int k = 0; k == 0 || any(count > F(S(k))); ++k) {
+        const F at = F(S(k)) - F(S(0.5)) * (count - one);
+        box.column = column + at * column_step;
+        box.row = row + at * row_step;
+        box.weight = select(count > F(S(k)), weight * per, none);
+        add_subpixels(levels, base, box, fully, sum);
+    }
+    by_lane(sum, light);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

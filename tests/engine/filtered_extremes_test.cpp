@@ -241,8 +241,8 @@ void holds_on_every_lattice_and_camera(int drawn_displays, std::uint64_t hash) {
     EXPECT_GT(compared, drawn_displays / 5);
     EXPECT_EQ(bits.hash(), hash);
 }
-TEST(FilteredExtremes, OfEveryLatticeAndCamera) { holds_on_every_lattice_and_camera(50, 0x7e7e39bff535646c); }
-TEST(FilteredExtremes, OfEveryLatticeAndCameraAtLength) { holds_on_every_lattice_and_camera(150, 0x3c57f5b0417d8c58); }
+TEST(FilteredExtremes, OfEveryLatticeAndCamera) { holds_on_every_lattice_and_camera(50, 0x35399e7be9ea9dca); }
+TEST(FilteredExtremes, OfEveryLatticeAndCameraAtLength) { holds_on_every_lattice_and_camera(150, 0xd163f1c9dc15f8df); }
 
 }  // namespace
 }  // namespace lfdsim

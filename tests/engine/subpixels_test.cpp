@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <map>
+
 #include "../model/panels.h"
 #include "engine/scene.h"
 #include "model/keys.h"
@@ -127,6 +130,70 @@ void expect_means_of_points(const Display& d, std::array<double, 2> from, std::a
 TEST_P(OfLayout, MeansOverBoxesAreThoseOfTheirPoints) {
     const Display d = display();
     expect_means_of_points(d, {-1, -1}, {double(d.panel.pixels[0]) + 1, double(d.panel.pixels[1]) + 1});
+}
+
+/// Light spreads evenly along a line and over a box about its points, both in panel pixels.
+struct LineOfBoxes {
+    double columns, rows, wide, high;
+};
+
+/// RMS of what boxes in line, one and more, differ from the mean over points of such spreads.
+std::map<int, double> errors_of(const Display& d, double gap, std::function<LineOfBoxes(Random&)> draw) {
+    const Texels shown = noise_panel(d);
+    const Pyramid pyramid(shown);
+    const PanelReading reading{.planes = planes(d.panel)};
+    const auto& levels = pyramid.levels(reading);
+    const optics::Scene<float> scene = make_scene<float>(d, resolve(d));
+    const optics::PanelLevels read{levels.data(), int(levels.size() / reading.planes.size()), false, false, &scene.emission};
+    const optics::PanelBase<float> base{40, 30, 0, 0};
+    Random random(8);
+    std::map<int, double> squares;
+    constexpr int spreads = 200, along = 32, across = 8;
+    for (int n = 0; n < spreads; ++n) {
+        const LineOfBoxes of = draw(random);
+        const double x = random(20, 60), y = random(20, 60);
+        optics::PanelSpread<float> spread{0, 0, 0, 0, 0};
+        spread.add(float(of.wide), 0);
+        spread.add(0, float(of.high));
+        if (of.wide > gap) spread.box_wide2 = spread.wide2, spread.box_high2 = spread.high2;
+        spread.add(float(of.columns), float(of.rows));
+        for (int c = 0; c < 3; ++c) {
+            double sum = 0;
+            for (int k = 0; k < along; ++k)
+                for (int i = 0; i < across; ++i)
+                    for (int j = 0; j < across; ++j) {
+                        const double t = (k + 0.5) / along - 0.5;
+                        sum += light_at(d.panel, shown, x + t * of.columns + ((i + 0.5) / across - 0.5) * of.wide,
+                                        y + t * of.rows + ((j + 0.5) / across - 0.5) * of.high, c);
+                    }
+            for (const int in_line : {1, 2, 3}) {
+                float light[1][4];
+                optics::light_of_spread(read, base, float(x - 40), float(y - 30), spread, true, in_line, 1.0f, light);
+                const double error = light[0][c] - sum / (along * across * across);
+                squares[in_line] += error * error / (3 * spreads);
+            }
+        }
+    }
+    for (auto& [in_line, square] : squares) square = std::sqrt(square);
+    return squares;
+}
+
+TEST_P(OfLayout, BoxesInLineTellALeaningLineFromABox) {
+    const auto error = errors_of(display(), 1, [](Random& random) {
+        const double rows = random(0.4, 1), columns = rows * random(0.2, 0.5) * (random(0, 1) < 0.5 ? -1 : 1);
+        return LineOfBoxes{columns, rows, random(0.02, 0.1), random(0.02, 0.1)};
+    });
+    EXPECT_LT(error.at(2), 0.6 * error.at(1));
+    EXPECT_LT(error.at(3), 0.4 * error.at(1));
+}
+
+TEST_P(OfLayout, BoxesInLineKeepTheWidthOfAWideBox) {
+    const auto error = errors_of(display(), 0.5, [](Random& random) {
+        const double size = random(0.2, 0.4);
+        return LineOfBoxes{size, size, 1, 1};
+    });
+    EXPECT_LT(error.at(2), 0.6 * error.at(1));
+    EXPECT_LT(error.at(3), 0.4 * error.at(1));
 }
 
 // The border cuts the last cells, and of pixels on the panel there are rectangles beyond it, or on both sides of it.

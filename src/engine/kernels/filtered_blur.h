@@ -13,10 +13,10 @@ namespace {
 
 using SharedBundle = optics::SharedBundle<S>;
 
-/// What the pixel's area, or the diffuser where the square is that area, and the pupil add to the boxes of the pixels' own rays;
-/// squared widths (optics::blur).
+/// How far the pixel's area, or the diffuser where the square is that area, and the pupil spread light about the ends of the
+/// pixels' own rays.
 struct Blur {
-    S width, height;
+    optics::PanelSpread<S> on_panel;
     bool one_ray;  // a part of the square is so narrow beside them that one ray serves for four; they include its width
 };
 
@@ -43,7 +43,7 @@ LFDSIM_BOTH S turn_of_diffuser(const optics::Scene<S>& scene, const optics::Swee
 template <optics::Way through>
 LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block, int n, const Grid& grid, const Stratum& across,
                             const Stratum& up, optics::Probes<S>& rays) {
-    Blur blur{0, 0, false};
+    Blur blur{{0, 0, 0, 0, 0}, false};
     const bool of_pixel = tile.square.of_pixel;
     const optics::Scene<S>& scene = *tile.scene;
     const int squares = blurs_an_axis(tile);
@@ -99,24 +99,28 @@ LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block
         return rays.weight[0] * rays.weight[p] > S(0) && rays.cell_i[p] == rays.cell_i[0] && rays.cell_j[p] == rays.cell_j[0];
     };
     const auto widen = [&](int p, S share) {
-        const S c = rays.column[p] - rays.column[0], r = rays.row[p] - rays.row[0];
-        blur.width = blur.width + share * c * c;
-        blur.height = blur.height + share * r * r;
+        blur.on_panel.add(rays.column[p] - rays.column[0], rays.row[p] - rays.row[0], share);
     };
     // The width of a box that varies as much, in steps; squared. Of the variance, the shares that lie within cells; a pupil's are
     // mapped to a disk.
     const S diffuser = scene.diffuser_profile == Profile::box ? 4 : 6, pupil = 3;
     const S cells = S(parts_an_axis(tile) * parts_an_axis(tile)), in_other = tile.square.divides_other ? S(1) / cells : S(1),
             in_pupil = tile.square.divides_pupil ? optics::min(S(2) / cells, S(1)) : S(1);
-    for (int p = 1; p < 5; ++p)
-        if ((p < 3 ? scene.box_filter && scene.has_diffuser : scene.thin_lens) && same(p))
-            widen(p, p > 2 ? pupil * in_pupil : of_pixel ? diffuser * in_other : in_other);
+    for (int p = 1; p < 3 && scene.box_filter && scene.has_diffuser; ++p)
+        if (same(p)) widen(p, of_pixel ? diffuser * in_other : in_other);
+    if (!of_pixel || scene.diffuser_profile == Profile::box) {
+        blur.on_panel.box_wide2 = blur.on_panel.wide2;
+        blur.on_panel.box_high2 = blur.on_panel.high2;
+    }
+    for (int p = 3; p < 5 && scene.thin_lens; ++p)
+        if (same(p)) widen(p, pupil * in_pupil);
     if (!of_pixel || !same(5) || !same(6)) return blur;
     const Blur others = blur;
     widen(5, S(1) / cells);
     widen(6, S(1) / cells);
     const S most_wide = S(1 + FilteredLimits::beside * FilteredLimits::beside);
-    blur.one_ray = blur.width <= most_wide * others.width && blur.height <= most_wide * others.height;
+    blur.one_ray =
+        blur.on_panel.wide2 <= most_wide * others.on_panel.wide2 && blur.on_panel.high2 <= most_wide * others.on_panel.high2;
     return blur.one_ray ? blur : others;
 }
 

@@ -180,6 +180,10 @@ class BundleMaker {
         follow(b);
         finish();
         if (b.state == SharedBundle::State::broken) return b;
+        if (scene.by_lens && !b.still && runs_away(b)) {
+            b.state = SharedBundle::State::broken;
+            return b;
+        }
         b.state = SharedBundle::State::soft;
         // The part of an outermost stratum that a pixel sees changes over the block.
         const bool ends = axis[0].stratum[i].cut_off || axis[1].stratum[j].cut_off;
@@ -205,6 +209,13 @@ class BundleMaker {
             for (int c = 0; c < 3; ++c) b.colour[n][c] = b.colour[n][c] / in;
         }
         return b;
+    }
+
+    /// Does a soft footprint move by more than itself from node to node? Along a strip it does, as the camera's pixels do.
+    LFDSIM_BOTH static bool runs_away(const SharedBundle& b) {
+        const S step = S(FilteredLimits::node_step);
+        return step * (optics::abs(b.column_right) + optics::abs(b.column_down)) > b.width ||
+               step * (optics::abs(b.row_right) + optics::abs(b.row_down)) > b.height;
     }
 
     /// Pixels see only parts of the outermost strata. Reduces a sharp footprint, made by probes over all of stratum (i, j), to what

@@ -139,10 +139,10 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
     light.add(scene.emission, tile.texels, optics::Fetch<F>(optics::panel_pixel(scene, pixels.base, one)));
 }
 
-/// Where rays start, and what else than the square's numbers adds to the width and height of each box; squared.
+/// Where rays start, and how far light spreads about each ray's end by other than the square's numbers.
 struct Spread {
     Start start;
-    F width = F(0), height = F(0);
+    optics::PanelSpread<F> on_panel{F(0), F(0), F(0), F(0), F(0)};
     bool one_ray = false;  // so wide that one ray serves for four
 };
 
@@ -185,13 +185,15 @@ class WaitingRays {
         take(spread.start.y, with.start.y);
         take(spread.start.lens_x, with.start.lens_x);
         take(spread.start.lens_y, with.start.lens_y);
-        take(spread.width, with.width);
-        take(spread.height, with.height);
+        take(spread.on_panel.wide2, with.on_panel.wide2);
+        take(spread.on_panel.high2, with.on_panel.high2);
+        take(spread.on_panel.lean2, with.on_panel.lean2);
+        take(spread.on_panel.box_wide2, with.on_panel.box_wide2);
+        take(spread.on_panel.box_high2, with.on_panel.box_high2);
         waits = waits || seen;
     }
 
-    /// Adds the light of all that wait: the panel's mean over a box around the end of each ray, as wide as the distance to the ends
-    /// of the next ones.
+    /// Adds the light of all that wait: the panel's mean around the end of each ray, as far as to the ends of the next ones.
     LFDSIM_APART void trace() {
         if (optics::none(waits)) return;
         const F none = F(0);
@@ -199,20 +201,21 @@ class WaitingRays {
         optics::by_way<through>(*tile.scene, [&]<optics::Way way>() { trace_four<way>(tile, pixels, spread.start, rays, end); });
         for (int p = 0; p < 4; ++p) {
             if (optics::none(rays.counts[p])) continue;
-            F wide = spread.width, high = spread.height;  // squared: the spreads of two directions add up like variances
+            optics::PanelSpread<F> on_panel = spread.on_panel;  // the spreads of two directions add up
             for (int step = 1; step <= 2; ++step) {
                 const optics::PanelPoint<F>& next = end[p ^ step];
                 const optics::Mask<F> lit =
                     rays.counts[p ^ step] && next.alive && (next.cell.i == end[p].cell.i) && (next.cell.j == end[p].cell.j);
-                const F across = next.column - end[p].column, up = next.row - end[p].row;
-                wide = wide + optics::select(lit, across * across, none);
-                high = high + optics::select(lit, up * up, none);
+                on_panel.add(optics::select(lit, next.column - end[p].column, none),
+                             optics::select(lit, next.row - end[p].row, none));
             }
             S in_box[optics::LaneTraits<F>::width][4];
             const F weight = optics::select(rays.counts[p] && end[p].alive, rays.weight * end[p].weight, none);
-            optics::light_of_boxes(tile.levels, pixels.base,
-                                   optics::Boxes<F>{end[p].column, end[p].row, optics::sqrt(wide), optics::sqrt(high), weight},
-                                   in_box);
+            // Where most of a box is what other numbers spread, those of the four do not stand side by side.
+            const optics::Mask<F> fully =
+                (F(2) * spread.on_panel.wide2 > on_panel.wide2) || (F(2) * spread.on_panel.high2 > on_panel.high2);
+            const int in_line = tile.strata > 2 ? FilteredLimits::in_line : FilteredLimits::in_line_few;
+            optics::light_of_spread(tile.levels, pixels.base, end[p].column, end[p].row, on_panel, fully, in_line, weight, in_box);
             light.add(in_box);
         }
         waits = none > none;

@@ -144,8 +144,8 @@ struct OwnPixels {
 
 /// Adds the light that pixels see of a lens by rays of their own, four or one through each part of the stratum.
 /// Boxes are wider by what the numbers spread that are not the square's. Where those are divided too, the rays of a part have them
-/// in one of as many cells as there are parts, in an order in which each column and row of cells goes with each column and row of
-/// parts (an orthogonal array) and neighbouring parts have cells far from each other; boxes are wider by what a cell spreads.
+/// in one of as many cells as there are parts, in a lattice in which neighbouring parts have cells far from each other; boxes are
+/// wider by what a cell spreads.
 template <optics::Way through>
 LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const OwnPixels& pixels, const Seen& seen,
                             WaitingRays<through>& waiting) {
@@ -159,8 +159,8 @@ LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const OwnPixel
     for (int k = 0; k < all; ++k) {
         Spread spread;
         if (spreads && tile.square.weak) {
-            spread.width = F(known.width);
-            spread.height = F(known.height);
+            const optics::PanelSpread<S>& of = known.on_panel;
+            spread.on_panel = {F(of.wide2), F(of.high2), F(of.lean2), F(of.box_wide2), F(of.box_high2)};
             spread.one_ray = known.one_ray;
         }
         if (spreads && !tile.square.weak) {
