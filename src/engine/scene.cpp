@@ -272,8 +272,8 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
     const double seen = std::min(scene.lattice.pitch[0], scene.lattice.pitch[1]);
     // Without a diffuser pixels share a block's list of lenses and what the pupil spreads.
     const int many = 16 * pixel < seen ? 16 : 8 * pixel < 4 * seen ? 8 : 4;
-    // A pupil in cells is seen through each lens as it is, but less of what else spreads light hides how few the cells are: the
-    // gaps of a panel with subpixels ask for more, or for a box that stays wide.
+    // A pupil that is divided moves the lens's outline as it should, but its few cells show, most of all in the gaps of a panel
+    // with subpixels: unless there are enough of them, or a diffuser's box, itself not divided, covers those gaps.
     const bool whole = scene.emission.whole, moves_pupil = moves_by_pupil(scene, view);
     const int enough = whole ? few_strata : 2 * few_strata;
     if (!scene.has_diffuser) return {many, {true, true, false, converges || (moves_pupil && strata > enough)}};
@@ -283,10 +283,9 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
         span[k] = 2 * double(scene.holes_below[k]) * std::tan(std::min(double(scene.half_angle[k]), 1.5));
         weak = weak && span[k] < L::weak_span * pixel && span[k] < L::weak * double(scene.lattice.pitch[k]);
     }
-    double least_seen = seen;
+    double alike = seen;  // mm over which pixels of a block may see the same
     bool moving = weak;
-    for (int k = 0; k < 2 && !weak; ++k)
-        span[k] > L::moving_span* pixel ? least_seen = std::min(least_seen, span[k]) : moving = true;
+    for (int k = 0; k < 2 && !weak; ++k) span[k] > L::moving_span* pixel ? alike = std::min(alike, span[k]) : moving = true;
     // Many strata ask for a fine picture, in which nonlinear motion over a block would show. Where strata move with the pixels, the
     // edges of lenses, where bundles break, are sharp in the picture.
     const double wide = strata > 2 * few_strata ? L::block_finest
@@ -295,11 +294,11 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
                         : rough                 ? L::block_rough
                                                 : L::block_usual;
     const double half_as_wide = std::min(2 * wide, rough ? L::half_block_rough : L::half_block_usual);
-    const int side = 16 * pixel < wide * least_seen ? 16 : 8 * pixel < half_as_wide * least_seen ? 8 : 4;
+    const int side = 16 * pixel < wide * alike ? 16 : 8 * pixel < half_as_wide * alike ? 8 : 4;
     if (!scene.by_lens || !(weak || side == 4)) return {side, {weak, false, false, false}};
 
-    // Lens by lens, pixels behind a weak diffuser share a block's list of lenses too, and parts of it what the camera spreads. So
-    // do those so coarse that a bundle would be shared by no more of them than it has rays.
+    // Lens by lens, pixels behind a weak diffuser share only a block's list of lenses, and parts of it what the camera spreads. So
+    // do pixels so coarse that no more of them would share a bundle than it has probes.
     const double diffused = std::max(span[0], span[1]);
     // Edges of holes are taken as straight; an oblique view makes pixels wider.
     const bool straight = scene.hole_radius == 0 || 2 * pixel < L::straight * double(scene.hole_radius);

@@ -105,16 +105,16 @@ class TexelsOfLevels {
 };
 
 /// The cells of a level over which a box spreads along an axis, two for up to one cell, three for up to two: their numbers times
-/// `pitch`, and how much of the box lies in each. A wider box is read as if it were so wide. Positions are measured from the
-/// panel's corner in single precision: on a panel of 16384 columns accurate to 1/1000 of a pixel.
+/// `pitch`, and how much of the box lies in each. Positions are measured from the panel's corner in single precision: on a panel of
+/// 16384 columns accurate to 1/1000 of a pixel.
 template <class F, int count>
 struct BoxSide {
     Uint<F> at[count];
     Mask<F> lit[count];
     F share[count];
 
-    /// About `place`, panel pixels from the pixel `base`, `size` wide, on a level with `scale` cells to a panel pixel; of it the
-    /// middle, `most` cells wide.
+    /// About `place`, panel pixels from the pixel `base`, `size` wide, on a level with `scale` cells to a panel pixel. Of a wider
+    /// box the middle `most` cells.
     LFDSIM_FN BoxSide(std::uint32_t base, F place, F size, F most, F scale, Uint<F> cells, Uint<F> pitch) {
         using S = Scalar<F>;
         const F width = min(max(size * scale, F(S(least_box))), most),
@@ -211,14 +211,15 @@ LFDSIM_FN auto finest_cells(const PanelLevels& levels, const PanelBase<Scalar<F>
                     BoxSide<F, count>(base.row, box.row, box.high, most, F(1), Uint<F>(finest.rows), columns), box.weight);
 }
 
-/// add(texels) for those that make up the light of a plane's boxes. A box is read at the level at which it is at most two cells
-/// wide: there its middle cell's width, since a coarser cell would add light from outside, and of boxes side by side, each as wide
-/// as it is far to the next, the middles do. `fully`: all of it, by quarters where it is more than two panel pixels wide.
+/// add(texels) for those that make up the light of a plane's boxes, call by call. A box is read at the level at which it is at most
+/// two cells wide: there its middle cell's width, since a coarser cell would add light from outside, and of boxes side by side,
+/// each as wide as it is far to the next, the middles do. `fully`: all of it, by quarters where it is more than two panel pixels
+/// wide.
 template <class F, class Add>
 LFDSIM_FN void for_texels(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, const Boxes<F>& box, Mask<F> fully,
                           Add add) {
     using S = Scalar<F>;
-    const F size = max(box.wide, box.high), one = F(1), none_of_it = F(0);
+    const F size = max(box.wide, box.high), one = F(1), zero = F(0);
     const bool any_long = levels.sums && any((levels.tall ? box.high : box.wide) > F(S(most_box)));
     if (none(fully && (size > one))) {
         if (!any_long && none(size > F(2))) return add(finest_cells<2>(levels, base, box, one));
@@ -227,10 +228,10 @@ LFDSIM_FN void for_texels(const PanelLevels& levels, const PanelBase<Scalar<F>>&
     const F most = select(fully, F(2), one);
     if (!any_long && none(size > F(2))) return add(finest_cells<3>(levels, base, box, most));
     const Mask<F> wide = fully && (size > F(2));
-    const F half = select(wide, F(S(0.5)), one), quarter = select(wide, F(S(0.25)), none_of_it);
+    const F half = select(wide, F(S(0.5)), one), quarter = select(wide, F(S(0.25)), zero);
     for (int k = 0; k < 4 && (k == 0 || any(wide)); ++k) {
         const F right = k % 2 == 0 ? -quarter : quarter, down = k < 2 ? -quarter : quarter,
-                weight = select(wide, F(S(0.25)) * box.weight, k == 0 ? box.weight : none_of_it);
+                weight = select(wide, F(S(0.25)) * box.weight, k == 0 ? box.weight : zero);
         for_levels<3>(levels, base,
                       Boxes<F>{box.column + right * box.wide, box.row + down * box.high, half * box.wide, half * box.high, weight},
                       most, any_long, add);
@@ -267,7 +268,7 @@ LFDSIM_FN void add_subpixels(const PanelLevels& levels, const PanelBase<Scalar<F
     }
 }
 
-/// Red, green and blue as the lanes' colours: R, G, B and an unused number.
+/// Red, green and blue of all lanes, as R, G, B and an unused number of each lane.
 template <class F>
 LFDSIM_FN void by_lane(const F (&sum)[3], Scalar<F> (*light)[4]) {
     using S = Scalar<F>;
@@ -278,7 +279,7 @@ LFDSIM_FN void by_lane(const F (&sum)[3], Scalar<F> (*light)[4]) {
         for (int c = 0; c < 4; ++c) light[n][c] = c < 3 ? colour[c][n] : S(0);
 }
 
-/// The mean light in boxes of the panel; R, G, B and an unused number of each lane.
+/// The light in boxes of the panel; R, G, B and an unused number of each lane.
 template <class F>
 LFDSIM_FN void light_of_boxes(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, const Boxes<F>& box,
                               Scalar<F> (*light)[4], Mask<F> fully = F(0) > F(0)) {
@@ -299,33 +300,33 @@ LFDSIM_FN void light_of_boxes(const PanelLevels& levels, const PanelBase<Scalar<
     });
 }
 
-/// The same over what spreads so far about the boxes' middles. Where pixels shine all over, one upright box of the same variances
-/// will do. Gaps between them tell a leaning line from such a box, and a box of one width from that of another: there `in_line`
-/// boxes share the light. They stand along the line about which light varies least, or, where a wide box hides how it leans, along
-/// a diagonal of what is added to that box.
+/// The same of light that spreads so far about a place, `weight` times its mean. Where pixels shine all over, one upright box of
+/// the same variances will do. Gaps between them tell a leaning line from such a box, and a box from a slightly wider one: there
+/// `in_line` boxes side by side share the light, which keep its variances. They stand along the line of regression, or, where a
+/// wide box hides how the rest leans, along the diagonal of that rest. docs/model.md, "Filtered estimator", has the equations.
 template <class F>
 LFDSIM_FN void light_of_spread(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, F column, F row,
                                const PanelSpread<F>& spread, Mask<F> fully, int in_line, F weight, Scalar<F> (*light)[4]) {
     using S = Scalar<F>;
-    const F none = F(0), one = F(1), least = F(S(least_box)), upright = F(S(FilteredLimits::upright));
+    const F zero = F(0), one = F(1), least = F(S(least_box)), upright = F(S(FilteredLimits::upright));
     Boxes<F> box{column, row, sqrt(spread.wide2), sqrt(spread.high2), weight};
     if (levels.emission->whole) return light_of_boxes(levels, base, box, light, fully);
-    const F wide2 = max(spread.wide2 - spread.box_wide2, none), high2 = max(spread.high2 - spread.box_high2, none),
+    const F wide2 = max(spread.wide2 - spread.box_wide2, zero), high2 = max(spread.high2 - spread.box_high2, zero),
             wide = sqrt(wide2), high = sqrt(high2), lean = spread.lean2 / max(max(wide, high), F(S(1e-6)));
     const Mask<F> hidden = (spread.box_wide2 > wide2) && (spread.box_high2 > high2);
     const F columns = select(hidden || (wide2 > high2), wide, lean), rows = select(hidden || !(wide2 > high2), high, lean);
     const Mask<F> far = (abs(columns) > upright * max(box.wide, least)) && (abs(rows) > upright * max(box.high, least));
     const F count = select(far, F(S(in_line)), one), per = one / count, column_step = columns * per, row_step = rows * per;
-    // They keep the variances: what lies between them is theirs.
-    const auto kept = [&](F all2, F line, F step) { return sqrt(max(all2 - line * line + step * step, none)); };
+    // Each is as wide as its part of the line, and as what does not lie along it.
+    const auto kept = [&](F all2, F line, F step) { return sqrt(max(all2 - line * line + step * step, zero)); };
     box.wide = select(far, kept(spread.wide2, columns, column_step), box.wide);
     box.high = select(far, kept(spread.high2, rows, row_step), box.high);
-    F sum[3] = {none, none, none};
+    F sum[3] = {zero, zero, zero};
     for (int k = 0; k == 0 || any(count > F(S(k))); ++k) {
         const F at = F(S(k)) - F(S(0.5)) * (count - one);
         box.column = column + at * column_step;
         box.row = row + at * row_step;
-        box.weight = select(count > F(S(k)), weight * per, none);
+        box.weight = select(count > F(S(k)), weight * per, zero);
         add_subpixels(levels, base, box, fully, sum);
     }
     by_lane(sum, light);

@@ -211,7 +211,8 @@ class BundleMaker {
         return b;
     }
 
-    /// Does a soft footprint move by more than itself from node to node? Along a strip it does, as the camera's pixels do.
+    /// Does a soft footprint move by more than its own size from node to node, so that its light there tells nothing of that in
+    /// between? Along a strip it does, as the camera's pixels do.
     LFDSIM_BOTH static bool runs_away(const SharedBundle& b) {
         const S step = S(FilteredLimits::node_step);
         return step * (optics::abs(b.column_right) + optics::abs(b.column_down)) > b.width ||
