@@ -295,10 +295,12 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
                                                 : L::block_usual;
     const double half_as_wide = std::min(2 * wide, rough ? L::half_block_rough : L::half_block_usual);
     const int side = 16 * pixel < wide * alike ? 16 : 8 * pixel < half_as_wide * alike ? 8 : 4;
-    if (!scene.by_lens || !(weak || side == 4)) return {side, {weak, false, false, false}};
+    const bool coarse = side == 4 && scene.diffuser_profile == Profile::box;
+    if (!scene.by_lens || !(weak || coarse)) return {side, {weak, false, false, false}};
 
     // Lens by lens, pixels behind a weak diffuser share only a block's list of lenses, and parts of it what the camera spreads. So
-    // do pixels so coarse that no more of them would share a bundle than it has probes.
+    // do pixels so coarse that no more of them would share a bundle than it has probes; but for a bell, on
+    // which four rays are too few.
     const double diffused = std::max(span[0], span[1]);
     // Edges of holes are taken as straight; an oblique view makes pixels wider.
     const bool straight = scene.hole_radius == 0 || 2 * pixel < L::straight * double(scene.hole_radius);

@@ -1,5 +1,6 @@
 // Panels and displays for the tests of the renderer.
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -267,6 +268,17 @@ inline Texels patterned_panel(const Display& d) {
             for (int k = 0; k < 3; ++k)
                 panel.row(r)[4 * c + k] = 0.2f * panel.row(r)[4 * c + k] + ((r / 5 + c / 7) % 2 ? 0.7f : 0.1f);
     return panel;
+}
+
+inline double rmse(const Image& a, const Image& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.rgb.size(); ++i) sum += (double(a.rgb[i]) - b.rgb[i]) * (double(a.rgb[i]) - b.rgb[i]);
+    return std::sqrt(sum / double(a.rgb.size()));
+}
+inline double mean_light(const Image& a) {
+    double sum = 0;
+    for (const float x : a.rgb) sum += x;
+    return sum / double(a.rgb.size());
 }
 
 }  // namespace lfdsim

@@ -50,7 +50,7 @@ LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block
     const S size = S(1) / S(squares), right = S(2 * (n % squares) + 1) * size - S(1), down = S(2 * (n / squares) + 1) * size - S(1);
     const auto middle = [&](const Gradient& g) { return g.middle + g.right * right + g.down * down; };
     const Stratum* const of[2] = {&across, &up};
-    S at[2], slope[2];
+    S at[2], slope[2], with_hole[2];
     for (int a = 0; a < 2; ++a) {
         const Gradient &first = grid.axis[a].first, &last = grid.axis[a].last;
         const S reach = first.reach() * size, from = middle(first), to = middle(last);
@@ -58,6 +58,13 @@ LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block
                 high = optics::min(of[a]->to, optics::max(from, to) + reach - of[a]->axis);
         if (a != grid.strip && squares > 1 && !(low < high)) return blur;  // those pixels do not see the lens
         at[a] = a == grid.strip ? S(0) : S(0.5) * (low + high);
+        // The part of the square that is seen of the lens, as a share of its variance. A lens that is seen whole keeps its rays
+        // where they are on it, whatever else moves: the square's number moves against it.
+        const S all = optics::max(optics::abs(to - from), S(1e-9)),
+                part = optics::min(of[a]->to, optics::max(from, to) - of[a]->axis) -
+                       optics::max(of[a]->from, optics::min(from, to) - of[a]->axis),
+                share = optics::min(optics::max(part / all, S(0)), S(1));
+        with_hole[a] = a == grid.strip ? S(1) : share * share;
     }
     const S radius =
         scene.hole_radius > 0 ? scene.hole_radius : optics::min(scene.lattice.half_pitch[0], scene.lattice.half_pitch[1]);
@@ -89,6 +96,8 @@ LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block
             } else if ((p == 1 || p == 2) && scene.has_diffuser && a == of_pair) {
                 turned = turn_of_diffuser(scene, sweep[0], a);
             }
+            const bool divided = p > 2 ? tile.square.divides_pupil : tile.square.divides_other;
+            if (!of_pixel && !divided) turned = turned - (S(1) - with_hole[a]) * (turned + moved / scene.holes_below[a]);
             (a == 0 ? rays.at_x : rays.at_y)[p] = at[a] + moved;
             (a == 0 ? rays.x : rays.y)[p] = at[a] + moved + slope[a] + turned;
         }

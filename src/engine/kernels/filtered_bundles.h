@@ -180,7 +180,7 @@ class BundleMaker {
         follow(b);
         finish();
         if (b.state == SharedBundle::State::broken) return b;
-        if (scene.by_lens && !b.still && runs_away(b)) {
+        if (scene.by_lens && scene.diffuser_profile == Profile::box && !b.still && runs_away(b)) {
             b.state = SharedBundle::State::broken;
             return b;
         }

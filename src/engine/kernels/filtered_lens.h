@@ -82,12 +82,14 @@ class LensCutter {
         }
     }
 
-    /// Cuts what the block sees of each lens; false: there are too many of them.
+    /// Cuts what the block sees of each lens; false: there are too many of them, or their outlines are not known.
     LFDSIM_BOTH bool cut() {
         using optics::floor;
         const Lattice<S>& lattice = scene.lattice;
         grids.count = grids.strata = 0;
         cuts = 0;
+        // In a bell's numbers the long edges of a strip are curves far from the lines between its corners.
+        if (lattice.strips && scene.has_diffuser && scene.diffuser_profile != Profile::box && !tile.square.of_pixel) return false;
         if (tile.square.of_pixel && scene.hole_radius > 0) {
             // A pixel is to see an edge as straight.
             const S(&to)[2][2] = grids.pixel;
