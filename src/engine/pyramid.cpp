@@ -115,6 +115,14 @@ PanelReading panel_reading(const Display& display, const Geometry& geometry) {
     return {.footprints = long_footprints(geometry), .planes = planes(display.panel)};
 }
 
+optics::PanelLevels panel_levels(const std::vector<optics::PanelLevel>& levels, const PanelReading& reading,
+                                 const optics::Emission<float>& emission) {
+    const bool sums = reading.footprints != Long::none;
+    const int lists = (sums ? 2 : 1) * int(reading.planes.size());
+    return {levels.data(),  int(levels.size()) / lists, sums,           reading.footprints == Long::down,
+            emission.whole, levels[0].columns,          levels[0].rows, &emission};
+}
+
 struct Pyramid::Parts {
     optics::PanelLevel image;
     tbb::task_arena arena;

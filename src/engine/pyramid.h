@@ -11,9 +11,12 @@ namespace lfdsim {
 class GpuPanels;  // gpu.h
 struct Geometry;
 
-namespace optics {
-struct PanelLevel;  // optics/scene.h
-}
+namespace optics {  // optics/scene.h
+template <class S>
+struct Emission;
+struct PanelLevel;
+struct PanelLevels;
+}  // namespace optics
 
 /// Which way the footprints of lenses are long: strips focus along one direction only.
 enum class Long { none, down, across };
@@ -27,6 +30,9 @@ struct PanelReading {
     auto operator<=>(const PanelReading&) const = default;
 };
 PanelReading panel_reading(const Display&, const Geometry&);
+
+/// Levels made for a reading, for the tracer. They and the emission must outlive it.
+optics::PanelLevels panel_levels(const std::vector<optics::PanelLevel>&, const PanelReading&, const optics::Emission<float>&);
 
 /// Level 0 is the panel image. Level k + 1 has half the columns and rows of level k, rounded up; a cell is the mean of 2 x 2, black
 /// outside the panel. They take a third of the panel image's memory. The panel image must outlive it, unchanged.

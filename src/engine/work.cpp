@@ -24,15 +24,6 @@ Rect checked_crop(const std::optional<Rect>& crop, const Camera& camera) {
     return r;
 }
 
-/// Of point samples there may be the panel alone.
-optics::PanelLevels panel_levels(const Display& display, const Geometry& geometry, const std::vector<optics::PanelLevel>& levels,
-                                 const optics::Emission<float>& emission) {
-    const PanelReading reading = levels.size() == 1 ? PanelReading{.coarser = false} : panel_reading(display, geometry);
-    const bool sums = reading.footprints != Long::none;
-    const int lists = (sums ? 2 : 1) * int(reading.planes.size());
-    return {levels.data(), int(levels.size()) / lists, sums, reading.footprints == Long::down, &emission};
-}
-
 }  // namespace
 
 Work::Work(const Display& display, const Geometry& geometry, const std::vector<optics::PanelLevel>& levels,
@@ -61,11 +52,13 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
     const BlockShape shape =
         block_shape(scene, view, target_error ? 2 * few_strata : strata, options.rough, target_error.has_value());
 
+    // Of point samples there may be the panel alone.
+    const PanelReading reading = levels.size() == 1 ? PanelReading{.coarser = false} : panel_reading(display, geometry);
     tile = {&scene,
             &view,
             &sobol_directions(),
             levels[0].texels,
-            panel_levels(display, geometry, levels, scene.emission),
+            panel_levels(levels, reading, scene.emission),
             nullptr,
             crop.x0,
             crop.y0,

@@ -1,5 +1,8 @@
 #include "image/jpeg_memory.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -37,30 +40,73 @@ struct Writer {
     Writer& operator=(const Writer&) = delete;
 };
 
+// A picture is compressed in strips of so many rows, eight rows of the blocks of 16 x 16 pixels, by several threads. Between two
+// strips stands a restart marker, after which a decoder, too, begins anew (ITU-T T.81, E.1.4 and F.1.2.1).
+constexpr int strip_rows = 8 * 16;
+
+/// Rows top .. top + rows - 1 as a file of their own.
+std::string strip(int width, int top, int rows, const std::vector<std::uint8_t>& codes, int quality) {
+    Writer writer;
+    jpeg_compress_struct& jpeg = writer.jpeg;
+    jpeg.image_width = JDIMENSION(width);
+    jpeg.image_height = JDIMENSION(rows);
+    jpeg.input_components = 3;
+    jpeg.in_color_space = JCS_RGB;
+    jpeg_set_defaults(&jpeg);  // 4:2:0
+    jpeg_set_quality(&jpeg, quality, TRUE);
+    jpeg.restart_in_rows = strip_rows / 16;
+    jpeg_start_compress(&jpeg, TRUE);
+    while (jpeg.next_scanline < jpeg.image_height) {
+        std::array<JSAMPROW, 16> rows_at_once;
+        JDIMENSION count = 0;
+        for (; count < rows_at_once.size() && jpeg.next_scanline + count < jpeg.image_height; ++count)
+            rows_at_once[count] =
+                const_cast<JSAMPROW>(&codes[(std::size_t(top) + jpeg.next_scanline + count) * std::size_t(width) * 3]);
+        jpeg_write_scanlines(&jpeg, rows_at_once.data(), count);
+    }
+    jpeg_finish_compress(&jpeg);
+    return std::string(reinterpret_cast<const char*>(writer.bytes), writer.size);
+}
+
+constexpr std::size_t end_marker = 2;  // bytes
+
+/// Where a strip's compressed pixels begin, after the segments of its header, each a marker of two bytes and its length; and where
+/// the header has the number of rows.
+struct Header {
+    std::size_t end = 2, rows = 0;
+
+    explicit Header(const std::string& file) {
+        constexpr char frame = '\xc0', scan = '\xda';
+        for (char marker = 0; marker != scan;) {
+            marker = file.at(end + 1);
+            if (marker == frame) rows = end + 5;
+            end += 2 + 256 * std::size_t(std::uint8_t(file.at(end + 2))) + std::size_t(std::uint8_t(file.at(end + 3)));
+        }
+    }
+};
+
 }  // namespace
 
 std::string jpeg_bytes(int width, int height, const std::vector<std::uint8_t>& codes, int quality) {
     if (width < 1 || height < 1 || width > JPEG_MAX_DIMENSION || height > JPEG_MAX_DIMENSION || quality < 1 || quality > 100 ||
         codes.size() != std::size_t(width) * std::size_t(height) * 3)
         throw std::invalid_argument("jpeg_bytes: size, codes or quality are not possible");
-    Writer writer;
-    jpeg_compress_struct& jpeg = writer.jpeg;
-    jpeg.image_width = JDIMENSION(width);
-    jpeg.image_height = JDIMENSION(height);
-    jpeg.input_components = 3;
-    jpeg.in_color_space = JCS_RGB;
-    jpeg_set_defaults(&jpeg);  // 4:2:0
-    jpeg_set_quality(&jpeg, quality, TRUE);
-    jpeg_start_compress(&jpeg, TRUE);
-    while (jpeg.next_scanline < jpeg.image_height) {
-        std::array<JSAMPROW, 16> rows;  // as many as two blocks are high
-        JDIMENSION count = 0;
-        for (; count < rows.size() && jpeg.next_scanline + count < jpeg.image_height; ++count)
-            rows[count] = const_cast<JSAMPROW>(&codes[std::size_t(jpeg.next_scanline + count) * std::size_t(width) * 3]);
-        jpeg_write_scanlines(&jpeg, rows.data(), count);
+    std::vector<std::string> strips(std::size_t((height + strip_rows - 1) / strip_rows));
+    tbb::parallel_for(std::size_t(0), strips.size(), [&](std::size_t k) {
+        const int top = int(k) * strip_rows;
+        strips[k] = strip(width, top, std::min(strip_rows, height - top), codes, quality);
+    });
+    std::string all = std::move(strips[0]);
+    const Header header(all);  // that of the others has as many bytes
+    all[header.rows] = char(height / 256);
+    all[header.rows + 1] = char(height % 256);
+    for (std::size_t k = 1; k < strips.size(); ++k) {
+        all.resize(all.size() - end_marker);
+        all += '\xff';
+        all += char(0xd0 + (k - 1) % 8);
+        all.append(strips[k], header.end);
     }
-    jpeg_finish_compress(&jpeg);
-    return std::string(reinterpret_cast<const char*>(writer.bytes), writer.size);
+    return all;
 }
 
 }  // namespace lfdsim

@@ -11,19 +11,16 @@ namespace lfdsim {
 
 constexpr int ssim_border = ssim_window / 2;
 
-/// Rows are summed in groups of so many columns, then over the groups: the same bits however the work is divided.
-constexpr int columns_at_once = 32;
+/// The columns of a row are summed in so many groups, dealt out one after another, and then the groups' sums: the same bits however
+/// the work is divided, and threads side by side, a group each, read numbers that lie side by side.
+constexpr int column_groups = 32;
 
 /// Sum of value(x) over the columns x of a row of a region.
 template <class Value>
 double sum_of_row(const Region::Row& row, Value value) {
-    double sum = 0;
-    for (int x = row.from; x < row.to;) {
-        const int end = std::min(row.to, (x / columns_at_once + 1) * columns_at_once);
-        double part = 0;
-        for (; x < end; ++x) part += value(x);
-        sum += part;
-    }
+    double part[column_groups] = {}, sum = 0;
+    for (int x = row.from; x < row.to; ++x) part[x % column_groups] += value(x);
+    for (const double of_group : part) sum += of_group;
     return sum;
 }
 

@@ -65,7 +65,7 @@ class TexelsOfLevels {
     LFDSIM_FN TexelsOfLevels(const PanelLevels& levels, Uint<F> level) {
         std::uint32_t number[lanes];
         store(level, number);
-        for (int k = 0; k < lanes; ++k) texels_[k] = levels.level[number[k]].texels;
+        for (int k = 0; k < lanes; ++k) texels_[k] = texels_of(levels.level[number[k]]);
     }
     LFDSIM_FN void set(int n, Mask<F> lit, Uint<F> number, F share) {
         store(select(lit, number, Uint<F>(0u)), number_[n]);
@@ -119,10 +119,10 @@ struct BoxSide {
         using S = Scalar<F>;
         const F width = min(max(size * scale, F(S(least_box))), most),
                 first = (F(S(std::int32_t(base))) + place) * scale - F(S(0.5)) * width, whole = floor(first),
-                in_first = (whole + F(1) - first) / width;
+                in_first = quotient(whole + F(1) - first, width);
         const F beyond = max(F(1) - in_first, F(0));
         share[0] = F(1) - beyond;
-        share[1] = count == 2 ? beyond : min(beyond, F(1) / width);
+        share[1] = count == 2 ? beyond : min(beyond, inverse(width));
         if constexpr (count == 3) share[2] = beyond - share[1];
         const Uint<F> cell = to_int(whole);
         for (int k = 0; k < count; ++k) {
@@ -161,7 +161,7 @@ LFDSIM_FN auto long_boxes(const PanelLevels& levels, const PanelBase<Scalar<F>>&
     using S = Scalar<F>;
     const bool tall = levels.tall;
     const BoxLevel<F> on(levels, tall ? box.wide : box.high);
-    const F columns = on.cells(levels.level[0].columns), rows = on.cells(levels.level[0].rows), last = tall ? rows : columns;
+    const F columns = on.cells(levels.columns), rows = on.cells(levels.rows), last = tall ? rows : columns;
     const Uint<F> pitch = to_int(tall ? columns : columns + F(1)), one = Uint<F>(1u);
     const BoxSide<F, count> lines = tall
                                         ? BoxSide<F, count>(base.column, box.column, box.wide, most, on.scale, to_int(columns), one)
@@ -182,6 +182,27 @@ LFDSIM_FN auto long_boxes(const PanelLevels& levels, const PanelBase<Scalar<F>>&
     return texels;
 }
 
+/// Their light, as if it were texels: out of line on a GPU, where most displays do without them.
+template <class F>
+struct FoundLight {
+    Scalar<F> of[LaneTraits<F>::width][4];
+    LFDSIM_FN void light(Scalar<F> (*to)[4]) const {
+        for (int n = 0; n < LaneTraits<F>::width; ++n)
+            for (int c = 0; c < 4; ++c) to[n][c] = of[n][c];
+    }
+    LFDSIM_FN F light_of(int colour) const {
+        Scalar<F> all[LaneTraits<F>::width];
+        for (int n = 0; n < LaneTraits<F>::width; ++n) all[n] = of[n][colour];
+        return load<F>(all);
+    }
+};
+template <int count, class F>
+LFDSIM_LARGE FoundLight<F> light_of_long_boxes(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, Boxes<F> box, F most) {
+    FoundLight<F> found;
+    long_boxes<count>(levels, base, box, most).light(found.of);
+    return found;
+}
+
 /// add(texels) for those of a level of its own for each lane: long boxes from sums, others from cells.
 template <int count, class F, class Add>
 LFDSIM_FN void for_levels(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, Boxes<F> box, F most, bool any_long,
@@ -190,12 +211,15 @@ LFDSIM_FN void for_levels(const PanelLevels& levels, const PanelBase<Scalar<F>>&
     if (any_long) {
         const F across = levels.tall ? box.wide : box.high, along = levels.tall ? box.high : box.wide;
         const Mask<F> lies_long = along > max(across, F(S(most_box)));
-        add(long_boxes<count>(levels, base, Boxes<F>{box.column, box.row, box.wide, box.high, select(lies_long, box.weight, F(0))},
-                              most));
+        const Boxes<F> long_ones{box.column, box.row, box.wide, box.high, select(lies_long, box.weight, F(0))};
+        if constexpr (threads_apart)
+            add(light_of_long_boxes<count>(levels, base, long_ones, most));
+        else
+            add(long_boxes<count>(levels, base, long_ones, most));
         box.weight = select(lies_long, F(0), box.weight);
     }
     const BoxLevel<F> on(levels, max(box.wide, box.high));
-    const Uint<F> columns = to_int(on.cells(levels.level[0].columns)), rows = to_int(on.cells(levels.level[0].rows));
+    const Uint<F> columns = to_int(on.cells(levels.columns)), rows = to_int(on.cells(levels.rows));
     add(cells_of(TexelsOfLevels<F, count * count, false>(levels, on.level),
                  BoxSide<F, count>(base.column, box.column, box.wide, most, on.scale, columns, Uint<F>(1u)),
                  BoxSide<F, count>(base.row, box.row, box.high, most, on.scale, rows, columns), box.weight));
@@ -204,11 +228,10 @@ LFDSIM_FN void for_levels(const PanelLevels& levels, const PanelBase<Scalar<F>>&
 /// The same of the finest level.
 template <int count, class F>
 LFDSIM_FN auto finest_cells(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, const Boxes<F>& box, F most) {
-    const PanelLevel& finest = levels.level[0];
-    const Uint<F> columns = Uint<F>(finest.columns);
-    return cells_of(TexelsOfALevel<F, count * count>(finest),
+    const Uint<F> columns = Uint<F>(levels.columns);
+    return cells_of(TexelsOfALevel<F, count * count>(levels.level[0]),
                     BoxSide<F, count>(base.column, box.column, box.wide, most, F(1), columns, Uint<F>(1u)),
-                    BoxSide<F, count>(base.row, box.row, box.high, most, F(1), Uint<F>(finest.rows), columns), box.weight);
+                    BoxSide<F, count>(base.row, box.row, box.high, most, F(1), Uint<F>(levels.rows), columns), box.weight);
 }
 
 /// add(texels) for those that make up the light of a plane's boxes, call by call. A box is read at the level at which it is at most
@@ -222,11 +245,11 @@ LFDSIM_FN void for_texels(const PanelLevels& levels, const PanelBase<Scalar<F>>&
     const F size = max(box.wide, box.high), one = F(1), zero = F(0);
     const bool any_long = levels.sums && any((levels.tall ? box.high : box.wide) > F(S(most_box)));
     if (none(fully && (size > one))) {
-        if (!any_long && none(size > F(2))) return add(finest_cells<2>(levels, base, box, one));
+        if (!threads_apart && !any_long && none(size > F(2))) return add(finest_cells<2>(levels, base, box, one));
         return for_levels<2>(levels, base, box, one, any_long, add);
     }
     const F most = select(fully, F(2), one);
-    if (!any_long && none(size > F(2))) return add(finest_cells<3>(levels, base, box, most));
+    if (!threads_apart && !any_long && none(size > F(2))) return add(finest_cells<3>(levels, base, box, most));
     const Mask<F> wide = fully && (size > F(2));
     const F half = select(wide, F(S(0.5)), one), quarter = select(wide, F(S(0.25)), zero);
     for (int k = 0; k < 4 && (k == 0 || any(wide)); ++k) {
@@ -238,10 +261,26 @@ LFDSIM_FN void for_texels(const PanelLevels& levels, const PanelBase<Scalar<F>>&
     }
 }
 
-/// Adds the mean over boxes of a panel with subpixels, of all that shines in them: red, green and blue.
+/// Red, green and blue of all lanes.
+template <class F>
+struct Colours {
+    F of[3] = {F(0), F(0), F(0)};
+
+    /// R, G, B and an unused number of each lane.
+    LFDSIM_FN void by_lane(Scalar<F> (*light)[4]) const {
+        using S = Scalar<F>;
+        constexpr int lanes = LaneTraits<F>::width;
+        S colour[3][lanes];
+        for (int c = 0; c < 3; ++c) store(of[c], colour[c]);
+        for (int n = 0; n < lanes; ++n)
+            for (int c = 0; c < 4; ++c) light[n][c] = c < 3 ? colour[c][n] : S(0);
+    }
+};
+
+/// Adds the mean over boxes of a panel with subpixels, of all that shines in them.
 template <class F>
 LFDSIM_FN void add_subpixels(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, const Boxes<F>& box, Mask<F> fully,
-                             F (&sum)[3]) {
+                             Colours<F>& sum) {
     using S = Scalar<F>;
     const Emission<S>& emission = *levels.emission;
     const std::uint32_t number[2] = {base.column, base.row};
@@ -263,20 +302,16 @@ LFDSIM_FN void add_subpixels(const PanelLevels& levels, const PanelBase<Scalar<F
         for_texels(plane_of(levels, part.plane), from,
                    Boxes<F>{side[0].middle, side[1].middle, side[0].width, side[1].width, weight}, fully, [&](const auto& texels) {
                        for (int c = 0; c < 3; ++c)
-                           if (part.channel == 3 || part.channel == c) sum[c] = sum[c] + texels.light_of(c);
+                           if (part.channel == 3 || part.channel == c) sum.of[c] = sum.of[c] + texels.light_of(c);
                    });
     }
 }
 
-/// Red, green and blue of all lanes, as R, G, B and an unused number of each lane.
 template <class F>
-LFDSIM_FN void by_lane(const F (&sum)[3], Scalar<F> (*light)[4]) {
-    using S = Scalar<F>;
-    constexpr int lanes = LaneTraits<F>::width;
-    S colour[3][lanes];
-    for (int c = 0; c < 3; ++c) store(sum[c], colour[c]);
-    for (int n = 0; n < lanes; ++n)
-        for (int c = 0; c < 4; ++c) light[n][c] = c < 3 ? colour[c][n] : S(0);
+LFDSIM_LARGE Colours<F> subpixels_in(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, Boxes<F> box, Mask<F> fully) {
+    Colours<F> sum;
+    add_subpixels(levels, base, box, fully, sum);
+    return sum;
 }
 
 /// The light in boxes of the panel; R, G, B and an unused number of each lane.
@@ -285,18 +320,18 @@ LFDSIM_FN void light_of_boxes(const PanelLevels& levels, const PanelBase<Scalar<
                               Scalar<F> (*light)[4], Mask<F> fully = F(0) > F(0)) {
     using S = Scalar<F>;
     constexpr int lanes = LaneTraits<F>::width;
-    if (!levels.emission->whole) {
-        F sum[3] = {F(0), F(0), F(0)};
-        add_subpixels(levels, base, box, fully, sum);
-        return by_lane(sum, light);
-    }
-    S more[lanes][4];
-    S(*to)[4] = light;
+    if (!levels.whole) return subpixels_in(levels, base, box, fully).by_lane(light);
+    bool first = true;
     for_texels(levels, base, box, fully, [&](const auto& texels) {
-        texels.light(to);
-        for (int n = 0; n < lanes && to == more; ++n)
-            for (int c = 0; c < 4; ++c) light[n][c] = light[n][c] + more[n][c];
-        to = more;
+        if (first) {
+            texels.light(light);
+        } else {
+            S more[lanes][4];
+            texels.light(more);
+            for (int n = 0; n < lanes; ++n)
+                for (int c = 0; c < 4; ++c) light[n][c] = light[n][c] + more[n][c];
+        }
+        first = false;
     });
 }
 
@@ -310,7 +345,7 @@ LFDSIM_FN void light_of_spread(const PanelLevels& levels, const PanelBase<Scalar
     using S = Scalar<F>;
     const F zero = F(0), one = F(1), least = F(S(least_box)), upright = F(S(FilteredLimits::upright));
     Boxes<F> box{column, row, sqrt(spread.wide2), sqrt(spread.high2), weight};
-    if (levels.emission->whole) return light_of_boxes(levels, base, box, light, fully);
+    if (levels.whole) return light_of_boxes(levels, base, box, light, fully);
     const F wide2 = max(spread.wide2 - spread.box_wide2, zero), high2 = max(spread.high2 - spread.box_high2, zero),
             wide = sqrt(wide2), high = sqrt(high2), lean = spread.lean2 / max(max(wide, high), F(S(1e-6)));
     const Mask<F> hidden = (spread.box_wide2 > wide2) && (spread.box_high2 > high2);
@@ -321,7 +356,7 @@ LFDSIM_FN void light_of_spread(const PanelLevels& levels, const PanelBase<Scalar
     const auto kept = [&](F all2, F line, F step) { return sqrt(max(all2 - line * line + step * step, zero)); };
     box.wide = select(far, kept(spread.wide2, columns, column_step), box.wide);
     box.high = select(far, kept(spread.high2, rows, row_step), box.high);
-    F sum[3] = {zero, zero, zero};
+    Colours<F> sum;
     for (int k = 0; k == 0 || any(count > F(S(k))); ++k) {
         const F at = F(S(k)) - F(S(0.5)) * (count - one);
         box.column = column + at * column_step;
@@ -329,7 +364,7 @@ LFDSIM_FN void light_of_spread(const PanelLevels& levels, const PanelBase<Scalar
         box.weight = select(count > F(S(k)), weight * per, zero);
         add_subpixels(levels, base, box, fully, sum);
     }
-    by_lane(sum, light);
+    sum.by_lane(light);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

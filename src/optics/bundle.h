@@ -12,6 +12,7 @@
 #pragma once
 #include "optics/boxes.h"
 #include "optics/filtered_limits.h"
+#include "optics/probe_team.h"
 #include "optics/strata.h"
 #include "optics/trace.h"
 
@@ -138,21 +139,20 @@ LFDSIM_FN PixelBlock<S> pixel_block(const Scene<S>& scene, const View& view, int
 }
 
 /// Rays from points (at_x, at_y) of the diffuser's plane through points (x, y) of the plane of the holes, mm from the base lens's
-/// axis; and where on the panel they end. Arrays of fixed length, which compilers vectorize, summed in a fixed order.
-constexpr int most_probes = 16;
+/// axis; and where on the panel they end.
 template <class S>
 struct Probes {
-    S at_x[most_probes], at_y[most_probes], x[most_probes], y[most_probes];
-    S column[most_probes], row[most_probes], weight[most_probes];  // weight 0: lost
-    S cell_i[most_probes], cell_j[most_probes];                    // the lens
-    S in[most_probes];                                             // 1: lies in the part of the stratum at hand, else 0
-    S has_right[most_probes], has_left[most_probes], has_above[most_probes], has_below[most_probes];  // 1: has that neighbour
+    S at_x[probes_each], at_y[probes_each], x[probes_each], y[probes_each];
+    S column[probes_each], row[probes_each], weight[probes_each];  // weight 0: lost
+    S cell_i[probes_each], cell_j[probes_each];                    // the lens
+    S in[probes_each];                                             // 1: lies in the part of the stratum at hand, else 0
+    S has_right[probes_each], has_left[probes_each], has_above[probes_each], has_below[probes_each];  // 1: has that neighbour
 
     /// per_axis x per_axis probes, row after row. The rest count as lost: sums include them, but a narrow packet never traces them.
     LFDSIM_FN void lay_out(int per_axis) {
-        for (int p = 0; p < most_probes; ++p) {
+        for (int p = 0; p < probes_each; ++p) {
             column[p] = row[p] = weight[p] = cell_i[p] = cell_j[p] = in[p] = S(0);
-            const int i = p % per_axis, j = p / per_axis;
+            const int i = probe_number(p) % per_axis, j = probe_number(p) / per_axis;
             has_right[p] = i + 1 < per_axis ? S(1) : S(0);
             has_left[p] = i > 0 ? S(1) : S(0);
             has_above[p] = j + 1 < per_axis ? S(1) : S(0);
@@ -161,31 +161,28 @@ struct Probes {
     }
 };
 
-template <class S>
-LFDSIM_FN S sum_of(const S (&a)[most_probes]) {
-    static_assert(most_probes == 16);
-    S b[8], c[4];
-    for (int p = 0; p < 8; ++p) b[p] = a[p] + a[p + 8];
-    for (int p = 0; p < 4; ++p) c[p] = b[p] + b[p + 4];
-    return (c[0] + c[2]) + (c[1] + c[3]);
+/// Where a ray from (x, y) in the diffuser's plane ends on the panel that goes `across`, `up` and `down`.
+template <Way through, class F>
+LFDSIM_FN PanelPoint<F> trace_probe(const Scene<Scalar<F>>& scene, const PixelBlock<Scalar<F>>& block, F x, F y, F across, F up,
+                                    F down) {
+    const F per = F(1) / sqrt(across * across + up * up + down * down);
+    Place<F> at{x, y};
+    if (scene.by_lens) at = to_array(scene.lattice, x, y);
+    return trace_array<through>(scene, block.lens.extent, block.lens.panel,
+                                Ray<F>{{at.x, at.y, F(0)}, {across * per, up * per, -(down * per)}}, F(0) < F(1));
 }
 
 /// Traces the first `count` probes (up to a full packet more) to the panel. Their points (x, y) are so far below the first plane:
 /// the holes' edges across y' may lie at another height than those across x'.
 template <Way through, class F>
-LFDSIM_LARGE void trace_probes(const Scene<Scalar<F>>& scene, const PixelBlock<Scalar<F>>& block, Probes<Scalar<F>>& probes,
-                               int count, const Scalar<F> (&below)[2]) {
+LFDSIM_FN void trace_probes(const Scene<Scalar<F>>& scene, const PixelBlock<Scalar<F>>& block, Probes<Scalar<F>>& probes, int count,
+                            const Scalar<F> (&below)[2]) {
     // The displacement in y is scaled to the plane of x; the factor is 1 where both are the same plane.
     const F down = F(below[0]), to_plane_x = F(below[0] / below[1]);
-    for (int p = 0; p < count; p += LaneTraits<F>::width) {
+    for (int p = 0; p < min(count, probes_each); p += LaneTraits<F>::width) {
         const F x = load<F>(probes.at_x + p), y = load<F>(probes.at_y + p);
-        const F across = load<F>(probes.x + p) - x, up = (load<F>(probes.y + p) - y) * to_plane_x;
-        const F per = F(1) / sqrt(across * across + up * up + down * down);
-        Place<F> at{x, y};
-        if (scene.by_lens) at = to_array(scene.lattice, x, y);
         const PanelPoint<F> point =
-            trace_array<through>(scene, block.lens.extent, block.lens.panel,
-                                 Ray<F>{{at.x, at.y, F(0)}, {across * per, up * per, -(down * per)}}, F(0) < F(1));
+            trace_probe<through>(scene, block, x, y, load<F>(probes.x + p) - x, (load<F>(probes.y + p) - y) * to_plane_x, down);
         store(point.column, probes.column + p);
         store(point.row, probes.row + p);
         store(select(point.alive, point.weight, F(0)), probes.weight + p);
@@ -198,7 +195,7 @@ LFDSIM_LARGE void trace_probes(const Scene<Scalar<F>>& scene, const PixelBlock<S
 /// light. Sharp: each pixel reads one box of the panel. Soft: wider than a panel pixel, the mean over a box around each probe.
 /// Broken: each pixel traces rays of its own.
 template <class S>
-struct SharedBundle {
+struct BundleShape {
     enum class State { dark, sharp, soft, broken } state;
     S column, row;  // mean position on the panel, seen from the block's middle: panel pixels from the block's base
     S column_right, row_right, column_down, row_down;  // its motion per picture pixel to the right and down
@@ -210,29 +207,34 @@ struct SharedBundle {
     Footprint<S> footprint;                            // sharp: the box, which each pixel reads at its own position
     bool still;                                        // soft: the footprint does not move
     int nodes;                                         // soft: along an axis of the block; 1: its light is the same everywhere
-    S colour[most_nodes * most_nodes][4];              // soft: the light there; interpolated between
+};
+template <class S>
+struct SharedBundle : BundleShape<S> {
+    alignas(16) S colour[most_nodes * most_nodes][4];  // soft: the light at its nodes; interpolated between
 };
 
 /// The footprint of a stratum's per_axis x per_axis probes, as far as they determine it: position, spread, transmitted share. Sharp
 /// if all that reach the panel did so through one lens, dark if none reached it, else broken.
 template <class S>
-LFDSIM_FN SharedBundle<S> sum_up(const Probes<S>& probes, int per_axis) {
-    using State = typename SharedBundle<S>::State;
-    S lit[most_probes], t[most_probes], c[most_probes], r[most_probes];
-    for (int p = 0; p < most_probes; ++p) lit[p] = probes.in[p] * probes.weight[p] > S(0) ? S(1) : S(0);
-    SharedBundle<S> b;
+LFDSIM_FN BundleShape<S> sum_up(const Probes<S>& probes, int per_axis) {
+    using State = typename BundleShape<S>::State;
+    S lit[probes_each], t[probes_each], c[probes_each], r[probes_each];
+    for (int p = 0; p < probes_each; ++p) lit[p] = probes.in[p] * probes.weight[p] > S(0) ? S(1) : S(0);
+    BundleShape<S> b;
     const S part = sum_of(probes.in), count = sum_of(lit);
     b.state = part > S(0) ? State::dark : State::broken;
     if (count == S(0)) return b;
-    int one = 0;
-    while (lit[one] == S(0)) ++one;
+    bool is_lit[probes_each];
+    for (int p = 0; p < probes_each; ++p) is_lit[p] = lit[p] > S(0);
+    int one = first_probe(is_lit);
     const S per = S(1) / count;
     auto mean = [&](auto value) {
-        for (int p = 0; p < most_probes; ++p) t[p] = lit[p] > S(0) ? value(p) : S(0);
+        for (int p = 0; p < probes_each; ++p) t[p] = lit[p] > S(0) ? value(p) : S(0);
         return sum_of(t) * per;
     };
-    const S column = probes.column[one], row = probes.row[one], cell_i = probes.cell_i[one], cell_j = probes.cell_j[one];
-    for (int p = 0; p < most_probes; ++p) {  // small numbers
+    const S column = of_probe(probes.column, one), row = of_probe(probes.row, one), cell_i = of_probe(probes.cell_i, one),
+            cell_j = of_probe(probes.cell_j, one);
+    for (int p = 0; p < probes_each; ++p) {  // small numbers
         c[p] = probes.column[p] - column;
         r[p] = probes.row[p] - row;
     }
@@ -246,17 +248,18 @@ LFDSIM_FN SharedBundle<S> sum_up(const Probes<S>& probes, int per_axis) {
     b.width = sqrt(max(spread * (mean([&](int p) { return c[p] * c[p]; }) - mean_c * mean_c), S(0)));
     b.height = sqrt(max(spread * (mean([&](int p) { return r[p] * r[p]; }) - mean_r * mean_r), S(0)));
     const S others = mean([&](int p) { return probes.cell_i[p] == cell_i && probes.cell_j[p] == cell_j ? S(0) : S(1); });
-    S nearest = S(1e30);
-    for (int p = 0; p < most_probes; ++p) {
+    for (int p = 0; p < probes_each; ++p) {
         const S dx = probes.x[p] - x, dy = probes.y[p] - y;
         t[p] = lit[p] > S(0) ? dx * dx + dy * dy : S(1e30);
-        nearest = min(nearest, t[p]);
     }
-    while (t[one] != nearest) ++one;
-    b.x = probes.x[one];
-    b.y = probes.y[one];
-    b.probe_column = probes.column[one];
-    b.probe_row = probes.row[one];
+    const S nearest = least_of(t);
+    bool is_nearest[probes_each];
+    for (int p = 0; p < probes_each; ++p) is_nearest[p] = t[p] == nearest;
+    one = first_probe(is_nearest);
+    b.x = of_probe(probes.x, one);
+    b.y = of_probe(probes.y, one);
+    b.probe_column = of_probe(probes.column, one);
+    b.probe_row = of_probe(probes.row, one);
     for (int k = 0; k < 2; ++k) b.lean_column[k] = b.lean_row[k] = S(0);
     b.blur_width = b.blur_height = S(0);
     b.state = others == S(0) ? State::sharp : State::broken;
@@ -269,16 +272,16 @@ template <class S>
 struct Slopes {
     S column[2], row[2];  // along x and y
 
-    LFDSIM_FN Slopes(const Probes<S>& probes, const SharedBundle<S>& b) {
-        S lit[most_probes], t[most_probes];
-        for (int p = 0; p < most_probes; ++p) lit[p] = probes.in[p] * probes.weight[p] > S(0) ? S(1) : S(0);
+    LFDSIM_FN Slopes(const Probes<S>& probes, const BundleShape<S>& b) {
+        S lit[probes_each], t[probes_each];
+        for (int p = 0; p < probes_each; ++p) lit[p] = probes.in[p] * probes.weight[p] > S(0) ? S(1) : S(0);
         const S count = sum_of(lit);
         for (int a = 0; a < 2; ++a) {
             const S* const at = a == 0 ? probes.x : probes.y;
-            for (int p = 0; p < most_probes; ++p) t[p] = lit[p] * at[p];
+            for (int p = 0; p < probes_each; ++p) t[p] = lit[p] * at[p];
             const S mean = sum_of(t) / count;
             auto sum = [&](auto value) {
-                for (int p = 0; p < most_probes; ++p) t[p] = lit[p] > S(0) ? (at[p] - mean) * value(p) : S(0);
+                for (int p = 0; p < probes_each; ++p) t[p] = lit[p] > S(0) ? (at[p] - mean) * value(p) : S(0);
                 return sum_of(t);
             };
             const S spread = sum([&](int p) { return at[p] - mean; }), per = spread > S(0) ? S(1) / spread : S(0);
@@ -290,7 +293,7 @@ struct Slopes {
 
 /// Is the footprint too wide to be described by a single box? It may be long where there are sums.
 template <class S>
-LFDSIM_FN bool is_soft(const PanelLevels& levels, const SharedBundle<S>& b) {
+LFDSIM_FN bool is_soft(const PanelLevels& levels, const BundleShape<S>& b) {
     const S size = !levels.sums ? max(b.width, b.height) : levels.tall ? b.width : b.height;
     return size > S(FilteredLimits::soft);
 }
@@ -298,27 +301,24 @@ LFDSIM_FN bool is_soft(const PanelLevels& levels, const SharedBundle<S>& b) {
 /// The panel's light over small boxes around the probes of a part of a stratum, each as wide as the distance to the next probes.
 template <class S>
 struct ProbeBoxes {
-    S width[most_probes], height[most_probes], weight[most_probes];  // panel pixels; 0: lost
+    S width[probes_each], height[probes_each], weight[probes_each];  // panel pixels; 0: lost
 
     template <class F>
     LFDSIM_FN void make(const Probes<S>& probes, int per_axis) {
-        constexpr int pad = 4;  // per_axis at most
-        S column[most_probes + 2 * pad] = {}, row[most_probes + 2 * pad] = {}, lit[most_probes + 2 * pad] = {};
-        for (int p = 0; p < most_probes; ++p) {
+        S lit[probes_each];
+        for (int p = 0; p < probes_each; ++p) {
             weight[p] = probes.in[p] * probes.weight[p];
-            lit[pad + p] = weight[p] > S(0) ? S(1) : S(0);
-            column[pad + p] = probes.column[p];
-            row[pad + p] = probes.row[p];
+            lit[p] = weight[p] > S(0) ? S(1) : S(0);
         }
-        for (int p = 0; p < most_probes; p += LaneTraits<F>::width) {
-            const int at = pad + p;
+        const Neighbours<S> columns(probes.column), rows(probes.row), lights(lit);
+        for (int p = 0; p < probes_each; p += LaneTraits<F>::width) {
             F wide = F(0), high = F(0);
             auto add_step = [&](const S* behind, const S* before, int step) {  // to the next probe, else from the last
-                const F c = load<F>(column + at), r = load<F>(row + at);
-                const F next_c = abs(load<F>(column + at + step) - c), last_c = abs(load<F>(column + at - step) - c),
-                        next_r = abs(load<F>(row + at + step) - r), last_r = abs(load<F>(row + at - step) - r);
-                const Mask<F> next = load<F>(behind + p) * load<F>(lit + at + step) > F(0),
-                              last = load<F>(before + p) * load<F>(lit + at - step) > F(0);
+                const F c = load<F>(probes.column + p), r = load<F>(probes.row + p);
+                const F next_c = abs(columns.template at<F>(p, step) - c), last_c = abs(columns.template at<F>(p, -step) - c),
+                        next_r = abs(rows.template at<F>(p, step) - r), last_r = abs(rows.template at<F>(p, -step) - r);
+                const Mask<F> next = load<F>(behind + p) * lights.template at<F>(p, step) > F(0),
+                              last = load<F>(before + p) * lights.template at<F>(p, -step) > F(0);
                 wide = wide + select(next, next_c, select(last, last_c, F(0)));
                 high = high + select(next, next_r, select(last, last_r, F(0)));
             };
@@ -331,7 +331,7 @@ struct ProbeBoxes {
 
     /// Adds squared widths.
     LFDSIM_FN void blur(S wide, S high) {
-        for (int p = 0; p < most_probes; ++p) {
+        for (int p = 0; p < probes_each; ++p) {
             width[p] = sqrt(width[p] * width[p] + wide);
             height[p] = sqrt(height[p] * height[p] + high);
         }
@@ -340,13 +340,13 @@ struct ProbeBoxes {
     /// The light of each box, moved by (column, row): R, G, B and whether the probe lies in the part.
     template <class F>
     LFDSIM_FN void look(const Probes<S>& probes, const PanelLevels& levels, const PanelBase<S>& base, S column, S row,
-                        S (&light)[most_probes][4]) const {
-        for (int p = 0; p < most_probes; p += LaneTraits<F>::width)
+                        S (&light)[probes_each][4]) const {
+        for (int p = 0; p < probes_each; p += LaneTraits<F>::width)
             light_of_boxes(levels, base,
                            Boxes<F>{load<F>(probes.column + p) + F(column), load<F>(probes.row + p) + F(row), load<F>(width + p),
                                     load<F>(height + p), load<F>(weight + p)},
                            light + p);
-        for (int p = 0; p < most_probes; ++p) light[p][3] = probes.in[p];
+        for (int p = 0; p < probes_each; ++p) light[p][3] = probes.in[p];
     }
 };
 
@@ -354,14 +354,14 @@ struct ProbeBoxes {
 /// from whose middle to its right and upper edge it moves as rays p and p + 1 tell. The variance of a box of width w is w^2 / 12,
 /// that of a disk of radius r along an axis r^2 / 4.
 template <class S>
-LFDSIM_FN void blur(const Scene<S>& scene, SharedBundle<S>& b, const Probes<S>& rays, int p) {
+LFDSIM_FN void blur(const Scene<S>& scene, BundleShape<S>& b, const Probes<S>& rays, int p) {
     if (scene.box_filter) {
         b.blur_width = b.column_right * b.column_right + b.column_down * b.column_down;
         b.blur_height = b.row_right * b.row_right + b.row_down * b.row_down;
     }
     for (int k = 0; k < 2 && scene.thin_lens; ++k) {
-        if (!(rays.weight[p + k] > S(0))) continue;
-        const S c = rays.column[p + k] - b.probe_column, r = rays.row[p + k] - b.probe_row;
+        if (!(of_probe(rays.weight, p + k) > S(0))) continue;
+        const S c = of_probe(rays.column, p + k) - b.probe_column, r = of_probe(rays.row, p + k) - b.probe_row;
         b.blur_width = b.blur_width + S(3) * c * c;
         b.blur_height = b.blur_height + S(3) * r * r;
     }
@@ -371,18 +371,20 @@ LFDSIM_FN void blur(const Scene<S>& scene, SharedBundle<S>& b, const Probes<S>& 
 /// 2 and 3. The bundle becomes broken if the motion is not linear, or a ray is lost or ends under another lens, unless it is so
 /// wide that this does not matter.
 template <class S>
-LFDSIM_FN void follow(SharedBundle<S>& b, const Probes<S>& rays, int p, int reach) {
+LFDSIM_FN void follow(BundleShape<S>& b, const Probes<S>& rays, int p, int reach) {
     const S column = b.probe_column, row = b.probe_row, per = S(1) / S(reach);
-    b.column_right = (rays.column[p] - column) * per;
-    b.row_right = (rays.row[p] - row) * per;
-    b.column_down = (rays.column[p + 1] - column) * per;
-    b.row_down = (rays.row[p + 1] - row) * per;
-    const S uneven_column = abs(rays.column[p] + rays.column[p + 1] + rays.column[p + 2] - S(3) * column),
-            uneven_row = abs(rays.row[p] + rays.row[p + 1] + rays.row[p + 2] - S(3) * row);
+    b.column_right = (of_probe(rays.column, p) - column) * per;
+    b.row_right = (of_probe(rays.row, p) - row) * per;
+    b.column_down = (of_probe(rays.column, p + 1) - column) * per;
+    b.row_down = (of_probe(rays.row, p + 1) - row) * per;
+    const S uneven_column =
+                abs(of_probe(rays.column, p) + of_probe(rays.column, p + 1) + of_probe(rays.column, p + 2) - S(3) * column),
+            uneven_row = abs(of_probe(rays.row, p) + of_probe(rays.row, p + 1) + of_probe(rays.row, p + 2) - S(3) * row);
     const auto even = [](S uneven, S size) { return uneven <= S(FilteredLimits::least_uneven) + S(FilteredLimits::uneven) * size; };
     bool whole = even(uneven_column, b.width) && even(uneven_row, b.height);
     for (int k = p; k < p + 3; ++k)
-        whole = whole && rays.weight[k] > S(0) && rays.cell_i[k] == rays.cell_i[p] && rays.cell_j[k] == rays.cell_j[p];
+        whole = whole && of_probe(rays.weight, k) > S(0) && of_probe(rays.cell_i, k) == of_probe(rays.cell_i, p) &&
+                of_probe(rays.cell_j, k) == of_probe(rays.cell_j, p);
     // A footprint much wider than its motion over the block, or so wide that its rays scatter widely, is treated as still.
     const S way_column = S(reach) * (abs(b.column_right) + abs(b.column_down)),
             way_row = S(reach) * (abs(b.row_right) + abs(b.row_down));
@@ -390,7 +392,7 @@ LFDSIM_FN void follow(SharedBundle<S>& b, const Probes<S>& rays, int p, int reac
     b.still = stands(way_column, b.width) && stands(way_row, b.height);
     if (whole) return;
     b.still = max(b.width, b.height) > S(FilteredLimits::smeared);
-    if (!b.still) b.state = SharedBundle<S>::State::broken;
+    if (!b.still) b.state = BundleShape<S>::State::broken;
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -37,6 +37,15 @@ LFDSIM_FN void store_texel(Texel texel, float (&to)[4]) { __builtin_memcpy(to, &
 LFDSIM_FN Texel texel_of(const float (&from)[4]) { return load_texel(from); }
 #endif
 
+/// A level's texels. A GPU's compiler is told that nothing changes the level, so that a loop need not look again.
+LFDSIM_FN const float* texels_of(const PanelLevel& level) {
+#ifdef __CUDA_ARCH__
+    return reinterpret_cast<const float*>(__ldg(reinterpret_cast<const unsigned long long*>(&level.texels)));
+#else
+    return level.texels;
+#endif
+}
+
 /// A level of the pyramid as the rays from one base lens read it.
 template <class S>
 struct LevelReader {
@@ -137,6 +146,8 @@ LFDSIM_FN bool alike(const SubpixelPart<S>& a, const SubpixelPart<S>& b, int axi
 /// The levels of a plane.
 LFDSIM_FN PanelLevels plane_of(PanelLevels levels, int plane) {
     levels.level += plane * levels.count * (levels.sums ? 2 : 1);
+    levels.columns = levels.level->columns;
+    levels.rows = levels.level->rows;
     return levels;
 }
 

@@ -64,6 +64,13 @@ LFDSIM_FN float max(float a, float b) { return a > b ? a : b; }
 LFDSIM_FN int max(int a, int b) { return a > b ? a : b; }
 LFDSIM_FN double max(double a, double b) { return a > b ? a : b; }
 
+/// Do threads that run together wait for each other where they branch apart? A short cut for some of them then gains nothing.
+#ifdef __CUDA_ARCH__
+constexpr bool threads_apart = true;
+#else
+constexpr bool threads_apart = false;
+#endif
+
 /// The number of zeros below the lowest one of a > 0.
 LFDSIM_FN int trailing_zeros(std::uint32_t a) {
 #ifdef __CUDA_ARCH__

@@ -167,7 +167,9 @@ struct PanelLevels {
     const PanelLevel* level;
     int count;
     bool sums;
-    bool tall;  // footprints are long along columns, not along rows
+    bool tall;                    // footprints are long along columns, not along rows
+    bool whole;                   // all of each pixel shines in its own colour: as `emission` says, which else has the parts
+    std::uint32_t columns, rows;  // of the finest level
     const Emission<float>* emission;
 };
 

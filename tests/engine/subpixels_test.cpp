@@ -104,8 +104,7 @@ struct ReadPanel {
           pyramid(shown),
           reading{.planes = planes(d.panel)},
           scene(make_scene<float>(d, resolve(d))) {
-        const auto& all = pyramid.levels(reading);
-        levels = {all.data(), int(all.size() / reading.planes.size()), false, false, &scene.emission};
+        levels = panel_levels(pyramid.levels(reading), reading, scene.emission);
     }
     double light_at(double x, double y, int c) const { return lfdsim::light_at(panel, shown, x, y, c); }
 

@@ -1,6 +1,7 @@
 // EXR, NPY and JPEG.
 #include "helpers.h"
 #include "image/encoding.h"
+#include "image/jpeg_memory.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
@@ -90,7 +91,9 @@ TEST(Npy, RefusesOtherArrays) {
     }
 }
 
-void save_jpeg(const std::filesystem::path& path, int width, int height, int components, int progressive) {
+/// From `codes`, or where there are none of one colour.
+void save_jpeg(const std::filesystem::path& path, int width, int height, int components, int progressive,
+               std::vector<JSAMPLE> codes = {}, int quality = 100) {
     std::FILE* const file = std::fopen(path.c_str(), "wb");
     jpeg_compress_struct jpeg{};
     jpeg_error_mgr error{};
@@ -102,13 +105,14 @@ void save_jpeg(const std::filesystem::path& path, int width, int height, int com
     jpeg.input_components = components;
     jpeg.in_color_space = components == 1 ? JCS_GRAYSCALE : components == 3 ? JCS_RGB : JCS_CMYK;
     jpeg_set_defaults(&jpeg);
-    jpeg_set_quality(&jpeg, 100, TRUE);
+    jpeg_set_quality(&jpeg, quality, TRUE);
     if (progressive) jpeg_simple_progression(&jpeg);
     jpeg_start_compress(&jpeg, TRUE);
-    std::vector<JSAMPLE> row(std::size_t(width * components));
-    for (int i = 0; i < width * components; ++i) row[std::size_t(i)] = i % components == 0 ? 200 : 60;
-    JSAMPROW pointer = row.data();
-    for (int y = 0; y < height; ++y) jpeg_write_scanlines(&jpeg, &pointer, 1);
+    for (int i = int(codes.size()); i < width * height * components; ++i) codes.push_back(i % components == 0 ? 200 : 60);
+    for (int y = 0; y < height; ++y) {
+        JSAMPROW row = codes.data() + y * width * components;
+        jpeg_write_scanlines(&jpeg, &row, 1);
+    }
     jpeg_finish_compress(&jpeg);
     jpeg_destroy_compress(&jpeg);
     std::fclose(file);
@@ -126,6 +130,18 @@ TEST(Jpeg, ReadsGrayAndColour) {
             for (std::size_t i = 0; i < image.rgb.size(); ++i)
                 EXPECT_NEAR(image.rgb[i] * 255, components == 1 || i % 3 == 0 ? 200 : 60, 2.1);
         }
+}
+
+// Strips compressed apart hold the same pixels as a picture compressed as a whole.
+TEST(Jpeg, WrittenInStripsIsTheSamePicture) {
+    const test::TemporaryFolder folder;
+    for (const auto& [width, height] : {std::pair(1, 1), std::pair(37, 128), std::pair(50, 129), std::pair(19, 1400)}) {
+        const std::vector<std::uint8_t> codes = encode8(test::random_image(width, height), Encoding::srgb);
+        save_jpeg(folder / "whole.jpg", width, height, 3, 0, codes, 80);
+        test::save(folder / "strips.jpg", jpeg_bytes(width, height, codes, 80));
+        EXPECT_EQ(read_image(folder / "strips.jpg", Encoding::linear).rgb, read_image(folder / "whole.jpg", Encoding::linear).rgb)
+            << width << " x " << height;
+    }
 }
 
 TEST(Jpeg, RefusesFourColours) {

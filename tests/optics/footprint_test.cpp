@@ -27,7 +27,7 @@ std::array<float, 4> light_of(const Pyramid& pyramid, double column, double row,
     const PanelBase<float> base{40, 30, 0, 0};
     float light[1][4];
     static const Emission<float> whole{true, 0, {}};
-    const PanelLevels levels{pyramid.levels().data(), int(pyramid.levels().size()), false, true, &whole};
+    const PanelLevels levels = panel_levels(pyramid.levels(), {}, whole);
     light_of_boxes(levels, base, Boxes<float>{float(column - 40), float(row - 30), float(wide), float(high), 1.0f}, light);
     return {light[0][0], light[0][1], light[0][2], light[0][3]};
 }

@@ -25,7 +25,7 @@ constexpr int threads = 128;  // in a thread block
 /// Thread blocks that a multiprocessor is to hold at once at least, which limits the registers of a step's kernel: measured on an
 /// H100 (docs/gpu.md).
 constexpr int least_blocks(Step step) {
-    return step == Step::points ? 6 : step == Step::bundles ? 4 : step == Step::pixels ? 3 : 1;
+    return step == Step::points ? 6 : step == Step::bundles || step == Step::pixels ? 4 : step == Step::places ? 8 : 1;
 }
 
 template <Step step, optics::Way through, bool simple>
@@ -172,6 +172,7 @@ class CudaQueue : public wide::Queue {
             look.template operator()<Step::bundles, few, true>();
             look.template operator()<Step::pixels, few, true>();
             look.template operator()<Step::pixels, few, false>();
+            look.template operator()<Step::alone, way, true>();
         });
         return most;
     }

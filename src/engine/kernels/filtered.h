@@ -24,7 +24,7 @@ struct BlockMemory {
 template <optics::Way through>
 class BlockRenderer {
   public:
-    BlockRenderer(const Tile& t, const EvenCuts& even, std::int32_t left, std::int32_t top) : tile(t), work(t, state) {
+    BlockRenderer(const Tile& t, const EvenCuts& cuts, std::int32_t left, std::int32_t top) : tile(t), even(cuts), work(t, state) {
         state.grids.grid = memory.grid;
         state.grids.cut = memory.cut;
         state.grids.stratum = memory.stratum;
@@ -74,7 +74,10 @@ class BlockRenderer {
             for (std::int32_t x = x0; x < x0 + tile.block_side; x += Packet::width) {
                 if (x >= tile.x1 || y >= tile.y1 || x + Packet::width <= tile.x0 || y + Packet::height <= tile.y0) continue;
                 S found[Packet::height][Packet::width * 4];
-                work.template look_from<max_strata>(x, y).store(found[0], state.per_axis == 0);
+                if (state.block.alive)
+                    work.template look_from<max_strata>(x, y).store(found[0], state.per_axis == 0);
+                else
+                    light_alone<through>(tile, even, x, y).store(found[0]);
                 for (int row = 0; row < Packet::height; ++row) {
                     S* const to = picture[y - y0 + row][x - x0];
                     if (state.any_soft)
@@ -97,6 +100,7 @@ class BlockRenderer {
     }
 
     const Tile& tile;
+    const EvenCuts& even;
     BlockState state;
     BlockWork<through> work;
     S picture[most_side][most_side][4];  // of the block

@@ -91,47 +91,49 @@ LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>*
         const S tangent = even.tangent[axis][even_cut];
         return Gradient::of(sweep[0].place(tangent), sweep[1].place(tangent), sweep[2].place(tangent));
     };
-    auto cut_at = [&](int j, S place) {
+    auto cut_at = [&](S place) {
         S number[3];
         for (int k = 0; k < 3; ++k) number[k] = optics::diffuser_uniform(scene, axis, sweep[k].tangent(place));
-        a.cut[j] = {Gradient::of(number[0], number[1], number[2]), {place, 0, 0}};
+        return Cut{Gradient::of(number[0], number[1], number[2]), {place, 0, 0}};
     };
     const Gradient start = place_of(0), end = place_of(even.strata);
-    a.first = start;
-    a.last = end;
     const S reach = start.reach(), along = end.middle > start.middle ? S(1) : S(-1);
-    a.moving = moves || !(along * (end.middle - start.middle) > reach);
+    const bool moving = moves || !(along * (end.middle - start.middle) > reach);
 
     // The first and the last border between lenses that some pixel of the block sees, in pitches
     const S low = optics::min(start.middle, end.middle) - reach, high = optics::max(start.middle, end.middle) + reach;
     const S first = optics::floor(low * per_pitch + S(0.5)) + S(0.5), last = optics::floor(high * per_pitch - S(0.5)) + S(0.5);
     const S borders = last - first + S(1);
     // Where there are one or two borders more than cuts, each gets a cut: a block near a lens's border may see the next one too.
-    const bool at_borders = !a.moving && borders >= S(even.strata) && borders <= S(even.strata + 1) && even.strata + 2 < max_strata;
-    a.strata = at_borders ? int(borders) + 1 : even.strata;  // at most more_strata more
-    a.cut[0] = {{-1, 0, 0}, start};
-    for (int j = 1; j < a.strata; ++j) {
-        if (at_borders) {
-            cut_at(j, (along > 0 ? first + S(j - 1) : last - S(j - 1)) * pitch);
-            continue;
-        }
-        a.cut[j] = {{even.number[j], 0, 0}, place_of(j)};
-        if (a.moving) continue;
-        const S even_place = a.cut[j].place.middle;
-        cut_at(j, (optics::floor(even_place * per_pitch) + S(0.5)) * pitch);  // the nearest border
+    const bool at_borders = !moving && borders >= S(even.strata) && borders <= S(even.strata + 1) && even.strata + 2 < max_strata;
+    const int strata = at_borders ? int(borders) + 1 : even.strata;  // at most more_strata more
+    auto cut_number = [&](int j) {
+        if (j == 0) return Cut{{-1, 0, 0}, start};
+        if (j == strata) return Cut{{1, 0, 0}, end};
+        if (at_borders) return cut_at((along > 0 ? first + S(j - 1) : last - S(j - 1)) * pitch);
+        const Cut even_cut{{even.number[j], 0, 0}, place_of(j)};
+        if (moving) return even_cut;
+        const Cut at_border = cut_at((optics::floor(even_cut.place.middle * per_pitch) + S(0.5)) * pitch);  // the nearest one
         // The outermost cuts also take borders that only some pixels of the block see.
-        const Gradient& number = a.cut[j].number;
+        const Gradient& number = at_border.number;
         const S spread = number.reach();
         const bool snaps = number.middle >= (j == 1 ? -1 - spread : even.number[j] - step) &&
-                           number.middle < (j == a.strata - 1 ? 1 + spread : even.number[j] + step);
-        if (!snaps) cut_at(j, even_place);
-    }
-    a.cut[a.strata] = {{1, 0, 0}, end};
-    for (int j = 0; j < a.strata; ++j) {
-        S from = a.cut[j].place.middle * along, to = a.cut[j + 1].place.middle * along;
+                           number.middle < (j == strata - 1 ? 1 + spread : even.number[j] + step);
+        return snaps ? at_border : cut_at(even_cut.place.middle);
+    };
+    a.strata = strata;
+    a.moving = moving;
+    a.first = start;
+    a.last = end;
+    Cut cut = cut_number(0);
+    a.cut[0] = cut;
+    for (int j = 0; j < strata; ++j) {
+        const Cut next = cut_number(j + 1);
+        a.cut[j + 1] = next;
+        S from = cut.place.middle * along, to = next.place.middle * along;
         // The outermost strata reach as far as any pixel of the block sees.
-        if (j == 0 && !a.moving) from = optics::min(from, to) - reach;
-        if (j == a.strata - 1 && !a.moving) to = optics::max(from, to) + reach;
+        if (j == 0 && !moving) from = optics::min(from, to) - reach;
+        if (j == strata - 1 && !moving) to = optics::max(from, to) + reach;
         const S cell = optics::cell_along(lattice, axis, S(0.5) * (from + to) * along), axis_at = cell * pitch;
         const S low_end = optics::min(from * along, to * along) - axis_at,
                 high_end = optics::max(from * along, to * along) - axis_at;
@@ -139,73 +141,88 @@ LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>*
         a.stratum[j] = {
             axis_at, optics::max(low_end, -half), optics::min(high_end, half),
             low_end - beside < S(-FilteredLimits::straddling) * half || high_end + beside > S(FilteredLimits::straddling) * half,
-            !a.moving && (j == 0 || j == a.strata - 1)};
+            !moving && (j == 0 || j == strata - 1)};
+        cut = next;
     }
 }
 
-/// The strata of an axis, x' (0) or y' (1), for each pixel of a packet; dx and dy: its position in the block, -1 .. 1. Of moving
-/// strata parts of the circle are left out.
-LFDSIM_BOTH void spans_of(const optics::Scene<S>& scene, const Axis& axis, int along, F dx, F dy, Span<F>* spans) {
-    const Lattice<S>& lattice = scene.lattice;
-    const int strata = axis.strata;
-    const F start = axis.first.at(dx, dy), end = axis.last.at(dx, dy);
-    const F least = optics::min(start, end), most = optics::max(start, end);
-    F number = F(-1), place = start;
-    for (int j = 0; j < strata; ++j) {
-        const bool last = j + 1 == strata;
-        const Cut& cut = axis.cut[j + 1];
-        const F next_number = last ? F(1) : optics::min(optics::max(cut.number.at(dx, dy), number), F(1));
-        const F next_place = last ? end : optics::min(optics::max(cut.place.at(dx, dy), least), most);
-        Span<F>& span = spans[j];
+/// The strata of an axis, x' (0) or y' (1), one after another, for each pixel of a packet; dx and dy: its position in the block,
+/// -1 .. 1. Of moving strata parts of the circle are left out. Of an axis of a lens's own grid each pixel sees a part.
+class Spans {
+  public:
+    LFDSIM_BOTH Spans(const optics::Scene<S>& of, const Grid& grid, int direction, F right, F down)
+        : scene(of),
+          axis(grid.axis[direction]),
+          along(direction),
+          dx(right),
+          dy(down),
+          along_strip(of.by_lens && grid.strip == 1 - direction),
+          start(axis.first.at(dx, dy)),
+          end(axis.last.at(dx, dy)),
+          least(optics::min(start, end)),
+          most(optics::max(start, end)),
+          number(of.by_lens ? number_on_lens(0) : F(-1)),
+          place(of.by_lens ? place_on_lens(0) : start) {}
+
+    LFDSIM_BOTH Span<F> next() {
+        Span<F> span;
+        span.low = F(-1);
+        span.high = F(1);
+        if (along_strip) return span;  // its parts are polygons alone
+        const bool last = stratum + 1 == axis.strata;
+        F next_number = F(1), next_place = end;
+        if (scene.by_lens) {
+            next_number = number_on_lens(stratum + 1);
+            next_place = place_on_lens(stratum + 1);
+        } else if (!last) {
+            const Cut& cut = axis.cut[stratum + 1];
+            next_number = optics::min(optics::max(cut.number.at(dx, dy), number), F(1));
+            next_place = optics::min(optics::max(cut.place.at(dx, dy), least), most);
+        }
         span.low = number;
         span.high = next_number;
         span.share = F(0.5f) * (next_number - number);
-        if (scene.hole_radius > 0) {
+        if (scene.hole_radius > 0) cover(span, optics::min(place, next_place), optics::max(place, next_place));
+        number = next_number;
+        place = next_place;
+        ++stratum;
+        return span;
+    }
+
+  private:
+    LFDSIM_FN F number_on_lens(int cut) const { return optics::min(optics::max(axis.cut[cut].number.at(dx, dy), F(-1)), F(1)); }
+    LFDSIM_FN F place_on_lens(int cut) const { return optics::min(optics::max(F(axis.cut[cut].place.middle), least), most); }
+
+    /// What it spans of the hole.
+    LFDSIM_FN void cover(Span<F>& span, F from, F to) const {
+        const F per = F(1 / scene.hole_radius);
+        if (scene.by_lens) {
+            const F at = F(axis.stratum[stratum].axis);
+            span.from = (from - at) * per;
+            span.to = (to - at) * per;
+        } else {
             // A moving stratum may lie on another lens than for the middle of the block.
-            const F at = axis.moving ? F(lattice.pitch[along]) * optics::cell_along(lattice, along, F(0.5f) * (place + next_place))
-                                     : F(axis.stratum[j].axis);
-            const F half = F(lattice.half_pitch[along]), per = F(1 / scene.hole_radius);
-            span.from = optics::max(optics::min(place, next_place) - at, -half) * per;
-            span.to = optics::min(optics::max(place, next_place) - at, half) * per;
-            if (!axis.moving) {
-                span.part_from = optics::circle_part(span.from);
-                span.part_to = optics::circle_part(span.to);
-            }
+            const Lattice<S>& lattice = scene.lattice;
+            const F at = axis.moving ? F(lattice.pitch[along]) * optics::cell_along(lattice, along, F(0.5f) * (from + to))
+                                     : F(axis.stratum[stratum].axis);
+            const F half = F(lattice.half_pitch[along]);
+            span.from = optics::max(from - at, -half) * per;
+            span.to = optics::min(to - at, half) * per;
+            if (axis.moving) return;
         }
-        number = next_number;
-        place = next_place;
+        span.part_from = optics::circle_part(span.from);
+        span.part_to = optics::circle_part(span.to);
     }
-}
 
-/// The same for an axis of a lens's own grid, of which each pixel sees a part.
-LFDSIM_BOTH void spans_on_lens(const optics::Scene<S>& scene, const Grid& grid, int along, F dx, F dy, Span<F>* spans) {
-    const Axis& axis = grid.axis[along];
-    if (grid.strip == 1 - along) {  // its parts are polygons alone
-        for (int j = 0; j < axis.strata; ++j) spans[j].low = F(-1), spans[j].high = F(1);
-        return;
-    }
-    const F start = axis.first.at(dx, dy), end = axis.last.at(dx, dy);
-    const F least = optics::min(start, end), most = optics::max(start, end);
-    auto number_at = [&](int cut) { return optics::min(optics::max(axis.cut[cut].number.at(dx, dy), F(-1)), F(1)); };
-    auto place_at = [&](int cut) { return optics::min(optics::max(F(axis.cut[cut].place.middle), least), most); };
-    F number = number_at(0), place = place_at(0);
-    for (int j = 0; j < axis.strata; ++j) {
-        const F next_number = number_at(j + 1), next_place = place_at(j + 1);
-        Span<F>& span = spans[j];
-        span.low = number;
-        span.high = next_number;
-        span.share = F(0.5f) * (next_number - number);
-        if (scene.hole_radius > 0) {
-            const F at = F(axis.stratum[j].axis), per = F(1 / scene.hole_radius);
-            span.from = (optics::min(place, next_place) - at) * per;
-            span.to = (optics::max(place, next_place) - at) * per;
-            span.part_from = optics::circle_part(span.from);
-            span.part_to = optics::circle_part(span.to);
-        }
-        number = next_number;
-        place = next_place;
-    }
-}
+    const optics::Scene<S>& scene;
+    const Axis& axis;
+    const int along;
+    const F dx, dy;
+    const bool along_strip;
+    const F start, end, least, most;
+    F number, place;
+    int stratum = 0;
+};
 
 /// Does a moving stratum span less than a lens?
 LFDSIM_BOTH bool within_a_pitch(const optics::Scene<S>& scene, const Axis& axis, int along, int stratum) {

@@ -2,6 +2,7 @@
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
 #include "engine/kernel.h"
+#include "engine/kernels/filtered_alone.h"
 #include "engine/kernels/filtered_axis.h"
 #include "engine/kernels/filtered_bundles.h"
 #include "engine/kernels/filtered_own.h"
@@ -72,7 +73,7 @@ constexpr int most_sharps = 2 * (few_strata + 8) * (few_strata + 8);
 struct BlockState {
     std::int32_t x0, y0;  // first pixel
     optics::PixelBlock<S> block;
-    Grids grids;
+    Grids grids;       // none where the block is not alive: its pixels share nothing
     int per_axis;      // places along an axis; 0: none
     int sharps;        // sharp bundles, where there are places
     bool any_soft;     // bundles
@@ -93,37 +94,34 @@ class BlockWork {
     LFDSIM_BOTH void begin(const EvenCuts& even, std::int32_t left, std::int32_t top) {
         at.x0 = left;
         at.y0 = top;
-        at.block = optics::pixel_block<S>(scene, *tile.view, tile.block_side,
-                                          S(tile.strata > few_strata ? FilteredLimits::misjudged_fine : FilteredLimits::misjudged),
-                                          left, top);
-        if (scene.by_lens && at.block.alive) at.block.alive = LensCutter(tile, at.block, at.grids).cut();
-        if (!by_lens()) cut_square(even);
+        // Worked on before it is written where a GPU would have to wait for it.
+        optics::PixelBlock<S> block = optics::pixel_block<S>(
+            scene, *tile.view, tile.block_side,
+            S(tile.strata > few_strata ? FilteredLimits::misjudged_fine : FilteredLimits::misjudged), left, top);
+        if (scene.by_lens && block.alive) block.alive = LensCutter(tile, block, at.grids).cut();
+        if (!block.alive) at.grids.count = at.grids.strata = 0;
+        if (block.alive && !scene.by_lens) cut_square(block, even);
+        at.block = block;
         at.per_axis = places_per_axis(tile);
     }
 
     /// Second step: all bundles of a block, or one.
     LFDSIM_BOTH void make_bundles() {
-        if (at.block.alive)
-            BundleMaker<through>(tile, at.block).make_all(at.grids, at.bundles);
-        else
-            for (int k = 0; k < strata(); ++k) make_broken(at.bundles[k]);
+        if (at.block.alive) BundleMaker<through>(tile, at.block).make_all(at.grids, at.bundles);
     }
     LFDSIM_BOTH void make_bundle(int k) {
         int g = 0;
         while (g + 1 < at.grids.count && at.grids.grid[g + 1].first <= k) ++g;
         const Grid& grid = at.grids.grid[g];
         const int in = k - grid.first, i = in % grid.axis[0].strata, j = in / grid.axis[0].strata;
-        if (at.block.alive)
-            BundleMaker<through>(tile, at.block).make(at.bundles[k], grid, i, j);
-        else
-            make_broken(at.bundles[k]);
+        BundleMaker<through>(tile, at.block).make(at.bundles[k], grid, i, j);
     }
     LFDSIM_BOTH int strata() const { return at.grids.strata; }
 
     /// Third step: lists the sharp bundles, and whether there are soft ones, and strata for each pixel alone.
     LFDSIM_BOTH void survey() {
         at.any_soft = false;
-        at.any_alone = at.per_axis == 0;
+        at.any_alone = at.per_axis == 0 || !at.block.alive;
         at.sharps = 0;
         for (int k = 0; k < strata(); ++k) {
             const Bundles& b = at.bundles[k];
@@ -168,38 +166,35 @@ class BlockWork {
             for (int c = 0; c < 3; ++c) at.light[k + n][c] = colour[c][n];
     }
 
-    /// Last step: the light that is looked up for each pixel of the packet at (x, y) of the frame.
+    /// Last step, of a block that is alive (else light_alone()): the light that is looked up for each pixel of the packet at (x, y)
+    /// of the frame.
     template <int most_strata>
     LFDSIM_BOTH PacketLight look_from(std::int32_t x, std::int32_t y) const {
         S right_of[Packet::lanes], below[Packet::lanes];  // of the packet's first pixel
-        std::uint32_t number[Packet::lanes];
         for (int k = 0; k < Packet::lanes; ++k) {
             right_of[k] = S(k % Packet::width) + S(0.5);
             below[k] = S(k / Packet::width) + S(0.5);
-            number[k] = std::uint32_t(k / Packet::width * tile.view->width + k % Packet::width);
         }
         const F right = optics::load<F>(right_of), down = optics::load<F>(below);
         const F dx = right + F(S(x - at.x0 - at.block.reach)), dy = down + F(S(y - at.y0 - at.block.reach));
         PacketLight light;
         if (at.sharps > 0) add_sharp(x - at.x0, y - at.y0, right, down, dx, dy, light);
-        if (at.any_alone) add_alone<most_strata>(x, y, optics::load<F>(number), dx, dy, light);
+        if (at.any_alone) add_alone<most_strata>(x, y, dx, dy, light);
         return light;
     }
 
   private:
     /// May each pixel cut a stratum at the lenses' borders? If it sees little of a lens through it, and no light beside the holes.
     LFDSIM_BOTH bool cut_by_pixels(const Axis (&axis)[2], int i, int j) const {
-        return at.block.alive && !scene.leaky && axis[0].moving && axis[1].moving && within_a_pitch(scene, axis[0], 0, i) &&
+        return !scene.leaky && axis[0].moving && axis[1].moving && within_a_pitch(scene, axis[0], 0, i) &&
                within_a_pitch(scene, axis[1], 1, j);
     }
 
     /// Do the camera's pixels or its pupil spread the light?
     LFDSIM_BOTH bool spreads() const { return scene.box_filter || scene.thin_lens; }
 
-    LFDSIM_BOTH bool by_lens() const { return scene.by_lens && at.block.alive; }
-
     /// One grid for the whole square of angles.
-    LFDSIM_BOTH void cut_square(const EvenCuts& even) {
+    LFDSIM_BOTH void cut_square(const optics::PixelBlock<S>& block, const EvenCuts& even) {
         Grid& grid = at.grids.grid[0];
         grid.first = grid.corners = 0;
         grid.narrow = false;
@@ -208,7 +203,7 @@ class BlockWork {
         for (int a = 0; a < 2; ++a) {
             grid.axis[a].cut = at.grids.cut + a * (most + 1);
             grid.axis[a].stratum = at.grids.stratum + a * (most + 1);
-            cut_axis(scene, at.block.sweep[a], tile.square.weak || !at.block.alive, a, even, grid.axis[a]);
+            cut_axis(scene, block.sweep[a], tile.square.weak, a, even, grid.axis[a]);
         }
         at.grids.count = 1;
         at.grids.strata = grid.strata();
@@ -230,12 +225,6 @@ class BlockWork {
     LFDSIM_BOTH bool unseen(const Seen& seen) const {
         if (seen.corners->count == 0 || (spreads() && parts_an_axis(tile) > 1)) return false;
         return optics::none(reaches(*seen.corners, {seen.across->low, seen.across->high, seen.up->low, seen.up->high}));
-    }
-
-    LFDSIM_BOTH static void make_broken(Bundles& b) {
-        b.through.state = SharedBundle::State::broken;
-        b.beside.state = SharedBundle::State::dark;
-        b.straddles = false;
     }
 
     LFDSIM_BOTH void note(const SharedBundle& b) {
@@ -278,11 +267,11 @@ class BlockWork {
     /// Adds what each pixel of the packet at (x, y) of the frame computes by itself: all strata where there are no places, else the
     /// broken ones.
     template <int most_strata>
-    LFDSIM_BOTH void add_alone(std::int32_t x, std::int32_t y, optics::Uint<F> number, F dx, F dy, PacketLight& to) const {
+    LFDSIM_BOTH void add_alone(std::int32_t x, std::int32_t y, F dx, F dy, PacketLight& to) const {
         bool own_ready = false;
         optics::PixelRays<F> pixels;
         WaitingRays<through> waiting(tile, pixels, to.boxes);
-        const auto first = std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x);
+        const optics::Uint<F> numbers = pixel_numbers(tile, x, y);
         const S reach = S(at.block.reach), per_reach = S(1) / reach;
         dx = dx * F(per_reach);
         dy = dy * F(per_reach);
@@ -298,17 +287,16 @@ class BlockWork {
             auto add_own = [&](Own part, F weight) {
                 ready();
                 waiting.trace();
-                optics::Sampler<F> sampler(Sampling::random, spreads() ? 6 : 2, tile.view->seed, number + optics::Uint<F>(first));
-                sampler.sample = seen.number * 8;
-                add_own_rays<through>(tile, pixels, across, up, *seen.corners, part, weight, sampler, to.boxes);
+                add_own_rays<through>(tile, pixels, across, up, *seen.corners, part, weight,
+                                      own_sampler(tile, numbers, seen.number), to.boxes);
             };
             const bool own_beside = b.beside.state == SharedBundle::State::broken,
                        own = b.through.state == SharedBundle::State::broken;
             if (at.per_axis > 0 && !own && !own_beside) return;
-            if (own && by_lens()) {
+            if (own && scene.by_lens) {
                 if (unseen(seen)) return;
                 ready();
-                const OwnPixels own_pixels{pixels, number + optics::Uint<F>(first), dx, dy, per_reach, square};
+                const OwnPixels own_pixels{pixels, numbers, dx, dy, per_reach, square};
                 if (scene.leaky && scene.hole_radius > 0) return add_random_parts<through>(tile, own_pixels, seen, to.boxes);
                 return add_parts(tile, at.grids, own_pixels, seen, waiting);
             }
@@ -329,12 +317,12 @@ class BlockWork {
                 }
                 return;
             }
-            if (own && at.block.alive && !b.straddles && fine_alone(tile, scene)) {
+            if (own && !b.straddles && fine_alone(tile, scene)) {
                 ready();
                 return add_own_probes(scene, across, up, share, Spread(), waiting);
             }
             if (own) {
-                const bool covered = scene.hole_radius > 0 && !scene.leaky && at.block.alive && !b.straddles;
+                const bool covered = scene.hole_radius > 0 && !scene.leaky && !b.straddles;
                 return add_own(covered ? Own::covered : Own::all, share);
             }
             const F cover = cover_of(seen, share);
@@ -363,19 +351,20 @@ class BlockWork {
     /// f(Seen) for each stratum, with the spans of the lanes at (dx, dy) of the block, -1 .. 1. An axis has at most `most` strata.
     template <int most, class Do>
     LFDSIM_BOTH void for_strata(F dx, F dy, Do f) const {
-        Span<F> spans[2][most];
+        Span<F> across[most];
         for (int g = 0; g < at.grids.count; ++g) {
             const Grid& grid = at.grids.grid[g];
-            for (int a = 0; a < 2; ++a)
-                by_lens() ? spans_on_lens(scene, grid, a, dx, dy, spans[a]) : spans_of(scene, grid.axis[a], a, dx, dy, spans[a]);
+            Spans columns(scene, grid, 0, dx, dy), rows(scene, grid, 1, dx, dy);
+            for (int i = 0; i < grid.axis[0].strata; ++i) across[i] = columns.next();
             const optics::Corners<F> cell = corners_at(grid, dx, dy);
             optics::Corners<F> part;
             const Bundles* next = at.bundles + grid.first;
             for (int j = 0; j < grid.axis[1].strata; ++j) {
+                const Span<F> up = rows.next();
                 for (int i = 0; i < grid.axis[0].strata; ++i) {
                     const bool split = grid.strip >= 0 && grid.axis[1 - grid.strip].strata > 1;
                     if (split) part = part_of_strip(cell, grid, grid.strip == 1 ? i : j);
-                    f(Seen{next++, &grid, &spans[0][i], &spans[1][j], split ? &part : &cell, i, j,
+                    f(Seen{next++, &grid, &across[i], &up, split ? &part : &cell, i, j,
                            std::uint32_t(grid.first + j * max_strata + i)});
                 }
             }

@@ -98,17 +98,20 @@ LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block
             }
             const bool divided = p > 2 ? tile.square.divides_pupil : tile.square.divides_other;
             if (!of_pixel && !divided) turned = turned - (S(1) - with_hole[a]) * (turned + moved / scene.holes_below[a]);
-            (a == 0 ? rays.at_x : rays.at_y)[p] = at[a] + moved;
-            (a == 0 ? rays.x : rays.y)[p] = at[a] + moved + slope[a] + turned;
+            optics::set_probe(a == 0 ? rays.at_x : rays.at_y, p, at[a] + moved);
+            optics::set_probe(a == 0 ? rays.x : rays.y, p, at[a] + moved + slope[a] + turned);
         }
     }
     const S one_below[2] = {1, 1};
     optics::trace_probes<through, F>(scene, block, rays, count, one_below);
     const auto same = [&](int p) {
-        return rays.weight[0] * rays.weight[p] > S(0) && rays.cell_i[p] == rays.cell_i[0] && rays.cell_j[p] == rays.cell_j[0];
+        const bool same_cell = optics::of_probe(rays.cell_i, p) == optics::of_probe(rays.cell_i, 0) &&
+                               optics::of_probe(rays.cell_j, p) == optics::of_probe(rays.cell_j, 0);
+        return optics::of_probe(rays.weight, 0) * optics::of_probe(rays.weight, p) > S(0) && same_cell;
     };
     const auto widen = [&](int p, S share) {
-        blur.on_panel.add(rays.column[p] - rays.column[0], rays.row[p] - rays.row[0], share);
+        blur.on_panel.add(optics::of_probe(rays.column, p) - optics::of_probe(rays.column, 0),
+                          optics::of_probe(rays.row, p) - optics::of_probe(rays.row, 0), share);
     };
     // The width of a box that varies as much, in steps; squared. Of the variance, the shares that lie within cells; a pupil's are
     // mapped to a disk.

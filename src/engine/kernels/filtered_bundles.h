@@ -61,13 +61,14 @@ class BundleMaker {
                    : t.strata <= 8 ? 3
                                    : 2) {
         probes.lay_out(per_axis);
-        for (int p = 0; p < optics::most_probes; ++p) {  // all of them: the last lanes of a packet trace something, too
+        for (int p = 0; p < optics::probes_each; ++p) {  // all of them: the last lanes of a packet trace something, too
             probes.at_x[p] = block.sweep[0][0].at;
             probes.at_y[p] = block.sweep[1][0].at;
             rays.at_x[p] = rays.at_y[p] = rays.x[p] = rays.y[p] = 0;
-            grid_x[p] = (S(p % per_axis) + S(0.5)) / S(per_axis);
-            grid_y[p] = (S(p / per_axis) + S(0.5)) / S(per_axis);
-            counts[p] = p < per_axis * per_axis ? S(1) : S(0);
+            const int number = optics::probe_number(p);
+            grid_x[p] = (S(number % per_axis) + S(0.5)) / S(per_axis);
+            grid_y[p] = (S(number / per_axis) + S(0.5)) / S(per_axis);
+            counts[p] = number < per_axis * per_axis ? S(1) : S(0);
         }
     }
 
@@ -91,6 +92,11 @@ class BundleMaker {
     }
 
   private:
+    using Shape = optics::BundleShape<S>;
+    using State = Shape::State;
+    static constexpr bool follows_at_once = optics::probe_threads > 1;  // else the rays of several bundles are traced together
+    using Sums = optics::NodeSums<S, optics::most_nodes * optics::most_nodes>;
+
     LFDSIM_BOTH void use(const Grid& of) {
         grid = &of;
         axis = of.axis;
@@ -98,7 +104,7 @@ class BundleMaker {
 
     /// Where the bundle through the hole is broken, the pixels' own rays also cover what lies beside the hole.
     LFDSIM_BOTH static void settle(Bundles& b) {
-        if (b.through.state == SharedBundle::State::broken) b.beside.state = SharedBundle::State::dark;
+        if (b.through.state == State::broken) b.beside.state = State::dark;
     }
 
     /// Traces the probes of stratum (i, j), column i and row j, and queues the rays that follow sharp bundles over the block.
@@ -109,27 +115,36 @@ class BundleMaker {
         aside[0] = grid->strip == 1 ? grid->lean * y.middle() : S(0);
         aside[1] = grid->strip == 0 ? grid->lean * x.middle() : S(0);
         Range hole_x = x, hole_y = y;
-        b.through.state = b.beside.state = SharedBundle::State::dark;
-        b.straddles = across.straddles || up.straddles;
+        const bool straddles = across.straddles || up.straddles;
+        b.straddles = straddles;
+        b.through.state = b.beside.state = State::dark;
         if (scene.by_lens && tile.square.weak) {
-            b.through.state = SharedBundle::State::broken;
+            b.through.state = State::broken;
             const int squares = blurs_an_axis(tile);
             if (scene.thin_lens || (scene.box_filter && scene.has_diffuser))
                 for (int n = 0; n < squares * squares; ++n)
                     b.blur[n] = blur_alone<through>(tile, block, n, *grid, across, up, rays);
             return;
         }
-        if (b.straddles || (r > 0 && hole_edge_near(x, y))) {
-            b.through.state = SharedBundle::State::broken;
+        if (straddles || (r > 0 && hole_edge_near(x, y))) {
+            b.through.state = State::broken;
             return;
         }
-        if (r == 0 || clip_to_hole(r, hole_x, hole_y)) b.through = probe(i, hole_x, j, hole_y, true);
-        // Where a stop hides the panel from the middle of a block, other pixels may see through it.
-        if (b.through.state == SharedBundle::State::dark && scene.has_stop && (axis[0].moving || axis[1].moving))
-            b.through.state = SharedBundle::State::broken;
-        if (scene.leaky && r > 0) b.beside = probe(i, x, j, y, false);
-        if (b.through.state == SharedBundle::State::sharp) follow(b.through);
-        if (b.beside.state == SharedBundle::State::sharp) follow(b.beside);
+        for (int side = 0; side < (scene.leaky && r > 0 ? 2 : 1); ++side) {
+            const bool inside = side == 0;
+            SharedBundle& to = inside ? b.through : b.beside;
+            Shape shape;
+            shape.state = State::dark;
+            if (!inside || r == 0 || clip_to_hole(r, hole_x, hole_y))
+                shape = probe(i, inside ? hole_x : x, j, inside ? hole_y : y, inside, to.colour);
+            // Where a stop hides the panel from the middle of a block, other pixels may see through it.
+            if (inside && shape.state == State::dark && scene.has_stop && (axis[0].moving || axis[1].moving))
+                shape.state = State::broken;
+            to.state = shape.state;
+            if (shape.state == State::dark || shape.state == State::broken) continue;
+            static_cast<Shape&>(to) = shape;
+            if (!follows_at_once && shape.state == State::sharp) follow(to);
+        }
     }
 
     /// Do some pixels see a moving stratum inside the hole and others outside?
@@ -145,51 +160,51 @@ class BundleMaker {
     LFDSIM_BOTH void trace(int i, Range x, int j, Range y, bool inside) {
         const optics::Place<S> lens{axis[0].stratum[i].axis, axis[1].stratum[j].axis};
         const S limit = scene.hole_radius > 0 ? scene.hole_radius * scene.hole_radius : S(1e30);
-        for (int p = 0; p < optics::most_probes; ++p) {
+        for (int p = 0; p < optics::probes_each; ++p) {
             const S px = x.from + grid_x[p] * (x.to - x.from), py = y.from + grid_y[p] * (y.to - y.from);
             probes.x[p] = lens.x + px;
             probes.y[p] = lens.y + py;
             probes.in[p] = (px * px + py * py <= limit) == inside ? counts[p] : S(0);
         }
         if (grid->strip == 1)
-            for (int p = 0; p < optics::most_probes; ++p) probes.x[p] = probes.x[p] + grid->lean * (probes.y[p] - lens.y);
+            for (int p = 0; p < optics::probes_each; ++p) probes.x[p] = probes.x[p] + grid->lean * (probes.y[p] - lens.y);
         else if (grid->strip == 0)
-            for (int p = 0; p < optics::most_probes; ++p) probes.y[p] = probes.y[p] + grid->lean * (probes.x[p] - lens.x);
+            for (int p = 0; p < optics::probes_each; ++p) probes.y[p] = probes.y[p] + grid->lean * (probes.x[p] - lens.x);
         else if (grid->corners > 0)
-            for (int p = 0; p < optics::most_probes; ++p) {
+            for (int p = 0; p < optics::probes_each; ++p) {
                 const optics::Place<S> at = optics::to_array(scene.lattice, probes.x[p] - lens.x, probes.y[p] - lens.y);
                 if (!optics::in_cell(scene.lattice, at.x, at.y)) probes.in[p] = 0;
             }
         optics::trace_probes<through, F>(scene, block, probes, per_axis * per_axis, scene.holes_below);
     }
 
-    /// The bundle of a part of stratum (i, j), inside its hole or beside it. Motion of sharp ones is left to follow().
-    LFDSIM_BOTH SharedBundle probe(int i, Range x, int j, Range y, bool inside) {
+    /// The bundle of a part of stratum (i, j), inside its hole or beside it. The motion of sharp ones may be left to follow(); the
+    /// light of soft ones goes to `colour`.
+    LFDSIM_BOTH Shape probe(int i, Range x, int j, Range y, bool inside, S (*colour)[4]) {
         trace(i, x, j, y, inside);
-        SharedBundle b = optics::sum_up(probes, per_axis);
-        if (b.state != SharedBundle::State::sharp) return b;
-        if (!optics::is_soft(tile.levels, b)) {
-            lean(b, i, x, j, y);
+        Shape b = optics::sum_up(probes, per_axis);
+        if (b.state != State::sharp) return b;
+        const bool soft = optics::is_soft(tile.levels, b),
+                   uneven = !scene.emission.whole && optics::max(b.width, b.height) < S(FilteredLimits::masked);
+        if (soft && (fine_alone(tile, scene) || grid->narrow || uneven)) {
+            b.state = State::broken;
             return b;
         }
-        const bool uneven = !scene.emission.whole && optics::max(b.width, b.height) < S(FilteredLimits::masked);
-        if (fine_alone(tile, scene) || grid->narrow || uneven) {
-            b.state = SharedBundle::State::broken;
-            return b;
+        if (!soft) lean(b, i, x, j, y);
+        if (soft || follows_at_once) {
+            follow(b);
+            finish();
         }
-        follow(b);
-        finish();
-        if (b.state == SharedBundle::State::broken) return b;
+        if (!soft || b.state == State::broken) return b;
         if (scene.by_lens && scene.diffuser_profile == Profile::box && !b.still && runs_away(b)) {
-            b.state = SharedBundle::State::broken;
+            b.state = State::broken;
             return b;
         }
-        b.state = SharedBundle::State::soft;
+        b.state = State::soft;
         // The part of an outermost stratum that a pixel sees changes over the block.
         const bool ends = axis[0].stratum[i].cut_off || axis[1].stratum[j].cut_off;
         b.nodes = !b.still ? block.nodes() : ends ? 2 : 1;
-        for (int n = 0; n < b.nodes * b.nodes; ++n)
-            for (int c = 0; c < 4; ++c) b.colour[n][c] = 0;
+        Sums sums;
         // Wider footprints get more probes.
         const int parts =
             b.still ? optics::min(FilteredLimits::most_parts, 1 + int(optics::max(b.width, b.height) * part_per_pixel)) : 1;
@@ -200,20 +215,17 @@ class BundleMaker {
             };
             const Range here_x = part(x, k % parts), here_y = part(y, k / parts);
             if (parts > 1) trace(i, here_x, j, here_y, inside);
-            add_nodes(b, i, here_x, j, here_y);
+            add_nodes(b, i, here_x, j, here_y, sums);
         }
         b.weight = 1;
-        for (int n = 0; n < b.nodes * b.nodes; ++n) {
-            const S in = b.colour[n][3];
-            if (in == S(0)) b.state = SharedBundle::State::broken;  // the first probes met only points at the edge of the part
-            for (int c = 0; c < 3; ++c) b.colour[n][c] = b.colour[n][c] / in;
-        }
+        // Did the first probes meet only points at the edge of the part?
+        if (!sums.means(b.nodes * b.nodes, colour)) b.state = State::broken;
         return b;
     }
 
     /// Does a soft footprint move by more than its own size from node to node, so that its light there tells nothing of that in
     /// between? Along a strip it does, as the camera's pixels do.
-    LFDSIM_BOTH static bool runs_away(const SharedBundle& b) {
+    LFDSIM_BOTH static bool runs_away(const Shape& b) {
         const S step = S(FilteredLimits::node_step);
         return step * (optics::abs(b.column_right) + optics::abs(b.column_down)) > b.width ||
                step * (optics::abs(b.row_right) + optics::abs(b.row_down)) > b.height;
@@ -222,7 +234,7 @@ class BundleMaker {
     /// Pixels see only parts of the outermost strata. Reduces a sharp footprint, made by probes over all of stratum (i, j), to what
     /// the block's middle sees, and adds the motion of the seen part's middle to that of the bundle (lean). The map from holes to
     /// panel is taken as linear (optics::Slopes); the variance of a box of width w is w^2 / 12, so squared widths subtract.
-    LFDSIM_BOTH void lean(SharedBundle& b, int i, Range x, int j, Range y) const {
+    LFDSIM_BOTH void lean(Shape& b, int i, Range x, int j, Range y) const {
         if (!axis[0].stratum[i].cut_off && !axis[1].stratum[j].cut_off) return;
         const optics::Slopes<S> slopes(probes, b);
         const Range ranges[2] = {x, y};
@@ -262,27 +274,30 @@ class BundleMaker {
 
     /// Adds the light of the probes' boxes to the sums at the nodes, each weighted with the share of its part of the range that a
     /// pixel at the node sees.
-    LFDSIM_BOTH void add_nodes(SharedBundle& b, int i, Range x, int j, Range y) {
+    LFDSIM_BOTH void add_nodes(const Shape& b, int i, Range x, int j, Range y, Sums& sums) {
         optics::ProbeBoxes<S> boxes;
         boxes.make<F>(probes, per_axis);
         if (b.blur_width > 0 || b.blur_height > 0) boxes.blur(b.blur_width, b.blur_height);
-        S light[optics::most_probes][4];
+        const bool cut_off[2] = {axis[0].stratum[i].cut_off, axis[1].stratum[j].cut_off};
+        const optics::PanelLevels levels = tile.levels;
+        const optics::PanelBase<S> base = block.lens.panel;
+        S light[optics::probes_each][4];
         const S step = b.nodes == 1 ? S(0) : S(2) / S(b.nodes - 1), first = b.nodes == 1 ? S(0) : S(-1), reach = S(block.reach);
-        for (int n = 0; n < b.nodes * b.nodes; ++n) {
-            const S right = first + S(n % b.nodes) * step, down = first + S(n / b.nodes) * step;  // -1 .. 1
-            if (n == 0 || !b.still) {
-                const S move = b.still ? S(0) : reach;
-                boxes.look<F>(probes, tile.levels, block.lens.panel, (b.column_right * right + b.column_down * down) * move,
-                              (b.row_right * right + b.row_down * down) * move, light);
+        for (int row = 0; row < b.nodes; ++row) {
+            for (int column = 0; column < b.nodes; ++column) {
+                const S right = first + S(column) * step, down = first + S(row) * step;  // -1 .. 1
+                const int n = row * b.nodes + column;
+                if (n == 0 || !b.still) {
+                    const S move = b.still ? S(0) : reach;
+                    boxes.look<F>(probes, levels, base, (b.column_right * right + b.column_down * down) * move,
+                                  (b.row_right * right + b.row_down * down) * move, light);
+                }
+                S seen[optics::probes_each];
+                for (int p = 0; p < optics::probes_each; ++p) seen[p] = counts[p];
+                if (cut_off[0]) narrow(0, i, x, grid_x, right, down, seen);
+                if (cut_off[1]) narrow(1, j, y, grid_y, right, down, seen);
+                sums.add(n, seen, light);
             }
-            S seen[optics::most_probes];
-            for (int p = 0; p < optics::most_probes; ++p) seen[p] = counts[p];
-            if (axis[0].stratum[i].cut_off) narrow(0, i, x, grid_x, right, down, seen);
-            if (axis[1].stratum[j].cut_off) narrow(1, j, y, grid_y, right, down, seen);
-            S sum[4][4] = {};
-            for (int p = 0; p < optics::most_probes; ++p)
-                for (int c = 0; c < 4; ++c) sum[p % 4][c] = sum[p % 4][c] + seen[p] * light[p][c];
-            for (int c = 0; c < 4; ++c) b.colour[n][c] = b.colour[n][c] + ((sum[0][c] + sum[2][c]) + (sum[1][c] + sum[3][c]));
         }
     }
 
@@ -296,7 +311,7 @@ class BundleMaker {
         if (!(half > 0)) return;
         const S per = S(0.5) / half,
                 least = S(FilteredLimits::least_seen);  // where nothing is seen, the mean over all of it serves interpolation
-        for (int p = 0; p < optics::most_probes; ++p) {
+        for (int p = 0; p < optics::probes_each; ++p) {
             const S middle = r.from + places[p] * range, part = optics::min(high, middle + half) - optics::max(low, middle - half);
             seen[p] = seen[p] * optics::min(optics::max(part * per, least), S(1));
         }
@@ -304,7 +319,7 @@ class BundleMaker {
 
     /// Queues three rays from the block's points 1 .. 3 (optics::block_rays) through the bundle's point in the plane of the holes,
     /// which moves with the pixels where strata do. finish() derives the bundle's motion over the block from them.
-    LFDSIM_BOTH void follow(SharedBundle& b) {
+    LFDSIM_BOTH void follow(Shape& b) {
         const int each = rays_each();
         for (int from = 1; from < optics::block_rays; ++from) {
             const int p = each * waiting + from - 1;
@@ -312,18 +327,22 @@ class BundleMaker {
                 const Gradient& g = a.first;
                 return a.moving ? g.right * S(optics::block_right(from)) + g.down * S(optics::block_down(from)) : S(0);
             };
-            rays.at_x[p] = block.sweep[0][from].at;
-            rays.at_y[p] = block.sweep[1][from].at;
+            optics::set_probe(rays.at_x, p, block.sweep[0][from].at);
+            optics::set_probe(rays.at_y, p, block.sweep[1][from].at);
             const S right = shift(axis[0]), up = shift(axis[1]);
-            rays.x[p] = b.x + right + (grid->strip == 1 ? grid->lean * up : S(0));
-            rays.y[p] = b.y + up + (grid->strip == 0 ? grid->lean * right : S(0));
+            optics::set_probe(rays.x, p, b.x + right + (grid->strip == 1 ? grid->lean * up : S(0)));
+            optics::set_probe(rays.y, p, b.y + up + (grid->strip == 0 ? grid->lean * right : S(0)));
         }
         for (int k = 0; k < 2 && scene.thin_lens; ++k) {
             const int p = each * waiting + 3 + k;
-            rays.at_x[p] = block.sweep[0][0].at + block.pupil_at[k][0];
-            rays.at_y[p] = block.sweep[1][0].at + block.pupil_at[k][1];
-            rays.x[p] = b.x;
-            rays.y[p] = b.y;
+            optics::set_probe(rays.at_x, p, block.sweep[0][0].at + block.pupil_at[k][0]);
+            optics::set_probe(rays.at_y, p, block.sweep[1][0].at + block.pupil_at[k][1]);
+            optics::set_probe(rays.x, p, b.x);
+            optics::set_probe(rays.y, p, b.y);
+        }
+        if constexpr (follows_at_once) {
+            optics::trace_probes<through, F>(scene, block, rays, each, scene.holes_below);
+            return complete(b, 0);
         }
         followed[waiting++] = &b;
         if ((waiting + 1) * each > optics::most_probes) finish();
@@ -332,22 +351,23 @@ class BundleMaker {
     LFDSIM_BOTH void finish() {
         const int each = rays_each();
         if (waiting > 0) optics::trace_probes<through, F>(scene, block, rays, each * waiting, scene.holes_below);
-        for (int k = 0; k < waiting; ++k) {
-            SharedBundle& b = *followed[k];
-            optics::follow(b, rays, each * k, block.reach);
-            if (b.state != SharedBundle::State::sharp) continue;
-            b.column_right = b.column_right + b.lean_column[0];
-            b.row_right = b.row_right + b.lean_row[0];
-            b.column_down = b.column_down + b.lean_column[1];
-            b.row_down = b.row_down + b.lean_row[1];
-            if (scene.box_filter || scene.thin_lens) {
-                optics::blur(scene, b, rays, each * k + 3);
-                b.width = optics::sqrt(b.width * b.width + b.blur_width);
-                b.height = optics::sqrt(b.height * b.height + b.blur_height);
-            }
-            b.footprint = optics::Footprint<S>(tile.levels, block.lens.panel, b.width, b.height);
-        }
+        for (int k = 0; k < waiting; ++k) complete(*followed[k], each * k);
         waiting = 0;
+    }
+    /// By rays p, p + 1, ...
+    LFDSIM_BOTH void complete(Shape& b, int p) const {
+        optics::follow(b, rays, p, block.reach);
+        if (b.state != State::sharp) return;
+        b.column_right = b.column_right + b.lean_column[0];
+        b.row_right = b.row_right + b.lean_row[0];
+        b.column_down = b.column_down + b.lean_column[1];
+        b.row_down = b.row_down + b.lean_row[1];
+        if (scene.box_filter || scene.thin_lens) {
+            optics::blur(scene, b, rays, p + 3);
+            b.width = optics::sqrt(b.width * b.width + b.blur_width);
+            b.height = optics::sqrt(b.height * b.height + b.blur_height);
+        }
+        b.footprint = optics::Footprint<S>(tile.levels, block.lens.panel, b.width, b.height);
     }
 
     static constexpr S part_per_pixel = S(1) / S(FilteredLimits::pixels_a_part);
@@ -362,10 +382,10 @@ class BundleMaker {
     const Axis* axis = nullptr;  // the grid's
     S aside[2];                  // of a strip: how far its axis has leant aside in the stratum at hand
     int per_axis;  // probes along an axis of a stratum: more in coarser strata, as they also have to find what is dark there
-    S grid_x[optics::most_probes], grid_y[optics::most_probes],
-        counts[optics::most_probes];  // the probes' positions in a stratum, 0 .. 1; 1 for those in use
+    S grid_x[optics::probes_each], grid_y[optics::probes_each],
+        counts[optics::probes_each];  // the probes' positions in a stratum, 0 .. 1; 1 for those in use
     optics::Probes<S> probes, rays;
-    SharedBundle* followed[most_waiting];
+    Shape* followed[most_waiting];
     int waiting = 0;
 };
 

@@ -16,7 +16,8 @@ enum class Step {
     survey,   // a block: what its bundles are; lists blocks whose pixels look for light by themselves
     places,   // a place of a block
     soft,     // a pixel of a block that is not listed: light between places
-    pixels    // a worker: pixels of the listed blocks
+    pixels,   // a worker: pixels of the listed blocks, whose other light is shared
+    alone     // a worker: pixels of the listed blocks in which nothing is shared
 };
 
 /// What a later step has to do, found out by an earlier one, in any order.
@@ -49,7 +50,7 @@ struct Frame {
     std::byte* memory;
     std::size_t bytes_per_block;
     WorkList bundles;      // block x strata of the room for a block + stratum
-    WorkList busy;         // blocks
+    WorkList busy, alone;  // blocks
     std::int64_t workers;  // of the steps that take their work from a list
 };
 

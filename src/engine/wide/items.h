@@ -34,26 +34,38 @@ struct Pixel {
     std::int32_t x, y;
 };
 
-LFDSIM_FN Pixel corner_of(const Frame& frame, std::int64_t block) {
-    const std::int64_t number = frame.first_block + block;
+/// Of items, blocks, workers. A step has fewer than 2^32 (render.cpp); a GPU divides 64-bit numbers by a hundred instructions.
+using Number = std::uint32_t;
+
+LFDSIM_FN Pixel corner_of(const Frame& frame, Number block) {
+    const Number number = Number(frame.first_block) + block, columns = Number(frame.columns);
     if (frame.listed) return {frame.listed[number].x, frame.listed[number].y};
-    return {std::int32_t(frame.first_column + number % frame.columns) * frame.tile.block_side,
-            std::int32_t(frame.first_row + number / frame.columns) * frame.tile.block_side};
+    return {(frame.first_column + std::int32_t(number % columns)) * frame.tile.block_side,
+            (frame.first_row + std::int32_t(number / columns)) * frame.tile.block_side};
 }
 
-/// Pixel k of a block: those of 32 threads that run together lie in 8 x 4 pixels (4 x 4 in the smallest blocks).
-LFDSIM_FN Pixel pixel_of(int side, int k) {
-    const int wide = optics::min(side, 8), part = k / (wide * 4), in = k % (wide * 4), across = side / wide;
-    return {part % across * wide + in % wide, part / across * 4 + in / wide};
-}
+/// A pixel of a step that works on the pixels of blocks, one after another. Blocks are 4, 8 or 16 pixels wide, so that this needs
+/// no division.
+struct BlockPixel {
+    Number block;
+    Pixel in;  // those of 32 threads that run together lie in 8 x 4 pixels (4 x 4 in the smallest blocks)
+
+    LFDSIM_FN BlockPixel(const Tile& tile, Number i) {
+        const int bits = tile.block_side == 4 ? 2 : tile.block_side == 8 ? 3 : 4, wide = bits < 3 ? 2 : 3, across = bits - wide;
+        block = i >> (2 * bits);
+        const int k = int(i) & ((1 << 2 * bits) - 1), part = k >> (wide + 2), within = k & ((4 << wide) - 1);
+        in.x = ((part & ((1 << across) - 1)) << wide) + (within & ((1 << wide) - 1));
+        in.y = (part >> across << 2) + (within >> wide);
+    }
+};
 
 /// Where the light of the frame's pixel (x, y), in the block, is written; nullptr: it is not needed.
-LFDSIM_FN float* output(const Frame& frame, std::int64_t block, std::int32_t x, std::int32_t y) {
+LFDSIM_FN float* output(const Frame& frame, Number block, std::int32_t x, std::int32_t y) {
     const Tile& tile = frame.tile;
     const bool wanted = x >= tile.x0 && x < tile.x1 && y >= tile.y0 && y < tile.y1;
     if (!wanted) return nullptr;
     if (!frame.listed) return tile.out + (std::int64_t(y - tile.crop_y) * tile.crop_width + (x - tile.crop_x)) * 3;
-    const std::int64_t square = frame.listed[frame.first_block + block].square;
+    const std::int64_t square = frame.listed[Number(frame.first_block) + block].square;
     return tile.out + ((square * refined_side + y % refined_side) * refined_side + x % refined_side) * 3;
 }
 
@@ -74,7 +86,7 @@ struct BlockLayout {
 
 LFDSIM_FN Room room_of(const Frame& frame) { return Room(frame.tile.strata, frame.scene.by_lens); }
 
-LFDSIM_FN BlockState& state_of(const Frame& frame, std::int64_t block) {
+LFDSIM_FN BlockState& state_of(const Frame& frame, Number block) {
     return *reinterpret_cast<BlockState*>(frame.memory + std::size_t(block) * frame.bytes_per_block);
 }
 
@@ -89,26 +101,26 @@ LFDSIM_FN void append(const WorkList& list, std::uint32_t first, std::uint32_t c
 }
 
 template <optics::Way through, bool sobol>
-LFDSIM_FN void point_item(const Frame& frame, std::int64_t i) {
+LFDSIM_FN void point_item(const Frame& frame, Number i) {
     const Tile tile = tile_of(frame);
-    const int pixels = tile.block_side * tile.block_side;
-    const Pixel corner = corner_of(frame, i / pixels), in = pixel_of(tile.block_side, int(i % pixels));
-    const std::int32_t x = corner.x + in.x, y = corner.y + in.y;
-    float* const out = output(frame, i / pixels, x, y);
+    const BlockPixel pixel(tile, i);
+    const Pixel corner = corner_of(frame, pixel.block);
+    const std::int32_t x = corner.x + pixel.in.x, y = corner.y + pixel.in.y;
+    float* const out = output(frame, pixel.block, x, y);
     if (!out) return;
     const std::uint32_t number = std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x);
     const optics::Light<F> light = gather_one<through, sobol>(tile, optics::pixel_rays<F>(*tile.view, x, y), number);
     for (int c = 0; c < 3; ++c) out[c] = light(0, c) / float(tile.samples);
 }
 
-LFDSIM_FN void even_item(const Frame& frame, std::int64_t i) {
+LFDSIM_FN void even_item(const Frame& frame, Number i) {
     EvenCuts& even = *static_cast<EvenCuts*>(frame.even);
     even.strata = frame.tile.strata;
     even.set(frame.scene, int(i));
 }
 
 template <optics::Way through>
-LFDSIM_FN void block_item(const Frame& frame, std::int64_t i) {
+LFDSIM_FN void block_item(const Frame& frame, Number i) {
     const Tile tile = tile_of(frame);
     BlockState& state = state_of(frame, i);
     std::byte* const at = reinterpret_cast<std::byte*>(&state);
@@ -122,14 +134,15 @@ LFDSIM_FN void block_item(const Frame& frame, std::int64_t i) {
     const Pixel corner = corner_of(frame, i);
     BlockWork<through> work(tile, state);
     work.begin(*static_cast<const EvenCuts*>(frame.even), corner.x, corner.y);
-    append(frame.bundles, std::uint32_t(i) * std::uint32_t(room_of(frame).strata), std::uint32_t(work.strata()));
+    append(frame.bundles, i * Number(room_of(frame).strata), Number(work.strata()));
 }
 
 template <optics::Way through>
-LFDSIM_FN void bundle_worker(const Frame& frame, std::int64_t worker) {
+LFDSIM_FN void bundle_worker(const Frame& frame, Number worker) {
     const Tile tile = tile_of(frame);
     const std::uint32_t each = std::uint32_t(room_of(frame).strata), count = *frame.bundles.count;
-    for (std::int64_t k = worker; k < count; k += frame.workers) {
+    constexpr int team = optics::probe_threads;
+    for (Number k = worker / team; k < count; k += Number(frame.workers) / team) {
         const std::uint32_t number = frame.bundles.number[k];
         BlockWork<through>(tile, state_of(frame, number / each)).make_bundle(int(number % each));
     }
@@ -139,17 +152,17 @@ LFDSIM_FN void bundle_worker(const Frame& frame, std::int64_t worker) {
 LFDSIM_FN bool is_busy(const BlockState& block) { return block.sharps > 0 || block.any_alone; }
 
 template <optics::Way through>
-LFDSIM_FN void survey_item(const Frame& frame, std::int64_t i) {
+LFDSIM_FN void survey_item(const Frame& frame, Number i) {
     const Tile tile = tile_of(frame);
     BlockState& state = state_of(frame, i);
     BlockWork<through>(tile, state).survey();
-    if (is_busy(state)) append(frame.busy, std::uint32_t(i), 1);
+    if (is_busy(state)) append(state.block.alive ? frame.busy : frame.alone, i, 1);
 }
 
 template <optics::Way through>
-LFDSIM_FN void place_item(const Frame& frame, std::int64_t i) {
+LFDSIM_FN void place_item(const Frame& frame, Number i) {
     const Tile tile = tile_of(frame);
-    const int each = places_per_axis(tile) * places_per_axis(tile);
+    const Number each = Number(places_per_axis(tile) * places_per_axis(tile));
     BlockWork<through>(tile, state_of(frame, i / each)).template look_at_places<few_strata + more_strata>(int(i % each));
 }
 
@@ -157,47 +170,78 @@ LFDSIM_FN void place_item(const Frame& frame, std::int64_t i) {
 LFDSIM_FN void soft_light_at(const BlockState& state, Pixel in, S (&light)[3]) {
     if (!state.any_soft) return;
     const S per = S(1) / S(place_step), s = (S(in.x % place_step) + S(0.5)) * per, t = (S(in.y % place_step) + S(0.5)) * per;
-    const S(*const upper)[4] = state.light + in.y / place_step * state.per_axis + in.x / place_step;
+    // Aligned so that a row of it is one load.
+    const auto* const all = static_cast<const S(*)[4]>(__builtin_assume_aligned(state.light, 16));
+    const S(*const upper)[4] = all + in.y / place_step * state.per_axis + in.x / place_step;
     const S(*const lower)[4] = upper + state.per_axis;
     for (int c = 0; c < 3; ++c)
         light[c] = between_places(between_places(upper[0][c], lower[0][c], t), between_places(upper[1][c], lower[1][c], t), s);
 }
 
-LFDSIM_FN void soft_item(const Frame& frame, std::int64_t i) {
-    const int side = frame.tile.block_side;
-    const std::int64_t block = i / (side * side);
-    const BlockState& state = state_of(frame, block);
+LFDSIM_FN void soft_item(const Frame& frame, Number i) {
+    const BlockPixel pixel(frame.tile, i);
+    const BlockState& state = state_of(frame, pixel.block);
     if (is_busy(state)) return;
-    const Pixel in = pixel_of(side, int(i % (side * side)));
-    float* const out = output(frame, block, state.x0 + in.x, state.y0 + in.y);
+    float* const out = output(frame, pixel.block, state.x0 + pixel.in.x, state.y0 + pixel.in.y);
     if (!out) return;
     S light[3] = {};
-    soft_light_at(state, in, light);
+    soft_light_at(state, pixel.in, light);
     for (int c = 0; c < 3; ++c) out[c] = light[c];
 }
 
-template <optics::Way through, int most>
-LFDSIM_FN void pixel_worker(const Frame& frame, std::int64_t worker) {
-    const Tile tile = tile_of(frame);
-    const int side = tile.block_side, pixels = side * side;
-    const std::int64_t count = std::int64_t(*frame.busy.count) * pixels;
-    for (std::int64_t k = worker; k < count; k += frame.workers) {
-        const std::int64_t block = frame.busy.number[k / pixels];
+#ifdef __CUDA_ARCH__
+LFDSIM_FN Number thread_in_block() { return threadIdx.x; }
+/// The threads of a thread block wait for each other, so that they find in the cache the instructions that the first of them had to
+/// wait for: a pixel runs through more code than it holds. All must call it equally often.
+LFDSIM_FN void keep_in_step() { __syncthreads(); }
+#else
+LFDSIM_FN Number thread_in_block() { return 0; }
+LFDSIM_FN void keep_in_step() {}
+#endif
+
+/// look(block, pixel of the block, its place (x, y) in the frame, where its light is written) for a worker's pixels of listed
+/// blocks.
+template <class Look>
+LFDSIM_FN void for_listed_pixels(const Frame& frame, const WorkList& blocks, Number worker, Look look) {
+    const Number count = *blocks.count * Number(frame.tile.block_side * frame.tile.block_side), thread = thread_in_block();
+    for (Number first = worker - thread; first < count; first += Number(frame.workers)) {
+        keep_in_step();
+        const Number k = first + thread;
+        if (k >= count) continue;
+        const BlockPixel pixel(frame.tile, k);
+        const Number block = blocks.number[pixel.block];
         BlockState& state = state_of(frame, block);
-        const Pixel in = pixel_of(side, int(k % pixels));
-        const std::int32_t x = state.x0 + in.x, y = state.y0 + in.y;
-        float* const out = output(frame, block, x, y);
-        if (!out) continue;
+        const std::int32_t x = state.x0 + pixel.in.x, y = state.y0 + pixel.in.y;
+        if (float* const out = output(frame, block, x, y)) look(state, pixel.in, x, y, out);
+    }
+}
+
+template <optics::Way through, int most>
+LFDSIM_FN void pixel_worker(const Frame& frame, Number worker) {
+    const Tile tile = tile_of(frame);
+    for_listed_pixels(frame, frame.busy, worker, [&](BlockState& state, Pixel in, std::int32_t x, std::int32_t y, float* out) {
         S light[3] = {}, found[4];
         soft_light_at(state, in, light);
         BlockWork<through>(tile, state).template look_from<most>(x, y).store(found, state.per_axis == 0);
         for (int c = 0; c < 3; ++c) out[c] = light[c] + found[c];
-    }
+    });
+}
+
+template <optics::Way through>
+LFDSIM_FN void alone_worker(const Frame& frame, Number worker) {
+    const Tile tile = tile_of(frame);
+    const EvenCuts& even = *static_cast<const EvenCuts*>(frame.even);
+    for_listed_pixels(frame, frame.alone, worker, [&](const BlockState&, Pixel, std::int32_t x, std::int32_t y, float* out) {
+        S light[4];
+        light_alone<through>(tile, even, x, y).store(light);
+        for (int c = 0; c < 3; ++c) out[c] = light[c];
+    });
 }
 
 /// Item i of a step. `simple`: for points, Sobol points; for pixels, few strata.
 template <Step step, optics::Way through, bool simple>
-LFDSIM_FN void item(const Frame& frame, std::int64_t i) {
+LFDSIM_FN void item(const Frame& frame, std::int64_t number) {
+    const Number i = Number(number);
     if constexpr (step == Step::points) point_item<through, simple>(frame, i);
     if constexpr (step == Step::even) even_item(frame, i);
     if constexpr (step == Step::blocks) block_item<through>(frame, i);
@@ -206,14 +250,18 @@ LFDSIM_FN void item(const Frame& frame, std::int64_t i) {
     if constexpr (step == Step::places) place_item<through>(frame, i);
     if constexpr (step == Step::soft) soft_item(frame, i);
     if constexpr (step == Step::pixels) pixel_worker<through, simple ? few_strata + more_strata : max_strata>(frame, i);
+    if constexpr (step == Step::alone) alone_worker<through>(frame, i);
 }
+
+/// Does a step trace so many rays that ways through an array that few displays have are worth their code?
+constexpr bool by_many_rays(Step step) { return step == Step::points || step == Step::alone; }
 
 /// do_it.template operator()<step, way, simple>() for the step and the frame at hand: each combination is compiled separately.
 template <class Do>
 void choose_item(Step step, const Frame& frame, Do do_it) {
     auto by_way = [&]<Step s, bool simple>() {
         optics::with_way(frame.scene, [&]<optics::Way way>() {
-            do_it.template operator()<s, s == Step::points ? way : optics::for_few_rays(way), simple>();
+            do_it.template operator()<s, by_many_rays(s) ? way : optics::for_few_rays(way), simple>();
         });
     };
     switch (step) {
@@ -235,6 +283,8 @@ void choose_item(Step step, const Frame& frame, Do do_it) {
         case Step::pixels:
             return frame.tile.strata <= few_strata ? by_way.template operator()<Step::pixels, true>()
                                                    : by_way.template operator()<Step::pixels, false>();
+        case Step::alone:
+            return by_way.template operator()<Step::alone, true>();
     }
 }
 

@@ -11,7 +11,6 @@ namespace {
 constexpr int rows_at_once = 256;  // of moments: thousands of items, and 32 bytes a pixel for these rows alone
 
 std::size_t pixels_of(const Image& image) { return std::size_t(image.width) * std::size_t(image.height); }
-std::size_t chunks_of(int width) { return std::size_t((width + columns_at_once - 1) / columns_at_once); }
 
 /// Columns of each row of a picture that lie in the region.
 void append_columns(std::vector<Region::Row>& all, const Region& region, int width, int height) {
@@ -49,7 +48,7 @@ std::size_t Photograph::bytes(const Image& photograph) { return pixels_of(photog
 std::size_t Comparison::bytes(int width, int height) {
     const std::size_t w = std::size_t(width), h = std::size_t(height);
     return w * h * (sizeof(float) + sizeof(double)) + w * rows_at_once * moments * sizeof(double) +
-           likeness_sums * h * (chunks_of(width) + 1) * sizeof(double);
+           likeness_sums * h * (column_groups + 1) * sizeof(double);
 }
 
 Comparison::Comparison(Queue& queue, const Photograph& photograph, const Region& screen, const Region& content) : queue_(queue) {
@@ -69,7 +68,7 @@ Comparison::Comparison(Queue& queue, const Photograph& photograph, const Region&
     view_code_ = Buffer<float>(queue, w * h);
     moments_ = Buffer<double>(queue, w * rows_at_once * moments);
     values_ = Buffer<double>(queue, w * h);
-    parts_ = Buffer<double>(queue, likeness_sums * h * chunks_of(width));
+    parts_ = Buffer<double>(queue, likeness_sums * h * column_groups);
     sums_ = Buffer<double>(queue, likeness_sums * h);
     frame_.width = width;
     frame_.height = height;
@@ -86,7 +85,7 @@ Comparison::Comparison(Queue& queue, const Photograph& photograph, const Region&
 }
 
 Likeness Comparison::with(const float* view, float gain) {
-    const std::int64_t width = frame_.width, height = frame_.height, chunks = std::int64_t(chunks_of(frame_.width));
+    const std::int64_t width = frame_.width, height = frame_.height;
     LikenessFrame frame = frame_;
     frame.picture = view;
     frame.gain = gain;
@@ -94,11 +93,11 @@ Likeness Comparison::with(const float* view, float gain) {
     for (int row = 0; row < height; row += rows_at_once) {
         frame.first_row = row;
         frame.row_count = std::min(rows_at_once, frame.height - row);
-        queue_.run(LikenessStep::moments, frame, frame.row_count * width);
+        queue_.run(LikenessStep::moments, frame, (frame.row_count + moment_rows - 1) / moment_rows * width);
         queue_.run(LikenessStep::values, frame, frame.row_count * width);
     }
-    queue_.run(LikenessStep::windows, frame, height * chunks);
-    queue_.run(LikenessStep::cover, frame, height * chunks);
+    queue_.run(LikenessStep::windows, frame, height * column_groups);
+    queue_.run(LikenessStep::cover, frame, height * column_groups);
     queue_.run(LikenessStep::rows, frame, likeness_sums * height);
 
     const std::size_t h = std::size_t(height);

@@ -10,12 +10,14 @@ namespace lfdsim::wide {
 enum class LikenessStep {
     photograph,  // a pixel of the photograph: its lumas
     view,        // a pixel of the view: its luma
-    moments,     // a pixel of the rows at hand: the windows' sums down its column
+    moments,     // moment_rows pixels of a column of the rows at hand: the windows' sums down it
     values,      // a pixel of the rows at hand: SSIM of its window
-    windows,     // columns_at_once pixels: sums of SSIM
-    cover,       // columns_at_once pixels: sums for the covered share
+    windows,     // a group of a row's columns: sums of SSIM
+    cover,       // a group of a row's columns: sums for the covered share
     rows         // one of the sums, of a row
 };
+
+constexpr int moment_rows = 4;
 
 /// The sums: SSIM over both regions, then those for the covered share.
 constexpr int likeness_regions = 2, likeness_sums = likeness_regions + cover_sums;
@@ -33,7 +35,7 @@ struct LikenessFrame {
     std::int32_t first_row, row_count;  // the rows at hand
     double* moments;                    // [moments][row_count][width]
     double* values;                     // [height][width]
-    double *parts, *sums;               // [likeness_sums][height][chunks of columns]; [likeness_sums][height]
+    double *parts, *sums;               // [likeness_sums][height][column_groups]; [likeness_sums][height]
 };
 
 }  // namespace lfdsim::wide

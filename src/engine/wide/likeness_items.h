@@ -5,35 +5,62 @@
 
 namespace lfdsim::wide {
 
-LFDSIM_FN std::int32_t chunks_of(const LikenessFrame& f) { return (f.width + columns_at_once - 1) / columns_at_once; }
+/// Item i of the rows at hand, of which there are few: its row among them and its column. A GPU divides 64-bit numbers by a hundred
+/// instructions.
+struct RowAndColumn {
+    std::int32_t row, column;
+    LFDSIM_FN RowAndColumn(const LikenessFrame& f, std::int64_t i)
+        : row(std::int32_t(std::uint32_t(i) / std::uint32_t(f.width))), column(std::int32_t(i) - row * f.width) {}
+};
 
-/// The columns of a region's row that lie in one chunk.
-LFDSIM_FN Region::Row in_chunk(Region::Row row, std::int32_t chunk) {
-    const std::int32_t begin = chunk * columns_at_once, end = begin + columns_at_once;
-    return {row.from > begin ? row.from : begin, row.to < end ? row.to : end};
-}
-
+/// Of moment_rows pixels below each other, whose windows' columns have most of their pixels in common.
 LFDSIM_FN void moment_item(const LikenessFrame& f, std::int64_t i) {
-    const std::int32_t row = std::int32_t(i / f.width), y = f.first_row + row;
-    if (y < ssim_border || y + ssim_border >= f.height) return;  // no window's middle
-    const std::int64_t above = std::int64_t(y - ssim_border) * f.width + i % f.width;
-    const auto a = [&](int k) { return double(f.view_code[above + std::int64_t(k) * f.width]); };
-    const auto b = [&](int k) { return double(f.photograph_code[above + std::int64_t(k) * f.width]); };
+    const RowAndColumn at(f, i);
+    constexpr int span = ssim_window + moment_rows - 1;
+    const std::int32_t row = at.row * moment_rows, top = f.first_row + row - ssim_border;
+    double a[span], b[span], squares[span], product[span];
+    for (int k = 0; k < span; ++k) {
+        const std::int32_t y = top + k < 0 ? 0 : top + k < f.height ? top + k : f.height - 1;
+        const std::int64_t from = std::int64_t(y) * f.width + at.column;
+        a[k] = double(f.view_code[from]);
+        b[k] = double(f.photograph_code[from]);
+        squares[k] = a[k] * a[k] + b[k] * b[k];
+        product[k] = a[k] * b[k];
+    }
     const std::int64_t each = std::int64_t(f.row_count) * f.width;
-    f.moments[of_a * each + i] = weighted(f.weights, a);
-    f.moments[of_b * each + i] = weighted(f.weights, b);
-    f.moments[of_squares * each + i] = weighted(f.weights, [&](int k) { return a(k) * a(k) + b(k) * b(k); });
-    f.moments[of_product * each + i] = weighted(f.weights, [&](int k) { return a(k) * b(k); });
+    for (int r = 0; r < moment_rows; ++r) {
+        if (top + r < 0 || top + r + ssim_window > f.height || row + r >= f.row_count) continue;  // no window's middle
+        double* const to = f.moments + std::int64_t(row + r) * f.width + at.column;
+        const auto down = [&](const double* of) { return weighted(f.weights, [&](int k) { return of[r + k]; }); };
+        to[of_a * each] = down(a);
+        to[of_b * each] = down(b);
+        to[of_squares * each] = down(squares);
+        to[of_product * each] = down(product);
+    }
 }
 
-LFDSIM_FN double* part_of(const LikenessFrame& f, int which, std::int32_t y, std::int32_t chunk) {
-    return f.parts + (std::int64_t(which) * f.height + y) * chunks_of(f) + chunk;
-}
+/// A group of columns of a row.
+struct Group {
+    std::int32_t y, number;
+    LFDSIM_FN explicit Group(std::int64_t i) : y(std::int32_t(i / column_groups)), number(std::int32_t(i % column_groups)) {}
+
+    /// Where one of its sums is kept.
+    LFDSIM_FN double& sum(const LikenessFrame& f, int which) const {
+        return f.parts[(std::int64_t(which) * f.height + y) * column_groups + number];
+    }
+    /// look(x) for its columns in a region, in their order.
+    template <class Look>
+    LFDSIM_FN void for_columns(Region::Row of_region, Look look) const {
+        const std::int32_t first = of_region.from + ((number - of_region.from) & (column_groups - 1));
+        for (std::int32_t x = first; x < of_region.to; x += column_groups) look(x);
+    }
+};
 
 LFDSIM_FN bool holds(Region::Row row, std::int32_t x) { return x >= row.from && x < row.to; }
 
 LFDSIM_FN void value_item(const LikenessFrame& f, std::int64_t i) {
-    const std::int32_t x = std::int32_t(i % f.width), y = f.first_row + std::int32_t(i / f.width);
+    const RowAndColumn at(f, i);
+    const std::int32_t x = at.column, y = f.first_row + at.row;
     if (!holds(f.columns[y], x) && !holds(f.columns[f.height + y], x)) return;
     const std::int64_t each = std::int64_t(f.row_count) * f.width;
     const double* const v = f.moments + i - ssim_border;
@@ -43,22 +70,20 @@ LFDSIM_FN void value_item(const LikenessFrame& f, std::int64_t i) {
 }
 
 LFDSIM_FN void window_item(const LikenessFrame& f, std::int64_t i) {
-    const std::int32_t chunk = std::int32_t(i % chunks_of(f)), y = std::int32_t(i / chunks_of(f));
-    const double* const value = f.values + std::int64_t(y) * f.width;
+    const Group group(i);
+    const double* const value = f.values + std::int64_t(group.y) * f.width;
     for (int region = 0; region < likeness_regions; ++region) {
-        const Region::Row columns = in_chunk(f.columns[std::int64_t(region) * f.height + y], chunk);
         double sum = 0;
-        for (std::int32_t x = columns.from; x < columns.to; ++x) sum += value[x];
-        *part_of(f, region, y, chunk) = sum;
+        group.for_columns(f.columns[std::int64_t(region) * f.height + group.y], [&](std::int32_t x) { sum += value[x]; });
+        group.sum(f, region) = sum;
     }
 }
 
 LFDSIM_FN void cover_item(const LikenessFrame& f, std::int64_t i) {
-    const std::int32_t chunk = std::int32_t(i % chunks_of(f)), y = std::int32_t(i / chunks_of(f));
-    const Region::Row columns = in_chunk(f.columns[std::int64_t(likeness_regions) * f.height + y], chunk);
+    const Group group(i);
     double sums[cover_sums] = {};
-    for (std::int32_t x = columns.from; x < columns.to; ++x) {
-        const std::int64_t at = std::int64_t(y) * f.width + x;
+    group.for_columns(f.columns[std::int64_t(likeness_regions) * f.height + group.y], [&](std::int32_t x) {
+        const std::int64_t at = std::int64_t(group.y) * f.width + x;
         const float* const p = f.picture + at * 3;
         const float light[3] = {p[0] * f.gain, p[1] * f.gain, p[2] * f.gain};
         const double a = double(luma(light)), b = double(f.photograph_light[at]);
@@ -66,8 +91,8 @@ LFDSIM_FN void cover_item(const LikenessFrame& f, std::int64_t i) {
         sums[of_photograph] += b;
         sums[of_both] += a * b;
         sums[of_photograph_squared] += b * b;
-    }
-    for (int k = 0; k < cover_sums; ++k) *part_of(f, likeness_regions + k, y, chunk) = sums[k];
+    });
+    for (int k = 0; k < cover_sums; ++k) group.sum(f, likeness_regions + k) = sums[k];
 }
 
 /// Item i of a step.
@@ -87,9 +112,9 @@ LFDSIM_FN void likeness_item(const LikenessFrame& f, std::int64_t i) {
     if constexpr (step == LikenessStep::windows) window_item(f, i);
     if constexpr (step == LikenessStep::cover) cover_item(f, i);
     if constexpr (step == LikenessStep::rows) {
-        const double* const parts = f.parts + i * chunks_of(f);
+        const double* const parts = f.parts + i * column_groups;
         double sum = 0;
-        for (std::int32_t chunk = 0; chunk < chunks_of(f); ++chunk) sum += parts[chunk];
+        for (int group = 0; group < column_groups; ++group) sum += parts[group];
         f.sums[i] = sum;
     }
 }

@@ -11,8 +11,8 @@ namespace {
 constexpr std::int64_t most_points = std::int64_t(1) << 31;  // in one step: a fraction of a second, after which Ctrl-C takes effect
 constexpr int point_side = 16;
 
-/// Bytes for a block and its entries in lists of work.
-std::size_t listed_bytes(const BlockSize& block) { return block.bytes + (std::size_t(block.bundles) + 1) * sizeof(std::uint32_t); }
+/// Bytes for a block and its entries in lists of work: of bundles, and two of blocks.
+std::size_t listed_bytes(const BlockSize& block) { return block.bytes + (std::size_t(block.bundles) + 2) * sizeof(std::uint32_t); }
 
 /// Memory for the blocks at hand: for all of a picture, if they take no more than a gigabyte, else for enough of them to fill any
 /// machine. With a target error strata change, and any block must find room.
@@ -24,6 +24,7 @@ std::size_t block_memory(const Queue& queue, const Tile& tile) {
     return std::max(largest, std::clamp(all, std::size_t(256) << 20, std::size_t(1) << 30));
 }
 
+constexpr std::size_t lists = 3;                // of work
 constexpr std::int64_t most_workers = 1 << 17;  // more than any machine has threads at once
 
 /// Renders blocks, a part of them at a time.
@@ -89,15 +90,16 @@ class Renderer {
         frame_.bytes_per_block = block.bytes;
         if (!memory_.get()) {
             even_ = Buffer<std::byte>(queue_, queue_.even_bytes());
-            counts_ = Buffer<std::uint32_t>(queue_, 2);
+            counts_ = Buffer<std::uint32_t>(queue_, lists);
             memory_ = Buffer<std::byte>(queue_, memory_bytes_);
         }
         at_once_ = std::int64_t(memory_bytes_ / listed_bytes(block));
-        std::byte* const lists = memory_.get() + std::size_t(at_once_) * block.bytes;
+        std::byte* const numbers = memory_.get() + std::size_t(at_once_) * block.bytes;
         frame_.even = even_.get();
         frame_.memory = memory_.get();
-        frame_.busy = {counts_.get(), reinterpret_cast<std::uint32_t*>(lists)};
-        frame_.bundles = {counts_.get() + 1, frame_.busy.number + at_once_};
+        frame_.busy = {counts_.get(), reinterpret_cast<std::uint32_t*>(numbers)};
+        frame_.alone = {counts_.get() + 1, frame_.busy.number + at_once_};
+        frame_.bundles = {counts_.get() + 2, frame_.alone.number + at_once_};
         queue_.run(Step::even, frame_, t.strata + 1);
     }
 
@@ -119,7 +121,7 @@ class Renderer {
     void run_filtered(std::int64_t blocks, std::int64_t pixels) {
         const Tile& t = frame_.tile;
         frame_.workers = std::min(blocks * pixels, most_workers);
-        queue_.clear(counts_.get(), 2 * sizeof(std::uint32_t));
+        queue_.clear(counts_.get(), lists * sizeof(std::uint32_t));
         queue_.run(Step::blocks, frame_, blocks);
         queue_.run(Step::bundles, frame_, frame_.workers);
         queue_.run(Step::survey, frame_, blocks);
@@ -128,6 +130,7 @@ class Renderer {
             queue_.run(Step::soft, frame_, blocks * pixels);
         }
         queue_.run(Step::pixels, frame_, frame_.workers);
+        queue_.run(Step::alone, frame_, frame_.workers);
     }
 
     Queue& queue_;
