@@ -1,6 +1,7 @@
 #include "engine/render.h"
 
 #include "engine/devices.h"
+#include "engine/even_parts.h"
 #include "engine/gpu.h"
 #include "engine/refine.h"
 #include "engine/scene.h"
@@ -100,43 +101,58 @@ Rendering render(Work& work, const char* kernel_name, Kernel kernel, const Chose
     return std::move(result);
 }
 
-/// Adds weight x one channel of a picture at one wavelength.
-void add_channel(const Rendering& of, std::size_t channel, float weight, Rendering& to) {
-    for (std::size_t k = channel; k < to.image.rgb.size(); k += 3) to.image.rgb[k] += weight * of.image.rgb[k];
-    for (std::size_t k = channel; k < to.error.rgb.size(); k += 3)
-        to.error.rgb[k] = std::hypot(to.error.rgb[k], weight * of.error.rgb[k]);
-    to.complete = to.complete && of.complete;
-    to.samples += of.samples;
-    to.seconds += of.seconds;
-    to.gpu_seconds += of.gpu_seconds;
-}
+/// A weighted sum of pictures.
+class Sum {
+  public:
+    /// Adds to one channel, or to all of them.
+    void add(Rendering&& one, float weight, std::optional<std::size_t> channel = {}) {
+        if (sum_.image.rgb.empty()) {
+            sum_.image = Image(one.image.width, one.image.height);
+            if (!one.error.rgb.empty()) sum_.error = Image(one.image.width, one.image.height);
+            sum_.device = one.device;
+            sum_.kernel = one.kernel;
+            sum_.threads = one.threads;
+            sum_.estimator = one.estimator;
+        }
+        const std::size_t first = channel.value_or(0), step = channel ? 3 : 1;
+        for (std::size_t k = first; k < sum_.image.rgb.size(); k += step) sum_.image.rgb[k] += weight * one.image.rgb[k];
+        for (std::size_t k = first; k < sum_.error.rgb.size(); k += step)
+            sum_.error.rgb[k] = std::hypot(sum_.error.rgb[k], weight * one.error.rgb[k]);
+        sum_.complete = sum_.complete && one.complete;
+        sum_.samples += one.samples;
+        sum_.seconds += one.seconds;
+        sum_.gpu_seconds += one.gpu_seconds;
+    }
+    bool complete() const { return sum_.complete; }
+    Rendering take() { return std::move(sum_); }
+
+  private:
+    Rendering sum_;
+};
 
 Rendering render(const Display& display, const Geometry& geometry, const std::vector<optics::PanelLevel>& levels,
                  const Pyramid* pyramid, const RenderOptions& options, Job& job) {
     const KernelEntry& kernel = choose_kernel(options.kernel);
     const ChosenDevice device = choose_device(options.device, options.kernel);
-    const auto at_once = [&](const Geometry& at_wavelength) {
-        Work work(display, at_wavelength, levels, options);
-        return render(work, kernel.name, kernel.run, device, pyramid, levels, options, job);
-    };
-    if (!disperses(display)) return at_once(geometry);
-    // Each channel is a picture of the display as it is at its wavelengths.
-    Rendering result;
-    for (int channel = 0; channel < 3; ++channel) {
-        for (const Node& node : wavelengths_of(display, channel)) {
-            Rendering one = at_once(resolve(display, node.wavelength_nm));
-            if (result.image.rgb.empty()) {
-                result = one;
-                result.samples = 0;
-                result.seconds = result.gpu_seconds = 0;
-                std::fill(result.image.rgb.begin(), result.image.rgb.end(), 0.f);
-                std::fill(result.error.rgb.begin(), result.error.rgb.end(), 0.f);
-            }
-            add_channel(one, std::size_t(channel), float(node.weight), result);
-            if (!result.complete) return result;
+    const std::vector<EvenPart> parts = even_parts(display, options.target_error.has_value());
+    const auto at_wavelength = [&](const Geometry& there) {
+        Sum sum;
+        for (const EvenPart& part : parts) {
+            Work work(part.display, there, levels, options);
+            Rendering one = render(work, kernel.name, kernel.run, device, pyramid, levels, options, job);
+            if (parts.size() == 1) return one;
+            sum.add(std::move(one), part.weight);
+            if (!sum.complete()) break;
         }
-    }
-    return result;
+        return sum.take();
+    };
+    if (!disperses(display)) return at_wavelength(geometry);
+    // Each channel is a picture of the display as it is at its wavelengths.
+    Sum sum;
+    for (std::size_t channel = 0; channel < 3 && sum.complete(); ++channel)
+        for (const Node& node : wavelengths_of(display, int(channel)))
+            if (sum.complete()) sum.add(at_wavelength(resolve(display, node.wavelength_nm)), float(node.weight), channel);
+    return sum.take();
 }
 
 }  // namespace

@@ -295,20 +295,17 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
                                                 : L::block_usual;
     const double half_as_wide = std::min(2 * wide, rough ? L::half_block_rough : L::half_block_usual);
     const int side = 16 * pixel < wide * alike ? 16 : 8 * pixel < half_as_wide * alike ? 8 : 4;
-    const bool coarse = side == 4 && scene.diffuser_profile == Profile::box;
-    if (!scene.by_lens || !(weak || coarse)) return {side, {weak, false, false, false}};
+    if (!scene.by_lens || !(weak || side == 4)) return {side, {weak, false, false, false}};
 
     // Lens by lens, pixels behind a weak diffuser share only a block's list of lenses, and parts of it what the camera spreads. So
-    // do pixels so coarse that no more of them would share a bundle than it has probes; but for a bell, on
-    // which four rays are too few.
+    // do pixels so coarse that no more of them would share a bundle than it has probes.
     const double diffused = std::max(span[0], span[1]);
     // Edges of holes are taken as straight; an oblique view makes pixels wider.
     const bool straight = scene.hole_radius == 0 || 2 * pixel < L::straight * double(scene.hole_radius);
     const bool of_pixel = scene.box_filter && straight && diffused < pixel;
-    // One box is a poor bell, and no box is right to the last. But a round hole that cuts the diffuser's angles has one place.
+    // No box is right to the last. But a round hole that cuts the diffuser's angles has one place.
     const bool moves = of_pixel || scene.hole_radius == 0;
-    const bool bell = of_pixel && scene.diffuser_profile == Profile::gaussian;
-    const bool divides_other = converges || bell || strata > 2 * few_strata;
+    const bool divides_other = converges || strata > 2 * few_strata;
     const int few = 8 * pixel < seen ? 8 : 4;
     const bool divides_pupil = converges || (moves_pupil && (whole || !divides_other));
     return {of_pixel ? many : few, {true, of_pixel, moves && divides_other, moves && divides_pupil}};

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <cmath>
+#include <stdexcept>
 
 namespace lfdsim {
 
@@ -47,6 +48,8 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
     if (filtered && samples > most)
         throw InputError("render.samples",
                          fmt::format("{}; at most {} filtered samples, or use the estimator \"point\"", samples, most));
+    if (filtered && display.diffuser && display.diffuser->profile != Profile::box)
+        throw std::logic_error("the filtered estimator's work is on even_parts()");
     if (dimensions > 0) target_error = options.target_error;
     // An error is estimated from what more samples change: all has to converge.
     const BlockShape shape =

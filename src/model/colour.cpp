@@ -2,54 +2,13 @@
 #include "model/lens_errors.h"
 
 #include "model/geometry.h"
+#include "model/hermite.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace lfdsim {
-namespace {
-
-/// Hermite polynomials of degrees 0 to K, orthonormal under the weight exp(-x^2) / sqrt(pi).
-std::vector<double> hermite(std::size_t K, double x) {
-    std::vector<double> h(K + 1, 1);
-    if (K > 0) h[1] = std::numbers::sqrt2 * x;
-    for (std::size_t k = 1; k < K; ++k)
-        h[k + 1] = (x * std::numbers::sqrt2 * h[k] - std::sqrt(double(k)) * h[k - 1]) / std::sqrt(double(k + 1));
-    return h;
-}
-
-/// The zero of the polynomial of degree K between two places where its signs differ, to the last bit.
-double zero_between(std::size_t K, double low, double high) {
-    const bool rises = hermite(K, high)[K] > 0;
-    while (true) {
-        const double middle = (low + high) / 2;
-        if (middle <= low || middle >= high) return middle;
-        ((hermite(K, middle)[K] > 0) == rises ? high : low) = middle;
-    }
-}
-
-using Zeros = std::array<std::vector<double>, max_wavelength_samples + 1>;
-
-/// Zeros of each polynomial, by degree: ascending, symmetric to the last bit. Between two of them is one of the next lower degree,
-/// and none is beyond sqrt(2 K + 1).
-Zeros hermite_zeros() {
-    Zeros all;
-    for (std::size_t degree = 1; degree < all.size(); ++degree) {
-        const std::vector<double>& zeros = all[degree - 1];
-        std::vector<double> next(degree, 0);
-        for (std::size_t i = degree / 2 + degree % 2; i < degree; ++i) {  // the positive ones
-            const double above = i < zeros.size() ? zeros[i] : std::sqrt(2. * double(degree) + 1);
-            next[i] = zero_between(degree, std::max(zeros[i - 1], 0.), above);
-            next[degree - 1 - i] = -next[i];
-        }
-        all[degree] = std::move(next);
-    }
-    return all;
-}
-
-}  // namespace
-
 std::vector<Node> wavelengths_of(const Display& d, int channel) {
     const auto c = std::size_t(channel);
     const double middle = d.panel.wavelengths_nm[c];
@@ -57,12 +16,7 @@ std::vector<Node> wavelengths_of(const Display& d, int channel) {
     if (K == 1 || !d.panel.primary_widths_nm) return {{middle, 1}};
     const double sigma = (*d.panel.primary_widths_nm)[c] / (2 * std::sqrt(2 * std::numbers::ln2));
     std::vector<Node> nodes;
-    static const Zeros zeros = hermite_zeros();
-    for (const double x : zeros[K]) {
-        double squares = 0;  // the weight is the inverse of their sum (Christoffel)
-        for (const double h : hermite(K - 1, x)) squares += h * h;
-        nodes.push_back({middle + std::numbers::sqrt2 * sigma * x, 1 / squares});
-    }
+    for (const double x : hermite_zeros(K)) nodes.push_back({middle + std::numbers::sqrt2 * sigma * x, hermite_weight(K, x)});
     return nodes;
 }
 

@@ -68,8 +68,7 @@ LFDSIM_FN bool axes_part(const Scene<S>& scene, const PixelBlock<S>& block, S mo
     S tangent[2];
     for (int a = 0; a < 2; ++a) {
         S sine, cosine;
-        const S widest = scene.diffuser_profile == Profile::box ? scene.half_angle[a] : min(S(1.7) * scene.half_angle[a], S(1.5));
-        sincos(widest, scene.small_angles, sine, cosine);
+        sincos(scene.half_angle[a], scene.small_angles, sine, cosine);
         tangent[a] = sine / cosine;
     }
     for (int corner = 0; corner < 4; ++corner) {

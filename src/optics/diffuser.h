@@ -22,12 +22,11 @@ LFDSIM_FN F diffuser_tangent(const Scene<Scalar<F>>& scene, int axis, F uniform)
     return sine / cosine;
 }
 
-/// The inverse of diffuser_angle: the number whose angle has this tangent; outside [-1, 1] where the diffuser does not turn a ray
-/// that far.
+/// The inverse of diffuser_angle, of a box: the number whose angle has this tangent; outside [-1, 1] where the diffuser does not
+/// turn a ray that far.
 template <class F>
 LFDSIM_FN F diffuser_uniform(const Scene<Scalar<F>>& scene, int axis, F tangent) {
-    const F a = atan(tangent) / F(scene.half_angle[axis]);
-    return scene.diffuser_profile == Profile::box ? a : erf(a) / F(scene.gaussian_tail[axis]);
+    return atan(tangent) / F(scene.half_angle[axis]);
 }
 
 /// t = Rx(b) Ry(a) i: about y first (spreads horizontally), then about x; right-handed. Keeps the unit length.

@@ -84,18 +84,6 @@ LFDSIM_FN F power(F cosine, Scalar<F> m) {
     return exp2(F(m) * log2(max(cosine, F(Scalar<F>(1e-30)))));
 }
 
-/// The error function; error below 5e-7. Abramowitz and Stegun 7.1.26.
-template <class F>
-LFDSIM_FN F erf(F x) {
-    if constexpr (LaneTraits<F>::width == 1 && sizeof(F) == 8) return __builtin_erf(x);
-    using S = Scalar<F>;
-    const F size = abs(x), t = F(1) / (F(1) + F(S(0.3275911)) * size);
-    const F p = t * (F(S(0.254829592)) +
-                     t * (F(S(-0.284496736)) + t * (F(S(1.421413741)) + t * (F(S(-1.453152027)) + t * F(S(1.061405429))))));
-    const F y = F(1) - p * exp2(size * size * F(S(-1.4426950408889634)));
-    return select(x < F(0), -y, y);
-}
-
 /// The inverse of the error function on [-1, 1], finite at the ends (|x| is kept at most 1 - 2^-24): M. Giles, "Approximating the
 /// erfinv function", GPU Computing Gems Jade Edition, 2011, single precision; error below 1e-6 relative. For double, two steps of
 /// Newton's method refine it.

@@ -10,7 +10,8 @@
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
 constexpr int most_probes = 16;
-#ifdef __CUDA_ARCH__
+#if defined(__CUDA_ARCH__) || defined(LFDSIM_HOST_TEAMS)  // the latter: tests/engine/host_team.h
+#define LFDSIM_TEAMS
 constexpr int probe_threads = most_probes;
 #else
 constexpr int probe_threads = 1;
@@ -18,7 +19,7 @@ constexpr int probe_threads = 1;
 constexpr int probes_each = most_probes / probe_threads;
 constexpr int team_threads = 128;  // in a thread block of a GPU
 
-#ifdef __CUDA_ARCH__
+#ifdef LFDSIM_TEAMS
 
 /// Which probe a thread's k-th is, k = 0 .. probes_each - 1.
 LFDSIM_FN int probe_number(int) { return int(threadIdx.x % most_probes); }

@@ -170,8 +170,11 @@ void light_stays_light(int drawn_displays, std::uint64_t hash) {
     EXPECT_GT(lit, drawn_displays / 3);
     EXPECT_EQ(bits.hash(), hash);
 }
-TEST(FilteredExtremes, LightStaysLight) { light_stays_light(100, 0x8d597fd2eb8f21b); }
-TEST(FilteredExtremes, LightStaysLightAtLength) { light_stays_light(300, 0x0a70b6ebc2782f84); }
+TEST(FilteredExtremes, LightStaysLight) { light_stays_light(100, 0xee8dc5f3f8e7b0b8); }
+TEST(FilteredExtremes, LightStaysLightAtLength) { light_stays_light(300, 0xfca2a7327506ac44); }
+
+/// Of the light of a picture that sees few of the diffuser's angles: a sum of boxes has a bell's moments, not its value everywhere.
+double form_error(const Display& d) { return d.diffuser && d.diffuser->profile == Profile::gaussian ? 0.16 : 0.02; }
 
 void mean_is_that_of_brute_force(int drawn_displays) {
     Extremes extremes(6);
@@ -188,7 +191,7 @@ void mean_is_that_of_brute_force(int drawn_displays) {
         const Image points = picture(d, panel, {0, "", part});
         const double truth = mean_light(points), pixels = double(points.rgb.size()) / 3;
         const double standard_error = std::sqrt(truth / (pixels * double(*d.render.samples)));  // light is at most 1
-        EXPECT_NEAR(mean_light(filtered), truth, 4 * standard_error + 0.02 * truth + 1e-4) << about(n, d);
+        EXPECT_NEAR(mean_light(filtered), truth, 4 * standard_error + form_error(d) * truth + 1e-4) << about(n, d);
         compared += truth > 0.01;
     }
     EXPECT_GT(compared, drawn_displays / 4);
@@ -229,14 +232,14 @@ void holds_on_every_lattice_and_camera(int drawn_displays, std::uint64_t hash) {
         const Image points = picture(d, panel, {0, "", whole});
         const double truth = mean_light(points), pixels = double(points.rgb.size()) / 3;
         const double standard_error = std::sqrt(truth / (pixels * double(*d.render.samples)));
-        EXPECT_NEAR(mean_light(filtered), truth, 4 * standard_error + 0.02 * truth + 1e-4) << about(n, d);
+        EXPECT_NEAR(mean_light(filtered), truth, 4 * standard_error + form_error(d) * truth + 1e-4) << about(n, d);
         compared += truth > 0.01;
     }
     EXPECT_GT(compared, drawn_displays / 5);
     EXPECT_EQ(bits.hash(), hash);
 }
-TEST(FilteredExtremes, OfEveryLatticeAndCamera) { holds_on_every_lattice_and_camera(50, 0x35399e7be9ea9dca); }
-TEST(FilteredExtremes, OfEveryLatticeAndCameraAtLength) { holds_on_every_lattice_and_camera(150, 0x5c25241b04a0d1c6); }
+TEST(FilteredExtremes, OfEveryLatticeAndCamera) { holds_on_every_lattice_and_camera(50, 0xdd843b4f20fe4c36); }
+TEST(FilteredExtremes, OfEveryLatticeAndCameraAtLength) { holds_on_every_lattice_and_camera(150, 0x66f69b9ecc5d9120); }
 
 }  // namespace
 }  // namespace lfdsim

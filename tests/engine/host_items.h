@@ -17,6 +17,9 @@ struct HostKernel {
 
 HostKernel host_kernel(wide::Step step, const wide::Frame& frame);
 
+/// The items of the step `bundles`, 16 at a time as a GPU's team of threads (team_items.cpp).
+void run_bundles_by_teams(const wide::Frame& frame, std::int64_t items);
+
 using HostLikenessItem = void (*)(const wide::LikenessFrame&, std::int64_t i);
 HostLikenessItem host_likeness_item(wide::LikenessStep step);
 

@@ -40,6 +40,7 @@ class HostQueue : public wide::Queue {
         ++runs[step];
         const HostKernel kernel = host_kernel(step, frame);
         ways[step].insert(kernel.way);
+        if (teams && step == wide::Step::bundles) return run_bundles_by_teams(frame, items);
         for (std::int64_t i = items - 1; i >= 0; --i) kernel.item(frame, i);
     }
     void run(wide::LikenessStep step, const wide::LikenessFrame& frame, std::int64_t items) override {
@@ -51,6 +52,7 @@ class HostQueue : public wide::Queue {
     std::size_t even_bytes() const override { return host_even_bytes(); }
     int places_per_axis(const Tile& tile) const override { return host_places_per_axis(tile); }
 
+    bool teams = false;  // is the step `bundles` done as on a GPU?
     std::map<wide::Step, int> runs;
     std::map<wide::Step, std::set<int>> ways;  // optics::Way of the kernels
 

@@ -8,8 +8,10 @@
 #include <cstring>
 #include <thread>
 
+#include "../sanitizers.h"
 #include "engine/ahead.h"
 #include "engine/compare_view.h"
+#include "engine/even_parts.h"
 #include "engine/gpu.h"
 #include "engine/wide/likeness.h"
 #include "engine/wide/render.h"
@@ -72,10 +74,28 @@ TEST(Wide, FilteredHasTheSameBits) {
             d.render.samples = samples;
             HostQueue queue;
             const RenderOptions options{0, "", samples > 25 ? Rect{50, 41, 90, 60} : Rect{35, 23, 99, 71}};
-            expect_same(by_host(d, panel, options, queue).image, by_cpu(d, panel, options).image,
+            const Display even = even_parts(d).front().display;
+            expect_same(by_host(even, panel, options, queue).image, by_cpu(even, panel, options).image,
                         name + ", " + std::to_string(samples));
             EXPECT_EQ(queue.runs[wide::Step::points], 0);
             EXPECT_GT(queue.runs[wide::Step::pixels], 0);
+        }
+    }
+}
+
+// What a GPU's teams of threads exchange.
+TEST(Wide, TeamsMakeTheSameBundles) {
+    if (address_sanitizer) GTEST_SKIP() << "AddressSanitizer does not know fibers";
+    for (auto& [name, d] : diffused()) {
+        const Texels panel = patterned_panel(d);
+        for (const int samples : {1, 16}) {
+            d.render.samples = samples;
+            const Display even = even_parts(d).front().display;
+            HostQueue queue;
+            queue.teams = true;
+            const RenderOptions options{0, "", Rect{66, 43, 82, 51}};
+            expect_same(by_host(even, panel, options, queue).image, by_cpu(even, panel, options).image,
+                        name + ", " + std::to_string(samples));
         }
     }
 }
@@ -87,7 +107,8 @@ TEST(Wide, FinePicturesHaveTheSameBits) {  // blocks of 8 and 16 pixels, several
             d.camera.resolution = {width, width * 7 / 10};
             HostQueue queue;
             const Rect crop{width / 2 - 70, width / 4, width / 2 + 50, width / 4 + 50};
-            expect_same(by_host(d, panel, {0, "", crop}, queue).image, by_cpu(d, panel, {0, "", crop}).image,
+            const Display even = even_parts(d).front().display;
+            expect_same(by_host(even, panel, {0, "", crop}, queue).image, by_cpu(even, panel, {0, "", crop}).image,
                         name + ", " + std::to_string(width));
         }
     }

@@ -30,7 +30,7 @@ LFDSIM_BOTH int blurs_an_axis(const Tile& tile) { return tile.square.of_pixel ? 
 /// one.
 LFDSIM_BOTH int parts_an_axis(const Tile& tile) { return tile.square.weak ? (tile.strata + 1) / 2 : 1; }
 
-/// By how much the diffuser changes a ray's slope along axis a: by the largest turn of a box, or by sqrt 2 standard deviations.
+/// By how much the diffuser changes a ray's slope along axis a: by its largest turn.
 LFDSIM_BOTH S turn_of_diffuser(const optics::Scene<S>& scene, const optics::Sweep<S>& sweep, int a) {
     S sine, cosine;
     optics::sincos(scene.half_angle[a], scene.small_angles, sine, cosine);
@@ -115,15 +115,13 @@ LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block
     };
     // The width of a box that varies as much, in steps; squared. Of the variance, the shares that lie within cells; a pupil's are
     // mapped to a disk.
-    const S diffuser = scene.diffuser_profile == Profile::box ? 4 : 6, pupil = 3;
+    const S diffuser = 4, pupil = 3;
     const S cells = S(parts_an_axis(tile) * parts_an_axis(tile)), in_other = tile.square.divides_other ? S(1) / cells : S(1),
             in_pupil = tile.square.divides_pupil ? optics::min(S(2) / cells, S(1)) : S(1);
     for (int p = 1; p < 3 && scene.box_filter && scene.has_diffuser; ++p)
         if (same(p)) widen(p, of_pixel ? diffuser * in_other : in_other);
-    if (!of_pixel || scene.diffuser_profile == Profile::box) {
-        blur.on_panel.box_wide2 = blur.on_panel.wide2;
-        blur.on_panel.box_high2 = blur.on_panel.high2;
-    }
+    blur.on_panel.box_wide2 = blur.on_panel.wide2;
+    blur.on_panel.box_high2 = blur.on_panel.high2;
     for (int p = 3; p < 5 && scene.thin_lens; ++p)
         if (same(p)) widen(p, pupil * in_pupil);
     if (!of_pixel || !same(5) || !same(6)) return blur;

@@ -196,7 +196,7 @@ class BundleMaker {
             finish();
         }
         if (!soft || b.state == State::broken) return b;
-        if (scene.by_lens && scene.diffuser_profile == Profile::box && !b.still && runs_away(b)) {
+        if (scene.by_lens && !b.still && runs_away(b)) {
             b.state = State::broken;
             return b;
         }

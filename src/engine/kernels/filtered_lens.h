@@ -73,7 +73,7 @@ class LensCutter {
                 if (a == k - 2 && turned) {
                     const S slope = block.sweep[a][0].slope;
                     aside[a] = S(optics::sense(a)) * scene.holes_below[a] * (1 + slope * slope);
-                    most = S(2) * scene.half_angle[a];  // a bell's outermost cell is 1.6 half angles off
+                    most = S(2) * scene.half_angle[a];  // more than its tangent
                 }
                 low[a] = low[a] - optics::abs(aside[a]) * most;
                 high[a] = high[a] + optics::abs(aside[a]) * most;
@@ -88,8 +88,6 @@ class LensCutter {
         const Lattice<S>& lattice = scene.lattice;
         grids.count = grids.strata = 0;
         cuts = 0;
-        // In a bell's numbers the long edges of a strip are curves far from the lines between its corners.
-        if (lattice.strips && scene.has_diffuser && scene.diffuser_profile != Profile::box && !tile.square.of_pixel) return false;
         if (tile.square.of_pixel && scene.hole_radius > 0) {
             // A pixel is to see an edge as straight.
             const S(&to)[2][2] = grids.pixel;
