@@ -1,5 +1,6 @@
 #include "engine/even_parts.h"
 
+#include "engine/kernel.h"
 #include "engine/scene.h"
 #include "model/bell.h"
 
@@ -7,22 +8,25 @@
 
 namespace lfdsim {
 
-constexpr int most_boxes = 8;  // along an axis
+constexpr int many_boxes = 6;  // along an axis
 
 std::vector<EvenPart> even_parts(const Display& display, bool converges) {
     if (!display.diffuser || display.diffuser->profile == Profile::box || estimator_of(display) == Estimator::point)
         return {{display, 1}};
     // The samples of all parts together are about those wanted: as many along an axis for boxes as for each box's own.
     const double wanted = std::sqrt(double(samples_of(display)));
-    if (!(wanted <= most_boxes * most_boxes)) return {{display, 1}};  // which will be refused
-    const int boxes = converges ? most_boxes : int(std::ceil(std::sqrt(wanted))), each = int(std::ceil(wanted / boxes));
+    if (!(wanted <= max_strata - more_strata)) return {{display, 1}};  // which will be refused
+    const int boxes = converges ? many_boxes : int(std::ceil(std::sqrt(wanted))), each = int(std::ceil(wanted / boxes));
     std::vector<EvenPart> parts;
     for (const DiffuserBox& box : boxes_of_bell(*display.diffuser, boxes)) {
+        const auto number = std::uint64_t(parts.size());
         parts.push_back({display, float(box.weight)});
         Display& part = parts.back().display;
         part.diffuser->profile = Profile::box;
         part.diffuser->angle_deg = box.angle_deg;
         part.render.samples = each * each;
+        // Their noise is to be independent. The golden ratio takes seeds far from those that users count up.
+        part.render.seed = decltype(part.render.seed)(std::uint64_t(display.render.seed) + number * 0x9e3779b97f4a7c15);
     }
     return parts;
 }
