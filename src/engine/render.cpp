@@ -76,12 +76,11 @@ void check_threads(const RenderOptions& options) {
         throw InputError("--threads", fmt::format("{}; allowed: 1 to {}, or 0 for all", options.threads, most_threads));
 }
 
-/// On the GPU if one is chosen, else with the kernel.
+/// On the GPU if one is chosen, else with the kernel. The job's stage is the caller's.
 Rendering render(Work& work, const char* kernel_name, Kernel kernel, const ChosenDevice& device, const Pyramid* pyramid,
                  const std::vector<optics::PanelLevel>& levels, const RenderOptions& options, Job& job) {
     work.make_pictures(options.target_error.has_value());
     Rendering& result = work.result;
-    job.stage("rendering", std::int64_t(result.image.width) * result.image.height);
     const auto start = std::chrono::steady_clock::now();
     std::optional<GpuRun> run;
     if (device.gpu) run = render_on_gpu(device, pyramid, levels, work, job);
@@ -99,6 +98,10 @@ Rendering render(Work& work, const char* kernel_name, Kernel kernel, const Chose
     result.complete = done.complete;
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return std::move(result);
+}
+
+void begin_stage(const Work& work, std::size_t pictures, Job& job) {
+    job.stage("rendering", std::int64_t(work.tile.x1 - work.tile.x0) * (work.tile.y1 - work.tile.y0) * std::int64_t(pictures));
 }
 
 /// A weighted sum of pictures.
@@ -125,6 +128,13 @@ class Sum {
     }
     bool complete() const { return sum_.complete; }
     Rendering take() { return std::move(sum_); }
+    /// What is there so far, as bright as the whole will be.
+    Rendering take_unfinished(float weight) {
+        for (float& light : sum_.image.rgb) light /= weight;
+        for (float& error : sum_.error.rgb) error /= weight;
+        sum_.complete = false;
+        return take();
+    }
 
   private:
     Rendering sum_;
@@ -137,12 +147,15 @@ Rendering render(const Display& display, const Geometry& geometry, const std::ve
     const std::vector<EvenPart> parts = even_parts(display, options.target_error.has_value());
     const auto at_wavelength = [&](const Geometry& there) {
         Sum sum;
+        float weight = 0;
         for (const EvenPart& part : parts) {
             Work work(part.display, there, levels, options);
+            if (&part == &parts.front()) begin_stage(work, parts.size(), job);
             Rendering one = render(work, kernel.name, kernel.run, device, pyramid, levels, options, job);
             if (parts.size() == 1) return one;
+            if (!one.complete) return weight > 0 ? sum.take_unfinished(weight) : std::move(one);
             sum.add(std::move(one), part.weight);
-            if (!sum.complete()) break;
+            weight += part.weight;
         }
         return sum.take();
     };
@@ -162,6 +175,7 @@ Rendering render_with(const Tracer& tracer, const Display& display, const Geomet
     check_threads(options);
     Work work(display, geometry, levels, options);
     work.tile.scene = &tracer.scene;
+    begin_stage(work, 1, job);
     return render(work, tracer.name, tracer.run, {}, nullptr, levels, options, job);
 }
 

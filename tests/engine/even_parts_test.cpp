@@ -1,6 +1,9 @@
 // Gaussian diffusers by the filtered estimator: sums of pictures with box diffusers.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <string_view>
+
 #include "engine/even_parts.h"
 #include "files/display_file.h"
 #include "pictures.h"
@@ -67,6 +70,34 @@ TEST(EvenParts, BecomeTheBell) {
         }
         EXPECT_LT(last, most) << name;
     }
+}
+
+/// Cancelled once so many pixels are done.
+struct CancelledJob : Job {
+    explicit CancelledJob(std::int64_t after) : last(after) {}
+    bool cancelled() const override { return done >= last; }
+    void stage(std::string_view, std::int64_t count) override { total = count, ++stages; }
+    void advance(std::int64_t pixels) override { done += pixels; }
+    const std::int64_t last;
+    std::int64_t total = 0;
+    int stages = 0;
+    std::atomic<std::int64_t> done = 0;
+};
+
+TEST(EvenParts, AreOneStageAndLoseNothingWhereTheyEnd) {
+    Display d = behind_a_bell("desktop-asphere", 1, PixelFilter::box, 0);
+    d.render.samples = 16;  // 4 parts
+    const RenderOptions options{1, "", Rect{1800, 1000, 1928, 1064}};
+    const Texels white = uniform_panel(d, 1);
+    const std::int64_t pixels = 128 * 64;
+    CancelledJob whole(5 * pixels), half(2 * pixels);
+    const Rendering all = render(d, resolve(d), white, options, whole), some = render(d, resolve(d), white, options, half);
+    EXPECT_TRUE(all.complete);
+    EXPECT_EQ(whole.stages, 1);
+    EXPECT_EQ(whole.total, 4 * pixels);
+    EXPECT_EQ(whole.done, 4 * pixels);
+    EXPECT_FALSE(some.complete);
+    EXPECT_NEAR(mean_light(some.image) / mean_light(all.image), 1, 0.05);
 }
 
 TEST(EvenParts, AreTheDisplayItselfElsewhere) {
