@@ -17,7 +17,7 @@ constexpr int probe_threads = most_probes;
 constexpr int probe_threads = 1;
 #endif
 constexpr int probes_each = most_probes / probe_threads;
-constexpr int team_threads = 128;  // in a thread block of a GPU
+constexpr int block_threads = 128;  // of a GPU's thread block, whole teams
 
 #ifdef LFDSIM_TEAMS
 
@@ -79,7 +79,7 @@ class NodeSums {
   public:
     LFDSIM_FN void add(int node, const S (&weight)[probes_each], const S (&row)[probes_each][4]) {
         // Teams side by side use different banks of the memory.
-        __shared__ S all[team_threads / most_probes][most_probes + 4][4];
+        __shared__ S all[block_threads / most_probes][most_probes + 4][4];
         S(*const rows)[4] = all[threadIdx.x / most_probes];
         for (int c = 0; c < 4; ++c) rows[probe_number(0)][c] = weight[0] * row[0][c];
         __syncwarp(team_mask());

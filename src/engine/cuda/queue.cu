@@ -20,7 +20,7 @@ void check(cudaError_t result, const char* doing) {
     throw wide::DeviceError(std::string("the GPU failed while ") + doing + ": " + cudaGetErrorString(result));
 }
 
-constexpr int threads = 128;  // in a thread block
+constexpr int threads = optics::block_threads;
 
 /// Thread blocks that a multiprocessor is to hold at once at least, which limits the registers of a step's kernel: measured on an
 /// H100 (docs/gpu.md).

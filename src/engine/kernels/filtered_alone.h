@@ -21,10 +21,12 @@ LFDSIM_FN optics::Uint<F> pixel_numbers(const Tile& tile, std::int32_t x, std::i
     return optics::load<F>(number);
 }
 
+/// Do the camera's pixels or its pupil spread the light?
+LFDSIM_BOTH bool camera_spreads(const optics::Scene<S>& scene) { return scene.box_filter || scene.thin_lens; }
+
 /// Random numbers for a stratum, which is one of max_strata x max_strata, in all its pixels.
 LFDSIM_FN optics::Sampler<F> own_sampler(const Tile& tile, optics::Uint<F> pixels, std::uint32_t stratum) {
-    const bool spreads = tile.scene->box_filter || tile.scene->thin_lens;
-    optics::Sampler<F> sampler(Sampling::random, spreads ? 6 : 2, tile.view->seed, pixels);
+    optics::Sampler<F> sampler(Sampling::random, camera_spreads(*tile.scene) ? 6 : 2, tile.view->seed, pixels);
     sampler.sample = stratum * 8;
     return sampler;
 }

@@ -190,9 +190,6 @@ class BlockWork {
                within_a_pitch(scene, axis[1], 1, j);
     }
 
-    /// Do the camera's pixels or its pupil spread the light?
-    LFDSIM_BOTH bool spreads() const { return scene.box_filter || scene.thin_lens; }
-
     /// One grid for the whole square of angles.
     LFDSIM_BOTH void cut_square(const optics::PixelBlock<S>& block, const EvenCuts& even) {
         Grid& grid = at.grids.grid[0];
@@ -223,7 +220,7 @@ class BlockWork {
 
     /// Does no pixel of the packet see the lens from its centre, through the middle of the pupil, where that is all that counts?
     LFDSIM_BOTH bool unseen(const Seen& seen) const {
-        if (seen.corners->count == 0 || (spreads() && parts_an_axis(tile) > 1)) return false;
+        if (seen.corners->count == 0 || (camera_spreads(scene) && parts_an_axis(tile) > 1)) return false;
         return optics::none(reaches(*seen.corners, {seen.across->low, seen.across->high, seen.up->low, seen.up->high}));
     }
 
