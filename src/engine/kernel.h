@@ -11,6 +11,9 @@ struct Square {
     // More samples divide into cells not only the square, but also what else spreads a pixel's own rays: the pixel's area or the
     // diffuser's angles, whichever the square is not, and the pupil.
     bool divides_other, divides_pupil;
+    // Into so many parts along each axis a pixel that finds out by itself what it sees of a lens divides the square; each takes
+    // four rays, or one.
+    int parts = 1;
 };
 
 /// A tile of the picture: pixels x0 .. x1-1, y0 .. y1-1 of the whole frame. Pixel (x, y) goes to

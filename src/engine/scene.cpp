@@ -153,15 +153,15 @@ optics::Emission<S> make_emission(const Panel& panel) {
     return to;
 }
 
-/// Does the camera's pupil move rays over a good part of a hole?
-bool moves_by_pupil(const optics::Scene<float>& scene, const optics::View& view) {
-    if (!scene.thin_lens) return false;
+/// How far the camera's pupil moves rays in the plane of the holes, in half widths of a hole.
+double shift_by_pupil(const optics::Scene<float>& scene, const optics::View& view) {
+    if (!scene.thin_lens) return 0;
     const double away = std::abs((view.position[2] - view.start_z + double(scene.holes_below[0])) / view.forward[2]);
     const double shift = view.pupil_radius * std::abs(1 - away * view.frame_per_focus / view.distance);
     const Lattice<float>& lattice = scene.lattice;
     const float hole =
         scene.hole_radius > 0 ? scene.hole_radius : std::min({scene.hole_half, lattice.half_pitch[0], lattice.half_pitch[1]});
-    return shift > FilteredLimits::aside * double(hole);
+    return shift / double(hole);
 }
 
 }  // namespace
@@ -273,10 +273,15 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
     // Without a diffuser pixels share a block's list of lenses and what the pupil spreads.
     const int many = 16 * pixel < seen ? 16 : 8 * pixel < 4 * seen ? 8 : 4;
     // A pupil that is divided moves the lens's outline as it should, but its few cells show, most of all in the gaps of a panel
-    // with subpixels: unless there are enough of them, or a diffuser's box, itself not divided, covers those gaps.
-    const bool whole = scene.emission.whole, moves_pupil = moves_by_pupil(scene, view);
+    // with subpixels: unless there are enough of them, or a diffuser's box, itself not divided, covers those gaps, or other lenses
+    // are seen from its edge than from its middle.
+    const bool whole = scene.emission.whole;
+    const double pupil = shift_by_pupil(scene, view);
+    const bool moves_pupil = pupil > L::aside, sees_others = pupil > L::far_aside;
     const int enough = whole ? few_strata : 2 * few_strata;
-    if (!scene.has_diffuser) return {many, {true, true, false, converges || (moves_pupil && strata > enough)}};
+    const int parts = (strata + 1) / 2;
+    if (!scene.has_diffuser)
+        return {many, true, {true, true, false, converges || sees_others || (moves_pupil && strata > enough), parts}};
     double span[2];
     bool weak = true;
     for (int k = 0; k < 2; ++k) {
@@ -295,20 +300,23 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
                                                 : L::block_usual;
     const double half_as_wide = std::min(2 * wide, rough ? L::half_block_rough : L::half_block_usual);
     const int side = 16 * pixel < wide * alike ? 16 : 8 * pixel < half_as_wide * alike ? 8 : 4;
-    if (!scene.by_lens || !(weak || side == 4)) return {side, {weak, false, false, false}};
+    // Rows and columns of lenses are cut together unless pixels are so coarse on the panel that footprints leap from one to the
+    // next: panel pixels, for rays through one point of a lens.
+    const double below = double(scene.holes_below[0]);
+    const bool leaps = pixel / below * (view.start_z - below) * view.pixels_per_mm > L::leaping;
+    const bool by_lens = scene.by_lens || (leaps && !weak);
+    if (!by_lens || !(weak || side == 4)) return {side, by_lens, {weak, false, false, false, weak ? parts : 1}};
 
     // Lens by lens, pixels behind a weak diffuser share only a block's list of lenses, and parts of it what the camera spreads. So
     // do pixels so coarse that no more of them would share a bundle than it has probes.
     const double diffused = std::max(span[0], span[1]);
-    // Edges of holes are taken as straight; an oblique view makes pixels wider.
-    const bool straight = scene.hole_radius == 0 || 2 * pixel < L::straight * double(scene.hole_radius);
-    const bool of_pixel = scene.box_filter && straight && diffused < pixel;
+    const bool of_pixel = scene.box_filter && diffused < pixel;
     // No box is right to the last. But a round hole that cuts the diffuser's angles has one place.
     const bool moves = of_pixel || scene.hole_radius == 0;
     const bool divides_other = converges || strata > 2 * few_strata;
     const int few = 8 * pixel < seen ? 8 : 4;
-    const bool divides_pupil = converges || (moves_pupil && (whole || !divides_other));
-    return {of_pixel ? many : few, {true, of_pixel, moves && divides_other, moves && divides_pupil}};
+    const bool divides_pupil = converges || sees_others || (moves_pupil && (whole || !divides_other));
+    return {of_pixel ? many : few, true, {true, of_pixel, moves && divides_other, moves && divides_pupil, parts}};
 }
 
 const optics::DirectionNumbers& sobol_directions() {

@@ -37,11 +37,13 @@ int sample_dimensions(const Display&);
 
 /// The blocks of pixels in which the filtered estimator shares its rays.
 struct BlockShape {
-    int side;  // pixels: 16, 8 or 4
+    int side;      // pixels: 16, 8 or 4
+    bool by_lens;  // what the scene's shall be
     Square square;
 };
 /// For so many strata an axis: a block spans less than a pixel sees of a lens, much less where many strata ask for a fine picture,
-/// nearly as much for a rough one. `converges`: with more samples everything shall be divided.
+/// nearly as much for a rough one. `converges`: with more samples everything shall be divided. The scene's `by_lens` says whether
+/// lenses have to be told apart; in coarse pictures they are anyway.
 BlockShape block_shape(const optics::Scene<float>&, const optics::View&, int strata, bool rough = false, bool converges = false);
 
 const optics::DirectionNumbers& sobol_directions();

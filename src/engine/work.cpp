@@ -54,6 +54,7 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
     // An error is estimated from what more samples change: all has to converge.
     const BlockShape shape =
         block_shape(scene, view, target_error ? 2 * few_strata : strata, options.rough, target_error.has_value());
+    scene.by_lens = shape.by_lens;
 
     // Of point samples there may be the panel alone.
     const PanelReading reading = levels.size() == 1 ? PanelReading{.coarser = false} : panel_reading(display, geometry);

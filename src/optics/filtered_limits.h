@@ -18,6 +18,8 @@ struct FilteredLimits {
     // They also do behind a weak diffuser, whose rays span less than this along both axes, in picture pixels and in lens pitches:
     // only blocks of 4 x 4 pixels could share rays through the same points of a lens.
     static constexpr double weak_span = 20, weak = 0.5;
+    // Panel pixels from one picture pixel to the next: beyond it lenses are told apart, and footprints followed one by one.
+    static constexpr double leaping = 1;
 
     // A block as a whole (optics/bundle.h); where one of these is exceeded no pixel of it shares anything.
     // Lens pitches: how far the fourth ray of a block may be from where the other three predict it.
@@ -34,13 +36,16 @@ struct FilteredLimits {
     // A block that cuts what it sees lens by lens (kernels/filtered_lens.h).
     // Share of a stratum: where pixels see less of it along an axis, a footprint wider than `soft` is not shared.
     static constexpr double narrow = 0.5;
-    // Picture pixels: a diffuser that turns rays along an axis by less is taken to turn them by as much.
-    static constexpr double least_span = 0.25;
+    // Picture pixels: a diffuser that turns rays along an axis by less is taken to turn them by as much. The first where a pixel's
+    // area counts.
+    static constexpr double least_span = 0.25, least_span_sharp = 1.0 / 64;
     // Radii of a round hole: up to this half width of a picture pixel its edge counts as straight.
     static constexpr double straight = 0.5;
     // Half widths of a hole: by how much the pupil may move rays there and yet be left undivided, in the width of boxes alone,
     // however many samples there are.
     static constexpr double aside = 0.05;
+    // The same, from where on other lenses are seen from the pupil's edge than from its middle.
+    static constexpr double far_aside = 0.5;
     // Widths of the box by which the diffuser and the pupil widen a ray: one ray serves for four where the pixel's area adds less.
     static constexpr double beside = 0.25;
     // Radii of a lens, or half widths of a strip: rays up to here from its axis tell how the camera's pupil spreads all of them.

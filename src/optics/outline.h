@@ -4,7 +4,7 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-constexpr int most_corners = 6;
+constexpr int most_corners = 8;
 
 /// A convex polygon, counter-clockwise to the viewer; mm from the lens's axis, in the display's frame.
 template <class S>
@@ -29,6 +29,18 @@ LFDSIM_FN Outline<S> outline_of(const Lattice<S>& lattice, S half_width, S reach
         for (int k = 0; k < 4; ++k) of.corner[k] = corner[k];
     }
     for (int k = 0; k < of.corners; ++k) of.corner[k] = to_display(lattice, of.corner[k].x, of.corner[k].y);
+    return of;
+}
+
+/// That of a circle, as a polygon of its area.
+template <class S>
+LFDSIM_FN Outline<S> outline_of_circle(S radius) {
+    Outline<S> of;
+    of.corners = 8;
+    const S far = S(1.0538796) * radius, c = S(0.92387953) * far,
+            s = S(0.38268343) * far;  // sqrt(pi / (4 sin 45)), at 22.5 degrees
+    const Place<S> corner[8] = {{c, s}, {s, c}, {-s, c}, {-c, s}, {-c, -s}, {-s, -c}, {s, -c}, {c, -s}};
+    for (int k = 0; k < 8; ++k) of.corner[k] = corner[k];
     return of;
 }
 

@@ -32,6 +32,17 @@ struct Sweep {
 /// Turning about y by a positive angle sends a ray towards -x; about x, towards +y.
 LFDSIM_FN int sense(int axis) { return axis == 0 ? -1 : 1; }
 
+/// The diffuser as strata take it: each turn moves a ray that goes down along its own axis alone, as Sweep has it.
+template <class F>
+LFDSIM_FN Vec3<F> scatter_apart(const Scene<Scalar<F>>& scene, Vec3<F> to, F uniform_a, F uniform_b) {
+    const F per = F(-1) / to.z, none = F(0);
+    const auto slope = [&](F before, int axis, F uniform) {
+        return Sweep<F>{none, before * per, 0, Scalar<F>(sense(axis))}.turned(diffuser_tangent(scene, axis, uniform));
+    };
+    const F x = slope(to.x, 0, uniform_a), y = slope(to.y, 1, uniform_b), down = F(1) / sqrt(F(1) + x * x + y * y);
+    return {x * down, y * down, none - down};
+}
+
 /// Half the area of the unit circle between x = 0 and t: (t sqrt(1 - t^2) + asin t) / 2, odd; |t| is cut to 1. The arc sine is
 /// Abramowitz and Stegun's 4.4.46: error 2e-8.
 template <class F>

@@ -170,8 +170,8 @@ void light_stays_light(int drawn_displays, std::uint64_t hash) {
     EXPECT_GT(lit, drawn_displays / 3);
     EXPECT_EQ(bits.hash(), hash);
 }
-TEST(FilteredExtremes, LightStaysLight) { light_stays_light(100, 0x3a30d0e23c153fd1); }
-TEST(FilteredExtremes, LightStaysLightAtLength) { light_stays_light(300, 0x2b5cf9929e03fcd6); }
+TEST(FilteredExtremes, LightStaysLight) { light_stays_light(100, 0xf7d2a4f23a312b95); }
+TEST(FilteredExtremes, LightStaysLightAtLength) { light_stays_light(300, 0x27c10ab281e5cf5b); }
 
 /// Of the light of a picture that sees few of the diffuser's angles: a sum of boxes has a bell's moments, not its value everywhere.
 double form_error(const Display& d) { return d.diffuser && d.diffuser->profile == Profile::gaussian ? 0.16 : 0.02; }
@@ -238,8 +238,8 @@ void holds_on_every_lattice_and_camera(int drawn_displays, std::uint64_t hash) {
     EXPECT_GT(compared, drawn_displays / 5);
     EXPECT_EQ(bits.hash(), hash);
 }
-TEST(FilteredExtremes, OfEveryLatticeAndCamera) { holds_on_every_lattice_and_camera(50, 0x918cac0785aa1efd); }
-TEST(FilteredExtremes, OfEveryLatticeAndCameraAtLength) { holds_on_every_lattice_and_camera(150, 0x75249f0b2d87b5af); }
+TEST(FilteredExtremes, OfEveryLatticeAndCamera) { holds_on_every_lattice_and_camera(50, 0xfd47e765e31b8306); }
+TEST(FilteredExtremes, OfEveryLatticeAndCameraAtLength) { holds_on_every_lattice_and_camera(150, 0x29897458cb25e08e); }
 
 }  // namespace
 }  // namespace lfdsim

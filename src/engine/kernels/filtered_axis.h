@@ -46,7 +46,9 @@ struct Axis {
     int strata;
     bool moving;
     Gradient first, last;  // the positions of the ends
-    Cut* cut;              // strata + 1 of them
+    // Of a lens's own grid: the square and the cubic term of positions as a function of the number, mm.
+    S square, cube;
+    Cut* cut;  // strata + 1 of them
     Stratum* stratum;
 };
 

@@ -5,6 +5,7 @@
 #include "engine/kernels/filtered_alone.h"
 #include "engine/kernels/filtered_axis.h"
 #include "engine/kernels/filtered_bundles.h"
+#include "engine/kernels/filtered_lens.h"
 #include "engine/kernels/filtered_own.h"
 #include "engine/kernels/filtered_parts.h"
 #include "optics/bundle.h"
@@ -220,7 +221,7 @@ class BlockWork {
 
     /// Does no pixel of the packet see the lens from its centre, through the middle of the pupil, where that is all that counts?
     LFDSIM_BOTH bool unseen(const Seen& seen) const {
-        if (seen.corners->count == 0 || (camera_spreads(scene) && parts_an_axis(tile) > 1)) return false;
+        if (seen.corners->count == 0 || (camera_spreads(scene) && tile.square.parts > 1)) return false;
         return optics::none(reaches(*seen.corners, {seen.across->low, seen.across->high, seen.up->low, seen.up->high}));
     }
 

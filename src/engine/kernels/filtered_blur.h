@@ -26,10 +26,6 @@ constexpr int blur_step = 4, most_blurs = 4;
 /// How many squares along an axis.
 LFDSIM_BOTH int blurs_an_axis(const Tile& tile) { return tile.square.of_pixel ? 1 : optics::min(tile.block_side / blur_step, 2); }
 
-/// Into how many parts along each axis a pixel that finds out what it sees of a lens divides the square: each takes four rays, or
-/// one.
-LFDSIM_BOTH int parts_an_axis(const Tile& tile) { return tile.square.weak ? (tile.strata + 1) / 2 : 1; }
-
 /// By how much the diffuser changes a ray's slope along axis a: by its largest turn.
 LFDSIM_BOTH S turn_of_diffuser(const optics::Scene<S>& scene, const optics::Sweep<S>& sweep, int a) {
     S sine, cosine;
@@ -116,7 +112,7 @@ LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block
     // The width of a box that varies as much, in steps; squared. Of the variance, the shares that lie within cells; a pupil's are
     // mapped to a disk.
     const S diffuser = 4, pupil = 3;
-    const S cells = S(parts_an_axis(tile) * parts_an_axis(tile)), in_other = tile.square.divides_other ? S(1) / cells : S(1),
+    const S cells = S(tile.square.parts * tile.square.parts), in_other = tile.square.divides_other ? S(1) / cells : S(1),
             in_pupil = tile.square.divides_pupil ? optics::min(S(2) / cells, S(1)) : S(1);
     for (int p = 1; p < 3 && scene.box_filter && scene.has_diffuser; ++p)
         if (same(p)) widen(p, of_pixel ? diffuser * in_other : in_other);

@@ -8,7 +8,7 @@
 #include "engine/kernel.h"
 #include "engine/kernels/filtered_axis.h"
 #include "engine/kernels/filtered_blur.h"
-#include "engine/kernels/filtered_lens.h"
+#include "engine/kernels/filtered_grids.h"
 #include "optics/bundle.h"
 #include "optics/filtered_limits.h"
 #include "optics/footprint.h"

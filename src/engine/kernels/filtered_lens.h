@@ -6,6 +6,7 @@
 #pragma once
 #include "engine/kernel.h"
 #include "engine/kernels/filtered_axis.h"
+#include "engine/kernels/filtered_grids.h"
 #include "optics/bundle.h"
 #include "optics/filtered_limits.h"
 #include "optics/outline.h"
@@ -13,36 +14,6 @@
 namespace lfdsim {
 
 namespace {
-
-/// The grids of a block, and the memory for their parts.
-struct Grids {
-    Grid* grid;
-    Cut* cut;
-    Stratum* stratum;
-    int count, strata;  // in all
-    // By how much the light of all pixels moves in the plane of the holes, mm along x and y, and how the square's numbers change
-    // for a place that stays: with a ray from the pupil's right edge and from its upper one, and per tangent of the diffuser's
-    // turns, where those are divided into cells of which each has its own cuts.
-    S aside[4][2], moved[4][2];
-    S pixel[2][2];  // mm, half a pixel to the right and upwards
-};
-
-constexpr int most_grids = 64;
-/// A grid of n strata has at most n + 3 cuts.
-constexpr int most_cuts = max_strata * max_strata + 3 * most_grids;
-
-/// How many of each a block of a tile may have, if its square is cut into `across` columns and rows.
-struct Room {
-    int grids, strata, cuts, an_axis;
-
-    LFDSIM_BOTH Room(int across, bool by_lens) {
-        const int more = by_lens ? few_strata : more_strata;
-        an_axis = optics::min(across + more_strata, max_strata);
-        strata = optics::min((across + more) * (across + more), max_strata * max_strata);
-        grids = by_lens ? optics::min(strata, most_grids) : 1;
-        cuts = by_lens ? strata + 3 * grids : 2 * (an_axis + 1);
-    }
-};
 
 class LensCutter {
   public:
@@ -54,13 +25,20 @@ class LensCutter {
             last[a] = place_of(a, tangent);
             span[a] = optics::abs(last[a].middle - first[a].middle);
             rising[a] = S(optics::sense(a));
+            // Not from positions, which may be much larger than what the diffuser moves them by.
+            const optics::Sweep<S>& sweep = block.sweep[a][0];
+            const auto moved = [&](S by) { return sweep.height * (sweep.turned(by) - sweep.slope); };
+            const S half = tile.square.of_pixel ? S(0) : optics::diffuser_tangent(scene, a, S(0.5));
+            square[a] = S(0.5) * (moved(tangent) + moved(-tangent));
+            cube[a] = S(2.0 / 3) * (moved(tangent) - moved(-tangent) - S(2) * (moved(half) - moved(-half)));
             const S reach = first[a].reach();
             low[a] = optics::min(first[a].middle, last[a].middle) - reach;
             high[a] = optics::max(first[a].middle, last[a].middle) + reach;
             // Where the diffuser turns rays by less than a pixel sees, numbers are those of a diffuser of a part of a pixel.
-            const S least = S(FilteredLimits::least_span) * reach / S(block.reach);
-            linear[a] = !(span[a] > least);
-            per[a] = rising[a] / optics::max(S(0.5) * least, S(1e-12));
+            const S least =
+                S(scene.box_filter ? FilteredLimits::least_span : FilteredLimits::least_span_sharp) * reach / S(block.reach);
+            linear[a] = !(span[a] > reach);
+            per[a] = rising[a] / optics::max(S(0.5) * optics::max(span[a], least), S(1e-12));
         }
         if (tile.square.of_pixel) of_pixel();
         const bool turned = tile.square.of_pixel && tile.square.divides_other && scene.has_diffuser;
@@ -88,12 +66,13 @@ class LensCutter {
         const Lattice<S>& lattice = scene.lattice;
         grids.count = grids.strata = 0;
         cuts = 0;
-        if (tile.square.of_pixel && scene.hole_radius > 0) {
-            // A pixel is to see an edge as straight.
+        // The parts of a pixel are to see the edge of a round hole as straight, or else the hole as a polygon.
+        bool polygon = false;
+        if (tile.square.of_pixel && scene.hole_radius > 0 && !scene.leaky) {
             const S(&to)[2][2] = grids.pixel;
-            const S most = S(FilteredLimits::straight) * scene.hole_radius;
-            if (!(optics::abs(to[0][0]) + optics::abs(to[1][0]) < most && optics::abs(to[0][1]) + optics::abs(to[1][1]) < most))
-                return false;
+            const S most = S(FilteredLimits::straight) * scene.hole_radius * S(tile.square.parts);
+            polygon =
+                !(optics::abs(to[0][0]) + optics::abs(to[1][0]) < most && optics::abs(to[0][1]) + optics::abs(to[1][1]) < most);
         }
         // The block's view in the array's frame.
         const S middle[2] = {S(0.5) * (low[0] + high[0]), S(0.5) * (low[1] + high[1])},
@@ -106,9 +85,11 @@ class LensCutter {
         const optics::Place<S> off = scene.placement.given ? seen_off({S(0), S(0)}, at.y) : optics::Place<S>{S(0), S(0)};
         const S half_x = c * half[0] + s * half[1], half_y = s * half[0] + c * half[1];
         reach_along = half_x + half_y;
-        const optics::Outline<S> cell = optics::outline_of(lattice, scene.hole_half, reach_along);
+        const optics::Outline<S> cell =
+            polygon ? optics::outline_of_circle(scene.hole_radius) : optics::outline_of(lattice, scene.hole_half, reach_along);
         S extent[2] = {scene.hole_radius, scene.hole_radius};
-        if (scene.hole_radius == 0 || scene.leaky) {
+        outlined = polygon || scene.hole_radius == 0 || scene.leaky;
+        if (outlined) {
             extent[0] = extent[1] = 0;
             for (int k = 0; k < cell.corners; ++k) {
                 extent[0] = optics::max(extent[0], cell.corner[k].x);
@@ -135,7 +116,7 @@ class LensCutter {
                     axis = {axis.x + aside.x, axis.y + aside.y};
                 }
                 axis = optics::to_display(lattice, axis.x, axis.y);
-                if (!(lattice.strips ? add_strip(axis, cell) : add(axis, cell, extent))) return false;
+                if (!(lattice.strips ? add_strips(axis) : add(axis, cell, extent))) return false;
             }
         }
         return true;
@@ -182,16 +163,29 @@ class LensCutter {
             grid.narrow = grid.narrow || span[a] * wanted < S(FilteredLimits::narrow) * size;
         }
         grid.corners = 0;
-        if (scene.hole_radius == 0 || scene.leaky) outline(grid, axis, cell);
+        if (outlined) outline(grid, axis, cell);
         return count(grid);
     }
 
-    /// Adds the grid of the strip on whose axis that point lies; false: no room.
-    LFDSIM_BOTH bool add_strip(optics::Place<S> axis, const optics::Outline<S>& cell) {
+    /// Adds the grid of the strip on whose axis that point lies, and where light goes on between strips those of both sides of it;
+    /// false: no room.
+    LFDSIM_BOTH bool add_strips(optics::Place<S> axis) {
+        const Lattice<S>& lattice = scene.lattice;
+        const S gap = S(0.5) * (lattice.half_pitch[0] - scene.hole_half);
+        for (int side = -1; side <= 1; ++side) {
+            if (side != 0 && !(scene.leaky && gap > S(0))) continue;
+            const optics::Place<S> aside = optics::to_display(lattice, S(side) * (scene.hole_half + gap), S(0));
+            if (!add_strip({axis.x + aside.x, axis.y + aside.y}, side == 0 ? scene.hole_half : gap)) return false;
+        }
+        return true;
+    }
+
+    /// Adds the grid of a strip on whose middle that point lies and which is `half` wide to each side of it; false: no room.
+    LFDSIM_BOTH bool add_strip(optics::Place<S> axis, S half) {
         const S c = scene.lattice.cos_turn, s = scene.lattice.sin_turn;
         const int along = optics::abs(c) >= optics::abs(s) ? 1 : 0, across = 1 - along;
         const S at[2] = {axis.x, axis.y}, lean = along == 1 ? -s / c : -c / s;
-        const S extent = scene.hole_half / optics::max(optics::abs(c), optics::abs(s));
+        const S extent = half / optics::max(optics::abs(c), optics::abs(s));
         const S sideways = optics::abs(lean) * (high[along] - low[along]);
         if (!(at[across] - extent - sideways < high[across] && at[across] + extent + sideways > low[across])) return true;
         if (grids.count == room.grids) return false;
@@ -224,8 +218,32 @@ class LensCutter {
             width.stratum[k] = {at[across], from, to, false,
                                 here < low[across] + S(2) * reach || there > high[across] - S(2) * reach};
         }
-        outline(grid, axis, cell);
+        if (tile.square.of_pixel)
+            outline(grid, axis, optics::outline_of(scene.lattice, half, reach_along));
+        else
+            outline_of_strip(grid, at, extent);
         return count(grid);
+    }
+
+    /// The numbers of the corners of a strip between the ends of the diffuser's angles along it, in the order of
+    /// optics::outline_of: it runs on, and further away its edges would not be straight in these numbers.
+    LFDSIM_BOTH void outline_of_strip(Grid& grid, const S (&at)[2], S extent) const {
+        const int along = grid.strip, across = 1 - along;
+        const bool upwards = along == 1 ? scene.lattice.cos_turn > S(0) : scene.lattice.sin_turn < S(0);
+        const S most = S(1) + optics::abs(grids.moved[0][along]) + optics::abs(grids.moved[1][along]);
+        grid.corners = 4;
+        for (int k = 0; k < 4; ++k) {
+            const bool right = k < 2, upper = k == 1 || k == 2;
+            const S end = (upper == upwards ? rising[along] : -rising[along]) * most,
+                    side = right != grid.against ? extent : -extent;
+            S number[3];
+            for (int ray = 0; ray < 3; ++ray) {
+                const S there = place_at(along, ray, end) - at[along];
+                number[ray] = number_at(across, ray, at[across] + grid.lean * there + side);
+            }
+            grid.corner[k][along] = {end, 0, 0};
+            grid.corner[k][across] = Gradient::of(number[0], number[1], number[2]);
+        }
     }
 
     /// Do pixels cut the whole square at the lens's outline?
@@ -242,6 +260,8 @@ class LensCutter {
         axis.moving = false;
         axis.first = first[a];
         axis.last = last[a];
+        axis.square = square[a];
+        axis.cube = cube[a];
         axis.cut = grids.cut + cuts;
         axis.stratum = grids.stratum + cuts;
         cuts += strata + 1;
@@ -323,16 +343,20 @@ class LensCutter {
             return;
         }
         const S by[2] = {x, y};
-        for (int a = 0; a < 2; ++a) number[a] = by[a] * (linear[a] ? per[a] : S(2) * rising[a] / span[a]);
+        for (int a = 0; a < 2; ++a) number[a] = by[a] * per[a];
     }
 
+    /// The diffuser's number of a ray of the block that passes a place, and the place where it goes with a number.
+    LFDSIM_BOTH S number_at(int a, int ray, S place) const {
+        const optics::Sweep<S>& sweep = block.sweep[a][ray];
+        return linear[a] ? (place - sweep.place(S(0))) * per[a] : optics::diffuser_uniform(scene, a, sweep.tangent(place));
+    }
+    LFDSIM_BOTH S place_at(int a, int ray, S number) const {
+        const optics::Sweep<S>& sweep = block.sweep[a][ray];
+        return linear[a] ? sweep.place(S(0)) + number / per[a] : sweep.place(optics::diffuser_tangent(scene, a, number));
+    }
     LFDSIM_BOTH Gradient number_of(int a, S place) const {
-        S number[3];
-        for (int k = 0; k < 3; ++k) {
-            const optics::Sweep<S>& sweep = block.sweep[a][k];
-            number[k] = linear[a] ? (place - sweep.place(S(0))) * per[a] : optics::diffuser_uniform(scene, a, sweep.tangent(place));
-        }
-        return Gradient::of(number[0], number[1], number[2]);
+        return Gradient::of(number_at(a, 0, place), number_at(a, 1, place), number_at(a, 2, place));
     }
 
     const Tile& tile;
@@ -343,11 +367,13 @@ class LensCutter {
     int cuts = 0;
     Gradient first[2], last[2];  // where the square begins and ends
     S low[2], high[2];           // what the block sees
+    S square[2], cube[2];        // an axis's
     S span[2], rising[2];        // what the middle sees; +1: numbers rise with the position, else -1
     bool linear[2];
     S per[2];
     S numbers[2][2];  // of_pixel(): number a's change per mm along x and y
     S reach_along = 0;
+    bool outlined = true;  // are corners what pixels see of a lens?
 };
 
 }  // namespace

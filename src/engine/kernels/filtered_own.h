@@ -25,21 +25,25 @@ struct Start {
     F x = F(0), y = F(0), lens_x = F(0), lens_y = F(0);
 };
 
-/// Each pixel's ray with the square's numbers (a, b): the diffuser's, or those of a point of the pixel's area.
-LFDSIM_FN optics::Ray<F> own_ray(const Tile& tile, const optics::PixelRays<F>& pixels, const Start& start, F a, F b) {
+/// Each pixel's ray with the square's numbers (a, b): the diffuser's, or those of a point of the pixel's area. `aimed`: the
+/// diffuser's two turns are taken as independent, so that the ray goes where strata and outlines have its numbers.
+LFDSIM_FN optics::Ray<F> own_ray(const Tile& tile, const optics::PixelRays<F>& pixels, const Start& start, F a, F b, bool aimed) {
     const optics::Scene<S>& scene = *tile.scene;
     const bool of_pixel = tile.square.of_pixel;
     optics::Ray<F> ray{{pixels.x, pixels.y, F(0)}, pixels.to};
     if (of_pixel || scene.box_filter || scene.thin_lens)
         ray = optics::displaced(*tile.view, pixels, of_pixel ? a : start.x, of_pixel ? b : start.y, start.lens_x, start.lens_y);
-    if (scene.has_diffuser) ray.to = optics::scatter(scene, ray.to, of_pixel ? start.x : a, of_pixel ? start.y : b);
+    if (!scene.has_diffuser) return ray;
+    const F about_y = of_pixel ? start.x : a, about_x = of_pixel ? start.y : b;
+    ray.to = aimed ? optics::scatter_apart(scene, ray.to, about_y, about_x) : optics::scatter(scene, ray.to, about_y, about_x);
     return ray;
 }
 
 /// Where it ends on the panel.
 template <optics::Way through>
 LFDSIM_APART optics::PanelPoint<F> trace_own(const Tile& tile, const optics::PixelRays<F>& pixels, const Start& start, F a, F b) {
-    return optics::trace_array<through>(*tile.scene, pixels.extent, pixels.base, own_ray(tile, pixels, start, a, b), pixels.alive);
+    return optics::trace_array<through>(*tile.scene, pixels.extent, pixels.base, own_ray(tile, pixels, start, a, b, false),
+                                        pixels.alive);
 }
 
 /// A random start, of the sampler's current sample.
@@ -159,8 +163,9 @@ LFDSIM_APART void trace_four(const Tile& tile, const optics::PixelRays<F>& pixel
                              optics::PanelPoint<F> (&end)[4]) {
     for (int p = 0; p < 4; ++p) {
         if (optics::none(rays.counts[p])) continue;
-        end[p] = optics::trace_array<through>(*tile.scene, pixels.extent, pixels.base,
-                                              own_ray(tile, pixels, start, rays.a[p], rays.b[p]), pixels.alive);
+        end[p] =
+            optics::trace_array<through>(*tile.scene, pixels.extent, pixels.base,
+                                         own_ray(tile, pixels, start, rays.a[p], rays.b[p], tile.scene->by_lens), pixels.alive);
     }
 }
 

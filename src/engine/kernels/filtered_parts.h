@@ -5,7 +5,7 @@
 #include "engine/kernel.h"
 #include "engine/kernels/filtered_axis.h"
 #include "engine/kernels/filtered_bundles.h"
-#include "engine/kernels/filtered_lens.h"
+#include "engine/kernels/filtered_grids.h"
 #include "engine/kernels/filtered_own.h"
 #include "optics/outline.h"
 
@@ -72,27 +72,33 @@ struct Moves {
     }
 };
 
-/// The part of a pixel's area beside the edge of a round hole, which is taken as straight there: a square about it. The hole bulges
-/// beyond its chord by the mean of t^2 / 2r, t along the edge.
+/// Part k of n x n of a pixel's area: its middle, in half pixels to the right and upwards.
+LFDSIM_BOTH optics::Place<S> middle_of_part(int k, int n) { return {S(2 * (k % n) + 1 - n) / S(n), S(2 * (k / n) + 1 - n) / S(n)}; }
+
+/// What part k of n x n of a pixel's area sees inside the edge of a round hole, which is taken as straight there: a square about
+/// it. The hole bulges beyond its chord by the mean of t^2 / 2r, t along the edge.
 LFDSIM_BOTH optics::Corners<F> inside_edge(const optics::Scene<S>& scene, const Grids& grids, const Grid& grid, F dx, F dy,
-                                           const Moves& moves) {
+                                           const Moves& moves, int k, int n) {
+    const S(&to)[2][2] = grids.pixel;
+    const optics::Place<S> middle = middle_of_part(k, n);
     F at[2];
     for (int a = 0; a < 2; ++a)
-        at[a] = moves.apply(grid.axis[a].first.at(dx, dy), grids.aside, a) - F(grid.axis[a].stratum[0].axis);
+        at[a] = moves.apply(grid.axis[a].first.at(dx, dy), grids.aside, a) -
+                F(grid.axis[a].stratum[0].axis - middle.x * to[0][a] - middle.y * to[1][a]);
     const F far = optics::sqrt(at[0] * at[0] + at[1] * at[1]), per_far = F(1) / optics::max(far, F(1e-9f)),
-            n[2] = {optics::select(far > F(0), at[0] * per_far, F(1)), at[1] * per_far};
-    const S(&to)[2][2] = grids.pixel;
-    const F u = n[0] * F(to[0][0]) + n[1] * F(to[0][1]), v = n[0] * F(to[1][0]) + n[1] * F(to[1][1]);  // outwards per number
-    const F t_u = n[0] * F(to[0][1]) - n[1] * F(to[0][0]), t_v = n[0] * F(to[1][1]) - n[1] * F(to[1][0]);
-    const F edge = F(scene.hole_radius) - (t_u * t_u + t_v * t_v) * F(S(1.0 / 6) / scene.hole_radius) - far;
+            normal[2] = {optics::select(far > F(0), at[0] * per_far, F(1)), at[1] * per_far};
+    const F u = normal[0] * F(to[0][0]) + normal[1] * F(to[0][1]),
+            v = normal[0] * F(to[1][0]) + normal[1] * F(to[1][1]);  // outwards per number
+    const F t_u = normal[0] * F(to[0][1]) - normal[1] * F(to[0][0]), t_v = normal[0] * F(to[1][1]) - normal[1] * F(to[1][0]);
+    const F edge = F(scene.hole_radius) - (t_u * t_u + t_v * t_v) * F(S(1.0 / 6) / (scene.hole_radius * S(n * n))) - far;
     const F steep = optics::sqrt(u * u + v * v), per = F(1) / optics::max(steep, F(1e-12f)), x = u * per, y = v * per;
     const F c = optics::min(optics::max(edge * per, F(-4)), F(4)), size = F(8);
     optics::Corners<F> corners;
     corners.count = 4;
-    for (int k = 0; k < 4; ++k) {
-        const F out = k < 2 ? c : c - size - size, side = k == 0 || k == 3 ? -size : size;
-        corners.x[k] = x * out - y * side;
-        corners.y[k] = y * out + x * side;
+    for (int corner = 0; corner < 4; ++corner) {
+        const F out = corner < 2 ? c : c - size - size, side = corner == 0 || corner == 3 ? -size : size;
+        corners.x[corner] = F(middle.x) + x * out - y * side;
+        corners.y[corner] = F(middle.y) + y * out + x * side;
     }
     return corners;
 }
@@ -112,18 +118,30 @@ LFDSIM_BOTH int far_step(int n) {
     return step;
 }
 
-/// Part k of n of a span; positions, which may run against the numbers, only where they matter.
-LFDSIM_BOTH Span<F> part_of_span(const Span<F>& of, bool against, int k, int n, bool with_positions) {
+/// Part k of n of a span, without positions.
+LFDSIM_BOTH Span<F> part_of_span(const Span<F>& of, int k, int n) {
     if (n == 1) return of;
-    const F low = F(S(k) / S(n)), high = F(S(k + 1) / S(n)), from = against ? F(1) - high : low, to = against ? F(1) - low : high;
-    const F range = of.high - of.low, way = of.to - of.from;
+    const F range = of.high - of.low;
     Span<F> part = of;
-    part.low = of.low + low * range;
-    part.high = of.low + high * range;
+    part.low = of.low + F(S(k) / S(n)) * range;
+    part.high = of.low + F(S(k + 1) / S(n)) * range;
     part.share = F(0.5f) * (part.high - part.low);
-    if (!with_positions) return part;
-    part.from = of.from + from * way;
-    part.to = of.from + to * way;
+    return part;
+}
+
+/// The same with positions, which may run against the numbers. Of third degree in them as the axis says, they differ from those on
+/// the line between the span's ends by (number - low) (number - high) (square + cube (number + low + high)).
+LFDSIM_BOTH Span<F> placed_part_of_span(const Span<F>& of, const Axis& axis, S per_radius, bool against, int k, int n) {
+    Span<F> part = part_of_span(of, k, n);
+    if (n == 1) return part;
+    const F square = F(axis.square * per_radius), cube = F(axis.cube * per_radius), range = of.high - of.low, way = of.to - of.from;
+    const auto position = [&](F number, S share) {
+        const F line = against ? of.to - F(share) * way : of.from + F(share) * way;
+        return line - F(share * (S(1) - share)) * range * range * (square + cube * (number + of.low + of.high));
+    };
+    const F first = position(part.low, S(k) / S(n)), last = position(part.high, S(k + 1) / S(n));
+    part.from = against ? last : first;
+    part.to = against ? first : last;
     return part;
 }
 
@@ -154,7 +172,7 @@ LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const OwnPixel
     const Blur& known = seen.bundles->blur[pixels.square];
     const bool two_pairs = scene.box_filter && scene.has_diffuser, spreads = scene.thin_lens || two_pairs,
                round = scene.hole_radius > 0;
-    const int n = parts_an_axis(tile), all = n * n;
+    const int n = tile.square.parts, all = n * n;
     const int far = far_step(n);
     for (int k = 0; k < all; ++k) {
         Spread spread;
@@ -179,13 +197,14 @@ LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const OwnPixel
         const Start& start = spread.start;
         const F half_pixel = F(tile.square.of_pixel ? S(0) : S(0.5) * pixels.per_reach), right = pixels.dx + start.x * half_pixel,
                 down = pixels.dy - start.y * half_pixel;
-        const bool with_holes = round && !tile.square.of_pixel;
-        const Span<F> x = part_of_span(*seen.across, true, k % n, n, with_holes),
-                      y = part_of_span(*seen.up, false, k / n, n, with_holes);
-        if (with_holes) {
+        if (round && !tile.square.of_pixel) {
+            const S per_radius = S(1) / scene.hole_radius;
+            const Span<F> x = placed_part_of_span(*seen.across, grid.axis[0], per_radius, true, k % n, n),
+                          y = placed_part_of_span(*seen.up, grid.axis[1], per_radius, false, k / n, n);
             add_own_probes(scene, x, y, x.share * y.share, spread, waiting);
             continue;
         }
+        const Span<F> x = part_of_span(*seen.across, k % n, n), y = part_of_span(*seen.up, k / n, n);
         if (!round && all == 1) {
             add_own_part(x, y, *seen.corners, spread, waiting);
             continue;
@@ -196,8 +215,8 @@ LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const OwnPixel
             moves.by[3] = optics::diffuser_tangent(scene, 1, start.y);
         }
         optics::Corners<F> corners;
-        if (round) {
-            corners = inside_edge(scene, grids, grid, right, down, moves);
+        if (grid.corners == 0) {
+            corners = inside_edge(scene, grids, grid, right, down, moves, k, n);
         } else {
             corners = corners_at(grid, right, down);
             for (int c = 0; c < corners.count; ++c) {
@@ -215,7 +234,7 @@ LFDSIM_APART void add_random_parts(const Tile& tile, const OwnPixels& pixels, co
     const int n = tile.square.weak ? tile.strata : 1;
     optics::Sampler<F> sampler = pixels.sampler(tile, 0);
     for (int k = 0; k < n * n; ++k) {
-        const Span<F> x = part_of_span(*seen.across, true, k % n, n, true), y = part_of_span(*seen.up, false, k / n, n, true);
+        const Span<F> x = part_of_span(*seen.across, k % n, n), y = part_of_span(*seen.up, k / n, n);
         const optics::Box<F> box{x.low, x.high, y.low, y.high};
         // Decided for each pixel, as rounding leaves some area, of either sign, to those that see nothing of the part.
         const F area = optics::area_within(*seen.corners, box);

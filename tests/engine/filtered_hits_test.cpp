@@ -1,0 +1,96 @@
+// Pixels that find out by themselves what they see of each lens aim their rays at it: what they see of a white panel, each once a
+// fault. Aimed beside the edges of holes rays are lost, and more of them the nearer to the edges many strata bring them.
+#include <gtest/gtest.h>
+
+#include "image/compare.h"
+#include "pictures.h"
+
+namespace lfdsim {
+namespace {
+
+/// Of pictures of a white panel: brightness relative to that of points, and the error of each pixel.
+void expect_white(Display d, std::initializer_list<std::int64_t> samples, double most_off, double most_rmse) {
+    const Texels white = uniform_panel(d, 1);
+    const auto with = [&](Estimator e, std::int64_t n) {
+        d.render.estimator = e;
+        d.render.samples = n;
+        return picture(d, white);
+    };
+    const auto mean = [](const Image& a) {
+        double sum = 0;
+        for (const float x : a.rgb) sum += x;
+        return sum / double(a.rgb.size());
+    };
+    const Image truth = with(Estimator::point, 1 << 12);
+    EXPECT_GT(mean(truth), 0.05);
+    for (const std::int64_t n : samples) {
+        const Image filtered = with(Estimator::filtered, n);
+        EXPECT_NEAR(mean(filtered) / mean(truth), 1, most_off) << n << " samples";
+        EXPECT_LT(compare(filtered, truth).rmse, most_rmse) << n << " samples";
+    }
+}
+
+/// Round holes without glass, 4 mm apart, in pictures whose pixels are coarse beside them.
+Display coarse_holes() {
+    Display d = ideal_example();
+    d.array.aperture = Aperture::circle;
+    d.lens.as<IdealLens>().aperture_radius_mm = 1.9;
+    d.camera.resolution = {60, 40};
+    return d;
+}
+
+TEST(FilteredHits, LightBesideStripsGoesOn) {
+    for (const Surround surround : {Surround::clear, Surround::plate, Surround::opaque}) {
+        Display d = in_lattice(example(), LatticeKind::strips);
+        d.lens.as<PlanoConvex>().aperture_radius_mm = 1.5;
+        d.array.aperture = Aperture::circle;
+        d.array.surround = surround;
+        d.array.slant_deg = 20;
+        d.diffuser = Diffuser{20, {14, 11}, Profile::box};
+        d.camera.resolution = {60, 40};
+        // The clear gaps' light in part meets the sides of the strips, which a few probes do not see well.
+        expect_white(d, {16, 64}, surround == Surround::clear ? 0.012 : 2e-3, 0.015);  // were it lost: a quarter
+    }
+}
+
+TEST(FilteredHits, ObliqueViewsOfRoundHolesAreNotDarkened) {
+    Display d = coarse_holes();
+    d.array.rotation_deg = 5;
+    d.diffuser = Diffuser{60, {4, 4}, Profile::box};
+    d.camera.position_mm = {170, 80, 470};
+    expect_white(d, {16, 400}, 1e-3, 0.01);
+}
+
+TEST(FilteredHits, PixelsMayLeapOnThePanel) {
+    Display d = coarse_holes();
+    d.panel.pixels = {240, 200};
+    d.panel.pixel_pitch_mm = 0.0065;
+    d.lens.as<IdealLens>().focal_length_mm = 1.67;
+    d.lens.as<IdealLens>().aperture_radius_mm = 0.118;
+    d.array.pitch_mm = 0.2366;
+    d.array.gap_mm = 2.864;
+    d.array.count = {6, 5};
+    d.diffuser = Diffuser{0.82, {18, 18}, Profile::box};
+    d.camera.position_mm = {0, 0, 30.23};
+    d.camera.frame_width_mm = 2.4;
+    expect_white(d, {4, 16, 64}, 0.012, 0.03);  // bundles of rows and columns: 4 to 5 % dark
+}
+
+TEST(FilteredHits, PixelsMayBeWiderThanAQuarterOfAHole) {
+    Display d = coarse_holes();
+    d.diffuser = Diffuser{1, {0.45, 0.45}, Profile::box};
+    d.camera.pixel_filter = PixelFilter::box;
+    expect_white(d, {1, 16, 100}, 1e-3, 0.02);  // by rays through pixels' centres: 0.17
+}
+
+TEST(FilteredHits, AWeakDiffuserLeavesEdgesSharp) {
+    Display d = coarse_holes();
+    d.array.rotation_deg = 5;
+    for (const double angle : {0.45, 30.0}) {  // the second one spans a part of a pixel
+        d.diffuser = Diffuser{1, {angle, angle}, Profile::box};
+        expect_white(d, {16, 64}, 2e-3, 0.02);
+    }
+}
+
+}  // namespace
+}  // namespace lfdsim
