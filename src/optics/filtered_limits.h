@@ -38,7 +38,7 @@ struct FilteredLimits {
     static constexpr double narrow = 0.5;
     // Picture pixels: a diffuser that turns rays along an axis by less is taken to turn them by as much. The first where a pixel's
     // area counts.
-    static constexpr double least_span = 0.25, least_span_sharp = 1.0 / 64;
+    static constexpr double least_span = 0.25, least_span_sharp = 0.015;
     // Radii of a round hole: up to this half width of a picture pixel its edge counts as straight.
     static constexpr double straight = 0.5;
     // Half widths of a hole: by how much the pupil may move rays there and yet be left undivided, in the width of boxes alone,

@@ -297,6 +297,18 @@ LFDSIM_FN Vec3<F> wedged(const Placement<Scalar<F>>& placement, bool in, Vec3<F>
     return {row(0), row(1), row(2)};
 }
 
+/// The middle of a lens's hole, so far below the vertex, about which the lens tilts, or of a cell without a lens; z from the
+/// array's vertex plane. y: of any point of a strip's axis.
+template <class S>
+LFDSIM_FN Vec3<S> middle_of_hole(const Scene<S>& scene, const Extent<S>& extent, Cell<S> lens, S y, S below_vertex) {
+    const bool there = extent.holds(lens);
+    const Stand<S> stand = there ? stand_of<S>(scene, extent, lens, there) : Stand<S>{0, 0, 0, 1, 1, 0, 1, 0};
+    const Place<S> axis = axis_of(scene.lattice, lens);
+    const Vec3<S> off = stand.turned_out({S(0), S(0), -below_vertex});
+    const Vec3<S> at{axis.x + stand.x + off.x, scene.lattice.strips ? y : axis.y + stand.y + off.y, stand.z + off.z};
+    return scene.placement.wedged ? wedged<S>(scene.placement, false, at) : at;
+}
+
 /// A ray in the plane z = entrance, of the frame turned about z, in the array's, z from the vertex plane.
 template <class F>
 LFDSIM_FN Ray<F> in_array(const Scene<Scalar<F>>& scene, const PanelBase<Scalar<F>>& base, const Ray<F>& ray) {

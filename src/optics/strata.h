@@ -22,10 +22,11 @@ struct Sweep {
         const F t = F(sense) * tangent;
         return (slope + t) / (F(1) - slope * t);
     }
-    LFDSIM_FN F place(F tangent) const { return at + F(height) * turned(tangent); }
-    /// The tangent of the angle that sends the ray to `place`.
-    LFDSIM_FN F tangent(F place) const {
-        const F to = (place - at) * F(Scalar<F>(1) / height);
+    /// In that plane, or so far above it.
+    LFDSIM_FN F place(F tangent, Scalar<F> above = 0) const { return at + F(height - above) * turned(tangent); }
+    /// The tangent of the angle that sends the ray to `place` there.
+    LFDSIM_FN F tangent(F place, Scalar<F> above = 0) const {
+        const F to = (place - at) * F(Scalar<F>(1) / (height - above));
         return F(sense) * ((to - slope) / (F(1) + slope * to));
     }
 };

@@ -92,5 +92,36 @@ TEST(FilteredHits, AWeakDiffuserLeavesEdgesSharp) {
     }
 }
 
+TEST(FilteredHits, RaisedLensesBelowADiffuser) {
+    Display d = in_lattice(ideal_example(), LatticeKind::hexagon);
+    d.camera.resolution = {60, 40};
+    d.diffuser = Diffuser{0.5, {1.5, 1.5}, Profile::box};
+    d.errors.bow_mm = 0.1;
+    expect_white(d, {1, 16}, 1e-3, 5e-3);  // seen as from the middle of their block they were a quarter dark
+}
+
+TEST(FilteredHits, LensesTiltAboutTheirVertices) {
+    Display d = example();
+    d.camera.resolution = {60, 40};
+    d.diffuser = Diffuser{40, {5.7, 5.7}, Profile::box};
+    d.errors.tilt_sd_deg = 1;
+    expect_white(d, {4, 64, 400}, 2e-3, 0.01);
+}
+
+TEST(FilteredHits, LensesThatOverlapShareWhatBothCover) {
+    for (const LatticeKind lattice : {LatticeKind::rectangle, LatticeKind::hexagon, LatticeKind::brick, LatticeKind::strips}) {
+        for (const Surround surround : {Surround::opaque, Surround::plate}) {
+            if (surround == Surround::plate && lattice != LatticeKind::strips) continue;
+            Display d = in_lattice(surround == Surround::plate ? example() : ideal_example(), lattice);
+            d.array.surround = surround;
+            if (surround == Surround::plate) d.lens.kind = PlanoConvex{20, 2.5, 0.5, 1.5, Facing::viewer};
+            d.camera.resolution = {48, 34};
+            d.diffuser = Diffuser{2, {2, 2}, Profile::box};
+            d.errors.decenter_sd_mm = 0.04;
+            expect_white(d, {4, 16}, 1.5e-3, 0.01);  // counted twice: RMSE 0.04 to 0.07
+        }
+    }
+}
+
 }  // namespace
 }  // namespace lfdsim

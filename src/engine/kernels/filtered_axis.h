@@ -60,6 +60,7 @@ struct Grid {
     int corners = 0;                           // of the lens's cell; 0: each stratum as a whole is the lens's
     Gradient corner[optics::most_corners][2];  // the diffuser's numbers of the rays to them
     bool narrow = false;                       // pixels see little of a stratum
+    S raised = 0;                              // mm: its lens's hole, and all positions, lie so far above the plane of the holes
     // A strip's strata are parallelograms: positions across it are from its axis, which leans by so much, mm per mm, along the axis
     // of this number. Along it strata have fixed numbers.
     int strip = -1;

@@ -196,6 +196,7 @@ class BlockWork {
         Grid& grid = at.grids.grid[0];
         grid.first = grid.corners = 0;
         grid.narrow = false;
+        grid.raised = 0;
         grid.strip = -1;
         const int most = Room(tile.strata, false).an_axis;
         for (int a = 0; a < 2; ++a) {

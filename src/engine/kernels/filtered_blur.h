@@ -68,7 +68,7 @@ LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block
             most = S(FilteredLimits::well_inside) * (grid.strip < 0 ? radius : scene.hole_half);
     for (int a = 0; a < 2 && far > most; ++a) at[a] = at[a] * (most / far);
     for (int a = 0; a < 2; ++a) {
-        const S place = of[a]->axis + at[a], below = scene.holes_below[a];
+        const S place = of[a]->axis + at[a], below = scene.holes_below[a] - grid.raised;
         const optics::Sweep<S>* const sweep = block.sweep[a];
         slope[a] = of_pixel ? middle(Gradient::of(sweep[0].slope, sweep[1].slope, sweep[2].slope))
                             : (place - middle(Gradient::of(sweep[0].at, sweep[1].at, sweep[2].at))) / below;

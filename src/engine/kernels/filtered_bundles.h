@@ -175,7 +175,8 @@ class BundleMaker {
                 const optics::Place<S> at = optics::to_array(scene.lattice, probes.x[p] - lens.x, probes.y[p] - lens.y);
                 if (!optics::in_cell(scene.lattice, at.x, at.y)) probes.in[p] = 0;
             }
-        optics::trace_probes<through, F>(scene, block, probes, per_axis * per_axis, scene.holes_below);
+        const S below[2] = {scene.holes_below[0] - grid->raised, scene.holes_below[1] - grid->raised};
+        optics::trace_probes<through, F>(scene, block, probes, per_axis * per_axis, below);
     }
 
     /// The bundle of a part of stratum (i, j), inside its hole or beside it. The motion of sharp ones may be left to follow(); the
@@ -327,25 +328,30 @@ class BundleMaker {
                 const Gradient& g = a.first;
                 return a.moving ? g.right * S(optics::block_right(from)) + g.down * S(optics::block_down(from)) : S(0);
             };
-            optics::set_probe(rays.at_x, p, block.sweep[0][from].at);
-            optics::set_probe(rays.at_y, p, block.sweep[1][from].at);
             const S right = shift(axis[0]), up = shift(axis[1]);
-            optics::set_probe(rays.x, p, b.x + right + (grid->strip == 1 ? grid->lean * up : S(0)));
-            optics::set_probe(rays.y, p, b.y + up + (grid->strip == 0 ? grid->lean * right : S(0)));
+            aim(p, block.sweep[0][from].at, block.sweep[1][from].at, b.x + right + (grid->strip == 1 ? grid->lean * up : S(0)),
+                b.y + up + (grid->strip == 0 ? grid->lean * right : S(0)));
         }
-        for (int k = 0; k < 2 && scene.thin_lens; ++k) {
-            const int p = each * waiting + 3 + k;
-            optics::set_probe(rays.at_x, p, block.sweep[0][0].at + block.pupil_at[k][0]);
-            optics::set_probe(rays.at_y, p, block.sweep[1][0].at + block.pupil_at[k][1]);
-            optics::set_probe(rays.x, p, b.x);
-            optics::set_probe(rays.y, p, b.y);
-        }
+        for (int k = 0; k < 2 && scene.thin_lens; ++k)
+            aim(each * waiting + 3 + k, block.sweep[0][0].at + block.pupil_at[k][0], block.sweep[1][0].at + block.pupil_at[k][1],
+                b.x, b.y);
         if constexpr (follows_at_once) {
             optics::trace_probes<through, F>(scene, block, rays, each, scene.holes_below);
             return complete(b, 0);
         }
         followed[waiting++] = &b;
         if ((waiting + 1) * each > optics::most_probes) finish();
+    }
+    /// Queued ray p goes from there in the diffuser's plane to a place (x, y) of the grid's, and on to the plane of the holes.
+    LFDSIM_BOTH void aim(int p, S from_x, S from_y, S x, S y) {
+        const auto below = [&](int a, S from, S place) {
+            const S height = scene.holes_below[a];
+            return grid->raised == S(0) ? place : from + (place - from) * (height / (height - grid->raised));
+        };
+        optics::set_probe(rays.at_x, p, from_x);
+        optics::set_probe(rays.at_y, p, from_y);
+        optics::set_probe(rays.x, p, below(0, from_x, x));
+        optics::set_probe(rays.y, p, below(1, from_y, y));
     }
     /// Traces the queued rays, and completes the bundles that wait for them.
     LFDSIM_BOTH void finish() {

@@ -7,6 +7,7 @@
 #include "engine/kernel.h"
 #include "engine/kernels/filtered_axis.h"
 #include "engine/kernels/filtered_grids.h"
+#include "engine/kernels/filtered_standing.h"
 #include "optics/bundle.h"
 #include "optics/filtered_limits.h"
 #include "optics/outline.h"
@@ -18,28 +19,8 @@ namespace {
 class LensCutter {
   public:
     LFDSIM_BOTH LensCutter(const Tile& t, const optics::PixelBlock<S>& of, Grids& to)
-        : tile(t), scene(*t.scene), block(of), room(t.strata, true), grids(to) {
-        for (int a = 0; a < 2; ++a) {
-            const S tangent = tile.square.of_pixel ? S(0) : optics::diffuser_tangent(scene, a, S(1));
-            first[a] = place_of(a, -tangent);
-            last[a] = place_of(a, tangent);
-            span[a] = optics::abs(last[a].middle - first[a].middle);
-            rising[a] = S(optics::sense(a));
-            // Not from positions, which may be much larger than what the diffuser moves them by.
-            const optics::Sweep<S>& sweep = block.sweep[a][0];
-            const auto moved = [&](S by) { return sweep.height * (sweep.turned(by) - sweep.slope); };
-            const S half = tile.square.of_pixel ? S(0) : optics::diffuser_tangent(scene, a, S(0.5));
-            square[a] = S(0.5) * (moved(tangent) + moved(-tangent));
-            cube[a] = S(2.0 / 3) * (moved(tangent) - moved(-tangent) - S(2) * (moved(half) - moved(-half)));
-            const S reach = first[a].reach();
-            low[a] = optics::min(first[a].middle, last[a].middle) - reach;
-            high[a] = optics::max(first[a].middle, last[a].middle) + reach;
-            // Where the diffuser turns rays by less than a pixel sees, numbers are those of a diffuser of a part of a pixel.
-            const S least =
-                S(scene.box_filter ? FilteredLimits::least_span : FilteredLimits::least_span_sharp) * reach / S(block.reach);
-            linear[a] = !(span[a] > reach);
-            per[a] = rising[a] / optics::max(S(0.5) * optics::max(span[a], least), S(1e-12));
-        }
+        : tile(t), scene(*t.scene), block(of), standing(t, of), room(t.strata, true), grids(to) {
+        look_at_plane(S(0));
         if (tile.square.of_pixel) of_pixel();
         const bool turned = tile.square.of_pixel && tile.square.divides_other && scene.has_diffuser;
         for (int k = 0; k < 4; ++k) {
@@ -53,10 +34,13 @@ class LensCutter {
                     aside[a] = S(optics::sense(a)) * scene.holes_below[a] * (1 + slope * slope);
                     most = S(2) * scene.half_angle[a];  // more than its tangent
                 }
-                low[a] = low[a] - optics::abs(aside[a]) * most;
-                high[a] = high[a] + optics::abs(aside[a]) * most;
+                beside[a] = beside[a] + optics::abs(aside[a]) * most;
             }
             numbers_for(-aside[0], -aside[1], grids.moved[k]);
+        }
+        for (int a = 0; a < 2; ++a) {
+            low[a] = low[a] - beside[a];
+            high[a] = high[a] + beside[a];
         }
     }
 
@@ -74,15 +58,16 @@ class LensCutter {
             polygon =
                 !(optics::abs(to[0][0]) + optics::abs(to[1][0]) < most && optics::abs(to[0][1]) + optics::abs(to[1][1]) < most);
         }
+        // Where lenses stand by themselves, all do about as the base lens does, at most a cell more or less.
+        const bool given = scene.placement.given;
+        const S more = given ? S(0.5) : S(0), around = given ? S(1) : S(0);
+        S up = 0;
+        const optics::Place<S> off = given ? standing.off({S(0), S(0)}, middle_of_view().y, up) : optics::Place<S>{S(0), S(0)};
+        if (up != raised) look_at_plane(up);
         // The block's view in the array's frame.
-        const S middle[2] = {S(0.5) * (low[0] + high[0]), S(0.5) * (low[1] + high[1])},
-                half[2] = {S(0.5) * (high[0] - low[0]), S(0.5) * (high[1] - low[1])};
+        const S half[2] = {S(0.5) * (high[0] - low[0]), S(0.5) * (high[1] - low[1])};
         const S c = optics::abs(lattice.cos_turn), s = optics::abs(lattice.sin_turn);
-        const optics::Place<S> at = optics::to_array(lattice, middle[0], middle[1]);
-        // Where lenses stand by themselves, all are seen about as far from their places as the base lens, at most a cell more or
-        // less.
-        const S more = scene.placement.given ? S(0.5) : S(0), around = scene.placement.given ? S(1) : S(0);
-        const optics::Place<S> off = scene.placement.given ? seen_off({S(0), S(0)}, at.y) : optics::Place<S>{S(0), S(0)};
+        const optics::Place<S> at = middle_of_view();
         const S half_x = c * half[0] + s * half[1], half_y = s * half[0] + c * half[1];
         reach_along = half_x + half_y;
         const optics::Outline<S> cell =
@@ -96,6 +81,8 @@ class LensCutter {
                 extent[1] = optics::max(extent[1], cell.corner[k].y);
             }
         }
+        // Filled lenses that stand nearer than a pitch share what both would cover.
+        const bool overlap = scene.placement.lens && scene.hole_radius == 0 && scene.hole_half == lattice.half_pitch[0];
         const S reach_y = optics::reach_of_cell(lattice);
         const S first_j = lattice.strips ? S(0) : floor((at.y - off.y - half_y - reach_y) * lattice.per_pitch[1] + S(1)) - around,
                 last_j = lattice.strips ? S(0) : floor((at.y - off.y + half_y + reach_y) * lattice.per_pitch[1]) + around;
@@ -109,39 +96,59 @@ class LensCutter {
             for (S i = first_i; i <= last_i; ++i) {
                 const optics::Cell<S> lens{i, j};
                 if (!scene.leaky && !block.lens.extent.holds(lens)) continue;
-                optics::Place<S> axis = optics::axis_of(lattice, lens);
+                optics::Place<S> axis = optics::axis_of(lattice, lens), aside{S(0), S(0)};
                 if (lattice.strips) axis.y = at.y;  // any point of it serves, here one in the middle of the block's view
-                if (scene.placement.given) {
-                    const optics::Place<S> aside = seen_off(lens, at.y);
+                if (given) {
+                    aside = standing.off(lens, at.y, up);
                     axis = {axis.x + aside.x, axis.y + aside.y};
+                    if (up != raised) look_at_plane(up);
+                }
+                S half_width = scene.hole_half;
+                if (lattice.strips && overlap) {
+                    const S left = standing.overlap(lens, aside, at.y, 0, S(-1)),
+                            right = standing.overlap(lens, aside, at.y, 0, S(1));
+                    axis.x = axis.x + S(0.5) * (left - right);
+                    half_width = half_width - S(0.5) * (left + right);
                 }
                 axis = optics::to_display(lattice, axis.x, axis.y);
-                if (!(lattice.strips ? add_strips(axis) : add(axis, cell, extent))) return false;
+                const bool added = lattice.strips ? add_strips(axis, half_width)
+                                   : overlap      ? add(axis, standing.own_cell(lens, aside, at.y), extent)
+                                                  : add(axis, cell, extent);
+                if (!added) return false;
             }
         }
         return true;
     }
 
   private:
-    /// How far from the lattice's place a lens that stands by itself appears in the plane of the holes to the block's middle, in
-    /// the array's frame. One that is raised is met before that plane. y: of any point of a strip's axis.
-    LFDSIM_BOTH optics::Place<S> seen_off(optics::Cell<S> lens, S y) const {
-        const optics::Extent<S>& extent = block.lens.extent;
-        const optics::Stand<S> stand = optics::stand_of<S>(scene, extent, lens, extent.holds(lens));
-        const optics::Place<S> axis = optics::axis_of(scene.lattice, lens);
-        optics::Vec3<S> vertex{axis.x + stand.x, scene.lattice.strips ? y : axis.y + stand.y, stand.z};
-        if (scene.placement.wedged) vertex = optics::wedged<S>(scene.placement, false, vertex);
-        const S raised = vertex.z + block.lens.panel.raised;
-        const optics::Place<S> place = optics::to_display(scene.lattice, vertex.x, vertex.y);
-        const S to[2] = {place.x, place.y};
-        S seen[2];
+    /// What the block sees of a plane so far above that of the holes, mm, in which a lens that is raised has its hole.
+    LFDSIM_BOTH void look_at_plane(S above) {
+        raised = above;
         for (int a = 0; a < 2; ++a) {
+            const S tangent = tile.square.of_pixel ? S(0) : optics::diffuser_tangent(scene, a, S(1));
+            first[a] = place_of(a, -tangent);
+            last[a] = place_of(a, tangent);
+            span[a] = optics::abs(last[a].middle - first[a].middle);
+            rising[a] = S(optics::sense(a));
+            // Not from positions, which may be much larger than what the diffuser moves them by.
             const optics::Sweep<S>& sweep = block.sweep[a][0];
-            const S above = sweep.height - raised;  // of the diffuser
-            seen[a] = to[a] + raised * (!tile.square.of_pixel && above > S(0) ? (to[a] - sweep.at) / above : sweep.slope);
+            const auto moved = [&](S by) { return (sweep.height - raised) * (sweep.turned(by) - sweep.slope); };
+            const S half = tile.square.of_pixel ? S(0) : optics::diffuser_tangent(scene, a, S(0.5));
+            square[a] = S(0.5) * (moved(tangent) + moved(-tangent));
+            cube[a] = S(2.0 / 3) * (moved(tangent) - moved(-tangent) - S(2) * (moved(half) - moved(-half)));
+            const S reach = first[a].reach();
+            low[a] = optics::min(first[a].middle, last[a].middle) - reach - beside[a];
+            high[a] = optics::max(first[a].middle, last[a].middle) + reach + beside[a];
+            // Where the diffuser turns rays by less than a pixel sees, numbers are those of a diffuser of a part of a pixel.
+            const S least =
+                S(scene.box_filter ? FilteredLimits::least_span : FilteredLimits::least_span_sharp) * reach / S(block.reach);
+            linear[a] = !(span[a] > reach);
+            per[a] = rising[a] / optics::max(S(0.5) * optics::max(span[a], least), S(1e-12));
         }
-        const optics::Place<S> at = optics::to_array(scene.lattice, seen[0], seen[1]);
-        return {at.x - axis.x, at.y - (scene.lattice.strips ? y : axis.y)};
+    }
+
+    LFDSIM_BOTH optics::Place<S> middle_of_view() const {
+        return optics::to_array(scene.lattice, S(0.5) * (low[0] + high[0]), S(0.5) * (low[1] + high[1]));
     }
 
     /// Adds the grid of the lens whose axis is there, which reaches as far as `extent`; false: no room.
@@ -153,6 +160,7 @@ class LensCutter {
         Grid& grid = grids.grid[grids.count];
         grid.first = grids.strata;
         grid.narrow = false;
+        grid.raised = raised;
         grid.strip = -1;
         for (int a = 0; a < 2; ++a) {
             const S size = S(2) * extent[a],
@@ -167,15 +175,15 @@ class LensCutter {
         return count(grid);
     }
 
-    /// Adds the grid of the strip on whose axis that point lies, and where light goes on between strips those of both sides of it;
-    /// false: no room.
-    LFDSIM_BOTH bool add_strips(optics::Place<S> axis) {
+    /// Adds the grid of the strip on whose middle that point lies, and where light goes on between strips those of both sides of
+    /// it; false: no room.
+    LFDSIM_BOTH bool add_strips(optics::Place<S> axis, S half) {
         const Lattice<S>& lattice = scene.lattice;
         const S gap = S(0.5) * (lattice.half_pitch[0] - scene.hole_half);
         for (int side = -1; side <= 1; ++side) {
             if (side != 0 && !(scene.leaky && gap > S(0))) continue;
             const optics::Place<S> aside = optics::to_display(lattice, S(side) * (scene.hole_half + gap), S(0));
-            if (!add_strip({axis.x + aside.x, axis.y + aside.y}, side == 0 ? scene.hole_half : gap)) return false;
+            if (!add_strip({axis.x + aside.x, axis.y + aside.y}, side == 0 ? half : gap)) return false;
         }
         return true;
     }
@@ -191,6 +199,7 @@ class LensCutter {
         if (grids.count == room.grids) return false;
         Grid& grid = grids.grid[grids.count];
         grid.first = grids.strata;
+        grid.raised = raised;
         grid.strip = along;
         grid.lean = lean;
         grid.against = along == 1 ? c < 0 : s < 0;
@@ -291,7 +300,7 @@ class LensCutter {
     }
     LFDSIM_BOTH Gradient place_of(int a, S tangent) const {
         const optics::Sweep<S>* const sweep = block.sweep[a];
-        return Gradient::of(sweep[0].place(tangent), sweep[1].place(tangent), sweep[2].place(tangent));
+        return Gradient::of(sweep[0].place(tangent, raised), sweep[1].place(tangent, raised), sweep[2].place(tangent, raised));
     }
 
     /// Cuts an axis of a grid every `step` mm from the lens's rim on, as far as the block sees it.
@@ -349,11 +358,13 @@ class LensCutter {
     /// The diffuser's number of a ray of the block that passes a place, and the place where it goes with a number.
     LFDSIM_BOTH S number_at(int a, int ray, S place) const {
         const optics::Sweep<S>& sweep = block.sweep[a][ray];
-        return linear[a] ? (place - sweep.place(S(0))) * per[a] : optics::diffuser_uniform(scene, a, sweep.tangent(place));
+        return linear[a] ? (place - sweep.place(S(0), raised)) * per[a]
+                         : optics::diffuser_uniform(scene, a, sweep.tangent(place, raised));
     }
     LFDSIM_BOTH S place_at(int a, int ray, S number) const {
         const optics::Sweep<S>& sweep = block.sweep[a][ray];
-        return linear[a] ? sweep.place(S(0)) + number / per[a] : sweep.place(optics::diffuser_tangent(scene, a, number));
+        return linear[a] ? sweep.place(S(0), raised) + number / per[a]
+                         : sweep.place(optics::diffuser_tangent(scene, a, number), raised);
     }
     LFDSIM_BOTH Gradient number_of(int a, S place) const {
         return Gradient::of(number_at(a, 0, place), number_at(a, 1, place), number_at(a, 2, place));
@@ -362,11 +373,14 @@ class LensCutter {
     const Tile& tile;
     const optics::Scene<S>& scene;
     const optics::PixelBlock<S>& block;
+    const StandingLenses standing;
     const Room room;
     Grids& grids;
     int cuts = 0;
     Gradient first[2], last[2];  // where the square begins and ends
     S low[2], high[2];           // what the block sees
+    S beside[2] = {0, 0};        // of which what the camera and the diffuser add to the square's numbers
+    S raised = 0;                // mm, of the plane that positions are in above that of the holes
     S square[2], cube[2];        // an axis's
     S span[2], rising[2];        // what the middle sees; +1: numbers rise with the position, else -1
     bool linear[2];
