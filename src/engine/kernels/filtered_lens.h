@@ -90,7 +90,7 @@ class LensCutter {
         const bool near = optics::abs(at.x) * lattice.per_pitch[0] + optics::abs(first_j) < S(1e6);  // exact whole numbers
         if (!(near && rows * columns < S(8 * room.grids))) return false;
         for (S j = first_j; j <= last_j; ++j) {
-            const S beside = lattice.staggered ? optics::stagger(lattice, j) : S(0), from = at.x - off.x - beside;
+            const S row_off = lattice.staggered ? optics::stagger(lattice, j) : S(0), from = at.x - off.x - row_off;
             const S first_i = floor((from - half_x) * lattice.per_pitch[0] + S(0.5) - more),
                     last_i = floor((from + half_x) * lattice.per_pitch[0] + S(0.5) + more);
             for (S i = first_i; i <= last_i; ++i) {
