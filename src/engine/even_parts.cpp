@@ -4,6 +4,7 @@
 #include "engine/scene.h"
 #include "model/bell.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lfdsim {
@@ -13,10 +14,12 @@ constexpr int many_boxes = 6;  // along an axis
 std::vector<EvenPart> even_parts(const Display& display, bool converges) {
     if (!display.diffuser || display.diffuser->profile == Profile::box || estimator_of(display) == Estimator::point)
         return {{display, 1}};
-    // The samples of all parts together are about those wanted: as many along an axis for boxes as for each box's own.
+    // The samples of all parts together are about those wanted: as many along an axis for boxes as for each box's own, of which
+    // more are better spent where there are many.
     const double wanted = std::sqrt(double(samples_of(display)));
     if (!(wanted <= max_strata - more_strata)) return {{display, 1}};  // which will be refused
-    const int boxes = converges ? many_boxes : int(std::ceil(std::sqrt(wanted))), each = int(std::ceil(wanted / boxes));
+    const int boxes = converges ? many_boxes : std::min(int(std::ceil(std::sqrt(wanted))), many_boxes),
+              each = int(std::ceil(wanted / boxes));
     std::vector<EvenPart> parts;
     for (const DiffuserBox& box : boxes_of_bell(*display.diffuser, boxes)) {
         const auto number = std::uint64_t(parts.size());
