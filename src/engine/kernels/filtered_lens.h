@@ -16,6 +16,7 @@ namespace lfdsim {
 
 namespace {
 
+/// Positions and numbers are those of one plane at a time, `raised` above that of the holes: of the lens at hand.
 class LensCutter {
   public:
     LFDSIM_BOTH LensCutter(const Tile& t, const optics::PixelBlock<S>& of, Grids& to)
@@ -234,8 +235,8 @@ class LensCutter {
         return count(grid);
     }
 
-    /// The numbers of the corners of a strip between the ends of the diffuser's angles along it, in the order of
-    /// optics::outline_of: it runs on, and further away its edges would not be straight in these numbers.
+    /// The numbers of the corners of a strip, in the order of optics::outline_of: at the ends of the diffuser's angles along it,
+    /// and as much further as the pupil moves them. It runs on, but far away its edges would not be straight in these numbers.
     LFDSIM_BOTH void outline_of_strip(Grid& grid, const S (&at)[2], S extent) const {
         const int along = grid.strip, across = 1 - along;
         const bool upwards = along == 1 ? scene.lattice.cos_turn > S(0) : scene.lattice.sin_turn < S(0);
