@@ -12,20 +12,6 @@ struct Boxes {
     F column, row, wide, high, weight;
 };
 
-/// How far light spreads on the panel: twelve times the variances of column and row, and their covariance. Those of an upright box
-/// are its width and its height squared, and 0; and how much of it is such a box.
-template <class F>
-struct PanelSpread {
-    F wide2, high2, lean2, box_wide2, box_high2;
-
-    /// Adds what spreads evenly over so many columns and rows at once; of its variance a share.
-    LFDSIM_FN void add(F columns, F rows, F share = F(1)) {
-        wide2 = wide2 + share * columns * columns;
-        high2 = high2 + share * rows * rows;
-        lean2 = lean2 + share * columns * rows;
-    }
-};
-
 /// The least level whose cells are at least `size` panel pixels wide, or the last one.
 template <class F>
 LFDSIM_FN Uint<F> level_of(F size, int count) {
@@ -266,6 +252,9 @@ template <class F>
 struct Colours {
     F of[3] = {F(0), F(0), F(0)};
 
+    LFDSIM_FN void add(const Colours& more) {
+        for (int c = 0; c < 3; ++c) of[c] = of[c] + more.of[c];
+    }
     /// R, G, B and an unused number of each lane.
     LFDSIM_FN void by_lane(Scalar<F> (*light)[4]) const {
         using S = Scalar<F>;
@@ -277,17 +266,32 @@ struct Colours {
     }
 };
 
-/// Adds the mean over boxes of a panel with subpixels, of all that shines in them.
+/// Adds `weight` times the mean of a part of a panel with subpixels over boxes with these sides, which have been squeezed.
 template <class F>
+LFDSIM_FN void add_part(const PanelLevels& levels, PanelBase<Scalar<F>> base, const SubpixelPart<Scalar<F>>& part,
+                        const PlaneSide<F> (&side)[2], F weight, Mask<F> fully, Colours<F>& sum) {
+    base.column = side[0].base;
+    base.row = side[1].base;
+    weight = weight * F(part.share) * side[0].light * side[1].light;
+    if (none(weight > F(0))) return;
+    for_texels(plane_of(levels, part.plane), base, Boxes<F>{side[0].middle, side[1].middle, side[0].width, side[1].width, weight},
+               fully, [&](const auto& texels) {
+                   for (int c = 0; c < 3; ++c)
+                       if (part.channel == 3 || part.channel == c) sum.of[c] = sum.of[c] + texels.light_of(c);
+               });
+}
+
+/// Adds the mean over boxes of a panel with subpixels, of all that shines in them, by squeeze(side, part, axis).
+template <class F, class Squeeze>
 LFDSIM_FN void add_subpixels(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, const Boxes<F>& box, Mask<F> fully,
-                             Colours<F>& sum) {
+                             Colours<F>& sum, Squeeze squeeze) {
     using S = Scalar<F>;
     const Emission<S>& emission = *levels.emission;
     const std::uint32_t number[2] = {base.column, base.row};
     const F place[2] = {box.column, box.row}, size[2] = {box.wide, box.high};
     const auto side_of = [&](const SubpixelPart<S>& part, int axis) {
         PlaneSide<F> side(part, axis, number[axis], place[axis], size[axis]);
-        side.squeeze(part, axis);
+        squeeze(side, part, axis);
         return side;
     };
     PlaneSide<F> side[2] = {side_of(emission.part[0], 0), side_of(emission.part[0], 1)};
@@ -295,22 +299,15 @@ LFDSIM_FN void add_subpixels(const PanelLevels& levels, const PanelBase<Scalar<F
         const SubpixelPart<S>& part = emission.part[k];
         for (int axis = 0; axis < 2 && k > 0; ++axis)
             if (!alike(part, emission.part[k - 1], axis)) side[axis] = side_of(part, axis);
-        PanelBase<S> from = base;
-        from.column = side[0].base;
-        from.row = side[1].base;
-        const F weight = box.weight * F(part.share) * side[0].light * side[1].light;
-        for_texels(plane_of(levels, part.plane), from,
-                   Boxes<F>{side[0].middle, side[1].middle, side[0].width, side[1].width, weight}, fully, [&](const auto& texels) {
-                       for (int c = 0; c < 3; ++c)
-                           if (part.channel == 3 || part.channel == c) sum.of[c] = sum.of[c] + texels.light_of(c);
-                   });
+        add_part(levels, base, part, side, box.weight, fully, sum);
     }
 }
 
 template <class F>
 LFDSIM_LARGE Colours<F> subpixels_in(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, Boxes<F> box, Mask<F> fully) {
     Colours<F> sum;
-    add_subpixels(levels, base, box, fully, sum);
+    add_subpixels(levels, base, box, fully, sum,
+                  [](PlaneSide<F>& side, const SubpixelPart<Scalar<F>>& part, int axis) { side.squeeze(part, axis); });
     return sum;
 }
 
@@ -333,38 +330,6 @@ LFDSIM_FN void light_of_boxes(const PanelLevels& levels, const PanelBase<Scalar<
         }
         first = false;
     });
-}
-
-/// The same of light that spreads so far about a place, `weight` times its mean. Where pixels shine all over, one upright box of
-/// the same variances will do. Gaps between them tell a leaning line from such a box, and a box from a slightly wider one: there
-/// `in_line` boxes side by side share the light, which keep its variances. They stand along the line of regression, or, where a
-/// wide box hides how the rest leans, along the diagonal of that rest. docs/model.md, "Filtered estimator", has the equations.
-template <class F>
-LFDSIM_FN void light_of_spread(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, F column, F row,
-                               const PanelSpread<F>& spread, Mask<F> fully, int in_line, F weight, Scalar<F> (*light)[4]) {
-    using S = Scalar<F>;
-    const F zero = F(0), one = F(1), least = F(S(least_box)), upright = F(S(FilteredLimits::upright));
-    Boxes<F> box{column, row, sqrt(spread.wide2), sqrt(spread.high2), weight};
-    if (levels.whole) return light_of_boxes(levels, base, box, light, fully);
-    const F wide2 = max(spread.wide2 - spread.box_wide2, zero), high2 = max(spread.high2 - spread.box_high2, zero),
-            wide = sqrt(wide2), high = sqrt(high2), lean = spread.lean2 / max(max(wide, high), F(S(1e-6)));
-    const Mask<F> hidden = (spread.box_wide2 > wide2) && (spread.box_high2 > high2);
-    const F columns = select(hidden || (wide2 > high2), wide, lean), rows = select(hidden || !(wide2 > high2), high, lean);
-    const Mask<F> far = (abs(columns) > upright * max(box.wide, least)) && (abs(rows) > upright * max(box.high, least));
-    const F count = select(far, F(S(in_line)), one), per = one / count, column_step = columns * per, row_step = rows * per;
-    // Each is as wide as its part of the line, and as what does not lie along it.
-    const auto kept = [&](F all2, F line, F step) { return sqrt(max(all2 - line * line + step * step, zero)); };
-    box.wide = select(far, kept(spread.wide2, columns, column_step), box.wide);
-    box.high = select(far, kept(spread.high2, rows, row_step), box.high);
-    Colours<F> sum;
-    for (int k = 0; k == 0 || any(count > F(S(k))); ++k) {
-        const F at = F(S(k)) - F(S(0.5)) * (count - one);
-        box.column = column + at * column_step;
-        box.row = row + at * row_step;
-        box.weight = select(count > F(S(k)), weight * per, zero);
-        add_subpixels(levels, base, box, fully, sum);
-    }
-    sum.by_lane(light);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -76,10 +76,10 @@ struct FilteredLimits {
     static constexpr double together = 0.25;
     // A stratum lies on a hole's edge if the share that the hole covers differs from 0 and from 1 by more than this.
     static constexpr double hole_edge = 1e-3;
-    // Share of a box's sides: where pixels do not shine all over, light that spreads farther than this along a line is read as so
-    // many boxes along it; of one to four samples, and of more.
+    // Share of the sides of a box: where pixels do not shine all over, light that spreads farther than this along a leaning line is
+    // read along it, in at most so many pieces; where it lies in a wide box, as so many boxes.
     static constexpr double upright = 0.125;
-    static constexpr int in_line_few = 2, in_line = 3;
+    static constexpr int most_pieces = 8, in_line = 3;
     // Attempts to find a point beside a hole.
     static constexpr int attempts = 8;
 

@@ -114,6 +114,8 @@ struct PlaneSide {
     F middle, width;     // in cells of the plane, the middle from the base
     F light;             // after squeeze(): that in the squeezed side over that in the side
 
+    PlaneSide() = default;
+
     /// Of a side about `place`, panel pixels from the base pixel `number`, `size` pixels wide.
     LFDSIM_FN PlaneSide(const SubpixelPart<Scalar<F>>& part, int axis, std::uint32_t number, F place, F size) {
         const std::int32_t cell = part.cell[axis], at = std::int32_t(number), rest = cell == 1 ? 0 : InCell<F>::rest_of(at, cell);
@@ -125,15 +127,37 @@ struct PlaneSide {
     /// still in the dark between two parts and moves faster where they shine.
     LFDSIM_FN void squeeze(const SubpixelPart<Scalar<F>>& part, int axis) {
         using S = Scalar<F>;
-        const auto light_before = [&](F place) {
-            const F whole = floor(place);
-            return whole + min(max((place - whole - F(part.from[axis])) * F(part.per[axis]), F(0)), F(1));
-        };
         const F wide = max(width, F(S(1.0 / 4096))), half = F(S(0.5)) * wide, pixel = floor(middle), place = middle - pixel;
-        const F first = light_before(place - half), last = light_before(place + half);
+        const F first = light_before(part, axis, place - half), last = light_before(part, axis, place + half);
         middle = pixel + F(S(0.5)) * (first + last);
         width = last - first;
         light = width / wide;
+    }
+    /// The same of light that two spreads move, each evenly, so many panel pixels: `light` is that of both. The side is that of a
+    /// box of the same variance.
+    LFDSIM_FN void squeeze(const SubpixelPart<Scalar<F>>& part, int axis, F one, F other) {
+        using S = Scalar<F>;
+        const F per_cell = F(part.per_cell[axis]), half = F(S(0.5)), place = middle - floor(middle),
+                longer = max(max(one, other) * per_cell, F(S(1.0 / 1024))),
+                shorter = max(min(one, other) * per_cell, F(S(1.0 / 16)) * longer);
+        const auto before = [&](F at) { return sum_before(part, axis, place + half * at); };
+        squeeze(part, axis);
+        const F both = before(longer + shorter) - before(longer - shorter) - (before(shorter - longer) - before(-longer - shorter));
+        light = max(quotient(both, longer * shorter), F(0));
+    }
+
+  private:
+    LFDSIM_FN static F light_before(const SubpixelPart<Scalar<F>>& part, int axis, F place) {
+        const F whole = floor(place);
+        return whole + min(max((place - whole - F(part.from[axis])) * F(part.per[axis]), F(0)), F(1));
+    }
+    /// The integral of light_before() from 0.
+    LFDSIM_FN static F sum_before(const SubpixelPart<Scalar<F>>& part, int axis, F place) {
+        using S = Scalar<F>;
+        const F half = F(S(0.5)), whole = floor(place), in = place - whole, from = F(part.from[axis]), to = F(part.to[axis]),
+                lit = min(max(in - from, F(0)), to - from), after = max(in - to, F(0));
+        return whole * (half * (whole - F(1)) + (F(1) - half * (from + to))) + whole * in + half * lit * lit * F(part.per[axis]) +
+               after;
     }
 };
 

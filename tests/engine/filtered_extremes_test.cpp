@@ -238,8 +238,8 @@ void holds_on_every_lattice_and_camera(int drawn_displays, std::uint64_t hash) {
     EXPECT_GT(compared, drawn_displays / 5);
     EXPECT_EQ(bits.hash(), hash);
 }
-TEST(FilteredExtremes, OfEveryLatticeAndCamera) { holds_on_every_lattice_and_camera(50, 0xfd47e765e31b8306); }
-TEST(FilteredExtremes, OfEveryLatticeAndCameraAtLength) { holds_on_every_lattice_and_camera(150, 0xad47aa4f1211e903); }
+TEST(FilteredExtremes, OfEveryLatticeAndCamera) { holds_on_every_lattice_and_camera(50, 0xf6fcc39064f4ea44); }
+TEST(FilteredExtremes, OfEveryLatticeAndCameraAtLength) { holds_on_every_lattice_and_camera(150, 0x12891ac01a3f2302); }
 
 }  // namespace
 }  // namespace lfdsim

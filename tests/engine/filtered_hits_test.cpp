@@ -2,6 +2,7 @@
 // fault. Aimed beside the edges of holes rays are lost, and more of them the nearer to the edges many strata bring them.
 #include <gtest/gtest.h>
 
+#include "files/display_file.h"
 #include "image/compare.h"
 #include "pictures.h"
 
@@ -120,6 +121,25 @@ TEST(FilteredHits, LensesThatOverlapShareWhatBothCover) {
             d.errors.decenter_sd_mm = 0.04;
             expect_white(d, {4, 16}, 1.5e-3, 0.01);  // counted twice: RMSE 0.04 to 0.07
         }
+    }
+}
+
+TEST(FilteredHits, GapsOfThePanelAlongLeaningStrips) {
+    Display d = read_display(LFDSIM_SOURCE_DIR "/displays/tablet-lenticular.toml");
+    d.camera.resolution = {60, 40};
+    for (const double width : {7.0, 35.0}) {  // mm: pixels of 1.4 and 7 panel pixels
+        d.camera.frame_width_mm = width;
+        expect_white(d, {4, 25}, 6e-3, width > 10 ? 0.07 : 0.035);  // of two boxes in line: 2 and 5 % dark
+    }
+}
+
+TEST(FilteredHits, ThePupilMovesSlitsOverThePanel) {
+    Display d = read_display(LFDSIM_SOURCE_DIR "/displays/barrier.toml");
+    d.camera.resolution = {60, 40};
+    d.camera.pupil_diameter_mm = 8;
+    for (const double width : {2.5, 12.5}) {  // mm: pixels of half a slit and of three
+        d.camera.frame_width_mm = width;
+        expect_white(d, {4, 25}, 4e-3, 0.03);  // spread as within the pixel's area: 2 % bright
     }
 }
 

@@ -16,7 +16,7 @@ using SharedBundle = optics::SharedBundle<S>;
 /// How far the pixel's area, or the diffuser where the square is that area, and the pupil spread light about the ends of the
 /// pixels' own rays.
 struct Blur {
-    optics::PanelSpread<S> on_panel;
+    optics::PanelSpread<S> on_panel, at_edge;  // in parts of the square that lie within the lens's outline, and on it
     bool one_ray;  // a part of the square is so narrow beside them that one ray serves for four; they include its width
 };
 
@@ -39,7 +39,7 @@ LFDSIM_BOTH S turn_of_diffuser(const optics::Scene<S>& scene, const optics::Swee
 template <optics::Way through>
 LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block, int n, const Grid& grid, const Stratum& across,
                             const Stratum& up, optics::Probes<S>& rays) {
-    Blur blur{{0, 0, 0, 0, 0}, false};
+    Blur blur{{}, {}, false};
     const bool of_pixel = tile.square.of_pixel;
     const optics::Scene<S>& scene = *tile.scene;
     const int squares = blurs_an_axis(tile);
@@ -75,17 +75,20 @@ LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block
         at[a] = place - slope[a] * below;
     }
     // The middle; the pair that is not the square's: a pixel to the right and one down, or the diffuser's two turns; the pupil's
-    // right and upper edge; and where the square is the pixel's area, a pixel to the right and one down.
+    // right and upper edge; and where the square is the pixel's area, a part of a pixel to the right and one down: a whole pixel
+    // may be wider than the lens.
     const int count = of_pixel ? 7 : 5;
-    const S per = S(1) / S(block.reach);
+    const S per = S(1) / S(block.reach), part = S(0.125);
+    S on_lens[7][2];  // mm, by how much a ray is moved in the plane of the holes, where the lens's edge is not moved with it
     for (int p = 0; p < count; ++p) {
         const int of_pair = (p + 1) % 2;
         for (int a = 0; a < 2; ++a) {
             const optics::Sweep<S>* const sweep = block.sweep[a];
             S moved = 0, turned = 0;
             if (p > 4 || (!of_pixel && (p == 1 || p == 2))) {
-                moved = (sweep[of_pair + 1].at - sweep[0].at) * per;
-                turned = (sweep[of_pair + 1].slope - sweep[0].slope) * per;
+                const S steps = p > 4 ? per * part : per;
+                moved = (sweep[of_pair + 1].at - sweep[0].at) * steps;
+                turned = (sweep[of_pair + 1].slope - sweep[0].slope) * steps;
             } else if (p > 2 && scene.thin_lens) {
                 moved = block.pupil_at[of_pair][a];
                 turned = block.pupil_slope[of_pair][a];
@@ -94,6 +97,7 @@ LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block
             }
             const bool divided = p > 2 ? tile.square.divides_pupil : tile.square.divides_other;
             if (!of_pixel && !divided) turned = turned - (S(1) - with_hole[a]) * (turned + moved / scene.holes_below[a]);
+            on_lens[p][a] = p < 5 && (divided || a == grid.strip) ? S(0) : moved + turned * scene.holes_below[a];
             optics::set_probe(a == 0 ? rays.at_x : rays.at_y, p, at[a] + moved);
             optics::set_probe(a == 0 ? rays.x : rays.y, p, at[a] + moved + slope[a] + turned);
         }
@@ -105,29 +109,48 @@ LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block
                                optics::of_probe(rays.cell_j, p) == optics::of_probe(rays.cell_j, 0);
         return optics::of_probe(rays.weight, 0) * optics::of_probe(rays.weight, p) > S(0) && same_cell;
     };
-    const auto widen = [&](int p, S share) {
-        blur.on_panel.add(optics::of_probe(rays.column, p) - optics::of_probe(rays.column, 0),
-                          optics::of_probe(rays.row, p) - optics::of_probe(rays.row, 0), share);
+    // So many parts of a pixel to the right and down move light as far as ray p, less what a ray at the lens's edge does not move
+    // there.
+    const auto widen = [&](optics::PanelSpread<S>& to, int p, S share, bool at_edge) {
+        const auto way = [&](const auto& of, int to_ray) { return optics::of_probe(of, to_ray) - optics::of_probe(of, 0); };
+        S column = way(rays.column, p), row = way(rays.row, p);
+        const S(&right)[2] = on_lens[5], (&down)[2] = on_lens[6];
+        const S turn = right[0] * down[1] - right[1] * down[0];
+        if (at_edge && turn != S(0)) {
+            const S to_right = (on_lens[p][0] * down[1] - on_lens[p][1] * down[0]) / turn,
+                    to_down = (right[0] * on_lens[p][1] - right[1] * on_lens[p][0]) / turn;
+            column = column - to_right * way(rays.column, 5) - to_down * way(rays.column, 6);
+            row = row - to_right * way(rays.row, 5) - to_down * way(rays.row, 6);
+        }
+        to.add(column, row, share);
     };
     // The width of a box that varies as much, in steps; squared. Of the variance, the shares that lie within cells; a pupil's are
     // mapped to a disk.
     const S diffuser = 4, pupil = 3;
     const S cells = S(tile.square.parts * tile.square.parts), in_other = tile.square.divides_other ? S(1) / cells : S(1),
             in_pupil = tile.square.divides_pupil ? optics::min(S(2) / cells, S(1)) : S(1);
-    for (int p = 1; p < 3 && scene.box_filter && scene.has_diffuser; ++p)
-        if (same(p)) widen(p, of_pixel ? diffuser * in_other : in_other);
-    blur.on_panel.box_wide2 = blur.on_panel.wide2;
-    blur.on_panel.box_high2 = blur.on_panel.high2;
-    for (int p = 3; p < 5 && scene.thin_lens; ++p)
-        if (same(p)) widen(p, pupil * in_pupil);
+    const auto spread_of_pairs = [&](bool at_edge) {
+        optics::PanelSpread<S> spread{};
+        for (int p = 1; p < 3 && scene.box_filter && scene.has_diffuser; ++p)
+            if (same(p)) widen(spread, p, of_pixel ? diffuser * in_other : in_other, false);
+        spread.box_wide2 = spread.wide2;
+        spread.box_high2 = spread.high2;
+        for (int p = 3; p < 5 && scene.thin_lens; ++p)
+            if (same(p)) widen(spread, p, pupil * in_pupil, at_edge);
+        return spread;
+    };
+    blur.on_panel = blur.at_edge = spread_of_pairs(false);
     if (!of_pixel || !same(5) || !same(6)) return blur;
-    const Blur others = blur;
-    widen(5, S(1) / cells);
-    widen(6, S(1) / cells);
+    blur.at_edge = spread_of_pairs(true);
+    Blur with_square = blur;
+    for (int p = 5; p < 7; ++p) {
+        widen(with_square.on_panel, p, S(1) / (part * part * cells), false);
+        widen(with_square.at_edge, p, S(1) / (part * part * cells), false);
+    }
     const S most_wide = S(1 + FilteredLimits::beside * FilteredLimits::beside);
-    blur.one_ray =
-        blur.on_panel.wide2 <= most_wide * others.on_panel.wide2 && blur.on_panel.high2 <= most_wide * others.on_panel.high2;
-    return blur.one_ray ? blur : others;
+    const optics::PanelSpread<S>&all = with_square.on_panel, &others = blur.on_panel;
+    with_square.one_ray = all.wide2 <= most_wide * others.wide2 && all.high2 <= most_wide * others.high2;
+    return with_square.one_ray ? with_square : blur;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "optics/bundle.h"
 #include "optics/filtered_limits.h"
 #include "optics/outline.h"
+#include "optics/spread.h"
 #include "optics/strata.h"
 #include "optics/trace.h"
 
@@ -143,10 +144,11 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
     light.add(scene.emission, tile.texels, optics::Fetch<F>(optics::panel_pixel(scene, pixels.base, one)));
 }
 
-/// Where rays start, and how far light spreads about each ray's end by other than the square's numbers.
+/// Where rays start, and how far light spreads about each ray's end by other than the square's numbers, in parts of the square that
+/// lie within the lens's outline, and on it.
 struct Spread {
     Start start;
-    optics::PanelSpread<F> on_panel{F(0), F(0), F(0), F(0), F(0)};
+    optics::PanelSpread<F> on_panel{}, at_edge{};
     bool one_ray = false;  // so wide that one ray serves for four
 };
 
@@ -176,8 +178,8 @@ class WaitingRays {
   public:
     LFDSIM_BOTH WaitingRays(const Tile& t, const optics::PixelRays<F>& of, optics::Light<F>& to) : tile(t), pixels(of), light(to) {}
 
-    /// Four more rays of the pixels `seen`.
-    LFDSIM_BOTH void add(const FourRays& more, const Spread& with, optics::Mask<F> seen) {
+    /// Four more rays of the pixels `seen`; of a part that lies `within` the outline.
+    LFDSIM_BOTH void add(const FourRays& more, const Spread& with, optics::Mask<F> seen, optics::Mask<F> within) {
         if (optics::any(waits && seen)) trace();
         const auto take = [seen](F& to, F from) { to = optics::select(seen, from, to); };
         for (int p = 0; p < 4; ++p) {
@@ -190,11 +192,11 @@ class WaitingRays {
         take(spread.start.y, with.start.y);
         take(spread.start.lens_x, with.start.lens_x);
         take(spread.start.lens_y, with.start.lens_y);
-        take(spread.on_panel.wide2, with.on_panel.wide2);
-        take(spread.on_panel.high2, with.on_panel.high2);
-        take(spread.on_panel.lean2, with.on_panel.lean2);
-        take(spread.on_panel.box_wide2, with.on_panel.box_wide2);
-        take(spread.on_panel.box_high2, with.on_panel.box_high2);
+        take(spread.on_panel.wide2, optics::select(within, with.on_panel.wide2, with.at_edge.wide2));
+        take(spread.on_panel.high2, optics::select(within, with.on_panel.high2, with.at_edge.high2));
+        take(spread.on_panel.lean2, optics::select(within, with.on_panel.lean2, with.at_edge.lean2));
+        take(spread.on_panel.box_wide2, optics::select(within, with.on_panel.box_wide2, with.at_edge.box_wide2));
+        take(spread.on_panel.box_high2, optics::select(within, with.on_panel.box_high2, with.at_edge.box_high2));
         waits = waits || seen;
     }
 
@@ -206,21 +208,20 @@ class WaitingRays {
         optics::by_way<through>(*tile.scene, [&]<optics::Way way>() { trace_four<way>(tile, pixels, spread.start, rays, end); });
         for (int p = 0; p < 4; ++p) {
             if (optics::none(rays.counts[p])) continue;
-            optics::PanelSpread<F> on_panel = spread.on_panel;  // the spreads of two directions add up
+            optics::PanelSpread<F> square{};  // the spreads of two directions add up
             for (int step = 1; step <= 2; ++step) {
                 const optics::PanelPoint<F>& next = end[p ^ step];
                 const optics::Mask<F> lit =
                     rays.counts[p ^ step] && next.alive && (next.cell.i == end[p].cell.i) && (next.cell.j == end[p].cell.j);
-                on_panel.add(optics::select(lit, next.column - end[p].column, none),
-                             optics::select(lit, next.row - end[p].row, none));
+                square.add(optics::select(lit, next.column - end[p].column, none),
+                           optics::select(lit, next.row - end[p].row, none));
             }
             S in_box[optics::LaneTraits<F>::width][4];
             const F weight = optics::select(rays.counts[p] && end[p].alive, rays.weight * end[p].weight, none);
             // Where most of a box is what other numbers spread, those of the four do not stand side by side.
-            const optics::Mask<F> fully =
-                (F(2) * spread.on_panel.wide2 > on_panel.wide2) || (F(2) * spread.on_panel.high2 > on_panel.high2);
-            const int in_line = tile.strata > 2 ? FilteredLimits::in_line : FilteredLimits::in_line_few;
-            optics::light_of_spread(tile.levels, pixels.base, end[p].column, end[p].row, on_panel, fully, in_line, weight, in_box);
+            const optics::PanelSpread<F>& others = spread.on_panel;
+            const optics::Mask<F> fully = (others.wide2 > square.wide2) || (others.high2 > square.high2);
+            optics::light_of_spread(tile.levels, pixels.base, end[p].column, end[p].row, square, others, fully, weight, in_box);
             light.add(in_box);
         }
         waits = none > none;
@@ -278,7 +279,7 @@ LFDSIM_APART void add_own_part(const Span<F>& x, const Span<F>& y, const optics:
                 {part.y, none, none, none},
                 {seen, none > none, none > none, none > none},
                 F(0.25f) * part.area};
-        return waiting.add(rays, spread, seen);
+        return waiting.add(rays, spread, seen, whole);
     }
     rays.weight = F(S(1.0 / 16)) * part.area;  // a quarter each, of the square's area of 4
     for (int p = 0; p < 4; ++p) {
@@ -291,7 +292,7 @@ LFDSIM_APART void add_own_part(const Span<F>& x, const Span<F>& y, const optics:
         rays.a[p] = optics::select(inside, rays.a[p], part.x);
         rays.b[p] = optics::select(inside, rays.b[p], part.y);
     }
-    waiting.add(rays, spread, seen);
+    waiting.add(rays, spread, seen, whole);
 }
 
 /// Adds the light that pixels see through a part (x, y) of a stratum that looks through one lens, by probes of their own: 2 x 2
@@ -342,7 +343,7 @@ LFDSIM_APART void add_own_probes(const optics::Scene<S>& scene, const Span<F>& x
         rays.b[p] = y.low + (py - first[1]) * per[1];
     }
     rays.weight = weight / optics::max(count, one);
-    waiting.add(rays, spread, seen);
+    waiting.add(rays, spread, seen, seen);
 }
 
 }  // namespace

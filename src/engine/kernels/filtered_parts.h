@@ -177,8 +177,11 @@ LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const OwnPixel
     for (int k = 0; k < all; ++k) {
         Spread spread;
         if (spreads && tile.square.weak) {
-            const optics::PanelSpread<S>& of = known.on_panel;
-            spread.on_panel = {F(of.wide2), F(of.high2), F(of.lean2), F(of.box_wide2), F(of.box_high2)};
+            const auto of = [](const optics::PanelSpread<S>& one) {
+                return optics::PanelSpread<F>{F(one.wide2), F(one.high2), F(one.lean2), F(one.box_wide2), F(one.box_high2)};
+            };
+            spread.on_panel = of(known.on_panel);
+            spread.at_edge = of(known.at_edge);
             spread.one_ray = known.one_ray;
         }
         if (spreads && !tile.square.weak) {
