@@ -170,8 +170,8 @@ void light_stays_light(int drawn_displays, std::uint64_t hash) {
     EXPECT_GT(lit, drawn_displays / 3);
     EXPECT_EQ(bits.hash(), hash);
 }
-TEST(FilteredExtremes, LightStaysLight) { light_stays_light(100, 0x95b9613ef00b5936); }
-TEST(FilteredExtremes, LightStaysLightAtLength) { light_stays_light(300, 0x86b57f5bd08b4382); }
+TEST(FilteredExtremes, LightStaysLight) { light_stays_light(100, 0xe8c0b9b5a45c0121); }
+TEST(FilteredExtremes, LightStaysLightAtLength) { light_stays_light(300, 0x7f5ae4cea5feddfe); }
 
 /// Of the light of a picture that sees few of the diffuser's angles: a sum of boxes has a bell's moments, not its value everywhere.
 double form_error(const Display& d) { return d.diffuser && d.diffuser->profile == Profile::gaussian ? 0.16 : 0.02; }
@@ -239,7 +239,7 @@ void holds_on_every_lattice_and_camera(int drawn_displays, std::uint64_t hash) {
     EXPECT_EQ(bits.hash(), hash);
 }
 TEST(FilteredExtremes, OfEveryLatticeAndCamera) { holds_on_every_lattice_and_camera(50, 0xf6fcc39064f4ea44); }
-TEST(FilteredExtremes, OfEveryLatticeAndCameraAtLength) { holds_on_every_lattice_and_camera(150, 0x12891ac01a3f2302); }
+TEST(FilteredExtremes, OfEveryLatticeAndCameraAtLength) { holds_on_every_lattice_and_camera(150, 0x9dd25ac00bbf4ab4); }
 
 }  // namespace
 }  // namespace lfdsim

@@ -124,6 +124,25 @@ TEST(FilteredHits, LensesThatOverlapShareWhatBothCover) {
     }
 }
 
+TEST(FilteredHits, BlocksMayBeWideBesideTheDiffusersHeight) {
+    Display d = ideal_example();
+    d.panel.pixels = {734, 626};
+    d.panel.pixel_pitch_mm = 0.713;
+    d.lens.as<IdealLens>().focal_length_mm = 37;
+    d.lens.as<IdealLens>().aperture_radius_mm = 3.4;
+    d.array.aperture = Aperture::circle;
+    d.array.pitch_mm = 19.36;
+    d.array.gap_mm = 37.55;
+    d.array.count = {27, 23};
+    d.diffuser = Diffuser{40.2, {28, 12.7}, Profile::box};
+    d.camera.position_mm = {0, 0, 1154};
+    for (const std::int64_t columns : {96, 240}) {
+        d.camera.resolution = {columns, columns * 2 / 3};
+        d.camera.frame_width_mm = columns == 96 ? 700 : 400;
+        expect_white(d, {4, 36}, columns == 96 ? 0.035 : 5e-3, 0.015);  // by the rays of one side: 2 to 10 % dark
+    }
+}
+
 TEST(FilteredHits, GapsOfThePanelAlongLeaningStrips) {
     Display d = read_display(LFDSIM_SOURCE_DIR "/displays/tablet-lenticular.toml");
     d.camera.resolution = {60, 40};

@@ -26,9 +26,21 @@ struct Gradient {
     LFDSIM_BOTH S reach() const { return optics::abs(right) + optics::abs(down); }
 };
 
+/// The diffuser's number of a ray to a fixed place: its change over the block bends by `curve` times its square.
+struct Number {
+    Gradient linear;  // exact at the middle, the right and the lower border
+    S curve;          // known on a lens's own grid
+
+    LFDSIM_FN F at(F dx, F dy) const {
+        const F right = F(linear.right) * dx, down = F(linear.down) * dy, change = right + down;
+        return linear.at(dx, dy) + F(curve) * (change * change - F(linear.right) * right - F(linear.down) * down);
+    }
+};
+
 /// A cut of the diffuser's angles along one axis.
 struct Cut {
-    Gradient number, place;  // the diffuser's number; the position in the plane of the holes, mm from the base lens's axis
+    Number number;
+    Gradient place;  // the position in the plane of the holes, mm from the base lens's axis
 };
 
 /// What lies between two cuts.
@@ -56,11 +68,11 @@ struct Axis {
 /// that the block sees has one of its own (filtered_lens.h); what its strata hold is the part of them inside the lens's cell.
 struct Grid {
     Axis axis[2];
-    int first;                                 // number of its first bundle; the others follow row after row
-    int corners = 0;                           // of the lens's cell; 0: each stratum as a whole is the lens's
-    Gradient corner[optics::most_corners][2];  // the diffuser's numbers of the rays to them
-    bool narrow = false;                       // pixels see little of a stratum
-    S raised = 0;                              // mm: its lens's hole, and all positions, lie so far above the plane of the holes
+    int first;                               // number of its first bundle; the others follow row after row
+    int corners = 0;                         // of the lens's cell; 0: each stratum as a whole is the lens's
+    Number corner[optics::most_corners][2];  // of the rays to them
+    bool narrow = false;                     // pixels see little of a stratum
+    S raised = 0;                            // mm: its lens's hole, and all positions, lie so far above the plane of the holes
     // A strip's strata are parallelograms: positions across it are from its axis, which leans by so much, mm per mm, along the axis
     // of this number. Along it strata have fixed numbers.
     int strip = -1;
@@ -97,7 +109,7 @@ LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>*
     auto cut_at = [&](S place) {
         S number[3];
         for (int k = 0; k < 3; ++k) number[k] = optics::diffuser_uniform(scene, axis, sweep[k].tangent(place));
-        return Cut{Gradient::of(number[0], number[1], number[2]), {place, 0, 0}};
+        return Cut{{Gradient::of(number[0], number[1], number[2]), 0}, {place, 0, 0}};
     };
     const Gradient start = place_of(0), end = place_of(even.strata);
     const S reach = start.reach(), along = end.middle > start.middle ? S(1) : S(-1);
@@ -111,14 +123,14 @@ LFDSIM_BOTH void cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>*
     const bool at_borders = !moving && borders >= S(even.strata) && borders <= S(even.strata + 1) && even.strata + 2 < max_strata;
     const int strata = at_borders ? int(borders) + 1 : even.strata;  // at most more_strata more
     auto cut_number = [&](int j) {
-        if (j == 0) return Cut{{-1, 0, 0}, start};
-        if (j == strata) return Cut{{1, 0, 0}, end};
+        if (j == 0) return Cut{{{-1, 0, 0}, 0}, start};
+        if (j == strata) return Cut{{{1, 0, 0}, 0}, end};
         if (at_borders) return cut_at((along > 0 ? first + S(j - 1) : last - S(j - 1)) * pitch);
-        const Cut even_cut{{even.number[j], 0, 0}, place_of(j)};
+        const Cut even_cut{{{even.number[j], 0, 0}, 0}, place_of(j)};
         if (moving) return even_cut;
         const Cut at_border = cut_at((optics::floor(even_cut.place.middle * per_pitch) + S(0.5)) * pitch);  // the nearest one
         // The outermost cuts also take borders that only some pixels of the block see.
-        const Gradient& number = at_border.number;
+        const Gradient& number = at_border.number.linear;
         const S spread = number.reach();
         const bool snaps = number.middle >= (j == 1 ? -1 - spread : even.number[j] - step) &&
                            number.middle < (j == strata - 1 ? 1 + spread : even.number[j] + step);
@@ -179,7 +191,7 @@ class Spans {
             next_place = place_on_lens(stratum + 1);
         } else if (!last) {
             const Cut& cut = axis.cut[stratum + 1];
-            next_number = optics::min(optics::max(cut.number.at(dx, dy), number), F(1));
+            next_number = optics::min(optics::max(cut.number.linear.at(dx, dy), number), F(1));
             next_place = optics::min(optics::max(cut.place.at(dx, dy), least), most);
         }
         span.low = number;
@@ -238,7 +250,7 @@ LFDSIM_BOTH bool within_a_pitch(const optics::Scene<S>& scene, const Axis& axis,
 LFDSIM_BOTH void cut_at_border(const optics::Scene<S>& scene, const Axis& axis, int along, int stratum, F dx, F dy,
                                Span<F> (&parts)[2]) {
     const Cut &first = axis.cut[stratum], &last = axis.cut[stratum + 1];
-    const F low = F(first.number.middle), high = F(last.number.middle);
+    const F low = F(first.number.linear.middle), high = F(last.number.linear.middle);
     const F start = first.place.at(dx, dy), end = last.place.at(dx, dy), way = end - start;
     const F pitch = F(scene.lattice.pitch[along]), half = F(scene.lattice.half_pitch[along]), none = F(0), one = F(1);
     const F lens = pitch * optics::cell_along(scene.lattice, along, F(0.5f) * (start + end));

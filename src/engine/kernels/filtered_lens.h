@@ -63,7 +63,7 @@ class LensCutter {
         const bool given = scene.placement.given;
         const S more = given ? S(0.5) : S(0), around = given ? S(1) : S(0);
         S up = 0;
-        const optics::Place<S> off = given ? standing.off({S(0), S(0)}, middle_of_view().y, up) : optics::Place<S>{S(0), S(0)};
+        const auto off = given ? standing.off({S(0), S(0)}, middle_of_view().y, up) : optics::Place<S>{S(0), S(0)};
         if (up != raised) look_at_plane(up);
         // The block's view in the array's frame.
         const S half[2] = {S(0.5) * (high[0] - low[0]), S(0.5) * (high[1] - low[1])};
@@ -215,7 +215,7 @@ class LensCutter {
         length.moving = true;
         for (int k = 0; k <= length.strata; ++k) {
             const S number = S(2 * k - length.strata) / rows;
-            length.cut[k] = {{number, 0, 0}, place_of(along, optics::diffuser_tangent(scene, along, number))};
+            length.cut[k] = {{{number, 0, 0}, 0}, place_of(along, optics::diffuser_tangent(scene, along, number))};
         }
         for (int k = 0; k < length.strata; ++k) {
             const S here = length.cut[k].place.middle - at[along], there = length.cut[k + 1].place.middle - at[along];
@@ -246,13 +246,13 @@ class LensCutter {
             const bool right = k < 2, upper = k == 1 || k == 2;
             const S end = (upper == upwards ? rising[along] : -rising[along]) * most,
                     side = right != grid.against ? extent : -extent;
-            S number[3];
+            S number[3], place[3];
             for (int ray = 0; ray < 3; ++ray) {
-                const S there = place_at(along, ray, end) - at[along];
-                number[ray] = number_at(across, ray, at[across] + grid.lean * there + side);
+                place[ray] = at[across] + grid.lean * (place_at(along, ray, end) - at[along]) + side;
+                number[ray] = number_at(across, ray, place[ray]);
             }
-            grid.corner[k][along] = {end, 0, 0};
-            grid.corner[k][across] = Gradient::of(number[0], number[1], number[2]);
+            grid.corner[k][along] = {{end, 0, 0}, 0};
+            grid.corner[k][across] = bent(across, place[0], number);
         }
     }
 
@@ -289,7 +289,7 @@ class LensCutter {
             S number[3][2];
             for (int ray = 0; ray < 3; ++ray)
                 numbers_for(place[0] - block.sweep[0][ray].place(S(0)), place[1] - block.sweep[1][ray].place(S(0)), number[ray]);
-            for (int a = 0; a < 2; ++a) grid.corner[k][a] = Gradient::of(number[0][a], number[1][a], number[2][a]);
+            for (int a = 0; a < 2; ++a) grid.corner[k][a] = {Gradient::of(number[0][a], number[1][a], number[2][a]), 0};
         }
     }
     /// Counts a grid that is done; false: no room for its strata.
@@ -318,13 +318,10 @@ class LensCutter {
             const S place = from + rising[a] * (skipped + S(k)) * step;
             Cut& cut = to.cut[k];
             cut.place = {place, 0, 0};
-            if (whole_square())
-                cut.number = {S(2 * k - strata) / S(strata), 0, 0};
-            else
-                cut.number = number_of(a, place);
+            cut.number = whole_square() ? Number{{S(2 * k - strata) / S(strata), 0, 0}, 0} : number_of(a, place);
         }
         for (int k = 0; k < strata; ++k) {
-            const Gradient &lower = to.cut[k].number, &upper = to.cut[k + 1].number;
+            const Gradient &lower = to.cut[k].number.linear, &upper = to.cut[k + 1].number.linear;
             const S here = to.cut[k].place.middle - axis, there = to.cut[k + 1].place.middle - axis;
             to.stratum[k] = {axis, optics::min(here, there), optics::max(here, there), false,
                              lower.middle - lower.reach() < S(-1) || upper.middle + upper.reach() > S(1)};
@@ -367,8 +364,15 @@ class LensCutter {
         return linear[a] ? sweep.place(S(0), raised) + number / per[a]
                          : sweep.place(optics::diffuser_tangent(scene, a, number), raised);
     }
-    LFDSIM_BOTH Gradient number_of(int a, S place) const {
-        return Gradient::of(number_at(a, 0, place), number_at(a, 1, place), number_at(a, 2, place));
+    LFDSIM_BOTH Number number_of(int a, S place) const {
+        return bent(a, place, {number_at(a, 0, place), number_at(a, 1, place), number_at(a, 2, place)});
+    }
+    /// Those of the block's three rays: turns to slopes u = (place - at) / height, over the diffuser's half angle w. Such a
+    /// number's second derivative is -2 u w times the square of the first.
+    LFDSIM_BOTH Number bent(int a, S place, const S (&number)[3]) const {
+        const optics::Sweep<S>& sweep = block.sweep[a][0];
+        const S curve = linear[a] ? S(0) : -sweep.sense * scene.half_angle[a] * (place - sweep.at) / (sweep.height - raised);
+        return {Gradient::of(number[0], number[1], number[2]), curve};
     }
 
     const Tile& tile;
