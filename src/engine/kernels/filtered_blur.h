@@ -6,6 +6,7 @@
 #include "engine/kernels/filtered_axis.h"
 #include "optics/bundle.h"
 #include "optics/filtered_limits.h"
+#include "optics/spread.h"
 
 namespace lfdsim {
 
@@ -17,7 +18,10 @@ using SharedBundle = optics::SharedBundle<S>;
 /// pixels' own rays.
 struct Blur {
     optics::PanelSpread<S> on_panel, at_edge;  // in parts of the square that lie within the lens's outline, and on it
-    bool one_ray;  // a part of the square is so narrow beside them that one ray serves for four; they include its width
+    // One ray serves for four where a part of the square is narrow beside them, and of a single sample. How far each of the
+    // square's numbers moves its light, panel pixels.
+    bool one_ray;
+    S column[2], row[2];
 };
 
 /// The pixel's is measured for each of a block's squares of so many pixels, at most four, row after row; what the others add
@@ -39,7 +43,7 @@ LFDSIM_BOTH S turn_of_diffuser(const optics::Scene<S>& scene, const optics::Swee
 template <optics::Way through>
 LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block, int n, const Grid& grid, const Stratum& across,
                             const Stratum& up, optics::Probes<S>& rays) {
-    Blur blur{{}, {}, false};
+    Blur blur{{}, {}, false, {}, {}};
     const bool of_pixel = tile.square.of_pixel;
     const optics::Scene<S>& scene = *tile.scene;
     const int squares = blurs_an_axis(tile);
@@ -142,15 +146,18 @@ LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block
     blur.on_panel = blur.at_edge = spread_of_pairs(false);
     if (!of_pixel || !same(5) || !same(6)) return blur;
     blur.at_edge = spread_of_pairs(true);
-    Blur with_square = blur;
-    for (int p = 5; p < 7; ++p) {
-        widen(with_square.on_panel, p, S(1) / (part * part * cells), false);
-        widen(with_square.at_edge, p, S(1) / (part * part * cells), false);
+    const S per_number = S(0.5) / part;
+    for (int k = 0; k < 2; ++k) {
+        const S turned = k == 0 ? per_number : -per_number;  // the second number is upwards
+        blur.column[k] = turned * (optics::of_probe(rays.column, 5 + k) - optics::of_probe(rays.column, 0));
+        blur.row[k] = turned * (optics::of_probe(rays.row, 5 + k) - optics::of_probe(rays.row, 0));
     }
-    const S most_wide = S(1 + FilteredLimits::beside * FilteredLimits::beside);
-    const optics::PanelSpread<S>&all = with_square.on_panel, &others = blur.on_panel;
-    with_square.one_ray = all.wide2 <= most_wide * others.wide2 && all.high2 <= most_wide * others.high2;
-    return with_square.one_ray ? with_square : blur;
+    optics::PanelSpread<S> square{};
+    for (int p = 5; p < 7; ++p) widen(square, p, S(1) / (part * part * cells), false);
+    const auto beside = [](S wide2) { return S(FilteredLimits::beside * FilteredLimits::beside) * wide2; };
+    blur.one_ray = (tile.strata == 1 && !scene.emission.whole) ||
+                   (square.wide2 <= beside(blur.on_panel.wide2) && square.high2 <= beside(blur.on_panel.high2));
+    return blur;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #pragma once
 #include "engine/kernel.h"
 #include "engine/kernels/filtered_axis.h"
+#include "engine/kernels/filtered_blur.h"
 #include "optics/boxes.h"
 #include "optics/bundle.h"
 #include "optics/filtered_limits.h"
@@ -149,7 +150,8 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
 struct Spread {
     Start start;
     optics::PanelSpread<F> on_panel{}, at_edge{};
-    bool one_ray = false;  // so wide that one ray serves for four
+    const Blur* one_ray = nullptr;  // serves for four, and tells how far the square's numbers spread light:
+    optics::PanelSpread<F> square{};
 };
 
 /// Four rays of each pixel, two by two at the square's numbers (a, b), of which those that count carry `weight` each.
@@ -197,6 +199,9 @@ class WaitingRays {
         take(spread.on_panel.lean2, optics::select(within, with.on_panel.lean2, with.at_edge.lean2));
         take(spread.on_panel.box_wide2, optics::select(within, with.on_panel.box_wide2, with.at_edge.box_wide2));
         take(spread.on_panel.box_high2, optics::select(within, with.on_panel.box_high2, with.at_edge.box_high2));
+        take(spread.square.wide2, with.square.wide2);
+        take(spread.square.high2, with.square.high2);
+        take(spread.square.lean2, with.square.lean2);
         waits = waits || seen;
     }
 
@@ -208,7 +213,7 @@ class WaitingRays {
         optics::by_way<through>(*tile.scene, [&]<optics::Way way>() { trace_four<way>(tile, pixels, spread.start, rays, end); });
         for (int p = 0; p < 4; ++p) {
             if (optics::none(rays.counts[p])) continue;
-            optics::PanelSpread<F> square{};  // the spreads of two directions add up
+            optics::PanelSpread<F> square = spread.square;  // the spreads of two directions add up
             for (int step = 1; step <= 2; ++step) {
                 const optics::PanelPoint<F>& next = end[p ^ step];
                 const optics::Mask<F> lit =
@@ -279,7 +284,12 @@ LFDSIM_APART void add_own_part(const Span<F>& x, const Span<F>& y, const optics:
                 {part.y, none, none, none},
                 {seen, none > none, none > none, none > none},
                 F(0.25f) * part.area};
-        return waiting.add(rays, spread, seen, whole);
+        Spread with = spread;
+        const Blur& blur = *spread.one_ray;
+        const F two = F(2);
+        with.square.add(two * part.half_width * F(blur.column[0]), two * part.half_width * F(blur.row[0]));
+        with.square.add(two * part.half_height * F(blur.column[1]), two * part.half_height * F(blur.row[1]));
+        return waiting.add(rays, with, seen, whole);
     }
     rays.weight = F(S(1.0 / 16)) * part.area;  // a quarter each, of the square's area of 4
     for (int p = 0; p < 4; ++p) {

@@ -182,7 +182,7 @@ LFDSIM_APART void add_parts(const Tile& tile, const Grids& grids, const OwnPixel
             };
             spread.on_panel = of(known.on_panel);
             spread.at_edge = of(known.at_edge);
-            spread.one_ray = known.one_ray;
+            if (known.one_ray) spread.one_ray = &known;
         }
         if (spreads && !tile.square.weak) {
             spread.start = random_start(scene, pixels.sampler(tile, seen.number * 8));

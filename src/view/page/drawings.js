@@ -89,7 +89,7 @@ export class Drawings {
         say(byId("probe-says"), answer.says || "");
         this.draw_fan();
       } catch {
-        break;  // the connection is lost, which is shown elsewhere
+        // The connection is lost, which is shown elsewhere. A newer point may wait.
       }
     }
     this.probing = false;
