@@ -150,8 +150,8 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
 struct Spread {
     Start start;
     optics::PanelSpread<F> on_panel{}, at_edge{};
-    const Blur* one_ray = nullptr;  // serves for four, and tells how far the square's numbers spread light:
-    optics::PanelSpread<F> square{};
+    const Blur* one_ray = nullptr;    // where one serves for four: how far each of the square's numbers spreads light;
+    optics::PanelSpread<F> square{};  // how far the part of the square does then
 };
 
 /// Four rays of each pixel, two by two at the square's numbers (a, b), of which those that count carry `weight` each.
