@@ -113,18 +113,21 @@ LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block
                                optics::of_probe(rays.cell_j, p) == optics::of_probe(rays.cell_j, 0);
         return optics::of_probe(rays.weight, 0) * optics::of_probe(rays.weight, p) > S(0) && same_cell;
     };
-    // So many parts of a pixel to the right and down move light as far as ray p, less what a ray at the lens's edge does not move
-    // there.
+    S on_panel[7][2];  // panel pixels, from where the middle ends
+    for (int p = 0; p < count; ++p) {
+        on_panel[p][0] = optics::of_probe(rays.column, p) - optics::of_probe(rays.column, 0);
+        on_panel[p][1] = optics::of_probe(rays.row, p) - optics::of_probe(rays.row, 0);
+    }
+    // At the lens's edge less what rays 5 and 6 do there that together are moved on the lens as ray p is.
     const auto widen = [&](optics::PanelSpread<S>& to, int p, S share, bool at_edge) {
-        const auto way = [&](const auto& of, int to_ray) { return optics::of_probe(of, to_ray) - optics::of_probe(of, 0); };
-        S column = way(rays.column, p), row = way(rays.row, p);
-        const S(&right)[2] = on_lens[5], (&down)[2] = on_lens[6];
-        const S turn = right[0] * down[1] - right[1] * down[0];
-        if (at_edge && turn != S(0)) {
-            const S to_right = (on_lens[p][0] * down[1] - on_lens[p][1] * down[0]) / turn,
-                    to_down = (right[0] * on_lens[p][1] - right[1] * on_lens[p][0]) / turn;
-            column = column - to_right * way(rays.column, 5) - to_down * way(rays.column, 6);
-            row = row - to_right * way(rays.row, 5) - to_down * way(rays.row, 6);
+        S column = on_panel[p][0], row = on_panel[p][1];
+        const auto turn = [&](int first, int second) {
+            return on_lens[first][0] * on_lens[second][1] - on_lens[first][1] * on_lens[second][0];
+        };
+        if (at_edge && turn(5, 6) != S(0)) {
+            const S of_5 = turn(p, 6) / turn(5, 6), of_6 = turn(5, p) / turn(5, 6);
+            column = column - of_5 * on_panel[5][0] - of_6 * on_panel[6][0];
+            row = row - of_5 * on_panel[5][1] - of_6 * on_panel[6][1];
         }
         to.add(column, row, share);
     };
@@ -148,9 +151,9 @@ LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block
     blur.at_edge = spread_of_pairs(true);
     const S per_number = S(0.5) / part;
     for (int k = 0; k < 2; ++k) {
-        const S turned = k == 0 ? per_number : -per_number;  // the second number is upwards
-        blur.column[k] = turned * (optics::of_probe(rays.column, 5 + k) - optics::of_probe(rays.column, 0));
-        blur.row[k] = turned * (optics::of_probe(rays.row, 5 + k) - optics::of_probe(rays.row, 0));
+        const S each = k == 0 ? per_number : -per_number;  // the second number is upwards
+        blur.column[k] = each * on_panel[5 + k][0];
+        blur.row[k] = each * on_panel[5 + k][1];
     }
     optics::PanelSpread<S> square{};
     for (int p = 5; p < 7; ++p) widen(square, p, S(1) / (part * part * cells), false);
