@@ -133,17 +133,18 @@ struct PlaneSide {
         width = last - first;
         light = width / wide;
     }
-    /// The same of light that two spreads move, each evenly, so many panel pixels: `light` is that of both. The side is that of a
-    /// box of the same variance.
+    /// The same of light that two spreads move, each evenly, so many panel pixels: `light` is that of both, unless one is too small
+    /// to matter or both are too small for a difference of differences. The side is that of a box of the same variance.
     LFDSIM_FN void squeeze(const SubpixelPart<Scalar<F>>& part, int axis, F one, F other) {
         using S = Scalar<F>;
         const F per_cell = F(part.per_cell[axis]), half = F(S(0.5)), place = middle - floor(middle),
-                longer = max(max(one, other) * per_cell, F(S(1.0 / 1024))),
-                shorter = max(min(one, other) * per_cell, F(S(1.0 / 16)) * longer);
+                longer = max(one, other) * per_cell, shorter = min(one, other) * per_cell, product = longer * shorter,
+                least = F(S(5e-4));
         const auto before = [&](F at) { return sum_before(part, axis, place + half * at); };
         squeeze(part, axis);
         const F both = before(longer + shorter) - before(longer - shorter) - (before(shorter - longer) - before(-longer - shorter));
-        light = max(quotient(both, longer * shorter), F(0));
+        const Mask<F> told = (product > least) && (F(S(16)) * shorter > longer);
+        light = select(told, max(quotient(both, max(product, least)), F(0)), light);
     }
 
   private:

@@ -207,6 +207,14 @@ TEST_P(OfLayout, LeaningLinesAreNotBoxes) {
     }
 }
 
+// Of so small ones the differences from box to box would be lost in rounding.
+TEST_P(OfLayout, SmallSpreadsLoseNoLight) {
+    const auto error = errors_of(display(), [](Random& random) {
+        return LineOfBoxes{random(0, 0.01), random(0, 0.01), random(0, 0.004), random(0, 0.004)};
+    });
+    EXPECT_LT(error.read, 0.02 + error.upright);
+}
+
 TEST_P(OfLayout, WideBoxesKeepTheirWidth) {
     const auto error = errors_of(display(), [](Random& random) {
         const double size = random(0.2, 0.4);
