@@ -106,6 +106,9 @@ struct LevelReader {
 
 /// A box wider or narrower than this, in cells, is read as if it were as wide.
 constexpr float least_box = 1.0f / 64, most_box = 1;
+/// Of two spreads together: where their product, in cells squared, is less, a difference of differences would lose its digits;
+/// where one is a smaller share of the other it does not matter.
+constexpr float least_product = 5e-4f, least_share = 1.0f / 16;
 
 /// A side of a box of the panel, as that of a box of the plane in which a subpixel's part repeats.
 template <class F>
@@ -133,17 +136,17 @@ struct PlaneSide {
         width = last - first;
         light = width / wide;
     }
-    /// The same of light that two spreads move, each evenly, so many panel pixels: `light` is that of both, unless one is too small
-    /// to matter or both are too small for a difference of differences. The side is that of a box of the same variance.
+    /// The same of light that two spreads move, each evenly, so many panel pixels: `light` is that of both, where they are not too
+    /// small. The side is that of a box of the same variance.
     LFDSIM_FN void squeeze(const SubpixelPart<Scalar<F>>& part, int axis, F one, F other) {
         using S = Scalar<F>;
         const F per_cell = F(part.per_cell[axis]), half = F(S(0.5)), place = middle - floor(middle),
                 longer = max(one, other) * per_cell, shorter = min(one, other) * per_cell, product = longer * shorter,
-                least = F(S(5e-4));
+                least = F(S(least_product));
         const auto before = [&](F at) { return sum_before(part, axis, place + half * at); };
         squeeze(part, axis);
         const F both = before(longer + shorter) - before(longer - shorter) - (before(shorter - longer) - before(-longer - shorter));
-        const Mask<F> told = (product > least) && (F(S(16)) * shorter > longer);
+        const Mask<F> told = (product > least) && (shorter > F(S(least_share)) * longer);
         light = select(told, max(quotient(both, max(product, least)), F(0)), light);
     }
 

@@ -19,6 +19,12 @@ struct PanelSpread {
     }
 };
 
+template <class F>
+LFDSIM_FN PanelSpread<F> select(Mask<F> first, const PanelSpread<F>& a, const PanelSpread<F>& b) {
+    return {select(first, a.wide2, b.wide2), select(first, a.high2, b.high2), select(first, a.lean2, b.lean2),
+            select(first, a.box_wide2, b.box_wide2), select(first, a.box_high2, b.box_high2)};
+}
+
 /// Light that two spreads move along one axis, each evenly and so far: what of it lies between 0 and a place.
 template <class F>
 struct TwoSpreads {
@@ -154,10 +160,10 @@ LFDSIM_FN void light_of_spread(const PanelLevels& levels, const PanelBase<Scalar
     const Boxes<F> all{column, row, sqrt(all_wide2), sqrt(all_high2), weight};
     if (levels.whole) return light_of_boxes(levels, base, all, light, fully);
     const F wide2 = max(all_wide2 - others.box_wide2, zero), high2 = max(all_high2 - others.box_high2, zero), wide = sqrt(wide2),
-            high = sqrt(high2), wider = upright * max(all.wide, least), higher = max(all.high, least);
+            high = sqrt(high2), wider = upright * max(all.wide, least), higher = upright * max(all.high, least);
     const Mask<F> in_box = (others.box_wide2 > wide2) && (others.box_high2 > high2), down = !(all.wide > all.high),
-                  leans = !in_box && (abs(square.lean2) + abs(others.lean2) > wider * higher),
-                  hidden = in_box && (wide > wider) && (high > upright * higher), apart = !in_box && !leans;
+                  leans = !in_box && (upright * (abs(square.lean2) + abs(others.lean2)) > wider * higher),
+                  hidden = in_box && (wide > wider) && (high > higher), apart = !in_box && !leans;
     Colours<F> sum;
     const auto add_lines = [&]<int axis>(Mask<F> some) {
         if (none(some)) return;

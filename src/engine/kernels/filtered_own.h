@@ -194,14 +194,8 @@ class WaitingRays {
         take(spread.start.y, with.start.y);
         take(spread.start.lens_x, with.start.lens_x);
         take(spread.start.lens_y, with.start.lens_y);
-        take(spread.on_panel.wide2, optics::select(within, with.on_panel.wide2, with.at_edge.wide2));
-        take(spread.on_panel.high2, optics::select(within, with.on_panel.high2, with.at_edge.high2));
-        take(spread.on_panel.lean2, optics::select(within, with.on_panel.lean2, with.at_edge.lean2));
-        take(spread.on_panel.box_wide2, optics::select(within, with.on_panel.box_wide2, with.at_edge.box_wide2));
-        take(spread.on_panel.box_high2, optics::select(within, with.on_panel.box_high2, with.at_edge.box_high2));
-        take(spread.square.wide2, with.square.wide2);
-        take(spread.square.high2, with.square.high2);
-        take(spread.square.lean2, with.square.lean2);
+        spread.on_panel = optics::select(seen, optics::select(within, with.on_panel, with.at_edge), spread.on_panel);
+        spread.square = optics::select(seen, with.square, spread.square);
         waits = waits || seen;
     }
 
@@ -286,9 +280,9 @@ LFDSIM_APART void add_own_part(const Span<F>& x, const Span<F>& y, const optics:
                 F(0.25f) * part.area};
         Spread with = spread;
         const Blur& blur = *spread.one_ray;
-        const F two = F(2);
-        with.square.add(two * part.half_width * F(blur.column[0]), two * part.half_width * F(blur.row[0]));
-        with.square.add(two * part.half_height * F(blur.column[1]), two * part.half_height * F(blur.row[1]));
+        const F wide = F(2) * part.half_width, high = F(2) * part.half_height;
+        with.square.add(wide * F(blur.column[0]), wide * F(blur.row[0]));
+        with.square.add(high * F(blur.column[1]), high * F(blur.row[1]));
         return waiting.add(rays, with, seen, whole);
     }
     rays.weight = F(S(1.0 / 16)) * part.area;  // a quarter each, of the square's area of 4
