@@ -7,6 +7,7 @@
 #include "engine/kernel.h"
 #include "engine/kernels/filtered_axis.h"
 #include "engine/kernels/filtered_grids.h"
+#include "engine/kernels/filtered_plane.h"
 #include "engine/kernels/filtered_standing.h"
 #include "optics/bundle.h"
 #include "optics/filtered_limits.h"
@@ -16,13 +17,13 @@ namespace lfdsim {
 
 namespace {
 
-/// Positions and numbers are those of one plane at a time, `raised` above that of the holes: of the lens at hand.
 class LensCutter {
   public:
     LFDSIM_BOTH LensCutter(const Tile& t, const optics::PixelBlock<S>& of, Grids& to)
-        : tile(t), scene(*t.scene), block(of), standing(t, of), room(t.strata, true), grids(to) {
-        look_at_plane(S(0));
-        if (tile.square.of_pixel) of_pixel();
+        : tile(t), scene(*t.scene), block(of), standing(t, of), room(t.strata, true), plane(t, of), grids(to) {
+        plane.look_at(S(0));
+        if (tile.square.of_pixel) plane.of_pixel(grids.pixel);
+        S beside[2] = {0, 0};
         const bool turned = tile.square.of_pixel && tile.square.divides_other && scene.has_diffuser;
         for (int k = 0; k < 4; ++k) {
             S(&aside)[2] = grids.aside[k];
@@ -37,12 +38,9 @@ class LensCutter {
                 }
                 beside[a] = beside[a] + optics::abs(aside[a]) * most;
             }
-            numbers_for(-aside[0], -aside[1], grids.moved[k]);
+            plane.numbers_for(-aside[0], -aside[1], grids.moved[k]);
         }
-        for (int a = 0; a < 2; ++a) {
-            low[a] = low[a] - beside[a];
-            high[a] = high[a] + beside[a];
-        }
+        plane.widen(beside);
     }
 
     /// Cuts what the block sees of each lens; false: there are too many of them, or their outlines are not known.
@@ -63,12 +61,12 @@ class LensCutter {
         const bool given = scene.placement.given;
         const S more = given ? S(0.5) : S(0), around = given ? S(1) : S(0);
         S up = 0;
-        const auto off = given ? standing.off({S(0), S(0)}, middle_of_view().y, up) : optics::Place<S>{S(0), S(0)};
-        if (up != raised) look_at_plane(up);
+        const auto off = given ? standing.off({S(0), S(0)}, plane.middle().y, up) : optics::Place<S>{S(0), S(0)};
+        if (up != plane.raised) plane.look_at(up);
         // The block's view in the array's frame.
-        const S half[2] = {S(0.5) * (high[0] - low[0]), S(0.5) * (high[1] - low[1])};
+        const S half[2] = {S(0.5) * (plane.high[0] - plane.low[0]), S(0.5) * (plane.high[1] - plane.low[1])};
         const S c = optics::abs(lattice.cos_turn), s = optics::abs(lattice.sin_turn);
-        const optics::Place<S> at = middle_of_view();
+        const optics::Place<S> at = plane.middle();
         const S half_x = c * half[0] + s * half[1], half_y = s * half[0] + c * half[1];
         reach_along = half_x + half_y;
         const optics::Outline<S> cell =
@@ -102,7 +100,7 @@ class LensCutter {
                 if (given) {
                     aside = standing.off(lens, at.y, up);
                     axis = {axis.x + aside.x, axis.y + aside.y};
-                    if (up != raised) look_at_plane(up);
+                    if (up != plane.raised) plane.look_at(up);
                 }
                 S half_width = scene.hole_half;
                 if (lattice.strips && overlap) {
@@ -122,54 +120,24 @@ class LensCutter {
     }
 
   private:
-    /// What the block sees of a plane so far above that of the holes, mm, in which a lens that is raised has its hole.
-    LFDSIM_BOTH void look_at_plane(S above) {
-        raised = above;
-        for (int a = 0; a < 2; ++a) {
-            const S tangent = tile.square.of_pixel ? S(0) : optics::diffuser_tangent(scene, a, S(1));
-            first[a] = place_of(a, -tangent);
-            last[a] = place_of(a, tangent);
-            span[a] = optics::abs(last[a].middle - first[a].middle);
-            rising[a] = S(optics::sense(a));
-            // Not from positions, which may be much larger than what the diffuser moves them by.
-            const optics::Sweep<S>& sweep = block.sweep[a][0];
-            const auto moved = [&](S by) { return (sweep.height - raised) * (sweep.turned(by) - sweep.slope); };
-            const S half = tile.square.of_pixel ? S(0) : optics::diffuser_tangent(scene, a, S(0.5));
-            square[a] = S(0.5) * (moved(tangent) + moved(-tangent));
-            cube[a] = S(2.0 / 3) * (moved(tangent) - moved(-tangent) - S(2) * (moved(half) - moved(-half)));
-            const S reach = first[a].reach();
-            low[a] = optics::min(first[a].middle, last[a].middle) - reach - beside[a];
-            high[a] = optics::max(first[a].middle, last[a].middle) + reach + beside[a];
-            // Where the diffuser turns rays by less than a pixel sees, numbers are those of a diffuser of a part of a pixel.
-            const S least =
-                S(scene.box_filter ? FilteredLimits::least_span : FilteredLimits::least_span_sharp) * reach / S(block.reach);
-            linear[a] = !(span[a] > reach);
-            per[a] = rising[a] / optics::max(S(0.5) * optics::max(span[a], least), S(1e-12));
-        }
-    }
-
-    LFDSIM_BOTH optics::Place<S> middle_of_view() const {
-        return optics::to_array(scene.lattice, S(0.5) * (low[0] + high[0]), S(0.5) * (low[1] + high[1]));
-    }
-
     /// Adds the grid of the lens whose axis is there, which reaches as far as `extent`; false: no room.
     LFDSIM_BOTH bool add(optics::Place<S> axis, const optics::Outline<S>& cell, const S (&extent)[2]) {
         const S at[2] = {axis.x, axis.y};
         for (int a = 0; a < 2; ++a)
-            if (!(at[a] - extent[a] < high[a] && at[a] + extent[a] > low[a])) return true;
+            if (!(at[a] - extent[a] < plane.high[a] && at[a] + extent[a] > plane.low[a])) return true;
         if (grids.count == room.grids) return false;
         Grid& grid = grids.grid[grids.count];
         grid.first = grids.strata;
         grid.narrow = false;
-        grid.raised = raised;
+        grid.raised = plane.raised;
         grid.strip = -1;
         for (int a = 0; a < 2; ++a) {
             const S size = S(2) * extent[a],
-                    seen = optics::min(at[a] + extent[a], high[a]) - optics::max(at[a] - extent[a], low[a]);
-            S wanted = S(tile.strata) * optics::min(size, S(2) * seen) / optics::max(span[a], S(1e-12));
+                    seen = optics::min(at[a] + extent[a], plane.high[a]) - optics::max(at[a] - extent[a], plane.low[a]);
+            S wanted = S(tile.strata) * optics::min(size, S(2) * seen) / optics::max(plane.span[a], S(1e-12));
             wanted = whole(wanted);
             if (!cut_axis(grid.axis[a], a, at[a], extent[a], size / wanted)) return false;
-            grid.narrow = grid.narrow || span[a] * wanted < S(FilteredLimits::narrow) * size;
+            grid.narrow = grid.narrow || plane.span[a] * wanted < S(FilteredLimits::narrow) * size;
         }
         grid.corners = 0;
         if (outlined) outline(grid, axis, cell);
@@ -195,38 +163,39 @@ class LensCutter {
         const int along = optics::abs(c) >= optics::abs(s) ? 1 : 0, across = 1 - along;
         const S at[2] = {axis.x, axis.y}, lean = along == 1 ? -s / c : -c / s;
         const S extent = half / optics::max(optics::abs(c), optics::abs(s));
-        const S sideways = optics::abs(lean) * (high[along] - low[along]);
-        if (!(at[across] - extent - sideways < high[across] && at[across] + extent + sideways > low[across])) return true;
+        const S sideways = optics::abs(lean) * (plane.high[along] - plane.low[along]);
+        if (!(at[across] - extent - sideways < plane.high[across] && at[across] + extent + sideways > plane.low[across]))
+            return true;
         if (grids.count == room.grids) return false;
         Grid& grid = grids.grid[grids.count];
         grid.first = grids.strata;
-        grid.raised = raised;
+        grid.raised = plane.raised;
         grid.strip = along;
         grid.lean = lean;
         grid.against = along == 1 ? c < 0 : s < 0;
         // So many parts along the strip that a footprint, which leans as the strip does, is at most a panel pixel wide. On the
         // panel a part is longer by as much as rays from a point of the diffuser diverge.
         const S diverging = S(tile.view->start_z) / optics::max(scene.holes_below[along], S(1e-6));
-        const S rows = whole(optics::max(S(tile.strata), optics::abs(lean) * span[along] * diverging * scene.pixels_per_mm)),
-                columns = whole(S(tile.strata) * S(2) * extent / optics::max(span[across], S(1e-12)));
-        grid.narrow = span[across] * columns < S(FilteredLimits::narrow) * S(2) * extent;
+        const S rows = whole(optics::max(S(tile.strata), optics::abs(lean) * plane.span[along] * diverging * scene.pixels_per_mm)),
+                columns = whole(S(tile.strata) * S(2) * extent / optics::max(plane.span[across], S(1e-12)));
+        grid.narrow = plane.span[across] * columns < S(FilteredLimits::narrow) * S(2) * extent;
         if (cuts + int(rows) + int(columns) + 2 > room.cuts) return false;
         Axis &length = take(grid.axis[along], along, int(rows)), &width = take(grid.axis[across], across, int(columns));
         length.moving = true;
         for (int k = 0; k <= length.strata; ++k) {
             const S number = S(2 * k - length.strata) / rows;
-            length.cut[k] = {{{number, 0, 0}, 0}, place_of(along, optics::diffuser_tangent(scene, along, number))};
+            length.cut[k] = {{{number, 0, 0}, 0}, plane.place_of(along, optics::diffuser_tangent(scene, along, number))};
         }
         for (int k = 0; k < length.strata; ++k) {
             const S here = length.cut[k].place.middle - at[along], there = length.cut[k + 1].place.middle - at[along];
             length.stratum[k] = {at[along], optics::min(here, there), optics::max(here, there), false, false};
         }
-        const S reach = first[across].reach(), step = S(2) * extent / columns;
+        const S reach = plane.first[across].reach(), step = S(2) * extent / columns;
         for (int k = 0; k < width.strata; ++k) {
             const S from = S(k) * step - extent, to = from + step, here = at[across] + from - S(0.5) * sideways,
                     there = at[across] + to + S(0.5) * sideways;
             width.stratum[k] = {at[across], from, to, false,
-                                here < low[across] + S(2) * reach || there > high[across] - S(2) * reach};
+                                here < plane.low[across] + S(2) * reach || there > plane.high[across] - S(2) * reach};
         }
         if (tile.square.of_pixel)
             outline(grid, axis, optics::outline_of(scene.lattice, half, reach_along));
@@ -244,15 +213,15 @@ class LensCutter {
         grid.corners = 4;
         for (int k = 0; k < 4; ++k) {
             const bool right = k < 2, upper = k == 1 || k == 2;
-            const S end = (upper == upwards ? rising[along] : -rising[along]) * most,
+            const S end = (upper == upwards ? plane.rising[along] : -plane.rising[along]) * most,
                     side = right != grid.against ? extent : -extent;
             S number[3], place[3];
             for (int ray = 0; ray < 3; ++ray) {
-                place[ray] = at[across] + grid.lean * (place_at(along, ray, end) - at[along]) + side;
-                number[ray] = number_at(across, ray, place[ray]);
+                place[ray] = at[across] + grid.lean * (plane.place_at(along, ray, end) - at[along]) + side;
+                number[ray] = plane.number_at(across, ray, place[ray]);
             }
             grid.corner[k][along] = {{end, 0, 0}, 0};
-            grid.corner[k][across] = bent(across, place[0], number);
+            grid.corner[k][across] = plane.bent(across, place[0], number);
         }
     }
 
@@ -268,10 +237,10 @@ class LensCutter {
     LFDSIM_BOTH Axis& take(Axis& axis, int a, int strata) {
         axis.strata = strata;
         axis.moving = false;
-        axis.first = first[a];
-        axis.last = last[a];
-        axis.square = square[a];
-        axis.cube = cube[a];
+        axis.first = plane.first[a];
+        axis.last = plane.last[a];
+        axis.square = plane.square[a];
+        axis.cube = plane.cube[a];
         axis.cut = grids.cut + cuts;
         axis.stratum = grids.stratum + cuts;
         cuts += strata + 1;
@@ -282,14 +251,7 @@ class LensCutter {
         grid.corners = cell.corners;
         for (int k = 0; k < grid.corners; ++k) {
             const S place[2] = {axis.x + cell.corner[k].x, axis.y + cell.corner[k].y};
-            if (!tile.square.of_pixel) {
-                for (int a = 0; a < 2; ++a) grid.corner[k][a] = number_of(a, place[a]);
-                continue;
-            }
-            S number[3][2];
-            for (int ray = 0; ray < 3; ++ray)
-                numbers_for(place[0] - block.sweep[0][ray].place(S(0)), place[1] - block.sweep[1][ray].place(S(0)), number[ray]);
-            for (int a = 0; a < 2; ++a) grid.corner[k][a] = {Gradient::of(number[0][a], number[1][a], number[2][a]), 0};
+            plane.numbers_of(place, grid.corner[k]);
         }
     }
     /// Counts a grid that is done; false: no room for its strata.
@@ -299,26 +261,22 @@ class LensCutter {
         ++grids.count;
         return true;
     }
-    LFDSIM_BOTH Gradient place_of(int a, S tangent) const {
-        const optics::Sweep<S>* const sweep = block.sweep[a];
-        return Gradient::of(sweep[0].place(tangent, raised), sweep[1].place(tangent, raised), sweep[2].place(tangent, raised));
-    }
-
     /// Cuts an axis of a grid every `step` mm from the lens's rim on, as far as the block sees it.
     LFDSIM_BOTH bool cut_axis(Axis& to, int a, S axis, S extent, S step) {
-        const S from = axis - rising[a] * extent;  // where the numbers are least
-        const S start = rising[a] > 0 ? low[a] : high[a], end = rising[a] > 0 ? high[a] : low[a];
-        const S skipped = optics::max(optics::floor(rising[a] * (start - from) / step), S(0));
+        const S from = axis - plane.rising[a] * extent;  // where the numbers are least
+        const S start = plane.rising[a] > 0 ? plane.low[a] : plane.high[a],
+                end = plane.rising[a] > 0 ? plane.high[a] : plane.low[a];
+        const S skipped = optics::max(optics::floor(plane.rising[a] * (start - from) / step), S(0));
         const S stop =
-            optics::min(-optics::floor(-rising[a] * (end - from) / step), -optics::floor(S(1e-3) - S(2) * extent / step));
+            optics::min(-optics::floor(-plane.rising[a] * (end - from) / step), -optics::floor(S(1e-3) - S(2) * extent / step));
         const int strata = optics::max(int(stop - skipped), 1);
         if (strata > room.an_axis || cuts + strata + 1 > room.cuts) return false;
         take(to, a, strata);
         for (int k = 0; k <= strata; ++k) {
-            const S place = from + rising[a] * (skipped + S(k)) * step;
+            const S place = from + plane.rising[a] * (skipped + S(k)) * step;
             Cut& cut = to.cut[k];
             cut.place = {place, 0, 0};
-            cut.number = whole_square() ? Number{{S(2 * k - strata) / S(strata), 0, 0}, 0} : number_of(a, place);
+            cut.number = whole_square() ? Number{{S(2 * k - strata) / S(strata), 0, 0}, 0} : plane.number_of(a, place);
         }
         for (int k = 0; k < strata; ++k) {
             const Gradient &lower = to.cut[k].number.linear, &upper = to.cut[k + 1].number.linear;
@@ -329,68 +287,14 @@ class LensCutter {
         return true;
     }
 
-    /// Where the square is that of the pixel's area, numbers are half pixels to the right and upwards from its centre.
-    LFDSIM_BOTH void of_pixel() {
-        const S half = S(0.5) / S(block.reach);
-        for (int a = 0; a < 2; ++a) {
-            grids.pixel[0][a] = first[a].right * half;
-            grids.pixel[1][a] = -first[a].down * half;
-        }
-        const S(&to)[2][2] = grids.pixel;
-        const S area = to[0][0] * to[1][1] - to[0][1] * to[1][0], per_area = area == S(0) ? S(0) : S(1) / area;
-        numbers[0][0] = to[1][1] * per_area;
-        numbers[0][1] = -to[1][0] * per_area;
-        numbers[1][0] = -to[0][1] * per_area;
-        numbers[1][1] = to[0][0] * per_area;
-    }
-    /// How the numbers change over a distance (x, y), near the middle of the square.
-    LFDSIM_BOTH void numbers_for(S x, S y, S (&number)[2]) const {
-        if (tile.square.of_pixel) {
-            for (int a = 0; a < 2; ++a) number[a] = numbers[a][0] * x + numbers[a][1] * y;
-            return;
-        }
-        const S by[2] = {x, y};
-        for (int a = 0; a < 2; ++a) number[a] = by[a] * per[a];
-    }
-
-    /// The diffuser's number of a ray of the block that passes a place, and the place where it goes with a number.
-    LFDSIM_BOTH S number_at(int a, int ray, S place) const {
-        const optics::Sweep<S>& sweep = block.sweep[a][ray];
-        return linear[a] ? (place - sweep.place(S(0), raised)) * per[a]
-                         : optics::diffuser_uniform(scene, a, sweep.tangent(place, raised));
-    }
-    LFDSIM_BOTH S place_at(int a, int ray, S number) const {
-        const optics::Sweep<S>& sweep = block.sweep[a][ray];
-        return linear[a] ? sweep.place(S(0), raised) + number / per[a]
-                         : sweep.place(optics::diffuser_tangent(scene, a, number), raised);
-    }
-    LFDSIM_BOTH Number number_of(int a, S place) const {
-        return bent(a, place, {number_at(a, 0, place), number_at(a, 1, place), number_at(a, 2, place)});
-    }
-    /// Those of the block's three rays: turns to slopes u = (place - at) / height, over the diffuser's half angle w. Such a
-    /// number's second derivative is -2 u w times the square of the first.
-    LFDSIM_BOTH Number bent(int a, S place, const S (&number)[3]) const {
-        const optics::Sweep<S>& sweep = block.sweep[a][0];
-        const S curve = linear[a] ? S(0) : -sweep.sense * scene.half_angle[a] * (place - sweep.at) / (sweep.height - raised);
-        return {Gradient::of(number[0], number[1], number[2]), curve};
-    }
-
     const Tile& tile;
     const optics::Scene<S>& scene;
     const optics::PixelBlock<S>& block;
     const StandingLenses standing;
     const Room room;
+    SeenPlane plane;  // of the lens at hand
     Grids& grids;
     int cuts = 0;
-    Gradient first[2], last[2];  // where the square begins and ends
-    S low[2], high[2];           // what the block sees
-    S beside[2] = {0, 0};        // of which what the camera and the diffuser add to the square's numbers
-    S raised = 0;                // mm, of the plane that positions are in above that of the holes
-    S square[2], cube[2];        // an axis's
-    S span[2], rising[2];        // what the middle sees; +1: numbers rise with the position, else -1
-    bool linear[2];
-    S per[2];
-    S numbers[2][2];  // of_pixel(): number a's change per mm along x and y
     S reach_along = 0;
     bool outlined = true;  // are corners what pixels see of a lens?
 };
