@@ -14,6 +14,9 @@ struct Square {
     // Into so many parts along each axis a pixel that finds out by itself what it sees of a lens divides the square; each takes
     // four rays, or one.
     int parts = 1;
+    // Pixels' own rays are turned as the diffuser turns them, one turn after the other, and numbers of places are of first order in
+    // both. Otherwise both have the two turns independent, each along its own axis.
+    bool exact_turns = false;
 };
 
 /// A tile of the picture: pixels x0 .. x1-1, y0 .. y1-1 of the whole frame. Pixel (x, y) goes to

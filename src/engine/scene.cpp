@@ -316,7 +316,9 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
     const bool divides_other = converges || strata > 2 * few_strata;
     const int few = 8 * pixel < seen ? 8 : 4;
     const bool divides_pupil = converges || sees_others || (moves_pupil && (whole || !divides_other));
-    return {of_pixel ? many : few, true, {true, of_pixel, moves && divides_other, moves && divides_pupil, parts}};
+    const bool small_turns = std::max(scene.half_angle[0], scene.half_angle[1]) < float(L::small_turn);
+    const bool exact_turns = of_pixel || (small_turns && scene.hole_radius == 0);
+    return {of_pixel ? many : few, true, {true, of_pixel, moves && divides_other, moves && divides_pupil, parts, exact_turns}};
 }
 
 const optics::DirectionNumbers& sobol_directions() {

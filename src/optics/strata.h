@@ -32,6 +32,11 @@ struct Sweep {
 };
 /// Turning about y by a positive angle sends a ray towards -x; about x, towards +y.
 LFDSIM_FN int sense(int axis) { return axis == 0 ? -1 : 1; }
+/// By how much the turn along an axis, of that small tangent, changes a ray's slope along the other one: slope x slope per radian.
+template <class F>
+LFDSIM_FN F turned_aside(F slope_x, F slope_y, int axis, F tangent) {
+    return F(Scalar<F>(sense(axis))) * tangent * slope_x * slope_y;
+}
 
 /// The diffuser as strata take it: each turn moves a ray that goes down along its own axis alone, as Sweep has it.
 template <class F>

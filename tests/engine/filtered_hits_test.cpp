@@ -162,5 +162,17 @@ TEST(FilteredHits, ThePupilMovesSlitsOverThePanel) {
     }
 }
 
+TEST(FilteredHits, WeakDiffusersSeenFromAnyAngle) {
+    Display d = read_display(LFDSIM_SOURCE_DIR "/displays/hexagon.toml");
+    d.camera.position_mm = {404, 404, 700};  // 30 degrees to the right and above
+    d.camera.resolution = {48, 32};
+    d.camera.frame_width_mm = 8.9;
+    expect_white(d, {36, 100}, 4e-3, 0.045);  // random rays: 0.08
+    d.camera.pixel_filter = PixelFilter::center;
+    d.camera.pupil_diameter_mm.reset();
+    expect_white(d, {4}, 4e-3, 0.07);  // as if the diffuser's two turns were independent, or random rays: 0.12
+    expect_white(d, {36}, 2e-3, 0.016);
+}
+
 }  // namespace
 }  // namespace lfdsim

@@ -95,10 +95,11 @@ class BlockWork {
     LFDSIM_BOTH void begin(const EvenCuts& even, std::int32_t left, std::int32_t top) {
         at.x0 = left;
         at.y0 = top;
+        const double misjudged = tile.square.exact_turns    ? FilteredLimits::misjudges_nothing
+                                 : tile.strata > few_strata ? FilteredLimits::misjudged_fine
+                                                            : FilteredLimits::misjudged;
         // Worked on before it is written where a GPU would have to wait for it.
-        optics::PixelBlock<S> block = optics::pixel_block<S>(
-            scene, *tile.view, tile.block_side,
-            S(tile.strata > few_strata ? FilteredLimits::misjudged_fine : FilteredLimits::misjudged), left, top);
+        optics::PixelBlock<S> block = optics::pixel_block<S>(scene, *tile.view, tile.block_side, S(misjudged), left, top);
         if (scene.by_lens && block.alive) block.alive = LensCutter(tile, block, at.grids).cut();
         if (!block.alive) at.grids.count = at.grids.strata = 0;
         if (block.alive && !scene.by_lens) cut_square(block, even);

@@ -30,11 +30,12 @@ constexpr int blur_step = 4, most_blurs = 4;
 /// How many squares along an axis.
 LFDSIM_BOTH int blurs_an_axis(const Tile& tile) { return tile.square.of_pixel ? 1 : optics::min(tile.block_side / blur_step, 2); }
 
-/// By how much the diffuser changes a ray's slope along axis a: by its largest turn.
-LFDSIM_BOTH S turn_of_diffuser(const optics::Scene<S>& scene, const optics::Sweep<S>& sweep, int a) {
+/// By how much the diffuser's largest turn along an axis changes the slope of the block's middle ray along axis a.
+LFDSIM_BOTH S turn_of_diffuser(const optics::Scene<S>& scene, const optics::PixelBlock<S>& block, int axis, int a) {
     S sine, cosine;
-    optics::sincos(scene.half_angle[a], scene.small_angles, sine, cosine);
-    return sweep.turned(sine / cosine) - sweep.slope;
+    optics::sincos(scene.half_angle[axis], scene.small_angles, sine, cosine);
+    const optics::Sweep<S>&x = block.sweep[0][0], &y = block.sweep[1][0], &own = block.sweep[a][0];
+    return a == axis ? own.turned(sine / cosine) - own.slope : optics::turned_aside(x.slope, y.slope, axis, sine / cosine);
 }
 
 /// By how much they spread a ray, for the n-th of those squares of pixels. That ray goes through the middle of what they see of the
@@ -96,8 +97,8 @@ LFDSIM_BOTH Blur blur_alone(const Tile& tile, const optics::PixelBlock<S>& block
             } else if (p > 2 && scene.thin_lens) {
                 moved = block.pupil_at[of_pair][a];
                 turned = block.pupil_slope[of_pair][a];
-            } else if ((p == 1 || p == 2) && scene.has_diffuser && a == of_pair) {
-                turned = turn_of_diffuser(scene, sweep[0], a);
+            } else if ((p == 1 || p == 2) && scene.has_diffuser) {
+                turned = turn_of_diffuser(scene, block, of_pair, a);
             }
             const bool divided = p > 2 ? tile.square.divides_pupil : tile.square.divides_other;
             if (!of_pixel && !divided) turned = turned - (S(1) - with_hole[a]) * (turned + moved / scene.holes_below[a]);

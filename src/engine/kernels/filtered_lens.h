@@ -31,10 +31,10 @@ class LensCutter {
                 aside[a] = 0;
                 S most = 1;
                 if (k < 2 && scene.thin_lens) aside[a] = block.pupil_at[k][a] + scene.holes_below[a] * block.pupil_slope[k][a];
-                if (a == k - 2 && turned) {
-                    const S slope = block.sweep[a][0].slope;
-                    aside[a] = S(optics::sense(a)) * scene.holes_below[a] * (1 + slope * slope);
-                    most = S(2) * scene.half_angle[a];  // more than its tangent
+                if (k >= 2 && turned) {
+                    const S slopes = block.sweep[k - 2][0].slope * block.sweep[a][0].slope;
+                    aside[a] = S(optics::sense(k - 2)) * scene.holes_below[a] * (a == k - 2 ? S(1) + slopes : slopes);
+                    most = S(2) * scene.half_angle[k - 2];  // more than its tangent
                 }
                 beside[a] = beside[a] + optics::abs(aside[a]) * most;
             }
@@ -197,7 +197,7 @@ class LensCutter {
             width.stratum[k] = {at[across], from, to, false,
                                 here < plane.low[across] + S(2) * reach || there > plane.high[across] - S(2) * reach};
         }
-        if (tile.square.of_pixel)
+        if (plane.flat())
             outline(grid, axis, optics::outline_of(scene.lattice, half, reach_along));
         else
             outline_of_strip(grid, at, extent);

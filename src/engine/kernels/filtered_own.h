@@ -165,11 +165,11 @@ struct FourRays {
 template <optics::Way through>
 LFDSIM_APART void trace_four(const Tile& tile, const optics::PixelRays<F>& pixels, const Start& start, const FourRays& rays,
                              optics::PanelPoint<F> (&end)[4]) {
+    const bool aimed = tile.scene->by_lens && !tile.square.exact_turns;
     for (int p = 0; p < 4; ++p) {
         if (optics::none(rays.counts[p])) continue;
-        end[p] =
-            optics::trace_array<through>(*tile.scene, pixels.extent, pixels.base,
-                                         own_ray(tile, pixels, start, rays.a[p], rays.b[p], tile.scene->by_lens), pixels.alive);
+        end[p] = optics::trace_array<through>(*tile.scene, pixels.extent, pixels.base,
+                                              own_ray(tile, pixels, start, rays.a[p], rays.b[p], aimed), pixels.alive);
     }
 }
 

@@ -31,7 +31,7 @@ class SeenPlane {
             const S half = tile.square.of_pixel ? S(0) : optics::diffuser_tangent(scene, a, S(0.5));
             square[a] = S(0.5) * (moved(tangent) + moved(-tangent));
             cube[a] = S(2.0 / 3) * (moved(tangent) - moved(-tangent) - S(2) * (moved(half) - moved(-half)));
-            const S reach = first[a].reach();
+            const S reach = first[a].reach() + (turns() ? optics::abs(aside(1 - a, a)) : S(0));
             low[a] = optics::min(first[a].middle, last[a].middle) - reach - beside[a];
             high[a] = optics::max(first[a].middle, last[a].middle) + reach + beside[a];
             // Where the diffuser turns rays by less than a pixel sees, numbers are those of a diffuser of a part of a pixel.
@@ -40,6 +40,9 @@ class SeenPlane {
             linear[a] = !(span[a] > reach);
             per[a] = rising[a] / optics::max(S(0.5) * optics::max(span[a], least), S(1e-12));
         }
+        if (!turns()) return;
+        const S to[2][2] = {{S(1) / per[0], aside(0, 1)}, {aside(1, 0), S(1) / per[1]}};
+        moved_by(to);
     }
 
     /// Where the square is that of the pixel's area, numbers are half pixels to the right and upwards from its centre: so far they
@@ -50,12 +53,10 @@ class SeenPlane {
             to[0][a] = first[a].right * half;
             to[1][a] = -first[a].down * half;
         }
-        const S area = to[0][0] * to[1][1] - to[0][1] * to[1][0], per_area = area == S(0) ? S(0) : S(1) / area;
-        numbers[0][0] = to[1][1] * per_area;
-        numbers[0][1] = -to[1][0] * per_area;
-        numbers[1][0] = -to[0][1] * per_area;
-        numbers[1][1] = to[0][0] * per_area;
+        moved_by(to);
     }
+    /// Are both numbers linear in the place? Lines are lines in them then.
+    LFDSIM_BOTH bool flat() const { return tile.square.of_pixel || tile.square.exact_turns; }
 
     /// Sees so much more to each side, besides what the square's numbers move light by.
     LFDSIM_BOTH void widen(const S (&by)[2]) {
@@ -78,7 +79,7 @@ class SeenPlane {
 
     /// How the numbers change over a distance (x, y), near the middle of the square.
     LFDSIM_BOTH void numbers_for(S x, S y, S (&number)[2]) const {
-        if (tile.square.of_pixel) {
+        if (flat()) {
             for (int a = 0; a < 2; ++a) number[a] = numbers[a][0] * x + numbers[a][1] * y;
             return;
         }
@@ -109,13 +110,14 @@ class SeenPlane {
     }
     /// Both numbers of a place.
     LFDSIM_BOTH void numbers_of(const S (&place)[2], Number (&number)[2]) const {
-        if (!tile.square.of_pixel) {
+        if (!flat()) {
             for (int a = 0; a < 2; ++a) number[a] = number_of(a, place[a]);
             return;
         }
         S of[3][2];
         for (int ray = 0; ray < 3; ++ray)
-            numbers_for(place[0] - block.sweep[0][ray].place(S(0)), place[1] - block.sweep[1][ray].place(S(0)), of[ray]);
+            numbers_for(place[0] - block.sweep[0][ray].place(S(0), raised), place[1] - block.sweep[1][ray].place(S(0), raised),
+                        of[ray]);
         for (int a = 0; a < 2; ++a) number[a] = {Gradient::of(of[0][a], of[1][a], of[2][a]), 0};
     }
 
@@ -126,13 +128,28 @@ class SeenPlane {
     S square[2], cube[2];        // an axis's
 
   private:
+    LFDSIM_BOTH bool turns() const { return tile.square.exact_turns && !tile.square.of_pixel; }
+    /// By how much the diffuser's largest turn along an axis moves light along the other one, mm.
+    LFDSIM_BOTH S aside(int axis, int along) const {
+        return (scene.holes_below[along] - raised) * optics::turned_aside(block.sweep[0][0].slope, block.sweep[1][0].slope, axis,
+                                                                          optics::diffuser_tangent(scene, axis, S(1)));
+    }
+    /// The numbers of places, where number k moves light by to[k][a] along axis a.
+    LFDSIM_BOTH void moved_by(const S (&to)[2][2]) {
+        const S area = to[0][0] * to[1][1] - to[0][1] * to[1][0], per_area = area == S(0) ? S(0) : S(1) / area;
+        numbers[0][0] = to[1][1] * per_area;
+        numbers[0][1] = -to[1][0] * per_area;
+        numbers[1][0] = -to[0][1] * per_area;
+        numbers[1][1] = to[0][0] * per_area;
+    }
+
     const Tile& tile;
     const optics::Scene<S>& scene;
     const optics::PixelBlock<S>& block;
     S beside[2] = {0, 0};  // of what the block sees, what the camera and the diffuser add to the square's numbers
     bool linear[2];
     S per[2];
-    S numbers[2][2];  // of the pixel's area: number a's change per mm along x and y
+    S numbers[2][2];  // where they are linear: number a's change per mm along x and y
 };
 
 }  // namespace
