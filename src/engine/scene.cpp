@@ -281,7 +281,8 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
     const int enough = whole ? few_strata : 2 * few_strata;
     const int parts = (strata + 1) / 2;
     if (!scene.has_diffuser)
-        return {many, true, {true, true, false, converges || sees_others || (moves_pupil && strata > enough), parts}};
+        return {
+            many, true, {true, true, false, converges || sees_others || (moves_pupil && strata > enough), parts}, pixel / parts};
     double span[2];
     bool weak = true;
     for (int k = 0; k < 2; ++k) {
@@ -318,7 +319,10 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
     const bool divides_pupil = converges || sees_others || (moves_pupil && (whole || !divides_other));
     const bool small_turns = std::max(scene.half_angle[0], scene.half_angle[1]) < float(L::small_turn);
     const bool exact_turns = of_pixel || (small_turns && scene.hole_radius == 0);
-    return {of_pixel ? many : few, true, {true, of_pixel, moves && divides_other, moves && divides_pupil, parts, exact_turns}};
+    return {of_pixel ? many : few,
+            true,
+            {true, of_pixel, moves && divides_other, moves && divides_pupil, parts, exact_turns},
+            (of_pixel ? pixel : std::min(span[0], span[1])) / parts};
 }
 
 const optics::DirectionNumbers& sobol_directions() {

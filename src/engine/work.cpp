@@ -1,4 +1,5 @@
 #include "engine/work.h"
+#include "engine/clear_borders.h"
 
 #include "engine/pyramid.h"
 #include "engine/scene.h"
@@ -55,6 +56,7 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
     const BlockShape shape =
         block_shape(scene, view, target_error ? 2 * few_strata : strata, options.rough, target_error.has_value());
     scene.by_lens = shape.by_lens;
+    if (filtered && shape.by_lens && shape.square.weak) add_clear_borders(scene, display, geometry, view, shape.part_mm);
 
     // Of point samples there may be the panel alone.
     const PanelReading reading = levels.size() == 1 ? PanelReading{.coarser = false} : panel_reading(display, geometry);

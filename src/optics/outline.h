@@ -1,6 +1,7 @@
 // The outline of a lens's cell, and how much of it lies in a box. Floor 1.
 #pragma once
 #include "optics/lattice.h"
+#include "optics/scene.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
@@ -29,6 +30,36 @@ LFDSIM_FN Outline<S> outline_of(const Lattice<S>& lattice, S half_width, S reach
         for (int k = 0; k < 4; ++k) of.corner[k] = corner[k];
     }
     for (int k = 0; k < of.corners; ++k) of.corner[k] = to_display(lattice, of.corner[k].x, of.corner[k].y);
+    return of;
+}
+
+/// How far light enters beyond a border at these slopes, mm: bilinear, and outside the table as at its end.
+template <class S>
+LFDSIM_FN S clear_beyond(const ClearBorders<S>& clear, int kind, S towards, S along) {
+    constexpr int rows = ClearBorders<S>::towards, columns = ClearBorders<S>::along;
+    const auto node = [](S place, int count, int& first) {
+        const S within = min(max(place, S(0)), S(count - 1));
+        first = min(int(within), count - 2);
+        return within - S(first);
+    };
+    int i, j;
+    const S a = node((towards / clear.most + S(1)) * S(0.5 * (rows - 1)), rows, i),
+            b = node(along / clear.most * S(columns - 1), columns, j);
+    const S(&of)[rows][columns] = clear.beyond[kind];
+    const S low = of[i][j] + a * (of[i + 1][j] - of[i][j]), high = of[i][j + 1] + a * (of[i + 1][j + 1] - of[i][j + 1]);
+    return low + b * (high - low);
+}
+
+/// The outline of a cell between borders that may have moved: those of optics::borders(), then the opposite ones.
+template <class S>
+LFDSIM_FN Outline<S> outline_between(const Lattice<S>& lattice, const Borders<S> (&edge)[most_corners]) {
+    Outline<S> of;
+    of.corners = 2 * border_pairs(lattice);
+    for (int k = 0; k < of.corners; ++k) {  // where an edge meets the one before it
+        const Borders<S>&e = edge[k > 0 ? k - 1 : of.corners - 1], &f = edge[k];
+        const S per = S(1) / (e.x * f.y - e.y * f.x);
+        of.corner[k] = to_display(lattice, (e.half * f.y - f.half * e.y) * per, (f.half * e.x - e.half * f.x) * per);
+    }
     return of;
 }
 

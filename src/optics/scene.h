@@ -86,6 +86,16 @@ struct Placement {
     S search_top, search_bottom;  // highest and lowest z from the vertex plane at which lenses are met
 };
 
+/// Where light still enters a lens that fills its cell. Seen obliquely, a lens hides a band along the border from the next one, and
+/// its own border, which is not all at the height of the holes, appears elsewhere. So many slopes: from `-most` to `most` towards
+/// the border, and from 0 to `most` along it. (optics/outline.h)
+template <class S>
+struct ClearBorders {
+    static constexpr int towards = 9, along = 5;
+    S most;                       // 0: light enters up to the border
+    S beyond[2][towards][along];  // mm beyond the borders across x' (of hexagons: all of them), and across y'; -1e20: not known
+};
+
 template <class S>
 struct Scene {
     // panel
@@ -127,6 +137,7 @@ struct Scene {
     S hole_half;       // strips: half the width of what light enters
     bool by_lens;      // blocks of pixels cut what they see lens by lens, not into rows and columns of the whole array
     bool leaky;        // light goes on between them too
+    ClearBorders<S> clear_borders;
 
     // light
     Fresnel fresnel;

@@ -174,5 +174,22 @@ TEST(FilteredHits, WeakDiffusersSeenFromAnyAngle) {
     expect_white(d, {36}, 2e-3, 0.016);
 }
 
+TEST(FilteredHits, WhatLensesHideOfEachOther) {
+    Display d = read_display(LFDSIM_SOURCE_DIR "/displays/hexagon.toml");
+    d.panel.subpixels = SubpixelLayout::none;
+    d.panel.aperture_ratio = 1;
+    d.camera.position_mm = {255, 255, 700};
+    d.camera.resolution = {48, 32};
+    d.camera.frame_width_mm = 8.9;
+    d.diffuser = Diffuser{10, {5, 5}, Profile::box};
+    expect_white(d, {4, 16}, 3e-3, 0.01);  // found out by a few rays: 1 % bright, 0.03
+    // Biconvex lenses, whose rays leave their cells inside the glass: as wide a band all along the border.
+    d.diffuser.reset();
+    d.lens.kind = SurfaceLens{{{0.0575, -0.7, {}, 1.04, 0.45, 1.575}, {-0.018, -0.65, {}, 1.04}}};
+    d.array.gap_mm = 25;
+    d.camera.pupil_diameter_mm.reset();
+    expect_white(d, {4, 64, 144}, 1e-3, 4e-3);  // 0.037 to 0.007
+}
+
 }  // namespace
 }  // namespace lfdsim

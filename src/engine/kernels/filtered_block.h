@@ -270,7 +270,7 @@ class BlockWork {
     LFDSIM_BOTH void add_alone(std::int32_t x, std::int32_t y, F dx, F dy, PacketLight& to) const {
         bool own_ready = false;
         optics::PixelRays<F> pixels;
-        WaitingRays<through> waiting(tile, pixels, to.boxes);
+        WaitingRays<through> waiting(tile, pixels, scene.by_lens && at.grids.clear, to.boxes);
         const optics::Uint<F> numbers = pixel_numbers(tile, x, y);
         const S reach = S(at.block.reach), per_reach = S(1) / reach;
         dx = dx * F(per_reach);

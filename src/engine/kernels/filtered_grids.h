@@ -14,6 +14,7 @@ struct Grids {
     Cut* cut;
     Stratum* stratum;
     int count, strata;  // in all
+    bool clear;         // what the borders of lenses hide is not in their outlines
     // By how much the light of all pixels moves in the plane of the holes, mm along x and y, and how the square's numbers change
     // for a place that stays: with a ray from the pupil's right edge and from its upper one, and per tangent of the diffuser's
     // turns, where those are divided into cells of which each has its own cuts.

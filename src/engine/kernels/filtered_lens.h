@@ -58,8 +58,10 @@ class LensCutter {
                 !(optics::abs(to[0][0]) + optics::abs(to[1][0]) < most && optics::abs(to[0][1]) + optics::abs(to[1][1]) < most);
         }
         // Where lenses stand by themselves, all do about as the base lens does, at most a cell more or less.
-        const bool given = scene.placement.given;
-        const S more = given ? S(0.5) : S(0), around = given ? S(1) : S(0);
+        S beyond[optics::most_corners] = {};
+        grids.clear = standing.clear_beyond(beyond);
+        const bool given = scene.placement.given, aside_of_cell = given || grids.clear;
+        const S more = aside_of_cell ? S(0.5) : S(0), around = aside_of_cell ? S(1) : S(0);
         S up = 0;
         const auto off = given ? standing.off({S(0), S(0)}, plane.middle().y, up) : optics::Place<S>{S(0), S(0)};
         if (up != plane.raised) plane.look_at(up);
@@ -69,15 +71,17 @@ class LensCutter {
         const optics::Place<S> at = plane.middle();
         const S half_x = c * half[0] + s * half[1], half_y = s * half[0] + c * half[1];
         reach_along = half_x + half_y;
-        const optics::Outline<S> cell =
-            polygon ? optics::outline_of_circle(scene.hole_radius) : optics::outline_of(lattice, scene.hole_half, reach_along);
+        const optics::Outline<S> cell = polygon ? optics::outline_of_circle(scene.hole_radius)
+                                        : grids.clear && !lattice.strips
+                                            ? standing.own_cell({S(0), S(0)}, {S(0), S(0)}, S(0), false, beyond)
+                                            : optics::outline_of(lattice, scene.hole_half, reach_along);
         S extent[2] = {scene.hole_radius, scene.hole_radius};
         outlined = polygon || scene.hole_radius == 0 || scene.leaky;
         if (outlined) {
             extent[0] = extent[1] = 0;
             for (int k = 0; k < cell.corners; ++k) {
-                extent[0] = optics::max(extent[0], cell.corner[k].x);
-                extent[1] = optics::max(extent[1], cell.corner[k].y);
+                extent[0] = optics::max(extent[0], optics::abs(cell.corner[k].x));
+                extent[1] = optics::max(extent[1], optics::abs(cell.corner[k].y));
             }
         }
         // Filled lenses that stand nearer than a pitch share what both would cover.
@@ -103,15 +107,19 @@ class LensCutter {
                     if (up != plane.raised) plane.look_at(up);
                 }
                 S half_width = scene.hole_half;
-                if (lattice.strips && overlap) {
-                    const S left = standing.overlap(lens, aside, at.y, 0, S(-1)),
-                            right = standing.overlap(lens, aside, at.y, 0, S(1));
+                if (lattice.strips && (overlap || grids.clear)) {
+                    S left = overlap ? standing.overlap(lens, aside, at.y, 0, S(-1)) : S(0),
+                      right = overlap ? standing.overlap(lens, aside, at.y, 0, S(1)) : S(0);
+                    if (grids.clear) {
+                        right = right - beyond[0];
+                        left = left - beyond[1];
+                    }
                     axis.x = axis.x + S(0.5) * (left - right);
                     half_width = half_width - S(0.5) * (left + right);
                 }
                 axis = optics::to_display(lattice, axis.x, axis.y);
                 const bool added = lattice.strips ? add_strips(axis, half_width)
-                                   : overlap      ? add(axis, standing.own_cell(lens, aside, at.y), extent)
+                                   : overlap      ? add(axis, standing.own_cell(lens, aside, at.y, true, beyond), extent)
                                                   : add(axis, cell, extent);
                 if (!added) return false;
             }

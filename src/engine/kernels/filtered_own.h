@@ -178,7 +178,8 @@ LFDSIM_APART void trace_four(const Tile& tile, const optics::PixelRays<F>& pixel
 template <optics::Way through>
 class WaitingRays {
   public:
-    LFDSIM_BOTH WaitingRays(const Tile& t, const optics::PixelRays<F>& of, optics::Light<F>& to) : tile(t), pixels(of), light(to) {}
+    LFDSIM_BOTH WaitingRays(const Tile& t, const optics::PixelRays<F>& of, bool of_clear, optics::Light<F>& to)
+        : tile(t), pixels(of), clear(of_clear), light(to) {}
 
     /// Four more rays of the pixels `seen`; of a part that lies `within` the outline.
     LFDSIM_BOTH void add(const FourRays& more, const Spread& with, optics::Mask<F> seen, optics::Mask<F> within) {
@@ -205,6 +206,7 @@ class WaitingRays {
         const F none = F(0);
         optics::PanelPoint<F> end[4]{};
         optics::by_way<through>(*tile.scene, [&]<optics::Way way>() { trace_four<way>(tile, pixels, spread.start, rays, end); });
+        if (clear) skip_lost(end);
         for (int p = 0; p < 4; ++p) {
             if (optics::none(rays.counts[p])) continue;
             optics::PanelSpread<F> square = spread.square;  // the spreads of two directions add up
@@ -228,8 +230,19 @@ class WaitingRays {
     }
 
   private:
+    /// What a lens's borders hide is left out of its outline: rays that are lost there as well do not count.
+    LFDSIM_BOTH void skip_lost(const optics::PanelPoint<F> (&end)[4]) {
+        F all = F(0), passed = F(0);
+        for (int p = 0; p < 4; ++p) {
+            all = all + optics::select(rays.counts[p], F(1), F(0));
+            passed = passed + optics::select(rays.counts[p] && end[p].alive, F(1), F(0));
+        }
+        rays.weight = rays.weight * all / optics::max(passed, F(1));
+    }
+
     const Tile& tile;
     const optics::PixelRays<F>& pixels;
+    const bool clear;  // of lenses whose outlines leave out what their borders hide
     optics::Light<F>& light;
     optics::Mask<F> waits = F(0) > F(0);
     FourRays rays{};

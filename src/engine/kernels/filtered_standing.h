@@ -50,24 +50,36 @@ class StandingLenses {
         return sum / S(neighbours);
     }
 
-    /// A lens's cell less its neighbours' halves of what both cover, as optics::outline_of has cells.
-    LFDSIM_BOTH optics::Outline<S> own_cell(optics::Cell<S> lens, optics::Place<S> off_place, S y) const {
+    /// A lens's cell as far as light enters it, `beyond` its borders, less its neighbours' halves of what both cover where they
+    /// `meet`.
+    LFDSIM_BOTH optics::Outline<S> own_cell(optics::Cell<S> lens, optics::Place<S> off_place, S y, bool meet,
+                                            const S (&beyond)[optics::most_corners]) const {
         const Lattice<S>& lattice = scene.lattice;
         const int pairs = optics::border_pairs(lattice);
         optics::Borders<S> edge[optics::most_corners];
         for (int k = 0; k < 2 * pairs; ++k) {
             const S side = k < pairs ? S(1) : S(-1);
             const optics::Borders<S> border = optics::borders(lattice, k % pairs);
-            edge[k] = {side * border.x, side * border.y, border.half - overlap(lens, off_place, y, k % pairs, side)};
+            const S covered = meet ? overlap(lens, off_place, y, k % pairs, side) : S(0);
+            edge[k] = {side * border.x, side * border.y, border.half - covered + beyond[k]};
         }
-        optics::Outline<S> of;
-        of.corners = 2 * pairs;
-        for (int k = 0; k < of.corners; ++k) {  // where an edge meets the one before it
-            const optics::Borders<S>&e = edge[k > 0 ? k - 1 : of.corners - 1], &f = edge[k];
-            const S per = S(1) / (e.x * f.y - e.y * f.x);
-            of.corner[k] = optics::to_display(lattice, (e.half * f.y - f.half * e.y) * per, (f.half * e.x - e.half * f.x) * per);
+        return optics::outline_between(lattice, edge);
+    }
+
+    /// How far beyond each border light enters a lens, seen from the block's middle, mm; false: that is not known.
+    LFDSIM_BOTH bool clear_beyond(S (&beyond)[optics::most_corners]) const {
+        const Lattice<S>& lattice = scene.lattice;
+        const optics::Place<S> slope = optics::to_array(lattice, block.sweep[0][0].slope, block.sweep[1][0].slope);
+        const int pairs = lattice.strips ? 1 : optics::border_pairs(lattice);
+        bool known = scene.clear_borders.most > S(0);
+        for (int k = 0; k < 2 * pairs && known; ++k) {
+            const optics::Borders<S> border = optics::borders(lattice, k % pairs);
+            const S towards = border.x * slope.x + border.y * slope.y, along = border.x * slope.y - border.y * slope.x;
+            beyond[k] = optics::clear_beyond(scene.clear_borders, lattice.hexagonal ? 0 : k % pairs, k < pairs ? towards : -towards,
+                                             optics::abs(along));
+            known = beyond[k] > S(-1) * lattice.half_pitch[0];
         }
-        return of;
+        return known;
     }
 
   private:
