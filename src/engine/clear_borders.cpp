@@ -3,6 +3,7 @@
 #include "engine/scene.h"
 #include "model/lens_errors.h"
 #include "optics/camera.h"
+#include "optics/filtered_limits.h"
 #include "optics/trace.h"
 
 #include <algorithm>
@@ -15,8 +16,7 @@ namespace {
 
 constexpr double most_slope = 1.5;  // beyond it as there
 constexpr int halvings = 12;
-// How far the middle of a border may be off its mean: shares of a part, and of a cell's half width.
-constexpr double bent = 0.1, straight = 1e-3;
+constexpr double straight = 1e-3;  // half widths of a cell: a border is straight whose middle is off its mean by no more
 
 class Border {
   public:
@@ -96,7 +96,7 @@ void add_clear_borders(optics::Scene<float>& scene, const Display& display, cons
         for (int i = 0; i < clear.towards; ++i) {
             for (int j = 0; j < clear.along; ++j) {
                 const double towards = most * (2.0 * i / (clear.towards - 1) - 1), along = most * j / (clear.along - 1);
-                clear.beyond[kind][i][j] = float(border.beyond(towards, along, bent * part_mm).value_or(-1e20));
+                clear.beyond[kind][i][j] = float(border.beyond(towards, along, FilteredLimits::bent * part_mm).value_or(-1e20));
             }
         }
     }

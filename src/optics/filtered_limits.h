@@ -27,8 +27,8 @@ struct FilteredLimits {
     // Cosine: how steeply a ray must still go down after the diffuser's largest turn (relative to the cosine before it).
     static constexpr double steepest = 0.2;
     // Share of the light: by how much strata may misjudge it in taking the diffuser's two turns as independent; with few strata,
-    // and with many, which are used where little noise is allowed. No limit where nothing takes them as independent.
-    static constexpr double misjudged = 0.05, misjudged_fine = 0.002, misjudges_nothing = 1e30;
+    // and with many, which are used where little noise is allowed.
+    static constexpr double misjudged = 0.05, misjudged_fine = 0.002;
 
     // A stratum (kernels/filtered_axis.h). Half pitches from a lens's axis up to which it counts as that lens's alone.
     static constexpr double straddling = 1.02;
@@ -38,6 +38,9 @@ struct FilteredLimits {
     static constexpr double narrow = 0.5;
     // Radians: a weak diffuser's half angles, up to which both turns are taken to move light linearly.
     static constexpr double small_turn = 0.1;
+    // Widths of a part of the square on the lenses: how far the middle of a lens's border may be off its mean, where the outline is
+    // to leave out what it hides.
+    static constexpr double bent = 0.1;
     // Picture pixels: a diffuser that turns rays along an axis by less is taken to turn them by as much. The first where a pixel's
     // area counts.
     static constexpr double least_span = 0.25, least_span_sharp = 0.015;

@@ -95,7 +95,8 @@ class BlockWork {
     LFDSIM_BOTH void begin(const EvenCuts& even, std::int32_t left, std::int32_t top) {
         at.x0 = left;
         at.y0 = top;
-        const double misjudged = tile.square.exact_turns    ? FilteredLimits::misjudges_nothing
+        constexpr double no_limit = 1e30;  // where nothing takes the two turns as independent
+        const double misjudged = tile.square.exact_turns    ? no_limit
                                  : tile.strata > few_strata ? FilteredLimits::misjudged_fine
                                                             : FilteredLimits::misjudged;
         // Worked on before it is written where a GPU would have to wait for it.
