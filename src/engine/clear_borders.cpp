@@ -14,10 +14,11 @@
 namespace lfdsim {
 namespace {
 
-constexpr double most_slope = 1.5;  // beyond it as there
-constexpr int halvings = 12;
-constexpr double straight = 1e-3;  // half widths of a cell: a border is straight whose middle is off its mean by no more
+constexpr double most_slope = 1.5;  // the steepest slope of the table; steeper ones are taken as it
+constexpr int halvings = 12;        // of the search for where light ends: to 2^-12 of at most 1.3 half widths
+constexpr double straight = 1e-3;   // half widths of a cell: a border is straight whose middle is off its mean by no more
 
+/// A border of a lens's cell, seen by parallel rays.
 class Border {
   public:
     Border(const optics::Scene<double>& of, int border_pair)
@@ -27,7 +28,8 @@ class Border {
     }
 
     /// How far beyond the border light enters the lens, at these slopes towards it and along it; mm. The mean over the border, by
-    /// two points of Gauss's rule. None where not even the lens's middle is lit, or it is bent by more, mm.
+    /// two points of Gauss's rule. None where not even the lens's middle is lit, or where light ends along a line that is bent by
+    /// more than `most_bent`, mm.
     std::optional<double> beyond(double towards, double along, double most_bent) const {
         if (!enters(0, towards, along, 0)) return {};
         const double at = half_length_ / std::sqrt(3.0);
@@ -69,7 +71,7 @@ class Border {
     double half_length_;
 };
 
-/// The largest slope of a ray of the picture, after the diffuser.
+/// The largest slope of a ray of the picture, with the diffuser's turn to spare.
 double largest_slope(const optics::Scene<float>& scene, const optics::View& view) {
     double most = 0;
     for (int corner = 0; corner < 4; ++corner) {
@@ -96,7 +98,8 @@ void add_clear_borders(optics::Scene<float>& scene, const Display& display, cons
         for (int i = 0; i < clear.towards; ++i) {
             for (int j = 0; j < clear.along; ++j) {
                 const double towards = most * (2.0 * i / (clear.towards - 1) - 1), along = most * j / (clear.along - 1);
-                clear.beyond[kind][i][j] = float(border.beyond(towards, along, FilteredLimits::bent * part_mm).value_or(-1e20));
+                clear.beyond[kind][i][j] =
+                    float(border.beyond(towards, along, FilteredLimits::bent * part_mm).value_or(double(clear.unknown)));
             }
         }
     }

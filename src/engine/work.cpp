@@ -1,6 +1,6 @@
 #include "engine/work.h"
-#include "engine/clear_borders.h"
 
+#include "engine/clear_borders.h"
 #include "engine/pyramid.h"
 #include "engine/scene.h"
 #include "model/subpixels.h"

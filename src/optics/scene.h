@@ -92,8 +92,9 @@ struct Placement {
 template <class S>
 struct ClearBorders {
     static constexpr int towards = 9, along = 5;
+    static constexpr S unknown = S(-1e20);
     S most;                       // 0: light enters up to the border
-    S beyond[2][towards][along];  // mm beyond the borders across x' (of hexagons: all of them), and across y'; -1e20: not known
+    S beyond[2][towards][along];  // mm beyond the borders across x' (of hexagons: all of them), and across y'; or `unknown`
 };
 
 template <class S>

@@ -17,6 +17,7 @@ namespace lfdsim {
 
 namespace {
 
+/// Cuts what a block sees, a grid for each lens.
 class LensCutter {
   public:
     LFDSIM_BOTH LensCutter(const Tile& t, const optics::PixelBlock<S>& of, Grids& to)

@@ -77,7 +77,7 @@ class StandingLenses {
             const S towards = border.x * slope.x + border.y * slope.y, along = border.x * slope.y - border.y * slope.x;
             beyond[k] = optics::clear_beyond(scene.clear_borders, lattice.hexagonal ? 0 : k % pairs, k < pairs ? towards : -towards,
                                              optics::abs(along));
-            known = beyond[k] > S(-1) * lattice.half_pitch[0];
+            known = beyond[k] > S(-1) * lattice.half_pitch[0];  // no node at hand is unknown
         }
         return known;
     }
