@@ -8,7 +8,8 @@ target_include_directories(lfdsim-model-reader PRIVATE ${CMAKE_CURRENT_SOURCE_DI
 target_link_libraries(lfdsim-model-reader PRIVATE assimp::assimp lfdsim_image nlohmann_json::nlohmann_json)
 install(TARGETS lfdsim-model-reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/lfdsim)
 
-add_dependencies(lfdsim_content lfdsim-model-reader)
+# Programs need it when they run: they wait for it to link, not to compile.
+set_property(TARGET lfdsim_content PROPERTY INTERFACE_LINK_DEPENDS $<BUILD_INTERFACE:$<TARGET_FILE:lfdsim-model-reader>>)
 set_source_files_properties(content/reader_path.cpp PROPERTIES COMPILE_DEFINITIONS
   "LFDSIM_INSTALLED_READER=\"${CMAKE_INSTALL_FULL_LIBEXECDIR}/lfdsim/lfdsim-model-reader\";LFDSIM_BUILT_READER=\"${CMAKE_BINARY_DIR}/lfdsim-model-reader\"")
 

@@ -1,8 +1,5 @@
 # The GPU's kernels, where a CUDA toolkit is found that can compile them. One binary then serves machines with a GPU and without: the
 # runtime is linked statically, and it looks for the driver when it is first called.
-target_sources(lfdsim_engine PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/engine/wide/render.cpp
-  ${CMAKE_CURRENT_SOURCE_DIR}/engine/wide/likeness.cpp)
-
 option(LFDSIM_CUDA "GPU kernels, where there is a CUDA toolkit" ON)
 option(LFDSIM_CUDA_FMAD "GPU: contract products and sums; faster, and not the CPU's bits" OFF)
 option(LFDSIM_CUDA_QUICK "GPU: compiled in an eighth of the time, and slow: for tests on machines without a GPU" OFF)
@@ -34,7 +31,10 @@ set(LFDSIM_CUDA_STATE "${LFDSIM_CUDA_STATE}" CACHE INTERNAL "which toolkit the G
 message(STATUS "GPU kernels: ${LFDSIM_CUDA_STATE}")
 
 if(LFDSIM_CUDA_STATE MATCHES "^CUDA")
-  add_library(lfdsim_cuda OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/engine/cuda/queue.cu)
+  # The kernels of a step take up to a minute, those of all steps in one file took ten: the longest first.
+  set(cuda_files bundles.cu pixels_many.cu pixels_few.cu alone.cu points_sobol.cu points_random.cu blocks.cu queue.cu)
+  list(TRANSFORM cuda_files PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/engine/cuda/ OUTPUT_VARIABLE cuda_sources)
+  add_library(lfdsim_cuda OBJECT ${cuda_sources})
   lfdsim_for_shared_libraries(lfdsim_cuda)
   target_include_directories(lfdsim_cuda PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_compile_definitions(lfdsim_cuda PRIVATE LFDSIM_ISA=cuda $<$<BOOL:${LFDSIM_CUDA_FMAD}>:LFDSIM_CUDA_FMAD>)
@@ -45,9 +45,4 @@ if(LFDSIM_CUDA_STATE MATCHES "^CUDA")
     target_compile_options(lfdsim_cuda PRIVATE "SHELL:-Ofc min")
     target_compile_definitions(lfdsim_cuda PRIVATE LFDSIM_FEW_WAYS)
   endif()
-  target_sources(lfdsim_engine PRIVATE $<TARGET_OBJECTS:lfdsim_cuda>)
-  find_package(CUDAToolkit REQUIRED)
-  target_link_libraries(lfdsim_engine PRIVATE CUDA::cudart_static)
-else()
-  target_sources(lfdsim_engine PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/engine/cuda/absent.cpp)
 endif()

@@ -25,9 +25,6 @@ function(lfdsim_kernel name isa lanes)
   # differences of products though contraction is off; lanes are vectors anyway.
   target_compile_options(lfdsim_kernel_${name} PRIVATE ${kernel_level} ${${name}_quick} -fno-math-errno -fno-trapping-math ${isa}
     "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-uninitialized;-fno-tree-vectorize>")
-  target_sources(lfdsim_engine PRIVATE $<TARGET_OBJECTS:lfdsim_kernel_${name}>)
-  string(TOUPPER ${name} upper)
-  target_compile_definitions(lfdsim_engine PRIVATE LFDSIM_WITH_${upper})
 endfunction()
 
 lfdsim_kernel(scalar "" 1)

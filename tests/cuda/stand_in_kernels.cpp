@@ -38,7 +38,7 @@ void work_off(std::int64_t items, Item item) {
 
 /// Does what a GPU does when the kernel of this mangled name is launched: adds to the stream item<...>() of engine/wide/, with the
 /// template arguments that the name contains (step, way through the array, whether it is the simple case), for all items that the
-/// grid covers. A launch that the queue (engine/cuda/queue.cu) must not make ends the program.
+/// grid covers. A launch that the queue (engine/cuda/) must not make ends the program.
 void launch(const std::string& name, const Configuration& c, void** arguments) {
     // A grid that is too small leaves items undone.
     const std::int64_t items = std::min(*static_cast<std::int64_t*>(arguments[1]), std::int64_t(c.grid.x) * c.block.x);

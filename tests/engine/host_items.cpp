@@ -5,8 +5,10 @@
 
 lfdsim::HostKernel lfdsim::host_kernel(wide::Step step, const wide::Frame& frame) {
     HostKernel kernel{};
-    wide::choose_item(step, frame, [&]<wide::Step s, optics::Way way, bool simple>() {
-        kernel = {int(way), simple, [](const wide::Frame& f, std::int64_t i) { wide::item<s, way, simple>(f, i); }};
+    wide::choose_step(step, frame, [&]<wide::Step s, bool simple>() {
+        wide::with_way_of_step<s>(frame, [&]<optics::Way way>() {
+            kernel = {int(way), simple, [](const wide::Frame& f, std::int64_t i) { wide::item<s, way, simple>(f, i); }};
+        });
     });
     return kernel;
 }

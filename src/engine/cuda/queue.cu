@@ -1,6 +1,6 @@
-// A GPU's queue, over the CUDA runtime, and the kernels: one for each step, way through an array, and simple or general case.
+// A GPU's queue, over the CUDA runtime, and the kernels that compare views.
 #include "engine/cuda/cuda.h"
-#include "engine/wide/items.h"
+#include "engine/cuda/step_kernels.h"
 #include "engine/wide/likeness_items.h"
 
 #include <cuda_runtime.h>
@@ -20,28 +20,11 @@ void check(cudaError_t result, const char* doing) {
     throw wide::DeviceError(std::string("the GPU failed while ") + doing + ": " + cudaGetErrorString(result));
 }
 
-constexpr int threads = optics::block_threads;
-
-/// Thread blocks that a multiprocessor is to hold at once at least, which limits the registers of a step's kernel: measured on an
-/// H100 (docs/gpu.md).
-constexpr int least_blocks(Step step) {
-    return step == Step::points ? 6 : step == Step::bundles || step == Step::pixels ? 4 : step == Step::places ? 8 : 1;
-}
-
-template <Step step, optics::Way through, bool simple>
-__global__ void __launch_bounds__(threads, least_blocks(step))
-    step_kernel(const __grid_constant__ Frame frame, std::int64_t items) {
-    const std::int64_t i = std::int64_t(blockIdx.x) * threads + threadIdx.x;
-    if (i < items) wide::item<step, through, simple>(frame, i);
-}
-
 template <wide::LikenessStep step>
 __global__ void __launch_bounds__(threads) likeness_kernel(const __grid_constant__ wide::LikenessFrame frame, std::int64_t items) {
     const std::int64_t i = std::int64_t(blockIdx.x) * threads + threadIdx.x;
     if (i < items) wide::likeness_item<step>(frame, i);
 }
-
-unsigned thread_blocks(std::int64_t items) { return unsigned((items + threads - 1) / threads); }
 
 std::string text(int version) { return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10); }
 
@@ -116,9 +99,7 @@ class CudaQueue : public wide::Queue {
     void run(Step step, const Frame& frame, std::int64_t items) override {
         if (items <= 0) return;
         start_clock();
-        wide::choose_item(step, frame, [&]<Step s, optics::Way way, bool simple>() {
-            step_kernel<s, way, simple><<<thread_blocks(items), threads, 0, steps_>>>(frame, items);
-        });
+        wide::choose_step(step, frame, [&]<Step s, bool simple>() { StepKernels<s, simple>::start(frame, items, steps_); });
         check(cudaGetLastError(), "starting work");
         check(cudaEventRecord(ended_, steps_), "starting work");
     }
@@ -160,20 +141,13 @@ class CudaQueue : public wide::Queue {
     // Bytes of local memory per thread, of the kernel that needs most.
     static std::size_t largest_stack() {
         std::size_t most = 0;
-        auto look = [&]<Step s, optics::Way way, bool simple>() {
-            cudaFuncAttributes attributes;
-            check(cudaFuncGetAttributes(&attributes, step_kernel<s, way, simple>), "reading a kernel's needs");
-            most = std::max(most, attributes.localSizeBytes);
-        };
-        optics::for_all_ways([&]<optics::Way way>() {
-            look.template operator()<Step::points, way, true>();
-            look.template operator()<Step::points, way, false>();
-            constexpr optics::Way few = optics::for_few_rays(way);
-            look.template operator()<Step::bundles, few, true>();
-            look.template operator()<Step::pixels, few, true>();
-            look.template operator()<Step::pixels, few, false>();
-            look.template operator()<Step::alone, way, true>();
-        });
+        for (const cudaError_t asked : {StepKernels<Step::points, true>::raise_to_local_bytes(most),
+                                        StepKernels<Step::points, false>::raise_to_local_bytes(most),
+                                        StepKernels<Step::bundles, true>::raise_to_local_bytes(most),
+                                        StepKernels<Step::pixels, true>::raise_to_local_bytes(most),
+                                        StepKernels<Step::pixels, false>::raise_to_local_bytes(most),
+                                        StepKernels<Step::alone, true>::raise_to_local_bytes(most)})
+            check(asked, "reading a kernel's needs");
         return most;
     }
 
@@ -218,9 +192,9 @@ Found find() {
         }
         Gpu gpu{p.name, p.major, p.minor, double(p.totalGlobalMem) * 1e-9, ""};
         // Does this binary hold code that the GPU can run?
-        cudaFuncAttributes attributes;
+        std::size_t bytes = 0;
         cudaError_t works = cudaSetDevice(k);
-        if (works == cudaSuccess) works = cudaFuncGetAttributes(&attributes, step_kernel<Step::even, optics::Way::ideal, true>);
+        if (works == cudaSuccess) works = StepKernels<Step::even, true>::raise_to_local_bytes(bytes);
         cudaGetLastError();
         if (works == cudaSuccess)
             any = true;

@@ -253,38 +253,53 @@ LFDSIM_FN void item(const Frame& frame, std::int64_t number) {
     if constexpr (step == Step::alone) alone_worker<through>(frame, i);
 }
 
-/// Does a step trace so many rays that ways through an array that few displays have are worth their code?
-constexpr bool by_many_rays(Step step) { return step == Step::points || step == Step::alone; }
+/// do_it.operator()<way>() for the way through the frame's display that a step is compiled for: any of them where a step traces
+/// many rays; a general one where it traces few; `ideal`, which stands for all, where it traces none.
+template <Step step, class Do>
+void with_way_of_step(const Frame& frame, const Do& do_it) {
+    if constexpr (step == Step::points || step == Step::alone)
+        optics::with_way(frame.scene, do_it);
+    else if constexpr (step == Step::bundles || step == Step::pixels)
+        optics::with_way(frame.scene, [&]<optics::Way way>() { do_it.template operator()<optics::for_few_rays(way)>(); });
+    else
+        do_it.template operator()<optics::Way::ideal>();
+}
 
-/// do_it.template operator()<step, way, simple>() for the step and the frame at hand: each combination is compiled separately.
+/// do_it.operator()<way>() for all ways that a step is compiled for (some several times).
+template <Step step, class Do>
+void for_all_ways_of_step(const Do& do_it) {
+    if constexpr (step == Step::points || step == Step::alone)
+        optics::for_all_ways(do_it);
+    else if constexpr (step == Step::bundles || step == Step::pixels)
+        optics::for_all_ways([&]<optics::Way way>() { do_it.template operator()<optics::for_few_rays(way)>(); });
+    else
+        do_it.template operator()<optics::Way::ideal>();
+}
+
+/// do_it.operator()<step, simple>() for a step of the frame.
 template <class Do>
-void choose_item(Step step, const Frame& frame, Do do_it) {
-    auto by_way = [&]<Step s, bool simple>() {
-        optics::with_way(frame.scene, [&]<optics::Way way>() {
-            do_it.template operator()<s, by_many_rays(s) ? way : optics::for_few_rays(way), simple>();
-        });
-    };
+void choose_step(Step step, const Frame& frame, const Do& do_it) {
     switch (step) {
         case Step::points:
-            return frame.tile.sampling == Sampling::sobol ? by_way.template operator()<Step::points, true>()
-                                                          : by_way.template operator()<Step::points, false>();
-        case Step::even:  // the same for every way
-            return do_it.template operator()<Step::even, optics::Way::ideal, true>();
+            return frame.tile.sampling == Sampling::sobol ? do_it.template operator()<Step::points, true>()
+                                                          : do_it.template operator()<Step::points, false>();
+        case Step::even:
+            return do_it.template operator()<Step::even, true>();
         case Step::blocks:
-            return do_it.template operator()<Step::blocks, optics::Way::ideal, true>();
+            return do_it.template operator()<Step::blocks, true>();
         case Step::bundles:
-            return by_way.template operator()<Step::bundles, true>();
+            return do_it.template operator()<Step::bundles, true>();
         case Step::survey:
-            return do_it.template operator()<Step::survey, optics::Way::ideal, true>();
+            return do_it.template operator()<Step::survey, true>();
         case Step::places:
-            return do_it.template operator()<Step::places, optics::Way::ideal, true>();
+            return do_it.template operator()<Step::places, true>();
         case Step::soft:
-            return do_it.template operator()<Step::soft, optics::Way::ideal, true>();
+            return do_it.template operator()<Step::soft, true>();
         case Step::pixels:
-            return frame.tile.strata <= few_strata ? by_way.template operator()<Step::pixels, true>()
-                                                   : by_way.template operator()<Step::pixels, false>();
+            return frame.tile.strata <= few_strata ? do_it.template operator()<Step::pixels, true>()
+                                                   : do_it.template operator()<Step::pixels, false>();
         case Step::alone:
-            return by_way.template operator()<Step::alone, true>();
+            return do_it.template operator()<Step::alone, true>();
     }
 }
 
