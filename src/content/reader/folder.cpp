@@ -1,5 +1,6 @@
 #include "content/reader/folder.h"
 
+#include <assimp/MemoryIOWrapper.h>
 #include <strings.h>
 #include <algorithm>
 #include <cstring>
@@ -21,6 +22,10 @@ bool Folder::Exists(const char* file) const { return inside(fs::absolute(file)) 
 Assimp::IOStream* Folder::Open(const char* file, const char* mode) {
     if (std::strchr(mode, 'w') || std::strchr(mode, 'a') || !Exists(file)) return nullptr;
     opened_.push_back(fs::absolute(file).string());
+    const auto [text, fresh] = texts_.try_emplace(opened_.back());
+    if (fresh) text->second = edited(opened_.back());
+    if (text->second)
+        return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(text->second->data()), text->second->size());
     return DefaultIOSystem::Open(file, mode);
 }
 

@@ -3,6 +3,8 @@
 #include <assimp/DefaultIOSystem.h>
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +23,9 @@ class Folder : public Assimp::DefaultIOSystem {
     /// is ignored where no exact match exists.
     std::optional<std::filesystem::path> find(std::string name) const;
 
+    /// Gives the text of a file that is to be read in place of what it has; none of most.
+    std::function<std::optional<std::string>(const std::string& file)> edited = [](const std::string&) { return std::nullopt; };
+
     /// Those that were opened for reading.
     const std::vector<std::string>& opened() const { return opened_; }
 
@@ -28,6 +33,7 @@ class Folder : public Assimp::DefaultIOSystem {
     bool inside(const std::filesystem::path&) const;
     std::filesystem::path root_;
     std::vector<std::string> opened_;
+    std::map<std::string, std::optional<std::string>> texts_;  // of the files that were asked for
 };
 
 }  // namespace lfdsim::reader

@@ -1,8 +1,12 @@
 #include "content/reader/import.h"
 
 #include "content/reader/axes.h"
+#include "content/reader/edited_text.h"
 #include "content/reader/folder.h"
-#include "content/reader/gltf_transforms.h"
+#include "content/reader/gltf_loader.h"
+#include "content/reader/not_shown.h"
+#include "content/reader/places.h"
+#include "content/reader/ply_loader.h"
 #include "content/reader/repairs.h"
 #include "content/reader/textures.h"
 #include "content/reader/warnings.h"
@@ -17,8 +21,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <map>
-#include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace lfdsim::reader {
@@ -28,8 +34,8 @@ namespace {
 constexpr float crease_deg = 60;
 
 // Everything comes as triangles in one frame: node transforms applied, instances copied, points and lines dropped.
-constexpr unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices |
-                           aiProcess_JoinIdenticalVertices | aiProcess_GenUVCoords;
+constexpr unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices | aiProcess_GenUVCoords |
+                           aiProcess_TransformUVCoords;
 constexpr float grey = 0.5f;  // linear light, of what cannot be shown as it is
 
 Wrap wrap(aiTextureMapMode mode) {
@@ -53,8 +59,8 @@ bool shines(const aiMaterial& material) {
 class Conversion {
   public:
     Conversion(const aiScene& scene, const Folder& folder, const std::string& format, const Turn& turn,
-               std::map<unsigned, UvTransform> transforms)
-        : scene_(scene), textures_(scene, folder), turn_(turn), transforms_(std::move(transforms)) {
+               const std::map<std::string, Tiling>& tilings, const NotShown& not_shown)
+        : scene_(scene), textures_(scene, folder), turn_(turn), tilings_(tilings), left_out_(not_shown) {
         linear_ = format.starts_with("glTF");
     }
 
@@ -67,8 +73,8 @@ class Conversion {
         if (dropped_ > 0) model_.notes.push_back(counted(dropped_, "face") + " left out: degenerate");
         if (!linear_ && std::any_of(model_.textures.begin(), model_.textures.end(), has_alpha)) transparent_ = true;
         if (transparent_) model_.notes.push_back("transparent materials are shown opaque");
-        if (scene_.mNumAnimations > 0) left_out_.insert("animations");
-        for (const std::string& what : left_out_) model_.notes.push_back(what + " are not shown");
+        const std::vector<std::string> left_out = left_out_.notes();
+        model_.notes.insert(model_.notes.end(), left_out.begin(), left_out.end());
         show_black();
         if (model_.indices.empty()) throw std::runtime_error("has no triangles: nothing to show");
         return std::move(model_);
@@ -108,11 +114,11 @@ class Conversion {
             else
                 textures_.leave_out(name.C_Str(), "a mesh has no texture coordinates");
         }
-        if (const auto transform = transforms_.find(mesh.mMaterialIndex); transform != transforms_.end())
-            uv = transform->second.channel.value_or(uv);
         channel = uv < AI_MAX_NUMBER_OF_TEXTURECOORDS && mesh.HasTextureCoords(uv) ? int(uv) : 0;
         to.wrap_u = wrap(modes[0]);
         to.wrap_v = wrap(modes[1]);
+        int shading = 0;
+        if (linear_ && from.Get(AI_MATKEY_SHADING_MODEL, shading) == aiReturn_SUCCESS) to.lit = shading != aiShadingMode_Unlit;
         aiColor4D colour(1, 1, 1, 1);
         if (linear_ || (to.texture < 0 && !coloured(mesh))) {
             if (from.Get(AI_MATKEY_BASE_COLOR, colour) != aiReturn_SUCCESS) from.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
@@ -127,9 +133,9 @@ class Conversion {
         from.Get(AI_MATKEY_GLTF_ALPHAMODE, alpha);
         transparent_ = transparent_ || opacity < 0.99f || alpha != aiString("OPAQUE") || has(from, aiTextureType_OPACITY);
         if (has(from, aiTextureType_NORMALS) || has(from, aiTextureType_HEIGHT) || has(from, aiTextureType_NORMAL_CAMERA))
-            left_out_.insert("normal and bump maps");
-        if (shines(from) || has(from, aiTextureType_EMISSIVE)) left_out_.insert("emissive materials' own lights");
-        if (!linear_ && to.texture >= 0 && is_tinted(from)) left_out_.insert("tints of textures (Kd)");
+            left_out_.add("normal and bump maps");
+        if (shines(from) || has(from, aiTextureType_EMISSIVE)) left_out_.add("emissive materials' own lights");
+        if (!linear_ && to.texture >= 0 && is_tinted(from)) left_out_.add("tints of textures (Kd)");
         return entry->second;
     }
 
@@ -142,16 +148,19 @@ class Conversion {
         return std::max({c.r, c.g, c.b}) - std::min({c.r, c.g, c.b}) > 0.01f;
     }
 
-    /// What of a mesh its vertices take: texture coordinates of this channel, and colours.
+    /// What of a mesh its vertices take: texture coordinates of this channel, moved in this way, and colours.
     struct Attributes {
         int channel;
         bool coloured;
+        Tiling tiling;
     };
 
     void add(const aiMesh& mesh) {
         if (!(mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) || !mesh.mVertices) return;
         if (mesh.mMaterialIndex >= scene_.mNumMaterials) throw std::runtime_error("a mesh names a material that is not there");
-        Attributes of{0, coloured(mesh)};
+        Attributes of{0, coloured(mesh), {}};
+        if (const auto tiling = tilings_.find(scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str()); tiling != tilings_.end())
+            of.tiling = tiling->second;
         const std::uint32_t own = material(mesh, of.channel);
         const std::size_t first = model_.vertices();
         if (first + mesh.mNumVertices >= std::size_t(1) << 32) throw std::runtime_error("has more than 2^32 vertices");
@@ -194,10 +203,8 @@ class Conversion {
         }
         push(model_.positions, turn_(mesh.mVertices[v]));
         push(model_.normals, turn_(normal));
-        aiVector3D uv = mesh.HasTextureCoords(unsigned(of.channel)) ? mesh.mTextureCoords[of.channel][v] : aiVector3D();
-        if (const auto transform = transforms_.find(mesh.mMaterialIndex); transform != transforms_.end())
-            uv = transform->second(uv);
-        model_.uvs.insert(model_.uvs.end(), {uv.x, uv.y});
+        const aiVector3D uv = mesh.HasTextureCoords(unsigned(of.channel)) ? mesh.mTextureCoords[of.channel][v] : aiVector3D();
+        for (unsigned k = 0; k < 2; ++k) model_.uvs.push_back(float(of.tiling.offset[k] + of.tiling.scale[k] * double(uv[k])));
     }
 
     // Some loaders find no colours; a black model on black would look like a fault of the display.
@@ -215,11 +222,11 @@ class Conversion {
     const aiScene& scene_;
     Textures textures_;
     Turn turn_;
-    std::map<unsigned, UvTransform> transforms_;  // of materials
+    const std::map<std::string, Tiling>& tilings_;  // by the materials' names
     bool linear_;
     std::map<std::tuple<unsigned, bool, bool>, std::uint32_t> known_;
     Model model_;
-    std::set<std::string> left_out_;  // what is not shown, in words
+    NotShown left_out_;
     std::int64_t dropped_ = 0;
     bool transparent_ = false;
 };
@@ -246,6 +253,99 @@ void mend_normals(Model& model) {
     }
 }
 
+/// What the meshes of a scene as loaded have in common.
+struct Extent {
+    Middle middle;       // in the scene's coordinates
+    double largest = 0;  // of the numbers that float had to hold
+};
+
+void add_extent(const aiScene& scene, const aiNode& node, const aiMatrix4x4t<double>& above, Extent& all, int depth = 0) {
+    constexpr int deepest = 1000;
+    if (depth > deepest) throw std::runtime_error("has nodes more than 1000 deep");
+    const aiMatrix4x4t<double> here = above * aiMatrix4x4t<double>(node.mTransformation);
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+        const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
+        for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+            const Place p(mesh.mVertices[v]);
+            all.middle.add(here * p);
+            for (unsigned k = 0; k < 3; ++k) all.largest = std::max(all.largest, std::abs(p[k]));
+        }
+    }
+    if (node.mNumMeshes > 0)
+        for (const double x : {here.a4, here.b4, here.c4}) all.largest = std::max(all.largest, std::abs(x));
+    for (unsigned c = 0; c < node.mNumChildren; ++c) add_extent(scene, *node.mChildren[c], here, all, depth + 1);
+}
+
+// Everything is moved to the origin before transformations are applied in float; what float has rounded before is said.
+std::string details_below(double share) {
+    std::ostringstream text;
+    text.precision(1);
+    text << "details below " << share << " of the model's size, which coordinates so far from the origin do not hold as its format"
+         << " is read (move the model to the origin, or save it as glTF or PLY),";
+    return text.str();
+}
+
+void move_to_origin(aiScene& scene, NotShown& not_shown) {
+    Extent extent;
+    add_extent(scene, *scene.mRootNode, {}, extent);
+    const Place offset = extent.middle.offset();
+    if (offset == Place()) return;
+    aiMatrix4x4 back;
+    aiMatrix4x4::Translation(to_float(offset * -1.), back);
+    scene.mRootNode->mTransformation = back * scene.mRootNode->mTransformation;
+    // A float's last bit, half of which rounding may take, as a share of the size.
+    if (const double share = std::ldexp(extent.largest, -24) / extent.middle.size(); share > 1e-6)
+        not_shown.add(details_below(share));
+}
+
+void note_deformations(const aiScene& scene, NotShown& not_shown) {
+    if (scene.mNumAnimations > 0) not_shown.add("animations");
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        const aiMesh& mesh = *scene.mMeshes[m];
+        if (mesh.mNumBones > 0) not_shown.add("skins' poses");
+        if (mesh.mNumAnimMeshes > 0) not_shown.add("morph targets");
+        if (mesh.mPrimitiveTypes & (aiPrimitiveType_POINT | aiPrimitiveType_LINE)) not_shown.add("points and lines");
+    }
+}
+
+// Assimp joins vertices nearer to each other than 1e-5, whatever their colours; its own loaders give most corners of faces vertices
+// of their own.
+bool may_join(const aiScene& scene, const std::string& format) {
+    if (format.starts_with(GltfLoader::name) || format == PlyLoader::name) return false;
+    return std::none_of(scene.mMeshes, scene.mMeshes + scene.mNumMeshes,
+                        [](const aiMesh* mesh) { return mesh->HasVertexColors(0); });
+}
+
+void take_away(Assimp::Importer& importer, const char* loader_name) {
+    for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+        if (!std::string(importer.GetImporterInfo(i)->mName).starts_with(loader_name)) continue;
+        Assimp::BaseImporter* const loader = importer.GetImporter(i);
+        importer.UnregisterLoader(loader);
+        delete loader;
+    }
+}
+
+/// Assimp with the loaders of this program in place of some of its own.
+void choose_loaders(Assimp::Importer& importer, const std::filesystem::path& file, Folder& folder, NotShown& not_shown) {
+    take_away(importer, "glTF2 Importer");
+    take_away(importer, "Stanford Polygon Library");
+    auto* const gltf = new GltfLoader(folder, not_shown);                                   // the importer's, as the other
+    if (gltf->CanRead(file.string(), &folder, true)) take_away(importer, "glTF Importer");  // of version 1, which would try first
+    importer.RegisterLoader(gltf);
+    importer.RegisterLoader(new PlyLoader(not_shown));
+}
+
+std::string lower_ending(const std::string& file) {
+    std::string ending = std::filesystem::path(file).extension().string();
+    for (char& c : ending) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+    return ending;
+}
+
+std::string bytes_of(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 }  // namespace
 
 Model import(const std::filesystem::path& file, const std::string& up) {
@@ -254,19 +354,30 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     importer.SetIOHandler(folder);
     importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, crease_deg);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    NotShown not_shown;
+    choose_loaders(importer, file, *folder, not_shown);
     auto* warnings = new Warnings;  // the logger's, likewise
     Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
     Assimp::DefaultLogger::get()->attachStream(warnings, Assimp::Logger::Warn | Assimp::Logger::Err);
 
+    std::map<std::string, Tiling> tilings;
+    folder->edited = [&](const std::string& name) -> std::optional<std::string> {
+        const std::string ending = lower_ending(name);
+        if (ending == ".mtl") return without_texture_options(bytes_of(name), tilings, not_shown);
+        if (ending == ".obj" || ending == ".off" || ending == ".stl") return nearer_the_origin(bytes_of(name), ending);
+        return {};
+    };
+
     const aiScene* scene = importer.ReadFile(file.string(), 0);
     const aiImporterDesc* used = importer.GetImporterInfo(std::size_t(importer.GetPropertyInteger("importerIndex", 0)));
     const std::string format = used ? used->mName : "";
-    const bool is_gltf2 = format.starts_with("glTF2");
     if (scene && scene->mRootNode) {
-        repair(const_cast<aiScene&>(*scene), file, format);  // the importer's own, handed out as const
-        const unsigned smoothing = flat_without_normals(file, format) ? 0u : aiProcess_GenSmoothNormals,
-                       transforming = is_gltf2 ? 0u : aiProcess_TransformUVCoords;
-        scene = importer.ApplyPostProcessing(steps | smoothing | transforming);
+        auto& loaded = const_cast<aiScene&>(*scene);  // the importer's own, handed out as const
+        repair(loaded, file, format);
+        note_deformations(loaded, not_shown);
+        move_to_origin(loaded, not_shown);
+        scene = importer.ApplyPostProcessing(steps | (may_join(loaded, format) ? aiProcess_JoinIdenticalVertices : 0u) |
+                                             (flat_without_normals(file, format) ? 0u : aiProcess_GenSmoothNormals));
     }
     if (!scene) {
         if (std::string(importer.GetErrorString()) == "std::bad_alloc") throw std::bad_alloc();
@@ -276,8 +387,7 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     for (const std::string& warning : warnings->texts)
         if (warning.find("out-of-range ind") != std::string::npos)
             throw std::runtime_error("some faces have indices of vertices that do not exist; the file is damaged, export it again");
-    const auto transforms = is_gltf2 ? gltf_transforms(file) : std::map<unsigned, UvTransform>();
-    Model model = Conversion(*scene, *folder, format, turn(*scene, format, up), transforms).run();
+    Model model = Conversion(*scene, *folder, format, turn(*scene, format, up), tilings, not_shown).run();
     // Blender's loader warns of every field that a version of the program did not have.
     if (!format.starts_with("Blender")) model.notes.insert(model.notes.end(), warnings->texts.begin(), warnings->texts.end());
     model.files.insert(model.files.end(), folder->opened().begin(), folder->opened().end());

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 // One well-maintained decoder for the formats that models use; it runs in this confined process only.
 #define STB_IMAGE_IMPLEMENTATION
@@ -45,6 +48,17 @@ bool decode(const aiTexture& embedded, Texture& out) {
         out.rgba.insert(out.rgba.end(), {t.r, t.g, t.b, t.a});
     }
     return true;
+}
+
+// Why the picture in these bytes was not decoded.
+std::string reason(std::string_view bytes) {
+    constexpr std::pair<std::string_view, const char*> others[] = {{"WEBP", "WebP (in glTF by EXT_texture_webp)"},
+                                                                   {"KTX 2", "KTX2 (in glTF by KHR_texture_basisu)"},
+                                                                   {"ftypavif", "AVIF (in glTF by EXT_texture_avif)"},
+                                                                   {"DDS ", "DDS (in glTF by MSFT_texture_dds)"}};
+    for (const auto& [mark, name] : others)
+        if (bytes.substr(0, 16).find(mark) != std::string_view::npos) return std::string("it is ") + name + ", which is not read";
+    return stbi_failure_reason();
 }
 
 bool decode(const std::filesystem::path& file, Texture& out) {
@@ -91,14 +105,17 @@ int Textures::load(const std::string& name) {
     Texture decoded;
     if (const aiTexture* embedded = scene_.GetEmbeddedTexture(name.c_str())) {
         if (!decode(*embedded, decoded)) {
-            leave_out(name, stbi_failure_reason());
+            const std::size_t size = embedded->mHeight == 0 ? embedded->mWidth : 0;
+            leave_out(name, reason({reinterpret_cast<const char*>(embedded->pcData), size}));
             return -1;
         }
     } else if (const auto file = folder_.find(name); !file) {
         leave_out(name, "not found in the model's folder");
         return -1;
     } else if (!decode(*file, decoded)) {
-        leave_out(name, stbi_failure_reason());
+        std::string start(16, '\0');
+        std::ifstream(*file, std::ios::binary).read(start.data(), std::streamsize(start.size()));
+        leave_out(name, reason(start));
         return -1;
     } else {
         files.push_back(file->string());

@@ -1,0 +1,40 @@
+// Places in double precision, until they are near enough to the origin to become floats.
+#pragma once
+#include <assimp/types.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lfdsim::reader {
+
+using Place = aiVector3t<double>;
+
+/// The middle of a box about places, which are taken relative to it where it lies further from the origin than the box is long:
+/// there a float would round by more than about 1e-7 of the size.
+class Middle {
+  public:
+    void add(const Place& p) {
+        for (unsigned k = 0; k < 3; ++k) {
+            if (!std::isfinite(p[k])) continue;  // refused later, in words
+            low_[k] = std::min(low_[k], p[k]);
+            high_[k] = std::max(high_[k], p[k]);
+        }
+    }
+    /// What is taken off; (0, 0, 0) where that is not needed.
+    Place offset() const {
+        const Place middle = (low_ + high_) * 0.5;
+        const bool far = middle.Length() > size();  // false without places
+        return far && std::isfinite(middle.Length()) ? middle : Place();
+    }
+    /// The diagonal of the box.
+    double size() const { return (high_ - low_).Length(); }
+
+  private:
+    static constexpr double none = std::numeric_limits<double>::max() / 4;
+    Place low_{none, none, none}, high_{-none, -none, -none};
+};
+
+inline aiVector3D to_float(const Place& p) { return {float(p.x), float(p.y), float(p.z)}; }
+
+}  // namespace lfdsim::reader

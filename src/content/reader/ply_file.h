@@ -1,0 +1,58 @@
+// PLY files, text or binary, as their lists of numbers.
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lfdsim::reader {
+
+/// One number, or a list of numbers, of each of an element's rows.
+struct PlyProperty {
+    std::string name;
+    double unit = 1;  // what stands for 1 in its type, if it is a colour: 255 of bytes
+    bool is_list = false;
+    std::vector<double> values;       // of all rows, one after the other
+    std::vector<std::size_t> starts;  // lists: where each row's begins, and the end
+
+    std::size_t size(std::size_t row) const { return is_list ? starts[row + 1] - starts[row] : 1; }
+    const double* row(std::size_t row) const { return values.data() + (is_list ? starts[row] : row); }
+};
+
+struct PlyElement {
+    std::string name;
+    std::size_t count = 0;
+    std::vector<PlyProperty> properties;
+
+    /// The first of these names that there is, or null.
+    const PlyProperty* find(std::initializer_list<std::string_view> names) const;
+};
+
+struct PlyFile {
+    std::vector<PlyElement> elements;
+    std::vector<std::string> textures;  // "comment TextureFile NAME"
+
+    /// Reads the header, so that elements have names and counts; `bytes` are to outlive this. Throws std::runtime_error that says
+    /// what is wrong.
+    explicit PlyFile(std::string_view bytes);
+    /// Reads the elements' numbers. Throws likewise.
+    void read();
+    /// Null where it is not there.
+    const PlyElement* find(std::string_view name) const;
+
+  private:
+    enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+    enum class Form { text, little_endian, big_endian };
+    struct Column {
+        Type count, value;  // count: of a list
+    };
+    class Body;
+    static Type type_of(const std::string& name);
+    static double unit_of(Type);
+    static void read(PlyElement&, const std::vector<Column>&, Body&);
+
+    std::string_view body_;
+    Form form_{};
+    std::vector<std::vector<Column>> columns_;  // of each element
+};
+
+}  // namespace lfdsim::reader
