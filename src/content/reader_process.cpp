@@ -92,10 +92,15 @@ void ReaderProcess::fail() {
     process_ = -1;
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) throw Failure(timeout_text(options_.seconds));
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) throw Failure("the reader was killed; perhaps memory ran out");
-    if (WIFSIGNALED(status))
-        throw Failure(fmt::format("the file is damaged, it made the reader crash ({})", strsignal(WTERMSIG(status))));
-    if (WIFEXITED(status) && WEXITSTATUS(status) != 0)  // as sanitizers report a crash
-        throw Failure(fmt::format("the file is damaged, it made the reader crash (status {})", WEXITSTATUS(status)));
+    // As sanitizers report a crash: by a status.
+    const std::string how = WIFSIGNALED(status)                             ? strsignal(WTERMSIG(status))
+                            : WIFEXITED(status) && WEXITSTATUS(status) != 0 ? fmt::format("status {}", WEXITSTATUS(status))
+                                                                            : "";
+    if (!how.empty())
+        throw Failure(
+            fmt::format("it made the reader of its format crash ({}): it is damaged, or has something that the reader cannot "
+                        "take; save it in another format, glTF for one",
+                        how));
     throw Failure("the reader ended early");
 }
 

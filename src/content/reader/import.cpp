@@ -355,11 +355,6 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, crease_deg);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     NotShown not_shown;
-    choose_loaders(importer, file, *folder, not_shown);
-    auto* warnings = new Warnings;  // the logger's, likewise
-    Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
-    Assimp::DefaultLogger::get()->attachStream(warnings, Assimp::Logger::Warn | Assimp::Logger::Err);
-
     std::map<std::string, Tiling> tilings;
     folder->edited = [&](const std::string& name) -> std::optional<std::string> {
         const std::string ending = lower_ending(name);
@@ -367,6 +362,10 @@ Model import(const std::filesystem::path& file, const std::string& up) {
         if (ending == ".obj" || ending == ".off" || ending == ".stl") return nearer_the_origin(bytes_of(name), ending);
         return {};
     };
+    choose_loaders(importer, file, *folder, not_shown);
+    auto* warnings = new Warnings;  // the logger's, likewise
+    Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
+    Assimp::DefaultLogger::get()->attachStream(warnings, Assimp::Logger::Warn | Assimp::Logger::Err);
 
     const aiScene* scene = importer.ReadFile(file.string(), 0);
     const aiImporterDesc* used = importer.GetImporterInfo(std::size_t(importer.GetPropertyInteger("importerIndex", 0)));
