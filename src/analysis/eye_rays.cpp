@@ -60,6 +60,7 @@ EyeRays::EyeRays(const Display& d, const Geometry& g)
     : scene_(make_scene<double>(d, g)),
       vertex_plane_(g.vertex_plane_mm),
       start_z_(make_view(d, g).start_z),
+      panel_behind_(g),
       stop_first_(scene_.has_stop && !scene_.placement.given && g.stop_z_mm >= g.top_z_mm - 1e-9),
       base_(optics::base_cell(g.lattice, {std::floor(g.lattice.count[0] / 2), std::floor(g.lattice.count[1] / 2)})) {}
 
@@ -69,7 +70,9 @@ Vec3d EyeRays::point(double x, double y) const {
 }
 
 Sight EyeRays::look(const Vec3d& eye, const Choice& choice) const {
-    return look_through(eye, aim(eye, choice), choice[2], choice[3]);
+    const Vec3d at = aim(eye, choice);
+    if (!panel_behind_.meets(eye, at[0], at[1])) return {.on_screen = false};
+    return look_through(eye, at, choice[2], choice[3]);
 }
 
 Vec3d EyeRays::aim(const Vec3d& eye, const Choice& choice) const {
@@ -87,6 +90,7 @@ Vec3d EyeRays::aim(const Vec3d& eye, const Choice& choice) const {
         if (turned.z < -1e-3)
             moved = optics::to_array(lattice, down * (turned.x / turned.z - to[0] / to[2]),
                                      down * (turned.y / turned.z - to[1] / to[2]));
+        if (lattice.strips) moved.y = 0;
     }
     const auto in_cell = [&](std::size_t k, double by) {
         const double place = 0.5 * choice[k] - by / lattice.pitch[k];
@@ -155,7 +159,7 @@ Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) 
         by_lens = first_lens(scene_, extent, {{ray.at.x, ray.at.y, start_z_}, {to_x, to_y, ray.to.z}}, cell);
     }
     const Place from_base = optics::axis_of(lattice, cell);
-    return {beside ? 0 : end.weight, true, by_lens, x, y, point(base_axis.x + from_base.x, base_axis.y + from_base.y)};
+    return {true, beside ? 0 : end.weight, true, by_lens, x, y, point(base_axis.x + from_base.x, base_axis.y + from_base.y)};
 }
 
 double checked_viewing_distance_mm(const Subject& s) {

@@ -2,6 +2,7 @@
 #pragma once
 #include "analysis/subject.h"
 #include "engine/scene.h"
+#include "model/screen.h"
 #include "optics/lattice.h"
 
 #include <array>
@@ -20,11 +21,12 @@ std::vector<Choice> even_choices(int count, std::uint32_t set = 0);
 
 /// Where a line of sight ends.
 struct Sight {
-    double light = 0;      // radiance, 1 for a white panel's along its normal; 0: it is blocked, or ends beside the panel
-    bool through = false;  // it gets through the array; else the rest is meaningless
-    bool by_lens = false;  // it meets a lens on its way; among glass others pass between the caps
-    double x = 0, y = 0;   // in the panel's plane, mm from its centre
-    Vec3d lens{};          // where the axis of the cell that it came through meets the vertex plane
+    bool on_screen = true;  // it aims at a point in front of the panel; else it is not followed, and does not count
+    double light = 0;       // radiance, 1 for a white panel's along its normal; 0: it is blocked, or ends beside the panel
+    bool through = false;   // it gets through the array; else the rest is meaningless
+    bool by_lens = false;   // it meets a lens on its way; among glass others pass between the caps
+    double x = 0, y = 0;    // in the panel's plane, mm from its centre
+    Vec3d lens{};           // where the axis of the cell that it came through meets the vertex plane
     bool operator==(const Sight&) const = default;
 };
 
@@ -37,7 +39,8 @@ class EyeRays {
 
     /// From an eye in front of the display. The line aims at a point of the array's rectangle in the vertex plane and is turned
     /// where it crosses the diffuser, as camera rays are. For each choice of lens and angles its place in the cell is shifted
-    /// cyclically by as much as the diffuser moves it, which keeps all means and spreads lines evenly where they meet the lens.
+    /// cyclically by as much as the diffuser moves it, which keeps all means and spreads lines evenly where they meet the lens; but
+    /// not along strips, where light is as even as the panel's. Lines beside the screen (model/screen.h) are not followed.
     Sight look(const Vec3d& eye, const Choice&) const;
 
     /// The point of the vertex plane that this line aims at.
@@ -52,7 +55,7 @@ class EyeRays {
     /// The point (x, y), mm in the array's own axes from its centre, in the vertex plane.
     Vec3d point(double x, double y) const;
 
-    /// The factor by which means need more lines of sight where most of them are blocked: 1, 2, 4 or 8.
+    /// The factor by which means need more lines of sight where most of them are blocked or beside the screen: 1, 2, 4 or 8.
     int more_for(const Vec3d& eye) const;
 
   private:
@@ -60,6 +63,7 @@ class EyeRays {
 
     DisplayScene<double> scene_;
     double vertex_plane_, start_z_;
+    PanelBehind panel_behind_;
     bool stop_first_;            // lines of sight meet the stop before all surfaces
     optics::Cell<double> base_;  // lenses are counted from this one in the middle
 };

@@ -6,6 +6,7 @@
 #include "analysis/views.h"
 #include "engine/ahead.h"
 #include "model/numbers.h"
+#include "model/screen.h"
 #include "model/vec.h"
 
 #include <fmt/format.h>
@@ -95,7 +96,7 @@ Interval interval(const OwnRange& r) { return {{r.at[0], r.error[0], r.missing[0
 /// made for another distance by the lenses across.
 double fades_over_deg(const Subject& s, int axis) {
     const double rear = s.geometry().rear_principal_mm, eye = s.viewing_distance_mm() - rear;
-    const double size = axis == 0 ? s.geometry().array_width_mm : s.geometry().array_height_mm;
+    const double size = screen_size_mm(s.geometry())[std::size_t(axis)];
     const double across = size * std::abs(1 / eye - 1 / (s.display().content.viewing_distance_mm - rear));
     return std::atan(0.5 * (SlopeSpread(s, eye, axis).width() + across)) / degree;
 }
@@ -239,7 +240,7 @@ double fov_depth_mm(const Subject& s) {
     const Geometry& g = s.geometry();
     const double distance = s.viewing_distance_mm(), described = g.content_depth_mm;
     const double edge = std::min(widest_edge_deg(s) + 2, 80.) * degree;
-    const double half_screen = 0.5 * std::min(g.array_width_mm, g.array_height_mm);
+    const double half_screen = 0.5 * std::min({g.array_width_mm, g.array_height_mm, g.panel_width_mm, g.panel_height_mm});
     // What stands behind the lenses is seen through the screen at X d/(d + E), X how far the eye has gone aside.
     const double aside = distance * std::sin(edge), ahead = distance * std::cos(edge) - g.vertex_plane_mm;
     const double behind = aside > half_screen ? half_screen * ahead / (aside - half_screen) : 1e6;

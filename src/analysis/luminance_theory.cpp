@@ -2,6 +2,7 @@
 
 #include "analysis/paraxial_lines.h"
 #include "model/numbers.h"
+#include "model/screen.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,14 +35,16 @@ Passed passed(const Display& d, const Geometry& g) {
     return {t, d.array.surround == Surround::plate ? t : 1};
 }
 
-/// The mean over lines of sight that aim at the array's cells: evenly chosen lenses, places in them and angles of the diffuser.
+/// The mean over lines of sight that aim at the screen: evenly chosen lenses, places in their cells and angles of the diffuser.
 /// Good to a thousandth.
 double seen_mean(const Display& d, const Geometry& g, double eye_mm) {
     constexpr int count = 1 << 19;
     const ParaxialLines lines(d, g, {0, 0, eye_mm});
     const Lattice<double>& l = g.lattice;
     const Passed share = passed(d, g);
-    double seen = 0;
+    const PanelBehind panel(g);
+    const Vec3d eye{0, 0, eye_mm};
+    double seen = 0, all = 0;
     const auto number = [&](double choice, std::size_t k) {
         return std::min(std::floor((0.5 + 0.5 * choice) * l.count[k]), l.count[k] - 1);
     };
@@ -53,10 +56,12 @@ double seen_mean(const Display& d, const Geometry& g, double eye_mm) {
             in = {in.x - centre.x, in.y - centre.y};
         }
         const auto aimed = optics::in_display(l, optics::Place<double>{axis.x + in.x, axis.y + in.y});
+        if (!panel.meets(eye, aimed.x, aimed.y)) continue;
+        ++all;
         const auto line = lines.look(aimed.x, aimed.y, c[2], c[3]);
         if (line && lines.on_panel(line->seen)) seen += line->through ? share.lens : share.beside;
     }
-    return seen / count;
+    return all > 0 ? seen / all : nan;
 }
 
 }  // namespace

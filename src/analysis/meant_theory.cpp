@@ -41,6 +41,7 @@ double MeantTheory::sum(double x_mm, double low, double high) const {
     const Geometry& g = subject_.geometry();
     const ParaxialLines lines(subject_.display(), g, {x_mm, 0, distance_mm_});
     const ApertureShape shape = aperture_shape(subject_.display(), g);
+    const PanelBehind panel(g);
     int found = 0, all = 0;
     for (const Choice& c : choices_) {
         const auto place = in_aperture(g, shape, c);
@@ -50,6 +51,7 @@ double MeantTheory::sum(double x_mm, double low, double high) const {
         if (!aim) continue;
         const auto aimed = optics::to_array(g.lattice, aim->x - g.lattice.offset[0], aim->y - g.lattice.offset[1]);
         if (std::abs(aimed.x) > 0.5 * g.array_width_mm || std::abs(aimed.y) > 0.5 * g.array_height_mm) continue;
+        if (!panel.meets({x_mm, 0, distance_mm_}, aim->x, aim->y)) continue;
         const auto line = lines.look(aim->x, aim->y, c[2], c[3]);
         if (!line || !line->through || !lines.on_panel(line->seen)) continue;
         const auto seen = optics::in_display(g.lattice, line->seen);

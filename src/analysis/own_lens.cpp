@@ -54,7 +54,7 @@ std::int64_t OwnLens::whole_images() const {
 double OwnLens::share(const Vec3d& eye, std::span<const Choice> choices) const {
     double own = 0, all = 0;
     for (const Choice& choice : choices) {
-        const Sight sight = rays_.look(eye, choice);
+        const Sight sight = rays_.look_through(eye, rays_.aim(eye, choice), choice[2], choice[3]);
         if (!(sight.light > 0 && sight.by_lens)) continue;
         const Lattice<double>& lattice = pickup_.lattice();
         double x = sight.lens[0] * pickup_.scale, y = sight.lens[1] * pickup_.scale;

@@ -1,6 +1,9 @@
 #include "analysis/screen_parts.h"
 #include "analysis/uniformity.h"
 
+#include "model/numbers.h"
+#include "model/screen.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,25 +12,34 @@ namespace lfdsim {
 namespace {
 
 constexpr int most_parts_along = 16, rays_a_part = 1 << 14;
+constexpr double inner_panel = 0.75;  // where a turned array's lenses are counted within a pitch: not at the screen's rim
 
 }  // namespace
 
-int screen_luminance_parts(const Display& d) { return ScreenParts(d, most_parts_along).count(); }
+int screen_luminance_parts(const Display& d, const Geometry& g) { return ScreenParts(d, g, most_parts_along).count(); }
 
-ScreenLuminance screen_luminance(const EyeRays& rays, const Display& d, const Vec3d& eye, Parts& parts) {
-    const ScreenParts all(d, most_parts_along);
-    ScreenLuminance screen{all.columns(), all.rows(), {}, {}};
+ScreenLuminance screen_luminance(const EyeRays& rays, const Display& d, const Geometry& g, const Vec3d& eye, Parts& parts) {
+    const ScreenParts all(d, g, most_parts_along);
+    ScreenLuminance screen{all.columns(), all.rows(), {}};
     screen.parts.resize(std::size_t(all.count()));
-    for (int k = 0; k < all.count(); ++k) screen.lenses.push_back(all.block(k).lenses());
     const int rays_each = rays_a_part / independent_sets * rays.more_for(eye);
     parts.run(all.count(), [&](int part) {
         const LensBlock block = all.block(part);
+        ScreenLuminance::Part& found = screen.parts[std::size_t(part)];
+        double on_screen = 0;
         for (int set = 0; set < independent_sets; ++set) {
-            double sum = 0;
-            for (const Choice& choice : even_choices(rays_each, set_number(d.render.seed, independent_sets * part + set)))
-                sum += rays.look(eye, all.within(block, choice)).light;
-            screen.parts[std::size_t(part)][std::size_t(set)] = sum / rays_each;
+            double sum = 0, lines = 0;
+            for (const Choice& choice : even_choices(rays_each, set_number(d.render.seed, independent_sets * part + set))) {
+                const Sight sight = rays.look(eye, all.within(block, choice));
+                sum += sight.light;
+                lines += sight.on_screen;
+            }
+            found.light[std::size_t(set)] = lines > 0 ? sum / lines : 0;
+            on_screen += lines / (double(rays_each) * independent_sets);
         }
+        found.lenses = block.lenses() * on_screen;
+        found.whole = on_screen >= least_on_screen;
+        found.is_inner = all.is_inner(block, eye);
     });
     return screen;
 }
@@ -38,41 +50,52 @@ std::vector<double> means(const std::vector<Sums>& all) {
     return result;
 }
 
-std::vector<double> ScreenLuminance::values() const { return means(parts); }
-double ScreenLuminance::least() const { return std::ranges::min(values()); }
-double ScreenLuminance::greatest() const { return std::ranges::max(values()); }
+std::vector<double> ScreenLuminance::values() const {
+    std::vector<double> all;
+    for (const Part& part : parts) all.push_back(part.whole ? total(part.light) / independent_sets : nan);
+    return all;
+}
+double ScreenLuminance::least() const {
+    double least = nan;
+    for (const double value : values()) least = std::fmin(least, value);
+    return least;
+}
+double ScreenLuminance::greatest() const {
+    double greatest = nan;
+    for (const double value : values()) greatest = std::fmax(greatest, value);
+    return greatest;
+}
 
 Estimate ScreenLuminance::mean() const {
     Sums sums{};
     double all = 0;
-    for (std::size_t part = 0; part < parts.size(); ++part) {
-        all += lenses[part];
-        for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += lenses[part] * parts[part][k];
+    for (const Part& part : parts) {
+        all += part.lenses;
+        for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += part.lenses * part.light[k];
     }
     for (double& sum : sums) sum /= all;
     return estimate(sums);
 }
 
 Estimate ScreenLuminance::uniformity_percent(bool inside) const {
-    const auto counts = [&](std::size_t part) {
-        const auto central = [](int k, int count) { return std::abs((k + 0.5) / count - 0.5) <= 0.4; };
-        return !inside || (central(int(part) / columns, rows) && central(int(part) % columns, columns));
-    };
     Estimate least{std::numeric_limits<double>::infinity(), 0}, greatest{0, 0};
-    double squares = 0;  // of the parts' errors
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-        const Estimate part = estimate(parts[k]);
-        squares += part.error * part.error / double(parts.size());
-        if (part.value > greatest.value) greatest = part;
-        if (counts(k) && part.value < least.value) least = part;
+    double squares = 0, count = 0;  // of the parts' errors
+    for (const Part& part : parts) {
+        if (!part.whole) continue;
+        const Estimate light = estimate(part.light);
+        squares += light.error * light.error;
+        ++count;
+        if (light.value > greatest.value) greatest = light;
+        if ((!inside || part.is_inner) && light.value < least.value) least = light;
     }
+    if (count == 0 || std::isinf(least.value)) return {nan, nan};
     if (!(greatest.value > 0)) return {0, 0};
-    const double ratio = least.value / greatest.value, typical = std::sqrt(squares);
+    const double ratio = least.value / greatest.value, typical = std::sqrt(squares / count);
     const double error = std::max(least.error, typical) + ratio * std::max(greatest.error, typical);
     return {100 * ratio, 100 * error / greatest.value};
 }
 
-PitchLuminance pitch_luminance(const EyeRays& rays, const Display& d, const Vec3d& eye, Parts& parts) {
+PitchLuminance pitch_luminance(const EyeRays& rays, const Display& d, const Geometry& g, const Vec3d& eye, Parts& parts) {
     constexpr int side = PitchLuminance::side;
     const Lattice<double>& lattice = rays.lattice();
     const int rays_each = rays_a_part * rays.more_for(eye);
@@ -82,21 +105,36 @@ PitchLuminance pitch_luminance(const EyeRays& rays, const Display& d, const Vec3
         return double(first + std::min(std::int64_t((0.5 + 0.5 * choice) * double(count)), count - 1));
     };
     const auto cell = [](double number) { return std::size_t(std::min(int((0.5 + 0.5 * number) * side), side - 1)); };
-    std::vector<std::vector<double>> sums(pitch_luminance_parts);  // part k is of set k modulo their number
+    struct Cell {
+        double light = 0, lines = 0;
+    };
+    std::vector<std::vector<Cell>> sums(pitch_luminance_parts);  // part k is of set k modulo their number
+    const PanelBehind panel(g);
     parts.run(pitch_luminance_parts, [&](int part) {
-        std::vector<double>& sum = sums[std::size_t(part)];
+        std::vector<Cell>& sum = sums[std::size_t(part)];
         sum.resize(side * side);
         for (const Choice& c : even_choices(rays_each, set_number(d.render.seed, part))) {
             const auto axis = optics::axis_in_array(lattice, optics::Cell<double>{in_middle(0, c[4]), in_middle(1, c[5])});
-            const Vec3d at = rays.point(axis.x + lattice.half_pitch[0] * c[0], axis.y + 0.5 * lattice.pitch[1] * c[1]);
-            sum[(side - 1 - cell(c[1])) * side + cell(c[0])] += rays.look_through(eye, at, c[2], c[3]).light;
+            const double up = 0.5 * lattice.pitch[1] * c[1];
+            const Vec3d at = rays.point(axis.x + lattice.half_pitch[0] * c[0], axis.y + up);
+            if (!panel.meets(eye, at[0], at[1], inner_panel)) continue;
+            // Along strips nothing repeats: the place within a length as long as their pitch
+            const double turns = up / lattice.pitch[0], number = lattice.strips ? 2 * (turns - std::floor(turns)) - 1 : c[1];
+            Cell& seen = sum[(side - 1 - cell(number)) * side + cell(c[0])];
+            seen.light += rays.look_through(eye, at, c[2], c[3]).light;
+            ++seen.lines;
         }
     });
-    // The choices are a net: equally many of them lie in each cell.
-    const double each = double(pitch_luminance_parts) / independent_sets * rays_each / (side * side);
     PitchLuminance luminance{std::vector<Sums>(side * side)};
-    for (std::size_t part = 0; part < sums.size(); ++part)
-        for (std::size_t k = 0; k < sums[part].size(); ++k) luminance.places[k][part % independent_sets] += sums[part][k] / each;
+    for (std::size_t k = 0; k < luminance.places.size(); ++k)
+        for (std::size_t set = 0; set < independent_sets; ++set) {
+            Cell all;
+            for (std::size_t part = set; part < sums.size(); part += independent_sets) {
+                all.light += sums[part][k].light;
+                all.lines += sums[part][k].lines;
+            }
+            luminance.places[k][set] = all.lines > 0 ? all.light / all.lines : 0;
+        }
     return luminance;
 }
 

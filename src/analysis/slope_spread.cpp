@@ -1,5 +1,6 @@
 #include "analysis/slope_spread.h"
 #include "model/numbers.h"
+#include "model/screen.h"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +22,7 @@ double even_below(double x, double width) { return width > 0 ? std::clamp(x / wi
 SlopeSpread::SlopeSpread(const Subject& s, double eye, int axis)
     : eye_mm_(eye),
       field_(s.theory(axis).elemental_pitch_mm / s.geometry().gap_mm),
-      array_mm_(axis == 0 ? s.geometry().array_width_mm : s.geometry().array_height_mm),
+      array_mm_(screen_size_mm(s.geometry())[std::size_t(axis)]),
       aperture_slopes_(s.geometry().clear_aperture_mm[std::size_t(axis)] * std::abs(1 / eye - 1 / s.theory().central_depth_mm)),
       round_((s.display().array.aperture == Aperture::circle || s.display().lens.stop_radius_mm) && !is_strips(s.display().array)),
       half_rad_(0),

@@ -51,7 +51,7 @@ double Subject::white_field(const Job& job) {
             for (int c = 0; c < 3; ++c) white.row(row)[4 * k + c] = 1;
     const ShownPanel panel(std::move(white), threads());
     const Display seen = seen_from(display_, 0, 0);
-    const Region screen = screen_region(seen, geometry_);
+    const Region screen = seen_screen(seen, geometry_);
     const Rect box = screen_box(screen);
     Quiet quiet(job);
     RenderOptions how = rendering();

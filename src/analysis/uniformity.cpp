@@ -35,10 +35,14 @@ void add_screen(Result& result, const ScreenLuminance& screen, const Subject& s,
     add_figure(json, "luminance_over_panel", mean);
     json["theory_luminance_over_panel"] = number_json(theory.value);
     if (!theory.missing.empty()) result.note("screen.theory_luminance_over_panel", theory.missing);
-    json["least_over_panel"] = screen.least();
-    json["greatest_over_panel"] = greatest;
+    json["least_over_panel"] = number_json(screen.least());
+    json["greatest_over_panel"] = number_json(greatest);
     add_figure(json, "uniformity_percent", percent);
     add_figure(json, "uniformity_inner_percent", inside);
+    if (std::isnan(mean.value)) result.note("screen.luminance_over_panel", "the eye sees no panel through the array");
+    const std::string few = "none of the parts that luminance is compared for has half of itself in front of the panel";
+    if (std::isnan(percent.value)) result.note("screen.uniformity_percent", few);
+    if (std::isnan(inside.value)) result.note("screen.uniformity_inner_percent", few);
     result.findings.push_back({"Luminance of the screen on axis over the panel's",
                                "",
                                {mean.value},
@@ -74,7 +78,7 @@ void add_screen(Result& result, const ScreenLuminance& screen, const Subject& s,
 void add_bands(Result& result, const PitchLuminance& pitch, const Subject& s) {
     constexpr int side = PitchLuminance::side;
     const Lattice<double>& lattice = s.geometry().lattice;
-    const double half[] = {lattice.pitch[0] / 2, lattice.pitch[1] / 2};
+    const double half[] = {lattice.pitch[0] / 2, lattice.pitch[lattice.strips ? 0 : 1] / 2};
     Plot plot{"uniformity_bands",
               "Luminance across one lens pitch, seen on axis",
               "place from the lens's axis, mm",
@@ -120,7 +124,7 @@ class LuminanceOverAngle {
         for (int k = 0; k < independent_sets; ++k)
             sets_[std::size_t(k)] = even_choices(count, set_number(s.display().render.seed, k));
     }
-    /// NaN where eyes cannot be. Each line's mirror images in both planes are traced too.
+    /// NaN where eyes cannot be, or see no panel through the array. Each line's mirror images in both planes are traced too.
     Sums at(int axis, double angle_deg) const {
         const double across = distance_ * std::sin(angle_deg * degree), ahead = distance_ * std::cos(angle_deg * degree);
         Sums sums;
@@ -128,12 +132,15 @@ class LuminanceOverAngle {
         if (!(ahead > nearest_)) return sums;
         const Vec3d eye{axis == 0 ? across : 0, axis == 0 ? 0 : across, ahead};
         for (std::size_t k = 0; k < sets_.size(); ++k) {
-            double sum = 0;
+            double sum = 0, lines = 0;
             for (const Choice& c : sets_[k])
                 for (const double x : {-1., 1.})
-                    for (const double y : {-1., 1.})
-                        sum += double(float(rays_.look(eye, {x * c[0], y * c[1], x * c[2], y * c[3], x * c[4], y * c[5]}).light));
-            sums[k] = sum / double(4 * sets_[k].size());
+                    for (const double y : {-1., 1.}) {
+                        const Sight sight = rays_.look(eye, {x * c[0], y * c[1], x * c[2], y * c[3], x * c[4], y * c[5]});
+                        sum += double(float(sight.light));
+                        lines += sight.on_screen;
+                    }
+            sums[k] = sum / lines;
         }
         return sums;
     }
@@ -243,15 +250,15 @@ Result measure_uniformity(Subject& s, Job& job) {
     const double distance = checked_viewing_distance_mm(s);
     const EyeRays rays(s.display(), s.geometry());
     const int angles = int(angles_deg().size());
-    Parts parts(
-        job, s.threads(),
-        screen_luminance_parts(s.display()) + pitch_luminance_parts + 2 * angles + light_budget_parts + colour_work(s).parts,
-        uniformity_steps(s));
+    Parts parts(job, s.threads(),
+                screen_luminance_parts(s.display(), s.geometry()) + pitch_luminance_parts + 2 * angles + light_budget_parts +
+                    colour_work(s).parts,
+                uniformity_steps(s));
     const Vec3d eye{0, 0, distance};
     Result result;
     result.figures["viewing_distance_mm"] = distance;
-    add_screen(result, screen_luminance(rays, s.display(), eye, parts), s, distance);
-    add_bands(result, pitch_luminance(rays, s.display(), eye, parts), s);
+    add_screen(result, screen_luminance(rays, s.display(), s.geometry(), eye, parts), s, distance);
+    add_bands(result, pitch_luminance(rays, s.display(), s.geometry(), eye, parts), s);
     add_angles(result, s, rays, distance, parts);
     add_budget(result, light_budgets(s.display(), s.geometry(), parts));
     tell_colour_uniformity(s, distance, parts, result);

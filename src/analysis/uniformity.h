@@ -10,24 +10,29 @@
 namespace lfdsim {
 
 /// Luminance seen by one eye over the panel's own along its normal, averaged over whole lenses: columns x rows parts of the array
-/// as equal as lenses allow, row 0 at the top.
+/// as equal as lenses allow, row 0 at the top. Of each what is in front of the panel.
 struct ScreenLuminance {
     int columns, rows;
-    std::vector<Sums> parts;     // mean luminance of each part by each set of lines of sight
-    std::vector<double> lenses;  // in each part
-    std::vector<double> values() const;
+    struct Part {
+        Sums light{};          // mean luminance by each set of lines of sight; 0 where none of it is in front of the panel
+        double lenses = 0;     // in front of the panel
+        bool whole = false;    // at least least_on_screen of it is; others count in the mean alone
+        bool is_inner = true;  // its middle lies in the middle 8/10 of width and height
+    };
+    std::vector<Part> parts;
+    std::vector<double> values() const;  // NaN of parts that are not whole
     Estimate mean() const;
     double least() const, greatest() const;
-    /// 100 least / greatest; `inside`: the least of the parts whose middle lies in the middle 8/10 of width and height. The error
-    /// allows for one of many parts looking darkest by chance.
+    /// 100 least / greatest; `inside`: the least of the inner parts. The error allows for one of many parts looking darkest by
+    /// chance.
     Estimate uniformity_percent(bool inside) const;
 };
 /// Takes screen_luminance_parts(...) parts.
-ScreenLuminance screen_luminance(const EyeRays&, const Display&, const Vec3d& eye, Parts&);
-int screen_luminance_parts(const Display&);
+ScreenLuminance screen_luminance(const EyeRays&, const Display&, const Geometry&, const Vec3d& eye, Parts&);
+int screen_luminance_parts(const Display&, const Geometry&);
 
-/// Luminance within one lens pitch, averaged over the lenses of the middle half of the screen: `side` x `side` values, row 0 at the
-/// top, over lines of sight that cross the vertex plane there.
+/// Luminance within one lens pitch, averaged over the lenses of the middle half of the array: `side` x `side` values, row 0 at the
+/// top, over lines of sight that cross the vertex plane there, in front of the middle 3/4 of the panel's width and height.
 struct PitchLuminance {
     static constexpr int side = 32;
     std::vector<Sums> places;
@@ -35,7 +40,7 @@ struct PitchLuminance {
     std::vector<Sums> profile(int axis) const;  // along x (0) or y (1), averaged over the other
 };
 constexpr int pitch_luminance_parts = 128;
-PitchLuminance pitch_luminance(const EyeRays&, const Display&, const Vec3d& eye, Parts&);
+PitchLuminance pitch_luminance(const EyeRays&, const Display&, const Geometry&, const Vec3d& eye, Parts&);
 
 /// The mean of all sets.
 std::vector<double> means(const std::vector<Sums>&);

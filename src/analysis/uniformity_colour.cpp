@@ -21,16 +21,46 @@ int colour_lines_a_set(const ScreenParts& screen) {
     return int(std::bit_floor(std::uint64_t(std::clamp<std::int64_t>(each, 64, 2048))));
 }
 
-/// Light of a block of lenses by all sets, their choices from `first_set` on.
-ColourSums light_of_block(const ColouredWhite& white, const Subject& s, const Vec3d& eye, const ScreenParts& screen,
+/// Light of a block of lenses by all sets, and the share of it that is on the screen.
+struct BlockLight {
+    ColourSums light{};
+    double on_screen = 0;
+};
+
+/// The sets' choices are those from `first_set` on.
+BlockLight light_of_block(const ColouredWhite& white, const Subject& s, const Vec3d& eye, const ScreenParts& screen,
                           const LensBlock& block, int lines, int first_set) {
-    ColourSums sums{};
+    BlockLight block_light;
     for (int set = 0; set < independent_sets; ++set) {
-        const std::array<double, 3> light =
-            white.light(eye, screen, block, even_choices(lines, set_number(s.display().render.seed, first_set + set)));
-        for (std::size_t c = 0; c < 3; ++c) sums[c][std::size_t(set)] = light[c];
+        const ColouredWhite::Seen seen =
+            white.look(eye, screen, block, even_choices(lines, set_number(s.display().render.seed, first_set + set)));
+        for (std::size_t c = 0; c < 3; ++c) block_light.light[c][std::size_t(set)] = seen.light[c];
+        block_light.on_screen += seen.on_screen / independent_sets;
     }
-    return sums;
+    return block_light;
+}
+
+/// Of the parts that are on the screen; the others have no colour, and are not dark.
+ColourSpread spread_on_screen(const std::vector<BlockLight>& parts, const std::vector<double>& lenses) {
+    std::vector<ColourSums> light;
+    std::vector<double> weights;
+    std::vector<std::size_t> number;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (parts[k].on_screen < least_on_screen) continue;
+        light.push_back(parts[k].light);
+        weights.push_back(lenses[k] * parts[k].on_screen);
+        number.push_back(k);
+    }
+    ColourSpread spread = colour_spread(light, weights);
+    std::vector<Chromaticity> colours(parts.size(), Chromaticity{nan, nan});
+    std::vector<double> distances(parts.size(), nan);
+    for (std::size_t n = 0; n < number.size(); ++n) {
+        colours[number[n]] = spread.parts[n];
+        distances[number[n]] = spread.distance[n];
+    }
+    spread.parts = std::move(colours);
+    spread.distance = std::move(distances);
+    return spread;
 }
 
 /// Eyes' angles within the field of view, eight for each view where that is not too many.
@@ -63,22 +93,22 @@ void add_spread_findings(const std::string& of, const ColourSpread& spread, Resu
 
 void add_colour_of_screen(const ColouredWhite& white, const Subject& s, double distance, Parts& parts, Result& result) {
     const Vec3d eye{0, 0, distance};
-    const ScreenParts screen(s.display(), most_colour_parts_along);
+    const ScreenParts screen(s.display(), s.geometry(), most_colour_parts_along);
     const int lines = colour_lines_a_set(screen) * white.more_for(eye);
-    std::vector<ColourSums> light(std::size_t(screen.count()));
+    std::vector<BlockLight> light(std::size_t(screen.count()));
     std::vector<double> lenses;
     for (int k = 0; k < screen.count(); ++k) lenses.push_back(screen.block(k).lenses());
     parts.run(screen.count(), [&](int part) {
         light[std::size_t(part)] = light_of_block(white, s, eye, screen, screen.block(part), lines, independent_sets * part);
     });
-    const ColourSpread spread = colour_spread(light, lenses);
+    const ColourSpread spread = spread_on_screen(light, lenses);
     const Geometry& g = s.geometry();
     Json& json = result.figures["colour"];
     add_spread(json, "screen_", spread);
     json["screen_uv"] = numbers_json({spread.together[0], spread.together[1]});
     json["part_mm"] = {g.array_width_mm / screen.columns(), g.array_height_mm / screen.rows()};
     json["dark_parts"] = spread.dark;
-    if (spread.dark == screen.count())
+    if (std::isnan(spread.together[0]))
         for (const char* name : {"screen_delta_uv_largest", "screen_delta_uv_mean"})
             result.note(std::string("colour.") + name, "no light of the screen is seen on axis");
     add_spread_findings("over the screen, on axis", spread, result);
@@ -98,7 +128,7 @@ void add_colour_of_screen(const ColouredWhite& white, const Subject& s, double d
 
 void add_colour_over_angle(const ColouredWhite& white, const Subject& s, double distance, Parts& parts, Result& result) {
     const std::vector<double> angles = eyes_deg(s);
-    const ScreenParts screen(s.display(), most_colour_parts_along);
+    const ScreenParts screen(s.display(), s.geometry(), most_colour_parts_along);
     const LensBlock middle = screen.middle();
     const int lines = colour_lines_of_angle / independent_sets * white.more_for({0, 0, distance});
     const double nearest = nearest_eye_mm(s.geometry());
@@ -114,7 +144,7 @@ void add_colour_over_angle(const ColouredWhite& white, const Subject& s, double 
         parts.run(int(angles.size()), [&](int k) {
             const double angle = angles[std::size_t(k)] * degree, across = distance * std::sin(angle);
             const Vec3d eye{axis == 0 ? across : 0, axis == 0 ? 0 : across, distance * std::cos(angle)};
-            if (eye[2] > nearest) light[std::size_t(k)] = light_of_block(white, s, eye, screen, middle, lines, 0);
+            if (eye[2] > nearest) light[std::size_t(k)] = light_of_block(white, s, eye, screen, middle, lines, 0).light;
         });
         const ColourSpread spread = colour_spread(light, std::vector(angles.size(), 1.));
         Json& json = result.figures["colour"];
@@ -153,13 +183,17 @@ ColouredWhite::ColouredWhite(const Subject& s)
         }
 }
 
-std::array<double, 3> ColouredWhite::light(const Vec3d& eye, const ScreenParts& screen, const LensBlock& block,
-                                           std::span<const Choice> choices) const {
+ColouredWhite::Seen ColouredWhite::look(const Vec3d& eye, const ScreenParts& screen, const LensBlock& block,
+                                        std::span<const Choice> choices) const {
     std::array<double, 3> sum{};
+    double lines = 0;
     for (const Choice& choice : choices) {
         const Choice within = screen.within(block, choice);
+        bool on_screen = true;  // the same for all paths
         for (const auto& [rays, weight] : paths_) {
             const Sight sight = rays.look(eye, within);
+            on_screen = sight.on_screen;
+            if (!on_screen) break;
             if (!(sight.light > 0)) continue;
             const ChannelPixels::Place place{sight.x / panel_.pixel_pitch_mm + 0.5 * double(panel_.pixels[0]),
                                              0.5 * double(panel_.pixels[1]) - sight.y / panel_.pixel_pitch_mm};
@@ -168,14 +202,16 @@ std::array<double, 3> ColouredWhite::light(const Vec3d& eye, const ScreenParts& 
                 if (const auto shining = pixels_[c].at(place)) sum[c] += weight[c] * sight.light * shining->brightness;
             }
         }
+        lines += on_screen;
     }
-    for (double& light : sum) light /= double(choices.size());
-    return sum;
+    if (lines > 0)
+        for (double& light : sum) light /= lines;
+    return {sum, lines / double(choices.size())};
 }
 
 ColourWork colour_work(const Subject& s) {
     if (!has_colours(s.display())) return {0, 0};
-    const ScreenParts screen(s.display(), most_colour_parts_along);
+    const ScreenParts screen(s.display(), s.geometry(), most_colour_parts_along);
     const int angles = 2 * int(eyes_deg(s).size());
     const std::int64_t paths = disperses(s.display()) ? 3 * s.display().render.wavelength_samples : 1;
     return {screen.count() + angles, paths * (std::int64_t(colour_lines_a_set(screen)) * independent_sets * screen.count() +

@@ -16,8 +16,13 @@ class ColouredWhite {
   public:
     explicit ColouredWhite(const Subject&);
 
-    /// What an eye sees of a block of lenses by such lines of sight, in red, green and blue over the panel's own.
-    std::array<double, 3> light(const Vec3d& eye, const ScreenParts&, const LensBlock&, std::span<const Choice>) const;
+    /// What an eye sees of a block of lenses by such lines of sight, in red, green and blue over the panel's own; and the share of
+    /// the lines that are on the screen, of which this is the mean.
+    struct Seen {
+        std::array<double, 3> light{};
+        double on_screen = 0;
+    };
+    Seen look(const Vec3d& eye, const ScreenParts&, const LensBlock&, std::span<const Choice>) const;
     /// As EyeRays::more_for().
     int more_for(const Vec3d& eye) const { return paths_.front().rays.more_for(eye); }
 

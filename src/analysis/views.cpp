@@ -53,10 +53,9 @@ Display seen_from(const Display& display, double horizontal_deg, double vertical
     return seen_by(display, {distance * std::sin(h) * std::cos(v), distance * std::sin(v), distance * std::cos(h) * std::cos(v)});
 }
 
-Region screen_region(const Display& d, const Geometry& g) {
+Region seen_screen(const Display& d, const Geometry& g) {
     if (d.camera.position_mm[2] <= g.vertex_plane_mm) return {};  // it looks from behind
-    const std::optional<Corners> corners = screen_corners(d, g);
-    return corners ? Region::polygon(*corners, int(d.camera.resolution[0]), int(d.camera.resolution[1])) : Region{};
+    return screen_region(d, g).value_or(Region{});
 }
 
 Region content_region(const Display& d, const Geometry& g, const ContentScene& scene) {
@@ -74,7 +73,7 @@ Region content_region(const Display& d, const Geometry& g, const ContentScene& s
     const auto pixel = [](double x, int most) { return int(std::clamp(x, 0., double(most))); };
     const Rect box{pixel(std::floor(x0), width), pixel(std::floor(y0), height), pixel(std::ceil(x1), width),
                    pixel(std::ceil(y1), height)};
-    return Region::of(box).intersected(screen_region(d, g));
+    return Region::of(box).intersected(seen_screen(d, g));
 }
 
 void refuse_depth_in_lenses(const Geometry& g, double depth_mm, const std::string& where) {
@@ -100,7 +99,7 @@ void expose(Image& image, double white) {
 }
 
 ExpectedView expected_view(const Display& seen, const Geometry& geometry, const ContentScene& scene, int threads, const Job& job) {
-    const Region screen = screen_region(seen, geometry);
+    const Region screen = seen_screen(seen, geometry);
     const Rect box = screen_box(screen);
     Quiet quiet(job);
     Picture photograph = reference_photograph(seen, geometry, scene, threads, box, quiet);

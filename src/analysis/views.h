@@ -12,8 +12,8 @@ Display seen_by(const Display&, const Vec3d& eye);
 /// `horizontal_deg`, then up by `vertical_deg`; it looks at the centre. Both within -80 .. 80.
 Display seen_from(const Display&, double horizontal_deg, double vertical_deg);
 
-/// The pixels of the display's camera that see the array's rectangle, in the vertex plane. Empty if the camera is not in front.
-Region screen_region(const Display&, const Geometry&);
+/// The pixels of the display's camera that see the screen (engine/screen.h). Empty if the camera is not in front.
+Region seen_screen(const Display&, const Geometry&);
 /// The rectangle about it. InputError where no pixel sees the screen.
 Rect screen_box(const Region& screen);
 

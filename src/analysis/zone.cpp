@@ -5,12 +5,12 @@
 #include "analysis/rules.h"
 #include "analysis/slope_spread.h"
 #include "model/numbers.h"
+#include "model/screen.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 
 // Lines of sight from viewers about the zone, and whose elemental images they end on. docs/model.md, "Viewing zone".
 namespace lfdsim {
@@ -86,9 +86,9 @@ ParaxialZone paraxial(const Subject& s, std::size_t axis) {
     const Lattice<double>& lattice = s.geometry().lattice;
     // Strips are crossed obliquely by an eye that moves along x.
     const double per = lattice.strips ? 1 / lattice.cos_turn : 1;
+    const double lenses = std::min(lattice.count[axis], std::ceil(screen_size_mm(s.geometry())[axis] / lattice.pitch[axis] - 1e-9));
     return {per * s.theory().along[axis].elemental_pitch_mm / (2 * s.geometry().gap_mm),
-            per * (lattice.count[axis] - 1) * lattice.pitch[axis] / 2,
-            s.display().content.viewing_distance_mm - s.geometry().rear_principal_mm};
+            per * (lenses - 1) * lattice.pitch[axis] / 2, s.display().content.viewing_distance_mm - s.geometry().rear_principal_mm};
 }
 
 /// Places of the search along the axis: the distance that the images are made for (the eye's, if that is none) in the middle, and
@@ -309,41 +309,6 @@ std::string aside_remark(const Json& figures) {
 }
 
 }  // namespace
-
-SightShares sight_shares(const EyeRays& rays, const Pickup& pickup, const Display& d, const Vec3d& eye,
-                         std::span<const Choice> choices) {
-    const double pixel = d.panel.pixel_pitch_mm;
-    std::int64_t through = 0, dark = 0, wrong = 0;
-    std::map<std::pair<long, long>, std::int64_t> towards;  // lines by the way from their lens to their pixel's, columns and rows
-    for (const Choice& choice : choices) {
-        const Sight s = rays.look(eye, choice);
-        if (!s.through) {
-            ++dark;
-            continue;
-        }
-        if (!s.by_lens) continue;
-        ++through;
-        const double column = std::floor(s.x / pixel + 0.5 * double(d.panel.pixels[0])),
-                     row = std::floor(0.5 * double(d.panel.pixels[1]) - s.y / pixel);
-        const NodalLine owner = pickup.line(pickup.x_mm(column), pickup.y_mm(row));
-        if (s.light > 0 && owner.owned) {
-            const Lattice<double>& lattice = pickup.lattice();
-            const auto off = optics::to_array(lattice, owner.x - s.lens[0], owner.y - s.lens[1]);
-            const std::pair way{std::lround(2 * off.x / lattice.pitch[0]),
-                                std::lround(optics::across(lattice, off.y) / lattice.pitch[1])};
-            wrong += way != std::pair{0L, 0L};
-            ++towards[way];
-        } else {
-            ++wrong;
-            ++dark;
-        }
-    }
-    if (through == 0) return {std::nan(""), std::nan(""), 1};
-    std::int64_t most = 0;
-    for (const auto& [way, lines] : towards) most = std::max(most, lines);
-    const double all = double(through);
-    return {double(wrong) / all, 1 - double(most) / all, double(dark) / double(choices.size())};
-}
 
 std::int64_t zone_steps(const Subject& s) { return pictures_worth(s, 12'000'000); }
 

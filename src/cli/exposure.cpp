@@ -49,10 +49,8 @@ std::optional<double> ExposureOption::factor(const Display& display, const Geome
     const Rendering r = render(display, geometry, white, options, job);
     const Rect crop = options.crop.value_or(Rect{0, 0, r.image.width, r.image.height});
     Region screen = Region::of({0, 0, r.image.width, r.image.height});
-    if (const auto corners = screen_corners(display, geometry))
-        screen = Region::polygon(*corners, int(display.camera.resolution[0]), int(display.camera.resolution[1]))
-                     .intersected(Region::of(crop))
-                     .shifted(-crop.x0, -crop.y0);
+    if (const auto seen = screen_region(display, geometry))
+        screen = seen->intersected(Region::of(crop)).shifted(-crop.x0, -crop.y0);
     const double mean = screen.pixels() > 0 ? mean_light(r.image, screen) : 0;
     if (!(mean > 0))
         throw InputError("--exposure", "is auto, but this picture would show no light of a white panel; give a number");

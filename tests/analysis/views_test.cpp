@@ -22,19 +22,25 @@ TEST(Views, CameraGoesRoundThePanelsCentre) {
     EXPECT_NEAR(std::asin(c.position_mm[1] / 500) * 180 / M_PI, -20, 1e-9);
 }
 
-// On axis the array's rectangle in the plane z is (D / (D - z)) times as large as in the frame through the target at z = 0.
+// On axis the array's rectangle in the plane z is (D / (D - z)) times as large as in the frame through the target at z = 0; where
+// it is as large as the panel, that ends the screen, in the plane z = 0.
 TEST(Views, ScreenIsWhereTheArrayIsSeen) {
     Display d = display(40, 200);
+    const auto behind_panel = resolve(d);
+    const double per_mm_of_panel = double(d.camera.resolution[0]) / behind_panel.frame_width_mm;
+    EXPECT_NEAR(double(seen_screen(seen_from(d, 0, 0), behind_panel).pixels()), 240 * 144 * per_mm_of_panel * per_mm_of_panel,
+                2 * (240 + 144) * per_mm_of_panel * 0.51);
+    d.panel.pixels = {1240, 760};
     const Geometry g = resolve(d);
     const Display seen = seen_from(d, 0, 0);
     const double per_mm = double(d.camera.resolution[0]) / g.frame_width_mm * 2000 / (2000 - g.vertex_plane_mm);
-    EXPECT_NEAR(double(screen_region(seen, g).pixels()), g.array_width_mm * g.array_height_mm * per_mm * per_mm,
+    EXPECT_NEAR(double(seen_screen(seen, g).pixels()), g.array_width_mm * g.array_height_mm * per_mm * per_mm,
                 2 * (g.array_width_mm + g.array_height_mm) * per_mm * 0.51);
-    const Rect box = screen_region(seen_from(d, 60, 0), g).bounds();
+    const Rect box = seen_screen(seen_from(d, 60, 0), g).bounds();
     EXPECT_LT(box.x1 - box.x0, 0.6 * g.array_width_mm * per_mm);  // the cosine of 60 degrees, and perspective
     Display behind = seen;
     behind.camera.position_mm = {0, 0, -500};
-    EXPECT_EQ(screen_region(behind, g).pixels(), 0);
+    EXPECT_EQ(seen_screen(behind, g).pixels(), 0);
 }
 
 class Fields : public testing::TestWithParam<double> {};

@@ -76,7 +76,7 @@ TEST(WhiteLattices, LuminanceIsThatOfTheoryAtLength) {
         Job job;
         Parts parts(job, 0, 1 << 20, 0);
         const double eye = d.camera.position_mm[2];
-        const Estimate found = screen_luminance(EyeRays(d, g), d, {0, 0, eye}, parts).mean();
+        const Estimate found = screen_luminance(EyeRays(d, g), d, g, {0, 0, eye}, parts).mean();
         const TheoryFigure theory = luminance_over_panel(d, g, eye);
         glass += !d.lens.is_thin();
         // Glass that is thick or steep at the rim passes less, and its oblique light lands elsewhere.
@@ -99,7 +99,7 @@ TEST(WhiteLattices, BandsAreThoseOfTheoryAtLength) {
         const Geometry g = resolve(d);
         Job job;
         Parts parts(job, 0, 1 << 20, 0);
-        const PitchLuminance pitch = pitch_luminance(EyeRays(d, g), d, d.camera.position_mm, parts);
+        const PitchLuminance pitch = pitch_luminance(EyeRays(d, g), d, g, d.camera.position_mm, parts);
         const std::array<double, 2> theory = band_contrast(d, g);
         for (int axis = 0; axis < imaging_axes(d.array); ++axis) {
             const Estimate found = michelson(pitch.profile(axis));

@@ -76,6 +76,10 @@ def as_others_are_built(rng, description):
             array["count"][1] = 1
             array.pop("rotation_deg", None)
             array["slant_deg"] = float(slant)
+            if hole < 0.5:  # as without a count: the least that cover the panel, with corners that reach far over it
+                wide, high = np.array(description["panel"]["pixels"]) * description["panel"]["pixel_pitch_mm"]
+                turn = math.radians(abs(slant))
+                array["count"][0] = math.ceil((wide * math.cos(turn) + high * math.sin(turn)) / array["pitch_mm"])
     if lens["type"] == "ideal" and array["aperture"] == "circle" and "stop_radius_mm" not in lens and hole < 0.6:
         description["lens"] = {"type": "pinhole", "aperture_radius_mm": float(holes * lens["aperture_radius_mm"])}
     space = oracle.resolve({"lens": description["lens"], "array": array})  # under the lenses

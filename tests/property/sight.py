@@ -49,6 +49,12 @@ class Sight:
         self.turns = diffuser_turns(d.diffuser, u[:, 4:]) if d.diffuser else None
         self.stretch = 1 + d.gap / (viewing_distance - d.paraxial.rear)  # of elemental images against lenses
 
+    def on_screen(self, eye, share=1.0):
+        """Whether the straight lines from the eye to the points aimed at go on to the panel's rectangle, or to this share of its width and height."""
+        eye = np.broadcast_to(np.asarray(eye, float), self.aim.shape)
+        on = self.aim[:, 2:] / (eye[:, 2:] - self.aim[:, 2:])
+        return (np.abs(self.aim[:, :2] + on * (self.aim[:, :2] - eye[:, :2])) <= share * self.half_panel).all(axis=1)
+
     def centres(self, lens):
         """(n, 2) centres of the elemental images of lenses (n, 2), counted from 0, on the panel."""
         axis = self.lattice.axis(lens[:, 0], lens[:, 1])

@@ -1,9 +1,9 @@
-"""A white panel: how bright the array's rectangle is, how dark the joints of its lenses are, and what share of the light gets through."""
+"""A white panel: how bright the screen is, how dark the joints of its lenses are, and what share of the light gets through."""
 import numpy as np
 
 import oracle
 from edges import error_of
-from sight import SETS, even_points
+from sight import SETS, even_points, per_set
 
 STEPS = 32  # of the place within a pitch
 
@@ -14,8 +14,10 @@ def radiance(display, hits):
 
 
 def luminance(sight, eye):
-    """(mean radiance over the rectangle, its error)."""
-    return mean(radiance(sight.display, sight.see(eye)))
+    """(mean radiance over the screen, its error)."""
+    counts = sight.on_screen(eye)
+    sets = per_set(radiance(sight.display, sight.see(eye)) * counts) / per_set(counts.astype(float))
+    return sets.mean(), error_of(sets)
 
 
 def mean(values):
@@ -25,9 +27,11 @@ def mean(values):
 
 def band_contrast(sight, eye, axis):
     """(Michelson's contrast along x' or y' of the radiance averaged along the other, its error); the sight is of the middle half of the lenses."""
-    light = radiance(sight.display, sight.see(eye)).reshape(SETS, -1)
+    counts = sight.on_screen(eye, 0.75).astype(float)
+    light = (radiance(sight.display, sight.see(eye)) * counts).reshape(SETS, -1)
+    counts = counts.reshape(SETS, -1)
     step = np.floor(STEPS * sight.in_cell[:, axis]).astype(int).reshape(SETS, -1)
-    sets = np.array([np.bincount(s, w, STEPS) / np.bincount(s, minlength=STEPS) for s, w in zip(step, light)])
+    sets = np.array([np.bincount(s, w, STEPS) / np.bincount(s, c, STEPS) for s, w, c in zip(step, light, counts)])
     profile, noise = sets.mean(axis=0), sets.std(axis=0, ddof=1) / np.sqrt(SETS)
     low, high = profile.argmin(), profile.argmax()
     both = profile[high] + profile[low]
