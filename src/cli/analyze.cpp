@@ -12,7 +12,9 @@
 #include "cli/work_options.h"
 #include "engine/memory.h"
 #include "files/display_file.h"
+#include "files/shell.h"
 #include "image/file.h"
+#include "model/printable.h"
 #include "report/folder.h"
 #include "report/folder_lock.h"
 #include "report/report.h"
@@ -49,10 +51,10 @@ struct AnalyzeArguments {
                         "content.pickup=nodal,traced")
             .type_name("KEY=VALUE,VALUE");
         command.add_option("-o,--output", output, "Folder for the results and report.html; created if missing")
-            .type_name("DIR")
-            .required();
+            .type_name("DIR REQUIRED");  // told with what else is wrong
         command.add_flag("--resume", resume, "Skip what an earlier run with the same settings has finished there");
-        command.add_flag("--replace", replace, "Remove what an earlier run with other settings has left there");
+        command.add_flag("--replace", replace,
+                         "Remove what an earlier run with other settings has left there, and write over files of other origin");
         command.add_option("--angles-deg", angles, "Views of the field of view; default: 61 or more, beyond the expected edges")
             .type_name("FROM,TO,STEP");
         command
@@ -75,9 +77,9 @@ struct AnalyzeArguments {
 };
 
 /// "-30,30,1": rising, both ends within low .. high, at most 10000 steps.
-std::vector<double> steps(const char* option, const std::string& text, double low, double high) {
+std::vector<double> steps(const char* option, const std::string& text, double low, double high, const char* example) {
     if (text.empty()) return {};
-    const std::vector<double> v = numbers(option, text, 3);
+    const std::vector<double> v = numbers(option, text, example, "FROM,TO,STEP");
     if (!(v[0] < v[1] && v[2] > 0 && (v[1] - v[0]) / v[2] <= 10000 && v[0] >= low && v[1] <= high))
         throw InputError(option,
                          fmt::format("is {}; give FROM,TO,STEP with {} <= FROM < TO <= {} and a STEP above 0 that makes at most "
@@ -192,6 +194,9 @@ Request request_of(const AnalyzeArguments& args) {
     request.paths.insert(request.paths.begin(), args.display.path());
     std::error_code none;
     if (!names_measures(names) && (names.ends_with(".toml") || std::filesystem::is_regular_file(names, none))) {
+        if (names_measures(args.display.path()) && !std::filesystem::exists(args.display.path(), none))
+            throw InputError(args.display.path(), fmt::format("is a measure, and these come first: lfdsim analyze {} {} ...",
+                                                              args.display.path(), shell_file(names)));
         if (args.display.path().empty()) request.paths.clear();
         request.paths.insert(request.paths.begin(), names);
         names = "all";
@@ -217,15 +222,15 @@ Request request_of(const AnalyzeArguments& args) {
     faults.of([&] { args.work.check(); });
     faults.of([&] { args.device.apply(); });
     AnalysisOptions& options = request.options;
-    faults.of([&] { options.angles_deg = steps("--angles-deg", args.angles, -80, 80); });
-    faults.of([&] { options.depths_mm = steps("--depths-mm", args.depths, -1e6, 1e6); });
+    faults.of([&] { options.angles_deg = steps("--angles-deg", args.angles, -80, 80, "-30,30,1"); });
+    faults.of([&] { options.depths_mm = steps("--depths-mm", args.depths, -1e6, 1e6, "10,300,10"); });
     faults.of([&] {
         if (!args.viewing_distance.empty())
             options.viewing_distance_mm = positive("--viewing-distance-mm", args.viewing_distance, 1e6);
         if (!args.eye_distance.empty()) options.eye_distance_mm = positive("--eye-distance-mm", args.eye_distance, 1000);
         if (!args.wavelength.empty()) options.wavelength_nm = positive("--wavelength-nm", args.wavelength, 1e5);
     });
-    if (args.output.empty()) faults.of([] { throw InputError("--output", "the name is empty; give a folder"); });
+    if (args.output.empty()) faults.of([] { throw InputError("--output", "is required: give a folder for the results"); });
     faults.report();
     options.threads = args.work.threads();
     return request;
@@ -253,7 +258,7 @@ Outcome measure(const AnalyzeArguments& args, const Request& request, const Disp
     refuse_inputs_in(place);
     const FolderLock lock(place);
     const ResultFolder folder(place, run_settings(subject, LFDSIM_VERSION));
-    folder.keep_apart(args.replace);
+    folder.keep_apart(wanted, args.resume, args.replace);
     Analysis run{subject, folder, {command_line(), description, wanted}};
     run.measure(args.resume, args.work.progress());
     Outcome outcome{folder, Json::object(), run.about.interrupted, run.problems};
@@ -284,6 +289,7 @@ void side_by_side(const AnalyzeArguments& args, const Request& request) {
     const std::filesystem::path place = args.output;
     refuse_inputs_in(place);
     const FolderLock lock(place);
+    ResultFolder::keep_report_apart(place, args.replace);
     for (const Measure& m : measures())
         if (std::filesystem::exists(place / (std::string(m.name) + ".json")))
             throw InputError("--output", fmt::format("{} holds the results of one display; give another folder", args.output));
@@ -317,7 +323,7 @@ void side_by_side(const AnalyzeArguments& args, const Request& request) {
         return print_json(all);
     }
     print(fmt::format("{}\n{}: the report; of each display separately: {}\n", table_of_differences(all),
-                      (place / ResultFolder::report_name).string(), fmt::join(names, ", ")));
+                      printable((place / ResultFolder::report_name).string()), fmt::join(names, ", ")));
 }
 
 void run(const AnalyzeArguments& args) {
@@ -334,7 +340,7 @@ void run(const AnalyzeArguments& args) {
     std::string text;
     for (const Json& measured : outcome.found) text += table_of(measured);
     print(fmt::format("{}\n{}: the report; the figures are in the same folder\n", text,
-                      (outcome.folder.path() / ResultFolder::report_name).string()));
+                      printable((outcome.folder.path() / ResultFolder::report_name).string())));
 }
 
 }  // namespace

@@ -1,16 +1,20 @@
 #include "cli/arguments.h"
 
+#include "model/printable.h"
+
 #include <fmt/format.h>
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace lfdsim::cli {
 namespace {
 
 [[noreturn]] void refuse(std::string_view option, std::string_view given, std::string_view allowed) {
-    throw InputError(std::string(option), fmt::format("\"{}\" is not possible; {}", given, allowed));
+    throw InputError(std::string(option), fmt::format("\"{}\" is not possible; {}", shortened(given), allowed));
 }
 
 // from_chars: no locale, no leading blanks or plus sign, no hexadecimal or octal surprises.
@@ -25,6 +29,20 @@ std::optional<T> whole_text(std::string_view text) {
 std::optional<double> finite(std::string_view text) {
     const std::optional<double> value = whole_text<double>(text);
     return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+// What to write in place of "20,5" and "20mm".
+std::string number_hint(std::string_view text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const std::string_view number = text.substr(0, std::size_t(end - text.data())), rest = text.substr(number.size());
+    if (error != std::errc() || rest.empty()) return "give a finite number such as 12.5";
+    if (rest[0] == ',' && rest.size() > 1 && rest.find_first_not_of("0123456789", 1) == rest.npos)
+        return fmt::format("the decimal sign is a point; give {}.{}", number, rest.substr(1));
+    const std::string_view unit = rest.substr(std::min(rest.find_first_not_of(' '), rest.size()));
+    if (!unit.empty() && (std::isalpha(static_cast<unsigned char>(unit[0])) || unit[0] == '%' || (unit[0] & 0x80)))
+        return fmt::format("a number alone is needed, in the unit of the option's name; give {}", number);
+    return "give a finite number such as 12.5";
 }
 
 std::optional<std::int64_t> whole(std::string_view text) {
@@ -48,22 +66,25 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 
 double number(std::string_view option, std::string_view text) {
     if (const auto value = finite(text)) return *value;
-    refuse(option, text, "give a finite number such as 12.5");
+    refuse(option, text, number_hint(text));
 }
 
 std::int64_t whole_number(std::string_view option, std::string_view text, std::int64_t low, std::int64_t high) {
     const auto value = whole(text);
     if (value && *value >= low && *value <= high) return *value;
+    if (high == std::numeric_limits<std::int64_t>::max()) refuse(option, text, fmt::format("give a whole number, {} or more", low));
     refuse(option, text, fmt::format("give a whole number from {} to {}", low, high));
 }
 
-std::vector<double> numbers(std::string_view option, std::string_view text, std::size_t count) {
+std::vector<double> numbers(std::string_view option, std::string_view text, std::string_view example, std::string_view form) {
+    const std::size_t count = split(example, ',').size();
     std::vector<double> values;
     for (std::string_view part : split(text, ','))
         if (const auto value = finite(part)) values.push_back(*value);
     if (values.size() != count || split(text, ',').size() != count)
         refuse(option, text,
-               fmt::format("give {} finite numbers with commas between, such as {}", count, count == 3 ? "0,-300,1800" : "0.25,0"));
+               fmt::format("give {}{}, such as {}", form.empty() ? "" : fmt::format("{}: ", form),
+                           count == 1 ? "a finite number" : fmt::format("{} finite numbers with commas between", count), example));
     return values;
 }
 

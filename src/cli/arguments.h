@@ -19,8 +19,8 @@ double number(std::string_view option, std::string_view text);
 /// "100", "1e3"; low .. high, both allowed.
 std::int64_t whole_number(std::string_view option, std::string_view text, std::int64_t low, std::int64_t high);
 
-/// `count` numbers with commas between: "0,-300,1800".
-std::vector<double> numbers(std::string_view option, std::string_view text, std::size_t count);
+/// As many numbers with commas between as the example has: "0,-300,1800". `form` names them: "FROM,TO,STEP".
+std::vector<double> numbers(std::string_view option, std::string_view text, std::string_view example, std::string_view form = {});
 
 /// "3840x2160": columns and rows, each 1 or more.
 std::array<std::int64_t, 2> size(std::string_view option, std::string_view text);

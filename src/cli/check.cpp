@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 #include "cli/display_options.h"
 #include "cli/output.h"
+#include "model/printable.h"
 #include "report/colours.h"
 #include "report/description.h"
 
@@ -23,7 +24,7 @@ struct CheckArguments {
 };
 
 std::string text_of(const Json& value) {
-    if (value.is_string()) return value.get<std::string>();
+    if (value.is_string()) return printable(value.get<std::string>());
     if (value.is_number_float()) return fmt::format("{:.10g}", value.get<double>());
     if (!value.is_array()) return value.dump();
     std::string text;
@@ -90,7 +91,7 @@ void run(const CheckArguments& args) {
     const std::vector<ChannelTheory> colours = theory_by_colour(display);
     const std::vector<std::string> warnings = worth_knowing(display, geometry, paraxial);
 
-    std::string text = args.display.path() + " is valid.\n", table;
+    std::string text = printable(args.display.path()) + " is valid.\n", table;
     for (const Setting& s : keys) {
         if (s.table != table || s.table.empty()) add_line(text, s.table.empty() ? "" : fmt::format("\n[{}]", s.table));
         table = s.table;

@@ -3,6 +3,7 @@
 #include "cli/usage.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 namespace lfdsim::cli {
 namespace {
@@ -19,6 +20,24 @@ Misuse misuse(const CLI::App& program, const CLI::ParseError& error) {
         for (const std::string& name : option->get_snames()) all.options.push_back("-" + name);
     }
     return all;
+}
+
+// "--camera-mm 40 0 599", which CLI11 would take for a value and two more files. `words`: last one first.
+void refuse_spaces(const CLI::App& program, std::vector<std::string> words) {
+    std::reverse(words.begin(), words.end());
+    const auto commands = [&](const std::string& word) {
+        return program.get_subcommands([&](const CLI::App* each) { return each->get_name() == word; });
+    };
+    const auto name = std::find_if(words.begin(), words.end(), [&](const std::string& word) { return !commands(word).empty(); });
+    if (name == words.end()) return;
+    const CLI::App& command = *commands(*name).front();
+    for (auto word = name + 1; word != words.end() && *word != "--"; ++word) {
+        const CLI::Option* option = word->starts_with("--") ? command.get_option_no_throw(*word) : nullptr;
+        if (!option || option->get_expected_max() > 1) continue;
+        const std::string form = option->get_type_name();
+        if (const auto numbers = spaced_numbers(form, {word + 1, words.end()}); !numbers.empty())
+            throw spaced_error(*word, form, numbers);
+    }
 }
 
 }  // namespace
@@ -71,6 +90,7 @@ CommandLine::~CommandLine() = default;
 Command CommandLine::program() const { return Command(app_.get()); }
 
 std::string CommandLine::parse(std::vector<std::string> arguments) {
+    refuse_spaces(*app_, arguments);
     try {
         app_->parse(std::move(arguments));
     } catch (const CLI::CallForHelp&) {

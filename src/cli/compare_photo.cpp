@@ -25,7 +25,7 @@ Corners read_corners(const char* option, const std::vector<std::string>& texts) 
     Faults faults;
     for (std::size_t k = 0; k < 4; ++k)
         faults.of([&] {
-            const std::vector<double> xy = numbers(option, texts[k], 2);
+            const std::vector<double> xy = numbers(option, texts[k], "1204,387", "X,Y");
             corners[k] = {xy[0], xy[1]};
         });
     faults.report();

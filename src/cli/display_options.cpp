@@ -3,6 +3,7 @@
 #include "cli/arguments.h"
 #include "cli/input_files.h"
 #include "files/display_file.h"
+#include "model/keys.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -37,17 +38,25 @@ constexpr KeyOption content[] = {
      "Elemental images for a perfect lens, for where the real lens sends each pixel's light, or the mean of all that light"},
 };
 
+// Within the key's own range.
+std::string count_text(const KeyOption& option, const std::string& text) {
+    constexpr auto most = std::numeric_limits<std::int64_t>::max();
+    const Range& range = key_at(option.key)->key.range;
+    return fmt::format("{}", whole_number(option.option, text, std::int64_t(range.low),
+                                          range.high < double(most) ? std::int64_t(range.high) : most));
+}
+
 // The option's value in TOML syntax.
 std::string toml_value(const KeyOption& option, const std::string& text) {
     switch (option.form) {
         case Form::number:
             return fmt::format("{}", number(option.option, text));
         case Form::point:
-            return fmt::format("[{}]", fmt::join(numbers(option.option, text, 3), ", "));
+            return fmt::format("[{}]", fmt::join(numbers(option.option, text, "0,-300,1800", "X,Y,Z"), ", "));
         case Form::size:
             return fmt::format("[{}]", fmt::join(size(option.option, text), ", "));
         case Form::count:
-            return fmt::format("{}", whole_number(option.option, text, 0, std::numeric_limits<std::int64_t>::max()));
+            return count_text(option, text);
         case Form::word:
             break;
     }

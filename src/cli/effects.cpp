@@ -58,6 +58,7 @@ const std::vector<Rule>& belongings() {
         {{"--view"}, "--pattern view", "is only for --pattern view"},
         {{"--edge-deg", "--edge-depth-mm"}, "--pattern edge", "is only for --pattern edge"},
         {{"--frames-as", "--resume", "--replace"}, "--path", "is only for frames of a --path"},
+        {{"--replace"}, "--mapping", "is for the files beside that of --mapping"},
         {{"--lens-normals"}, "--lens-mesh", "are those of --lens-mesh, which is not given"},
         {{"--view-corners", "--fit-corners", "--fit-blur", "--overlay", "--difference"},
          "--corners",

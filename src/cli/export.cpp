@@ -1,5 +1,6 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
+#include "cli/companion.h"
 #include "cli/display_options.h"
 #include "cli/effects.h"
 #include "cli/input_files.h"
@@ -12,6 +13,7 @@
 #include "files/shell.h"
 #include "files/text_file.h"
 #include "image/file.h"
+#include "model/printable.h"
 #include "peers/fine_panel.h"
 #include "peers/peers.h"
 #include "report/folder_lock.h"
@@ -50,6 +52,7 @@ struct ExportArguments {
             .type_name("r|g|b");
         command.add_option("--normals", normals, "The triangles' own, or the true surface's, interpolated; default flat")
             .type_name("flat|smooth");
+        command.add_flag("--replace", replace, "Write over files in the folder that are not of this display's scene");
     }
     Command command;
     std::string peer, folder, triangles, normals, channel;
@@ -59,9 +62,14 @@ struct ExportArguments {
     ModelOption model;
     PatternOption pattern;
     WorkOptions work;
+    bool replace = false;
 };
 
-Peer peer_of(const std::string& name) {
+bool is_peer(const std::string& name) { return name == "pov" || name == "cycles" || name == "mitsuba"; }
+
+Peer peer_of(const std::string& name, const std::string& display) {
+    if (!is_peer(name) && is_peer(display))
+        throw InputError("PEER", fmt::format("comes before the display: lfdsim export {} {} ...", display, shell_file(name)));
     word("PEER", name, {"pov", "cycles", "mitsuba"});
     return name == "pov" ? Peer::pov : name == "cycles" ? Peer::cycles : Peer::mitsuba;
 }
@@ -83,12 +91,16 @@ void check_folder(const std::string& folder) {
     detail::check_folder(folder);
 }
 
-/// Throws InputError if the folder holds another display's scene, of which files by other names would stay beside this one's.
-void keep_apart(const fs::path& folder, const std::string& description) {
-    const fs::path there = folder / "display.toml";
-    std::error_code error;
-    if (fs::exists(there, error) && read_text(there) != description)
-        throw InputError(there.string(), "is of another display; give another folder, or remove this one");
+constexpr const char* description_file = "display.toml";
+
+/// Throws InputError if the folder holds another display's scene, of which files by other names would stay beside this one's, or
+/// other files of this scene's names. The description is written first: with it, the rest is this scene's.
+void keep_apart(const fs::path& folder, const Json& files, const std::string& description, bool replace) {
+    const fs::path there = folder / description_file;
+    const bool own = holds(there, description);
+    if (std::error_code error; fs::exists(there, error) && !own && !replace)
+        throw InputError(there.string(), "is of another display; give another folder, or --replace to write over it");
+    for (const std::string file : files) check_companion(folder / file, own, replace);
 }
 
 void write_file(const fs::path& path, std::string_view bytes) {
@@ -131,7 +143,7 @@ void run(const ExportArguments& args) {
     PatternOptions pattern_options;
     PeerOptions options;
     Peer peer{};
-    faults.of([&] { peer = peer_of(args.peer); });
+    faults.of([&] { peer = peer_of(args.peer, args.display.path()); });
     faults.of([&] {
         display = args.display.read();
         const auto [columns, rows] = display.panel.pixels;
@@ -158,26 +170,26 @@ void run(const ExportArguments& args) {
     PeerScene scene = peer_scene(peer, fine.display, shown_geometry, options);
     take_lens_table(scene);
     scene.deviations.insert(scene.deviations.end(), fine.deviations.begin(), fine.deviations.end());
-    Json files = Json::array({scene.panel_file, "display.toml", "README.txt"});
+    Json files = Json::array({scene.panel_file, description_file, "README.txt"});
     for (const PeerFile& file : scene.files) files.push_back(file.name);
+    scene.shown.content.model.clear();
+    scene.shown.content.objects.clear();
+    const std::string description = write_display(scene.shown);
     for (const std::string file : files) refuse_input(folder / file);
+    const FolderLock lock(folder);
+    keep_apart(folder, files, description, args.replace);
+    write_file(folder / description_file, description);
     PanelLight panel =
         shown_panel(args.panel_image, args.pattern, display, geometry, pattern_options, args.work.threads(), progress);
     panel.texels = light_of_channel(std::move(panel.texels), options.channel);
     if (fine.times > 1) panel.texels = fine_image(fine, display.panel, panel.texels);
     if (const auto deviation = panel_deviation(scene, panel.texels)) scene.deviations.push_back(*deviation);
 
-    scene.shown.content.model.clear();
-    scene.shown.content.objects.clear();
-    const std::string description = write_display(scene.shown);
-    const FolderLock lock(folder);
-    keep_apart(folder, description);
     const std::string lfdsims = fmt::format("lfdsim render display.toml --panel-image {} -o lfdsim.exr", scene.panel_file);
     guard_output(folder / scene.panel_file);
     write_image(folder / scene.panel_file, picture_of(panel.texels), {16, Encoding::linear, {}, {}}, &progress);
     progress.end();
     for (const PeerFile& file : scene.files) write_file(folder / file.name, file.bytes);
-    write_file(folder / "display.toml", description);
     write_file(folder / "README.txt", readme(scene, lfdsims));
 
     if (args.work.json())
@@ -188,7 +200,7 @@ void run(const ExportArguments& args) {
                            {"lfdsim", lfdsims},
                            {"deviations", scene.deviations}});
     std::string text = fmt::format("{}: a scene for {}; render it there with\n  {}\nand lfdsim's picture of the same with\n  {}\n",
-                                   args.folder, name_of(peer), scene.command, lfdsims);
+                                   printable(args.folder), name_of(peer), scene.command, lfdsims);
     for (const std::string& deviation : scene.deviations) text += "deviates: " + deviation + "\n";
     print(text);
 }

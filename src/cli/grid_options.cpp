@@ -39,7 +39,7 @@ ViewsWish GridOptions::read() const {
     if (!baseline_.empty())
         faults.of([&] {
             const bool both = baseline_.find(',') != baseline_.npos;
-            const std::vector<double> xy = numbers("--baseline-mm", baseline_, both ? 2 : 1);
+            const std::vector<double> xy = numbers("--baseline-mm", baseline_, both ? "12,8" : "12", "B or BX,BY");
             for (const double step : xy)
                 if (!positive_length.contains(step))
                     throw InputError("--baseline-mm", fmt::format("is {}, allowed is {}", step, positive_length.text()));

@@ -87,7 +87,7 @@ GlassChoice glass_choice(const std::string& text, const std::vector<GlassCatalog
         return {name, {}, *found};
     }
     if (value.find(',') == std::string::npos) return {name, number("--glass", value), {}};
-    const std::vector<double> nd_vd = numbers("--glass", value, 2);
+    const std::vector<double> nd_vd = numbers("--glass", value, "1.5168,64.17", "ND,VD");
     return {name, {}, Glass{"", Formula::nd_vd, nd_vd}};
 }
 

@@ -6,20 +6,35 @@
 #include "cli/usage.h"
 #include "engine/gpu.h"
 #include "model/error.h"
+#include "model/printable.h"
 
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <memory>
 #include <new>
+#include <string>
 
 namespace {
 
 using namespace lfdsim;
 
-// File names and keys come from others: no control character of theirs reaches a terminal.
-std::string printable(std::string text) {
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-    return text;
+/// A message of the log. File names, keys and what files say come from others: none of it is obeyed by a terminal, and none is
+/// endless.
+class Message : public spdlog::custom_flag_formatter {
+  public:
+    void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& to) override {
+        const std::string text = bounded(printable({message.payload.data(), message.payload.size()}));
+        to.append(text.data(), text.data() + text.size());
+    }
+    std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<Message>(); }
+};
+
+void start_log() {
+    spdlog::set_default_logger(spdlog::stderr_logger_st("lfdsim"));
+    auto formatter = std::make_unique<spdlog::pattern_formatter>();
+    formatter->add_flag<Message>('*').set_pattern("lfdsim: %l: %*");
+    spdlog::set_formatter(std::move(formatter));
 }
 
 void run(int argc, char** argv) {
@@ -49,14 +64,13 @@ void run(int argc, char** argv) {
     cli::add_doctor(program);
     const std::string asked = line.parse(cli::arguments(argc, argv));
     if (!asked.empty()) cli::print(asked);
-    for (const std::string& reason : gpus_given_up()) spdlog::warn("{}; the CPU went on", printable(reason));
+    for (const std::string& reason : gpus_given_up()) spdlog::warn("{}; the CPU went on", reason);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    spdlog::set_default_logger(spdlog::stderr_logger_st("lfdsim"));
-    spdlog::set_pattern("lfdsim: %l: %v");
+    start_log();
     cli::catch_signals();
     try {
         run(argc, argv);
@@ -65,12 +79,12 @@ int main(int argc, char** argv) {
         return cli::interrupted_exit;
     } catch (const InputError& error) {
         if (cli::interrupted()) return cli::interrupted_exit;  // a reader that the signal stopped, too
-        for (const Problem& p : error.problems) spdlog::error("{}", printable(p.where.empty() ? p.what : p.where + ": " + p.what));
+        for (const Problem& p : error.problems) spdlog::error("{}", p.where.empty() ? p.what : p.where + ": " + p.what);
         return 2;
     } catch (const std::bad_alloc&) {
         spdlog::error("out of memory; make the picture or the panel smaller, or use fewer threads");
     } catch (const std::exception& error) {
-        spdlog::error("{}", printable(error.what()));
+        spdlog::error("{}", error.what());
     }
     return 1;
 }

@@ -1,5 +1,6 @@
 #include "cli/mapping_export.h"
 
+#include "cli/companion.h"
 #include "cli/input_files.h"
 #include "cli/output.h"
 #include "content/lens_mapping.h"
@@ -7,11 +8,13 @@
 #include "image/image_file.h"
 #include "model/lattice.h"
 #include "model/numbers.h"
+#include "model/printable.h"
 #include "report/svg.h"
 
 #include <fmt/format.h>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <vector>
 
 namespace lfdsim::cli {
@@ -155,6 +158,15 @@ void write_text(const fs::path& path, const std::string& text) {
 
 fs::path beside(const std::string& path, const char* ending) { return fs::path(path).replace_extension(ending); }
 
+/// Whether a file is what sidecar() wrote beside a mapping of that name.
+bool is_sidecar(const fs::path& path, const std::string& mapping) {
+    std::error_code none;
+    if (std::uintmax_t(1) << 20 < fs::file_size(path, none) || none) return false;
+    std::ifstream file(path, std::ios::binary);
+    const Json json = Json::parse(file, nullptr, false);
+    return json.is_object() && json.contains("lfdsim") && json.value("file", Json()) == mapping;
+}
+
 }  // namespace
 
 MappingOption::MappingOption(Command command) {
@@ -164,6 +176,7 @@ MappingOption::MappingOption(Command command) {
             "Also writes where the lens sends each panel point's light: .npy or .exr, and beside it a .json that says what is "
             "what and an .svg of the distortion")
         .type_name("FILE");
+    command.add_flag("--replace", replace_, "Write over a .json and .svg of other origin beside the file of --mapping");
 }
 
 void MappingOption::check(const std::string& output) const {
@@ -174,10 +187,9 @@ void MappingOption::check(const std::string& output) const {
     if (ending != ".npy" && ending != ".exr")
         throw InputError(mapping_option, fmt::format("{}: the name must end in .npy or .exr", path_));
     check_output(path_, mapping_option);
-    for (const char* other : {".json", ".svg"}) {
-        guard_output(beside(path_, other));
-        detail::check_replaceable(beside(path_, other));
-    }
+    // Both are those of an earlier run if the first says that it is of this file.
+    const bool own = is_sidecar(beside(path_, ".json"), fs::path(path_).filename());
+    for (const char* other : {".json", ".svg"}) check_companion(beside(path_, other), own, replace_);
 }
 
 void MappingOption::write(const Display& display, const Geometry& geometry, int threads) const {
@@ -191,7 +203,8 @@ void MappingOption::write(const Display& display, const Geometry& geometry, int 
         write_npy(path_, std::array<std::int64_t, 4>{std::int64_t(maps.size()), height, width, values_per_node}, values);
     else
         write_exr(path_, maps, values);
-    write_text(beside(path_, ".json"), sidecar(display, geometry, maps, fs::path(path_).filename()).dump(2) + "\n");
+    write_text(beside(path_, ".json"),
+               printable_lines(sidecar(display, geometry, maps, fs::path(path_).filename()).dump(2)) + "\n");
     write_text(beside(path_, ".svg"), svg(plot_of(maps, geometry, strips, display.name)));
 }
 

@@ -21,6 +21,7 @@ class MappingOption {
 
   private:
     std::string path_;
+    bool replace_ = false;
 };
 
 }  // namespace lfdsim::cli

@@ -5,6 +5,7 @@
 #include "cli/interrupt.h"
 #include "files/display_file.h"
 #include "files/shell.h"
+#include "model/printable.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -30,7 +31,9 @@ std::string command_line() {
     return line;
 }
 
-void print(std::string_view text) {
+void print(std::string_view words) {
+    const std::string harmless = printable_lines(words);
+    std::string_view text = harmless;
     while (!text.empty()) {
         const ssize_t written = ::write(STDOUT_FILENO, text.data(), text.size());
         if (written < 0 && errno == EINTR) continue;

@@ -15,7 +15,8 @@ namespace lfdsim::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// Writes to standard output and flushes. Throws std::runtime_error when it cannot be written (closed pipe, full disk).
+/// Writes to standard output: all text that a command prints goes through here, and nothing in it is obeyed by a terminal
+/// (model/printable.h). JSON stays the same document. Throws std::runtime_error when it cannot be written (closed pipe, full disk).
 void print(std::string_view text);
 /// One JSON document; numbers that are not finite become null.
 void print_json(const Json&);

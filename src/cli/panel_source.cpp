@@ -80,7 +80,7 @@ PatternOptions PatternOption::read() const {
     };
     value(cell_, [&] { options.cell_pixels = int(whole_number("--cell-pixels", cell_, 1, 1 << 30)); });
     value(view_, [&] {
-        const std::vector<double> xy = numbers("--view", view_, 2);
+        const std::vector<double> xy = numbers("--view", view_, "0.25,0", "X,Y");
         options.view_x = xy[0];
         options.view_y = xy[1];
         if (std::max(std::abs(xy[0]), std::abs(xy[1])) > 0.5)

@@ -16,7 +16,6 @@
 #include "engine/scene.h"
 #include "model/counted.h"
 #include "model/keys.h"
-#include "report/run_settings.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -65,9 +64,7 @@ struct RenderArguments {
 
 void render_frames(const RenderArguments& args, const Display& display, const CameraPath& path, const RenderOptions& options,
                    const std::function<PanelLight()>& light, Progress& progress) {
-    const Json shown = args.panel_image.given() ? stamp(args.panel_image.path())
-                       : args.pattern.given()   ? stamp("")
-                                                : content_stamp(display);
+    const Json shown = shown_stamp(args.panel_image, args.pattern, display);
     PanelLight panel;
     const auto texels = [&]() -> const Texels& {
         panel = light();

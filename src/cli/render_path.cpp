@@ -3,6 +3,7 @@
 #include "cli/arguments.h"
 #include "cli/input_files.h"
 #include "cli/interrupt.h"
+#include "cli/numbered_pictures.h"
 #include "cli/rendered.h"
 #include "engine/ahead.h"
 #include "files/display_file.h"
@@ -14,7 +15,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <algorithm>
-#include <charconv>
 
 namespace lfdsim::cli {
 namespace {
@@ -37,77 +37,10 @@ Display at_frame(const CameraPath& path, std::int64_t frame, Display display) {
     return display;
 }
 
-// Without the options that alone may differ between a run and the one that goes on with it.
-std::string resumed(std::string command) {
-    for (const std::string_view option : {" --resume", " --replace"})
-        for (std::size_t i = 0; (i = command.find(option, i)) != command.npos;)
-            if (const std::size_t end = i + option.size(); end == command.size() || command[end] == ' ')
-                command.erase(i, option.size());
-            else
-                i = end;
-    return command;
-}
-
 bool named_as_frame(const fs::path& file) {
     const std::string name = file.stem(), kind = file.extension();
     const bool number = name.size() >= 4 && name.find_first_not_of("0123456789") == name.npos;
     return number && (kind == ".png" || kind == ".exr" || kind == ".npy");
-}
-
-// Whether the same command, but for what it does with frames that are there, has made that frame of the same things.
-bool finished(const fs::path& file, const Display& display, const std::string& shown) {
-    if (!fs::is_regular_file(file)) return false;
-    try {
-        Metadata about = read_metadata(file);
-        return about["Software"] == software && resumed(about["command"]) == resumed(command_line()) &&
-               about["display"] == write_display(display) && about["shown"] == shown;
-    } catch (const InputError&) {
-        return false;  // no picture
-    }
-}
-
-enum class FrameOf { nobody, lfdsim, other };
-
-// Of a picture; one that is cut off is nobody's, and an .npy does not say.
-FrameOf frame_of(const fs::path& file) {
-    try {
-        Metadata about = read_metadata(file);
-        return file.extension() == ".npy" || about["Software"].starts_with("lfdsim ") ? FrameOf::lfdsim : FrameOf::other;
-    } catch (const InputError&) {
-        return FrameOf::nobody;
-    }
-}
-
-// Pictures in the folder, named as frames are, that this run would not make so: of another display, path or command.
-std::vector<fs::path> others(const PathWork& w, std::int64_t frames) {
-    std::vector<fs::path> all;
-    std::error_code none;
-    for (const auto& entry : fs::directory_iterator(w.output.path(), none)) {
-        const fs::path& file = entry.path();
-        if (!named_as_frame(file) || frame_of(file) == FrameOf::nobody) continue;
-        std::int64_t k = -1;
-        const std::string number = file.stem();
-        std::from_chars(number.data(), number.data() + number.size(), k);
-        const bool ours = 0 <= k && k < frames && file == w.options.file(w.output, k, frames) &&
-                          finished(file, at_frame(w.path, k, w.display), w.shown);
-        if (!ours) all.push_back(file);
-    }
-    std::sort(all.begin(), all.end());
-    return all;
-}
-
-// Removes them if they are to be replaced, else throws InputError.
-void keep_apart(const PathWork& w, std::int64_t frames) {
-    const std::vector<fs::path> found = others(w, frames);
-    if (!found.empty() && !w.options.replace())
-        throw InputError(w.output.path(),
-                         fmt::format("holds {} made by another command or from other files, such as {}; give another "
-                                     "folder, or --replace to remove them",
-                                     counted(found.size(), "picture"), found.front().filename().string()));
-    for (const fs::path& file : found)
-        if (frame_of(file) == FrameOf::other)
-            throw InputError(file.string(), "is a picture not made by lfdsim; give another folder for frames");
-    for (const fs::path& file : found) fs::remove(file);
 }
 
 }  // namespace
@@ -172,13 +105,17 @@ PathMade render_path(const PathWork& w, const std::function<const Texels&()>& pa
     const FolderLock lock(w.output.path());
     check_output(w.options.file(w.output, 0, made.frames));
     for (std::int64_t k = 0; k < made.frames; ++k) refuse_input(w.options.file(w.output, k, made.frames));
-
-    keep_apart(w, made.frames);
-
-    std::vector<std::int64_t> left;
-    for (std::int64_t k = 0; k < made.frames; ++k)
-        if (!w.options.resume() || !finished(w.options.file(w.output, k, made.frames), at_frame(w.path, k, w.display), w.shown))
-            left.push_back(k);
+    const NumberedPictures frames{w.output.path(),
+                                  made.frames,
+                                  [&](std::int64_t k) { return w.options.file(w.output, k, made.frames).filename().string(); },
+                                  [&](std::int64_t k) { return write_display(at_frame(w.path, k, w.display)); },
+                                  w.shown,
+                                  named_as_frame,
+                                  "frame",
+                                  w.options.resume(),
+                                  w.options.replace()};
+    frames.keep_apart();
+    const std::vector<std::int64_t> left = frames.left();
     if (left.empty()) return made;
     const Pyramid pyramid(panel(), w.rendering.threads);
     const auto [columns, rows] = w.display.camera.resolution;

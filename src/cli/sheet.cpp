@@ -6,6 +6,7 @@
 #include "image/image_file.h"
 #include "image/scaled.h"
 #include "model/counted.h"
+#include "model/printable.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -54,7 +55,8 @@ void run(const SheetArguments& args) {
     if (args.json)
         return print_json(
             Json{{"output", args.output}, {"width", sheet.width}, {"height", sheet.height}, {"pictures", cells.size()}});
-    print(fmt::format("{}: {}, {} x {} pixels\n", args.output, counted(cells.size(), "picture"), sheet.width, sheet.height));
+    print(fmt::format("{}: {}, {} x {} pixels\n", printable(args.output), counted(cells.size(), "picture"), sheet.width,
+                      sheet.height));
 }
 
 }  // namespace

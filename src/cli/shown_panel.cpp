@@ -1,5 +1,7 @@
 #include "cli/shown_panel.h"
 
+#include "report/run_settings.h"
+
 namespace lfdsim::cli {
 
 PanelLight shown_panel(const PanelImageOption& image, const PatternOption& shape, const Display& display, const Geometry& geometry,
@@ -14,6 +16,10 @@ PanelLight shown_panel(const PanelImageOption& image, const PatternOption& shape
     if (!picture.complete) end_interrupted("");
     return {shown_texels(picture.image, display.panel.encoding),
             {{"elemental_images", {{"rays", picture.rays}, {"seconds", picture.seconds}}}}};
+}
+
+Json shown_stamp(const PanelImageOption& image, const PatternOption& shape, const Display& display) {
+    return image.given() ? stamp(image.path()) : shape.given() ? stamp("") : content_stamp(display);
 }
 
 }  // namespace lfdsim::cli

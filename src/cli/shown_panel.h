@@ -14,4 +14,7 @@ struct PanelLight {
 PanelLight shown_panel(const PanelImageOption&, const PatternOption&, const Display&, const Geometry&, const PatternOptions&,
                        int threads, Progress&);
 
+/// What tells that what the panel would show has changed: the image's file, or those of the display's model.
+Json shown_stamp(const PanelImageOption&, const PatternOption&, const Display&);
+
 }  // namespace lfdsim::cli

@@ -1,10 +1,12 @@
 #include "cli/usage.h"
 
 #include "files/nearest.h"
+#include "files/shell.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 
 namespace lfdsim::cli {
 namespace {
@@ -37,6 +39,11 @@ std::string suggestion(const std::string& given, const std::vector<std::string>&
     return near.empty() ? "" : fmt::format("; did you mean {}?", near);
 }
 
+std::string is_display(const std::string& word) {
+    return word.ends_with(".toml") ? fmt::format("; a command comes before the display, as in lfdsim check {}", shell_file(word))
+                                   : "";
+}
+
 // Dashes are left out of the comparison, as all options have them.
 std::string option_suggestion(const std::string& given, const std::vector<std::string>& options) {
     std::vector<std::string> names;
@@ -48,6 +55,9 @@ std::string option_suggestion(const std::string& given, const std::vector<std::s
     const std::size_t name = near.rfind(' ') + 1;
     return near.empty() ? "" : near.substr(0, name) + "--" + near.substr(name);
 }
+
+// Of the numbers in a value that help calls "X,Y,Z" or "WxH".
+char separator(const std::string& form) { return form == "WxH" || form == "CxR" ? 'x' : ','; }
 
 // CLI11's own words, where they can be understood.
 std::string reworded(const Misuse& misuse) {
@@ -78,6 +88,30 @@ std::vector<std::string> arguments(int argc, char** argv) {
     return all;
 }
 
+std::vector<std::string> spaced_numbers(const std::string& form, std::span<const std::string> after) {
+    const char between = separator(form);
+    const std::string last = form.substr(form.rfind('|') + 1);  // "B|BX,BY"
+    const auto most = std::size_t(1 + std::count(last.begin(), last.end(), between));
+    std::vector<std::string> numbers;
+    if (form.find(' ') != form.npos || most < 2) return {};
+    for (const std::string& word : after) {
+        const std::size_t begin = word.starts_with(between), end = word.size() - (word.size() > begin && word.ends_with(between));
+        if (begin == end && !numbers.empty()) continue;
+        double value;
+        const auto [stop, error] = std::from_chars(word.data() + begin, word.data() + end, value);
+        if (numbers.size() == most || begin == end || error != std::errc{} || stop != word.data() + end) break;
+        numbers.push_back(word.substr(begin, end - begin));
+    }
+    return numbers.size() > 1 ? numbers : std::vector<std::string>();
+}
+
+InputError spaced_error(const std::string& option, const std::string& form, const std::vector<std::string>& numbers) {
+    const std::string between(1, separator(form));
+    const bool comma = between == ",";
+    return {option, fmt::format("the numbers of its value, {}, have {} between them and no spaces: {} {}",
+                                form.substr(form.rfind('|') + 1), comma ? "commas" : "an x", option, fmt::join(numbers, between))};
+}
+
 // CLI11 stops at the first rule that is broken, often "something is required" where a name was mistyped. What it could not place
 // says more, so that comes first.
 InputError usage_error(const Misuse& misuse) {
@@ -85,7 +119,8 @@ InputError usage_error(const Misuse& misuse) {
     std::vector<Problem> unknown, superfluous;
     for (const std::string& word : misuse.unplaced) {
         const std::string name = word.substr(0, word.find('='));
-        if (word == "--") continue;  // takes no place itself; CLI11 keeps it with what it could not place
+        if (!chosen && !superfluous.empty()) break;  // what follows is of the command, whichever that is
+        if (word == "--") continue;                  // takes no place itself; CLI11 keeps it with what it could not place
         if (is_option(word) && std::find(misuse.options.begin(), misuse.options.end(), name) != misuse.options.end())
             unknown.push_back({name, "is in the wrong place; options come after the command and before any --"});
         else if (is_option(word))
@@ -94,13 +129,14 @@ InputError usage_error(const Misuse& misuse) {
             superfluous.push_back({word, "one argument too many"});
     }
     std::vector<Problem> problems = unknown;
-    if (problems.empty() && !chosen) {
+    if (!chosen && (problems.empty() || !superfluous.empty())) {
         if (superfluous.empty())
             problems.push_back({"", fmt::format("a command is missing; commands are {}", fmt::join(misuse.commands, ", "))});
         else
-            problems.push_back({superfluous.front().where, fmt::format("unknown command{}; commands are {}",
-                                                                       suggestion(superfluous.front().where, misuse.commands),
-                                                                       fmt::join(misuse.commands, ", "))});
+            problems.push_back(
+                {superfluous.front().where,
+                 fmt::format("unknown command{}{}; commands are {}", is_display(superfluous.front().where),
+                             suggestion(superfluous.front().where, misuse.commands), fmt::join(misuse.commands, ", "))});
     }
     // Values of unknown options are left over too, so superfluous words are told only where no unknown option explains them.
     if (problems.empty()) problems = superfluous;

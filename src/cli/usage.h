@@ -2,6 +2,7 @@
 #pragma once
 #include "model/error.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,13 @@ struct Misuse {
     std::string command = {};                              // the one that was chosen
     std::vector<std::string> commands = {}, options = {};  // all there are, and that the command has, with their dashes
 };
+
+/// The words after an option that are the numbers of its one value, which has commas between them (or "x": "WxH"): none if the
+/// first is not such a number, or the only one. `form`: what the option's value is in help, "X,Y,Z".
+std::vector<std::string> spaced_numbers(const std::string& form, std::span<const std::string> after);
+
+/// That these words are to be one.
+InputError spaced_error(const std::string& option, const std::string& form, const std::vector<std::string>& numbers);
 
 /// Unknown commands and options with the nearest known one, values that are missing, and where to find help.
 InputError usage_error(const Misuse&);

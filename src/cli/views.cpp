@@ -1,17 +1,23 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
+#include "cli/companion.h"
 #include "cli/display_options.h"
 #include "cli/effects.h"
 #include "cli/grid_options.h"
 #include "cli/input_files.h"
+#include "cli/interrupt.h"
+#include "cli/numbered_pictures.h"
 #include "cli/panel_source.h"
 #include "cli/rendered.h"
 #include "cli/shown_panel.h"
 #include "cli/work_options.h"
 #include "engine/grid_view.h"
 #include "engine/memory.h"
+#include "files/display_file.h"
 #include "image/file.h"
+#include "model/counted.h"
 #include "model/keys.h"
+#include "report/folder_lock.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -39,6 +45,9 @@ struct ViewsArguments {
           output(command, "a quilt, NAME_qs8x6a0.75 with .png .exr .npy; or a folder for a grid of views, created if missing"),
           device(command),
           work(command) {
+        command.add_flag("--resume", resume, "Skip views in the folder that the same command has already made from the same files");
+        command.add_flag("--replace", replace,
+                         "Remove views there that another command has made, or write over the .toml beside a quilt");
         command.add_option("--of", of_what, "Views of the content itself, or of what the simulated display shows")
             .type_name("content|display")
             .capture_default_str();
@@ -57,7 +66,7 @@ struct ViewsArguments {
     DeviceOption device;
     WorkOptions work;
     std::string of_what = "content", count, size, kind = "png";
-    bool depth = false;
+    bool depth = false, resume = false, replace = false;
 };
 
 /// Where the views go, and how many there are.
@@ -96,11 +105,11 @@ Target target_of(const ViewsArguments& args, const Display& display) {
             target.columns = name->columns * name->rows;
             target.rows = 1;
         });
-        for (const auto& [option, given] : {std::pair("--grid", !args.count.empty()), {"--depth", args.depth}})
+        for (const auto& [option, given] :
+             {std::pair("--grid", !args.count.empty()), {"--depth", args.depth}, {"--resume", args.resume}})
             if (given) faults.of([o = option] { throw InputError(o, "is for views in a folder; a quilt's name says its own"); });
         faults.of([&] { check_output(path); });
         faults.of([&] { args.output.check_bits(path); });
-        faults.of([&] { detail::check_replaceable(fs::path(path).replace_extension(".toml")); });
     } else {
         faults.of([&] {
             if (quilt_name(path) || kind == ".jpg" || kind == ".jpeg" || kind == ".tif" || kind == ".tiff")
@@ -118,11 +127,10 @@ Target target_of(const ViewsArguments& args, const Display& display) {
             });
         faults.of([&] { args.output.check_bits("view." + args.kind); });
         faults.of([&] {
-            std::error_code error;
             if (path.empty()) throw InputError("--output", "the name is empty; give a folder for the views, or a quilt's name");
             detail::check_folder(path);
-            if (fs::is_directory(path, error) && !fs::is_empty(path, error))
-                throw InputError(path.string(), "holds other files; give an empty folder for the views, or remove it");
+            if (args.resume && args.kind == "npy")
+                throw InputError("--resume", "a .npy does not record how it was made; use png or exr");
         });
     }
     faults.report();
@@ -229,6 +237,8 @@ Picture& add(Picture& all, const Picture& one) {
     return all;
 }
 
+fs::path beside_quilt(const ViewsArguments& args) { return fs::path(args.output.path()).replace_extension(".toml"); }
+
 /// The quilt and, beside it, NAME.toml: its geometry.
 Picture make_quilt(Maker& maker, const ViewsArguments& args, const Display& display, const ViewGrid& grid, const Target& target,
                    Progress& progress) {
@@ -245,41 +255,110 @@ Picture make_quilt(Maker& maker, const ViewsArguments& args, const Display& disp
         add(all, view);
         progress.advance(1);
     }
-    const fs::path path = args.output.path();
     args.output.write(all.image, Encoding::srgb, display, {{"seconds", fmt::format("{:.3f}", all.seconds)}}, true, progress);
-    write_text(fs::path(path).replace_extension(".toml"), views_toml(grid, "", ""));
+    write_text(beside_quilt(args), views_toml(grid, "", ""));
     return all;
 }
 
-/// view_0000.png ... and views.toml, which is written last: a folder with it is complete.
-Picture make_folder(Maker& maker, const ViewsArguments& args, const Display& display, const ViewGrid& grid, const Target& target,
-                    Progress& progress) {
-    const fs::path folder = args.output.path();
-    const char* const depth_kind = args.kind == "npy" ? "npy" : "exr";
-    Picture all;
-    all.image.width = target.width;
-    all.image.height = target.height;
-    progress.stage("views", std::int64_t(grid.views()));
-    OneOfMany one(progress);
-    for (int row = 0, n = 0; row < grid.rows; ++row)
-        for (int column = 0; column < grid.columns; ++column, ++n) {
-            const Picture view = maker.view(column, row, one);
-            if (!view.complete) end_interrupted("");
-            std::error_code error;
-            if (n == 0 && (fs::create_directories(folder, error), error))
-                throw InputError(folder.string(), fmt::format("cannot be made: {}", error.message()));
-            args.output.save(folder / fmt::format("view_{:04}.{}", n, args.kind), view.image, Encoding::srgb, display, {});
-            if (args.depth)
-                args.output.save(folder / fmt::format("depth_{:04}.{}", n, depth_kind), maker.depth(column, row, one).image,
-                                 Encoding::linear, display, {});
-            add(all, view);
-            progress.advance(1);
+/// What a folder gets: view_0000.png ..., a depth map with each, and views.toml, which is written last: a folder with it is
+/// complete.
+class ViewsFolder {
+  public:
+    ViewsFolder(const ViewsArguments& args, const Display& display, const ViewGrid& grid, const Target& target)
+        : args_(args), grid_(grid), target_(target), description_(write_display(display)), of_each_(args.depth ? 2 : 1) {
+        const char* const depth_kind = args.kind == "npy" ? "npy" : "exr";
+        toml_ = views_toml(grid, "view_*." + args.kind, args.depth ? fmt::format("depth_*.{}", depth_kind) : "");
+        pictures_ = {args.output.path(),
+                     std::int64_t(grid.views()) * of_each_,
+                     [=, this](std::int64_t n) {
+                         return n % of_each_ == 0 ? fmt::format("view_{:04}.{}", n / of_each_, args_.kind)
+                                                  : fmt::format("depth_{:04}.{}", n / of_each_, depth_kind);
+                     },
+                     [this](std::int64_t) { return description_; },
+                     shown_stamp(args.panel_image, args.pattern, display).dump(),
+                     named_as_view,
+                     "view",
+                     args.resume,
+                     args.replace};
+    }
+
+    /// Throws InputError if the folder holds anything that would be mixed with these views, or lost.
+    void check() const {
+        const fs::path& folder = pictures_.folder;
+        std::error_code none;
+        detail::remove_abandoned(folder, {});
+        if (!fs::is_directory(folder, none) || fs::is_empty(folder, none)) return;
+        if (!pictures_.resume && !pictures_.replace) {
+            if (const std::int64_t made = pictures_.count_finished(); made > 0)
+                throw InputError(folder.string(),
+                                 fmt::format("holds {} of {} that the same command makes; --resume goes on there, --replace "
+                                             "makes all again",
+                                             made, counted(pictures_.count, "picture")));
+            pictures_.keep_apart();
+            throw InputError(folder.string(),
+                             "holds other files; give an empty folder for the views, or --replace to write among them");
         }
-    progress.end();
-    write_text(folder / "views.toml",
-               views_toml(grid, "view_*." + args.kind, args.depth ? fmt::format("depth_*.{}", depth_kind) : ""));
-    return all;
-}
+        if (const fs::path toml = folder / toml_name;
+            !pictures_.replace && fs::exists(fs::symlink_status(toml, none)) && !holds(toml, toml_))
+            throw InputError(toml.string(), "is of other views; give another folder, or --replace to write over it");
+        pictures_.keep_apart();
+        for (std::int64_t n = 0; n < pictures_.count; ++n) refuse_input(pictures_.file(n));
+    }
+
+    Picture make(Maker& maker, const Display& display, Progress& progress) const {
+        const FolderLock lock(pictures_.folder);
+        check();
+        const std::vector<std::int64_t> left = pictures_.left();
+        Picture all;
+        all.image.width = target_.width;
+        all.image.height = target_.height;
+        const auto views = std::int64_t(grid_.views());
+        progress.stage("views", views);
+        OneOfMany one(progress);
+        const Metadata about{{"shown", pictures_.shown}};
+        for (std::int64_t view = 0, next = 0; view < views; ++view, progress.advance(1)) {
+            const auto of_view = [&] { return next < std::int64_t(left.size()) && left[std::size_t(next)] / of_each_ == view; };
+            for (; of_view(); ++next) {
+                const int column = int(view % grid_.columns), row = int(view / grid_.columns);
+                const std::int64_t n = left[std::size_t(next)];
+                const bool is_view = n % of_each_ == 0;
+                const Picture made = is_view ? maker.view(column, row, one) : maker.depth(column, row, one);
+                if (!made.complete) stop();
+                args_.output.save(pictures_.file(n), made.image, is_view ? Encoding::srgb : Encoding::linear, display, about);
+                if (is_view) add(all, made);
+            }
+        }
+        progress.end();
+        write_text(pictures_.folder / toml_name, toml_);
+        return all;
+    }
+
+  private:
+    static constexpr const char* toml_name = "views.toml";
+
+    static bool named_as_view(const fs::path& file) {
+        const std::string name = file.stem(), kind = file.extension(),
+                          number = name.substr(std::min(name.find('_') + 1, name.size()));
+        const bool numbered = number.size() >= 4 && number.find_first_not_of("0123456789") == number.npos;
+        return numbered && (name == "view_" + number || name == "depth_" + number) &&
+               (kind == ".png" || kind == ".exr" || kind == ".npy");
+    }
+
+    [[noreturn]] void stop() const {
+        const std::int64_t made = pictures_.count_finished();
+        if (made == 0) end_interrupted("");
+        spdlog::warn("interrupted; {} holds {} of {}{}", pictures_.folder.string(), made, counted(pictures_.count, "picture"),
+                     keeps_metadata(pictures_.file(0)) ? "; the same command with --resume continues it" : "");
+        throw Interrupted{};
+    }
+
+    const ViewsArguments& args_;
+    const ViewGrid& grid_;
+    const Target& target_;
+    std::string description_, toml_;
+    std::int64_t of_each_;
+    NumberedPictures pictures_;
+};
 
 void run(const ViewsArguments& args) {
     Faults faults;
@@ -312,10 +391,15 @@ void run(const ViewsArguments& args) {
     const ViewGrid grid = grid_of(wish, target, args, display, geometry);
     if (args.of_what == "display" && !args.panel_image.given()) require_panel_memory(display);
     Maker maker(args, display, geometry, grid, target);
+    const ViewsFolder folder(args, display, grid, target);
+    if (target.quilt)
+        check_companion(beside_quilt(args), holds(beside_quilt(args), views_toml(grid, "", "")), args.replace);
+    else
+        folder.check();
     Progress progress(args.work.progress());
     maker.prepare(pattern_options, progress);
-    const Picture made = target.quilt ? make_quilt(maker, args, display, grid, target, progress)
-                                      : make_folder(maker, args, display, grid, target, progress);
+    const Picture made =
+        target.quilt ? make_quilt(maker, args, display, grid, target, progress) : folder.make(maker, display, progress);
     Json more{{"of", args.of_what}, {"views", grid_json(grid)}};
     more.update(maker.more());
     print_made(Made{args.output.path(), made.image.width, made.image.height, maker.of_display() ? "samples" : "rays", made.rays,

@@ -3,6 +3,7 @@
 #include "cli/arguments.h"
 #include "engine/devices.h"
 #include "engine/memory.h"
+#include "model/printable.h"
 
 #include <fmt/format.h>
 
@@ -55,7 +56,7 @@ void print_made(const Made& made, bool json, const std::string& more_text, const
         all.update(more);
         return print_json(all);
     }
-    std::string text = fmt::format("{}: {} x {} pixels", made.path, made.width, made.height);
+    std::string text = fmt::format("{}: {} x {} pixels", printable(made.path), made.width, made.height);
     if (made.count > 0)
         text += fmt::format(", {:.1f} million {} in {:.2f} s ({:.1f} million/s)", double(made.count) / 1e6, made.unit, made.seconds,
                             rate / 1e6);

@@ -5,8 +5,12 @@
 
 #include <fmt/format.h>
 
+#include <fcntl.h>
+#include <unistd.h>
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <system_error>
 
 namespace lfdsim {
 namespace fs = std::filesystem;
@@ -51,9 +55,12 @@ const char* fault(const Model& m) {
 void check_file(const fs::path& path, const std::string& what) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
+    if (error == std::errc::permission_denied) throw InputError(path.string(), fmt::format("cannot be read: {}", error.message()));
     if (!fs::exists(status)) throw InputError(path.string(), fmt::format("no such {} file", what));
     if (!fs::is_regular_file(status)) throw InputError(path.string(), fmt::format("not a file that can hold a {}", what));
     if (fs::file_size(path, error) == 0 && !error) throw InputError(path.string(), fmt::format("the {} file is empty", what));
+    if (faccessat(AT_FDCWD, path.c_str(), R_OK, AT_EACCESS) != 0)
+        throw InputError(path.string(), fmt::format("cannot be read: {}", std::generic_category().message(errno)));
 }
 
 void check_limits(const LoadOptions& options) {

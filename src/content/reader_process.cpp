@@ -7,10 +7,12 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <string>
@@ -87,10 +89,19 @@ std::size_t ReaderProcess::count(std::size_t size) {
 // The pipe closed early: the reader's exit status gives the reason.
 void ReaderProcess::fail() {
     int status = 0;
-    while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    rusage used{};
+    while (wait4(process_, &status, 0, &used) < 0 && errno == EINTR) {
     }
     process_ = -1;
-    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) throw Failure(timeout_text(options_.seconds));
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
+        const double seconds = std::round(double(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+                                          1e-6 * double(used.ru_utime.tv_usec + used.ru_stime.tv_usec));
+        if (seconds >= options_.seconds) throw Failure(timeout_text(options_.seconds));
+        throw Failure(
+            fmt::format("reading it took more than {:g} s, too much for a file of its size; is it damaged? A program that opens "
+                        "it can export it anew, as .glb or .obj",
+                        seconds));
+    }
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) throw Failure("the reader was killed; perhaps memory ran out");
     // As sanitizers report a crash: by a status.
     const std::string how = WIFSIGNALED(status)                             ? strsignal(WTERMSIG(status))

@@ -3,6 +3,7 @@
 #include "files/decode.h"
 #include "files/nearest.h"
 #include "files/text_file.h"
+#include "model/printable.h"
 
 #include <fmt/format.h>
 #include <charconv>

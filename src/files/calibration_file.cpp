@@ -6,6 +6,7 @@
 #include "files/lens_json.h"
 #include "files/nearest.h"
 #include "model/keys.h"
+#include "model/printable.h"
 
 // visual.json of Looking Glass displays: numbers by name, plain or as {"value": x}; newer ones with subpixelCells.
 namespace lfdsim {

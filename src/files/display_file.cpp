@@ -14,6 +14,7 @@
 #include "files/values.h"
 #include "model/findings.h"
 #include "model/geometry.h"
+#include "model/printable.h"
 
 namespace lfdsim {
 namespace {

@@ -2,6 +2,7 @@
 
 #include "files/nearest.h"
 #include "model/colour.h"
+#include "model/printable.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -10,6 +10,7 @@
 #include "model/lattice.h"
 #include "model/numbers.h"
 #include "model/prescription.h"
+#include "model/printable.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

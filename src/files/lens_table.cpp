@@ -5,6 +5,7 @@
 #include "model/counted.h"
 #include "model/geometry.h"
 #include "model/lens_errors.h"
+#include "model/printable.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -44,15 +44,4 @@ std::string_view nearest(std::string_view word, std::span<const std::string_view
     return best.empty() ? std::string_view() : best.front();
 }
 
-std::string shortened(std::string_view word) {
-    constexpr std::size_t longest = 40;
-    std::size_t end = std::min(word.size(), longest);
-    while (end < word.size() && end > 0 && (static_cast<unsigned char>(word[end]) & 0xc0) == 0x80)
-        --end;  // no half UTF-8 character
-    std::string text(word.substr(0, end));
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-    return end < word.size() ? text + "..." : text;
-}
-
 }  // namespace lfdsim

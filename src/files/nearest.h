@@ -1,4 +1,4 @@
-// Words that are wrong: how to show them, and the known word that was most likely meant. Floor 2.
+// For a word that is wrong, the known one that was most likely meant. Floor 2.
 #pragma once
 #include <span>
 #include <string>
@@ -12,8 +12,5 @@ std::string_view nearest(std::string_view word, std::span<const std::string_view
 
 /// The candidates with the fewest letters to change, at most so many, the nearest first; those that are not near are left out.
 std::vector<std::string_view> nearest(std::string_view word, std::span<const std::string_view> candidates, std::size_t count);
-
-/// A word from a file as a message may quote it: control characters as ?, at most 40 bytes, and an ellipsis for the rest.
-std::string shortened(std::string_view word);
 
 }  // namespace lfdsim

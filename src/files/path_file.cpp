@@ -10,6 +10,7 @@
 
 #include "files/nearest.h"
 #include "files/text_file.h"
+#include "model/printable.h"
 
 namespace lfdsim {
 namespace {

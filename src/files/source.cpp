@@ -60,6 +60,29 @@ toml::table parse_value(std::string_view path, std::string_view value) {
     return holder;
 }
 
+// For a line that the parser refused: what to write in place of its value, where that is known; else the parser's words.
+std::string hint_in(std::string_view text, std::size_t line, std::string_view says) {
+    std::string table;
+    for (std::size_t n = 1; n <= line && !text.empty(); ++n) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        std::string_view one = text.substr(0, text.find_first_of("\r\n"));
+        text.remove_prefix(std::min(end + 1, text.size()));
+        one.remove_prefix(std::min(one.find_first_not_of(" \t"), one.size()));
+        const std::size_t brackets = one.find_first_not_of('[');
+        if (one.starts_with('[') && brackets <= 2)  // the first of a list stands for all
+            table = std::string(one.substr(brackets, one.find(']') - brackets)) + (brackets == 2 ? ".0." : ".");
+        const std::size_t equals = one.find('=');
+        if (n < line || equals == one.npos) continue;
+        std::string_view value = one.substr(equals + 1);
+        if (value.find_first_of("\"'") == value.npos) value = value.substr(0, value.find('#'));
+        std::string_view key = one.substr(0, equals);
+        key = key.substr(0, key.find_last_not_of(" \t") + 1);
+        if (const std::string hint = override_hint(table + std::string(key), value); !hint.empty())
+            return fmt::format("{}: {}", key, hint);
+    }
+    return std::string(says);
+}
+
 }  // namespace
 
 bool takes_glass(std::string_view path) {
@@ -76,7 +99,7 @@ Source::Source(std::string_view text, std::string_view name, const std::vector<s
     try {
         root_ = toml::parse(text, name);
     } catch (const toml::parse_error& error) {
-        throw InputError(at(error.source()).text, std::string(error.description()));
+        throw InputError(at(error.source()).text, hint_in(text, error.source().begin.line, error.description()));
     }
     std::vector<Problem> problems;
     for (const std::string& text_of_one : overrides) {

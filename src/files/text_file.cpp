@@ -39,6 +39,7 @@ std::string read_text(const std::filesystem::path& path, std::string_view kind, 
     const std::string name = path.string();
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
+    if (error == std::errc::permission_denied) throw InputError(name, "cannot be read: " + error.message());
     if (!std::filesystem::exists(status)) throw InputError(name, "there is no such file");
     if (std::filesystem::is_directory(status)) throw InputError(name, "is a folder; give the file in it");
     if (!std::filesystem::is_regular_file(status)) throw InputError(name, "is not a regular file");

@@ -7,6 +7,7 @@
 
 #include "files/nearest.h"
 #include "model/counted.h"
+#include "model/printable.h"
 
 namespace lfdsim {
 namespace {

@@ -58,6 +58,7 @@ double ViewsSource::step() const { return cameras.empty() ? 0 : mean_step(camera
 ViewsSource find_views(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
+    if (error == std::errc::permission_denied) throw InputError(path.string(), fmt::format("cannot be read: {}", error.message()));
     if (path.empty() || !fs::exists(status))
         throw InputError(path.string(), fmt::format("there is no such folder or file; {}", forms));
     if (fs::is_directory(status)) {

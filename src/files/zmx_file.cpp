@@ -12,6 +12,7 @@
 #include "files/drawn_lens.h"
 #include "files/nearest.h"
 #include "model/counted.h"
+#include "model/printable.h"
 
 // Zemax's .zmx: a line is a keyword and its values. "SURF n" begins a surface, whose lines are indented.
 namespace lfdsim {

@@ -1,9 +1,12 @@
 #include "image/formats.h"
+#include "model/printable.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstring>
 #include <thread>
 #include <vector>
 
@@ -13,8 +16,11 @@
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
+#include <OpenEXR/ImfTileDescription.h>
+#include <OpenEXR/ImfVersion.h>
 
 namespace lfdsim::detail {
 namespace {
@@ -95,6 +101,107 @@ void read_rows(Imf::InputFile& exr, const Names& names, const Window& data, cons
     }
 }
 
+/// The next bytes of a header.
+class HeaderBytes {
+  public:
+    explicit HeaderBytes(const InputFile& file) : file_(file) { fseeko(file.stream(), 0, SEEK_SET); }
+    std::int32_t number() {
+        std::array<unsigned char, 4> b{};
+        if (std::fread(b.data(), 1, 4, file_.stream()) != 4) end();
+        return std::int32_t(b[0] | b[1] << 8 | b[2] << 16 | std::uint32_t(b[3]) << 24);
+    }
+    std::string word() {
+        std::string text;
+        for (int c; (c = std::getc(file_.stream())) != 0; text.push_back(char(c)))
+            if (c == EOF || text.size() > 255) end();
+        return text;
+    }
+    std::int64_t left() const { return file_.size() - ftello(file_.stream()); }
+    void skip(std::int64_t bytes) { fseeko(file_.stream(), bytes, SEEK_CUR); }
+
+  private:
+    [[noreturn]] void end() const { file_.refuse("is damaged or not an EXR file: its header does not end"); }
+    const InputFile& file_;
+};
+
+/// OpenEXR takes memory for what an attribute says that it holds before it reads that.
+void check_attributes(const InputFile& file) {
+    HeaderBytes bytes(file);
+    if (bytes.number() != Imf::MAGIC) file.refuse("is not an EXR file, whatever its name says");
+    const bool parts = (bytes.number() & Imf::MULTI_PART_FILE_FLAG) != 0;
+    for (bool more = true; more;) {
+        std::string name = bytes.word();
+        more = parts && !name.empty();  // the headers of parts end with an empty one
+        for (; !name.empty(); name = bytes.word()) {
+            const std::string type = bytes.word();
+            const std::int64_t size = bytes.number();
+            if (size < 0 || size > bytes.left())
+                file.refuse(
+                    fmt::format("is damaged: its attribute \"{}\" claims {} bytes, more than the file has", shortened(name), size));
+            if (type == "idmanifest" && size >= 4) {  // deflate packs 1032 bytes into one at best
+                const std::int64_t unpacked = bytes.number();
+                if (unpacked < 0 || unpacked > 1032 * size)
+                    file.refuse(fmt::format("is damaged: its attribute \"{}\"", shortened(name)));
+                bytes.skip(size - 4);
+            } else {
+                bytes.skip(size);
+            }
+        }
+    }
+}
+
+std::int64_t rows_together(Imf::Compression compression) {
+    switch (compression) {
+        case Imf::NO_COMPRESSION:
+        case Imf::RLE_COMPRESSION:
+        case Imf::ZIPS_COMPRESSION:
+            return 1;
+        case Imf::ZIP_COMPRESSION:
+        case Imf::PXR24_COMPRESSION:
+            return 16;
+        case Imf::DWAB_COMPRESSION:
+            return 256;
+        default:
+            return 32;
+    }
+}
+
+/// The table of blocks has 8 bytes for each, and OpenEXR takes memory for whole blocks, several at a time.
+void check_blocks(const InputFile& file, const Imf::Header& header, const Window& data) {
+    constexpr double usual = 1 << 24;
+    std::int64_t columns = data.columns, rows = rows_together(header.compression());
+    double blocks = std::ceil(double(data.rows) / double(rows));
+    if (header.hasTileDescription()) {
+        const Imf::TileDescription& tile = header.tileDescription();
+        if (tile.xSize < 1 || tile.ySize < 1 || tile.xSize > most_tile || tile.ySize > most_tile)
+            file.refuse(fmt::format("has tiles of {} x {} pixels; allowed are up to {} a side", tile.xSize, tile.ySize, most_tile));
+        blocks = std::ceil(double(columns) / tile.xSize) * std::ceil(double(data.rows) / tile.ySize);
+        rows = tile.ySize;
+    }
+    double pixel = 0;
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c) pixel += c.channel().type == Imf::HALF ? 2 : 4;
+    if (blocks * 8 > double(file.size()) ||
+        double(columns) * double(rows) * pixel > std::max(usual, 1032. * 64 * double(file.size())))
+        file.refuse(fmt::format("is damaged: it claims {} x {} pixels, more than its {} bytes can hold", data.columns, data.rows,
+                                file.size()));
+}
+
+/// The header, of which nothing is out of proportion to the file. Throws InputError, Iex::BaseExc.
+Imf::Header checked_header(const InputFile& file) {
+    check_attributes(file);
+    Imf::StdIFStream stream(file.name().c_str());
+    std::array<char, 8> start{};
+    stream.read(start.data(), int(start.size()));
+    int version = 0;
+    std::memcpy(&version, &start[4], sizeof version);
+    Imf::Header header;
+    header.readFrom(stream, version);
+    const Window data(header.dataWindow());
+    check_windows(file, data, Window(header.displayWindow()), header.compression());
+    check_blocks(file, header, data);
+    return header;
+}
+
 [[noreturn]] void refuse(const InputFile& file, const Iex::BaseExc& error) {
     file.refuse(fmt::format("is damaged or not an EXR file: {}", error.what()));
 }
@@ -103,13 +210,13 @@ void read_rows(Imf::InputFile& exr, const Names& names, const Window& data, cons
 void read_channels(const InputFile& file, const Names& names, bool needed, const Allocate& allocate) {
     start_library();
     try {
-        Imf::InputFile exr(file.name().c_str(), Imf::globalThreadCount());
-        const Imf::ChannelList& channels = exr.header().channels();
+        const Imf::Header header = checked_header(file);
+        const Imf::ChannelList& channels = header.channels();
         if (!needed && std::none_of(names.begin(), names.end(), [&](const auto& name) { return channels.findChannel(name); }))
             return;
-        const Window data(exr.header().dataWindow()), display(exr.header().displayWindow());
         check_channels(file, channels, names);
-        check_windows(file, data, display, exr.header().compression());
+        const Window data(header.dataWindow()), display(header.displayWindow());
+        Imf::InputFile exr(file.name().c_str(), Imf::globalThreadCount());
         read_rows(exr, names, data, display, allocate(display.columns, display.rows));
     } catch (const Iex::BaseExc& error) {
         refuse(file, error);
@@ -147,9 +254,9 @@ void read_exr_layer(const InputFile& file, const std::string& layer, const Alloc
 Metadata read_exr_metadata(const InputFile& file) {
     start_library();
     try {
-        const Imf::InputFile exr(file.name().c_str());
+        const Imf::Header header = checked_header(file);
         Metadata metadata;
-        for (auto a = exr.header().begin(); a != exr.header().end(); ++a)
+        for (auto a = header.begin(); a != header.end(); ++a)
             if (const auto* const text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
                 metadata[a.name()] = text->value();
         return metadata;

@@ -2,10 +2,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstring>
 #include <system_error>
 
@@ -16,6 +19,28 @@ namespace {
 std::string reason(int error) { return std::generic_category().message(error); }
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+
+constexpr std::string_view partial_mark = ".partial-";
+
+// The file and the process in NAME.partial-PID; 0: it is no such name.
+std::pair<std::string_view, pid_t> partial(std::string_view name) {
+    const std::size_t mark = name.rfind(partial_mark);
+    if (mark == name.npos || mark == 0) return {};
+    const char *const first = name.data() + mark + partial_mark.size(), *const last = name.data() + name.size();
+    pid_t process = 0;
+    const auto [end, error] = std::from_chars(first, last, process);
+    return error == std::errc{} && end == last && process > 0 ? std::pair(name.substr(0, mark), process)
+                                                              : std::pair<std::string_view, pid_t>();
+}
+
+// Whoever writes a file holds its lock, which the system lets go however that process ends.
+bool is_held(const fs::path& path) {
+    const int descriptor = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) return true;
+    const bool held = flock(descriptor, LOCK_EX | LOCK_NB) != 0;
+    close(descriptor);
+    return held;
+}
 
 }  // namespace
 
@@ -51,13 +76,15 @@ void OutputMemory::write(const void* data, std::size_t bytes) {
     position_ += bytes;
 }
 
-OutputFile::OutputFile(const fs::path& path) : path_(path), partial_(fmt::format("{}.partial-{}", path.string(), getpid())) {
+OutputFile::OutputFile(const fs::path& path) : path_(path), partial_(fmt::format("{}{}{}", path.string(), partial_mark, getpid())) {
     check_replaceable(path);
+    remove_abandoned(folder_of(path), path.filename());
     const int descriptor = open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (descriptor < 0) {
         if (errno == ENOSPC || errno == EDQUOT || errno == EIO || errno == EMFILE || errno == ENFILE) fail(errno);
         throw InputError(path.string(), fmt::format("cannot be written: {}", reason(errno)));
     }
+    static_cast<void>(flock(descriptor, LOCK_EX | LOCK_NB));  // for remove_abandoned(); some file systems know no locks
     stream_.reset(fdopen(descriptor, "wb"));
     if (stream_) return;
     close(descriptor);
@@ -104,6 +131,16 @@ void check_replaceable(const fs::path& path) {
         throw InputError(path.string(), fmt::format("the folder {} does not exist; make it first", folder.string()));
     if (faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0)
         throw InputError(path.string(), fmt::format("the folder {} cannot be written: {}", folder.string(), reason(errno)));
+}
+
+void remove_abandoned(const fs::path& folder, const std::string& name) {
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder, none)) {
+        const std::string there = entry.path().filename();
+        const auto [file, process] = partial(there);
+        if (process == 0 || (!name.empty() && file != name) || !fs::is_regular_file(entry.symlink_status(none))) continue;
+        if (kill(process, 0) != 0 && errno == ESRCH && !is_held(entry.path())) fs::remove(entry.path(), none);
+    }
 }
 
 void check_folder(const fs::path& folder) {

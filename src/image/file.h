@@ -62,8 +62,9 @@ class OutputMemory : public Output {
     std::size_t position_ = 0;
 };
 
-/// Writes to PATH.partial-PID; commit() renames it to PATH, and without one the destructor removes it.
-/// Throws InputError when the file cannot be made there, std::runtime_error when writing fails (disk full).
+/// Writes to PATH.partial-PID; commit() renames it to PATH, and without one the destructor removes it. What a killed program left
+/// of the same PATH is removed first. Throws InputError when the file cannot be made there, std::runtime_error when writing fails
+/// (disk full).
 class OutputFile : public Output {
   public:
     explicit OutputFile(const std::filesystem::path& path);
@@ -87,6 +88,10 @@ class OutputFile : public Output {
 
 /// Throws InputError unless a file can be made or replaced at `path`, as far as can be checked without writing.
 void check_replaceable(const std::filesystem::path& path);
+
+/// Removes what programs that were killed have left of one file, or, with an empty name, of any file in the folder:
+/// NAME.partial-PID, if no process has that number and none, of another machine either, holds the file.
+void remove_abandoned(const std::filesystem::path& folder, const std::string& name);
 
 /// Throws InputError unless files can be made in this folder, which may have to be made itself, as far as can be checked without
 /// writing.

@@ -61,6 +61,18 @@ Job& stage(Job* caller, const char* name, std::int64_t columns, std::int64_t row
     return *caller;
 }
 
+/// A file that would take more memory than the system gives is one that cannot be read.
+template <class Work>
+auto within_memory(const InputFile& file, const Work& work) {
+    try {
+        return work();
+    } catch (const std::bad_alloc&) {
+        file.refuse("takes more memory than there is; give a smaller picture");
+    } catch (const std::length_error&) {
+        file.refuse("takes more memory than there is; give a smaller picture");
+    }
+}
+
 enum class Values { finite, radiance };
 
 /// Refuses NaN and infinities in a picture, and negative radiance on a panel; the error names the first such value.
@@ -163,7 +175,7 @@ Image read_image(const fs::path& path, Encoding encoding) {
     const Format format = format_to_read(path);
     const InputFile file(path);
     Image image;
-    read(file, format, encoding, Values::finite, as_image(file, image));
+    within_memory(file, [&] { read(file, format, encoding, Values::finite, as_image(file, image)); });
     return image;
 }
 
@@ -172,8 +184,10 @@ std::optional<Image> read_layer(const fs::path& path, const std::string& name) {
     const InputFile file(path);
     Image image;
     if (format == Format::exr)
-        read_floats(file, Values::finite, as_image(file, image),
-                    [&](const InputFile&, const Allocate& allocate) { read_exr_layer(file, name, allocate); });
+        within_memory(file, [&] {
+            read_floats(file, Values::finite, as_image(file, image),
+                        [&](const InputFile&, const Allocate& allocate) { read_exr_layer(file, name, allocate); });
+        });
     if (image.rgb.empty()) return std::nullopt;
     return image;
 }
@@ -181,9 +195,9 @@ std::optional<Image> read_layer(const fs::path& path, const std::string& name) {
 Metadata read_metadata(const fs::path& path) {
     const Format format = format_to_read(path);
     const InputFile file(path);
-    if (format == Format::png) return read_png_metadata(file);
-    if (format == Format::exr) return read_exr_metadata(file);
-    return {};
+    return within_memory(file, [&] {
+        return format == Format::png ? read_png_metadata(file) : format == Format::exr ? read_exr_metadata(file) : Metadata();
+    });
 }
 
 bool holds_codes(const fs::path& path) {
@@ -194,20 +208,21 @@ bool holds_codes(const fs::path& path) {
 int read_orientation(const fs::path& path) {
     const Format format = format_to_read(path);
     const InputFile file(path);
-    return format == Format::jpeg ? read_jpeg_orientation(file) : 1;
+    return within_memory(file, [&] { return format == Format::jpeg ? read_jpeg_orientation(file) : 1; });
 }
 
 Texels read_panel_image(const fs::path& path, Encoding encoding, std::int64_t columns, std::int64_t rows, Job* caller) {
     const Format format = format_to_read(path);
     const InputFile file(path);
     Texels texels;
-    read(file, format, encoding, Values::radiance, [&](std::int64_t c, std::int64_t r) {
+    const Allocate as_texels = [&](std::int64_t c, std::int64_t r) {
         if (c != columns || r != rows)
             file.refuse(fmt::format("is {} x {} pixels, the panel has {} x {}; the sizes must be equal", c, r, columns, rows));
         check_memory(file, columns, rows, 4);
         texels = Texels(columns, rows);
         return Pixels{texels.data(), columns, 4, &stage(caller, "reading", columns, rows)};
-    });
+    };
+    within_memory(file, [&] { read(file, format, encoding, Values::radiance, as_texels); });
     return texels;
 }
 

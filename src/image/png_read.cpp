@@ -90,6 +90,9 @@ void read_rows(const PngReader& reader, int passes, std::int64_t rows, const std
 Metadata read_png_metadata(const InputFile& file) {
     check_signature(file);
     const PngReader reader(file);
+    // What deflate unpacks is taken as memory: so many texts, each so long, are more than any picture of ours has.
+    png_set_chunk_cache_max(reader.png, 64);
+    png_set_chunk_malloc_max(reader.png, std::size_t(1) << 22);
     png_read_info(reader.png, reader.info);
     png_textp texts = nullptr;
     const int count = png_get_text(reader.png, reader.info, &texts, nullptr);

@@ -80,7 +80,7 @@ struct Measured {
             const Subject subject(display, {}, options);
             const FolderLock lock(place);
             const ResultFolder folder(place, run_settings(subject, LFDSIM_VERSION));
-            folder.keep_apart(replace);
+            folder.keep_apart(std::array{measure}, false, replace);
             folder.write(*measure, result, seconds);
             folder.write_text(ResultFolder::report_name,
                               report_html(subject, folder, {command, write_display(display), {measure}}));

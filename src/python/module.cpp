@@ -1,6 +1,8 @@
+#include "model/printable.h"
 #include "python/parts.h"
 
 #include <nanobind/stl/string.h>
+#include <new>
 
 // lfdsim._core: what the Python package in python/lfdsim needs of the program. Names and arguments that users see are in the
 // package.
@@ -12,7 +14,8 @@ namespace nb = nanobind;
 /// Makes lfdsim.errors.NAME of (where, what) pairs the current exception.
 void raise(const char* name, const InputError& error) {
     nb::list problems;
-    for (const Problem& p : error.problems) problems.append(nb::make_tuple(p.where, p.what));
+    for (const Problem& p : error.problems)
+        problems.append(nb::make_tuple(bounded(printable_lines(p.where)), bounded(printable_lines(p.what))));
     const nb::object type = nb::module_::import_("lfdsim.errors").attr(name);
     PyErr_SetObject(type.ptr(), type(problems).ptr());
 }
@@ -24,6 +27,8 @@ void translate(const std::exception_ptr& thrown, void*) {
         raise("DisplayError", fault);
     } catch (const InputError& error) {
         raise("InputError", error);
+    } catch (const std::bad_alloc&) {
+        PyErr_SetString(PyExc_MemoryError, "out of memory; make the picture or the panel smaller, or use fewer threads");
     }
 }
 

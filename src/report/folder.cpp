@@ -4,6 +4,7 @@
 #include "image/file.h"
 #include "image/image_file.h"
 #include "image/scaled.h"
+#include "model/printable.h"
 #include "report/svg.h"
 
 #include <fmt/format.h>
@@ -43,7 +44,21 @@ void write_small(const fs::path& path, const Animation& animation) {
     write_animation(path, frames, animation.seconds_per_frame);
 }
 
-std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+/// Whether a measure may write a file of that name: NAME.json, NAME_curve.csv, NAME-white.png.
+bool named_as_of(const Measure& measure, const fs::path& file) {
+    const std::string name = file.filename(), kind = file.extension();
+    const std::size_t end = measure.name.size();
+    return name.starts_with(measure.name) && name.size() > end &&
+           std::string_view("._-").find(name[end]) != std::string_view::npos &&
+           (kind == ".json" || kind == ".csv" || kind == ".svg" || kind == ".png");
+}
+
+InputError foreign(const fs::path& path) {
+    return {path.string(), "is no result of lfdsim and would be written over; give another folder, or --replace"};
+}
+
+// The same document where names in it hold what a terminal would obey.
+std::string dump(const Json& json) { return printable_lines(json.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n"; }
 
 }  // namespace
 
@@ -122,12 +137,39 @@ void ResultFolder::remove_others() const {
     if (std::error_code error; any) fs::remove(path_ / report_name, error);
 }
 
-void ResultFolder::keep_apart(bool replace) const {
+// Whether a file of the folder, named as those of the measure are, is of a result of its.
+bool ResultFolder::wrote(const Measure& measure, const fs::path& name) const {
+    try {
+        const Json json = read(measure), files = json.at("report").at("files");
+        return name == std::string(measure.name) + ".json" || std::find(files.begin(), files.end(), name.string()) != files.end();
+    } catch (const std::exception&) {
+        return false;
+    }
+}
+
+void ResultFolder::keep_report_apart(const fs::path& folder, bool replace) {
+    const fs::path path = folder / report_name;
+    std::error_code none;
+    if (replace || !fs::exists(fs::symlink_status(path, none))) return;
+    std::ifstream file(path, std::ios::binary);
+    std::string head(1024, '\0');
+    file.read(head.data(), std::streamsize(head.size()));
+    if (head.find(report_mark) == head.npos) throw foreign(path);
+}
+
+void ResultFolder::keep_apart(std::span<const Measure* const> wanted, bool resume, bool replace) const {
     if (replace) return remove_others();
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(path_, none)) {
+        const fs::path name = entry.path().filename();
+        for (const Measure* m : wanted)
+            if (named_as_of(*m, name) && !wrote(*m, name) && !(resume && name.extension() != ".json")) throw foreign(entry.path());
+    }
     if (const std::vector<std::string> there = others(); !there.empty())
         throw InputError(path_.string(),
                          fmt::format("holds results of other settings: {}; give another folder, or --replace to remove them",
                                      fmt::join(there, ", ")));
+    keep_report_apart(path_, replace);
 }
 
 Json ResultFolder::write(const Measure& measure, const Result& result, double seconds) const {

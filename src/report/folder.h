@@ -3,6 +3,7 @@
 #include "analysis/measure.h"
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,10 @@ class ResultFolder {
     std::vector<std::string> others() const;
     /// Removes their results, and the report.
     void remove_others() const;
-    /// Removes them if they are to be replaced. Throws InputError that lists them otherwise.
-    void keep_apart(bool replace) const;
+    /// Removes them if they are to be replaced. Throws InputError that lists them otherwise, and InputError for files that these
+    /// measures would write over and that are no result of theirs: under their names where `resume` does not say that an earlier
+    /// run may have left them, and a report that lfdsim has not written.
+    void keep_apart(std::span<const Measure* const> wanted, bool resume, bool replace) const;
     /// The content of NAME.json. Throws InputError if it cannot be read.
     Json read(const Measure&) const;
     /// Returns the content of NAME.json as written. Throws std::runtime_error when writing fails.
@@ -36,9 +39,14 @@ class ResultFolder {
 
     /// The name of the report in a folder of results.
     static constexpr const char* report_name = "report.html";
+    /// What tells that lfdsim has written a report, in its head.
+    static constexpr const char* report_mark = "<meta name=\"generator\" content=\"lfdsim\">";
+    /// Throws InputError if there is a report that does not have it.
+    static void keep_report_apart(const std::filesystem::path& folder, bool replace);
 
   private:
     Json settings_of(const Measure&) const;
+    bool wrote(const Measure&, const std::filesystem::path& name) const;
 
     std::filesystem::path path_;
     Json settings_;

@@ -23,6 +23,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
         close(descriptor_);
         throw InputError(folder.string(), "another run is writing its results there; wait until it ends, or give another folder");
     }
+    detail::remove_abandoned(folder, {});
 }
 
 FolderLock::~FolderLock() { close(descriptor_); }

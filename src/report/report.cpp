@@ -94,11 +94,11 @@ std::string report_html(const Subject& subject, const ResultFolder& folder, cons
     const std::string& given = subject.display().name;
     const std::string name = given.empty() ? "A display without a name" : escaped(given);
     std::string html = fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{3}\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<title>{0}: measurements</title>\n<style>{1}</style>\n</head>\n<body>\n<header>\n<h1>{0}</h1>\n"
         "<p class=\"about\">A light field display, simulated and measured by lfdsim {2}.</p>\n</header>\n",
-        name, report_style, escaped(folder.settings().value("lfdsim", std::string())));
+        name, report_style, escaped(folder.settings().value("lfdsim", std::string())), ResultFolder::report_mark);
     html += missing_measures(shown, about) + "<main>\n" + contents(shown) + summary(shown) + display_section(subject);
     for (const Shown& s : shown) html += measure_section(folder, s.measured);
     return html + settings(folder, about) + "</main>\n</body>\n</html>\n";

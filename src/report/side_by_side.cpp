@@ -195,12 +195,13 @@ std::string side_by_side_html(std::span<const MeasuredDisplay> displays, const J
         links += fmt::format("<li><a href=\"{0}/report.html\">{0}</a></li>\n", escaped(d.name));
     }
     std::string html = fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{5}\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<title>{0}</title>\n<style>{1}{2}</style>\n</head>\n<body>\n<header>\n<h1>{0}</h1>\n"
         "<p class=\"about\">Light field displays, simulated and measured in the same way by lfdsim {3}. The report of each:</p>\n"
         "<nav aria-label=\"Reports\"><ul>\n{4}</ul></nav>\n</header>\n",
-        title, report_style, style, escaped(displays.front().folder.settings().value("lfdsim", std::string())), links);
+        title, report_style, style, escaped(displays.front().folder.settings().value("lfdsim", std::string())), links,
+        ResultFolder::report_mark);
     if (!missing.empty())
         html += fmt::format(
             "<div class=\"incomplete\" role=\"alert\">\n<p><strong>This report is incomplete.</strong> {}</p>\n</div>\n",

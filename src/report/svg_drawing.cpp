@@ -1,6 +1,7 @@
 #include "report/svg_drawing.h"
 
 #include "analysis/result.h"
+#include "model/printable.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -9,11 +10,8 @@
 namespace lfdsim {
 
 std::string escaped(std::string_view text) {
-    // The JSON writer replaces bytes that are not valid UTF-8.
-    const std::string quoted = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
-    const std::string valid = Json::parse(quoted).get<std::string>();
     std::string safe;
-    for (const char c : valid) {
+    for (const char c : printable_lines(text)) {
         if (c == '&')
             safe += "&amp;";
         else if (c == '<')
@@ -22,7 +20,7 @@ std::string escaped(std::string_view text) {
             safe += "&gt;";
         else if (c == '"')
             safe += "&quot;";
-        else if ((unsigned(c) >= 0x20 && c != 0x7f) || c == '\n' || c == '\t')
+        else
             safe += c;
     }
     return safe;

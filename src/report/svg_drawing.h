@@ -8,7 +8,7 @@
 
 namespace lfdsim {
 
-/// Text for XML and HTML: special letters escaped, valid UTF-8, no control characters.
+/// Text for XML and HTML: special letters escaped, and what a page would obey in place of showing it (model/printable.h).
 std::string escaped(std::string_view);
 
 /// Pixels to two decimals, without trailing zeros. 0 for values that are not finite.

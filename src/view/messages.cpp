@@ -2,6 +2,7 @@
 
 #include "files/nearest.h"
 #include "model/error.h"
+#include "model/printable.h"
 
 #include <nlohmann/json.hpp>
 

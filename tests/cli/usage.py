@@ -25,9 +25,34 @@ for name, arguments, words in [
     ("option without value", "render tiny.toml -o out.png --samples", "--samples needs a value"),
     ("option given twice", "render tiny.toml -o out.png --seed 1 --seed 2", "--seed is given more than once"),
     ("one file too many", "check tiny.toml panel.png", "panel.png"),
-    ("control characters", ["check", "\x1b[31mred\n.toml"], "?[31mred?.toml"),
+    ("unknown command with options", "rendr tiny.toml -o out.png", "rendr: unknown command; did you mean render?"),
+    ("a display for a command", "tiny.toml -o out.png", "lfdsim check tiny.toml"),
+    ("measure behind the display", "analyze tiny.toml fov -o out", "fov: is a measure, and these come first: lfdsim analyze fov tiny.toml"),
+    ("measures behind the display", "analyze tiny.toml fov,mtf", "lfdsim analyze fov,mtf tiny.toml"),
+    ("peer behind the display", "export tiny.toml pov -o scene", "lfdsim export pov tiny.toml"),
+    ("spaces for commas", "render tiny.toml --camera-mm 40 0 599 -o out.png", "--camera-mm 40,0,599"),
+    ("spaces and commas, before the display", "render --target-mm 40, 0, -5 tiny.toml -o out.png", "--target-mm 40,0,-5"),
+    ("spaces in steps", "analyze fov tiny.toml --angles-deg -30 30 1 -o out", "--angles-deg -30,30,1"),
+    ("spaces in a crop", "compare panel.png panel.png --crop 0 0 5 5", "--crop 0,0,5,5"),
+    ("spaces for an x", "render tiny.toml --size 96 x 54 -o out.png", "--size 96x54"),
+    ("one number for three", "analyze fov tiny.toml --angles-deg 5 -o out", "give FROM,TO,STEP: 3 finite numbers with commas between, such as -30,30,1"),
+    ("a negative count", "render tiny.toml --samples -1 -o out.png", "give a whole number from 1 to 16777216"),
+    ("a negative seed", "render tiny.toml --seed -1 -o out.png", "give a whole number, 0 or more"),
+    ("a decimal comma", "eia tiny.toml --depth-mm 20,5 -o out.png", "give 20.5"),
+    ("a unit", "eia tiny.toml --depth-mm 20mm -o out.png", "in the unit of the option's name; give 20"),
+    ("control characters", ["check", "\x1b[31mred\n.toml"], "\\u001b[31mred\\u000a.toml"),
 ]:
     checks.refused(program, name, arguments, words)
+
+# The same slips in a file.
+tiny = (program.folder / "tiny.toml").read_text()
+for line, said in (("gap_mm = 3,2", "slip.toml:15:11: gap_mm: the decimal sign is a point; write 3.2"),
+                   ("gap_mm = 3.2 mm", "gap_mm: numbers carry no unit, array.gap_mm is in mm; write 3.2"),
+                   ("gap_mm = .5  # half", "gap_mm: numbers have digits on both sides of a point and no leading zeros; write 0.5"),
+                   ("gap_mm = 3.2 in", "array.gap_mm is in mm; write the number in it"), ("count = 11, 6", "count: a list stands in brackets; write [11, 6]")):
+    key = line.split(" =")[0]
+    (program.folder / "slip.toml").write_text("\n".join(line if old.startswith(f"{key} =") else old for old in tiny.split("\n")))
+    checks.refused(program, line, "check slip.toml", said)
 
 help_text = program.must("--help")
 for command in COMMANDS:

@@ -201,7 +201,7 @@ code, _, err = program.run("eia tiny.toml --views absent -o never.png")
 checks.that(code == 2 and "absent" in err, f"{err}")
 for arguments, said in (("-o quilt.png", "qs8x6a0.75"), ("-o a_qs2x2a1.jpg", "ends in .png, .exr or .npy"), ("-o views.tif", "ends in .png, .exr or .npy"),
                         ("-o tiny.toml/views", "tiny.toml is not a folder"), ("--grid 3x3 -o a_qs2x2a1.png", "--grid"), ("--grid 0x3 -o f", "--grid"), ("--grid 200x200 -o f", "16384"),
-                        ("-o good", "empty folder"), ("--of display --depth -o f", "--depth"), ("--pattern white -o f", "--of display"),
+                        ("-o good", "give another folder, or --replace"), ("--of display --depth -o f", "--depth"), ("--pattern white -o f", "--of display"),
                         ("--view-size 1000000x1000000 -o f", "--view-size"), ("--of mirror -o f", "--of")):
     before = program.files()
     code, _, err = program.run(f"views tiny.toml --model pyramid.obj {arguments}")

@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{with("pitch_mm = 12.0", "pitch_mm = 12.0\naperture = \"square\""), "d:14:12",
             R"(array.aperture: is "square", allowed are "circle", "cell")"},
         Bad{with("[camera]", "[camera]\nqqqqqqqqqqq = 3"), "d:16:1", "is unknown; known are position_mm, target_mm"},
-        Bad{with("[camera]", "[camera]\n\"a\\nb\" = 3"), "d:16:1", "camera.a?b: is unknown"},
+        Bad{with("[camera]", "[camera]\n\"a\\nb\" = 3"), "d:16:1", "camera.a\\u000ab: is unknown"},
         Bad{with("[camera]", "[difuser]\n[camera]"), "d:15:2", "difuser: is unknown; did you mean diffuser?"},
         Bad{with("index = 1.4918", "index = 1.4918\nfocal_length_mm = 15"), "d:11:19",
             "lens.focal_length_mm: has no meaning for a lens of type \"plano_convex\""},

@@ -57,6 +57,11 @@ std::vector<BadFile> bad_files() {
             {"no-end.png", png.substr(0, png.size() - 12), "it ends too early"},
             {"flipped.png", flipped, "is damaged"},
             {"half.exr", exr.substr(0, exr.size() / 2), "is damaged"},
+            {"claims.exr",
+             std::string("v/1\x01\x02\0\0\0x\0string\0\xf0\xff\xff\x7f"
+                         "abc",
+                         25),
+             "claims 2147483632 bytes"},
             {"half.npy", npy.substr(0, npy.size() / 2), "more than its"},
             {"short.npy", npy.substr(0, npy.size() - 1), "it must be"},
             {"long.npy", npy + "x", "it must be"},

@@ -1,5 +1,7 @@
 #include "content/reader/folder.h"
 
+#include "content/reader/limits.h"
+
 #include <assimp/MemoryIOWrapper.h>
 #include <strings.h>
 #include <algorithm>
@@ -8,7 +10,7 @@
 namespace lfdsim::reader {
 namespace fs = std::filesystem;
 
-Folder::Folder(const fs::path& model) : root_(fs::weakly_canonical(fs::absolute(model).parent_path())) {}
+Folder::Folder(const fs::path& model) : model_(fs::weakly_canonical(fs::absolute(model))), root_(model_.parent_path()) {}
 
 bool Folder::inside(const fs::path& file) const {
     std::error_code error;
@@ -22,6 +24,7 @@ bool Folder::Exists(const char* file) const { return inside(fs::absolute(file)) 
 Assimp::IOStream* Folder::Open(const char* file, const char* mode) {
     if (std::strchr(mode, 'w') || std::strchr(mode, 'a') || !Exists(file)) return nullptr;
     opened_.push_back(fs::absolute(file).string());
+    if (fs::weakly_canonical(opened_.back()) != model_) allow_for(file);
     const auto [text, fresh] = texts_.try_emplace(opened_.back());
     if (fresh) text->second = edited(opened_.back());
     if (text->second)

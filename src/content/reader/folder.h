@@ -31,7 +31,7 @@ class Folder : public Assimp::DefaultIOSystem {
 
   private:
     bool inside(const std::filesystem::path&) const;
-    std::filesystem::path root_;
+    std::filesystem::path model_, root_;
     std::vector<std::string> opened_;
     std::map<std::string, std::optional<std::string>> texts_;  // of the files that were asked for
 };

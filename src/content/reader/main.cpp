@@ -47,6 +47,7 @@ int main(int count, char** arguments) {
     Writer out;
     try {
         lfdsim::reader::confine(std::atoll(arguments[3]), std::atof(arguments[4]));
+        lfdsim::reader::allow_for(arguments[2]);
         const bool is_picture = std::string(arguments[1]) == "picture";
         lfdsim::Model model =
             is_picture ? lfdsim::reader::picture(arguments[2]) : lfdsim::reader::import(arguments[2], arguments[5]);

@@ -1,5 +1,7 @@
 #include "content/reader/textures.h"
 
+#include "content/reader/limits.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -22,6 +24,12 @@
 
 namespace lfdsim::reader {
 namespace {
+
+// stb's own words, where it has some.
+std::string failure() {
+    const char* const reason = stbi_failure_reason();
+    return reason ? reason : "it is damaged";
+}
 
 Texture adopt(stbi_uc* pixels, int width, int height) {
     Texture t{width, height, {}};
@@ -58,11 +66,12 @@ std::string reason(std::string_view bytes) {
                                                                    {"DDS ", "DDS (in glTF by MSFT_texture_dds)"}};
     for (const auto& [mark, name] : others)
         if (bytes.substr(0, 16).find(mark) != std::string_view::npos) return std::string("it is ") + name + ", which is not read";
-    return stbi_failure_reason();
+    return failure();
 }
 
 bool decode(const std::filesystem::path& file, Texture& out) {
     int width, height, channels;
+    allow_for(file);
     stbi_uc* pixels = stbi_load(file.c_str(), &width, &height, &channels, 4);
     if (pixels) out = adopt(pixels, width, height);
     return pixels;
@@ -72,7 +81,7 @@ bool decode(const std::filesystem::path& file, Texture& out) {
 
 Texture read_texture(const std::filesystem::path& file) {
     Texture texture;
-    if (!decode(file, texture)) throw std::runtime_error(stbi_failure_reason());
+    if (!decode(file, texture)) throw std::runtime_error(failure());
     return texture;
 }
 
