@@ -6,16 +6,15 @@
 #include "cli/grid_options.h"
 #include "cli/input_files.h"
 #include "cli/interrupt.h"
-#include "cli/numbered_pictures.h"
 #include "cli/panel_source.h"
 #include "cli/rendered.h"
 #include "cli/shown_panel.h"
+#include "cli/views_folder.h"
 #include "cli/work_options.h"
 #include "engine/grid_view.h"
 #include "engine/memory.h"
 #include "files/display_file.h"
 #include "image/file.h"
-#include "model/counted.h"
 #include "model/keys.h"
 #include "report/folder_lock.h"
 
@@ -260,105 +259,34 @@ Picture make_quilt(Maker& maker, const ViewsArguments& args, const Display& disp
     return all;
 }
 
-/// What a folder gets: view_0000.png ..., a depth map with each, and views.toml, which is written last: a folder with it is
-/// complete.
-class ViewsFolder {
-  public:
-    ViewsFolder(const ViewsArguments& args, const Display& display, const ViewGrid& grid, const Target& target)
-        : args_(args), grid_(grid), target_(target), description_(write_display(display)), of_each_(args.depth ? 2 : 1) {
-        const char* const depth_kind = args.kind == "npy" ? "npy" : "exr";
-        toml_ = views_toml(grid, "view_*." + args.kind, args.depth ? fmt::format("depth_*.{}", depth_kind) : "");
-        pictures_ = {args.output.path(),
-                     std::int64_t(grid.views()) * of_each_,
-                     [=, this](std::int64_t n) {
-                         return n % of_each_ == 0 ? fmt::format("view_{:04}.{}", n / of_each_, args_.kind)
-                                                  : fmt::format("depth_{:04}.{}", n / of_each_, depth_kind);
-                     },
-                     [this](std::int64_t) { return description_; },
-                     shown_stamp(args.panel_image, args.pattern, display).dump(),
-                     named_as_view,
-                     "view",
-                     args.resume,
-                     args.replace};
-    }
-
-    /// Throws InputError if the folder holds anything that would be mixed with these views, or lost.
-    void check() const {
-        const fs::path& folder = pictures_.folder;
-        std::error_code none;
-        detail::remove_abandoned(folder, {});
-        if (!fs::is_directory(folder, none) || fs::is_empty(folder, none)) return;
-        if (!pictures_.resume && !pictures_.replace) {
-            if (const std::int64_t made = pictures_.count_finished(); made > 0)
-                throw InputError(folder.string(),
-                                 fmt::format("holds {} of {} that the same command makes; --resume goes on there, --replace "
-                                             "makes all again",
-                                             made, counted(pictures_.count, "picture")));
-            pictures_.keep_apart();
-            throw InputError(folder.string(),
-                             "holds other files; give an empty folder for the views, or --replace to write among them");
+/// view_0000.png ..., a depth map with each, and views.toml.
+Picture make_folder(Maker& maker, const ViewsArguments& args, const Display& display, const ViewGrid& grid, const Target& target,
+                    const ViewsFolder& folder, Progress& progress) {
+    const FolderLock lock(args.output.path());
+    folder.check();
+    const NumberedPictures& pictures = folder.pictures();
+    const std::vector<std::int64_t> left = pictures.left();
+    Picture all;
+    all.image.width = target.width;
+    all.image.height = target.height;
+    const auto views = std::int64_t(grid.views()), of_each = pictures.count / views;
+    progress.stage("views", views);
+    OneOfMany one(progress);
+    auto next = left.begin();
+    for (std::int64_t view = 0; view < views; ++view, progress.advance(1))
+        for (; next != left.end() && *next / of_each == view; ++next) {
+            const int column = int(view % grid.columns), row = int(view / grid.columns);
+            const bool is_view = *next % of_each == 0;
+            const Picture made = is_view ? maker.view(column, row, one) : maker.depth(column, row, one);
+            if (!made.complete) folder.stop();
+            args.output.save(pictures.file(*next), made.image, is_view ? Encoding::srgb : Encoding::linear, display,
+                             {{"shown", pictures.shown}});
+            if (is_view) add(all, made);
         }
-        if (const fs::path toml = folder / toml_name;
-            !pictures_.replace && fs::exists(fs::symlink_status(toml, none)) && !holds(toml, toml_))
-            throw InputError(toml.string(), "is of other views; give another folder, or --replace to write over it");
-        pictures_.keep_apart();
-        for (std::int64_t n = 0; n < pictures_.count; ++n) refuse_input(pictures_.file(n));
-    }
-
-    Picture make(Maker& maker, const Display& display, Progress& progress) const {
-        const FolderLock lock(pictures_.folder);
-        check();
-        const std::vector<std::int64_t> left = pictures_.left();
-        Picture all;
-        all.image.width = target_.width;
-        all.image.height = target_.height;
-        const auto views = std::int64_t(grid_.views());
-        progress.stage("views", views);
-        OneOfMany one(progress);
-        const Metadata about{{"shown", pictures_.shown}};
-        for (std::int64_t view = 0, next = 0; view < views; ++view, progress.advance(1)) {
-            const auto of_view = [&] { return next < std::int64_t(left.size()) && left[std::size_t(next)] / of_each_ == view; };
-            for (; of_view(); ++next) {
-                const int column = int(view % grid_.columns), row = int(view / grid_.columns);
-                const std::int64_t n = left[std::size_t(next)];
-                const bool is_view = n % of_each_ == 0;
-                const Picture made = is_view ? maker.view(column, row, one) : maker.depth(column, row, one);
-                if (!made.complete) stop();
-                args_.output.save(pictures_.file(n), made.image, is_view ? Encoding::srgb : Encoding::linear, display, about);
-                if (is_view) add(all, made);
-            }
-        }
-        progress.end();
-        write_text(pictures_.folder / toml_name, toml_);
-        return all;
-    }
-
-  private:
-    static constexpr const char* toml_name = "views.toml";
-
-    static bool named_as_view(const fs::path& file) {
-        const std::string name = file.stem(), kind = file.extension(),
-                          number = name.substr(std::min(name.find('_') + 1, name.size()));
-        const bool numbered = number.size() >= 4 && number.find_first_not_of("0123456789") == number.npos;
-        return numbered && (name == "view_" + number || name == "depth_" + number) &&
-               (kind == ".png" || kind == ".exr" || kind == ".npy");
-    }
-
-    [[noreturn]] void stop() const {
-        const std::int64_t made = pictures_.count_finished();
-        if (made == 0) end_interrupted("");
-        spdlog::warn("interrupted; {} holds {} of {}{}", pictures_.folder.string(), made, counted(pictures_.count, "picture"),
-                     keeps_metadata(pictures_.file(0)) ? "; the same command with --resume continues it" : "");
-        throw Interrupted{};
-    }
-
-    const ViewsArguments& args_;
-    const ViewGrid& grid_;
-    const Target& target_;
-    std::string description_, toml_;
-    std::int64_t of_each_;
-    NumberedPictures pictures_;
-};
+    progress.end();
+    write_text(folder.toml_file(), folder.toml());
+    return all;
+}
 
 void run(const ViewsArguments& args) {
     Faults faults;
@@ -391,15 +319,16 @@ void run(const ViewsArguments& args) {
     const ViewGrid grid = grid_of(wish, target, args, display, geometry);
     if (args.of_what == "display" && !args.panel_image.given()) require_panel_memory(display);
     Maker maker(args, display, geometry, grid, target);
-    const ViewsFolder folder(args, display, grid, target);
+    const ViewsFolder folder(args.output.path(), args.kind, args.depth, grid, write_display(display),
+                             shown_stamp(args.panel_image, args.pattern, display).dump(), args.resume, args.replace);
     if (target.quilt)
         check_companion(beside_quilt(args), holds(beside_quilt(args), views_toml(grid, "", "")), args.replace);
     else
         folder.check();
     Progress progress(args.work.progress());
     maker.prepare(pattern_options, progress);
-    const Picture made =
-        target.quilt ? make_quilt(maker, args, display, grid, target, progress) : folder.make(maker, display, progress);
+    const Picture made = target.quilt ? make_quilt(maker, args, display, grid, target, progress)
+                                      : make_folder(maker, args, display, grid, target, folder, progress);
     Json more{{"of", args.of_what}, {"views", grid_json(grid)}};
     more.update(maker.more());
     print_made(Made{args.output.path(), made.image.width, made.image.height, maker.of_display() ? "samples" : "rays", made.rays,
