@@ -12,6 +12,8 @@ double eye_filter(double cycles_per_degree) {
     return sensitivity(cycles_per_degree) / sensitivity(at_greatest);
 }
 
+double colour_filter(double cycles_per_degree) { return std::pow(10, -cycles_per_degree / 6); }
+
 double mm_per_degree(double distance_mm) { return distance_mm * degree; }
 
 }  // namespace lfdsim

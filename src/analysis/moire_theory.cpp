@@ -97,11 +97,12 @@ double MoireTheory::diffuser(Place nu) const {
     return mean;
 }
 
-std::optional<Beat> MoireTheory::strongest() const {
+std::optional<Beat> MoireTheory::strongest(const Eye& eye) const {
     if (shines_all_over(display_.panel)) return {};
     const Lattice<double>& lattice = geometry_.lattice;
     const ApertureShape aperture = aperture_shape(display_, geometry_);
-    const double per_degree = mm_per_degree(eye_mm_ - geometry_.vertex_plane_mm), finest = eye_limit_cycles_per_degree / per_degree;
+    const double per_degree = mm_per_degree(eye_mm_ - geometry_.vertex_plane_mm),
+                 finest = eye.finest_cycles_per_degree / per_degree;
     const double above = geometry_.diffuser_z_mm.value_or(geometry_.rear_principal_mm) - geometry_.rear_principal_mm;
     struct Harmonic {
         int k, l;
@@ -142,9 +143,9 @@ std::optional<Beat> MoireTheory::strongest() const {
                     const Place spread{above * (panel.x - of_lens.x) + geometry_.gap_mm * panel.x,
                                        above * (panel.y - of_lens.y) +
                                            (lattice.strips ? geometry_.reduced_vertex_plane_mm : geometry_.gap_mm) * panel.y};
-                    const double diffused = std::abs(diffuser(spread)), filter = eye_filter(fine * per_degree);
+                    const double diffused = std::abs(diffuser(spread)), filter = eye.filter(fine * per_degree);
                     if (at_most * diffused * filter < tied * greatest) continue;
-                    Beat beat{to_display(f), most * diffused * std::abs(aperture.mean(nu.x, nu.y)), 0};
+                    Beat beat{to_display(f), most * diffused * std::abs(aperture.mean(nu.x, nu.y)), 0, to_display(spread)};
                     beat.seen = beat.contrast * filter;
                     if (beat.seen < tied * greatest) continue;
                     greatest = std::max(greatest, beat.seen);

@@ -1,5 +1,6 @@
 // The beats of the lens lattice with the panel's pixels, in closed form. docs/model.md, "Moire". Floor 3.
 #pragma once
+#include "analysis/eye_filter.h"
 #include "analysis/wave_sums.h"
 #include "model/display.h"
 #include "model/geometry.h"
@@ -21,6 +22,7 @@ inline double rank_deg(double direction_deg) { return direction_deg < 179.9 ? di
 struct Beat {
     Frequency frequency{};
     double contrast = 0, seen = 0;
+    Frequency turned_per_rad{};  // periods by which a diffuser's angle about the display's y and x moves it
 };
 
 /// White panels as an eye on axis sees them through paraxial lenses, `eye_mm` from the panel.
@@ -34,7 +36,7 @@ class MoireTheory {
     /// The strongest beat after the eye's filter; of those of its period that are within 1 % as strong, as symmetry
     /// makes them (and of all that are exactly as strong), that of the least direction. None where the panel has no
     /// structure, or where all are too fine for the eye.
-    std::optional<Beat> strongest() const;
+    std::optional<Beat> strongest(const Eye& = eye_for_luminance) const;
 
   private:
     struct Place {

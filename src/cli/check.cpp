@@ -11,16 +11,17 @@
 #include <algorithm>
 #include <cmath>
 
-// lfdsim check: what a description says, key by key, and what follows from it.
+// lfdsim check: what is wrong with a display, what follows from its description, and what that says, key by key.
 namespace lfdsim::cli {
 namespace {
 
 struct CheckArguments {
     explicit CheckArguments(Command command) : display(command, {camera_options, sample_options, content_options}) {
-        command.add_flag("--json", json, "Print results as JSON");
+        command.add_flag("--json", json, "Print results as JSON, with all keys");
+        command.add_flag("--all", all, "Print all keys, those with their defaults too");
     }
     DisplayOptions display;
-    bool json = false;
+    bool json = false, all = false;
 };
 
 std::string text_of(const Json& value) {
@@ -91,12 +92,10 @@ void run(const CheckArguments& args) {
     const std::vector<ChannelTheory> colours = theory_by_colour(display);
     const std::vector<std::string> warnings = worth_knowing(display, geometry, paraxial);
 
-    std::string text = printable(args.display.path()) + " is valid.\n", table;
-    for (const Setting& s : keys) {
-        if (s.table != table || s.table.empty()) add_line(text, s.table.empty() ? "" : fmt::format("\n[{}]", s.table));
-        table = s.table;
-        add_line(text, table_of(s));
-    }
+    // What is wrong comes first, then what follows from the description, and last what it says.
+    std::string text = printable(args.display.path()) + " is valid", table;
+    text += warnings.empty() ? "; views, sharpness, colours, eye and scene leave nothing to say.\n" : ", but worth knowing:\n";
+    for (const std::string& warning : warnings) text += "  - " + warning + "\n";
     text += "\nPlaces and sizes (z from the panel)\n";
     for (const Figure& f : figures(display, geometry)) add_line(text, table_of(f));
     text += "\nParaxial theory\n";
@@ -105,8 +104,13 @@ void run(const CheckArguments& args) {
     const std::vector<Figure> largest = largest_errors(display, geometry);
     if (!largest.empty()) text += "\nLargest errors of single lenses\n";
     for (const Figure& f : largest) add_line(text, table_of(f));
-    if (!warnings.empty()) text += "\nWorth knowing\n";
-    for (const std::string& warning : warnings) text += "  - " + warning + "\n";
+    text += args.all ? "\nKeys\n" : "\nKeys that differ from their defaults (--all: every key)\n";
+    for (const Setting& s : keys) {
+        if (s.is_default && !args.all) continue;
+        if (!s.table.empty() && s.table != table) add_line(text, fmt::format("[{}]", s.table));
+        table = s.table;
+        add_line(text, table_of(s));
+    }
     print(text);
 }
 
@@ -114,7 +118,9 @@ void run(const CheckArguments& args) {
 
 void add_check(Command program) {
     Command command = program.add_subcommand(
-        "check", "Validates a description; prints its keys, the derived lengths, the paraxial theory and warnings");
+        "check",
+        "Validates a description; prints what is wrong with it and its remedies, the derived lengths, the paraxial theory, and "
+        "its keys");
     const auto args = std::make_shared<CheckArguments>(command);
     command.footer("Example:\n  lfdsim check display.toml --set array.gap_mm=17");
     command.callback([args] { run(*args); });

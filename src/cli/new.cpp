@@ -19,7 +19,12 @@ struct NewArguments {
         command.add_option("--panel-inch", panel_inch, "Diagonal of the panel").type_name("I").required();
         command.add_option("--pixels", pixels, "Pixels of the panel").type_name("WxH").required();
         command.add_option("--distance-mm", distance_mm, "Distance from the panel to the eye").type_name("D").required();
-        command.add_option("--fov-deg", fov_deg, "Field of view with whole elemental images; default 30").type_name("F");
+        command
+            .add_option("--fov-deg", fov_deg,
+                        "Field of view of whole elemental images, 2 atan(p' / 2g): where an eye may move. What it sees of the "
+                        "screen follows "
+                        "from panel and distance (lfdsim check: screen_field_deg); default 30")
+            .type_name("F");
         command
             .add_option(
                 "--depth-mm", depth_mm,

@@ -1,5 +1,6 @@
 #include "report/check.h"
 
+#include "analysis/verdicts.h"
 #include "content/content.h"
 #include "files/glasses.h"
 #include "model/advice.h"
@@ -10,12 +11,20 @@
 
 namespace lfdsim {
 
+std::vector<std::string> verdicts_and_advice(const Display& display, const Geometry& geometry, const Theory& paraxial,
+                                             const std::optional<Vec3d>& model_half_size_mm) {
+    std::vector<std::string> all = verdicts(display, geometry, paraxial);
+    for (std::string& sentence : advice(display, geometry, paraxial, model_half_size_mm)) all.push_back(std::move(sentence));
+    return all;
+}
+
 std::vector<std::string> worth_knowing(const Display& display, const Geometry& geometry, const Theory& paraxial) {
     std::vector<std::string> all;
     try {
-        all = advice(display, geometry, paraxial, half_size_mm(load_parts(content_files(display)), display, geometry));
+        const ContentParts parts = load_parts(content_files(display));
+        all = verdicts_and_advice(display, geometry, paraxial, half_size_mm(parts, display, geometry));
     } catch (const InputError& error) {
-        all = advice(display, geometry, paraxial);
+        all = verdicts_and_advice(display, geometry, paraxial);
         all.push_back(fmt::format("{} cannot be shown: {}", display.content.objects.empty() ? "content.model" : "content.object",
                                   error.what()));
     }

@@ -4,13 +4,17 @@
 #include "model/display.h"
 #include "model/geometry.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace lfdsim {
 
-/// The advice on a display, with what only its content's files say (their size, or that they cannot be read), and doubts of its
-/// glasses.
+/// What is wrong with a display, the worst first: what tracing says of it (analysis/verdicts.h), advice (model/advice.h).
+std::vector<std::string> verdicts_and_advice(const Display&, const Geometry&, const Theory&,
+                                             const std::optional<Vec3d>& model_half_size_mm = std::nullopt);
+
+/// The same with what only its content's files say (their size, or that they cannot be read), and doubts of its glasses.
 std::vector<std::string> worth_knowing(const Display&, const Geometry&, const Theory&);
 
 /// Every key, every length, the theory, why figures are undefined, and what is worth knowing: what `lfdsim check --json` prints.

@@ -3,6 +3,7 @@
 #include "model/keys.h"
 #include "model/lattice.h"
 #include "model/lens_errors.h"
+#include "model/numbers.h"
 #include "model/subpixels.h"
 
 #include <fmt/format.h>
@@ -32,6 +33,18 @@ Json json_of(const Glass& glass) {
 template <class T>
 Json json_of(const std::optional<T>& value) {
     return value ? json_of(*value) : Json();
+}
+
+/// The angles that the screen takes, horizontally and vertically, seen from the camera's distance on the axis: lenses before which
+/// the panel is. NaN from inside the display.
+std::vector<double> screen_field_deg(const Display& d, const Geometry& g) {
+    const double eye = eye_distance_mm(d) - g.rear_principal_mm, c = std::abs(g.lattice.cos_turn), s = std::abs(g.lattice.sin_turn);
+    if (!(eye_distance_mm(d) > nearest_eye_mm(g))) return {nan, nan};
+    const auto field = [&](double array_mm, double panel_mm) {
+        return 2 * std::atan(std::min(array_mm, panel_mm / (1 + g.gap_mm / eye)) / (2 * eye)) / degree;
+    };
+    return {field(c * g.array_width_mm + s * g.array_height_mm, g.panel_width_mm),
+            field(s * g.array_width_mm + c * g.array_height_mm, g.panel_height_mm)};
 }
 
 }  // namespace
@@ -65,6 +78,10 @@ std::vector<Figure> figures(const Display& d, const Geometry& g) {
             {"panel_height_mm", {g.panel_height_mm}, "panel, height"},
             {"array_width_mm", {g.array_width_mm}, "lens array, width"},
             {"array_height_mm", {g.array_height_mm}, "lens array, height"},
+            {"screen_field_deg", screen_field_deg(d, g),
+             "what the eye sees of the screen from the camera's distance: its field, horizontally and vertically",
+             "2 atan(w / 2E), w the lesser of the array's width and of the panel's, less g/E of it",
+             "the camera stands inside the display or behind it"},
             {"frame_width_mm", {g.frame_width_mm}, "camera's frame in the plane through its target, width"},
             {"focus_distance_mm", {g.focus_distance_mm}, "camera's focus along the line of sight"},
             {"content_depth_mm",
@@ -112,7 +129,8 @@ std::vector<Figure> figures(const Display& d, const Theory& t) {
         return near ? "its end, at infinity" : "its other end, at infinity";
     };
     std::vector<Figure> all{
-        {"fov_deg", along(&AxisTheory::fov_deg), "field of view", "2 atan(p / 2g)"},
+        {"fov_deg", along(&AxisTheory::fov_deg), "field of view of one lens, by its pitch: the cone in which an eye may move",
+         "2 atan(p / 2g)"},
         {"fov_exact_deg", along(&AxisTheory::fov_exact_deg), "the same through the layers on the panel, which theory has paraxial",
          "Snell's law, from p'/2 on the panel to the axis at the lens",
          "a glass lens has aberrations, which analyze fov counts in"},
@@ -121,7 +139,8 @@ std::vector<Figure> figures(const Display& d, const Theory& t) {
          "field of view of strips along the panel's rows",
          "2 atan(p / (2 g cos(slant)))",
          "only strips are turned against what they show"},
-        {"fov_elemental_deg", along(&AxisTheory::fov_elemental_deg), "field of view of whole elemental images", "2 atan(p' / 2g)"},
+        {"fov_elemental_deg", along(&AxisTheory::fov_elemental_deg),
+         "the same by whole elemental images, wider for near eyes: what lfdsim new --fov-deg means", "2 atan(p' / 2g)"},
         {"focal_length_mm", {t.focal_length_mm}, "f, focal length of a lens", "paraxial, of the lens's surfaces in air", pinhole},
         {"gap_mm", {t.gap_mm}, "g, gap", "panel to the front principal plane, layers by thickness / index"},
         {"central_depth_mm",

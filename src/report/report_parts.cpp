@@ -105,7 +105,7 @@ std::string theory_rows(const Subject& s) {
                                               d.diffuser->angle_deg[1], d.diffuser->distance_mm)
                                 : std::string("none")},
         {"Field of view, 2 atan(p / 2g)", theory(&AxisTheory::fov_deg, "°")},
-        {"Field of view of whole elemental images", theory(&AxisTheory::fov_elemental_deg, "°")},
+        {"Field of view of whole elemental images, 2 atan(p′ / 2g)", theory(&AxisTheory::fov_elemental_deg, "°")},
         {"Views across, and the angle between them",
          fmt::format("{}, {}", theory(&AxisTheory::views, ""), theory(&AxisTheory::view_step_deg, "°"))},
         {"Central depth plane L, from the lenses", number(t.central_depth_mm, " mm")},

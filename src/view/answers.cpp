@@ -2,7 +2,7 @@
 
 #include "content/content.h"
 #include "files/display_file.h"
-#include "model/advice.h"
+#include "report/check.h"
 #include "report/description.h"
 #include "report/side_view.h"
 #include "report/svg.h"
@@ -162,7 +162,7 @@ Json resolved(const Library& library, const Wanted& wanted) {
                         {"controls", controls(display, described(library, wanted, display))},
                         {"theory", json_of(figures(display, paraxial))},
                         {"geometry", json_of(figures(display, geometry))},
-                        {"warnings", advice(display, geometry, paraxial)},
+                        {"warnings", verdicts_and_advice(display, geometry, paraxial)},
                         {"command", command(library, wanted)}});
     } catch (const InputError& error) {
         return in_utf8({{"type", "problems"}, {"id", wanted.id}, {"problems", json_of(error.problems)}});

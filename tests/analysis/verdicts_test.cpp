@@ -1,0 +1,190 @@
+// What tracing says of displays that cannot do what they are meant for: right figures, and silence on good ones.
+#include "analysis/verdicts.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "analysis/quick_look.h"
+#include "example.h"
+#include "files/display_file.h"
+
+namespace lfdsim {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+std::vector<std::string> verdicts_of(const Display& d) {
+    const Geometry g = resolve(d);
+    return verdicts(d, g, theory(d, g));
+}
+
+Display ready(const std::string& name) { return read_display(LFDSIM_SOURCE_DIR "/displays/" + name + ".toml"); }
+
+/// A lenticular sheet for prints, focused on its own back, on the cover glass of a tablet.
+Display sheet_on_tablet() {
+    Display d;
+    d.panel.pixels = {2560, 1600};
+    d.panel.pixel_pitch_mm = 0.08498;
+    d.panel.layers = {{1.1, 1.5, {}}, {0.4388, 1.56, {}}};
+    d.lens.kind = PlanoConvex{0.438, 0.254, 0.7, 1.56, Facing::viewer};
+    d.array.lattice = LatticeKind::strips;
+    d.array.pitch_mm = 0.508;
+    d.array.base_z_mm = 1.5388;
+    d.array.aperture = Aperture::cell;
+    d.camera.position_mm = {0, 0, 400};
+    d.content.viewing_distance_mm = 400;
+    return d;
+}
+
+/// A wall for eyes at 3 m, of a first-order design: f/2.6.
+Display wall() {
+    Display d;
+    d.panel.pixels = {7680, 4320};
+    d.panel.pixel_pitch_mm = 0.18736603;
+    d.lens.kind = PlanoConvex{5.162592, 2.022459, 0.2022, 1.4918, Facing::viewer};
+    d.array.count = {246, 138};
+    d.array.pitch_mm = 5.808347;
+    d.array.gap_mm = 10.87797;
+    d.diffuser = Diffuser{300, {1.107754, 1.107754}, Profile::box};
+    d.camera.position_mm = {0, 0, 3000};
+    d.content.viewing_distance_mm = 3000;
+    return d;
+}
+
+// The width of the panel that one eye sees through an ideal lens is D |1 + g/E - g/f|, whatever the lattice.
+TEST(QuickLook, WidthSeenIsThatOfTheory) {
+    for (const LatticeKind lattice : {LatticeKind::square, LatticeKind::hexagon, LatticeKind::strips})
+        for (const double gap : {2., 3., 4.2}) {
+            Display d = analysis_example::display(40, 100);
+            d.diffuser.reset();
+            d.array.lattice = lattice;
+            d.array.count.reset();
+            d.array.gap_mm = gap;
+            d.lens.kind = IdealLens{{}, 3};
+            d.array.pitch_mm = 2;
+            const Geometry g = resolve(d);
+            const auto seen = seen_at_once(d, g);
+            const double eye = 2000 - g.rear_principal_mm, width = 2 * std::abs(1 + gap / eye - gap / 3);
+            ASSERT_TRUE(seen);
+            EXPECT_NEAR(seen->through_apertures_mm, width, 1e-9);
+            if (lattice == LatticeKind::hexagon) continue;  // whose width varies
+            EXPECT_NEAR(seen->width_mm.traced, width, 0.01 * width + 1e-4) << gap;
+            EXPECT_NEAR(seen->width_mm.theory, width, 0.01 * width + 1e-4) << gap;
+        }
+}
+
+// A diffuser of the angle w at the height d above lenses in focus widens that by g w |1 - d/E|.
+TEST(QuickLook, DiffusersWidenWhatIsSeen) {
+    Display d = analysis_example::display(40, 100);
+    d.lens.kind = IdealLens{{}, *d.array.gap_mm};
+    d.diffuser = Diffuser{100, {3, 3}, Profile::box};
+    const Geometry g = resolve(d);
+    const double eye = 2000 - g.rear_principal_mm, wide = g.gap_mm * 2 * std::tan(1.5 * degree) * (1 - 100 / eye);
+    EXPECT_NEAR(seen_at_once(d, g)->width_mm.traced, wide, 0.03 * wide);
+}
+
+TEST(Verdicts, ViewsThatDoNotSeparate) {
+    const Display d = sheet_on_tablet();
+    EXPECT_THAT(verdicts_of(d),
+                ElementsAre(AllOf(HasSubstr("views do not separate"), HasSubstr("0.474 of the 0.51 mm"),
+                                  HasSubstr("focal length of 1.515 mm"), HasSubstr("lens.sphere_radius_mm = 0.8486"))));
+    // What it proposes mends it.
+    Display focused = d;
+    focused.lens.as<PlanoConvex>().sphere_radius_mm = 0.8486;
+    EXPECT_THAT(verdicts_of(focused), Not(Contains(HasSubstr("views do not separate"))));
+
+    Display ideal = analysis_example::display(40, 100);
+    ideal.diffuser.reset();
+    ideal.lens.kind = IdealLens{{}, 0.6 * *ideal.array.gap_mm};
+    EXPECT_THAT(verdicts_of(ideal), Contains(AllOf(HasSubstr("views do not separate"), HasSubstr("lens.focal_length_mm="))));
+
+    Display holes = analysis_example::display(40, 100);
+    holes.diffuser.reset();
+    holes.array.aperture = Aperture::circle;
+    holes.lens.kind = Pinhole{2};
+    EXPECT_THAT(verdicts_of(holes), Contains(AllOf(HasSubstr("holes are too wide"), HasSubstr("lens.aperture_radius_mm=0.09"))));
+    holes.lens.kind = Pinhole{0.1};
+    EXPECT_THAT(verdicts_of(holes), IsEmpty());
+
+    Display milky = analysis_example::display(40, 1000);
+    milky.diffuser = Diffuser{100, {28, 28}, Profile::box};
+    EXPECT_THAT(verdicts_of(milky), Contains(AllOf(HasSubstr("views do not separate"), HasSubstr("diffuser.angle_deg="))));
+}
+
+TEST(Verdicts, AberrationThatMixesTheEyes) {
+    const Display d = wall();
+    const auto mixed = between_eyes_percent(d, resolve(d));
+    ASSERT_TRUE(mixed);
+    EXPECT_NEAR(mixed->traced, 20.65, 1.5);  // by 260 000 lines of sight
+    EXPECT_NEAR(mixed->theory, 2.88, 1);     // the closed form of lenses without aberration
+    EXPECT_THAT(verdicts_of(d), ElementsAre(AllOf(HasSubstr("aberration mixes"), HasSubstr("lens.stop_radius_mm="))));
+    Display perfect = d;
+    perfect.lens.kind = IdealLens{2.022459, resolve(d).focal_length_mm};
+    EXPECT_THAT(verdicts_of(perfect), IsEmpty());
+}
+
+// Of third order: eight times the blur for twice the aperture; none of an ideal lens.
+TEST(Verdicts, SphericalAberration) {
+    Display d = ready("desktop-spherical");
+    const auto of_radius = [&](double mm) {
+        Display slow = d;
+        slow.lens.as<PlanoConvex>().aperture_radius_mm = mm;
+        return blur(slow, resolve(slow))->pixels;
+    };
+    EXPECT_NEAR(of_radius(1.2) / of_radius(0.6), 8, 0.2);
+    EXPECT_THAT(verdicts_of(d), Contains(AllOf(HasSubstr("spherical aberration"), HasSubstr("No depth is sharp"),
+                                               HasSubstr("268.5 to 426.3 mm"), HasSubstr("stop of"))));
+    d.lens.stop_radius_mm = 2.5;  // about what it proposes
+    EXPECT_THAT(verdicts_of(d), Not(Contains(HasSubstr("spherical aberration"))));
+    const Display ideal = ready("desktop-ideal");
+    EXPECT_LT(blur(ideal, resolve(ideal))->full_pixels, 1e-9);
+}
+
+TEST(Verdicts, ColoursThatStayApart) {
+    Display upright = ready("tablet-lenticular");
+    upright.array.slant_deg = 0;
+    EXPECT_THAT(verdicts_of(upright), Contains(AllOf(HasSubstr("red, green and blue apart"), HasSubstr("rgb_rows"))));
+    Display bare = ready("hexagon");
+    bare.diffuser.reset();
+    EXPECT_THAT(verdicts_of(bare), Contains(AllOf(HasSubstr("red, green and blue apart"), HasSubstr("diffuser.angle_deg="))));
+    // Two pixels under each lens: an eye sees one colour.
+    Display two = upright;
+    const double a = two.panel.pixel_pitch_mm, gap = a * 400 / 65;
+    two.panel.layers.clear();
+    two.array.surround = Surround::opaque;
+    two.array.gap_mm = gap;
+    two.array.base_z_mm.reset();
+    two.lens = {IdealLens{{}, gap}, {}};
+    two.array.pitch_mm = 2 * a / (1 + gap / 400);
+    two.diffuser.reset();
+    two.camera.position_mm = {0, 0, 400 + gap};
+    two.content.viewing_distance_mm = 400 + gap;
+    EXPECT_THAT(verdicts_of(two), Contains(HasSubstr("has one tint")));
+}
+
+TEST(Verdicts, NoneOnGoodDisplays) {
+    for (const char* name :
+         {"barrier", "hexagon", "tablet-lenticular", "desktop-asphere", "desktop-asphere-bare", "desktop-asphere-colour",
+          "desktop-clear", "desktop-doublet", "desktop-ideal", "desktop-plate", "desktop-stopped"})
+        EXPECT_THAT(verdicts_of(ready(name)), IsEmpty()) << name;
+}
+
+// Nothing is said, and nothing fails, where an eye sees nothing.
+TEST(Verdicts, EyesInsideTheDisplay) {
+    Display d = wall();  // whose lenses lie before their principal planes
+    d.lens = {SurfaceLens{{{-0.2, 0, {}, 0.48, 4, 1.5}, {-0.2, 0, {}, 0.48, 0, 1}}}, {}};
+    d.array.gap_mm = 40;
+    d.diffuser.reset();
+    d.camera.position_mm = {0, 0, 40};
+    EXPECT_FALSE(seen_at_once(d, resolve(d)));
+    EXPECT_FALSE(between_eyes_percent(d, resolve(d)));
+    verdicts_of(d);
+}
+
+}  // namespace
+}  // namespace lfdsim
