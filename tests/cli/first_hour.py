@@ -29,7 +29,7 @@ for command, name in [("eia tiny.toml", "eia.npy"), ("photo tiny.toml", "photo.n
 for words in ["", "--model built-in:spheres"]:
     program.must(f"export pov tiny.toml --set diffuser=none {QUIET} -o scene{len(words)} {words}")
 checks.that((folder / "scene0/panel.png").read_bytes() == (folder / "scene24/panel.png").read_bytes(), "export: not the spheres")
-checks.that("default: built-in:spheres" in program.must("check tiny.toml"), "check does not say what is shown")
+checks.that("default: built-in:spheres" in program.must("check tiny.toml --all"), "check does not say what is shown")
 
 # The viewer refuses at its start what render refuses, in the same words.
 (folder / "empty.obj").write_text("")

@@ -25,7 +25,9 @@ for name, (options, lenses) in DESIGNS.items():
         wanted = float(words[words.index("--depth-mm") + 1])
         checks.that(abs(theory["central_depth_mm"] / wanted - 1) < 1e-3, f"{name}: central depth {theory['central_depth_mm']}")
     checks.that(display["array"]["count"][0] > lenses and display["name"] == name, f"{name}: {display['array']}")
-    checks.that(not checked["warnings"], f"{name}: check warns {checked['warnings']}")
+    # The spherical lenses of a wall mix what eyes see from far away, and check says so.
+    told = [w for w in checked["warnings"] if not (name == "wall" and "aberration mixes" in w)]
+    checks.that(not told, f"{name}: check warns {told}")
 
 # What real lenses make of it: half of the light is the right lens's up to the edges of the field of view that was asked for.
 low, high = json.loads(program.must("analyze zone tablet.toml --json --progress none -o zone"))["horizontal"]["wrong_50_percent_deg"]

@@ -72,7 +72,7 @@ checks.that("1.5" in row and "-10" in row, "overrides are not in force")
 wide = program.must("check tiny.toml --json --set camera.frame_width_mm=none camera.fov_deg=30 --frame-width-mm 50")
 checks.that('"frame_width_mm": 50' in wide and '"fov_deg": null' in wide, "--frame-width-mm does not replace camera.fov_deg")
 
-table = program.must("check tiny.toml --set diffuser.angle_deg=[1,1]")
+table = program.must("check tiny.toml --all --set diffuser.angle_deg=[1,1]")
 for words in ["pixel_pitch_mm         0.5 mm", "surround               opaque", "default", "field of view", "gap_mm", "dark bands"]:
     checks.that(words in table, f"check does not print {words!r}:\n{table}")
 
