@@ -10,7 +10,10 @@ from lfdsim.display import Display
 from lfdsim.numbers_of import numbers_of
 
 
-def check(display: Display) -> dict[str, Any]:
-    """What `lfdsim check --json` prints: keys, geometry, theory, notes (why a figure is None) and warnings. Infinite figures are inf."""
-    found: dict[str, Any] = numbers_of(_core.check(display_of(display)._handle, None))
+def check(display: Display, warnings: bool = True) -> dict[str, Any]:
+    """What `lfdsim check --json` prints: keys, geometry, theory, notes (why a figure is None) and warnings. Infinite figures are inf.
+
+    warnings=False leaves them out (None): rays are traced and models read for them, some milliseconds each time.
+    """
+    found: dict[str, Any] = numbers_of(_core.check(display_of(display)._handle, None, warnings))
     return found

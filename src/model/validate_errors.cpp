@@ -95,9 +95,11 @@ class ErrorsCheck {
                      most = std::max(clearance / 2, 0.05 * d_.array.pitch_mm.least());
         if (aside > most + rounding_mm)
             findings_.add(of("errors.decenter_sd_mm", e_.decenter_sd_mm),
-                          "lenses move by up to {:.6g} mm (three standard deviations and the table); at most {:.6g} mm, half the "
-                          "clearance or a twentieth of the pitch",
-                          aside, most);
+                          "lenses move by up to {:.6g} mm (three standard deviations and the table); at most {:.6g} mm, the "
+                          "greater of half the "
+                          "clearance and a twentieth of the pitch, as rays are traced to the lenses about their place alone: a "
+                          "decenter_sd_mm of up to {:.4g} without a table",
+                          aside, most, std::floor(1e4 * most / 3 + 1e-9) / 1e4);
         if (std::max(b.tilt_deg[0], b.tilt_deg[1]) > 30)
             findings_.add(of("errors.tilt_sd_deg", e_.tilt_sd_deg), "lenses turn by up to {:.6g} degrees; at most 30",
                           std::max(b.tilt_deg[0], b.tilt_deg[1]));

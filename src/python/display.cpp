@@ -160,9 +160,9 @@ std::pair<std::string, std::string> drawings(const Display& display) {
     return {side_view_svg(subject), lens_view_svg(subject)};
 }
 
-std::string check(const Display& display, const nb::object& progress) {
+std::string check(const Display& display, const nb::object& progress, bool warnings) {
     Json json;
-    run(progress, [&](Job&) { json = check_json(display); });
+    run(progress, [&](Job&) { json = check_json(display, warnings); });
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -185,7 +185,7 @@ void add_display(nb::module_& m) {
     m.def("known", known, nb::arg("path"));
     m.def("meant", meant, nb::arg("path"));
     m.def("default_word", default_word, nb::arg("path"));
-    m.def("check", check, nb::arg("display"), nb::arg("progress").none());
+    m.def("check", check, nb::arg("display"), nb::arg("progress").none(), nb::arg("warnings"));
 }
 
 }  // namespace lfdsim::python

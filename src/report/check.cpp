@@ -32,7 +32,7 @@ std::vector<std::string> worth_knowing(const Display& display, const Geometry& g
     return all;
 }
 
-Json check_json(const Display& display) {
+Json check_json(const Display& display, bool warnings) {
     const Geometry geometry = resolve(display);
     const Theory paraxial = theory(display, geometry);
     Json notes = Json::object();
@@ -46,7 +46,7 @@ Json check_json(const Display& display) {
             {"theory", theory},
             {"largest_errors", errors.empty() ? Json() : std::move(errors)},
             {"notes", notes},
-            {"warnings", worth_knowing(display, geometry, paraxial)}};
+            {"warnings", warnings ? Json(worth_knowing(display, geometry, paraxial)) : Json()}};
 }
 
 }  // namespace lfdsim

@@ -18,7 +18,8 @@ std::vector<std::string> verdicts_and_advice(const Display&, const Geometry&, co
 std::vector<std::string> worth_knowing(const Display&, const Geometry&, const Theory&);
 
 /// Every key, every length, the theory, why figures are undefined, and what is worth knowing: what `lfdsim check --json` prints.
-/// Names in it are fixed: scripts use them. Throws InputError for a display that is not valid.
-Json check_json(const Display&);
+/// Names in it are fixed: scripts use them. Throws InputError for a display that is not valid. Without the warnings, for which rays
+/// are traced and content is read, it takes microseconds.
+Json check_json(const Display&, bool warnings = true);
 
 }  // namespace lfdsim

@@ -138,7 +138,7 @@ class Runs(StudyTest):
         original = lfdsim.check
         self.addCleanup(setattr, lfdsim, "check", original)
 
-        def fails(display):
+        def fails(display, **_):
             raise MemoryError("no memory")
 
         lfdsim.check = fails

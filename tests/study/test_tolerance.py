@@ -78,9 +78,20 @@ class Budgets(unittest.TestCase):
 
     def test_nothing_is_guessed_beyond_what_was_possible(self):
         self.assertEqual(tolerances.allowed_scale({0.5: 0.0, 1: 0.1, 2: 0.2}, 1)[0], 2)
-        self.assertEqual(tolerances.allowed_scale({0.5: 0.1, 1: 0.2, 2: np.inf}, 1)[0], 1)
         self.assertEqual(tolerances.allowed_scale({0.5: 0.0, 1: 0.0, 2: 1.0}, 0.5)[0], 1)
-        self.assertIn("or less", tolerances.allowed_scale({0.5: np.inf, 1: np.inf, 2: np.inf}, 1)[1])
+        scale, how = tolerances.allowed_scale({0.5: np.inf, 1: np.inf, 2: np.inf}, 1, {0.5: "5 of 5 draws impossible"})
+        self.assertTrue(np.isnan(scale))
+        self.assertIn("unknown: nothing was measured (at 0.5: 5 of 5 draws impossible)", how)
+
+    def test_what_was_not_measured_is_no_limit(self):
+        cut = {2.0: "3 of 5 draws impossible, most often because: too far aside"}
+        scale, how = tolerances.allowed_scale({0.5: 0.1, 1: 0.2, 2: np.inf}, 1, cut)
+        self.assertEqual(scale, 1)
+        self.assertEqual(how, "or more: larger ones were not measured (at 2: 3 of 5 draws impossible, most often because: too far aside)")
+        self.assertAlmostEqual(tolerances.allowed_scale({0.5: 0.1, 1: 0.4, 2: np.inf}, 0.2, cut)[0], np.sqrt(0.5))
+        scale, how = tolerances.allowed_scale({0.5: 2.0, 1: np.inf, 2: np.inf}, 1, {1.0: "all draws impossible"})
+        self.assertEqual(scale, 0.5)
+        self.assertIn("too large; nothing smaller was measured", how)
 
     def test_ways_of_losing(self):
         figure = np.array([0.9, 1.0, 1.2])
@@ -221,6 +232,28 @@ class WholeStudies(StudyTest):
         self.assertIn("Budget for check.theory.central_depth_mm", text)
         self.assertEqual(done.stdout, call(*words).stdout)
         self.assertIn("holds another study (draws.csv differs)", call(*words[:4], "--draws", 21, "--measure", "check").stderr)
+
+
+    def test_decentres_that_are_impossible(self):
+        """Lenses 12 mm wide may stand 0.6 mm aside at most: three standard deviations of 0.15 mm fit, of twice that none."""
+        display = self.write(DISPLAY, "plain.toml")
+        words = ("tolerance", display, "-o", self.folder / "out", "--draws", 5, "--alone", 5, "--measure", "check")
+        done = call(*words, "--set", "errors.decenter_sd_mm=0.15", "content.viewing_distance_mm=900", "--loss", "check.theory.fov_deg=1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        line = next(x for x in done.stdout.splitlines() if x.startswith("  errors.decenter_sd_mm: 1 of its size, 0.15; or more"))
+        self.assertIn("larger ones were not measured (at 2: 5 of 5 draws impossible, most often because: ", line)
+        self.assertIn("decenter_sd_mm of up to 0.2", line)
+        self.assertIn("5 draws of all errors together, 0 of them impossible.", done.stdout)
+        self.assertIn("25 draws of each error alone and at other sizes, 10 of them impossible, most often because: ", done.stdout)
+        self.assertIn('"content.viewing_distance_mm" = 900', (self.folder / "out" / "tolerance.toml").read_text())
+        self.assertIn("10 of them impossible", (self.folder / "out" / "tolerance.html").read_text())
+        self.assertIn("is not KEY=VALUE", call(*words, "--set", "gap").stderr)
+
+    def test_figures_fit_a_terminal_and_a_page(self):
+        done = call("tolerance", self.display, "-o", self.folder / "out", "--draws", 4, "--alone", 0, "--measure", "check")
+        self.assertLessEqual(max(map(len, done.stdout.splitlines()[2:-1])), 100)
+        page = (self.folder / "out" / "tolerance.html").read_text()
+        self.assertIn("body{max-width:none}", page)
 
 
 class BadInput(StudyTest):

@@ -6,6 +6,7 @@ import argparse
 import pathlib
 import signal
 import sys
+import tomllib
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -101,6 +102,14 @@ def _parser() -> argparse.ArgumentParser:
     )
     tolerance.add_argument("--percent", type=float, default=95.0, metavar="P", help="of displays that must keep within --loss; default: 95")
     tolerance.add_argument("--seed", type=int, default=0, help="of the draws")
+    tolerance.add_argument(
+        "--set",
+        action="append",
+        nargs="+",
+        default=[],
+        metavar="KEY=VALUE",
+        help="another value of the description's key, as of the other commands; sizes of errors, too: errors.gap_mm=0.02",
+    )
     tolerance.add_argument("--dask", metavar="ADDRESS", help="as of run")
     tolerance.add_argument("--workers", type=_up_to(MOST_AT_ONCE), metavar="N", help="as of run")
     tolerance.add_argument("--threads", type=_up_to(MOST_AT_ONCE), default=1, metavar="N", help="as of run")
@@ -175,12 +184,25 @@ def _tolerance(a: argparse.Namespace) -> int:
         losses=tuple(map(Loss.parse, a.loss)),
         percent=a.percent,
         seed=a.seed,
+        set=dict(_override(text) for texts in a.set for text in texts),
         dask=a.dask,
         workers=a.workers,
         threads=a.threads,
     )
     from .reports import tolerance_page
 
-    with_budget = f"\n{found.budget.drop(columns='way').to_string(index=False)}" if len(found.budget) else ""
-    print(f"{found.percentiles.to_string(float_format='{:.5g}'.format)}{with_budget}\n{tolerance_page.write(found, a.percent)}: the report")
+    for line in tolerance_page.summary(found):
+        print(line)
+    print(f"{tolerance_page.write(found, a.percent)}: the report, with all figures")
     return 0
+
+
+def _override(text: str) -> tuple[str, object]:
+    """KEY=VALUE, the value as a description has it; what is no value there is a word, as of the program's --set."""
+    key, equals, value = text.partition("=")
+    if not (key and equals and value):
+        raise StudyError(f"--set {text}", "is not KEY=VALUE, as in errors.gap_mm=0.02")
+    try:
+        return key.strip(), tomllib.loads(f"value = {value}")["value"]
+    except tomllib.TOMLDecodeError:
+        return key.strip(), value

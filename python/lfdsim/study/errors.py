@@ -11,6 +11,8 @@ import dataclasses
 import io
 import json
 import tomllib
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -51,15 +53,17 @@ class Layout:
         return blocks
 
 
-def sizes_of(display_text: str, path: object) -> dict[str, float | list[float]]:
-    """Of the errors that a description states, but for those that are zero."""
-    stated = tomllib.loads(display_text).get("errors", {})
+def sizes_of(display_text: str, changes: Mapping[str, Any], path: object) -> dict[str, float | list[float]]:
+    """Of the errors that a description states, or that `changes` of its keys state, but for those that are zero."""
+    stated = dict(tomllib.loads(display_text).get("errors", {}))
+    stated |= {key.removeprefix("errors."): value for key, value in changes.items() if key.startswith("errors.")}
+    stated = {name: 0.0 if value is None or value == "none" else value for name, value in stated.items()}
     sizes = {f"errors.{name}": stated[name] for name in (*WHOLE, *EACH) if np.any(np.asarray(stated.get(name, 0.0), float) != 0)}
     if not sizes:
         raise StudyError(
             f"{path}: [errors]",
             "states no error; give sizes there, as in decenter_sd_mm = 0.01 (of each lens) or gap_mm = 0.02 (of the "
-            "array: a standard deviation here)",
+            "array: a standard deviation here), or by --set errors.gap_mm=0.02",
         )
     return sizes
 

@@ -208,7 +208,7 @@ def display_in(path: pathlib.Path, fixed: dict[str, Any]) -> tuple[str, "lfdsim.
     text = files.read_text(path)
     try:
         display = lfdsim.Display.parse(text, path.parent.resolve())
-        lfdsim.check(work.changed(display, path.parent, fixed))
+        lfdsim.check(work.changed(display, path.parent, fixed), warnings=False)
         return text, display
     except ValueError as error:
         raise StudyError(path, f"is not a possible display: {error}") from error

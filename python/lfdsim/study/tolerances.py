@@ -5,18 +5,20 @@ from __future__ import annotations
 import dataclasses
 import json
 import pathlib
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 import lfdsim
+from lfdsim.toml_text import toml_text
 
 from . import api, errors, files, planned, runs
 from .columns import is_uncertainty
 from .errors import ALL, Layout
 from .factors import is_number
 from .file import MOST_ROWS, Objective
-from .problems import StudyError, nearest, path_of, whole
+from .problems import StudyError, counted, nearest, path_of, whole
 
 if TYPE_CHECKING:
     import pandas
@@ -81,6 +83,7 @@ def tolerance(
     losses: tuple[Loss, ...] = (),
     percent: float = 95.0,
     seed: int = 0,
+    set: Mapping[str, Any] | None = None,
     dask: object = None,
     workers: int | None = None,
     threads: int = 1,
@@ -91,7 +94,8 @@ def tolerance(
     Errors of the array (shift, gap, rotation, pitch, wedge, bow) are normal about zero, and what the display states is their standard
     deviation; those of each lens are drawn anew each time. `alone`: draws of each error by itself, at half, once and twice its size (None: a fifth of
     `draws`; 0: none, and no budget). `measures`: names (`picture`: likeness to the scene), or tables as in a study's file. `losses`: what
-    `percent` of all displays must keep; the budget says which sizes allow that.
+    `percent` of all displays must keep; the budget says which sizes allow that. `set`: keys of the description with other values, sizes
+    of errors among them, as in {"errors.gap_mm": 0.02}; as the program's --set.
     """
     display, folder = path_of(display, "display"), path_of(folder, "folder")
     draws, seed = whole(draws, "draws", 1, MOST_ROWS), whole(seed, "seed", 0, 2**63 - 1)
@@ -104,7 +108,8 @@ def tolerance(
         raise StudyError("losses", f'is {losses!r}; give a tuple of losses, as in (Loss.parse("picture.ssim=-0.02"),)')
     _check_names(measures, losses)
     runs.check_machines(dask, workers, threads, progress)
-    sizes = errors.sizes_of(planned.display_in(display, {})[0], display)
+    changes = dict(set or {})
+    sizes = errors.sizes_of(planned.display_in(display, changes)[0], changes, display)
     layout = Layout(sizes, draws, max(10, draws // 5) if alone is None else alone)
     if layout.rows > MOST_ROWS:
         many = f"{draws} and {layout.alone} of each error alone are {layout.rows} rows"
@@ -114,7 +119,7 @@ def tolerance(
     except OSError as error:
         raise StudyError(folder, f"cannot be made: {error.strerror}; give another folder") from error
     _keep(folder / "draws.csv", errors.rows_csv(layout, seed))
-    _keep(folder / "tolerance.toml", _study_text(display, measures))
+    _keep(folder / "tolerance.toml", _study_text(display, measures, {k: v for k, v in changes.items() if k not in sizes}))
     plan = api.plan(folder / "tolerance.toml", folder)
     # As objectives they are found to be figures, or not, after the first chunk.
     wishes = tuple(Objective(loss.figure, "low") for loss in losses)
@@ -147,8 +152,10 @@ def _keep(path: pathlib.Path, text: str) -> None:
     files.write_whole(path, text.encode())
 
 
-def _study_text(display: pathlib.Path, measures: tuple[str | dict[str, Any], ...]) -> str:
+def _study_text(display: pathlib.Path, measures: tuple[str | dict[str, Any], ...], fixed: Mapping[str, Any]) -> str:
     text = f'schema = 1\ndisplay = {json.dumps(str(display.resolve()))}\ndesign = "table"\ntable = "draws.csv"\n'
+    if fixed:
+        text += "\n[set]\n" + "".join(f"{json.dumps(key)} = {toml_text(value)}\n" for key, value in fixed.items())
     for measure in measures:
         if isinstance(measure, dict):
             settings = measure.get("settings", {})
@@ -206,13 +213,15 @@ def _budget(
     lines = []
     for loss in losses if layout.alone else ():
         for group in layout.groups:
-            at = {}
+            at, cut = {}, {}
             for scale, block in ((s, r) for g, s, r in layout.blocks() if g == group):
                 same = list(block)[: layout.alone]  # as many draws at each scale, so that these are the same ones
                 lost = loss.of(rows[loss.figure].to_numpy(float)[same], without[loss.figure])
                 # An impossible display, or one without the figure, has lost it.
                 at[scale] = float(np.nan_to_num(np.percentile(np.where(np.isnan(lost), np.inf, lost), percent), nan=np.inf))
-            scale, how = allowed_scale(at, loss.amount)
+                if np.isinf(at[scale]):
+                    cut[scale] = _why_none(rows["error"].iloc[same], lost)
+            scale, how = allowed_scale(at, loss.amount, cut)
             size = layout.sizes.get(group)
             lines.append(
                 {
@@ -230,19 +239,36 @@ def _budget(
     return pandas.DataFrame(lines)
 
 
-def allowed_scale(at: dict[float, float], amount: float) -> tuple[float, str]:
-    """Where the loss is `amount`, if it is a power of the scale between two measured ones.
+def _why_none(reasons: "pandas.Series", lost: np.ndarray) -> str:
+    """Why so many draws of one block have no figure that nothing is known of the loss."""
+    impossible = reasons.dropna()
+    if len(impossible):
+        return f"{len(impossible)} of {counted(len(lost), 'draw')} impossible, most often because: {impossible.value_counts().index[0]}"
+    return f"{int(np.isnan(lost).sum())} of {counted(len(lost), 'draw')} without the figure"
 
-    Towards small errors the power of the least two holds on; towards large ones, where displays become impossible, nothing is guessed."""
-    scales = sorted(at)
-    if at[scales[-1]] <= amount:
-        return scales[-1], "or more: all that was tried keeps it"
-    high = min(s for s in scales if at[s] > amount and all(at[t] > amount for t in scales if t > s))
-    below = [s for s in scales if s < high]
+
+def allowed_scale(at: dict[float, float], amount: float, cut: Mapping[float, str] | None = None) -> tuple[float, str]:
+    """Where the loss is `amount`, if it is a power of the scale between two measured ones; and how that is known.
+
+    Towards small errors the power of the least two holds on; towards large ones, where displays become impossible, nothing is guessed.
+    `at`: the loss by scale, infinite where it was not measured; `cut`: why it was not."""
+    known = [s for s in sorted(at) if np.isfinite(at[s])]
+    # What was not measured is no loss: it only ends what is known.
+    missing = [s for s in sorted(at) if s not in known]
+    why = f" (at {min(missing):g}: {(cut or {}).get(min(missing), 'nothing was measured')})" if missing else ""
+    if not known:
+        return float("nan"), f"unknown: nothing was measured{why}"
+    keeps = [s for s in known if at[s] <= amount]
+    if keeps and keeps[-1] == known[-1]:
+        return known[-1], f"or more: larger ones were not measured{why}" if why else "or more: all that was tried keeps it"
+    high = min(s for s in known if at[s] > amount and all(at[t] > amount for t in known if t > s))
+    below = [s for s in known if s < high]
+    if not below and len(known) == 1:
+        return high, f"too large; nothing smaller was measured{why}"
     low, how = (max(below), "between what was tried") if below else (high, "below what was tried: extrapolated")
     if not below:
-        high = scales[1]
-    if at[low] <= 0 or not np.isfinite(at[high]) or at[high] <= at[low]:
-        return low, "or less: nothing smaller was tried" if not below else "to the next that was tried, which loses more"
+        high = known[1]
+    if at[low] <= 0 or at[high] <= at[low]:
+        return low, "or less: nothing smaller was tried" if not below else f"or a little more: at {high:g} it loses more"
     power = np.log(at[high] / at[low]) / np.log(high / low)
     return float(low * (amount / at[low]) ** (1 / power)), how

@@ -121,7 +121,7 @@ def _refused(display: "lfdsim.Display", model: Any, settings: dict[str, Any]) ->
 
 def _measure(row: Row, display: "lfdsim.Display", measure: Measure, settings: dict[str, Any], threads: int, path: pathlib.Path) -> None:
     if measure.name == "check":
-        found = lfdsim.check(display)
+        found = lfdsim.check(display, warnings=False)
         row.figures.update(flat({k: found[k] for k in ("geometry", "theory")}, measure.label))
         return
     result = lfdsim.analyze(display, measure.name, threads=threads, progress=False, **settings)

@@ -19,14 +19,13 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 NAME = "tolerance.html"
+STYLE = "\nbody{max-width:none}p{max-width:60em}td:first-child{overflow-wrap:anywhere;min-width:12em}td,th{padding:.15em .45em}"
 
 
 def write(found: Tolerance, percent: float) -> pathlib.Path:
     layout = found.layout
-    impossible = layout.draws - len(found.draws)
     parts = [
-        f"<h1>Tolerances</h1><p>{counted(layout.draws, 'draw')} of all errors together, {impossible} of them impossible. "
-        "All rows are in study.parquet.</p>",
+        f"<h1>Tolerances</h1><p>{html.escape(' '.join(_counts(found)))} All rows are in study.parquet.</p>",
         "<h2>Sizes of the errors</h2>" + page.table(["error", "size"], [[k, str(v)] for k, v in layout.sizes.items()]),
         "<p class=note>Of the whole array: the standard deviation of a normal distribution about zero, cut off at 3. Of each lens "
         "(_sd): as the display draws them.</p>",
@@ -36,13 +35,14 @@ def write(found: Tolerance, percent: float) -> pathlib.Path:
         parts.append(
             "<h2>Figures</h2>"
             + page.table(
-                head, [[name, *line] for name, line in zip(found.percentiles.index, found.percentiles.astype(float).values.tolist())]
+                head,
+                [[name, *(f"{x:.5g}" for x in line)] for name, line in zip(found.percentiles.index, found.percentiles.astype(float).values.tolist())],
             )
             + "<p class=note>Percentiles: so many displays are below. Figures that errors do not change are left out.</p>"
         )
     parts += [_budget(found, figure, percent) for figure in dict.fromkeys(found.budget["loss"])] if len(found.budget) else []
     text = (
-        f"<!DOCTYPE html><html lang=en><meta charset=utf-8><title>Tolerances</title><style>{page.STYLE}</style>\n"
+        f"<!DOCTYPE html><html lang=en><meta charset=utf-8><title>Tolerances</title><style>{page.STYLE}{STYLE}</style>\n"
         + "\n".join(parts)
         + "\n</html>\n"
     )
@@ -50,10 +50,47 @@ def write(found: Tolerance, percent: float) -> pathlib.Path:
     return found.folder / NAME
 
 
+def _counts(found: Tolerance) -> list[str]:
+    """How many draws there are, and how many of them are impossible: of all errors together, and of each alone and at other sizes."""
+    layout, told = found.layout, []
+    blocks = {"of all errors together": [], "of each error alone and at other sizes": []}
+    for group, scale, block in layout.blocks():
+        blocks["of all errors together" if group == ALL and scale == 1 else "of each error alone and at other sizes"] += list(block)
+    for what, numbers in blocks.items():
+        reasons = found.rows["error"].iloc[numbers].dropna()
+        why = f", most often because: {reasons.value_counts().index[0]}" if len(reasons) else ""
+        if numbers:
+            told.append(f"{counted(len(numbers), 'draw')} {what}, {len(reasons)} of them impossible{why}.")
+    return told
+
+
+SHORT = ("without errors", "5 %", "50 %", "95 %")
+
+
+def summary(found: Tolerance) -> list[str]:
+    """For a terminal 100 columns wide: a line for each figure, and for each loss and error."""
+    lines = [*_counts(found)]
+    if len(found.percentiles):
+        lines += ["", f"{'figure':<48}" + "".join(f"{name:>15}" if name == SHORT[0] else f"{name:>12}" for name in SHORT)]
+        for name, line in found.percentiles.iterrows():
+            numbers = [f"{line[column]:>{15 if column == SHORT[0] else 12}.5g}" for column in SHORT]
+            lines += [f"{name:<48}" + "".join(numbers)] if len(str(name)) < 48 else [str(name), " " * 48 + "".join(numbers)]
+    for figure in dict.fromkeys(found.budget["loss"]) if len(found.budget) else []:
+        of_it = found.budget[found.budget["loss"] == figure]
+        lines += ["", f"Budget for {figure}: it may {WAYS[of_it.iloc[0]['way']]} {of_it.iloc[0]['allowed']:g}"]
+        for _, line in of_it.iterrows():
+            size = "" if line["error"] == ALL else f", {_sizes(line)}"
+            lines.append(f"  {line['error']}: {line['allowed scale']:.3g} of its size{size}; {line['how']}")
+    return lines
+
+
+WAYS = {"change": "change by", "fall": "fall by", "rise": "rise by"}
+
+
 def _budget(found: Tolerance, figure: str, percent: float) -> str:
     lines = found.budget[found.budget["loss"] == figure]
     first = lines.iloc[0]
-    may = {"change": "change by", "fall": "fall by", "rise": "rise by"}[first["way"]]
+    may = WAYS[first["way"]]
     rows = [
         [
             line["error"],
