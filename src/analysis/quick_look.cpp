@@ -71,7 +71,9 @@ std::optional<SeenAtOnce> seen_at_once(const Display& d, const Geometry& g) {
     return SeenAtOnce{lfdsim::theory(d, g).along[axis].elemental_pitch_mm, {width, even_width(theory)}, through};
 }
 
-std::optional<TracedAndTheory> between_eyes_percent(const Display& d, const Geometry& g) {
+std::optional<TracedAndTheory> between_eyes_percent(const Display& as_made, const Geometry& g) {
+    Display d = as_made;
+    d.content.viewing_distance_mm = eye_distance_mm(d);
     const std::optional<Vec3d> eye = eye_before(d, g, -0.5 * usual_eyes_apart_mm);
     if (!eye) return {};
     const Lattice<double>& l = g.lattice;

@@ -32,7 +32,8 @@ std::optional<SeenAtOnce> seen_at_once(const Display&, const Geometry&);
 inline constexpr double usual_eyes_apart_mm = 65;
 
 /// Of a viewer in front of the screen's middle, at the camera's distance: the light that an eye sees by lenses and that is meant
-/// for the other eye, over what is meant for itself; per cent. None where the viewing zone does not hold both eyes.
+/// for the other eye, over what is meant for itself, of elemental images made for that distance; per cent. None where the viewing
+/// zone does not hold both eyes.
 std::optional<TracedAndTheory> between_eyes_percent(const Display&, const Geometry&);
 
 /// The light of the panel's point on a lens's axis, in images of a panel pixel at the same depth. The width of light that is

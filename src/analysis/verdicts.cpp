@@ -2,7 +2,6 @@
 
 #include "analysis/quick_look.h"
 #include "model/bands.h"
-#include "model/depth_words.h"
 #include "model/numbers.h"
 
 #include <fmt/format.h>
@@ -19,8 +18,14 @@ constexpr double most_aberrated_percent = 15, most_more_percent = 10;  // of whi
 constexpr double most_blur_pixels = 1.5;
 constexpr double most_visible_contrast = 0.05;  // of colours, after the eye's filter
 
+/// Three digits, without an exponent.
+std::string digits(double x) { return std::abs(x) < 1000 ? fmt::format("{:.3g}", x) : fmt::format("{:.0f}", x); }
+
 /// "12 mm in front of the lenses", or "at infinity".
-std::string place(double z) { return std::isinf(z) ? "at infinity" : depth_in_words(z); }
+std::string place(double z) {
+    return std::isinf(z) ? "at infinity"
+                         : fmt::format("{} mm {} the lenses", digits(std::abs(z)), z < 0 ? "behind" : "in front of");
+}
 
 bool valid(const Display& d) { return validate(d).empty(); }
 
@@ -113,8 +118,8 @@ std::optional<std::string> on_separation(const Display& d, const Geometry& g, co
     if (!(seen.width_mm.traced > most_seen_share * seen.image_mm)) return {};
     const bool differ = std::abs(seen.width_mm.traced - seen.width_mm.theory) > 0.05 * seen.image_mm;
     return fmt::format(
-        "views do not separate: one eye sees {:.3g} of the {:.3g} mm under each lens at once{}. {}", seen.width_mm.theory,
-        seen.image_mm,
+        "views do not separate: one eye sees {} of the {:.3g} mm under each lens at once{}. {}",
+        seen.width_mm.theory < seen.image_mm ? fmt::format("{:.3g}", seen.width_mm.theory) : "all", seen.image_mm,
         differ ? fmt::format(" by paraxial theory, {:.3g} mm with the lenses' aberration", seen.width_mm.traced) : "",
         separation_remedy(d, g, t, seen));
 }
@@ -130,21 +135,21 @@ std::optional<std::string> on_eyes(const Display& d, const Geometry& g, const Se
         return fmt::format(
             "the lenses' aberration mixes what {} should see: crosstalk is {:.3g} %, and {:.2g} % in theory without aberration. {}",
             eyes, mixed->traced, mixed->theory, stop_remedy(d, stop_against_mixing(d, g)));
-    if (!(mixed->traced > most_mixed_percent)) return {};
     const double wide = seen.width_mm.traced / g.gap_mm * (eye_distance_mm(d) - g.rear_principal_mm);
+    if (!(mixed->traced > most_mixed_percent && wide > usual_eyes_apart_mm)) return {};
     return fmt::format(
-        "{} see nearly the same: crosstalk is {:.3g} %, as each lens spreads what one eye should see over {:.3g} mm there. Views "
-        "would part from {:.3g} mm on, or with lenses and a diffuser "
+        "{} see nearly the same: crosstalk is {:.3g} %, as each lens spreads what one eye should see over {} mm there. Views "
+        "would part from {} mm on, or with lenses and a diffuser "
         "that spread light by {:.2g} of that",
-        eyes, mixed->traced, wide, eye_distance_mm(d) * std::min(usual_eyes_apart_mm / wide, 1.), usual_eyes_apart_mm / wide);
+        eyes, mixed->traced, digits(wide), digits(eye_distance_mm(d) * usual_eyes_apart_mm / wide), usual_eyes_apart_mm / wide);
 }
 
 /// "between 3 and 7 mm in front of the lenses", and the like, of an interval of inverse depths that may pass infinity.
 std::string depths_in_words(double near_per_mm, double far_per_mm) {
     const double near = depth_mm(near_per_mm), far = depth_mm(far_per_mm);
-    if (near_per_mm > 0 && far_per_mm > 0) return fmt::format("from {:.4g} to {} are", near, depth_in_words(far));
-    if (near_per_mm < 0 && far_per_mm < 0) return fmt::format("from {:.4g} to {} are", -far, depth_in_words(near));
-    return fmt::format("farther than {} and than {} are", depth_in_words(near), depth_in_words(far));
+    if (near_per_mm > 0 && far_per_mm > 0) return fmt::format("from {} to {} are", digits(near), place(far));
+    if (near_per_mm < 0 && far_per_mm < 0) return fmt::format("from {} to {} are", digits(-far), place(near));
+    return fmt::format("farther than {} and than {} are", place(near), place(far));
 }
 
 /// Whether the lenses are as sharp as theory without aberration has them.
@@ -155,7 +160,7 @@ std::optional<std::string> on_blur(const Display& d, const Geometry& g, const Th
     const auto wide = [&](double pixels) {
         const double slope = pixels * d.panel.pixel_pitch_mm / g.gap_mm;
         return std::isinf(L) ? fmt::format("{:.3g} degrees", std::atan(slope) / degree)
-                             : fmt::format("{:.3g} mm", slope * std::abs(L));
+                             : fmt::format("{} mm", digits(slope * std::abs(L)));
     };
     const std::string sharp =
         std::isnan(b->sharp.near_per_mm)
@@ -182,7 +187,7 @@ std::string mixing_remedy(const Display& d, const Theory& t, const ColourWave& w
         if (helps(turned))
             return "A panel whose colours follow each other along the strips shows none (--set 'panel.subpixels=\"rgb_rows\"')";
     }
-    if (is_strips(d.array))
+    if (is_strips(d.array) && t.along[0].views > 2.5)  // two views part along upright columns
         for (const double share : {1 / 6., 1 / 3.}) {
             Display leaning = d;
             leaning.array.slant_deg = std::atan(share) / degree;
@@ -218,8 +223,8 @@ std::optional<std::string> on_colours(const Display& d, const Geometry& g, const
     const std::optional<ColourWave> wave = colour_wave(d, g);
     if (!wave || !(wave->visible > most_visible_contrast)) return {};
     const std::string seen = std::isinf(wave->period_mm) ? "has one tint, which changes as the eye moves"
-                                                         : fmt::format("has coloured bands {:.3g} mm wide, {:.2g} to a degree",
-                                                                       wave->period_mm, wave->cycles_per_degree);
+                                                         : fmt::format("has coloured bands {} mm wide, {:.2g} to a degree",
+                                                                       digits(wave->period_mm), wave->cycles_per_degree);
     return fmt::format(
         "the lenses show the panel's red, green and blue apart: a white screen {} (red or blue against luminance: contrast "
         "{:.2f}). {}",

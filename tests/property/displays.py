@@ -11,8 +11,13 @@ KINDS = {"near-eye": ((18, 45), (0.2, 2)), "hand-held": ((150, 450), (0.2, 5)), 
 CONTENTS = ("built-in:spheres", "relief.obj", "pyramid.gltf")  # the files are written by contents.py
 
 
+OTHERS = 500  # of each thousand numbers those from here on are products as they are sold, and kinds that draw() seldom or never has
+
+
 def draw(number, most_pixels):
     """Display `number`, with at most most_pixels panel pixels. Not all that is drawn can be built: `check` refuses some."""
+    if number % 1000 >= OTHERS:
+        return draw_other(number, most_pixels)
     rng = np.random.default_rng([2024, number])
     pitch = log_uniform(rng, 0.2, 60)
     kind = rng.choice([name for name, (_, (least, most)) in KINDS.items() if least <= pitch <= most])
@@ -54,6 +59,73 @@ def draw(number, most_pixels):
     as_others_are_built(np.random.default_rng([2026, number]), description)
     if number % 2:
         in_colour(np.random.default_rng([2027, number]), description)
+    return description
+
+
+def draw_other(number, most_pixels):
+    """By turns: lenticular sheets glued to glass, pinholes, a stop between two surfaces of a lens, two views, staggered lenses that fill their cells.
+
+    None has a count: as many lenses as cover the panel. All but the third have subpixels.
+    """
+    rng = np.random.default_rng([2028, number])
+    kind = ("lenticular", "pinholes", "stop inside", "two views", "staggered")[number % 5]
+    pixel = log_uniform(rng, 0.04, 0.3)
+    columns = int(min(rng.integers(160, 1200), math.sqrt(1.6 * most_pixels)))
+    panel = {"pixels": [columns, int(columns * rng.uniform(0.5, 0.7))], "pixel_pitch_mm": pixel}
+    if kind != "stop inside":
+        panel["subpixels"] = str(rng.choice([layout for layout in LAYOUTS if layout not in ("none", "custom")]))
+        panel["aperture_ratio"] = float(rng.choice([1.0, rng.uniform(0.4, 1)]))
+    eye = log_uniform(rng, 250, 1500)
+    views = 2.0 if kind == "two views" else float(rng.choice([rng.integers(5, 40), rng.uniform(5, 40)]))
+    index, array, gap = float(rng.uniform(1.45, 1.65)), {"lattice": "strips", "aperture": "cell"}, None
+    apart = float(rng.uniform(60, 66))  # of a viewer's eyes
+    if kind == "two views":  # g = a E / apart puts them beside each other
+        gap = pixel * eye / apart
+        pitch = 2 * pixel / (1 + gap / eye)
+        slits = {"type": "pinhole", "aperture_radius_mm": float(rng.uniform(0.1, 0.25)) * pitch}
+        lens = slits if rng.random() < 0.5 else {"type": "ideal", "focal_length_mm": gap * float(rng.uniform(0.9, 1.1))}
+        if lens is slits:
+            array["aperture"] = "circle"
+    else:
+        pitch = pixel * views
+        gap = pitch / (2 * math.tan(math.radians(float(rng.uniform(10, 40))) / 2))
+    if kind == "lenticular":  # R = (n - 1) g is in focus
+        slant = float(rng.choice([0.0, math.degrees(math.atan(1 / 3)), math.degrees(math.atan(1 / 6)), rng.uniform(-30, 30)]))
+        array |= {"slant_deg": slant, "surround": str(rng.choice(["opaque", "plate"]))}
+        pitch *= math.cos(math.radians(slant))
+        radius = max((index - 1) * gap * float(rng.uniform(0.9, 1.1)), 0.52 * pitch)
+        height = float(rng.uniform(0.1, 0.9)) * radius
+        lens = {"type": "plano_convex", "sphere_radius_mm": radius, "aperture_radius_mm": pitch / 2, "cylinder_height_mm": height, "index": index}
+        glass = gap * 1.5 - height / index
+        if glass > 0.1 and rng.random() < 0.7:  # glued on: the cover's thickness makes the gap
+            panel["layer"] = [{"thickness_mm": glass, "index": 1.5}]
+            array["base_z_mm"] = glass
+    elif kind == "pinholes":
+        array["lattice"] = str(rng.choice(["square", "hexagon", "strips"]))
+        array["aperture"] = "circle"
+        lens = {"type": "pinhole", "aperture_radius_mm": float(rng.uniform(0.05, 0.3)) * pitch}
+    elif kind == "stop inside":  # light passes the middle surface through a narrower hole than the others
+        array |= {"lattice": "square", "aperture": "circle"}
+        half, focal = pitch / 2, gap * float(rng.uniform(0.8, 1))
+        bend = 1 / (2 * (index - 1) * focal)
+        lens = {"type": "surfaces", "surface": [
+            {"curvature_per_mm": bend, "semi_aperture_mm": half, "index": index, "distance_mm": 0.4 * pitch},
+            {"curvature_per_mm": 0.0, "semi_aperture_mm": float(rng.uniform(0.3, 0.8)) * half, "index": index, "distance_mm": 0.4 * pitch},
+            {"curvature_per_mm": -bend, "semi_aperture_mm": half}]}
+    elif kind == "staggered":
+        array["lattice"] = str(rng.choice(["hexagon", "brick"]))
+        radius = max((index - 1) * gap * float(rng.uniform(0.8, 1)), 1.05 * pitch)
+        lens = {"type": "plano_convex", "sphere_radius_mm": radius, "cylinder_height_mm": 0.1 * pitch, "index": index}
+    array["pitch_mm"] = [pitch, pitch * float(rng.uniform(0.8, 1.2))] if array["lattice"] == "brick" else pitch
+    if "base_z_mm" not in array:
+        array["gap_mm"] = gap
+    trial = oracle.resolve({"lens": lens, "array": {**array, "base_z_mm": 0.0} if "base_z_mm" in array else array})
+    distance = float(eye + trial.vertex_plane + array.get("base_z_mm", 0.0))
+    description = {"schema": 1, "name": f"{kind} {number}", "panel": panel, "lens": lens, "array": array,
+                   "camera": {"position_mm": [0.0, 0.0, distance], "resolution": [int(v) for v in SIZES[number % 3].split("x")]},
+                   "content": {"viewing_distance_mm": distance}, "render": {"seed": number}}
+    if kind not in ("two views", "lenticular") and rng.random() < 0.5:
+        description["diffuser"] = draw_diffuser(rng, pitch, eye)
     return description
 
 

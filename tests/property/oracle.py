@@ -39,8 +39,9 @@ class SmoothSurface(Surface):
 
 def resolve(description):
     """tests/oracle's display of a description: lengths in mm, z from the panel."""
+    trial = {} if "panel" in description else {"count": [1, 1]}  # of a lens alone; else as many as cover the panel
     panel = {"pixels": [1, 1], "pixel_pitch_mm": 1.0}
-    d = _display.resolve({"panel": panel, **description, "array": {"count": [1, 1], **description["array"]}})
+    d = _display.resolve({"panel": panel, **description, "array": {**trial, **description["array"]}})
     for at in [d, *d.primaries, *(at for _, at in d.colours)]:
         for surface in at.surfaces:
             surface.__class__ = SmoothSurface

@@ -10,6 +10,7 @@ import functools
 import json
 import multiprocessing
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -23,6 +24,7 @@ from forms import Forms
 
 # --quick: one display of as many has the measure. "likeness" is `analyze fov` with all its views.
 EVERY = {"fov": 2, "likeness": 15, "dof": 5, "zone": 10, "crosstalk": 9, "uniformity": 9, "spot": 5, "mtf": 20, "moire": 9}
+NO_FIGURE = re.compile(r"[ (-]nan\b|(?<!=)[ (-]inf\b|\de[+-]?\d")  # in what check tells in words; "= inf" is the value of a key
 TRIES = 20  # drawings for one display, where `check` refuses some
 
 
@@ -42,7 +44,11 @@ class Harness:
             path.write_text(oracle.to_toml(description))
             done = self.lfdsim("check", path, "--json")
             if done.returncode == 0:
-                return description, path, json.loads(done.stdout), refused
+                checked = json.loads(done.stdout)
+                absurd = [w for w in checked["warnings"] if NO_FIGURE.search(w)]
+                if absurd:
+                    raise RuntimeError(f"lfdsim check {path} says {absurd}")
+                return description, path, checked, refused
             if done.returncode != 2:
                 raise RuntimeError(f"lfdsim check {path}: {done.stderr}")
         raise RuntimeError(f"display {number}: {TRIES} drawings refused, the last: {done.stderr}")
