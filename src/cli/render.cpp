@@ -7,6 +7,7 @@
 #include "cli/exposure.h"
 #include "cli/lens_mesh_options.h"
 #include "cli/panel_source.h"
+#include "cli/random_light.h"
 #include "cli/render_path.h"
 #include "cli/rendered.h"
 #include "cli/shown_panel.h"
@@ -19,6 +20,7 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <chrono>
 
 // lfdsim render: panel image in, camera picture out. All that can be wrong with the command line is told before work begins.
 namespace lfdsim::cli {
@@ -129,8 +131,21 @@ void run(const RenderArguments& args) {
     const RenderOptions options{args.work.threads(), args.kernel, crop, target};
     if (path) return render_frames(args, display, *path, options, light, progress);
     const PanelLight panel = light();
-    Rendering r = lens ? render_meshed(display, geometry, panel.texels, *lens, options, progress)
-                       : render(display, geometry, panel.texels, options, progress);
+    const bool tells_noise = !lens && !target && estimator_of(display) == Estimator::filtered;
+    std::optional<RandomLight> random;
+    const auto filtered_picture = [&] {
+        const auto start = std::chrono::steady_clock::now();
+        const Pyramid pyramid(panel.texels, options.threads);
+        pyramid.levels(panel_reading(display, geometry));
+        const double prepared = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        Rendering made = render(display, geometry, pyramid, options, progress);
+        made.prepare_seconds = prepared;
+        if (made.complete) random = random_light(display, geometry, pyramid, made, options, progress);
+        return made;
+    };
+    Rendering r = lens          ? render_meshed(display, geometry, panel.texels, *lens, options, progress)
+                  : tells_noise ? filtered_picture()
+                                : render(display, geometry, panel.texels, options, progress);
     const std::optional<double> exposure = args.exposure.factor(display, geometry, options, progress);
     if (exposure) ExposureOption::apply(*exposure, r);
     Rendered facts = rendered(r, target, keeps_layers(args.output.path()));
@@ -142,6 +157,14 @@ void run(const RenderArguments& args) {
         facts.about["lens_mesh"] = args.lens_mesh.text(*lens);
         facts.more["lens_mesh"] = args.lens_mesh.json(*lens);
     }
+    std::string noise;
+    if (random) {
+        random->noise_rms *= exposure.value_or(1);
+        facts.more["random_rays"] = {{"share", random->share}, {"noise_rms", random->noise_rms}};
+        if (random->share >= 0.005)
+            noise = fmt::format(", {:.0f} % of pixels by random rays of their own: noise {:.2g}", 100 * random->share,
+                                random->noise_rms);
+    }
     if (facts.pixels_above_target > 0)
         spdlog::warn("{} did not reach the target error with the maximum number of samples",
                      counted(facts.pixels_above_target, "pixel"));
@@ -149,7 +172,7 @@ void run(const RenderArguments& args) {
 
     facts.more.update(panel.made);
     print_made(Made{args.output.path(), r.image.width, r.image.height, "samples", r.samples, r.seconds}, args.work.json(),
-               ", " + how_made(r) + (lens ? "; " + args.lens_mesh.text(*lens) : ""), facts.more);
+               ", " + how_made(r) + noise + (lens ? "; " + args.lens_mesh.text(*lens) : ""), facts.more);
 }
 
 }  // namespace

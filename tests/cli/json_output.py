@@ -1,6 +1,8 @@
 """--json prints one JSON document and nothing else; progress goes to standard error, as lines when nobody watches."""
+import array
 import json
 import math
+import statistics
 
 from program import Checks, Program
 
@@ -56,4 +58,25 @@ for style in ["auto", "lines", "json", "none", "bar"]:
         checks.that(err.startswith("lfdsim: rendering: 100 %"), f"--progress {style}: {err!r}")
     if style == "bar":
         checks.that("[=====" in err and err.endswith("\n"), f"--progress bar: {err!r}")
+
+# What single random rays made is told: the share of pixels that another seed changes, and their noise, as pictures of other seeds show it.
+def light_of(path):
+    data = (program.folder / path).read_bytes()
+    return array.array("f", data[10 + int.from_bytes(data[8:10], "little"):])
+
+
+noisy = "render tiny.toml --panel-image panel.png --size 64x36 --json --progress none --set render.samples=4 diffuser.angle_deg=[20,20]"
+told = [result(f"{noisy} render.seed={seed} -o noisy{seed}.npy --threads {1 + seed % 2}") for seed in range(8)]
+pictures = [light_of(f"noisy{seed}.npy") for seed in range(8)]
+lit = [k for k in range(0, len(pictures[0]), 3) if any(p[k + c] > 0 for p in pictures[:2] for c in range(3))]
+changed = sum(any(pictures[0][k + c] != pictures[1][k + c] for c in range(3)) for k in lit) / len(lit)
+noise = math.sqrt(sum(statistics.variance(p[k + c] for p in pictures) for k in lit for c in range(3)) / (3 * len(lit)))
+random_rays = told[0]["random_rays"]
+checks.that(random_rays["share"] > 0.1 and abs(random_rays["share"] - changed) < 1e-9, f"random rays {random_rays}, changed {changed}")
+checks.that(abs(random_rays["noise_rms"] / noise - 1) < 0.15, f"random rays {random_rays}, noise {noise}")
+checks.that(result(f"{noisy} render.seed=0 -o again.npy --threads 2")["random_rays"] == random_rays, "random rays depend on threads")
+checks.that("% of pixels by random rays of their own: noise 0." in program.must(noisy.replace("--json ", "") + " -o words.npy"), "noise is not told")
+exact = result("render tiny.toml --panel-image panel.png --size 64x36 --json --progress none --set render.fresnel=none lens={type='ideal',focal_length_mm=5.2} "
+               "array.aperture=cell -o exact.npy")
+checks.that(exact["random_rays"]["share"] < 0.05, f"random rays where blocks share all: {exact['random_rays']}")
 checks.finish()
