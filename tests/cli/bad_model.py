@@ -1,5 +1,6 @@
 """Models that must be refused, those among them that crash or exhaust readers of such files, and what is missing of others."""
 import pathlib
+import zipfile
 
 from program import Checks, Program, skip
 
@@ -24,6 +25,34 @@ checks.refused(program, "no reader", "photo tiny.toml --model pyramid.obj -o out
                                          "".join(f"usemtl m{k}\nf 1/1 2/2 3/3\n" for k in range(40)))
 code, _, err = program.run("photo tiny.toml --model bare.obj -o bare.png")
 checks.that(code == 0 and err.count("left out, shown grey") == 6 and "35 more textures left out" in err, f"40 missing textures: {code} {err}")
+
+# What the reader of 3MF passes over is said; what it cannot take is not called damaged.
+def write_3mf(name, resources, build):
+    with zipfile.ZipFile(program.folder / name, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("_rels/.rels", '<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">'
+                         '<Relationship Target="/3D/3dmodel.model" Id="r" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>'
+                         '</Relationships>')
+        archive.writestr("3D/3dmodel.model", '<?xml version="1.0"?><model unit="millimeter" '
+                         'xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" '
+                         'xmlns:m="http://schemas.microsoft.com/3dmanufacturing/material/2015/02">'
+                         f'<resources>{resources}</resources><build>{build}</build></model>')
+
+
+def square_3mf(colour):
+    corners = "".join(f'<vertex x="{x}" y="0" z="{z}"/>' for x, z in [(-1, -1), (1, -1), (1, 1), (-1, 1)])
+    return (f'<object id="1" type="model"><mesh><vertices>{corners}</vertices><triangles><triangle v1="0" v2="1" v3="2" {colour}/>'
+            '<triangle v1="0" v2="2" v3="3"/></triangles></mesh></object>')
+
+
+item = '<item objectid="1" transform="1 0 0 0 1 0 0 0 1 691000.3 5334000.2 7"/>'
+for name, resources, note in [("plain.3mf", square_3mf(""), ""),
+                              ("group.3mf", '<m:colorgroup id="2"><m:color color="#FF0000"/></m:colorgroup>' + square_3mf('pid="2" p1="0"'),
+                               "colours of 3MF colour groups and materials of single triangles of 3MF are not shown")]:
+    write_3mf(name, resources, item)
+    code, _, err = program.run(f"photo tiny.toml --model {name} -o 3mf.png")
+    checks.that(code == 0 and note in err and ("warning" in err) == bool(note), f"{name}: {code} {err}")
+write_3mf("itself.3mf", '<object id="2" type="model"><components><component objectid="2"/></components></object>', '<item objectid="2"/>')
+checks.refused(program, "a part of itself", "photo tiny.toml --model itself.3mf -o 3mf.png", "save it in another format")
 
 broken = pathlib.Path("/usr/share/assimp/models/glTF2")
 names = ["IndexOutOfRange/AllIndicesOutOfRange.gltf", "IndexOutOfRange/IndexOutOfRange.gltf",

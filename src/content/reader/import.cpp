@@ -1,11 +1,12 @@
 #include "content/reader/import.h"
 
 #include "content/reader/axes.h"
+#include "content/reader/colours_3mf.h"
 #include "content/reader/edited_text.h"
 #include "content/reader/folder.h"
 #include "content/reader/gltf_loader.h"
+#include "content/reader/move_to_origin.h"
 #include "content/reader/not_shown.h"
-#include "content/reader/places.h"
 #include "content/reader/ply_loader.h"
 #include "content/reader/repairs.h"
 #include "content/reader/textures.h"
@@ -24,7 +25,6 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 
 namespace lfdsim::reader {
@@ -76,7 +76,8 @@ class Conversion {
         const std::vector<std::string> left_out = left_out_.notes();
         model_.notes.insert(model_.notes.end(), left_out.begin(), left_out.end());
         show_black();
-        if (model_.indices.empty()) throw std::runtime_error("has no triangles: nothing to show");
+        if (model_.indices.empty())
+            throw std::runtime_error("has no triangles: nothing to show" + (left_out.empty() ? "" : " (" + left_out.front() + ")"));
         return std::move(model_);
     }
 
@@ -253,51 +254,6 @@ void mend_normals(Model& model) {
     }
 }
 
-/// What the meshes of a scene as loaded have in common.
-struct Extent {
-    Middle middle;       // in the scene's coordinates
-    double largest = 0;  // of the numbers that float had to hold
-};
-
-void add_extent(const aiScene& scene, const aiNode& node, const aiMatrix4x4t<double>& above, Extent& all, int depth = 0) {
-    constexpr int deepest = 1000;
-    if (depth > deepest) throw std::runtime_error("has nodes more than 1000 deep");
-    const aiMatrix4x4t<double> here = above * aiMatrix4x4t<double>(node.mTransformation);
-    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-        const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
-        for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
-            const Place p(mesh.mVertices[v]);
-            all.middle.add(here * p);
-            for (unsigned k = 0; k < 3; ++k) all.largest = std::max(all.largest, std::abs(p[k]));
-        }
-    }
-    if (node.mNumMeshes > 0)
-        for (const double x : {here.a4, here.b4, here.c4}) all.largest = std::max(all.largest, std::abs(x));
-    for (unsigned c = 0; c < node.mNumChildren; ++c) add_extent(scene, *node.mChildren[c], here, all, depth + 1);
-}
-
-// Everything is moved to the origin before transformations are applied in float; what float has rounded before is said.
-std::string details_below(double share) {
-    std::ostringstream text;
-    text.precision(1);
-    text << "details below " << share << " of the model's size, which coordinates so far from the origin do not hold as its format"
-         << " is read (move the model to the origin, or save it as glTF or PLY),";
-    return text.str();
-}
-
-void move_to_origin(aiScene& scene, NotShown& not_shown) {
-    Extent extent;
-    add_extent(scene, *scene.mRootNode, {}, extent);
-    const Place offset = extent.middle.offset();
-    if (offset == Place()) return;
-    aiMatrix4x4 back;
-    aiMatrix4x4::Translation(to_float(offset * -1.), back);
-    scene.mRootNode->mTransformation = back * scene.mRootNode->mTransformation;
-    // A float's last bit, half of which rounding may take, as a share of the size.
-    if (const double share = std::ldexp(extent.largest, -24) / extent.middle.size(); share > 1e-6)
-        not_shown.add(details_below(share));
-}
-
 void note_deformations(const aiScene& scene, NotShown& not_shown) {
     if (scene.mNumAnimations > 0) not_shown.add("animations");
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
@@ -370,10 +326,12 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     const aiScene* scene = importer.ReadFile(file.string(), 0);
     const aiImporterDesc* used = importer.GetImporterInfo(std::size_t(importer.GetPropertyInteger("importerIndex", 0)));
     const std::string format = used ? used->mName : "";
+    const bool is_3mf = format.starts_with("3mf");
     if (scene && scene->mRootNode) {
-        auto& loaded = const_cast<aiScene&>(*scene);  // the importer's own, handed out as const
+        auto& loaded = const_cast<aiScene&>(*scene);  // the importer's own
         repair(loaded, file, format);
         note_deformations(loaded, not_shown);
+        if (is_3mf) note_3mf(file, not_shown);
         move_to_origin(loaded, not_shown);
         scene = importer.ApplyPostProcessing(steps | (may_join(loaded, format) ? aiProcess_JoinIdenticalVertices : 0u) |
                                              (flat_without_normals(file, format) ? 0u : aiProcess_GenSmoothNormals));
@@ -387,8 +345,9 @@ Model import(const std::filesystem::path& file, const std::string& up) {
         if (warning.find("out-of-range ind") != std::string::npos)
             throw std::runtime_error("some faces have indices of vertices that do not exist; the file is damaged, export it again");
     Model model = Conversion(*scene, *folder, format, turn(*scene, format, up), tilings, not_shown).run();
-    // Blender's loader warns of every field that a version of the program did not have.
-    if (!format.starts_with("Blender")) model.notes.insert(model.notes.end(), warnings->texts.begin(), warnings->texts.end());
+    // Blender's loader warns of every field that a version of the program did not have, 3MF's of every file of the archive.
+    if (!format.starts_with("Blender") && !is_3mf)
+        model.notes.insert(model.notes.end(), warnings->texts.begin(), warnings->texts.end());
     model.files.insert(model.files.end(), folder->opened().begin(), folder->opened().end());
     mend_normals(model);
     return model;

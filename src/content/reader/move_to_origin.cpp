@@ -1,0 +1,63 @@
+#include "content/reader/move_to_origin.h"
+
+#include "content/reader/places.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace lfdsim::reader {
+namespace {
+
+double largest_of(const Place& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+
+/// What the meshes of a scene have in common.
+struct Extent {
+    Middle middle;      // in the scene's coordinates
+    double vertex = 0;  // the largest number of a vertex, in its node's coordinates
+    // The largest numbers of nodes' own translations. The rounding of one alone moves everything alike.
+    double translation = 0, second_translation = 0;
+};
+
+void add(const aiScene& scene, const aiNode& node, const aiMatrix4x4t<double>& above, Extent& all, int depth = 0) {
+    constexpr int deepest = 1000;
+    if (depth > deepest) throw std::runtime_error("has nodes more than 1000 deep");
+    const aiMatrix4x4t<double> own(node.mTransformation), here = above * own;
+    const double translation = largest_of({own.a4, own.b4, own.c4});
+    all.second_translation = std::max(all.second_translation, std::min(all.translation, translation));
+    all.translation = std::max(all.translation, translation);
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+        const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
+        for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+            const Place p(mesh.mVertices[v]);
+            all.middle.add(here * p);
+            all.vertex = std::max(all.vertex, largest_of(p));
+        }
+    }
+    for (unsigned c = 0; c < node.mNumChildren; ++c) add(scene, *node.mChildren[c], here, all, depth + 1);
+}
+
+std::string details_below(double share) {
+    std::ostringstream text;
+    text.precision(1);
+    text << "details below " << share << " of the model's size, which coordinates so far from the origin do not hold as its format"
+         << " is read (move the model to the origin, or save it as glTF or PLY),";
+    return text.str();
+}
+
+}  // namespace
+
+void move_to_origin(aiScene& scene, NotShown& not_shown) {
+    Extent extent;
+    add(scene, *scene.mRootNode, {}, extent);
+    const Place offset = extent.middle.offset();
+    if (offset == Place()) return;
+    aiMatrix4x4 back;
+    aiMatrix4x4::Translation(to_float(offset * -1.), back);
+    scene.mRootNode->mTransformation = back * scene.mRootNode->mTransformation;
+    // Half of a float's last bit, as a share of the size.
+    const double share = std::ldexp(std::max(extent.vertex, extent.second_translation), -24) / extent.middle.size();
+    if (share > 1e-6) not_shown.add(details_below(share));
+}
+
+}  // namespace lfdsim::reader
