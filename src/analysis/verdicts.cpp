@@ -104,10 +104,10 @@ std::string separation_remedy(const Display& d, const Geometry& g, const Theory&
                            place(t.central_depth_mm), g.focal_length_mm, g.gap_mm, focus_remedy(d, g));
     if (d.diffuser && seen.width_mm.theory > most) {
         const double of_diffuser = seen.width_mm.theory - seen.through_apertures_mm,
-                     scale = std::clamp((0.5 * most - seen.through_apertures_mm) / of_diffuser, 0.05, 1.);
+                     scale = std::clamp((0.9 * most - seen.through_apertures_mm) / of_diffuser, 0.05, 1.);
         return fmt::format(
-            "The diffuser mixes them ({:.4g} x {:.4g} degrees); use a weaker one (--set 'diffuser.angle_deg=[{:.3g}, {:.3g}]') or "
-            "set it nearer to where the content stands",
+            "The diffuser mixes them ({:.4g} x {:.4g} degrees); use a weaker one (--set "
+            "'diffuser.angle_deg=[{:.3g}, {:.3g}]')",
             d.diffuser->angle_deg[0], d.diffuser->angle_deg[1], scale * d.diffuser->angle_deg[0], scale * d.diffuser->angle_deg[1]);
     }
     return "The lenses' aberration is the cause. " + stop_remedy(d, stop_against_blur(d, g));
