@@ -1,7 +1,9 @@
 #include "model/printable.h"
 #include "python/parts.h"
+#include "report/folder_lock.h"
 
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
 #include <new>
 
 // lfdsim._core: what the Python package in python/lfdsim needs of the program. Names and arguments that users see are in the
@@ -38,6 +40,10 @@ void translate(const std::exception_ptr& thrown, void*) {
 NB_MODULE(_core, m) {
     m.attr("version") = LFDSIM_VERSION;
     nanobind::register_exception_translator(lfdsim::python::translate);
+    m.def("harmless", &lfdsim::printable_lines, nanobind::arg("text"));
+    m.def(
+        "shown", [](const std::string& text) { return lfdsim::bounded(lfdsim::printable_lines(text)); }, nanobind::arg("text"));
+    nanobind::class_<lfdsim::FolderLock>(m, "FolderLock").def(nanobind::init<const std::string&>(), nanobind::arg("folder"));
     lfdsim::python::add_display(m);
     lfdsim::python::add_pictures(m);
     lfdsim::python::add_photographs(m);

@@ -1,5 +1,6 @@
 """lfdsim study and lfdsim tolerance, as the program in a build and as the command of an installed package."""
 
+import fcntl
 import os
 import pathlib
 import shutil
@@ -9,7 +10,11 @@ import sys
 import time
 import unittest
 
-from common import StudyTest, call
+from common import DISPLAY, LHS, StudyTest, call
+
+from lfdsim.study import api, files
+from lfdsim.study.problems import StudyError
+from lfdsim.study.tolerances import tolerance
 
 PROGRAM = pathlib.Path(os.environ["LFDSIM_PROGRAM"])
 INSTALLED = (sys.executable, "-c", "from lfdsim.program import main; main()")
@@ -64,6 +69,43 @@ class Program(StudyTest):
                     done = self.run_it(command, "study.toml", "-o", "out", f"{option}={number}")
                     self.assertEqual(done.returncode, 2, done.stderr)
                     self.assertIn(f"{option}: is {number}; give a whole number from 1 to 1024", done.stderr)
+
+    def test_what_is_printed_is_not_obeyed(self):
+        name = "\x1b[31mred\x9b\u202e\u200b\rforged"
+        for words in ([name, "-o", "out"], ["run", "a.toml", "-o", "out", f"--{name}"]):
+            done = call(*words, cwd=self.folder)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("\\u001b[31mred\\u009b\\u202e\\u200b", done.stderr)
+            for character in name:
+                self.assertTrue(character.isprintable() or character not in done.stderr + done.stdout, (words, done.stderr))
+
+    def test_files_that_nobody_named(self):
+        study, folder = self.lhs(3), self.folder / "out"
+        folder.mkdir()
+        display = self.write(DISPLAY + "[errors]\ngap_mm = 0.05\n", "errors.toml")
+        for names, plan in (
+            (("report.html", "study.toml", "study.parquet", "plan.parquet"), lambda: api.plan(study, folder)),
+            (("draws.csv", "tolerance.toml", "tolerance.html"), lambda: tolerance(display, folder, draws=3, measures=("check",))),
+        ):
+            for name in names:
+                (folder / name).write_text("mine")
+                with self.assertRaisesRegex(StudyError, f"{name}: exists and is no file of this study"):
+                    plan()
+                self.assertEqual((folder / name).read_text(), "mine")
+                for made in folder.iterdir():
+                    made.unlink()
+        with self.assertRaises(StudyError):
+            api.plan(self.write(LHS.replace("ROWS", "-1"), "bad.toml"), self.folder / "fresh")
+        self.assertFalse((self.folder / "fresh").exists())
+
+    def test_one_plan_at_a_time(self):
+        held = os.open(self.folder, os.O_RDONLY)
+        fcntl.flock(held, fcntl.LOCK_EX)
+        with self.assertRaisesRegex(StudyError, "another run is writing"), files.held(self.folder, seconds=0.2):
+            pass
+        os.close(held)
+        with files.held(self.folder), files.held(self.folder):
+            pass
 
     def test_ctrl_c(self):
         self.lhs(3000)

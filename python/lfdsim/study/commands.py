@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import pathlib
 import signal
 import sys
 import tomllib
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TextIO, cast
 
+from .. import _core
 from . import api
 from .file import MOST_ROWS
 from .problems import StudyError, StudyFailed, counted
@@ -22,7 +24,26 @@ if TYPE_CHECKING:
 COMMANDS = ("run", "plan", "collect", "report", "tolerance")
 
 
+class _Harmless:
+    """A stream whose text is not obeyed by a terminal; what is written to `stream` itself is."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self.stream = stream
+
+    def write(self, text: str) -> int:
+        self.stream.write(_core.harmless(text.encode(errors="backslashreplace").decode()))
+        return len(text)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.stream, name)
+
+
 def main(words: list[str]) -> int:
+    with contextlib.redirect_stdout(cast(TextIO, _Harmless(sys.stdout))), contextlib.redirect_stderr(cast(TextIO, _Harmless(sys.stderr))):
+        return _main(words)
+
+
+def _main(words: list[str]) -> int:
     short = words and words[0] not in (*COMMANDS, "-h", "--help")
     arguments = _parser().parse_args(["run", *words] if short else words)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # as the program's other commands: a batch system's end is a user's

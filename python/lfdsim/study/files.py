@@ -11,6 +11,7 @@ import hashlib
 import json
 import os
 import pathlib
+import time
 import tomllib
 import uuid
 from collections.abc import Iterator
@@ -20,6 +21,8 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from .. import _core
+from ..errors import InputError
 from .problems import StudyError, StudyFailed
 
 MOST_TEXT = 1 << 24  # bytes of a file that people write
@@ -62,6 +65,44 @@ def full_disk_told(path: pathlib.Path) -> Iterator[None]:
         raise StudyFailed(
             path, f"cannot be written: {error.strerror}. Finished rows are kept; make room and run the same command again"
         ) from error
+
+
+_held: set[pathlib.Path] = set()  # by this process
+
+
+@contextlib.contextmanager
+def held(folder: pathlib.Path, seconds: float = 60) -> Iterator[None]:
+    """The folder, made if it is missing, for this process alone, as the program's own commands hold theirs: while a study is planned there.
+
+    Of several that start at once on a cluster the first one plans, and the others wait.
+    """
+    place, deadline, fresh = folder.resolve(), time.monotonic() + seconds, not folder.exists()
+    if place in _held:
+        yield
+        return
+    while True:
+        try:
+            lock = _core.FolderLock(str(folder))
+            break
+        except InputError as error:
+            if "another run" not in str(error) or time.monotonic() > deadline:
+                raise StudyError("", str(error)) from None
+            time.sleep(0.1)
+    _held.add(place)
+    try:
+        yield
+    finally:
+        _held.discard(place)
+        with contextlib.suppress(OSError):
+            if fresh:  # a study that was refused leaves nothing: a folder with files in it stays
+                folder.rmdir()
+        del lock
+
+
+def refuse_foreign(path: pathlib.Path, text: str | None = None) -> None:
+    """Before a study is planned its folder has no such file, unless it has just this text: nothing that nobody named is written over."""
+    if os.path.lexists(path) and (text is None or path.is_dir() or path.read_bytes() != text.encode()):
+        raise StudyError(path, "exists and is no file of this study, which would write over it; give another folder, or remove it")
 
 
 def write_whole(path: pathlib.Path, content: bytes | memoryview) -> None:

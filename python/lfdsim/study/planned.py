@@ -89,12 +89,20 @@ def make(path: str | pathlib.Path, folder: str | pathlib.Path) -> Plan:
     """Plans the study of a file in a folder, or finds that it is planned there. Refuses a folder of another study."""
     folder = path_of(folder, "folder")
     study = read_study(path_of(path, "file"))
+    with files.held(folder):
+        return _make(study, folder)
+
+
+def _make(study: Study, folder: pathlib.Path) -> Plan:
     display_text, display = _display(study)
     planned = _same_study(study, folder, display_text)
     if planned:
         return planned
     if (folder / "rows").exists():
         raise StudyError(folder, "has rows but no plan.json: it is no study's folder, or was changed by hand; give another folder")
+    files.refuse_foreign(folder / "study.toml", study.text)
+    for name in ("plan.parquet", "study.parquet", "report.html"):
+        files.refuse_foreign(folder / name)
     work.check_measures(study)
     keys = _replicate_keys(study, display_text)
     rows = design.rows_of(study, keys)

@@ -7,6 +7,7 @@ import pathlib
 from collections.abc import Iterable
 from typing import SupportsIndex
 
+from lfdsim import _core
 from lfdsim.errors import InputError
 from lfdsim.texts import path_text
 
@@ -15,7 +16,8 @@ class StudyError(ValueError):
     """Something that the user can mend. `where` names the file, table and key; the message says what is allowed."""
 
     def __init__(self, where: object, what: str):
-        super().__init__(f"{where}: {what}" if where else what)
+        message = f"{where}: {what}" if where else what
+        super().__init__(_core.shown(message.encode(errors="backslashreplace").decode()))
         self.where = str(where)
 
 

@@ -86,7 +86,9 @@ class _Progress:
         self.failed += result["failed"]
         if self.shown:
             impossible = f", {self.failed} impossible" if self.failed else ""
-            print(f"\rlfdsim: {self.done} of {counted(self.total, 'row')}{impossible} ", end="", file=sys.stderr, flush=True)
+            # The carriage return is its own: what else is printed has none.
+            terminal = getattr(sys.stderr, "stream", sys.stderr)
+            print(f"\rlfdsim: {self.done} of {counted(self.total, 'row')}{impossible} ", end="", file=terminal, flush=True)
 
     def end(self) -> None:
         if self.shown:

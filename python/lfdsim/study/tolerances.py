@@ -114,13 +114,12 @@ def tolerance(
     if layout.rows > MOST_ROWS:
         many = f"{draws} and {layout.alone} of each error alone are {layout.rows} rows"
         raise StudyError("draws", f"{many}; at most {MOST_ROWS} are possible")
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise StudyError(folder, f"cannot be made: {error.strerror}; give another folder") from error
-    _keep(folder / "draws.csv", errors.rows_csv(layout, seed))
-    _keep(folder / "tolerance.toml", _study_text(display, measures, {k: v for k, v in changes.items() if k not in sizes}))
-    plan = api.plan(folder / "tolerance.toml", folder)
+    with files.held(folder):
+        if not (folder / "plan.json").exists():
+            files.refuse_foreign(folder / "tolerance.html")
+        _keep(folder / "draws.csv", errors.rows_csv(layout, seed))
+        _keep(folder / "tolerance.toml", _study_text(display, measures, {k: v for k, v in changes.items() if k not in sizes}))
+        plan = api.plan(folder / "tolerance.toml", folder)
     # As objectives they are found to be figures, or not, after the first chunk.
     wishes = tuple(Objective(loss.figure, "low") for loss in losses)
     plan = dataclasses.replace(plan, study=dataclasses.replace(plan.study, objectives=wishes))
@@ -144,10 +143,12 @@ def _check_names(measures: tuple[str | dict[str, Any], ...], losses: tuple[Loss,
 
 
 def _keep(path: pathlib.Path, text: str) -> None:
-    """As it was when rows were planned; until then it may change."""
+    """As it was when rows were planned."""
     if path.exists() and files.read_text(path) == text:
         return
-    if (path.parent / "plan.json").exists():
+    if not (path.parent / "plan.json").exists():
+        files.refuse_foreign(path)
+    else:
         raise StudyError(path.parent, f"holds another study ({path.name} differs); give another folder, or remove this one")
     files.write_whole(path, text.encode())
 
