@@ -1,5 +1,7 @@
 #include "report/report.h"
 
+#include "model/geometry.h"
+#include "report/check.h"
 #include "report/report_parts.h"
 #include "report/report_style.h"
 #include "report/svg_drawing.h"
@@ -46,11 +48,29 @@ std::string missing_measures(const std::vector<Shown>& shown, const ReportAbout&
 
 std::string contents(const std::vector<Shown>& shown) {
     std::string html =
-        "<nav aria-label=\"Contents\"><ul>\n<li><a href=\"#summary\">Theory and measurement</a></li>\n"
+        "<nav aria-label=\"Contents\"><ul>\n<li><a href=\"#verdict\">In short</a></li>\n<li><a href=\"#summary\">Theory and "
+        "measurement</a></li>\n"
         "<li><a href=\"#display\">The display</a></li>\n";
     for (const Shown& s : shown)
         html += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", s.measure->name, escaped(s.measure->title));
     return html + "<li><a href=\"#settings\">Settings</a></li>\n</ul></nav>\n";
+}
+
+/// What each measure found first, and what is worth knowing of the design: on a page of its own, before all tables and plots.
+std::string verdict(const Subject& subject, const std::vector<Shown>& shown) {
+    std::string found, doubts;
+    for (const Shown& s : shown)
+        if (const std::string line = headline(s.measured.at("report")); !line.empty())
+            found += fmt::format("<li><a href=\"#{}\">{}</a>: {}</li>\n", s.measure->name, escaped(s.measure->title), line);
+    const Display& display = subject.display();
+    const Geometry geometry = resolve(display);
+    for (const std::string& doubt : worth_knowing(display, geometry, theory(display, geometry)))
+        doubts += fmt::format("<li>{}</li>\n", escaped(doubt));
+    std::string html = "<section id=\"verdict\">\n<h2>In short</h2>\n";
+    if (!found.empty()) html += "<ul>\n" + found + "</ul>\n";
+    html += doubts.empty() ? "<p>The description gives no cause for doubt.</p>\n"
+                           : "<p class=\"warning\">Doubts about this design:</p>\n<ul>\n" + doubts + "</ul>\n";
+    return html + "</section>\n";
 }
 
 std::string summary(const std::vector<Shown>& shown) {
@@ -99,7 +119,8 @@ std::string report_html(const Subject& subject, const ResultFolder& folder, cons
         "<title>{0}: measurements</title>\n<style>{1}</style>\n</head>\n<body>\n<header>\n<h1>{0}</h1>\n"
         "<p class=\"about\">A light field display, simulated and measured by lfdsim {2}.</p>\n</header>\n",
         name, report_style, escaped(folder.settings().value("lfdsim", std::string())), ResultFolder::report_mark);
-    html += missing_measures(shown, about) + "<main>\n" + contents(shown) + summary(shown) + display_section(subject);
+    html += missing_measures(shown, about) + "<main>\n" + contents(shown) + verdict(subject, shown) + summary(shown) +
+            display_section(subject);
     for (const Shown& s : shown) html += measure_section(folder, s.measured);
     return html + settings(folder, about) + "</main>\n</body>\n</html>\n";
 }

@@ -20,6 +20,7 @@ struct ReportAbout {
 /// Whether the folder holds a measure with its settings, to be shown.
 bool has_results(const ResultFolder&);
 
+/// First what was found and what is worth knowing, in short; then the figures, once; then each measure with its plots and pictures.
 /// UTF-8, without scripts or references to other files: plots and pictures are inline, pictures about 1000 pixels wide. Shows every
 /// measure that the folder holds with its settings; where some of those wanted are missing it says so at the top. The same folder
 /// and arguments give the same text. A picture that cannot be read is named in its place.

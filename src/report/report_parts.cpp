@@ -160,6 +160,14 @@ std::string finding_rows(const Json& report) {
     return html;
 }
 
+std::string headline(const Json& report) {
+    if (report.at("findings").empty()) return "";
+    const Json& f = report.at("findings").front();
+    const std::string unit = f.at("unit"), theory = f.at("theory").empty() ? "" : value_html(f.at("theory"), unit);
+    return fmt::format("{}, {}{}{}", text_of(f, "what"), value_html(f.at("measured"), unit), error_text(f.at("error")),
+                       theory.empty() ? "" : " (theory " + theory + ")");
+}
+
 std::vector<std::string> figures_of(const ResultFolder& folder, const Json& measured) {
     const Json& report = measured.at("report");
     std::vector<std::string> all;
@@ -177,7 +185,7 @@ std::string measure_section(const ResultFolder& folder, const Json& measured) {
     std::string html =
         fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n<p class=\"says\">{}</p>\n<p class=\"source\">Source: {}</p>\n",
                     text_of(report, "measure"), text_of(report, "title"), text_of(report, "says"), text_of(report, "source"));
-    if (!report.at("findings").empty()) html += findings_table + finding_rows(report) + "</table></div>\n";
+    if (!report.at("findings").empty()) html += "<p>Its figures stand in <a href=\"#summary\">theory and measurement</a>.</p>\n";
     for (const Json& remark : report.at("remarks")) html += fmt::format("<p>{}</p>\n", escaped(remark.get<std::string>()));
     html += plots(folder, report.at("plots")) + plots(folder, report.at("maps"));
     html += pictures(folder, report.at("pictures"), false) + pictures(folder, report.at("animations"), true);

@@ -17,7 +17,10 @@ std::string error_text(const Json& errors);
 /// Rows of the table of theory and measurement.
 std::string finding_rows(const Json& report);
 
-/// Title, meaning, source, findings, remarks, plots, pictures and all figures of one measure, from its NAME.json.
+/// The first finding, with theory's value: "Horizontal, 27.4 ± 0.2° (theory 28.1°)". Empty if there is none.
+std::string headline(const Json& report);
+
+/// Title, meaning, source, remarks, plots, pictures and all figures of one measure, from its NAME.json.
 std::string measure_section(const ResultFolder&, const Json& measured);
 
 /// Plots, maps, pictures and animations of one measure, in this order, as separate elements.

@@ -69,6 +69,10 @@ TEST(Report, ShowsWhatTheFolderHolds) {
           "From the panel to the eye"})
         EXPECT_THAT(html, HasSubstr(text));
     EXPECT_THAT(html, HasSubstr(std::string(c.fov.says)));
+    // In short first, and the table once.
+    EXPECT_THAT(html, HasSubstr("<a href=\"#fov\">Field of view</a>: Edge &amp; rim, −20.5 to 21° (theory −20 to 20°)</li>"));
+    EXPECT_LT(html.find("id=\"verdict\""), html.find("id=\"summary\""));
+    EXPECT_EQ(count(html, "<td>−20.5 to 21°</td>"), 1);
     EXPECT_THAT(html, HasSubstr("Source: "));
     EXPECT_THAT(html, Not(HasSubstr("incomplete.")));
     EXPECT_EQ(count(html, "<svg xmlns"), 2 + 2);  // views from the side; plot, map
