@@ -1,7 +1,9 @@
 // Contact sheets: labels are whole, and large enough where a sheet is shown 480 pixels wide.
 #include "image/sheet.h"
+#include "image/font.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 namespace lfdsim {
 namespace {
@@ -40,6 +42,35 @@ TEST(Sheet, TakesAnyLabel) {
         EXPECT_LE(sheet.height, 200) << label;
     }
     EXPECT_EQ(contact_sheet(pictures, {}, 2).height, 2 * 10 + 3 * 12);
+}
+
+TEST(Sheet, LettersAreDrawnByLinesWithSmoothEdges) {
+    const auto drawn = [](const char* text, int scale) {
+        Image image(glyph_width * scale * 2, glyph_height * scale);
+        draw_text(image, 0, 0, scale, text, 1);
+        return image;
+    };
+    const Image large = drawn("O/", 8);
+    EXPECT_GT(std::ranges::count_if(large.rgb, [](float v) { return v > 0.05f && v < 0.95f; }), 100);
+    EXPECT_EQ(large.at(2 * 8, 4)[0], 1);   // on the O's upper edge
+    EXPECT_EQ(large.at(2 * 8, 28)[0], 0);  // in its middle
+    // The slash is one line: no step of its dots, from (4, 1) to (0, 5), is missing or a corner.
+    for (double t = 0; t <= 4; t += 0.25) EXPECT_EQ(large.at(48 + int(8 * (4.5 - t)), int(8 * (1.5 + t)))[0], 1) << t;
+    for (const float v : drawn("O/", 1).rgb) EXPECT_TRUE(v == 0 || v == 1);
+    // One place for each character, whatever its bytes.
+    EXPECT_EQ(drawn("\xc3\xa4i", 2).rgb, drawn("ai", 2).rgb);
+    EXPECT_EQ(drawn("\xc2\xb5m", 2).rgb, drawn("um", 2).rgb);
+    EXPECT_EQ(drawn("\xe2\x88\x92"
+                    "1",
+                    2)
+                  .rgb,
+              drawn("-1", 2).rgb);
+    EXPECT_NE(drawn("\xe4\xb8\xad"
+                    "1",
+                    2)
+                  .rgb,
+              drawn(" 1", 2).rgb);
+    EXPECT_EQ(drawn("\xff\xff", 2).rgb, drawn("\xe4\xb8\xad\xe4\xb8\xad", 2).rgb);
 }
 
 }  // namespace
