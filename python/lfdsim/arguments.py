@@ -51,24 +51,50 @@ def seen(display: Any, model: Any, **arguments: Any) -> Display:
     return changed._with_model(model)
 
 
-def pixels(array: Any, name: str, needed: int = 4) -> NDArray[Any]:
-    """Height x width x 3: float32, or codes of uint8 or uint16, in C order. Copies only what is not yet so. `needed`: bytes of memory
-    for each value, of all that will be there at a time."""
+def pixels(array: Any, name: str, needed: int = 4, *, white: float = 1) -> NDArray[Any]:
+    """Height x width x 3: float32, or codes of uint8 or uint16, in C order. Copies only what is not yet so. An alpha channel may be
+    there where it is full everywhere. `needed`: bytes of memory for each value, of all that will be there at a time. `white`: the most
+    that light can be, above which a warning is given; whole numbers above 1 are taken for codes in any case."""
     try:
         given = np.asarray(array)
     except (ValueError, TypeError) as error:
         raise TypeError(f"{name} is not a picture: {error}") from None
     codes = given.dtype.kind == "u" and given.dtype.itemsize <= 2
     if given.dtype.kind != "f" and not codes:
-        raise TypeError(f"{name} holds {given.dtype}; give float32 or float64 (linear light), or uint8 or uint16 (codes)")
-    if given.ndim != 3 or given.shape[2] != 3:
+        remedy = f"; if these are codes of 0 to 255, {name}.astype(numpy.uint8)" if given.dtype.kind in "iu" else ""
+        raise TypeError(f"{name} holds {given.dtype}; give float32 or float64 (linear light, white is 1), or uint8 or uint16 (codes){remedy}")
+    if given.ndim != 3 or given.shape[2] not in (3, 4):
         raise InputError([(name, f"has the shape {given.shape}; give (height, width, 3)")])
     if given.size == 0 or max(given.shape) >= 2**31 or given.shape[0] * given.shape[1] >= 2**31:
         raise InputError([(name, f"has the shape {given.shape}; there must be 1 to 2^31 - 1 pixels")])
     if given.size * needed > _core.memory_bytes():  # of what has to be copied, or is no real memory
         raise InputError([(name, f"has the shape {given.shape}, which needs more than this machine's memory")])
+    if given.shape[2] == 4:
+        if not (given[..., 3] >= (np.iinfo(given.dtype).max if codes else 1)).all():
+            raise InputError([(name, f"has the shape {given.shape}, and its alpha is not full everywhere, which no panel shows; give (height, width, 3)")])
+        given = given[..., :3]
     with np.errstate(over="ignore"):  # what float32 cannot hold becomes infinite, which is refused with its place
-        return np.ascontiguousarray(given, dtype=given.dtype.newbyteorder("=") if codes else np.float32)
+        made = np.ascontiguousarray(given, dtype=given.dtype.newbyteorder("=") if codes else np.float32)
+    if not codes:
+        _warn_above(made, name, white)
+    return made
+
+
+def _warn_above(light: NDArray[np.float32], name: str, white: float) -> None:
+    with np.errstate(invalid="ignore"):  # nan is refused with its place
+        greatest = float(light.max())
+    if not 1.001 < greatest < np.inf or np.isnan(greatest):
+        return
+    whole = bool((light == np.floor(light)).all())
+    if not whole and greatest <= white * 1.001:
+        return
+    bits = 16 if greatest > 255 else 8
+    remedy = (
+        f"if these are codes of 0 to {2**bits - 1}, give {name}.astype(numpy.uint{bits}), which is decoded"
+        if whole or greatest > 16
+        else "divide by the greatest value"
+    )
+    warnings.warn(f"{name} holds light of up to {greatest:.6g}, and white is 1: it is taken as it is; {remedy}", LfdsimWarning, stacklevel=4)
 
 
 def whole(value: Any, name: str, low: int, high: int) -> int:

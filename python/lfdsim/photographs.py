@@ -77,7 +77,7 @@ def compare_photograph(
         that makes it most similar to the photograph.
     crop: (x0, y0, x1, y1): these columns and rows of the view only.
     """
-    first, second = pixels(view, "view"), pixels(photograph, "photograph")
+    first, second = pixels(view, "view", white=16), pixels(photograph, "photograph", white=16)
     places = _points(corners_px, "corners_px"), _points(view_corners_px, "view_corners_px")
     fits = flag(fit_corners, "fit_corners"), flag(fit_blur, "fit_blur")
     part = corners(crop, first.shape[1], first.shape[0])
@@ -105,7 +105,7 @@ def screen_corners(
 
 def png(picture: ArrayLike) -> bytes:
     """The PNG file, 8 bits in sRGB, that the program would write: for files, and for pictures in notebooks."""
-    return _core.png(pixels(picture, "picture", 6))  # and the file
+    return _core.png(pixels(picture, "picture", 6, white=16))  # and the file
 
 
 def _points(points: Any, name: str) -> list[list[float]]:

@@ -123,7 +123,7 @@ def compare(a: ArrayLike, b: ArrayLike, *, crop: Corners | None = None, encoding
     Floats are linear light; uint8 and uint16 are codes in `encoding`, "srgb" or "linear".
     """
     codes = encoding_of(encoding)
-    first, second = pixels(a, "a", 8), pixels(b, "b", 8)
+    first, second = pixels(a, "a", 8, white=16), pixels(b, "b", 8, white=16)
     if first.shape != second.shape:
         raise InputError([("b", f"has the shape {second.shape}, a has {first.shape}; only pictures of equal size can be compared")])
     return _core.compare(first, second, corners(crop, first.shape[1], first.shape[0]), codes == "linear")

@@ -4,6 +4,7 @@
 #include "cli/commands.h"
 #include "cli/compare_photo.h"
 #include "cli/effects.h"
+#include "cli/input_files.h"
 #include "cli/made_for.h"
 #include "cli/output.h"
 #include "image/image_file.h"
@@ -32,6 +33,7 @@ void run(const CompareArguments& args, const PhotoOptions& photo) {
         faults.of([&] {
             check_input(argument, path);
             image = read_image(path, encoding);
+            warn_above_white(path, image);
         });
     };
     read("A", args.a, a);

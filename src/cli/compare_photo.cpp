@@ -1,6 +1,7 @@
 #include "cli/compare_photo.h"
 
 #include "cli/arguments.h"
+#include "cli/input_files.h"
 #include "cli/interrupt.h"
 #include "cli/output.h"
 #include "engine/memory.h"
@@ -97,6 +98,7 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
     faults.report();
     faults.of([&] {
         view = read_image(view_path, Encoding::srgb);
+        warn_above_white(view_path, view);
         const Metadata about = read_metadata(view_path);
         if (about.count(incomplete_mark))
             spdlog::warn("{}: is marked incomplete: the run that made it was interrupted, and the rest is black", view_path);
@@ -106,6 +108,7 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
     faults.of([&] {
         photo.orientation = read_orientation(photo_path);
         photo.image = read_image(photo_path, photo.encoding);
+        warn_above_white(photo_path, photo.image);
         photo.codes = holds_codes(photo_path);
         const bool turned = photo.orientation >= 5;
         const auto [width, height] = std::pair(photo.image.width, photo.image.height);

@@ -51,7 +51,8 @@ const std::vector<Rule>& contradictions() {
 
 const std::vector<Rule>& belongings() {
     static const std::vector<Rule> all{
-        {{"--flip-views", "--focus-width-mm", "--focus-depth-mm", "--camera-distance-mm", "--baseline-mm", "--view-cone-deg"},
+        {{"--flip-views", "--focus-width-mm", "--focus-depth-mm", "--camera-distance-mm", "--baseline-mm", "--view-cone-deg",
+          "--cone"},
          "--views",
          "is only for --views"},
         {{"--cell-pixels"}, "--pattern checkerboard", "is only for --pattern checkerboard"},

@@ -20,6 +20,12 @@ GridOptions::GridOptions(Command command) {
     command.add_option("--baseline-mm", baseline_, "From camera to camera: along x and y, or the same along both")
         .type_name("B|BX,BY");
     command.add_option("--view-cone-deg", cone_, "Angle over which the cameras of a row stand, at equal angles").type_name("A");
+    command
+        .add_option(
+            "--cone", cameras_,
+            "How n cameras divide that angle A: the first and last at its ends, camera i at (i/(n-1) - 1/2) A, as the makers of "
+            "quilts write (default of quilts); or each in the middle of one of n equal parts, at ((i + 1/2)/n - 1/2) A")
+        .type_name("ends|bins");
 }
 
 ViewsWish GridOptions::read() const {
@@ -36,6 +42,10 @@ ViewsWish GridOptions::read() const {
     value("--focus-depth-mm", depth_, any_length, wish.depth_mm);
     value("--camera-distance-mm", distance_, positive_length, wish.distance_mm);
     value("--view-cone-deg", cone_, Range{0, 170, true}, wish.cone_deg);
+    if (!cameras_.empty())
+        faults.of([&] {
+            wish.cone = word("--cone", cameras_, {"ends", "bins"}) == "ends" ? ConeCameras::ends : ConeCameras::bins;
+        });
     if (!baseline_.empty())
         faults.of([&] {
             const bool both = baseline_.find(',') != baseline_.npos;
@@ -52,8 +62,18 @@ ViewsWish GridOptions::read() const {
 }
 
 ViewsPlace views_place(const Display& display, const Geometry& geometry) {
-    return {geometry.panel_width_mm, geometry.panel_height_mm, geometry.vertex_plane_mm, geometry.content_depth_mm,
-            display.content.viewing_distance_mm};
+    ViewsPlace place{geometry.panel_width_mm,
+                     geometry.panel_height_mm,
+                     geometry.vertex_plane_mm,
+                     geometry.content_depth_mm,
+                     display.content.viewing_distance_mm,
+                     display.content.view_cone_deg};
+    place.lens_mm = display.array.pitch_mm[0] / geometry.lattice.cos_turn;
+    // A point s along the panel's rows from the middle of its elemental image is seen at -s D/g, D from the principal plane.
+    const double away = place.viewing_distance_mm - geometry.rear_principal_mm;
+    place.zone_width_mm =
+        away * theory(display, geometry).along[0].elemental_pitch_mm / (geometry.gap_mm * geometry.lattice.cos_turn);
+    return place;
 }
 
 std::string grid_text(const ViewGrid& grid) {

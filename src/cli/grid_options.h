@@ -12,7 +12,7 @@
 
 namespace lfdsim::cli {
 
-/// --focus-width-mm, --focus-depth-mm, --camera-distance-mm, --baseline-mm, --view-cone-deg.
+/// --focus-width-mm, --focus-depth-mm, --camera-distance-mm, --baseline-mm, --view-cone-deg, --cone.
 class GridOptions {
   public:
     explicit GridOptions(Command command);
@@ -20,7 +20,7 @@ class GridOptions {
     ViewsWish read() const;
 
   private:
-    std::string width_, depth_, distance_, baseline_, cone_;
+    std::string width_, depth_, distance_, baseline_, cone_, cameras_;
 };
 
 /// Where a grid is placed that says nothing of it.

@@ -179,7 +179,11 @@ void run(const ImportArguments& args) {
     Imported made = calibrated ? import_calibration(std::get<Calibration>(*file), for_calibration, args.file)
                                : import_lens(std::get<DrawnLens>(std::move(*file)), for_lens);
     if (made.display.name.empty()) made.display.name = fs::path(args.output.path()).stem();
-    args.output.write(write_imported(made, seen_from(args.output.path(), made.catalogues), command_line()));
+    // Comments name the file, not where it lies on this machine.
+    if (const fs::path path = args.file; path.is_absolute())
+        for (std::string& place : made.surfaces)
+            if (place.starts_with(args.file)) place.replace(0, args.file.size(), path.filename().string());
+    args.output.write(write_imported(made, seen_from(args.output.path(), made.catalogues), NewDescription::made_by()));
 
     std::string text = fmt::format("{}: {}\n", args.output.path(), calibrated ? lenticular_in_words(made) : lens_in_words(made));
     for (const std::string& note : made.notes) text += "  - " + note + "\n";

@@ -1,8 +1,10 @@
 #include "cli/input_files.h"
 
+#include "image/above_white.h"
 #include "model/error.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -30,6 +32,11 @@ void refuse_input(const std::filesystem::path& output) {
         if (std::error_code none; std::filesystem::equivalent(output, input.path, none))
             throw InputError(output.string(), fmt::format("is the same file as {}, {}, which would be lost; give another output",
                                                           input.what, input.path.string()));
+}
+
+void warn_above_white(const std::string& path, const Image& image) {
+    const std::string doubt = above_white(image.rgb.data(), std::int64_t(image.width) * image.height, 3, LightOf::picture);
+    if (!doubt.empty()) spdlog::warn("{}: {}", path, doubt);
 }
 
 }  // namespace lfdsim::cli

@@ -3,6 +3,7 @@
 #include "cli/interrupt.h"
 #include "cli/output.h"
 #include "files/display_file.h"
+#include "files/shell.h"
 #include "image/file.h"
 
 #include <fmt/format.h>
@@ -24,6 +25,19 @@ void NewDescription::check() const {
     std::error_code error;
     if (!force_ && std::filesystem::exists(std::filesystem::symlink_status(path, error)))
         throw InputError("--output", fmt::format("{} already exists; --force replaces it", path_));
+}
+
+std::string NewDescription::made_by() {
+    std::string line;
+    for (const std::string& word : command_words()) {
+        // A path, or an option's value after its "=".
+        const std::size_t equals = word.starts_with("--") ? word.find('=') : word.npos,
+                          start = equals == word.npos ? 0 : equals + 1;
+        const std::filesystem::path value = word.substr(start);
+        const bool shortened = line.empty() || value.is_absolute();
+        line += (line.empty() ? "" : " ") + shell_word(shortened ? word.substr(0, start) + value.filename().string() : word);
+    }
+    return line;
 }
 
 void NewDescription::write(const std::string& text) const {

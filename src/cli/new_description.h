@@ -15,6 +15,8 @@ class NewDescription {
     /// Writes the text, which has to read back as a description; the file is whole or not there.
     void write(const std::string& text) const;
     const std::string& path() const { return path_; }
+    /// The command line, for a comment: the program by its name, files that were given by absolute paths by theirs.
+    static std::string made_by();
 
   private:
     std::string path_;

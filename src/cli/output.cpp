@@ -19,15 +19,17 @@
 namespace lfdsim::cli {
 
 // The kernel keeps the words as they were given.
-std::string command_line() {
+std::vector<std::string> command_words() {
     std::ifstream file("/proc/self/cmdline", std::ios::binary);
     const std::string all{std::istreambuf_iterator<char>(file), {}};
+    std::vector<std::string> words;
+    for (std::size_t start = 0; start < all.size(); start += words.back().size() + 1) words.emplace_back(all.c_str() + start);
+    return words;
+}
+
+std::string command_line() {
     std::string line;
-    for (std::size_t start = 0; start < all.size();) {
-        const std::string argument = all.c_str() + start;
-        start += argument.size() + 1;
-        line += (line.empty() ? "" : " ") + shell_word(argument);
-    }
+    for (const std::string& word : command_words()) line += (line.empty() ? "" : " ") + shell_word(word);
     return line;
 }
 

@@ -21,7 +21,8 @@ void print(std::string_view text);
 /// One JSON document; numbers that are not finite become null.
 void print_json(const Json&);
 
-/// The command line as a shell would need it, so that it can be copied and run again.
+/// The command line as it was given, the program first; and as a shell would need it, so that it can be copied and run again.
+std::vector<std::string> command_words();
 std::string command_line();
 
 /// Name and version, as pictures carry them.

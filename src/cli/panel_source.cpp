@@ -4,6 +4,7 @@
 #include "cli/input_files.h"
 #include "cli/made_for.h"
 #include "cli/output.h"
+#include "image/above_white.h"
 #include "image/image_file.h"
 
 #include <fmt/format.h>
@@ -30,7 +31,10 @@ bool PanelImageOption::warn(const Display& display) const {
 PanelImageOption::Read PanelImageOption::read(const Display& display, Job& job) const {
     const Panel& panel = display.panel;
     const bool incomplete = warn(display);
-    return {read_panel_image(path_, panel.encoding, panel.pixels[0], panel.pixels[1], &job), incomplete};
+    Texels texels = read_panel_image(path_, panel.encoding, panel.pixels[0], panel.pixels[1], &job);
+    if (const std::string doubt = above_white(texels.data(), texels.columns() * texels.rows(), 4, LightOf::panel); !doubt.empty())
+        spdlog::warn("{}: {}", path_, doubt);
+    return {std::move(texels), incomplete};
 }
 
 ModelOption::ModelOption(Command command)

@@ -74,6 +74,7 @@ struct Target {
     QuiltName name{};  // of a quilt
     int columns = 9, rows = 9;
     int width = 0, height = 0;  // of a view, pixels
+    std::string how;            // the cameras of a view cone stand
 };
 
 /// One stage for all views.
@@ -162,16 +163,31 @@ ViewGrid grid_of(const ViewsWish& wish, Target& target, const ViewsArguments& ar
 
     ViewsSource all;  // views that are to be made are placed as those that are read
     all.name = "the grid";
+    if (target.quilt) all.form = ViewsForm::quilt;
     all.columns = target.columns;
     all.rows = target.rows;
     if (target.columns > 1 || target.rows > 1) {
         const Theory of_display = theory(display, geometry);
         const double strips_deg = of_display.fov_horizontal_deg, lenses_deg = of_display.along[0].fov_deg;
-        const double fov = is_strips(display.array) ? strips_deg : lenses_deg;
+        const double fov = display.content.view_cone_deg.value_or(is_strips(display.array) ? strips_deg : lenses_deg);
         if (std::isfinite(fov) && fov > 0 && fov < 170) all.cone_deg = fov;
     }
+    if (!wish.baseline_mm && (wish.cone_deg || all.cone_deg))
+        target.how =
+            fmt::format("view_cone_deg = {:.8g}, cone = \"{}\"", wish.cone_deg ? *wish.cone_deg : *all.cone_deg,
+                        cone_camera_words[std::size_t(wish.cone.value_or(target.quilt ? ConeCameras::ends : ConeCameras::bins))]);
     std::vector<std::string> notes;
-    return placed(all, wish, views_place(display, geometry), aspect, notes);
+    const ViewsPlace place = views_place(display, geometry);
+    const ViewGrid grid = placed(all, wish, place, aspect, notes);
+    // From the edge of the zone an eye sees the views of two neighbouring lenses.
+    const double outermost = grid.camera(grid.columns - 1, 0)[0];
+    if (args.of_what == "display" && grid.columns > 1 && outermost > 0.499 * place.zone_width_mm)
+        spdlog::warn(
+            "the outermost cameras stand {:.4g} mm aside, at the edge of the zone of {:.4g} mm or beyond it, where the display's "
+            "views "
+            "flip; --cone bins puts them half a step further in, --view-cone-deg chooses another angle",
+            outermost, place.zone_width_mm);
+    return grid;
 }
 
 /// Makes the views one after the other.
@@ -255,7 +271,7 @@ Picture make_quilt(Maker& maker, const ViewsArguments& args, const Display& disp
         progress.advance(1);
     }
     args.output.write(all.image, Encoding::srgb, display, {{"seconds", fmt::format("{:.3f}", all.seconds)}}, true, progress);
-    write_text(beside_quilt(args), views_toml(grid, "", ""));
+    write_text(beside_quilt(args), views_toml(grid, "", "", target.how));
     return all;
 }
 
@@ -319,10 +335,10 @@ void run(const ViewsArguments& args) {
     const ViewGrid grid = grid_of(wish, target, args, display, geometry);
     if (args.of_what == "display" && !args.panel_image.given()) require_panel_memory(display);
     Maker maker(args, display, geometry, grid, target);
-    const ViewsFolder folder(args.output.path(), args.kind, args.depth, grid, write_display(display),
+    const ViewsFolder folder(args.output.path(), args.kind, args.depth, grid, target.how, write_display(display),
                              shown_stamp(args.panel_image, args.pattern, display).dump(), args.resume, args.replace);
     if (target.quilt)
-        check_companion(beside_quilt(args), holds(beside_quilt(args), views_toml(grid, "", "")), args.replace);
+        check_companion(beside_quilt(args), holds(beside_quilt(args), views_toml(grid, "", "", target.how)), args.replace);
     else
         folder.check();
     Progress progress(args.work.progress());

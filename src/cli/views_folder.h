@@ -9,9 +9,9 @@ namespace lfdsim::cli {
 /// folder with it is complete.
 class ViewsFolder {
   public:
-    /// `kind`: "png", "exr" or "npy"; `description`, `shown`: those of NumberedPictures.
-    ViewsFolder(std::filesystem::path folder, const std::string& kind, bool depth, const ViewGrid&, std::string description,
-                std::string shown, bool resume, bool replace);
+    /// `kind`: "png", "exr" or "npy"; `how`: as of views_toml(); `description`, `shown`: those of NumberedPictures.
+    ViewsFolder(std::filesystem::path folder, const std::string& kind, bool depth, const ViewGrid&, const std::string& how,
+                std::string description, std::string shown, bool resume, bool replace);
     ViewsFolder(const ViewsFolder&) = delete;
 
     /// Throws InputError if the folder holds anything that would be mixed with these views, or lost.

@@ -151,8 +151,10 @@ bool LightField::cell_of(const Line& line, Cell& cell) const {
         i += right;
         j += down;
     }
-    // Each camera stands for what is nearer to it than to the others: the outermost for half a step beyond them.
-    if (!(s >= -0.5 && s <= 1.5 && t >= -0.5 && t <= 1.5)) return false;
+    // Each camera stands for what is nearer to it than to the others: the outermost for half a step beyond them, where the
+    // elemental images of a display's own quilts end: single precision has not to cut them.
+    constexpr double beyond = 0.5001;
+    if (!(s >= -beyond && s <= 1 + beyond && t >= -beyond && t <= 1 + beyond)) return false;
     cell = {i, j, float(std::clamp(s, 0., 1.)), float(std::clamp(t, 0., 1.))};
     return true;
 }
@@ -202,7 +204,10 @@ bool LightField::read(std::size_t view, const Line& line, float kappa, const Wid
     const ViewPyramid& picture = views_[view];
     const float column = x * pixels_per_mm_[0] + 0.5f * float(picture.width()),
                 row = 0.5f * float(picture.height()) - y * pixels_per_mm_[1];
-    if (!(column >= 0 && column <= float(picture.width()) && row >= 0 && row <= float(picture.height()))) return false;
+    const float beyond[2] = {float(grid_.border_mm) * pixels_per_mm_[0], float(grid_.border_mm) * pixels_per_mm_[1]};
+    if (!(column >= -beyond[0] && column <= float(picture.width()) + beyond[0] && row >= -beyond[1] &&
+          row <= float(picture.height()) + beyond[1]))
+        return false;
     const float z = float(grid_.distance_mm) * kappa / (1 + kappa);
     const float seen_mm = width.per_mm * std::abs(z - width.waist_z_mm) * (1 + kappa);  // projected onto the focus
     picture.sample(column, row, seen_mm * std::max(pixels_per_mm_[0], pixels_per_mm_[1]), light);

@@ -1,6 +1,7 @@
 #include "content/read_views.h"
 
 #include "engine/memory.h"
+#include "image/above_white.h"
 #include "image/image_file.h"
 
 #include <fmt/format.h>
@@ -21,15 +22,17 @@ std::vector<Image> tiles_of(const ViewsSource& source, const Image& quilt, std::
     const auto [columns, rows] = source.tiles;
     const std::string name = source.pictures.front().string();
     const int width = quilt.width / columns, height = quilt.height / rows;
-    if (quilt.width % columns != 0 || height < 1)
-        throw InputError(name,
-                         fmt::format("is {} x {} pixels, which are not {} x {} views of one size, as its name says; cut it to a "
-                                     "width of {} or correct the name",
-                                     quilt.width, quilt.height, columns, rows, std::max(1, width) * columns));
-    // Some devices' own quilts have rows that do not fill the picture; views are counted from the bottom.
-    if (const int rest = quilt.height % rows; rest > 0)
-        notes.push_back(rest == 1 ? "the uppermost row of pixels belongs to no view"
-                                  : fmt::format("the uppermost {} rows of pixels belong to no view", rest));
+    if (width < 1 || height < 1)
+        throw InputError(name, fmt::format("is {} x {} pixels, fewer than the {} x {} views in its name; correct the name",
+                                           quilt.width, quilt.height, columns, rows));
+    // Views have whole pixels. Quilts of some devices have columns and rows to spare; views are counted from the lower left.
+    const auto spare = [&](int rest, const char* where, const char* what) {
+        if (rest > 0)
+            notes.push_back(rest == 1 ? fmt::format("the {} {} of pixels belongs to no view", where, what)
+                                      : fmt::format("the {} {} {}s of pixels belong to no view", where, rest, what));
+    };
+    spare(quilt.width % columns, "rightmost", "column");
+    spare(quilt.height % rows, "uppermost", "row");
     // Quilts of large devices have pixels up to 1.8 times as wide as high, so this is no error.
     if (const double squares = double(width) / height;
         source.aspect && std::abs(std::log(*source.aspect / squares)) > std::log(1.2))
@@ -86,6 +89,13 @@ std::optional<ReadViews> read_views(const ViewsSource& source, const ViewsWish& 
     else
         views.push_back(std::move(first));
     const int width = views.front().width, height = views.front().height;
+    if (std::string doubt = above_white(views.front().rgb.data(), std::int64_t(width) * height, 3, LightOf::picture);
+        !doubt.empty())
+        notes.push_back(std::move(doubt));
+    if (source.form == ViewsForm::row_column)
+        notes.push_back(
+            fmt::format("names are taken as ROW_COLUMN, {} x {} views from the upper left; a views.toml can say otherwise",
+                        source.columns, source.rows));
     if (source.form == ViewsForm::hci && std::abs(*source.aspect * height - width) > 1)
         throw InputError(
             source.pictures.front().string(),

@@ -18,6 +18,7 @@ using CellPlaces = std::array<std::array<double, 2>, 3>;
 
 /// A Looking Glass display's visual.json. Rows of pixels are counted from the bottom.
 struct Calibration {
+    std::string place;   // in the file, where it is not the whole of it: "devices[0].calibration"
     std::string serial;  // empty: none is given
     double pitch_per_inch = 0;
     double slope = 0;   // lens axes are the lines x + y / slope = const, y upwards
@@ -48,9 +49,11 @@ struct CalibrationRequest {
     std::optional<double> index;  // of cylinders in a sheet on the panel; absent: lenses without aberrations, in air
 };
 
-/// Whether a text in JSON is meant as a calibration: it has one of the keys that only those have.
+/// Whether a text in JSON is meant as a calibration, or holds one: it has one of the keys that only those have, or some of them
+/// stand together further inside.
 bool is_calibration(std::string_view text, std::string_view name);
-/// Throws InputError with every problem and its place.
+/// The calibration in a text, wherever it stands: services hand it out with other things around it. Throws InputError with every
+/// problem and its place, and for several that differ.
 Calibration parse_calibration(std::string_view text, std::string_view name);
 
 /// A valid display whose elemental images have the calibration's phases. Throws InputError with the key, or the option of `lfdsim

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <set>
 
 #include "files/calibration.h"
@@ -8,7 +9,8 @@
 #include "model/keys.h"
 #include "model/printable.h"
 
-// visual.json of Looking Glass displays: numbers by name, plain or as {"value": x}; newer ones with subpixelCells.
+// visual.json of Looking Glass displays: numbers by name, plain or as {"value": x}; newer ones with subpixelCells. The first letter
+// of a key may be small or capital.
 namespace lfdsim {
 namespace {
 
@@ -17,6 +19,85 @@ constexpr Range pitch_range{1, 1e4}, center_range{-1e6, 1e6}, dpi_range{1, 1e5},
     place_range{-1, 1};
 constexpr double flattest = 0.1, steepest = 1e6;  // slopes: lenses are turned by 84 degrees at most
 constexpr std::size_t most_cells = 16;
+constexpr std::size_t enough_keys = 3;  // of its own ones, to tell a calibration among other things
+constexpr int deepest = 8;              // of things inside of others
+constexpr std::size_t most_found = 10;
+
+/// A member by its key, or else by one with another first letter: "cellPatternMode" for "CellPatternMode". `found_as`: its own key.
+const LensJson& named(const LensJson& json, const std::string& key, std::string& found_as) {
+    found_as = key;
+    if (const LensJson& exact = member(json, key); !exact.is_null()) return exact;
+    const auto other = [](char c) {
+        return c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+    };
+    std::string turned = key;
+    turned[0] = other(turned[0]);
+    const LensJson& found = member(json, turned);
+    if (!found.is_null()) found_as = turned;
+    return found;
+}
+const LensJson& named(const LensJson& json, const std::string& key) {
+    std::string found_as;
+    return named(json, key, found_as);
+}
+
+std::size_t own_keys_of(const LensJson& json) {
+    return std::size_t(std::count_if(std::begin(own_keys), std::end(own_keys),
+                                     [&](std::string_view key) { return !named(json, std::string(key)).is_null(); }));
+}
+
+/// Number, word or flag under a key; null where something larger stands.
+const LensJson& plain(const LensJson& json, const std::string& key) {
+    static const LensJson nothing;
+    const LensJson& found = named(json, key);
+    const LensJson& value = found.is_object() ? member(found, "value") : found;
+    return value.is_structured() ? nothing : value;
+}
+
+/// The text may nest deeply: nothing of it is copied or compared as a whole.
+struct Found {
+    std::string place;
+    std::shared_ptr<const LensJson> text;  // in which it stands
+    const LensJson* json;
+
+    bool same_unit(const LensJson& other) const {
+        constexpr const char* keys[] = {"serial", "pitch", "slope", "center", "DPI", "screenW", "screenH", "viewCone"};
+        return std::all_of(std::begin(keys), std::end(keys),
+                           [&](const char* key) { return plain(*json, key) == plain(other, key); });
+    }
+};
+
+/// All calibrations within: in objects, lists, and texts that are JSON themselves.
+void find_within(const std::shared_ptr<const LensJson>& text, const LensJson& json, const std::string& place, int depth,
+                 std::vector<Found>& found) {
+    if (depth > deepest || found.size() >= most_found) return;
+    if (own_keys_of(json) >= enough_keys) {
+        const auto same = [&](const Found& other) { return other.same_unit(json); };
+        if (std::none_of(found.begin(), found.end(), same)) found.push_back({place, text, &json});
+        return;
+    }
+    if (json.is_string()) {
+        const auto& word = json.get_ref<const std::string&>();
+        if (word.find('{') == word.npos) return;
+        const auto inside =
+            std::make_shared<const LensJson>(LensJson::parse(word, nullptr, false));  // nothing, where it is no JSON
+        if (inside->is_structured()) find_within(inside, *inside, place, depth + 1, found);
+    }
+    if (json.is_object())
+        for (const auto& [key, content] : json.items())
+            find_within(text, content, place.empty() ? shortened(key) : place + "." + shortened(key), depth + 1, found);
+    if (json.is_array())
+        for (std::size_t i = 0; i < json.size(); ++i) find_within(text, json[i], fmt::format("{}[{}]", place, i), depth + 1, found);
+}
+
+/// The calibrations that a file means: itself where it has but one key of them, so that those that are missing are named.
+std::vector<Found> calibrations_in(std::string_view text, std::string_view name) {
+    const auto json = std::make_shared<const LensJson>(parse_lens_json(text, name));
+    std::vector<Found> found;
+    find_within(json, *json, "", 0, found);
+    if (found.empty() && (own_keys_of(*json) > 0)) found.push_back({"", json, json.get()});
+    return found;
+}
 
 class CalibrationReader : JsonReader {
   public:
@@ -44,8 +125,9 @@ class CalibrationReader : JsonReader {
   private:
     /// What stands under a key, without the object around it. Null: nothing does.
     const LensJson& value(const std::string& key) {
-        known.insert(key);
-        const LensJson& found = member(*all, key);
+        std::string found_as;
+        const LensJson& found = named(*all, key, found_as);
+        known.insert(found_as);
         return found.is_object() ? member(found, "value") : found;
     }
 
@@ -76,8 +158,7 @@ class CalibrationReader : JsonReader {
     }
 
     void read_cells() {
-        known.insert("subpixelCells");
-        const LensJson& cells = member(*all, "subpixelCells");
+        const LensJson& cells = value("subpixelCells");
         const LensJson& mode = value("CellPatternMode");
         const bool has_mode = !mode.is_null();
         const std::int64_t pattern = has_mode ? whole("CellPatternMode", {0, double(std::size(cell_patterns) - 1)}) : 0;
@@ -109,7 +190,7 @@ class CalibrationReader : JsonReader {
         for (std::size_t channel = 0; channel < 3; ++channel)
             for (std::size_t k = 0; k < 2; ++k) {
                 const char* key = keys[channel][k];
-                const LensJson& found = member(json, key);
+                const LensJson& found = named(json, key);
                 places[channel][k] =
                     in_range(found.is_object() ? member(found, "value") : found, fmt::format("{}.{}", place, key), place_range);
             }
@@ -159,16 +240,28 @@ int cell_of(int pattern, std::int64_t column, std::int64_t row_from_bottom) {
     }
 }
 
-bool is_calibration(std::string_view text, std::string_view name) {
-    const LensJson json = parse_lens_json(text, name);
-    return std::any_of(std::begin(own_keys), std::end(own_keys),
-                       [&](std::string_view key) { return !member(json, key).is_null(); });
-}
+bool is_calibration(std::string_view text, std::string_view name) { return !calibrations_in(text, name).empty(); }
 
 Calibration parse_calibration(std::string_view text, std::string_view name) {
-    const LensJson json = parse_lens_json(text, name);
-    if (!json.is_object()) throw InputError(std::string(name), "is no calibration: it holds no values by name");
-    return CalibrationReader(name).read(json);
+    const std::vector<Found> found = calibrations_in(text, name);
+    if (found.empty())
+        throw InputError(std::string(name),
+                         "is no calibration: nothing in it has values such as pitch, slope, center, DPI, screenW and screenH");
+    if (found.size() > 1) {
+        std::vector<std::string> places;
+        for (const Found& each : found) {
+            const LensJson& serial = plain(*each.json, "serial");
+            places.push_back(serial.is_string() ? fmt::format("{} ({})", each.place, word_of(serial)) : each.place);
+        }
+        throw InputError(std::string(name),
+                         fmt::format("holds {} calibrations: {}; save the one of the display in a file of its own", found.size(),
+                                     fmt::join(places, ", ")));
+    }
+    const auto& [place, owner, json] = found.front();
+    Calibration made = CalibrationReader(place.empty() ? std::string(name) : fmt::format("{}: {}", name, place)).read(*json);
+    made.place = place;
+    if (!place.empty()) made.notes.insert(made.notes.begin(), fmt::format("The calibration stands under {} in the file.", place));
+    return made;
 }
 
 }  // namespace lfdsim

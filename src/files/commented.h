@@ -41,4 +41,9 @@ class CommentedText {
     std::string all;
 };
 
+/// What first designs have in common: the beginning, and the panel with its pixels. In write_first_order.cpp.
+CommentedText begun_design(const std::string& name, const std::string& made_by);
+struct Panel;
+void write_panel_pixels(const Panel&, double inch, CommentedText&);
+
 }  // namespace lfdsim

@@ -4,6 +4,7 @@
 #include "model/geometry.h"
 #include "model/keys.h"
 #include "model/lattice.h"
+#include "model/lenticular.h"
 #include "model/numbers.h"
 
 #include <algorithm>
@@ -172,24 +173,17 @@ class CalibrationImport {
         make_sheet(pitch_mm);
     }
 
-    // Cylinders on the top of a sheet of one glass that lies on the panel. The wall under the caps is low, as the tracer wants
-    // it, and the rest of the sheet is a layer.
     void make_sheet(double pitch_mm) {
-        const double n = *request.index, half = pitch_mm / 2, R = to_nanometre(gap_mm * (n - 1));
-        if (!(R >= half))
+        const double n = *request.index, half = pitch_mm / 2;
+        const std::optional<CylinderSheet> sheet = cylinder_sheet(pitch_mm, gap_mm, n);
+        if (!sheet)
             refuse("--index",
                    fmt::format("is {:g}: cylinders that focus {:.4g} mm away would have a radius of {:.4g} mm, less than half "
                                "the pitch of {:.4g} mm; at least {:.4g}, or a larger --gap-mm",
-                               n, gap_mm, R, pitch_mm, std::ceil((1 + half / gap_mm) * 1000 + 0.5) / 1000));
-        const double wall = std::sqrt((R - half) * (R + half)), sag = R - wall, low = std::min(half / 2, wall);
-        PlanoConvex lens;
-        lens.sphere_radius_mm = R;
-        lens.cylinder_height_mm = to_nanometre(low);
-        lens.index = n;
-        const double layer_mm = to_nanometre(n * gap_mm - sag - lens.cylinder_height_mm);
-        d.panel.layers = {{layer_mm, n, {}}};
-        d.lens.kind = lens;
-        d.array.base_z_mm = layer_mm;
+                               n, gap_mm, gap_mm * (n - 1), pitch_mm, std::ceil((1 + half / gap_mm) * 1000 + 0.5) / 1000));
+        d.panel.layers = {{sheet->layer_mm, n, {}}};
+        d.lens.kind = sheet->lens;
+        d.array.base_z_mm = sheet->layer_mm;
         d.array.surround = Surround::plate;
         note("Cylinders of index {:g} (--index) in a sheet of {:.4g} mm on the panel, which stands in their focus: R = (n - 1) g.",
              n, n * gap_mm);
@@ -228,6 +222,7 @@ class CalibrationImport {
         d.content.model = "built-in:spheres";
         d.content.depth_mm = 0;
         d.content.viewing_distance_mm = distance_mm;
+        d.content.view_cone_deg = c.view_cone_deg;
     }
 
     // What the description's checks find, at the file's key or the option that set it.

@@ -236,19 +236,33 @@ class LensImport {
 
     // From the panel to the lens's principal plane, in the green light that decides lengths here.
     double gap(const Display& d) {
-        if (request.gap_mm) return *request.gap_mm;
         const Cardinal c = cardinal_points(prescription(d.lens, d.array, d.panel.wavelengths_nm[green_channel]));
+        const bool diverges = c.focal_length_mm < 0;
+        if (diverges)
+            notes.insert(
+                notes.begin(),
+                fmt::format("The lens diverges (focal length {:.6g} mm): at no gap does it make a real image of the panel.",
+                            c.focal_length_mm));
+        if (request.gap_mm) return *request.gap_mm;
         const std::size_t last = lens.surfaces.size() - 1;
         const double to_image = between(kept.back(), last), to_object = between(0, kept.front());
         if (const double distance = request.flip ? to_object : to_image; std::isfinite(distance)) {
+            if (const double gap_mm = distance + c.front_principal_mm; diverges && !(gap_mm > 0)) {
+                refuse("--gap-mm",
+                       "the lens diverges (focal length {:.6g} mm): the file's {} is a virtual one, where no panel can stand; give "
+                       "the gap, or a "
+                       "lens that converges",
+                       c.focal_length_mm, request.flip ? "object" : "image");
+                report();
+            }
             notes.push_back(fmt::format("The panel stands where the file's {} is, {:.6g} mm from the nearest surface.",
                                         request.flip ? "object" : "image", distance));
             return tidy(distance + c.front_principal_mm);
         }
         if (!(c.focal_length_mm > 0 && c.focal_length_mm <= longest_mm)) {
             refuse("--gap-mm",
-                   "the file's {} is at infinity, and a lens of focal length {:.6g} mm has no focus there; give the gap",
-                   request.flip ? "object" : "image", c.focal_length_mm);
+                   "the file's {} is at infinity, and a lens of focal length {:.6g} mm{} has no focus there; give the gap",
+                   request.flip ? "object" : "image", c.focal_length_mm, diverges ? ", which diverges," : "");
             report();
         }
         notes.push_back(fmt::format("The file's {} is at infinity: the panel stands in the lens's focal plane.",

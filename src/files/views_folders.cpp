@@ -111,6 +111,107 @@ std::vector<fs::path> numbered_row(const fs::path& folder, const std::string& pa
     return row;
 }
 
+namespace {
+
+/// Pictures by the two numbers in their names.
+using ByNumbers = std::map<std::pair<int, int>, fs::path>;
+
+struct GridOfNames {
+    int first[2], count[2];
+};
+/// From the least to the greatest of both numbers, with none missing. Throws InputError.
+GridOfNames whole_grid(const fs::path& folder, const ByNumbers& files, std::array<const char*, 2> words) {
+    GridOfNames grid{{files.begin()->first.first, files.begin()->first.second}, {1, 1}};
+    int last[2] = {0, 0};
+    for (const auto& [at, path] : files)
+        for (const auto& [k, number] : {std::pair{0, at.first}, {1, at.second}})
+            grid.first[k] = std::min(grid.first[k], number), last[k] = std::max(last[k], number);
+    for (const int k : {0, 1}) grid.count[k] = last[k] - grid.first[k] + 1;
+    if (grid.count[0] > most_views_a_side || grid.count[1] > most_views_a_side || grid.count[0] * grid.count[1] > most_views)
+        throw InputError(folder.string(),
+                         fmt::format("has a grid of {} x {} views by its names; allowed are {} along each side and {} in all",
+                                     grid.count[0], grid.count[1], most_views_a_side, most_views));
+    for (int a = grid.first[0]; a <= last[0]; ++a)
+        for (int b = grid.first[1]; b <= last[1]; ++b)
+            if (!files.contains({a, b}))
+                throw InputError(
+                    folder.string(),
+                    fmt::format("the picture of {} {}, {} {} is missing; names like {} go from {} {}, {} {} to {} {}, {} {}",
+                                words[0], a, words[1], b, files.begin()->second.filename().string(), words[0], grid.first[0],
+                                words[1], grid.first[1], words[0], last[0], words[1], last[1]));
+    return grid;
+}
+
+std::vector<fs::path> in_order(const ByNumbers& files) {
+    std::vector<fs::path> row;
+    for (const auto& [at, path] : files) row.push_back(path);
+    return row;
+}
+
+void add(ByNumbers& files, int a, int b, fs::path path) {
+    const auto [at, fresh] = files.emplace(std::pair(a, b), path);
+    if (!fresh)
+        throw InputError(path.string(), fmt::format("has the place in the grid of {}, too", at->second.filename().string()));
+}
+
+}  // namespace
+
+std::vector<fs::path> numbered_grid(const fs::path& folder, const std::string& pattern, int outer, int inner,
+                                    std::array<const char*, 2> words, const std::string& counted_in) {
+    const std::size_t star = pattern.find('*'), other = pattern.find('*', star + 1);
+    const std::string before = pattern.substr(0, star), between = pattern.substr(star + 1, other - star - 1),
+                      after = pattern.substr(other + 1);
+    ByNumbers files;
+    each_file(folder, [&](const std::string& name) {
+        if (name.size() < before.size() + between.size() + after.size() || !name.starts_with(before) || !name.ends_with(after))
+            return;
+        const std::string inside = name.substr(before.size(), name.size() - before.size() - after.size());
+        const std::size_t middle = inside.find(between);
+        if (middle == inside.npos) return;
+        const std::string a = inside.substr(0, middle), b = inside.substr(middle + between.size());
+        if (is_number(a) && is_number(b)) add(files, std::stoi(a), std::stoi(b), folder / name);
+    });
+    if (files.empty())
+        throw InputError(folder.string(),
+                         fmt::format("has no pictures {}, {} asks for {} x {}", pattern, counted_in, outer, inner));
+    const GridOfNames grid = whole_grid(folder, files, words);
+    if (grid.count[0] != outer || grid.count[1] != inner)
+        throw InputError(folder.string(),
+                         fmt::format("has pictures {} of {} and {}, {} asks for {} and {}", pattern,
+                                     counted(std::size_t(grid.count[0]), words[0]), counted(std::size_t(grid.count[1]), words[1]),
+                                     counted_in, counted(std::size_t(outer), words[0]), counted(std::size_t(inner), words[1])));
+    return in_order(files);
+}
+
+std::optional<ViewsSource> row_column_views(const fs::path& folder) {
+    static const std::regex form(R"((|.*[^0-9])(\d{1,6})_(\d{1,6})(\.(?:png|jpg|jpeg|exr|npy)))");
+    std::map<std::pair<std::string, std::string>, ByNumbers> groups;  // by what stands before and after the numbers
+    each_file(folder, [&](const std::string& name) {
+        std::smatch part;
+        if (name.size() <= 200 && std::regex_match(name, part, form))
+            add(groups[{part[1], part[4]}], std::stoi(part[2]), std::stoi(part[3]), folder / name);
+    });
+    std::erase_if(groups, [](const auto& group) { return group.second.size() < 2; });  // no grid
+    if (groups.empty()) return {};
+    if (groups.size() > 1)
+        throw InputError(
+            folder.string(),
+            fmt::format("has pictures of more than one name: {} and {}; say in a views.toml which of them are the views, as in "
+                        "pictures = \"{}*_*{}\"",
+                        groups.begin()->second.begin()->second.filename().string(),
+                        groups.rbegin()->second.begin()->second.filename().string(), groups.begin()->first.first,
+                        groups.begin()->first.second));
+    const ByNumbers& files = groups.begin()->second;
+    const GridOfNames grid = whole_grid(folder, files, {"row", "column"});
+    ViewsSource source;
+    source.form = ViewsForm::row_column;
+    source.name = folder.string();
+    source.rows = grid.count[0];
+    source.columns = grid.count[1];
+    source.pictures = in_order(files);
+    return source;
+}
+
 ViewsSource hci_views(const fs::path& folder) {
     const fs::path file = folder / "parameters.cfg";
     const Parameters parameters(file);

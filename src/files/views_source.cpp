@@ -15,8 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* forms =
-    "give a folder with views.toml, with parameters.cfg (HCI 4D) or with names such as out_00_00_-1.5_2.5_.png (Stanford archive), "
-    "or a quilt such as name_qs8x6a0.75.png";
+    "give a folder with views.toml, with parameters.cfg (HCI 4D) or with names such as out_00_00_-1.5_2.5_.png (Stanford archive) "
+    "or 000_000.png (ROW_COLUMN), or a quilt such as name_qs8x6a0.75.png";
 
 ViewsSource find_quilt(const fs::path& file) {
     const std::optional<QuiltName> name = quilt_name(file);
@@ -49,7 +49,7 @@ double mean_step(const std::vector<std::array<double, 2>>& cameras, int columns,
 }  // namespace
 
 std::string_view name_of(ViewsForm form) {
-    constexpr std::string_view names[] = {"HCI 4D", "Stanford archive", "numbered pictures", "quilt"};
+    constexpr std::string_view names[] = {"HCI 4D", "Stanford archive", "ROW_COLUMN names", "numbered pictures", "quilt"};
     return names[std::size_t(form)];
 }
 
@@ -65,6 +65,7 @@ ViewsSource find_views(const fs::path& path) {
         if (fs::exists(path / "views.toml", error)) return detail::described_views(path / "views.toml");
         if (fs::exists(path / "parameters.cfg", error)) return detail::hci_views(path);
         if (std::optional<ViewsSource> found = detail::stanford_views(path)) return *found;
+        if (std::optional<ViewsSource> found = detail::row_column_views(path)) return *found;
         throw InputError(path.string(), fmt::format("holds no grid of views that is known; {}", forms));
     }
     if (path.extension() == ".toml") return detail::described_views(path);
@@ -103,6 +104,16 @@ ViewGrid placed(const ViewsSource& source, const ViewsWish& wish, const ViewsPla
     grid.width_mm = wish.width_mm.value_or(source.for_display ? source.width_mm.value_or(fits) : fits);
     grid.height_mm = grid.width_mm / focus_aspect;
     const double scale = source.width_mm ? grid.width_mm / *source.width_mm : 1;
+    const bool placed_in_cone = source.cameras.empty() || source.cone_deg || !source.in_mm;
+    if (wish.cone && (wish.baseline_mm || !(placed_in_cone || wish.cone_deg)))
+        throw InputError("--cone", wish.baseline_mm
+                                       ? "says how cameras stand in a view cone, --baseline-mm that they do not; give one of them"
+                                       : "says how cameras stand in a view cone, but these have places of their own; give "
+                                         "--view-cone-deg, too");
+    // As the display shows quilts: the k-th of n parts of each elemental image has view k, wherever its camera stood.
+    const bool unsaid = source.cameras.empty() && !source.cone_deg && !source.cone && !source.distance_mm && !wish.baseline_mm &&
+                        !wish.cone_deg && !wish.cone && !wish.distance_mm;
+    const bool as_shown = unsaid && place.view_cone_deg && place.zone_width_mm > 0 && grid.rows == 1;
     if (wish.distance_mm)
         grid.distance_mm = *wish.distance_mm;
     else if (source.distance_mm)
@@ -113,15 +124,12 @@ ViewGrid placed(const ViewsSource& source, const ViewsWish& wish, const ViewsPla
                          "--camera-distance-mm");
     else {
         grid.distance_mm = place.viewing_distance_mm - place.vertex_plane_mm - grid.depth_mm;
-        notes.push_back(fmt::format("cameras at the viewing distance, {:.6g} mm from the focus", grid.distance_mm));
+        if (!as_shown) notes.push_back(fmt::format("cameras at the viewing distance, {:.6g} mm from the focus", grid.distance_mm));
     }
+    const ConeCameras cone =
+        wish.cone.value_or(source.cone.value_or(source.form == ViewsForm::quilt ? ConeCameras::ends : ConeCameras::bins));
     // Neither absurd lengths nor their quotients reach the places of cameras.
-    const auto in_cone = [&](double cone_deg) {
-        const std::vector<double> x = cone_places(grid.columns, cone_deg, grid.distance_mm);
-        const double step = grid.columns > 1 ? (x.back() - x.front()) / (grid.columns - 1)
-                                             : cone_deg * degree * grid.distance_mm / std::max(grid.rows, 1);
-        return camera_places(x, even_places(grid.rows, -step));
-    };
+    const auto in_cone = [&](double cone_deg) { return cone_cameras(grid.columns, grid.rows, cone_deg, grid.distance_mm, cone); };
     if (wish.baseline_mm && source.cameras.empty())
         grid.camera_mm =
             camera_places(even_places(grid.columns, (*wish.baseline_mm)[0]), even_places(grid.rows, -(*wish.baseline_mm)[1]));
@@ -136,11 +144,12 @@ ViewGrid placed(const ViewsSource& source, const ViewsWish& wish, const ViewsPla
                 at[k] = parts[k] > 0 ? at[k] * (*wish.baseline_mm)[k] * parts[k] / (high[k] - low[k]) : 0;
     } else if (wish.cone_deg && !source.cameras.empty() && !source.in_mm) {
         grid.camera_mm = source.cameras;
-        const double wanted = 2 * grid.distance_mm * std::tan(0.5 * *wish.cone_deg * degree) / std::max(grid.columns, grid.rows);
+        const int longer = std::max(grid.columns, grid.rows), steps = cone == ConeCameras::ends ? longer - 1 : longer;
+        const double wanted = 2 * grid.distance_mm * std::tan(0.5 * *wish.cone_deg * degree) / std::max(steps, 1);
         for (auto& at : grid.camera_mm)
             for (double& value : at) value *= source.step() > 0 ? wanted / source.step() : 0;
-    } else if (wish.cone_deg) {
-        grid.camera_mm = in_cone(*wish.cone_deg);
+    } else if (wish.cone_deg || (wish.cone && source.cone_deg)) {
+        grid.camera_mm = in_cone(wish.cone_deg ? *wish.cone_deg : *source.cone_deg);
     } else if (!source.cameras.empty() && !source.in_mm) {
         throw InputError(source.name,
                          "gives its cameras' places in a unit that is not known; give --baseline-mm from camera to camera, or "
@@ -149,9 +158,15 @@ ViewGrid placed(const ViewsSource& source, const ViewsWish& wish, const ViewsPla
         grid.camera_mm = source.cameras;
         for (auto& at : grid.camera_mm)
             for (double& value : at) value *= scale;
+    } else if (as_shown) {
+        grid.camera_mm = camera_places(even_places(grid.columns, place.zone_width_mm / grid.columns), {0});
+        grid.border_mm = place.lens_mm;  // lenses stand beside the panel's outermost pixels
     } else {
-        grid.camera_mm = in_cone(source.cone_deg.value_or(usual_cone_deg));
-        if (!source.cone_deg) notes.push_back(fmt::format("a view cone of {} degrees", usual_cone_deg));
+        const double of_display = place.view_cone_deg.value_or(usual_cone_deg);
+        grid.camera_mm = in_cone(source.cone_deg.value_or(of_display));
+        if (!source.cone_deg)
+            notes.push_back(
+                fmt::format("a view cone of {} degrees{}", of_display, place.view_cone_deg ? ", the display's own" : ""));
     }
     if (std::vector<Problem> faults = faults_of(grid); !faults.empty()) {
         for (Problem& fault : faults) fault.where = source.name + ": " + fault.where;

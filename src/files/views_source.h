@@ -12,7 +12,7 @@
 
 namespace lfdsim {
 
-enum class ViewsForm { hci, stanford, numbered, quilt };
+enum class ViewsForm { hci, stanford, row_column, numbered, quilt };
 std::string_view name_of(ViewsForm);
 
 /// What the values of depth maps are.
@@ -35,6 +35,7 @@ struct ViewsSource {
     std::vector<std::array<double, 2>> cameras;  // in the pictures' order, in an unknown unit unless in_mm; empty: not known
     bool in_mm = true;
     std::optional<double> cone_deg;               // what the cameras of a row span, in place of their places
+    std::optional<ConeCameras> cone;              // how; absent: ends of quilts, else bins
     std::optional<double> distance_mm, width_mm;  // from the cameras' plane to the focus, the focus's width
     std::optional<double> depth_mm;               // of the focus before a display's vertex plane
     bool flipped = false;                         // the views are in reversed order already; a quilt's tiles still are not
@@ -63,28 +64,37 @@ std::optional<QuiltName> quilt_name(const std::filesystem::path&);
 /// Where the display stands that a grid is placed before.
 struct ViewsPlace {
     double panel_width_mm = 0, panel_height_mm = 0;
-    double vertex_plane_mm = 0;      // from the panel
-    double depth_mm = 0;             // where content is put by default, from there
-    double viewing_distance_mm = 0;  // from the panel; infinity allowed
+    double vertex_plane_mm = 0;                // from the panel
+    double depth_mm = 0;                       // where content is put by default, from there
+    double viewing_distance_mm = 0;            // from the panel; infinity allowed
+    std::optional<double> view_cone_deg = {};  // of quilts made for the display: content.view_cone_deg
+    // Of a display with such a cone: from lens to lens along the panel's rows, and in what width an elemental image is seen at the
+    // viewing distance.
+    double lens_mm = 0, zone_width_mm = 0;
 };
 
 /// What is asked of a grid's geometry in place of what its files say.
 struct ViewsWish {
     std::optional<double> width_mm, depth_mm, distance_mm, cone_deg;
+    std::optional<ConeCameras> cone;
     std::optional<std::array<double, 2>> baseline_mm;
 };
 
-/// A cone for quilts that say nothing of theirs: that of most devices they are made for.
+/// A cone for views that say nothing of theirs, before a display that has none of its own: that of most devices that show quilts.
 inline constexpr double usual_cone_deg = 40;
 
 /// The grid before a display. Where nothing else is asked for: the focus is as large as fits the panel (as it is, of lengths
 /// for_display) and all lengths are scaled alike; quilts and the Stanford archive, whose distance is not known, get cameras at the
-/// viewing distance. `focus_aspect`: width / height. `notes` gets what was assumed, in words. Throws InputError for what is neither
-/// known nor asked for, and for impossible grids.
+/// viewing distance. A row of views of which nothing is known, before a display with a view cone of its own, is placed as that
+/// display shows quilts: view k of n stands where the k-th of n equal parts of the elemental images is seen. `focus_aspect`: width
+/// / height. `notes` gets what was assumed, in words. Throws InputError for what is neither known nor asked for, and for impossible
+/// grids.
 ViewGrid placed(const ViewsSource&, const ViewsWish&, const ViewsPlace&, double focus_aspect, std::vector<std::string>& notes);
 
 /// views.toml for pictures of such a name ("view_*.png"; empty: a quilt's, which has them in its own name), in the order rows from
-/// the upper left, and with depth maps of this name if it is not empty. Reads back as the same grid.
-std::string views_toml(const ViewGrid&, const std::string& pictures, const std::string& depth_pictures);
+/// the upper left, and with depth maps of this name if it is not empty. `how` the cameras were placed, for those who read it, may
+/// be empty. Reads back as the same grid.
+std::string views_toml(const ViewGrid&, const std::string& pictures, const std::string& depth_pictures,
+                       const std::string& how = {});
 
 }  // namespace lfdsim

@@ -19,10 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view known_keys[] = {"schema",         "columns",      "rows",        "pictures",    "first",
-                                           "along",          "baseline_mm",  "camera_x_mm", "camera_y_mm", "view_cone_deg",
-                                           "distance_mm",    "width_mm",     "height_mm",   "depth_mm",    "pseudoscopic",
-                                           "depth_pictures", "depth_unit_mm"};
+constexpr std::string_view known_keys[] = {"schema",       "columns",        "rows",         "pictures",    "first",
+                                           "along",        "baseline_mm",    "camera_x_mm",  "camera_y_mm", "view_cone_deg",
+                                           "cone",         "distance_mm",    "width_mm",     "height_mm",   "depth_mm",
+                                           "pseudoscopic", "depth_pictures", "depth_unit_mm"};
 constexpr std::string_view picture_keys[] = {"columns", "rows", "pictures", "first", "along"};
 constexpr std::string_view corners[] = {"top_left", "top_right", "bottom_left", "bottom_right"};
 constexpr std::string_view ways[] = {"rows", "columns"};
@@ -87,12 +87,16 @@ class ViewsReader {
         refuse(key, "is {}, allowed is 1 to {}", value, most_views_a_side);
         return 0;
     }
-    /// The name of numbered files, with one "*" and without a folder.
+    /// The name of numbered files, with one or two "*" and without a folder.
     std::string pattern(std::string_view key, const std::string& otherwise) {
         std::string name = otherwise;
         read(key, name);
-        if (!name.empty() && (std::count(name.begin(), name.end(), '*') != 1 || name.find('/') != name.npos))
-            refuse(key, "is \"{}\"; give a name in the same folder, with one * for the number", name.substr(0, 80));
+        const auto stars = std::count(name.begin(), name.end(), '*');
+        if (!name.empty() && (stars < 1 || stars > 2 || name.find("**") != name.npos || name.find('/') != name.npos))
+            refuse(
+                key,
+                "is \"{}\"; give a name in the same folder, with one * for the number, or two for row and column as in \"*_*.png\"",
+                name.substr(0, 80));
         return name;
     }
     void report() const {
@@ -118,7 +122,15 @@ std::size_t place_of(std::size_t number, int columns, int rows, std::size_t firs
     return row * wide + column;
 }
 
-std::vector<fs::path> in_place(std::vector<fs::path> files, const ViewsSource& source, std::size_t first, std::size_t along) {
+/// The files of a pattern, placed. With two numbers in their names the first one counts what the order goes on by: rows, or
+/// columns.
+std::vector<fs::path> in_place(const fs::path& folder, const std::string& pattern, const fs::path& toml, const ViewsSource& source,
+                               std::size_t first, std::size_t along) {
+    std::vector<fs::path> files =
+        std::count(pattern.begin(), pattern.end(), '*') == 2
+            ? numbered_grid(folder, pattern, along == 0 ? source.rows : source.columns, along == 0 ? source.columns : source.rows,
+                            along == 0 ? std::array{"row", "column"} : std::array{"column", "row"}, toml.string())
+            : numbered_row(folder, pattern, source.views(), toml.string());
     std::vector<fs::path> placed(files.size());
     for (std::size_t n = 0; n < files.size(); ++n)
         placed[place_of(n, source.columns, source.rows, first, along)] = std::move(files[n]);
@@ -148,6 +160,12 @@ void read_cameras(ViewsReader& reader, ViewsSource& source) {
         source.cameras = camera_places(x, y);
     }
     source.cone_deg = reader.number("view_cone_deg", {0, 180, true, true});
+    if (reader.has("cone")) {
+        source.cone = ConeCameras(reader.word("cone", cone_camera_words));
+        if (places || reader.has("baseline_mm"))
+            reader.refuse("cone",
+                          "says how cameras stand in a view cone, but their places are given; leave it out, or give view_cone_deg");
+    }
 }
 
 void read_geometry(ViewsReader& reader, ViewsSource& source) {
@@ -159,11 +177,10 @@ void read_geometry(ViewsReader& reader, ViewsSource& source) {
     const std::optional<double> height = reader.number("height_mm", positive_length);
     if (height && !source.width_mm) reader.refuse("height_mm", "needs width_mm beside it");
     if (height && source.width_mm) source.aspect = *source.width_mm / *height;
-    if (source.cone_deg && source.distance_mm && source.cameras.empty()) {
-        const std::vector<double> x = cone_places(std::max(source.columns, 2), *source.cone_deg, *source.distance_mm);
-        const double step = (x.back() - x.front()) / double(x.size() - 1);
-        source.cameras = camera_places(source.columns > 1 ? x : std::vector<double>{0}, even_places(source.rows, -step));
-    }
+    if (source.cone_deg && source.distance_mm && source.cameras.empty() && source.columns > 0 && source.rows > 0)
+        source.cameras =
+            cone_cameras(source.columns, source.rows, *source.cone_deg, *source.distance_mm,
+                         source.cone.value_or(source.form == ViewsForm::quilt ? ConeCameras::ends : ConeCameras::bins));
 }
 
 }  // namespace
@@ -204,9 +221,8 @@ ViewsSource described_views(const fs::path& toml) {
     if (source.views() > std::size_t(most_views))
         throw InputError(source.name,
                          fmt::format("has {} x {} views; allowed are {} in all", source.columns, source.rows, most_views));
-    source.pictures = in_place(numbered_row(folder, pictures, source.views(), toml.string()), source, first, along);
-    if (!depths.empty())
-        source.depths = in_place(numbered_row(folder, depths, source.views(), toml.string()), source, first, along);
+    source.pictures = in_place(folder, pictures, toml, source, first, along);
+    if (!depths.empty()) source.depths = in_place(folder, depths, toml, source, first, along);
     if (reversed) flip(source);
     return source;
 }
@@ -215,7 +231,8 @@ ViewsSource described_views(const fs::path& toml) {
 
 namespace lfdsim {
 
-std::string views_toml(const ViewGrid& grid, const std::string& pictures, const std::string& depth_pictures) {
+std::string views_toml(const ViewGrid& grid, const std::string& pictures, const std::string& depth_pictures,
+                       const std::string& how) {
     std::vector<double> x, y;
     for (int i = 0; i < grid.columns; ++i) x.push_back(grid.camera(i, 0)[0]);
     for (int j = 0; j < grid.rows; ++j) y.push_back(grid.camera(0, j)[1]);
@@ -223,6 +240,7 @@ std::string views_toml(const ViewGrid& grid, const std::string& pictures, const 
     if (!pictures.empty())
         text += fmt::format("columns = {}\nrows = {}\npictures = {}  # row by row from the upper left\n", grid.columns, grid.rows,
                             toml_text(pictures));
+    if (!how.empty()) text += fmt::format("# {}\n", how);
     text += fmt::format(
         "camera_x_mm = {}  # left to right, from the middle of the focus\ncamera_y_mm = {}  # top to bottom\n"
         "distance_mm = {}  # from the cameras to the focus\nwidth_mm = {}  # of the focus\nheight_mm = {}\n"

@@ -7,20 +7,31 @@
 #include <cmath>
 
 namespace lfdsim {
+
+CommentedText begun_design(const std::string& name, const std::string& made_by) {
+    CommentedText text;
+    text.note("A first-order design, as a starting point. Made by: {}", made_by);
+    text.note(
+        "It follows from thin-lens arithmetic alone. `lfdsim check` reports what theory predicts, `lfdsim analyze` "
+        "measures what the real lenses achieve; the formulas are those of docs/model.md. Lengths are in mm.");
+    text.key("schema", std::int64_t{1});
+    text.key("name", name);
+    return text;
+}
+
+void write_panel_pixels(const Panel& panel, double inch, CommentedText& text) {
+    text.table("panel");
+    text.key("pixels", panel.pixels);
+    text.note("a = 25.4 x {:g} inches / sqrt({}^2 + {}^2)", inch, panel.pixels[0], panel.pixels[1]);
+    text.key("pixel_pitch_mm", panel.pixel_pitch_mm);
+}
+
 namespace {
 
 /// The depth whose inverse is given, in words.
 std::string end_of_depth(double per_mm) {
     if (per_mm == 0) return "infinity";
     return depth_in_words(1 / per_mm);
-}
-
-void write_panel(const FirstOrder& o, CommentedText& text) {
-    const Panel& panel = o.display.panel;
-    text.table("panel");
-    text.key("pixels", panel.pixels);
-    text.note("a = 25.4 x {:g} inches / sqrt({}^2 + {}^2)", o.request.panel_inch, panel.pixels[0], panel.pixels[1]);
-    text.key("pixel_pitch_mm", panel.pixel_pitch_mm);
 }
 
 void write_lens(const FirstOrder& o, CommentedText& text) {
@@ -71,6 +82,8 @@ std::string pitch_reason(const FirstOrder& o) {
             return fmt::format(
                 "Wider lenses would resolve more, but fewer than {} of them would be left along the panel's shorter side.",
                 fewest_lenses);
+        case PitchRule::asked:
+            return o.request.views ? "As asked for by --views." : "As asked for by --pitch-mm.";
         case PitchRule::views:
             break;
     }
@@ -83,7 +96,11 @@ void write_array(const FirstOrder& o, CommentedText& text) {
     const LensArray& array = o.display.array;
     const double t = std::tan(o.request.fov_deg * std::acos(-1.0) / 360);
     text.table("array");
-    text.note("p = N a with N = {} panel pixels, and so {} x {} views. {}", o.views, o.views, o.views, pitch_reason(o));
+    if (array.lattice != LatticeKind::square) text.key("lattice", array.lattice);
+    if (o.request.pitch_mm)
+        text.note("{:.6g} panel pixels are behind a lens. {}", array.pitch_mm[0] / o.display.panel.pixel_pitch_mm, pitch_reason(o));
+    else
+        text.note("p = N a with N = {} panel pixels, and so {} x {} views. {}", o.views, o.views, o.views, pitch_reason(o));
     text.key("pitch_mm", array.pitch_mm);
     text.note(
         "Elemental images are p' = p (1 + g/E) = {:.6g} mm wide, E = {:.6g} mm from the lenses to the eye. The count is of those "
@@ -143,14 +160,8 @@ void write_camera_and_content(const FirstOrder& o, CommentedText& text) {
 }  // namespace
 
 std::string write_first_order(const FirstOrder& o, const std::string& made_by) {
-    CommentedText text;
-    text.note("A first-order design, as a starting point. Made by: {}", made_by);
-    text.note(
-        "It follows from thin-lens arithmetic alone. `lfdsim check` reports what theory predicts, `lfdsim analyze` "
-        "measures what the real lenses achieve; the formulas are those of docs/model.md. Lengths are in mm.");
-    text.key("schema", std::int64_t{1});
-    text.key("name", o.display.name);
-    write_panel(o, text);
+    CommentedText text = begun_design(o.display.name, made_by);
+    write_panel_pixels(o.display.panel, o.request.panel_inch, text);
     write_lens(o, text);
     write_array(o, text);
     write_diffuser(o, text);

@@ -55,8 +55,6 @@ struct Window {
 };
 
 void check_channels(const InputFile& file, const Imf::ChannelList& channels, const Names& names) {
-    if (channels.findChannel("A"))
-        file.refuse("has an alpha channel, which a panel cannot show; save it with the channels R, G, B only");
     for (const std::string& name : names) {
         const Imf::Channel* const channel = channels.findChannel(name);
         if (!channel) file.refuse(fmt::format("has no channel {}; {} are needed", name, fmt::join(names, ", ")));
@@ -77,10 +75,13 @@ void check_windows(const InputFile& file, const Window& data, const Window& disp
                                 display.rows, data.columns, data.rows));
 }
 
-/// Copies what lies in both windows; outside the data the picture stays black.
-void read_rows(Imf::InputFile& exr, const Names& names, const Window& data, const Window& display, const Pixels& pixels) {
+/// Copies what lies in both windows; outside the data the picture stays black. Alpha, if there is any, must be 1 where data are.
+void read_rows(const InputFile& file, Imf::InputFile& exr, const Names& names, const Window& data, const Window& display,
+               const Pixels& pixels) {
+    constexpr const char* alpha = "A";
     const std::int64_t block_rows = std::clamp(most_block_pixels / data.columns, std::int64_t(1), most_block_rows);
-    std::vector<float> block(std::size_t(data.columns * block_rows) * 3);
+    std::vector<float> block(std::size_t(data.columns * block_rows) * 3), full;
+    if (exr.header().channels().findChannel(alpha)) full.resize(std::size_t(data.columns * block_rows));
     const std::int64_t x_begin = std::max(data.x0, display.x0),
                        x_end = std::min(data.x0 + data.columns, display.x0 + display.columns);
     const std::int64_t y_begin = std::max(data.y0, display.y0), y_end = std::min(data.y0 + data.rows, display.y0 + display.rows);
@@ -90,9 +91,15 @@ void read_rows(Imf::InputFile& exr, const Names& names, const Window& data, cons
         for (std::size_t c = 0; c < 3; ++c)
             frame.insert(names[c], Imf::Slice::Make(Imf::FLOAT, block.data() + c, Imath::V2i(int(data.x0), int(y)), data.columns,
                                                     end - y, 3 * sizeof(float), std::size_t(data.columns) * 3 * sizeof(float)));
+        if (!full.empty())
+            frame.insert(alpha, Imf::Slice::Make(Imf::FLOAT, full.data(), Imath::V2i(int(data.x0), int(y)), data.columns, end - y,
+                                                 sizeof(float), std::size_t(data.columns) * sizeof(float)));
         exr.setFrameBuffer(frame);
         exr.readPixels(int(y), int(end - 1));
         for (std::int64_t r = y; r < end; ++r) {
+            for (std::int64_t x = x_begin; x < x_end && !full.empty(); ++x)
+                if (!(full[std::size_t((r - y) * data.columns + x - data.x0)] >= 1))
+                    refuse_transparency(file, x - display.x0, r - display.y0);
             const float* from = &block[std::size_t(((r - y) * data.columns + (x_begin - data.x0)) * 3)];
             float* to = pixels.row(r - display.y0) + (x_begin - display.x0) * pixels.stride;
             for (std::int64_t x = x_begin; x < x_end; ++x, from += 3, to += pixels.stride) std::copy_n(from, 3, to);
@@ -215,9 +222,11 @@ void read_channels(const InputFile& file, const Names& names, bool needed, const
         if (!needed && std::none_of(names.begin(), names.end(), [&](const auto& name) { return channels.findChannel(name); }))
             return;
         check_channels(file, channels, names);
+        if (const Imf::Channel* const alpha = channels.findChannel("A"); alpha && (alpha->xSampling != 1 || alpha->ySampling != 1))
+            file.refuse("has a subsampled channel A");
         const Window data(header.dataWindow()), display(header.displayWindow());
         Imf::InputFile exr(file.name().c_str(), Imf::globalThreadCount());
-        read_rows(exr, names, data, display, allocate(display.columns, display.rows));
+        read_rows(file, exr, names, data, display, allocate(display.columns, display.rows));
     } catch (const Iex::BaseExc& error) {
         refuse(file, error);
     }

@@ -6,6 +6,8 @@
 #include "model/display.h"
 #include "model/job.h"
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <functional>
 
@@ -31,7 +33,9 @@ void read_jpeg(const InputFile&, Encoding, const Allocate&);
 void read_exr(const InputFile&, const Allocate&);
 /// The same for a layer; nothing is allocated if the file has none of this name.
 void read_exr_layer(const InputFile&, const std::string& layer, const Allocate&);
-void read_npy(const InputFile&, const Allocate&);
+/// Floats are light, whole numbers of one or two bytes are codes.
+void read_npy(const InputFile&, Encoding, const Allocate&);
+bool npy_holds_codes(const InputFile&);
 void read_pfm(const InputFile&, const Allocate&);
 
 // From the header; the picture is not read. Throw like the readers.
@@ -44,11 +48,20 @@ void write_png(Output&, const Image&, const WriteOptions&, Job&);
 void write_exr(Output&, const Image&, const WriteOptions&, Job&);
 void write_npy(Output&, const Image&, Job&);
 
-/// n codes of one row, three a pixel, to light.
+/// Codes of one row, three or more a pixel, to light.
 template <class Code>
-void decode_row(const Code* codes, const std::vector<float>& table, std::int64_t columns, int stride, float* light) {
+void decode_row(const Code* codes, const std::vector<float>& table, std::int64_t columns, int stride, float* light,
+                int channels = 3) {
     for (std::int64_t i = 0; i < columns; ++i)
-        for (int c = 0; c < 3; ++c) light[i * stride + c] = table[codes[i * 3 + c]];
+        for (int c = 0; c < 3; ++c) light[i * stride + c] = table[codes[i * channels + c]];
+}
+
+/// Refuses a picture whose alpha is not full everywhere, with the first place where it is not.
+[[noreturn]] inline void refuse_transparency(const InputFile& file, std::int64_t column, std::int64_t row) {
+    file.refuse(
+        fmt::format("has transparency (an alpha channel that is not full at column {}, row {}), which a panel cannot show; remove "
+                    "it, for instance with 'convert IN.png -background black -alpha remove -alpha off OUT.png'",
+                    column, row));
 }
 
 }  // namespace lfdsim::detail

@@ -104,7 +104,9 @@ void read_floats(const InputFile& file, Values allowed, const Allocate& allocate
 void read(const InputFile& file, Format format, Encoding encoding, Values allowed, const Allocate& allocate) {
     if (format == Format::png) return read_png(file, encoding, allocate);
     if (format == Format::jpeg) return read_jpeg(file, encoding, allocate);
-    read_floats(file, allowed, allocate, format == Format::exr ? read_exr : format == Format::npy ? read_npy : read_pfm);
+    if (format == Format::npy)
+        return read_floats(file, allowed, allocate, [&](const InputFile& npy, const Allocate& to) { read_npy(npy, encoding, to); });
+    read_floats(file, allowed, allocate, format == Format::exr ? read_exr : read_pfm);
 }
 
 Allocate as_image(const InputFile& file, Image& image) {
@@ -202,6 +204,7 @@ Metadata read_metadata(const fs::path& path) {
 
 bool holds_codes(const fs::path& path) {
     const Format format = format_to_read(path);
+    if (format == Format::npy) return npy_holds_codes(InputFile(path));
     return format == Format::png || format == Format::jpeg;
 }
 

@@ -55,7 +55,8 @@ void write_npy(const std::filesystem::path& path, std::span<const std::int64_t> 
 /// reported to the job, if there is one, without a stage; an exception from its advance() ends the work. Throws like write_image().
 std::string image_bytes(const std::string& ending, const Image&, const WriteOptions& = {}, Job* = nullptr);
 
-/// Linear light. `encoding` is that of PNG and JPEG code values; EXR, NPY and PFM are linear. No alpha channel. Ignores layers.
+/// Linear light. `encoding` is that of code values: PNG, JPEG, and NPY of uint8 and uint16; EXR, PFM and other NPY are linear. An
+/// alpha channel must be full everywhere. Ignores layers.
 /// Throws InputError, which names the file and the fault: missing, truncated, not an image, too large.
 Image read_image(const std::filesystem::path& path, Encoding encoding);
 
@@ -68,7 +69,7 @@ Texels read_panel_image(const std::filesystem::path& path, Encoding encoding, st
 /// Throws like read_image().
 Metadata read_metadata(const std::filesystem::path& path);
 
-/// Whether a file of this name holds code values, which are limited by white; .exr and .npy hold light without a limit. Throws
+/// Whether a file holds code values, which are limited by white; .exr and .npy of floats hold light without a limit. Throws
 /// InputError for an unknown extension.
 bool holds_codes(const std::filesystem::path& path);
 

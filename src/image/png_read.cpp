@@ -8,6 +8,8 @@
 #include <tbb/task_arena.h>
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <limits>
 #include <vector>
 
 namespace lfdsim::detail {
@@ -54,10 +56,24 @@ struct Band {
 };
 
 /// One thread inflates, others turn codes into light, which takes as long again, mostly for the first touch of the memory.
+/// Returns the number of the first pixel whose alpha is not full, or -1.
 template <class Code>
-void read_rows(const PngReader& reader, int passes, std::int64_t rows, const std::vector<float>& table, const Pixels& pixels) {
+std::int64_t read_rows(const PngReader& reader, int passes, std::int64_t rows, const std::vector<float>& table,
+                       const Pixels& pixels) {
     constexpr std::int64_t band_codes = 1 << 18;  // fits into a core's own cache
-    const std::int64_t row_codes = pixels.columns * 3;
+    constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
+    const int channels = png_get_channels(reader.png, reader.info);  // 3, or 4 with alpha
+    const std::int64_t row_codes = pixels.columns * channels;
+    std::atomic<std::int64_t> clear{none};
+    const auto check_alpha = [&](const Code* codes, std::int64_t row) {
+        for (std::int64_t i = 0; i < pixels.columns; ++i)
+            if (codes[i * channels + 3] != std::numeric_limits<Code>::max()) {
+                std::int64_t first = clear;
+                while (row * pixels.columns + i < first && !clear.compare_exchange_weak(first, row * pixels.columns + i)) {
+                }
+                return;
+            }
+    };
     // Interlaced pictures come in passes, each of which touches every row: all codes must be kept until the last.
     const std::int64_t most_rows = passes > 1 ? rows : std::max<std::int64_t>(1, band_codes / row_codes);
     std::int64_t next = 0;
@@ -75,14 +91,18 @@ void read_rows(const PngReader& reader, int passes, std::int64_t rows, const std
         return band;
     };
     const auto decode = [&](const Band<Code>& band) {
-        for (std::int64_t r = 0; r < band.rows; ++r)
-            decode_row(&band.codes[std::size_t(r * row_codes)], table, pixels.columns, pixels.stride, pixels.row(band.first + r));
+        for (std::int64_t r = 0; r < band.rows; ++r) {
+            const Code* const codes = &band.codes[std::size_t(r * row_codes)];
+            if (channels == 4) check_alpha(codes, band.first + r);
+            decode_row(codes, table, pixels.columns, pixels.stride, pixels.row(band.first + r), channels);
+        }
         pixels.job->advance(band.rows);
     };
     tbb::parallel_pipeline(std::size_t(2 * tbb::this_task_arena::max_concurrency()),
                            tbb::make_filter<void, Band<Code>>(tbb::filter_mode::serial_in_order, inflate) &
                                tbb::make_filter<Band<Code>, void>(tbb::filter_mode::parallel, decode));
     failure.rethrow();
+    return clear == none ? -1 : std::int64_t(clear);
 }
 
 }  // namespace
@@ -110,15 +130,11 @@ void read_png(const InputFile& file, Encoding encoding, const Allocate& allocate
 
     const std::int64_t columns = png_get_image_width(reader.png, reader.info);
     const std::int64_t rows = png_get_image_height(reader.png, reader.info);
-    const int color = png_get_color_type(reader.png, reader.info), depth = png_get_bit_depth(reader.png, reader.info);
+    const int depth = png_get_bit_depth(reader.png, reader.info);
     const int bits_per_pixel = depth * png_get_channels(reader.png, reader.info);
     file.check_size(columns, rows, 1032.0 * 8 / bits_per_pixel);  // deflate packs 1032 bytes into one at best
-    if ((color & PNG_COLOR_MASK_ALPHA) || png_get_valid(reader.png, reader.info, PNG_INFO_tRNS))
-        file.refuse(
-            "has transparency (an alpha channel), which a panel cannot show; remove it, for instance with "
-            "'convert IN.png -background black -alpha remove -alpha off OUT.png'");
 
-    png_set_expand(reader.png);  // palettes to RGB, gray of 1, 2, 4 bits to 8
+    png_set_expand(reader.png);  // palettes to RGB, gray of 1, 2, 4 bits to 8, a transparent colour to alpha
     png_set_gray_to_rgb(reader.png);
     if (depth == 16) png_set_swap(reader.png);  // big-endian in the file
     const int passes = png_set_interlace_handling(reader.png);
@@ -127,10 +143,9 @@ void read_png(const InputFile& file, Encoding encoding, const Allocate& allocate
     const Pixels pixels = allocate(columns, rows);
     const int bits = depth == 16 ? 16 : 8;
     const std::vector<float>& table = decode_table(encoding, bits);
-    if (bits == 16)
-        read_rows<std::uint16_t>(reader, passes, rows, table, pixels);
-    else
-        read_rows<std::uint8_t>(reader, passes, rows, table, pixels);
+    const std::int64_t clear = bits == 16 ? read_rows<std::uint16_t>(reader, passes, rows, table, pixels)
+                                          : read_rows<std::uint8_t>(reader, passes, rows, table, pixels);
+    if (clear >= 0) refuse_transparency(file, clear % columns, clear / columns);
     png_read_end(reader.png, nullptr);
 }
 

@@ -31,8 +31,9 @@ void advise_on_lenses(Advised& a) {
             "seen through them, and no views. Use glass of an index well above 1 (--set lens.index=1.4918), or surfaces that are "
             "more curved",
             g.focal_length_mm, g.gap_mm);
-    // Beyond a hundred panel heights an image plane is practically at infinity: intended only where the scene is far away too.
-    else if (!pinhole && !(std::abs(t.central_depth_mm) < 100 * g.panel_height_mm) &&
+    // Beyond a hundred panel heights an image plane is practically at infinity: intended where the scene is far away too, and under
+    // strips, which are focused on the panel so that an eye sees one view through each.
+    else if (!pinhole && !is_strips(d.array) && !(std::abs(t.central_depth_mm) < 100 * g.panel_height_mm) &&
              !is_sharp(t, g.content_depth_mm + g.vertex_plane_mm - g.rear_principal_mm))
         a.say("the gap is about the focal length ({:.6g} and {:.6g} mm): the central depth plane is at infinity", g.gap_mm,
               g.focal_length_mm);

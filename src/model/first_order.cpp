@@ -3,6 +3,7 @@
 #include "model/error.h"
 #include "model/geometry.h"
 #include "model/keys.h"
+#include "model/lattice.h"
 #include "model/numbers.h"
 #include "model/prescription.h"
 
@@ -32,7 +33,7 @@ constexpr Limit limits[] = {
     {&DesignRequest::fov_deg, "--fov-deg", {1, 120}},
     {&DesignRequest::distance_mm, "--distance-mm", {5, 1e5}},
 };
-constexpr Range depth_range{-1e6, 1e6}, pixel_range{fewest_views * fewest_lenses, 1e5};
+constexpr Range depth_range{-1e6, 1e6}, pixel_range{fewest_views * fewest_lenses, 1e5}, views_range{2, 1e4}, pitch_range{1e-3, 1e4};
 
 std::vector<Problem> out_of_range(const DesignRequest& r) {
     std::vector<Problem> all;
@@ -43,6 +44,9 @@ std::vector<Problem> out_of_range(const DesignRequest& r) {
     for (const std::int64_t n : r.pixels)
         if (all.empty() || all.back().where != "--pixels") check("--pixels", double(n), pixel_range);
     if (r.depth_mm) check("--depth-mm", *r.depth_mm, depth_range);
+    if (r.views) check("--views", double(*r.views), views_range);
+    if (r.pitch_mm) check("--pitch-mm", *r.pitch_mm, pitch_range);
+    if (r.views && r.pitch_mm) all.push_back({"--views, --pitch-mm", "both decide the lenses' pitch; give one of them"});
     if (r.lens == LensType::surfaces) all.push_back({"--lens", "is surfaces; allowed are plano_convex and ideal"});
     return all;
 }
@@ -53,6 +57,8 @@ double chosen_depth_mm(const DesignRequest& r) { return r.distance_mm < nearest_
 /// N, the panel pixels behind a lens, and the rule that sets it. From an eye at distance E a lens subtends p/E, the image of a
 /// pixel a|L|/g / (E - L), and g is about p / (2 tan(FOV/2)).
 std::pair<int, PitchRule> views(const DesignRequest& r, double a, double L) {
+    if (r.views) return {int(*r.views), PitchRule::asked};
+    if (r.pitch_mm) return {int(std::lround(*r.pitch_mm / a)), PitchRule::asked};
     const double E = r.distance_mm, slope = std::tan(r.fov_deg * degree / 2), far = E / (E - L);
     const bool near_eye = E < nearest_sight_mm;
     const double pitch = near_eye ? pupil_mm / 2 : std::sqrt(2 * slope * a * std::abs(L) * far);
@@ -121,7 +127,18 @@ std::optional<Problem> design(FirstOrder& o) {
     if (L < -longest) return Problem{"--depth-mm", fmt::format("is {:g}, which is as good as infinity", L)};
     o.near_eye = D < nearest_sight_mm;
     std::tie(o.views, o.pitch_rule) = views(r, a, L);
-    d.array.pitch_mm = to_nanometre(o.views * a);
+    d.array.lattice = r.lattice;
+    d.array.pitch_mm = to_nanometre(r.pitch_mm.value_or(o.views * a));
+    if (o.pitch_rule == PitchRule::asked) {
+        const char* const option = r.views ? "--views" : "--pitch-mm";
+        const double pitch_mm = d.array.pitch_mm[0], side_mm = double(std::min(r.pixels[0], r.pixels[1])) * a;
+        if (pitch_mm < 1.999 * a)
+            return Problem{option, fmt::format("is {:g}, less than two pixels of {:.4g} mm behind a lens", pitch_mm, a)};
+        if (pitch_mm * fewest_lenses > side_mm)
+            return Problem{option,
+                           fmt::format("makes lenses of {:.4g} mm, of which the panel's shorter side has room for less than {}",
+                                       pitch_mm, fewest_lenses)};
+    }
     place_lenses(o, L);
 
     const double p = d.array.pitch_mm[0], g = *d.array.gap_mm, z_r = D - o.eye_mm;
@@ -137,9 +154,14 @@ std::optional<Problem> design(FirstOrder& o) {
                                    "wide as its pitch; --lens ideal has no such limit",
                                    r.fov_deg, pmma_index)};
 
+    // Whole elemental images on the panel. Rows of hexagons alternate by half a pitch; corners of theirs stand beyond the first and
+    // last.
+    const double across = width / (1 + g / o.eye_mm), along = height / (1 + g / o.eye_mm);
+    std::array<double, 2> fit{across / p, along / p};
+    if (r.lattice == LatticeKind::hexagon)
+        fit = {across / p - 0.5, 1 + (along - 2 * outer_radius_mm(d.array)) / spacing_mm(d.panel, d.array)[1]};
     d.array.count.emplace();
-    for (std::size_t k = 0; k < 2; ++k)
-        (*d.array.count)[k] = std::max<std::int64_t>(1, std::int64_t(double(r.pixels[k]) * a / (p * (1 + g / o.eye_mm)) + 1e-6));
+    for (std::size_t k = 0; k < 2; ++k) (*d.array.count)[k] = std::max<std::int64_t>(1, std::int64_t(fit[k] + 1e-6));
 
     d.camera.position_mm = {0, 0, D};
     d.camera.frame_width_mm = rounded(1.05 * std::max(width, height * 16 / 9) * D / o.eye_mm);

@@ -16,6 +16,9 @@ struct DesignRequest {
     double distance_mm = 0;          // of the eye from the panel
     std::optional<double> depth_mm;  // L, of the central depth plane from the lenses; absent: chosen
     LensType lens = LensType::plano_convex;
+    LatticeKind lattice = LatticeKind::square;  // or hexagon
+    std::optional<std::int64_t> views = {};     // N; absent: chosen
+    std::optional<double> pitch_mm = {};        // in place of them
 };
 
 /// What determines the lens pitch.
@@ -24,6 +27,7 @@ enum class PitchRule {
     pupil,     // near eyes: half the pupil, so that light of several lenses enters it together
     lenses,    // the fewest lenses along the panel's shorter side that make a picture
     views,     // the fewest pixels behind a lens that make views
+    asked
 };
 
 /// What limits the width of a lens.
@@ -37,7 +41,7 @@ struct FirstOrder {
     DesignRequest request;  // with its depth chosen
     Display display;
     bool near_eye;  // too near for an eye to see the lenses sharply
-    int views;      // N, panel pixels behind a lens
+    int views;      // N, panel pixels behind a lens; of a pitch that was asked for about
     double eye_mm;  // E, of the eye from the lenses' viewer-side principal plane
     Theory theory;  // of the display
     PitchRule pitch_rule;

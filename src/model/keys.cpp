@@ -176,6 +176,10 @@ constexpr Key<Content> content_keys[] = {
     {"viewing_distance_mm", &Content::viewing_distance_mm, Range{shortest_mm, infinity}, false,
      "From the panel to the viewer that the elemental images are made for. inf: elemental images stand straight behind their "
      "lenses."},
+    {"view_cone_deg", &Content::view_cone_deg, Range{0, 170, true}, false,
+     "The angle that quilts made for this display span, as its maker states it. A quilt that says nothing of its cameras is then "
+     "shown as such a display shows it: each view has an equal part of the elemental images' width.",
+     "quilts are taken for pictures of cameras that span 40 degrees"},
     {"pickup", &Content::pickup, no_range, false,
      "Along which lines elemental images are made: through the nodal points of a perfect lens; where the real lens sends each "
      "pixel's light, in the mean; or the mean of what many of those rays see."},

@@ -30,10 +30,22 @@ std::vector<double> even_places(int n, double step) {
     return places;
 }
 
-std::vector<double> cone_places(int n, double cone_deg, double distance_mm) {
+std::vector<double> cone_places(int n, double cone_deg, double distance_mm, ConeCameras cameras) {
+    const auto share = [&](int i) {  // of the cone, from its middle
+        if (n == 1) return 0.;
+        return cameras == ConeCameras::ends ? double(i) / (n - 1) - 0.5 : (i + 0.5) / n - 0.5;
+    };
     std::vector<double> places;
-    for (int i = 0; i < n; ++i) places.push_back(distance_mm * std::tan(cone_deg * degree * ((i + 0.5) / n - 0.5)));
+    for (int i = 0; i < n; ++i) places.push_back(distance_mm * std::tan(cone_deg * degree * share(i)));
     return places;
+}
+
+std::vector<std::array<double, 2>> cone_cameras(int columns, int rows, double cone_deg, double distance_mm, ConeCameras cameras) {
+    std::vector<double> x = cone_places(columns, cone_deg, distance_mm, cameras);
+    if (columns > 1) return camera_places(x, even_places(rows, -(x.back() - x.front()) / (columns - 1)));
+    std::vector<double> y = cone_places(rows, cone_deg, distance_mm, cameras);
+    std::reverse(y.begin(), y.end());  // the highest first
+    return camera_places(x, y);
 }
 
 std::vector<std::array<double, 2>> opposite(std::vector<std::array<double, 2>> camera_mm) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lfdsim {
@@ -21,6 +22,7 @@ struct ViewGrid {
     double distance_mm = 0;                        // from the cameras' plane to the rectangle
     double width_mm = 0, height_mm = 0;            // of the rectangle
     double depth_mm = 0;                           // of the rectangle in front of the lenses' viewer-side vertex plane
+    double border_mm = 0;                          // by which a view's own border goes on beyond the rectangle
 
     std::size_t views() const { return camera_mm.size(); }
     const std::array<double, 2>& camera(int column, int row) const {
@@ -34,8 +36,17 @@ std::vector<std::array<double, 2>> camera_places(const std::vector<double>& x_mm
 
 /// n places `step` apart about 0, from the least on (a negative step: from the highest on).
 std::vector<double> even_places(int n, double step);
-/// n places at equal angles in a cone about 0, each in the middle of its n-th part: distance tan(cone ((i + 1/2)/n - 1/2)).
-std::vector<double> cone_places(int n, double cone_deg, double distance_mm);
+/// How the cameras of a row divide the angle of a view cone, in equal steps of the angle.
+enum class ConeCameras {
+    ends,  // from one end of the cone to the other: distance tan(cone (i/(n - 1) - 1/2))
+    bins   // each in the middle of its n-th part: distance tan(cone ((i + 1/2)/n - 1/2))
+};
+inline constexpr std::string_view cone_camera_words[] = {"ends", "bins"};
+/// n places about 0. A single one is 0.
+std::vector<double> cone_places(int n, double cone_deg, double distance_mm, ConeCameras);
+/// Cameras of a grid: a row is in the cone, rows are as far from each other as the cameras of a row in the mean. A single column is
+/// in the cone itself.
+std::vector<std::array<double, 2>> cone_cameras(int columns, int rows, double cone_deg, double distance_mm, ConeCameras);
 
 /// The grid seen from behind: camera k has the place opposite to that of the k-th last. With its pictures in reversed order it is
 /// what turns pseudoscopic views into orthoscopic ones, and back.

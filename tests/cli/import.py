@@ -84,6 +84,35 @@ for name, glass in [("unit", ""), ("sheet", " --index 1.9")]:
             light = numpy.load(folder / "seen.npy")[8:-8, 8:-8].mean()
             checks.that(0.9 < light < 1.1 if shown == seen else light < 0.02, f"{name}: of view {shown} an eye at {seen} sees {light:.3f}")
 
+# A calibration is found where services put it, and nothing is blamed on the display that it is of: it is focused on its panel.
+(folder / "service.json").write_text(json.dumps({"error": 0, "devices": [{"hwid": "X", "calibration": json.loads((folder / "visual.json").read_text())}]}))
+for options in ("", "--index 1.9", "--index 1.6"):
+    said = program.must(f"import service.json --distance-mm 400 {options} -o service.toml --force")
+    checks.that("stands under devices[0].calibration" in said, f"service: said {said!r}")
+    checked = json.loads(program.must("check service.toml --json"))
+    checks.that(checked["warnings"] == [], f"check of an imported display warns: {checked['warnings']}")
+    checks.that(checked["display"]["content"]["view_cone_deg"] == 40, "the view cone is lost")
+    if options == "--index 1.9":
+        same = [(folder / f"{name}.toml").read_text().split("[panel]")[1] for name in ("service", "sheet")]
+        checks.that(same[0] == same[1], "the wrapped calibration makes another display")
+
+# Nothing of this machine is in a description: the program's folder, the file's, the description's.
+for arguments in (f"import {folder}/visual.json --distance-mm 400 -o {folder}/moved.toml", f"import {folder}/doublet.zmx --glass MYSF5=SF5 -o {folder}/moved2.toml",
+                  f"new --panel-inch 8 --pixels 2560x1600 --distance-mm 500 -o {folder}/moved3.toml"):
+    program.must(arguments)
+    text = (folder / arguments.split()[-1]).read_text()
+    checks.that(str(folder) not in text and program.path not in text.replace("\n# ", " "), f"{arguments}: an absolute path in {text[:300]!r}")
+
+# A lens that diverges is said to, whether it can stand there or not.
+DIVERGING = zmx([(-1 / 50, 2, "STOP", "GLAS N-BK7"), (1 / 50, 40)])
+(folder / "diverging.zmx").write_text(DIVERGING)
+(folder / "virtual.zmx").write_text(DIVERGING.replace("DISZ 40", "DISZ -48"))
+for arguments in ("diverging.zmx", "virtual.zmx --gap-mm 20", "diverging.zmx --flip --gap-mm 20"):
+    said = program.must(f"import {arguments} -o diverging.toml --force")
+    checks.that("The lens diverges (focal length -4" in said, f"{arguments}: said {said!r}")
+checks.refused(program, "a virtual image", "import virtual.zmx -o x.toml", "the lens diverges", "a virtual one")
+checks.refused(program, "no focus", "import diverging.zmx --flip -o x.toml", "which diverges, has no focus there")
+
 # What is refused, and nothing is written.
 (folder / "kept.toml").write_text("mine")
 FILES = {

@@ -1,6 +1,8 @@
 """`lfdsim new` as a user runs it: designs of all sizes that check calls valid, files that are kept, clear errors."""
 import json
+import math
 
+import numpy
 from program import Checks, Program
 
 program, checks = Program(), Checks()
@@ -11,6 +13,8 @@ DESIGNS = {  # options, lenses across
     "wide": ("--panel-inch 13 --pixels 3840x2160 --fov-deg 70 --distance-mm 600 --depth-mm 80", 50),
     "phone": ("--panel-inch 6 --pixels 1440x3200 --distance-mm 350 --lens ideal", 50),
     "wall": ("--panel-inch 100 --pixels 3840x2160 --fov-deg 40 --distance-mm 3000", 100),
+    "hexagons": ("--panel-inch 8 --pixels 2560x1600 --fov-deg 30 --distance-mm 500 --lattice hexagon --views 20", 100),
+    "pitch": ("--panel-inch 8 --pixels 2560x1600 --fov-deg 25 --distance-mm 500 --pitch-mm 1.3462", 100),
     "near-eye": ("--panel-inch 0.7 --pixels 1920x1080 --fov-deg 30 --distance-mm 20 --depth-mm -1000", 10),
 }
 for name, (options, lenses) in DESIGNS.items():
@@ -28,6 +32,53 @@ for name, (options, lenses) in DESIGNS.items():
     # The spherical lenses of a wall mix what eyes see from far away, and check says so.
     told = [w for w in checked["warnings"] if not (name == "wall" and "aberration mixes" in w)]
     checks.that(not told, f"{name}: check warns {told}")
+
+# A pitch, views and lattice are those that were asked for.
+for name, key, wanted in (("hexagons", "views", 20), ("pitch", "views", 20), ("hexagons", "fov_elemental_deg", 30), ("pitch", "fov_elemental_deg", 25)):
+    theory = json.loads(program.must(f"check {name}.toml --json"))["theory"]
+    checks.that(abs(theory[key] / wanted - 1) < 2e-3, f"{name}: {key} is {theory[key]}")
+
+# Lenticulars: views, pitch, slant, sheet and field of view as asked for; the eye at the distance sees a view at a time.
+STRIPS = {  # options, views, degrees along the rows, slant
+    "lenticular": ("--panel-inch 10 --pixels 2560x1600 --distance-mm 450", None, 30, 18.4349),
+    "eight": ("--panel-inch 10 --pixels 2560x1600 --distance-mm 450 --views 8 --fov-deg 27", 8, 27, 18.4349),
+    "lean": ("--panel-inch 15.6 --pixels 3840x2160 --distance-mm 600 --views 5.333 --fov-deg 35 --slant-deg -9.46", 5.333, 35, -9.46),
+    "lpi": ("--panel-inch 15.6 --pixels 3840x2160 --distance-mm 600 --pitch-mm 0.635 --slant-deg 12", 0.635 / 0.0899344 / math.cos(math.radians(12)), 30, 12),
+    "sheet": ("--panel-inch 24 --pixels 3840x2160 --distance-mm 700 --sheet-mm 4 --views 9", 9, None, 18.4349),
+    "upright": ("--panel-inch 65 --pixels 7680x4320 --distance-mm 3000 --views 12 --slant-deg 0 --lens ideal", 12, 30, 0),
+    "two-view": ("--panel-inch 6 --pixels 640x360 --distance-mm 350 --views 2", 2, None, 0),
+    "two-odd": ("--panel-inch 6 --pixels 641x360 --distance-mm 400 --views 2 --eye-distance-mm 62", 2, None, 0),
+}
+for name, (options, views, fov, slant) in STRIPS.items():
+    said = program.must(f"new --lattice strips {options} -o {name}.toml")
+    checked = json.loads(program.must(f"check {name}.toml --json"))
+    display, theory, geometry = checked["display"], checked["theory"], checked["geometry"]
+    checks.that(not checked["warnings"], f"{name}: check warns {checked['warnings']}")
+    checks.that(views is None or abs(theory["views"] / views - 1) < 8e-3, f"{name}: {theory['views']} views")
+    checks.that(fov is None or abs(theory["fov_horizontal_deg"] - fov) < 0.15, f"{name}: field of view {theory['fov_horizontal_deg']}")
+    checks.that(abs((display["array"].get("slant_deg") or 0) - slant) < 1e-3, f"{name}: slant {display['array']}")
+    # Focused on the panel, to what lengths are rounded to.
+    checks.that(abs(theory["focal_length_mm"] / theory["gap_mm"] - 1) < 1e-5, f"{name}: f {theory['focal_length_mm']}, g {theory['gap_mm']}")
+    sheet = geometry["vertex_plane_mm"]
+    if "--sheet-mm" in options:
+        checks.that(abs(sheet - 4) < 1e-5, f"{name}: the sheet is {sheet} mm thick")
+    distance = float(options.split()[options.split().index("--distance-mm") + 1])
+    elemental = theory["elemental_pitch_mm"] / math.cos(math.radians(slant)) / display["panel"]["pixel_pitch_mm"]
+    checks.that(views is None or abs(elemental / views - 1) < (1e-4 if "--views" in options else 8e-3), f"{name}: {elemental} pixels behind a lens")
+    if name.startswith("two"):
+        step = display["panel"]["pixel_pitch_mm"] * (distance - sheet) / theory["gap_mm"]
+        checks.that(abs(step - (62 if name == "two-odd" else 65)) < 0.01, f"{name}: views are {step} mm apart")
+        # A picture of alternate columns: an eye sees one of both all over the screen, the other eye the other one.
+        width, height = display["panel"]["pixels"]
+        columns = numpy.zeros((height, width, 3), numpy.float32)
+        columns[:, 1::2] = 1
+        numpy.save(program.folder / "columns.npy", columns)
+        light = []
+        for x in (-step / 2, step / 2):
+            program.must(f"render {name}.toml --panel-image columns.npy --camera-mm {x},0,{distance} --size 90x50 -o seen.npy --progress none")
+            light.append(numpy.load(program.folder / "seen.npy")[15:-15, 15:-15].mean((0, 2)))
+        dark, bright = sorted(light, key=lambda each: each.mean())
+        checks.that(dark.max() < 0.06 and bright.min() > 0.8, f"{name}: one eye sees {dark.max()}, the other {bright.min()}")
 
 # What real lenses make of it: half of the light is the right lens's up to the edges of the field of view that was asked for.
 low, high = json.loads(program.must("analyze zone tablet.toml --json --progress none -o zone"))["horizontal"]["wrong_50_percent_deg"]
@@ -54,6 +105,17 @@ for name, arguments, *words in [
     ("within the lenses", f"new {TABLET} --depth-mm 0.1 -o x.toml", "--depth-mm: is 0.1, less than twice the gap", "nearest possible: --depth-mm 1.0"),
     ("too narrow", f"new {DESIGNS['near-eye'][0].replace('30', '10')} -o x.toml", "--fov-deg: is 10", "--fov-deg 13"),
     ("unknown lens", f"new {TABLET} --lens fresnel -o x.toml", "--lens", "plano_convex, ideal"),
+    ("both pitches", f"new {TABLET} --views 20 --pitch-mm 1 -o x.toml", "--views, --pitch-mm: both decide"),
+    ("a pitch of a pixel", f"new {TABLET} --pitch-mm 0.1 -o x.toml", "--pitch-mm: is 0.1, less than two pixels"),
+    ("too few lenses", f"new {TABLET} --views 400 -o x.toml", "--views: makes lenses of", "less than 10"),
+    ("a slant of squares", f"new {TABLET} --slant-deg 9 -o x.toml", "--slant-deg: is for --lattice strips"),
+    ("an unknown lattice", f"new {TABLET} --lattice triangle -o x.toml", "--lattice", "square, hexagon, strips"),
+    ("two gaps", f"new {TABLET} --lattice strips --sheet-mm 2 -o x.toml", "--fov-deg, --sheet-mm: both decide the gap"),
+    ("a depth of strips", f"new {TABLET} --lattice strips --depth-mm 20 -o x.toml", "--depth-mm: is not for strips"),
+    ("too wide for cylinders", f"new {TABLET.replace('30', '80')} --lattice strips --views 8 -o x.toml", "--fov-deg", "less than half the pitch", "--fov-deg of at most 5"),
+    ("too thin a sheet", "new --panel-inch 8 --pixels 2560x1600 --distance-mm 500 --lattice strips --views 8 --sheet-mm 0.5 -o x.toml", "--sheet-mm of at least"),
+    ("eyes of many views", f"new {TABLET} --lattice strips --views 8 --eye-distance-mm 60 -o x.toml", "--eye-distance-mm: puts the two views"),
+    ("ideal glass", "new --panel-inch 8 --pixels 2560x1600 --distance-mm 500 --lattice strips --lens ideal --sheet-mm 2 -o x.toml", "--sheet-mm: is the thickness of glass"),
     ("all at once", "new --panel-inch x --pixels 9 --distance-mm y -o x.png", "--panel-inch", "--pixels", "--distance-mm", "ends in .toml"),
 ]:
     checks.refused(program, name, arguments.split() if isinstance(arguments, str) else arguments, *words)

@@ -5,6 +5,7 @@ import signal
 import time
 
 import numpy as np
+from PIL import Image
 
 from program import Checks, Program
 
@@ -55,7 +56,7 @@ checks.that(between.sum() > 60 and errors[0] < 0.8 * errors[1], "depth maps do n
 # A quilt has the same views, counted from the lower left; its elemental images are those of the row, bit for bit.
 ROW = "--focus-width-mm 48 --focus-depth-mm 18 --camera-distance-mm 360 --view-cone-deg 20"
 views(f"--grid 8x1 --view-size 60x40 {ROW} --views-as npy -o row")
-views(f"--view-size 60x40 {ROW} -o quilt_qs4x2a1.5.npy")
+views(f"--view-size 60x40 {ROW} --cone bins -o quilt_qs4x2a1.5.npy")
 quilt = np.load(folder / "quilt_qs4x2a1.5.npy")
 checks.that(quilt.shape == (80, 240, 3), f"{quilt.shape}")
 for k in range(8):
@@ -67,10 +68,77 @@ of_row, _, _ = eia("--views row")
 of_quilt, said, _ = eia("--views quilt_qs4x2a1.5.npy")
 checks.that(same(of_row, of_quilt) and of_row.max() > 0.1, "a quilt differs from the row of its views")
 checks.that(said["views"]["form"] == "quilt" and said["views"]["columns"] == 8 and said["views"]["rows"] == 1, f"{said}")
+# By default a quilt's cameras stand from one end of the cone to the other; the file beside it says so, and reads back.
+views(f"--view-size 60x40 {ROW} -o ends_qs4x2a1.5.npy")
+text = (folder / "ends_qs4x2a1.5.toml").read_text()
+x = [float(v) for v in text.split("camera_x_mm = [")[1].split("]")[0].split(",")]
+checks.that(np.allclose(x, [360 * np.tan(np.radians(20) * (i / 7 - 0.5)) for i in range(8)], rtol=1e-12), f"cameras at {x}")
+checks.that('view_cone_deg = 20, cone = "ends"' in text, f"how the cameras stand is not said: {text}")
+at_ends, said, _ = eia("--views ends_qs4x2a1.5.npy")
+checks.that(abs(said["views"]["cameras_width_mm"] - 2 * 360 * np.tan(np.radians(10))) < 1e-9, f"{said}")
+(folder / "ends_qs4x2a1.5.toml").write_text("schema = 1\nview_cone_deg = 20\n" + text[text.index("distance_mm"):])
+checks.that(same(eia("--views ends_qs4x2a1.5.npy")[0], at_ends), "view_cone_deg of a quilt is not from end to end")
+checks.that(not same(eia("--views ends_qs4x2a1.5.npy --cone bins")[0], at_ends), "--cone does nothing")
 # Without the file beside it the name must do, and what is assumed is said.
 shutil.copy(folder / "quilt_qs4x2a1.5.npy", folder / "bare_qs4x2a1.5.npy")
 _, said, err = eia("--views bare_qs4x2a1.5.npy")
 checks.that("40 degrees" in err and "viewing distance" in err, f"assumed silently: {err}")
+
+# A display by its calibration takes the view of a quilt that the published formula gives it, floor(n (1 - frac(phase))): exactly in the
+# middle of each view's part, by linear mixing of two between; none is black, with any gap, and none is warned of. Spare columns and rows
+# of pixels (red) belong to no view, a full alpha channel is none.
+UNIT = {"pitch": 79.4, "slope": -6.41, "center": -0.217, "DPI": 480, "screenW": 360, "screenH": 240, "viewCone": 54}
+(folder / "cone54.json").write_text(json.dumps(UNIT))
+COLUMNS, ROWS, w, h = 11, 6, 12, 8
+n = COLUMNS * ROWS
+codes = np.zeros((ROWS * h + 5, COLUMNS * w + 7, 4), np.uint8)
+codes[..., 0] = codes[..., 3] = 255
+for k in range(n):
+    left, top = k % COLUMNS * w, codes.shape[0] - (k // COLUMNS + 1) * h
+    codes[top:top + h, left:left + w, :3] = 3 * k + 20
+Image.fromarray(codes).save(folder / "own_qs11x6a1.5.png")
+column, row, channel = np.meshgrid(np.arange(UNIT["screenW"]), np.arange(UNIT["screenH"])[::-1], np.arange(3), indexing="xy")
+cycles = UNIT["pitch"] * UNIT["screenW"] / UNIT["DPI"] * np.cos(np.arctan(1 / UNIT["slope"]))
+phase = ((column + 0.5 + channel / 3) / UNIT["screenW"] + (row + 0.5) / UNIT["screenH"] * UNIT["screenH"] / (UNIT["screenW"] * UNIT["slope"])) * cycles - UNIT["center"]
+place = n * (1 - (phase - np.floor(phase)))  # view k is from k to k + 1
+decode = lambda code: np.where(code <= 0.04045 * 255, code / 255 / 12.92, ((code / 255 + 0.055) / 1.055) ** 2.4)
+low = np.clip(np.floor(place - 0.5), 0, n - 1)
+share = np.clip(place - 0.5 - low, 0, 1)
+wanted = decode(3 * low + 20) * (1 - share) + decode(3 * np.minimum(low + 1, n - 1) + 20) * share
+at_border = np.minimum(place, n - place) < 1e-3  # of two elemental images, which of them has the subpixel is a matter of rounding
+for options in ("", "--gap-mm 0.4", "--index 1.7"):
+    program.must(f"import cone54.json {options} -o cone54.toml --force")
+    shown, said, err = eia("--views own_qs11x6a1.5.png", "cone54.toml")
+    wrong = np.abs(shown - wanted)[~at_border].max()
+    checks.that(wrong < 2e-4, f"{options}: a subpixel of a quilt is off by {wrong} of light")
+    checks.that(said["views"]["beside_cameras"] == 0 and said["views"]["beside_focus"] == 0, f"{options}: {said['views']}")
+    checks.that("rightmost 7 columns" in err and "uppermost 5 rows" in err and "cone" not in err and "distance" not in err, f"{options}: {err}")
+program.must("import cone54.json -o cone54.toml --force")
+for options, width in (("--view-cone-deg 40", 2 * np.tan(np.radians(20))), ("--cone bins", 2 * np.tan(np.radians(27) * 65 / 66)), ("--cone ends", 2 * np.tan(np.radians(27)))):
+    said = eia(f"--views own_qs11x6a1.5.png {options}", "cone54.toml")[1]["views"]
+    checks.that(abs(said["cameras_width_mm"] / said["camera_distance_mm"] / width - 1) < 1e-9, f"{options}: {said}")
+codes[3, 4, 3] = 254
+Image.fromarray(codes).save(folder / "clear_qs11x6a1.5.png")
+checks.refused(program, "a clear pixel", "eia cone54.toml --views clear_qs11x6a1.5.png -o x.png", "transparency", "column 4, row 3")
+
+# ROW_COLUMN names, and the doubt of light that is codes.
+for k in range(9):
+    shutil.copy(folder / f"png/view_000{k}.png", folder / f"{k // 3:03}_{k % 3:03}.png")
+(folder / "rowcol").mkdir()
+for k in range(9):
+    (folder / f"{k // 3:03}_{k % 3:03}.png").rename(folder / f"rowcol/{k // 3:03}_{k % 3:03}.png")
+by_names, said, err = eia(f"--views rowcol {GRID}")
+checks.that(said["views"]["form"] == "ROW_COLUMN names" and "ROW_COLUMN" in err, f"{said} {err}")
+checks.that(same(by_names, eia("--views png")[0]), "names by row and column are another grid")
+np.save(folder / "codes.npy", np.full((48, 88, 3), 128, np.uint8))
+np.save(folder / "codes_float.npy", np.full((48, 88, 3), 128, np.float32))
+Image.fromarray(np.full((48, 88, 4), (128, 128, 128, 255), np.uint8)).save(folder / "codes.png")
+seen = {}
+for name in ("codes.npy", "codes.png", "codes_float.npy"):
+    code, _, err = program.run(f"render tiny.toml --panel-image {name} -o seen.npy {QUIET}")
+    checks.that(code == 0 and ("white is 1" in err) == (name == "codes_float.npy"), f"{name}: {code} {err}")
+    seen[name] = np.load(folder / "seen.npy")
+checks.that(same(seen["codes.npy"], seen["codes.png"]), "uint8 of an .npy are not the codes of a PNG")
 
 # Reversed views are pseudoscopic; the flag and the key reverse them again.
 shutil.copytree(folder / "row", folder / "reversed")
@@ -193,7 +261,9 @@ code, _, err = program.run("eia tiny.toml --views wide -o never.png")
 checks.that(code == 2 and "input_Cam000.png: is 240 x 160 pixels" in err and "3 times as wide as high" in err, f"shape of HCI 4D: {code} {err!r}")
 shutil.copy(folder / "quilt_qs4x2a1.5.npy", folder / "quilt_qs3x2a1.5.npy")
 checks.that("80 x 40" in eia("--views quilt_qs3x2a1.5.npy")[2], "views are stretched silently")
-for name, said in (("quilt_qs7x2a1.5.npy", "238"), ("quilt_qs0x2a1.5.npy", "0 x 2")):
+shutil.copy(folder / "quilt_qs4x2a1.5.npy", folder / "quilt_qs7x2a1.5.npy")
+checks.that("rightmost 2 columns" in eia("--views quilt_qs7x2a1.5.npy")[2], "spare columns are passed over silently")
+for name, said in (("quilt_qs300x1a1.5.npy", "fewer than the 300 x 1"), ("quilt_qs0x2a1.5.npy", "0 x 2")):
     shutil.copy(folder / "quilt_qs4x2a1.5.npy", folder / name)
     code, _, err = program.run(f"eia tiny.toml --views {name} -o never.png")
     checks.that(code == 2 and name in err and said in err, f"{name}: {code} {err!r}")

@@ -47,6 +47,56 @@ TEST(Calibration, ReadsPlainAndWrappedNumbers) {
     EXPECT_FALSE(is_calibration("[1, 2]", "x"));
 }
 
+// As the maker's service and its libraries hand calibrations out: with other things around them, as text, with small letters.
+TEST(Calibration, IsFoundWhereverItStands) {
+    const Json json = published_unit();
+    Json small = json, other = json;
+    small["cellPatternMode"] = small["CellPatternMode"];
+    small["dPI"] = small["DPI"];
+    small.erase("CellPatternMode");
+    small.erase("DPI");
+    other["serial"] = "ANOTHER";
+    Json devices, config, text, twice, two;
+    devices["error"] = 0;
+    devices["devices"][0]["hwid"] = "X01";
+    devices["devices"][0]["calibration"] = json;
+    devices["devices"][0]["defaultQuilt"]["tileX"] = 11;
+    config["configValue"] = json;
+    text["payload"]["0"]["calibration"]["value"] = json.dump();
+    twice["a"] = twice["b"] = json;
+    two["devices"][0]["calibration"] = json;
+    two["devices"][1]["calibration"] = other;
+    const Calibration wanted = parse_calibration(json.dump(), "x");
+    for (const auto& [wrapped, place] : {std::pair(devices, "devices[0].calibration"),
+                                         {config, "configValue"},
+                                         {text, "payload.0.calibration.value"},
+                                         {small, ""},
+                                         {twice, "a"}}) {
+        ASSERT_TRUE(is_calibration(wrapped.dump(), "x")) << place;
+        const Calibration c = parse_calibration(wrapped.dump(), "x");
+        EXPECT_EQ(c.place, place);
+        EXPECT_EQ(c.pitch_per_inch, wanted.pitch_per_inch);
+        EXPECT_EQ(c.cells, wanted.cells);
+        EXPECT_EQ(c.cell_pattern, wanted.cell_pattern);
+        EXPECT_EQ(c.view_cone_deg, wanted.view_cone_deg);
+        if (c.place.empty())
+            EXPECT_EQ(c.notes, wanted.notes);
+        else
+            EXPECT_THAT(c.notes, Contains(HasSubstr("stands under " + c.place)));
+    }
+    EXPECT_THAT(calibration_refused(two.dump()),
+                testing::AllOf(HasSubstr("holds 2 calibrations"), HasSubstr("devices[0].calibration"),
+                               HasSubstr("devices[1].calibration (ANOTHER)")));
+    Json bad = devices;
+    bad["devices"][0]["calibration"].erase("pitch");
+    EXPECT_THAT(calibration_refused(bad.dump()), HasSubstr("visual.json: devices[0].calibration: pitch: is missing"));
+}
+
+TEST(Calibration, KeepsTheViewConeForQuilts) {
+    EXPECT_EQ(imported(some_unit()).display.content.view_cone_deg, 42);
+    EXPECT_THAT(write_imported(imported(some_unit()), {}, ""), HasSubstr("view_cone_deg = 42"));
+}
+
 TEST(Calibration, MakesPanelLensesAndEye) {
     const Display d = imported(some_unit()).display;
     EXPECT_EQ(d.panel.pixel_pitch_mm, 25.4 / 310);
@@ -171,8 +221,9 @@ TEST(Calibration, NamesTheKeyThatIsWrong) {
     }
     EXPECT_THAT(calibration_refused(with_cells(some_unit(), 3, delta_cells()).dump()),
                 HasSubstr("subpixelCells: has 2, but CellPatternMode 3 repeats 4"));
-    EXPECT_THAT(calibration_refused("{}"), HasSubstr("pitch: is missing"));
-    EXPECT_THAT(calibration_refused("[]"), HasSubstr("is no calibration"));
+    EXPECT_THAT(calibration_refused(R"({"slope": 6})"), HasSubstr("pitch: is missing"));
+    for (const char* nothing : {"{}", "[]", "7", R"({"configValue": "{"})"})
+        EXPECT_THAT(calibration_refused(nothing), HasSubstr("is no calibration"));
 }
 
 TEST(Calibration, RefusesWhatTheRequestMakesImpossible) {
@@ -194,6 +245,8 @@ TEST(Calibration, StandsHostileFiles) {
     const std::size_t deep = 250000;
     EXPECT_THAT(calibration_refused(R"({"pitch": )" + std::string(deep, '[') + std::string(deep, ']') + "}"),
                 HasSubstr("pitch: array is not a finite number"));
+    EXPECT_THAT(calibration_refused(R"({"a": )" + std::string(deep, '[') + std::string(deep, ']') + "}"),
+                HasSubstr("is no calibration"));
     EXPECT_THAT(calibration_refused(std::string((1 << 20) + 1, ' ')), HasSubstr("1048576"));
     EXPECT_THAT(calibration_refused(R"({"pitch": 1e999})"), HasSubstr("is no JSON"));
 }

@@ -136,7 +136,7 @@ TEST_F(ViewsSourceTest, StanfordArchive) {
     EXPECT_THAT(refused(folder), HasSubstr("row 1, column 1 is missing"));
 }
 
-// NAME_qs8x6a0.75: counted from the bottom left; cameras at equal angles, as the devices' software has them.
+// NAME_qs8x6a0.75: counted from the bottom left; cameras at equal angles from one end of the cone to the other.
 TEST_F(ViewsSourceTest, Quilt) {
     const fs::path file = folder / "portrait_qs8x6a0.75.png";
     write(file.filename());
@@ -150,7 +150,7 @@ TEST_F(ViewsSourceTest, Quilt) {
     EXPECT_EQ(notes.size(), 2u);  // distance and cone are assumed
     EXPECT_DOUBLE_EQ(grid.height_mm, 200);
     EXPECT_DOUBLE_EQ(grid.width_mm, 150);
-    for (const int i : {0, 17, 47}) EXPECT_NEAR(grid.camera(i, 0)[0], 586 * std::tan(40 * degree * ((i + 0.5) / 48 - 0.5)), 1e-9);
+    for (const int i : {0, 17, 47}) EXPECT_NEAR(grid.camera(i, 0)[0], 586 * std::tan(40 * degree * (i / 47. - 0.5)), 1e-9);
     EXPECT_LT(grid.camera(0, 0)[0], 0);  // the first is the leftmost
 
     EXPECT_THAT(refused(folder / "none_qs8x6a0.75.png"), HasSubstr("no such"));
@@ -165,6 +165,96 @@ TEST_F(ViewsSourceTest, Quilt) {
     ViewsPlace far = place;
     far.viewing_distance_mm = std::numeric_limits<double>::infinity();
     EXPECT_THROW(placed(source, {}, far, 0.75, notes), InputError);
+}
+
+// How cameras divide a cone: as the file says, or the option, which comes first; quilts from end to end, others in equal parts.
+TEST_F(ViewsSourceTest, BothConventionsOfAViewCone) {
+    const auto ends = [](int i, int n, double cone) { return 586 * std::tan(cone * degree * (double(i) / (n - 1) - 0.5)); };
+    const auto bins = [](int i, int n, double cone) { return 586 * std::tan(cone * degree * ((i + 0.5) / n - 0.5)); };
+    const fs::path file = folder / "q_qs3x2a1.5.png";
+    write(file.filename());
+    pictures(0, 6, "view_");
+    const auto x = [&](const fs::path& what, const std::string& toml, const ViewsWish& wish, int i) {
+        write(what == folder ? "views.toml" : "q_qs3x2a1.5.toml", "schema = 1\n" + toml);
+        std::vector<std::string> notes;
+        return placed(find_views(what), wish, place, 1.5, notes).camera(i, 0)[0];
+    };
+    ViewsWish in_bins, at_ends, wide;
+    in_bins.cone = ConeCameras::bins;
+    at_ends.cone = ConeCameras::ends;
+    wide.cone_deg = 54;
+    const std::string row = "columns = 6\nrows = 1\n";
+    for (const int i : {0, 2, 5}) {
+        EXPECT_NEAR(x(file, "", {}, i), ends(i, 6, 40), 1e-9);
+        EXPECT_NEAR(x(file, "", wide, i), ends(i, 6, 54), 1e-9);
+        EXPECT_NEAR(x(file, "", in_bins, i), bins(i, 6, 40), 1e-9);
+        EXPECT_NEAR(x(file, "view_cone_deg = 20\ncone = \"bins\"\n", {}, i), bins(i, 6, 20), 1e-9);
+        EXPECT_NEAR(x(file, "view_cone_deg = 20\ncone = \"bins\"\n", at_ends, i), ends(i, 6, 20), 1e-9);
+        EXPECT_NEAR(x(file, "cone = \"bins\"\n", wide, i), bins(i, 6, 54), 1e-9);
+        EXPECT_NEAR(x(folder, row + "view_cone_deg = 20\n", {}, i), bins(i, 6, 20), 1e-9);
+        EXPECT_NEAR(x(folder, row + "view_cone_deg = 20\ncone = \"ends\"\n", {}, i), ends(i, 6, 20), 1e-9);
+        EXPECT_NEAR(x(folder, row + "view_cone_deg = 20\ndistance_mm = 586\ncone = \"ends\"\n", {}, i), ends(i, 6, 20), 1e-9);
+    }
+    write("views.toml", "schema = 1\n" + row + "baseline_mm = [1, 1]\ncone = \"ends\"\n");
+    EXPECT_THAT(refused(folder), HasSubstr("cone says how cameras stand in a view cone"));
+    write("views.toml", "schema = 1\n" + row + "view_cone_deg = 3\ncone = \"middle\"\n");
+    EXPECT_THAT(refused(folder), HasSubstr("cone"));
+    EXPECT_THROW(x(folder, row + "baseline_mm = [1, 1]\n", at_ends, 0), InputError);
+    EXPECT_EQ(cone_places(1, 40, 500, ConeCameras::ends), std::vector<double>{0});
+    EXPECT_EQ(cone_places(1, 40, 500, ConeCameras::bins), std::vector<double>{0});
+}
+
+// A display's own cone is that of quilts that say nothing of theirs: each view has its part of the zone, wherever its camera stood.
+TEST_F(ViewsSourceTest, QuiltsOfADisplaysOwn) {
+    const fs::path file = folder / "q_qs11x6a0.75.png";
+    write(file.filename());
+    ViewsPlace own = place;
+    own.view_cone_deg = 54;
+    own.zone_width_mm = 600;
+    std::vector<std::string> notes;
+    const ViewGrid grid = placed(find_views(file), {}, own, 0.75, notes);
+    EXPECT_TRUE(notes.empty());  // nothing is assumed
+    for (const int k : {0, 20, 65}) EXPECT_NEAR(grid.camera(k, 0)[0], 600 * ((k + 0.5) / 66 - 0.5), 1e-9);
+    ViewsWish said;
+    said.cone = ConeCameras::bins;
+    EXPECT_NEAR(placed(find_views(file), said, own, 0.75, notes).camera(65, 0)[0], 586 * std::tan(27 * degree * 65 / 66), 1e-9);
+    EXPECT_THAT(notes.back(), HasSubstr("54 degrees"));
+}
+
+// Rows and columns by two numbers, from any number on; in a views.toml the other way round, too.
+TEST_F(ViewsSourceTest, RowColumnNames) {
+    for (int row = 1; row <= 2; ++row)
+        for (int column = 0; column < 3; ++column) write("lf_00" + std::to_string(row) + "_00" + std::to_string(column) + ".png");
+    write("notes.txt");
+    const auto names = [&] {
+        std::string all;
+        for (const fs::path& path : find_views(folder).pictures)
+            all += path.stem().string().substr(5, 1) + path.stem().string().substr(9) + " ";
+        return all;
+    };
+    const ViewsSource source = find_views(folder);
+    EXPECT_EQ(source.form, ViewsForm::row_column);
+    EXPECT_EQ(source.columns, 3);
+    EXPECT_EQ(source.rows, 2);
+    EXPECT_EQ(names(), "10 11 12 20 21 22 ");
+    const auto described = [&](const std::string& more) {
+        write("views.toml", "schema = 1\npictures = \"lf_*_*.png\"\n" + more);
+        return names();
+    };
+    EXPECT_EQ(described("columns = 3\nrows = 2\n"), "10 11 12 20 21 22 ");
+    EXPECT_EQ(described("columns = 3\nrows = 2\nfirst = \"bottom_left\"\n"), "20 21 22 10 11 12 ");
+    EXPECT_EQ(described("columns = 2\nrows = 3\nalong = \"columns\"\n"), "10 20 11 21 12 22 ");
+    write("views.toml", "schema = 1\npictures = \"lf_*_*.png\"\ncolumns = 2\nrows = 3\n");
+    EXPECT_THAT(refused(folder), HasSubstr("2 rows and 3 columns"));
+    write("views.toml", "schema = 1\npictures = \"x_*_*.png\"\ncolumns = 2\nrows = 3\n");
+    EXPECT_THAT(refused(folder), HasSubstr("has no pictures x_*_*.png"));
+    fs::remove(folder / "views.toml");
+    write("other_1_1.png");
+    write("other_1_2.png");
+    EXPECT_THAT(refused(folder), HasSubstr("more than one name"));
+    fs::remove(folder / "other_1_1.png");
+    fs::remove(folder / "lf_001_002.png");
+    EXPECT_THAT(refused(folder), HasSubstr("the picture of row 1, column 2 is missing"));
 }
 
 // Each corner and way in which pictures can be numbered.

@@ -147,6 +147,29 @@ TEST(Exr, RefusesWrongChannelsAndWindows) {
     EXPECT_NE(message().find("display window"), std::string::npos);
 }
 
+TEST(Exr, FullAlphaIsNone) {
+    const test::TemporaryFolder folder;
+    const Box2i box(V2i(0, 0), V2i(3, 3));
+    const auto save = [&](float last) {
+        std::vector<float> light(16, 0.25f), alpha(16, 1.f);
+        alpha[14] = last;
+        Imf::Header header(4, 4);
+        Imf::FrameBuffer frame;
+        for (const char* name : {"R", "G", "B", "A"}) {
+            header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+            frame.insert(name, Imf::Slice::Make(Imf::FLOAT, (*name == 'A' ? alpha : light).data(), box.min, 4, 4));
+        }
+        Imf::OutputFile file((folder / "x.exr").c_str(), header);
+        file.setFrameBuffer(frame);
+        file.writePixels(4);
+    };
+    save(1);
+    EXPECT_EQ(read_image(folder / "x.exr", Encoding::srgb).rgb, std::vector<float>(48, 0.25f));
+    save(0.5f);
+    EXPECT_NE(test::input_error([&] { read_image(folder / "x.exr", Encoding::srgb); }).find("not full at column 2, row 3"),
+              std::string::npos);
+}
+
 TEST(Exr, RefusesValuesThatNoPanelEmits) {
     const test::TemporaryFolder folder;
     for (const float value : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1.0f}) {

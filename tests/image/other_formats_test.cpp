@@ -1,5 +1,6 @@
 // EXR, NPY and JPEG.
 #include "helpers.h"
+#include "image/above_white.h"
 #include "image/encoding.h"
 #include "image/jpeg_memory.h"
 
@@ -75,6 +76,41 @@ TEST(Npy, ReadsDouble) {
     test::save(folder / "d.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1, 3), }\n",
                                      std::string(reinterpret_cast<const char*>(pixel), sizeof pixel)));
     EXPECT_EQ(read_image(folder / "d.npy", Encoding::srgb).rgb, (std::vector<float>{0.1f, 0.2f, 1e10f}));
+}
+
+// As arrays of these types are in Python: codes, of 8 or 16 bits.
+TEST(Npy, WholeNumbersAreCodes) {
+    const test::TemporaryFolder folder;
+    const std::uint8_t bytes[3] = {0, 128, 255};
+    const std::uint16_t shorts[3] = {0, 32768, 65535};
+    const std::string shape = " 'fortran_order': False, 'shape': (1, 1, 3), }\n";
+    test::save(folder / "b.npy", npy("{'descr': '|u1'," + shape, std::string(reinterpret_cast<const char*>(bytes), sizeof bytes)));
+    test::save(folder / "s.npy",
+               npy("{'descr': '<u2'," + shape, std::string(reinterpret_cast<const char*>(shorts), sizeof shorts)));
+    for (const Encoding encoding : {Encoding::srgb, Encoding::linear}) {
+        const std::vector<float>&of_bytes = decode_table(encoding, 8), &of_shorts = decode_table(encoding, 16);
+        EXPECT_EQ(read_image(folder / "b.npy", encoding).rgb, (std::vector<float>{0, of_bytes[128], 1}));
+        EXPECT_EQ(read_image(folder / "s.npy", encoding).rgb, (std::vector<float>{0, of_shorts[32768], 1}));
+    }
+    EXPECT_TRUE(holds_codes(folder / "b.npy"));
+    write_image(folder / "f.npy", Image(1, 1));
+    EXPECT_FALSE(holds_codes(folder / "f.npy"));
+}
+
+// Light above white on a panel is doubted, and codes anywhere; a display's picture may be some times as bright as its mean white.
+TEST(AboveWhite, DoubtsCodesAndPanelsThatShineTooBright) {
+    const auto doubt = [](std::vector<float> light, LightOf of) {
+        return above_white(light.data(), std::int64_t(light.size() / 3), 3, of);
+    };
+    for (const LightOf of : {LightOf::panel, LightOf::picture}) {
+        EXPECT_EQ(doubt({0, 0.5f, 1}, of), "");
+        EXPECT_NE(doubt({0, 128, 64}, of).find("up to 128"), std::string::npos);
+        EXPECT_NE(doubt({0, 128, 64}, of).find("uint8"), std::string::npos);
+        EXPECT_NE(doubt({0, 40000, 64}, of).find("uint16"), std::string::npos);
+        EXPECT_NE(doubt({0, 17.3f, 64.1f}, of).find("codes"), std::string::npos);
+    }
+    EXPECT_NE(doubt({0, 2.5f, 1}, LightOf::panel).find("2.5 times as bright"), std::string::npos);
+    EXPECT_EQ(doubt({0, 2.5f, 1}, LightOf::picture), "");
 }
 
 TEST(Npy, RefusesOtherArrays) {

@@ -102,6 +102,39 @@ TEST(Png, TransparencyIsRefusedWithItsRemedy) {
     }
 }
 
+// Renderers and screenshots write alpha by default: full everywhere, it is no transparency.
+TEST(Png, FullAlphaIsNone) {
+    const test::TemporaryFolder folder;
+    const auto code = [](int channels, unsigned full, bool clear) {
+        return [=](int x, int y, int c) {
+            return c == channels - 1 ? (clear && x == 3 && y == 2 ? full - 1 : full) : unsigned(40 * x + 10 * y + c);
+        };
+    };
+    for (const bool interlaced : {false, true})
+        for (const bool clear : {false, true}) {
+            const ForeignPng pictures[] = {
+                {5, 4, 8, PNG_COLOR_TYPE_RGB_ALPHA, pack(5, 4, 4, 8, code(4, 255, clear)), interlaced},
+                {5, 4, 16, PNG_COLOR_TYPE_RGB_ALPHA, pack(5, 4, 4, 16, code(4, 65535, clear)), interlaced},
+                {5, 4, 8, PNG_COLOR_TYPE_GRAY_ALPHA, pack(5, 4, 2, 8, code(2, 255, clear)), interlaced}};
+            for (const ForeignPng& picture : pictures) {
+                test::save_png(folder / "alpha.png", picture);
+                const auto read = [&] { return read_image(folder / "alpha.png", Encoding::srgb); };
+                if (clear) {
+                    const std::string message = test::input_error(read);
+                    EXPECT_NE(message.find("not full at column 3, row 2"), std::string::npos) << message;
+                    continue;
+                }
+                const std::vector<float>& table = decode_table(Encoding::srgb, picture.depth);
+                const Image image = read();
+                const bool grey = picture.color_type == PNG_COLOR_TYPE_GRAY_ALPHA;
+                for (int y = 0; y < 4; ++y)
+                    for (int x = 0; x < 5; ++x)
+                        for (int c = 0; c < 3; ++c)
+                            ASSERT_EQ(image.at(x, y)[c], table[std::size_t(40 * x + 10 * y + (grey ? 0 : c))]);
+            }
+        }
+}
+
 // More than one strip of rows, so that the joins between separately compressed parts are read back; all codes occur.
 TEST(Png, EveryCodeSurvivesWritingAndReading) {
     const test::TemporaryFolder folder;

@@ -3,6 +3,7 @@
 import math
 import pathlib
 import unittest
+import warnings
 from unittest import mock
 from typing import Any
 
@@ -36,6 +37,28 @@ class Named(TinyTest):
             bad = good.astype(float)
             bad[7, 5, 1] = value
             self.refused(lfdsim.InputError, f"panel: holds {text} in channel G at column 5, row 7", lfdsim.render, d, bad)
+        # Values of 0 to 255 are no light, and are not shown 128 times as bright as white without a word.
+        codes = np.full((48, 88, 3), 128, np.uint8)
+        for doubtful, remedy in [
+            (codes.astype(np.float32), r"panel holds light of up to 128, and white is 1: .*panel\.astype\(numpy\.uint8\)"),
+            (codes * 77.0 + 0.25, r"up to 9856.25, .*uint16"),
+            (codes / 100.0, r"up to 1.28, .*divide by the greatest"),
+        ]:
+            for call in (lfdsim.render, lfdsim.Panel, lfdsim.panel_codes):
+                with self.assertWarnsRegex(lfdsim.LfdsimWarning, remedy):
+                    call(d, doubtful)
+        with self.assertWarnsRegex(lfdsim.LfdsimWarning, "a holds light of up to 128"):
+            lfdsim.compare(codes.astype(float), codes)
+        with self.assertWarnsRegex(lfdsim.LfdsimWarning, "picture holds light of up to 128"):
+            lfdsim.png(codes.astype(float))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            lfdsim.compare(codes / 100.0, codes)  # what a display shows may be brighter than its mean white
+            opaque = np.concatenate([codes, np.full((48, 88, 1), 255, np.uint8)], axis=2)
+            np.testing.assert_array_equal(lfdsim.render(d, opaque), lfdsim.render(d, codes))
+        opaque[5, 7, 3] = 254
+        self.refused(lfdsim.InputError, "its alpha is not full everywhere", lfdsim.render, d, opaque)
+        self.refused(TypeError, r"panel holds int64.*panel\.astype\(numpy\.uint8\)", lfdsim.render, d, codes.astype(int))
         huge = np.broadcast_to(np.float32(0), (10**7, 10**6, 3))  # without memory of its own
         self.refused(lfdsim.InputError, "panel: .*10000000.*pixels|memory", lfdsim.render, d, huge)
         self.refused(lfdsim.InputError, "more than this machine's memory|pixels", lfdsim.compare, huge, huge)

@@ -43,7 +43,7 @@ def main():
         for n in map(int, (arguments.quilts or arguments.grids).split(",")):
             if arguments.quilts:
                 views = folder / f"quilt_qs{n}x1a1.5.exr"
-                run("views", arguments.display, "--view-size", arguments.view_size, "-o", views)
+                run("views", arguments.display, "--cone", "bins", "--view-size", arguments.view_size, "-o", views)
             else:
                 views = folder / f"grid{n}"
                 run("views", arguments.display, "--grid", f"{n}x{n}", "--view-size", arguments.view_size, "--views-as", "exr",
