@@ -85,13 +85,13 @@ def _warn_above(light: NDArray[np.float32], name: str, white: float) -> None:
         greatest = float(light.max())
     if not 1.001 < greatest < np.inf or np.isnan(greatest):
         return
-    whole = bool((light == np.floor(light)).all())
-    if not whole and greatest <= white * 1.001:
+    integers = bool((light == np.floor(light)).all())
+    if not integers and greatest <= white * 1.001:
         return
     bits = 16 if greatest > 255 else 8
     remedy = (
         f"if these are codes of 0 to {2**bits - 1}, give {name}.astype(numpy.uint{bits}), which is decoded"
-        if whole or greatest > 16
+        if integers or greatest > 16
         else "divide by the greatest value"
     )
     warnings.warn(f"{name} holds light of up to {greatest:.6g}, and white is 1: it is taken as it is; {remedy}", LfdsimWarning, stacklevel=4)
