@@ -166,8 +166,8 @@ const aiImporterDesc* GltfLoader::GetInfo() const {
 void GltfLoader::InternReadFile(const std::string& file, aiScene* scene, Assimp::IOSystem* io) {
     auto bytes = whole_file(*io, file);
     if (!bytes) throw std::runtime_error("it cannot be opened");
-    const auto open = [&](const std::string& name) -> std::optional<std::string> {
-        const auto path = folder_.find(name);
+    const auto open = [&](const std::string& wanted) -> std::optional<std::string> {
+        const auto path = folder_.find(wanted);
         return path ? whole_file(*io, path->string()) : std::nullopt;
     };
     read_gltf(std::move(*bytes), open, *scene, not_shown_);

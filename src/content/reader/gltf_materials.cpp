@@ -53,7 +53,7 @@ unsigned GltfMaterials::index(const Item& number, NotShown& not_shown) {
     const Item extensions = from->at("extensions"), metal = from->at("pbrMetallicRoughness"),
                gloss = extensions.at("KHR_materials_pbrSpecularGlossiness");
     const auto factor = (gloss.is_there() ? gloss.at("diffuseFactor") : metal.at("baseColorFactor")).numbers<4>({1, 1, 1, 1});
-    const aiColor4D colour(float(factor[0]), float(factor[1]), float(factor[2]), 1);
+    const aiColor4D colour{float(factor[0]), float(factor[1]), float(factor[2]), 1};
     to.AddProperty(&colour, 1, AI_MATKEY_BASE_COLOR);
     add_texture(gloss.is_there() ? gloss.at("diffuseTexture") : metal.at("baseColorTexture"), to);
 
