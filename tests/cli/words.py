@@ -127,6 +127,23 @@ if b"__asan_init" not in open(program.path, "rb").read():
 code, _, err = program.run("eia tiny.toml --model slow.ply -o a.png")
 checks.that(code == 2 and "60 s" not in err and "slow.ply: cannot be read as a model" in err, f"slow.ply: {code} {err}")
 
+# The time that reading may take depends on the size of what is read. The reader waits with more in its hands than a pipe holds.
+def seconds_for(path):
+    reader = subprocess.Popen([os.path.join(os.path.dirname(program.path), "lfdsim-model-reader"), "picture", path, str(1 << 32), "60", ""],
+                              cwd=folder, stdout=subprocess.PIPE)
+    reader.stdout.read(1)
+    with open(f"/proc/{reader.pid}/limits") as limits:
+        soft = next(line.split()[3] for line in limits if line.startswith("Max cpu time"))
+    reader.kill()
+    reader.communicate()
+    return int(soft)
+
+
+program.must("eia tiny.toml --pattern checkerboard -o small.png --set panel.pixels=[240,135] --set panel.pixel_pitch_mm=0.2 --progress none")
+(folder / "heavy.png").write_bytes((folder / "small.png").read_bytes() + bytes(1_000_000))
+small, heavy = seconds_for("small.png"), seconds_for("heavy.png")
+checks.that(small <= 30 < 60 and small + 10 <= heavy <= 60, f"reading may take {small} s of a small file, {heavy} s of one of a megabyte")
+
 # A picture whose decoder has no words for what is wrong, and a file that may not be read.
 (folder / "flag.png").write_bytes(b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sIIBBBBBI", 13, b"IHDR", 96, 60, 8, 2, 0, 0, 0, 0) + b"\xff\xff\xff\xffIDATx")
 (folder / "flag.toml").write_text(tiny + '\n[[content.object]]\nimage = "flag.png"\nheight_mm = 3.0\n')
