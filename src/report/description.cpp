@@ -129,8 +129,7 @@ std::vector<Figure> figures(const Display& d, const Theory& t) {
         return near ? "its end, at infinity" : "its other end, at infinity";
     };
     std::vector<Figure> all{
-        {"fov_deg", along(&AxisTheory::fov_deg), "field of view of one lens, by its pitch: the cone in which an eye may move",
-         "2 atan(p / 2g)"},
+        {"fov_deg", along(&AxisTheory::fov_deg), "field of view of one lens, where an eye may move", "2 atan(p / 2g)"},
         {"fov_exact_deg", along(&AxisTheory::fov_exact_deg), "the same through the layers on the panel, which theory has paraxial",
          "Snell's law, from p'/2 on the panel to the axis at the lens",
          "a glass lens has aberrations, which analyze fov counts in"},
@@ -140,7 +139,7 @@ std::vector<Figure> figures(const Display& d, const Theory& t) {
          "2 atan(p / (2 g cos(slant)))",
          "only strips are turned against what they show"},
         {"fov_elemental_deg", along(&AxisTheory::fov_elemental_deg),
-         "the same by whole elemental images, wider for near eyes: what lfdsim new --fov-deg means", "2 atan(p' / 2g)"},
+         "the same by whole elemental images: what lfdsim new --fov-deg means", "2 atan(p' / 2g)"},
         {"focal_length_mm", {t.focal_length_mm}, "f, focal length of a lens", "paraxial, of the lens's surfaces in air", pinhole},
         {"gap_mm", {t.gap_mm}, "g, gap", "panel to the front principal plane, layers by thickness / index"},
         {"central_depth_mm",
