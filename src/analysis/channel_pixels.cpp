@@ -21,10 +21,10 @@ std::vector<LightPath> light_paths(const Display& d, const Geometry& green, std:
 ChannelPixels::ChannelPixels(const Display& d, std::size_t channel) {
     for (const LitPart& lit : lit_parts(d.panel)) {
         if (lit.channel != 3 && lit.channel != int(channel)) continue;
-        const auto [column, row] = lit.plane.pixel;
+        const double column = lit.plane.pixel[0], row = lit.plane.pixel[1];
         Place middle{};
-        if (made_by_channel(d)) middle = centroid(d.panel, int(channel), column, row).value_or(middle);
-        parts_.push_back({lit, {column + 0.5 + middle[0], row + 0.5 + middle[1]}});
+        if (made_by_channel(d)) middle = centroid(d.panel, int(channel), lit.plane.pixel[0], lit.plane.pixel[1]).value_or(middle);
+        parts_.push_back({lit, {column + 0.5 + middle[0], row + 0.5 + middle[1]}, {column, row}});
     }
 }
 
@@ -37,14 +37,17 @@ std::optional<ChannelPixels::Shining> ChannelPixels::at(const Place& place) cons
             corner[k] = std::floor(place[k] / cell) * cell;
             inside = inside && place[k] - corner[k] >= part.lit.from[k] && place[k] - corner[k] < part.lit.to[k];
         }
-        if (inside) return Shining{part.lit.brightness(), {corner[0] + part.shown[0], corner[1] + part.shown[1]}};
+        if (inside) {
+            const auto from_corner = [&](const Place& p) { return Place{corner[0] + p[0], corner[1] + p[1]}; };
+            return Shining{part.lit.brightness(), from_corner(part.shown), from_corner(part.pixel)};
+        }
     }
     return {};
 }
 
 std::complex<double> ChannelPixels::wave(double nu_x, double nu_y) const {
     std::complex<double> sum = 0;
-    for (const auto& [lit, shown] : parts_) {
+    for (const auto& [lit, shown, pixel] : parts_) {
         const double off_x = 0.5 * (lit.from[0] + lit.to[0]) - shown[0], off_y = 0.5 * (lit.from[1] + lit.to[1]) - shown[1];
         sum += std::polar(lit.share, 2 * pi * (nu_x * off_x + nu_y * off_y)) * sinc(nu_x * (lit.to[0] - lit.from[0])) *
                sinc(nu_y * (lit.to[1] - lit.from[1]));
@@ -54,21 +57,21 @@ std::complex<double> ChannelPixels::wave(double nu_x, double nu_y) const {
 
 ChannelPixels::Place ChannelPixels::middle() const {
     Place sum{};
-    for (const auto& [lit, shown] : parts_)
+    for (const auto& [lit, shown, pixel] : parts_)
         for (std::size_t k = 0; k < 2; ++k) sum[k] += lit.share * (0.5 * (lit.from[k] + lit.to[k]) - shown[k]);
     return sum;
 }
 
 double ChannelPixels::narrowest(double x, double y) const {
     double width = 1;
-    for (const auto& [lit, shown] : parts_)
+    for (const auto& [lit, shown, pixel] : parts_)
         width = std::min(width, std::max(std::abs(x) * (lit.to[0] - lit.from[0]), std::abs(y) * (lit.to[1] - lit.from[1])));
     return width;
 }
 
 double ChannelPixels::gain() const {
     double most = 0;
-    for (const auto& [lit, shown] : parts_) most = std::max(most, lit.brightness());
+    for (const auto& [lit, shown, pixel] : parts_) most = std::max(most, lit.brightness());
     return most;
 }
 

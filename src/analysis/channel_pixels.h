@@ -33,6 +33,7 @@ class ChannelPixels {
     struct Shining {
         double brightness;  // over the pixel's own light: white is 1 in the mean
         Place shown;        // the point for which the content of the pixel that shines here is made
+        Place pixel;        // its column and row, perhaps off the panel
     };
     /// Nothing where the channel does not shine. A subpixel that belongs to a pixel off the panel counts like the others.
     std::optional<Shining> at(const Place&) const;
@@ -52,7 +53,7 @@ class ChannelPixels {
   private:
     struct Part {
         LitPart lit;
-        Place shown;  // from the corner of the cell that it lies in
+        Place shown, pixel;  // from the corner of the cell that it lies in
     };
     std::vector<Part> parts_;
 };

@@ -1,15 +1,11 @@
 #include "analysis/meant_theory.h"
 
-#include "analysis/meant_light.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace lfdsim {
 namespace {
-
-constexpr int lines_summed = 1 << 15;
 
 /// A place in the clear aperture of a lens, from the array's middle in its own axes; nothing for what is in the box about it only.
 std::optional<optics::Place<double>> in_aperture(const Geometry& g, const ApertureShape& shape, const Choice& c) {
@@ -26,41 +22,26 @@ std::optional<optics::Place<double>> in_aperture(const Geometry& g, const Apertu
 }  // namespace
 
 MeantTheory::MeantTheory(const Subject& s, double distance_mm)
-    : subject_(s),
-      distance_mm_(distance_mm),
-      spread_(s, distance_mm - s.geometry().rear_principal_mm),
-      pickup_(s.display(), s.geometry()) {
-    if (s.display().lens.is_thin() && !s.geometry().layers.empty()) choices_ = even_choices(lines_summed);
-}
+    : subject_(s), distance_mm_(distance_mm), aperture_(aperture_shape(s.display(), s.geometry())) {}
 
-double MeantTheory::meant(double x_mm, double low, double high) const {
-    return choices_.empty() ? spread_.meant(x_mm, low, high) : sum(x_mm, low, high);
-}
-
-double MeantTheory::sum(double x_mm, double low, double high) const {
+MetPlaces MeantTheory::look(double x_mm, const LineSets& sets) const {
     const Geometry& g = subject_.geometry();
     const ParaxialLines lines(subject_.display(), g, {x_mm, 0, distance_mm_});
-    const ApertureShape shape = aperture_shape(subject_.display(), g);
     const PanelBehind panel(g);
-    int found = 0, all = 0;
-    for (const Choice& c : choices_) {
-        const auto place = in_aperture(g, shape, c);
-        if (!place) continue;
-        const auto lands = optics::in_display(g.lattice, *place);
-        const auto aim = lines.aim_at(lands.x, lands.y, c[2], c[3]);
-        if (!aim) continue;
-        const auto aimed = optics::to_array(g.lattice, aim->x - g.lattice.offset[0], aim->y - g.lattice.offset[1]);
-        if (std::abs(aimed.x) > 0.5 * g.array_width_mm || std::abs(aimed.y) > 0.5 * g.array_height_mm) continue;
-        if (!panel.meets({x_mm, 0, distance_mm_}, aim->x, aim->y)) continue;
-        const auto line = lines.look(aim->x, aim->y, c[2], c[3]);
-        if (!line || !line->through || !lines.on_panel(line->seen)) continue;
-        const auto seen = optics::in_display(g.lattice, line->seen);
-        const auto slope = meant_slope(pickup_, g, seen.x, seen.y);
-        if (!slope) continue;
-        ++all;
-        found += low <= *slope && *slope <= high;
-    }
-    return all > 0 ? double(found) / all : 0;
+    return {sets, 1, [&](const Choice& c, std::size_t) -> std::optional<MetPlaces::Met> {
+                const auto place = in_aperture(g, aperture_, c);
+                if (!place) return {};
+                const auto lands = optics::in_display(g.lattice, *place);
+                const auto aim = lines.aim_at(lands.x, lands.y, c[2], c[3]);
+                if (!aim) return {};
+                const auto aimed = optics::to_array(g.lattice, aim->x - g.lattice.offset[0], aim->y - g.lattice.offset[1]);
+                if (std::abs(aimed.x) > 0.5 * g.array_width_mm || std::abs(aimed.y) > 0.5 * g.array_height_mm) return {};
+                if (!panel.meets({x_mm, 0, distance_mm_}, aim->x, aim->y)) return {};
+                const auto line = lines.look(aim->x, aim->y, c[2], c[3]);
+                if (!line || !line->through || !lines.on_panel(line->seen)) return {};
+                const auto seen = optics::in_display(g.lattice, line->seen);
+                return MetPlaces::Met{seen.x, seen.y, 1};
+            }};
 }
 
 }  // namespace lfdsim

@@ -21,9 +21,9 @@ double even_below(double x, double width) { return width > 0 ? std::clamp(x / wi
 
 SlopeSpread::SlopeSpread(const Subject& s, double eye, int axis)
     : eye_mm_(eye),
-      field_(s.theory(axis).elemental_pitch_mm / s.geometry().gap_mm),
       array_mm_(screen_size_mm(s.geometry())[std::size_t(axis)]),
-      aperture_slopes_(s.geometry().clear_aperture_mm[std::size_t(axis)] * std::abs(1 / eye - 1 / s.theory().central_depth_mm)),
+      aperture_slopes_(s.geometry().clear_aperture_mm[std::size_t(axis)] *
+                       std::abs(1 / eye - 1 / s.geometry().focal_length_mm + 1 / s.geometry().gap_mm)),
       round_((s.display().array.aperture == Aperture::circle || s.display().lens.stop_radius_mm) && !is_strips(s.display().array)),
       half_rad_(0),
       above_mm_(0),
@@ -32,12 +32,9 @@ SlopeSpread::SlopeSpread(const Subject& s, double eye, int axis)
     const Geometry& g = s.geometry();
     const double made_for = s.display().content.viewing_distance_mm - g.rear_principal_mm;
     lens_slopes_per_mm_ = 1 / made_for - 1 / eye;
-    if (g.lattice.strips) {  // along the panel's rows, which cross them obliquely; their views are of whole pixels
-        const double c = g.lattice.cos_turn, pixel = s.display().panel.pixel_pitch_mm / g.gap_mm;
-        field_ /= c;
-        aperture_slopes_ /= c;
-        array_mm_ = std::min(array_mm_ / c, g.panel_width_mm);
-        pixel_slopes_ = {pixel, pixel * std::abs(g.lattice.sin_turn / c)};
+    if (g.lattice.strips) {  // along the panel's rows, which cross them obliquely
+        aperture_slopes_ /= g.lattice.cos_turn;
+        array_mm_ = std::min(array_mm_ / g.lattice.cos_turn, g.panel_width_mm);
     }
     const auto& diffuser = s.display().diffuser;
     if (!diffuser) return;
@@ -64,20 +61,6 @@ SlopeSpread::Spread SlopeSpread::lenses() const {
     return {-0.5 * width, 0.5 * width, [width](double x) { return even_below(x, width); }};
 }
 
-/// From the slope that a pixel's centre is meant for to that of a point in it: along its row, and up it, which counts where strips
-/// lean. The sum of two even spreads.
-SlopeSpread::Spread SlopeSpread::pixel() const {
-    const auto [u, v] = pixel_slopes_;
-    if (u <= 0) return {0, 0, [](double x) { return x < 0 ? 0. : x > 0 ? 1. : 0.5; }};
-    const double most = 0.5 * (u + v), least = 0.5 * (u - v);
-    return {-most, most, [=, u = u, v = v](double x) {
-                if (v < 1e-9 * u) return even_below(x, u);
-                const auto square = [](double z) { return z > 0 ? z * z : 0.; };
-                const double y = std::min(x, most);
-                return (square(y + most) - square(y + least) - square(y - least) + square(y - most)) / (2 * u * v);
-            }};
-}
-
 /// Share of the light that the diffuser turns by less than an angle.
 double SlopeSpread::turned_less(double angle) const {
     if (box_) return even_below(angle, 2 * half_rad_);
@@ -100,7 +83,7 @@ SlopeSpread::Spread SlopeSpread::diffuser(double x_mm, double aimed_mm) const {
 }
 
 /// Light between two slopes of the sum of spreads: the widest by its closed form, the others in steps.
-double SlopeSpread::convolved(std::array<const Spread*, 4> spreads, double low, double high) {
+double SlopeSpread::convolved(std::array<const Spread*, 3> spreads, double low, double high) {
     constexpr int steps = 32;
     std::sort(spreads.begin(), spreads.end(), [](const Spread* s, const Spread* t) { return s->high - s->low < t->high - t->low; });
     const auto in_steps = [](const Spread& s) {
@@ -115,36 +98,21 @@ double SlopeSpread::convolved(std::array<const Spread*, 4> spreads, double low, 
     double sum = 0;
     for (const auto& [x, of_x] : in_steps(*spreads[0]))
         for (const auto& [y, of_y] : in_steps(*spreads[1]))
-            for (const auto& [z, of_z] : in_steps(*spreads[2]))
-                sum += of_x * of_y * of_z * (spreads[3]->below(high - x - y - z) - spreads[3]->below(low - x - y - z));
+            sum += of_x * of_y * (spreads[2]->below(high - x - y) - spreads[2]->below(low - x - y));
     return sum;
 }
 
 double SlopeSpread::within(double x_mm, double low, double high) const {
-    const Spread of_aperture = aperture(), of_lenses = lenses(), of_pixel = pixel();
+    const Spread of_aperture = aperture(), of_lenses = lenses();
     double found = 0, all = 0;
     for (int k = 0; k < places_across; ++k) {
         const double aimed = array_mm_ * ((k + 0.5) / places_across - 0.5);
         const Spread of_diffuser = diffuser(x_mm, aimed);
         const double middle = x_mm / eye_mm_ + aimed * lens_slopes_per_mm_;
-        found += convolved({&of_aperture, &of_lenses, &of_diffuser, &of_pixel}, low - middle, high - middle);
+        found += convolved({&of_aperture, &of_lenses, &of_diffuser}, low - middle, high - middle);
         all += of_diffuser.below(1e300);
     }
     return all > 0 ? found / all : 0;
-}
-
-double SlopeSpread::meant(double x_mm, double low, double high) const {
-    constexpr double most_images = 100;
-    const double from = std::max(low, -0.5 * field_), to = std::min(high, 0.5 * field_);
-    if (!(to > from)) return 0;
-    const double reach = std::abs(x_mm) / eye_mm_ + pixel_slopes_[0] + pixel_slopes_[1] +
-                         0.5 * array_mm_ * std::abs(lens_slopes_per_mm_) + aperture_slopes_ +
-                         std::tan(std::min((box_ ? 1 : 4) * half_rad_ + std::atan(array_mm_ / eye_mm_), most_rad));
-    const double first = std::max(std::ceil((-reach - to) / field_), -most_images),
-                 last = std::min(std::floor((reach - from) / field_), most_images);
-    double share = 0;
-    for (double k = first; k <= last; ++k) share += within(x_mm, from + k * field_, to + k * field_);
-    return share;
 }
 
 }  // namespace lfdsim

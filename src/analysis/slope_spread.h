@@ -13,8 +13,8 @@ namespace lfdsim {
 /// - the lens aperture: q (1/E - 1/L), q the place in the aperture;
 /// - the diffuser: (tan(atan m + theta) - m)(d/M - 1), theta its angle, d its distance from that plane; what it turns past the
 ///   array's border is dark;
-/// - the lenses across: X (1/M - 1/E);
-/// - of strips, which a pixel stands askew to: its width a/g and height a tan(slant)/g, from its centre; along the panel's rows.
+/// - the lenses across: X (1/M - 1/E).
+/// 1/L is 1/f - 1/g, of a pinhole -1/g. Of strips all is along the panel's rows.
 class SlopeSpread {
   public:
     /// eye_mm: E, more than 0. Along the array's width, or with axis 1 along its height.
@@ -22,9 +22,6 @@ class SlopeSpread {
 
     /// Share of the light with slopes s from low to high for an eye at x; either end may be infinite.
     double within(double x_mm, double low, double high) const;
-
-    /// The same where light on the elemental image of the k-th neighbour counts as what it is meant for: slopes less by k p'/g.
-    double meant(double x_mm, double low, double high) const;
 
     /// Full width of aperture and diffuser together; of a gaussian diffuser that at half maximum.
     double width() const;
@@ -35,16 +32,14 @@ class SlopeSpread {
         double low, high;
         std::function<double(double)> below;
     };
-    Spread aperture() const, lenses() const, diffuser(double x_mm, double aimed_mm) const, pixel() const;
-    static double convolved(std::array<const Spread*, 4> spreads, double low, double high);
+    Spread aperture() const, lenses() const, diffuser(double x_mm, double aimed_mm) const;
+    static double convolved(std::array<const Spread*, 3> spreads, double low, double high);
     double turned_less(double angle) const;
 
-    double eye_mm_, field_;  // slopes of one elemental image, p'/g
-    double array_mm_, aperture_slopes_, lens_slopes_per_mm_;
+    double eye_mm_, array_mm_, aperture_slopes_, lens_slopes_per_mm_;
     bool round_;
     double half_rad_, above_mm_, diffuser_scale_;  // half the diffuser's angle; its height above the vertex plane; 1 - d/M
     bool box_;
-    std::array<double, 2> pixel_slopes_{};  // of strips, whose views are of whole pixels: a pixel along its row, and up it
 };
 
 }  // namespace lfdsim

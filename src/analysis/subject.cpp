@@ -61,8 +61,9 @@ double Subject::white_field(const Job& job) {
     double sum = 0;
     const Region part = screen.shifted(-box.x0, -box.y0);
     for (std::size_t k = 0; k < part.rows.size(); ++k)
-        for (int x = part.rows[k].from; x < part.rows[k].to; ++x) sum += r.image.at(x, part.top + int(k))[1];  // it is grey
-    const double mean = sum / double(screen.pixels());
+        for (int x = part.rows[k].from; x < part.rows[k].to; ++x)
+            for (int c = 0; c < 3; ++c) sum += r.image.at(x, part.top + int(k))[c];
+    const double mean = sum / (3 * double(screen.pixels()));
     if (!(mean > 0))
         throw InputError("camera", "sees no light of a white panel from straight in front of it, so that nothing can be compared");
     white_field_ = mean;

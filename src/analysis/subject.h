@@ -72,8 +72,9 @@ class Subject {
     /// kept. Throws Stopped.
     const Pyramid& panel(const Job&);
 
-    /// Mean light that the camera, on axis, sees of the array's rectangle when the panel is white: simulated pictures are divided
-    /// by it, so that light lost in lenses and gaps does not count as unlikeness. More than 0. Throws Stopped.
+    /// Mean light that the camera, on axis, sees of the array's rectangle when the panel is white, over all three channels: lenses
+    /// in focus on subpixels show some of them alone. Simulated pictures are divided by it, so that light lost in lenses and gaps
+    /// does not count as unlikeness. More than 0. Throws Stopped.
     double white_field(const Job&);
 
   private:

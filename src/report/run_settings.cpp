@@ -2,17 +2,31 @@
 
 #include "files/display_file.h"
 
+#include <fmt/chrono.h>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 
 namespace lfdsim {
 
+namespace {
+
+/// ISO 8601, to the nanosecond: the clock of files counts from a date of its own.
+std::string time_text(std::filesystem::file_time_type file_time) {
+    const auto time = std::chrono::file_clock::to_sys(file_time);
+    const auto second = std::chrono::floor<std::chrono::seconds>(time);
+    const auto rest = std::chrono::duration_cast<std::chrono::nanoseconds>(time - second).count();
+    return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:09}Z", fmt::gmtime(std::chrono::system_clock::to_time_t(second)), rest);
+}
+
+}  // namespace
+
 Json stamp(const std::string& file) {
     std::error_code error;
     const auto changed = std::filesystem::last_write_time(file, error);
     if (error) return {{"file", file}};
-    return {{"file", file}, {"bytes", std::filesystem::file_size(file, error)}, {"changed", changed.time_since_epoch().count()}};
+    return {{"file", file}, {"bytes", std::filesystem::file_size(file, error)}, {"changed", time_text(changed)}};
 }
 
 Json content_stamp(const Display& display) {

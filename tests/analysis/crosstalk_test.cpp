@@ -15,7 +15,7 @@ constexpr double eye_mm = 600, gap = 8, pitch = 4, pixel = 0.2;
 /// L from the lenses.
 Display display(double central_depth_mm) {
     Display d;
-    d.panel.pixels = {1300, 700};
+    d.panel.pixels = {1301, 700};
     d.panel.pixel_pitch_mm = pixel;
     d.lens.kind = IdealLens{{}, 1 / (1 / gap + 1 / central_depth_mm)};
     d.array.count = {61, 31};
@@ -43,6 +43,26 @@ double below(double x, double a, double b) {
     return (ramp(x + (a + b) / 2) - ramp(x + (b - a) / 2) - ramp(x + (a - b) / 2) + ramp(x - (a + b) / 2)) / (a * b);
 }
 
+/// Share of the light of an eye at x that pixels shine which are meant for slopes from low to high: through each lens it sees
+/// slopes about x/E, the sum of two even spreads, and a pixel is meant for the slope of its centre.
+double meant(double x, double low, double high, double aperture, double diffuser) {
+    constexpr double scale = 1 + gap / eye_mm;
+    double sum = 0;
+    for (int lens = -30; lens <= 30; ++lens) {
+        const double centre = scale * pitch * lens;                                               // of its elemental image
+        const auto border = [&](int column) { return (centre - pixel * (column - 0.5)) / gap; };  // as a slope
+        for (int column = -650; column <= 650; ++column) {
+            const double slope = 0.5 * (border(column) + border(column + 1));
+            const double inside = std::min(slope - low, high - slope);
+            if (std::abs(slope) > 0.5 * scale * pitch / gap || inside < -1e-9) continue;
+            sum += (inside < 1e-9 ? 0.5 : 1) *  // half of what lies on the border of two views
+                   (below(border(column) - x / eye_mm, aperture, diffuser) -
+                    below(border(column + 1) - x / eye_mm, aperture, diffuser));
+        }
+    }
+    return sum / 61;
+}
+
 TEST(Crosstalk, NoneWhereTheLensIsSharpAtTheEye) {
     const Json figures = measured(display(eye_mm)).figures, views = figures.at("between_views"), eyes = figures.at("between_eyes");
     for (const char* name :
@@ -66,8 +86,8 @@ TEST(Crosstalk, OfApertureAndBoxDiffuserIsTheirConvolution) {
                 if (angle > 0) d.diffuser = Diffuser{above, {angle, 2}, Profile::box};
                 const double aperture = pitch * std::abs(1 / eye_mm - 1 / central),
                              diffuser = 2 * std::tan(angle / 2 * degree) * (1 - above / eye_mm), view = pixel / gap;
-                const double signal = below(view / 2, aperture, diffuser) - below(-view / 2, aperture, diffuser);
-                const double leak = 1 - below(apart / 2 / eye_mm, aperture, diffuser);
+                const double signal = meant(0, -view / 2, view / 2, aperture, diffuser);
+                const double leak = meant(-apart / 2, 0, 1, aperture, diffuser);
                 const Json figures = measured(d, apart).figures;
                 const Json views = figures.at("between_views"), eyes = figures.at("between_eyes");
                 const auto near = [&](const Json& json, const std::string& name, double share, double tolerance) {
@@ -76,7 +96,7 @@ TEST(Crosstalk, OfApertureAndBoxDiffuserIsTheirConvolution) {
                     EXPECT_NEAR(found, percent, tolerance * percent + 0.1)
                         << name << " " << central << " " << angle << " " << apart;
                     EXPECT_NEAR(found, theory, error + 0.005 * theory) << name << " " << central << " " << angle << " " << apart;
-                    EXPECT_LT(error, 0.02 * percent + 0.02) << name;
+                    EXPECT_LT(error, 0.03 * percent + 0.03) << name;
                 };
                 near(views, "woods", signal, 0.03);
                 near(eyes, "left_eye", 1 - leak, 0.04);
@@ -84,6 +104,81 @@ TEST(Crosstalk, OfApertureAndBoxDiffuserIsTheirConvolution) {
                 EXPECT_LT(views.at("worst_view_percent"), 3 * double(views.at("woods_percent")) + 1);
             }
         }
+    }
+}
+
+/// Upright lenses `images` pixels wide for eyes at 600 mm, in focus on stripes of red, green and blue.
+Display aligned(int images) {
+    Display d;
+    d.panel.pixels = {240, 20};
+    d.panel.pixel_pitch_mm = 0.155658;
+    d.panel.subpixels = SubpixelLayout::rgb_stripe;
+    d.lens.kind = IdealLens{{}, 1.4368};
+    d.array.lattice = LatticeKind::strips;
+    d.array.pitch_mm = std::round(1e6 * images * 0.155658 * (1 - 1.4368 / 600)) * 1e-6;
+    d.array.gap_mm = 1.4368;
+    d.array.aperture = Aperture::cell;
+    d.camera.position_mm = {0, 0, 600};
+    d.content.viewing_distance_mm = 600;
+    return d;
+}
+
+// Lenses that are aligned with pixels: views are where pixels are, and not where the rounding of a pitch puts halves of them.
+TEST(Crosstalk, OfAlignedLensesIsNone) {
+    for (const int images : {2, 3, 8}) {
+        const Result result = measured(aligned(images));
+        const Json& views = result.figures.at("between_views");
+        for (const Json& found : {views, views.at("other_sampling")}) {
+            EXPECT_LT(found.at("woods_percent"), 0.5) << images;
+            EXPECT_LT(found.at("theory_percent"), 0.5) << images;
+        }
+        EXPECT_LT(views.at("worst_view_percent"), 1.5) << images;
+        EXPECT_GE(views.at("whole_views"), images - 1) << images;
+    }
+}
+
+// Half of E p'/g = 129.69 mm less half of the eyes' distance; what one lens spreads over is 0.3 mm of that.
+TEST(Crosstalk, HeadOfTwoViewsMovesToTheViewsBorder) {
+    const Json eyes = measured(aligned(2)).figures.at("between_eyes"), range = eyes.at("head_within_10_percent_mm"),
+               error = eyes.at("head_within_10_percent_mm_error");
+    for (const std::size_t side : {0u, 1u}) {
+        EXPECT_NEAR(std::abs(range[side].get<double>()), 32.35, error[side].get<double>() + 0.1);
+        EXPECT_LT(error[side], 0.5);
+    }
+}
+
+// On the axis each of these lenses shows red beside blue.
+TEST(Crosstalk, WhiteIsMeasuredInAllColours) {
+    Display d = aligned(2);
+    d.panel.pixels[0] = 40;
+    d.camera.resolution = {80, 45};
+    Subject subject(d, {}, {});
+    EXPECT_NEAR(subject.white_field(Job()), 1, 0.05);
+}
+
+// A pinhole of the radius r before the panel spreads an eye's light evenly over 2 r (1/E + 1/g).
+TEST(Crosstalk, OfABarrierIsItsSlitsWidth) {
+    Display d = aligned(9);
+    d.panel.subpixels = SubpixelLayout::none;
+    d.lens.kind = Pinhole{0.25};
+    d.array.aperture = Aperture::circle;
+    const double width = 2 * 0.25 * (1 / (600 - 1.4368) + 1 / 1.4368), share = d.panel.pixel_pitch_mm / 1.4368 / width;
+    const Json views = measured(d).figures.at("between_views");
+    EXPECT_NEAR(views.at("theory_percent"), 100 * (1 - share) / share, 2);
+    EXPECT_NEAR(views.at("woods_percent"), 100 * (1 - share) / share, 2 + double(views.at("woods_percent_error")));
+}
+
+// The worst of many views that are alike is as bad as each of them.
+TEST(Crosstalk, OfTheWorstViewIsNotThatOfTheNoise) {
+    Display d = display(20);
+    d.panel.pixels = {1237, 700};
+    const double spread = pitch * (1 / 20. - 1 / eye_mm), view = pixel / gap, share = view / spread;
+    for (std::int64_t seed = 0; seed < 3; ++seed) {
+        d.render.seed = seed;
+        const Json views = measured(d).figures.at("between_views");
+        const double worst = views.at("worst_view_percent"), error = views.at("worst_view_percent_error");
+        EXPECT_NEAR(worst, 100 * (1 - share) / share, error + 0.01 * worst) << seed;
+        EXPECT_LT(error, 0.1 * worst) << seed;
     }
 }
 
@@ -99,8 +194,8 @@ TEST(Crosstalk, FollowsTheHead) {
     const double aperture = pitch * (1 / 300. - 1 / eye_mm), diffuser = 2 * std::tan(2 * degree) * (1 - 100 / eye_mm);
     int compared = 0;
     for (std::size_t n = 0; n < head.size(); ++n) {
-        const double wrong_left = 1 - below((30 - head[n]) / eye_mm, aperture, diffuser),
-                     wrong_right = below((-30 - head[n]) / eye_mm, aperture, diffuser);
+        const double wrong_left = meant(head[n] - 30, 0, 1, aperture, diffuser),
+                     wrong_right = meant(head[n] + 30, -1, 0, aperture, diffuser);
         if (wrong_left > 0.9 || wrong_right > 0.9) continue;
         EXPECT_NEAR(left[n] / (100 + left[n]), wrong_left, 0.01) << head[n];
         EXPECT_NEAR(right[n] / (100 + right[n]), wrong_right, 0.01) << head[n];
@@ -165,7 +260,7 @@ TEST(SlopeSpread, IsThatOfRandomLines) {
         std::mt19937_64 engine(4);
         std::normal_distribution<double> normal(0, 3 * degree / std::sqrt(2 * std::log(2.)));
         Random random(5);
-        int in = 0, above = 0, all = 0, folded = 0;
+        int in = 0, above = 0, all = 0;
         for (int n = 0; n < 1000000; ++n) {
             double q, other;
             do q = random(-1.8, 1.8), other = random(-1.8, 1.8);
@@ -175,17 +270,13 @@ TEST(SlopeSpread, IsThatOfRandomLines) {
             const double down = aimed + 90 * (turned - slope);
             if (std::abs(down) > half_array) continue;
             const double seen = q * (1 / eye_mm - 1 / 200.) + down / made_for - turned;
-            const double field = pitch * (1 / gap + 1 / made_for);
             ++all;
             in += std::abs(seen - x / eye_mm) < 0.02;
             above += seen > 0.1;
-            folded += std::abs(seen - field * std::round(seen / field)) < 0.05;
         }
         EXPECT_NEAR(spread.within(x, x / eye_mm - 0.02, x / eye_mm + 0.02), double(in) / all, 0.002);
         EXPECT_NEAR(spread.within(x, 0.1, INFINITY), double(above) / all, 0.002);
         EXPECT_NEAR(spread.within(x, -INFINITY, INFINITY), 1, 1e-9);
-        EXPECT_NEAR(spread.meant(x, -0.05, 0.05), double(folded) / all, 0.002);
-        EXPECT_NEAR(spread.meant(x, -INFINITY, INFINITY), 1, 1e-4);
     }
 }
 

@@ -13,7 +13,7 @@ namespace {
 /// Thin lenses that fill cells of pitch 2 mm before a panel of 240 mm, for an eye at 600 mm.
 Display display(LatticeKind lattice, double gap_mm, double central_depth_mm, std::vector<Layer> layers = {}) {
     Display d;
-    d.panel.pixels = {2400, 1200};
+    d.panel.pixels = {2390, 1200};
     d.panel.pixel_pitch_mm = 0.1;
     d.panel.layers = std::move(layers);
     d.lens.kind = IdealLens{{}, 1 / (1 / gap_mm + 1 / central_depth_mm)};

@@ -1,42 +1,72 @@
 """Crosstalk: how much of the light that an eye sees is meant for other views, or for the other eye. Leak over signal; the panel's black is 0.
 
-A panel point P in the elemental image centred at e C is meant for the horizontal slope s = (e C - P)/g. View k is the strip with s within half a step of
-k a/g.
+A panel point P in the elemental image centred at e C is meant for the horizontal slope s = (e C - P)/g; along slanted strips' rows, which is across them over
+the cosine of the slant. A pixel, or a subpixel where content is made for each, shines as a whole for the slope of its centre. View k has the slopes within half
+a step of k a/g.
 """
+import functools
+
 import numpy as np
 
 import oracle
+from colours import LUMINANCE, White
 from edges import error_of
 from sight import per_set
-from white import radiance
+
+SUBPIXEL, PIXEL = "subpixel", "pixel"  # what content is made for
+TIE = 1e-9  # of slopes: a pixel whose centre lies on the border of two views is half of either
 
 
-def slopes(sight, eye):
-    """s of each line of sight from an eye, and its light; light on no lens's image does not count."""
-    d, hits = sight.display, sight.see(eye)
-    meant = oracle.nodal_lines(d, hits.at)
-    return (sight.centres(meant.lens) - hits.at)[:, 0] / d.gap, np.where(meant.owned, radiance(d, hits), 0.0)
+class Seen:
+    """What eyes at z = `distance`, level with the screen's middle, see of a white panel along lines of sight."""
+
+    def __init__(self, sight, distance):
+        self.sight, self.distance = sight, distance
+        self.step = sight.display.panel.pixel_pitch_mm / sight.display.gap  # of views, as slopes
+        self.white = functools.cache(lambda x: White(sight, np.array([x, 0.0, distance])))
+
+    def slopes(self, x, sampling):
+        """(s, luminance) of each line of sight, a row for each channel and wavelength; light on no lens's image does not count."""
+        found, on_screen = [], self.sight.on_screen([x, 0.0, self.distance])
+        for channel in range(3):
+            for light, column, row in self.white(x).shining(channel):
+                slope, owned = self.meant(channel, column, row, sampling)
+                found.append((slope, np.where(owned & on_screen, LUMINANCE[channel] * light, 0.0)))
+        return tuple(np.array(part) for part in zip(*found))
+
+    def meant(self, channel, column, row, sampling):
+        """(slope, whether a lens owns it) of pixels or their subpixels."""
+        d = self.sight.display
+        if sampling == SUBPIXEL:
+            points, shows = oracle.subpixel_points(d, channel, column, row)
+        else:
+            points, shows = oracle.pixel_centres(d, column, row), True
+        lines = oracle.nodal_lines(d, points)
+        towards = (self.sight.centres(lines.lens) - points) / d.gap
+        along_row = towards @ self.sight.axes[0] / self.sight.axes[0, 0] if d.strips else towards[:, 0]
+        return along_row, lines.owned & shows
+
+    def view_percent(self, middle, sampling):
+        """Of an eye in the middle of a view, in steps: all other light over that of the view."""
+        s, light = self.slopes(middle * self.step * (self.distance - self.sight.display.paraxial.rear), sampling)
+        meant = above(0.5 * self.step - np.abs(s - middle * self.step))
+        return over(light * (1 - meant), light * meant)
+
+    def eye_percent(self, side, between, sampling):
+        """Of one of two eyes `between` mm apart, side -1 (left) or 1: light meant for the other side of the head over that for its own."""
+        s, light = self.slopes(0.5 * side * between, sampling)
+        return over(light * above(-side * s), light * above(side * s))
+
+
+def above(x):
+    """1 where x is positive, a half where it is 0."""
+    return np.where(np.abs(x) < TIE, 0.5, x > 0)
 
 
 def over(leak, signal):
-    """In per cent, of sets: (value, error); None without signal."""
-    leak, signal = per_set(leak), per_set(signal)
+    """In per cent, of rows over sets: (value, error); None without signal."""
+    leak, signal = per_set(leak.sum(axis=0)), per_set(signal.sum(axis=0))
     if not signal.sum() > 0:
         return None
     share = leak.sum() / signal.sum()
     return 100 * share, 100 * error_of(leak - share * signal) / signal.mean()
-
-
-def middle_view_percent(sight, distance):
-    """Of an eye before the middle at z = distance: all other light over that of view 0."""
-    s, light = slopes(sight, [0.0, 0.0, distance])
-    step = sight.display.panel.pixel_pitch_mm / sight.display.gap
-    meant = np.abs(s) <= 0.5 * step
-    return over(light * ~meant, light * meant)
-
-
-def eye_percent(sight, distance, side, between):
-    """Of one of two eyes `between` mm apart, side -1 (left) or 1: light meant for the other side of the head over that for its own."""
-    eye = np.append(0.5 * side * between * np.array([1.0, 0.0]), distance)
-    s, light = slopes(sight, eye)
-    return over(light * (side * s < 0), light * (side * s > 0))

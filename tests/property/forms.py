@@ -54,14 +54,14 @@ class Forms:
         self.hint = np.degrees(np.arctan(stretch * display.cell.width / (2 * display.gap)))  # along x' and y'
 
     def takes(self, measure):
-        """Whether there are forms for it: pinholes image nothing, one_lens.py knows rows of lenses in air, crosstalk.py no pixels askew to strips."""
+        """Whether there are forms for it: pinholes image nothing, one_lens.py knows rows of lenses in air."""
         if measure == "dof":
             return self.display.lens.type != "pinhole" and self.one_lens
         if measure == "spot":
             return self.display.lens.type != "pinhole" and (self.one_lens or self.dispersing)
         if measure == "moire":
             return self.structured
-        return not (measure == "mtf" and self.display.lens.type == "pinhole") and not (measure == "crosstalk" and self.display.strips)
+        return not (measure == "mtf" and self.display.lens.type == "pinhole")
 
     def sight(self, lines, with_diffuser):
         return Sight(self.display, self.viewing, lines, self.seed, with_diffuser)
@@ -142,11 +142,21 @@ class Forms:
         return out
 
     def crosstalk(self, result):
-        lines, above = self.sight(8 * MANY, True), self.eye - self.display.paraxial.rear
-        apart = 0.5 * BETWEEN_EYES_MM / above > 0.5 * self.stretch * self.display.cell.width[0] / self.display.gap
-        sides = {f"between_eyes.{name}_eye_percent": None if apart else crosstalk.eye_percent(lines, self.eye, side, BETWEEN_EYES_MM)
-                 for name, side in (("left", -1), ("right", 1))}
-        return {"between_views.woods_percent": crosstalk.middle_view_percent(lines, self.eye), **sides}
+        seen, told = crosstalk.Seen(self.sight(8 * MANY, True), self.eye), result["between_views"]
+        above, images = self.eye - self.display.paraxial.rear, self.stretch * self.display.cell.width[0]
+        if self.display.strips:
+            images /= abs(oracle.Lattice(self.display).turn[0, 0])
+        apart = 0.5 * BETWEEN_EYES_MM / above > 0.5 * images / self.display.gap
+        samplings = {"": crosstalk.SUBPIXEL, "other_sampling.": crosstalk.PIXEL} if self.display.panel.subpixels != "none" else {"": crosstalk.PIXEL}
+        out = {}
+        for prefix, sampling in samplings.items():
+            out[f"between_views.{prefix}woods_percent"] = seen.view_percent(told["innermost_view"], sampling) if told["whole_views"] else None
+            for name, side in (("left", -1), ("right", 1)):
+                if not (apart and prefix):
+                    out[f"between_eyes.{prefix}{name}_eye_percent"] = None if apart else seen.eye_percent(side, BETWEEN_EYES_MM, sampling)
+        if told["whole_views"]:
+            out["between_views.worst_view_percent"] = seen.view_percent(told["worst_view"], samplings[""])
+        return out
 
     def mtf(self, result):
         d, out = self.display, {}

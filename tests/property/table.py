@@ -13,6 +13,7 @@ MOST_ERRORS = (          # the same of figures that are not judged by their own 
     ("moire ", "_deg", 1.0, "°"),
     ("", "contrast", 0.01, ""),     # shares of 1: bands of less are not seen
     ("", "_delta_uv_", 0.002, ""),  # 0.004 is just seen
+    ("crosstalk ", "worst_view", 0.05, "%"),  # which of many views is the worst is not sure
     ("mtf ", "from_green", 0.05, "%"),  # of a pixel's image: a fringe of less is not seen beside its blur
 )
 FEW = 20                 # of fewer cases one may disagree: 19 of 20 is the rate that is stated
