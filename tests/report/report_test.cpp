@@ -5,11 +5,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
+#include <fstream>
+#include <iomanip>
 #include <regex>
+#include <sstream>
 
 #include "../image/helpers.h"
 #include "../optics/example.h"
 #include "model/numbers.h"
+#include "report/run_settings.h"
 #include "report/side_view.h"
 
 namespace lfdsim {
@@ -146,6 +151,18 @@ TEST(Folder, KnowsWhatIsFinishedWithTheSameSettings) {
     EXPECT_EQ(test::load(c.place / "table.csv"), "x_mm,y\n0,2\n1,\n");
     std::filesystem::remove(c.place / "map.svg");
     EXPECT_FALSE(c.folder.has(c.fov));
+}
+
+// Run settings tell when a model was changed as a date, not in ticks of a file system's clock.
+TEST(Folder, TellsWhenAModelWasChanged) {
+    const std::string file = ::testing::TempDir() + "changed.obj";
+    std::ofstream(file) << "v 0 0 0\n";
+    const auto now = std::time(nullptr);
+    const Json told = stamp(file);
+    EXPECT_EQ(told.at("bytes"), 8);
+    std::tm date = {};
+    std::istringstream(told.at("changed").get<std::string>()) >> std::get_time(&date, "%Y-%m-%dT%H:%M:%S");
+    EXPECT_NEAR(double(timegm(&date)), double(now), 100) << told;
 }
 
 TEST(Folder, TrustsNoFileThatLiesElsewhere) {
