@@ -4,6 +4,8 @@
 #include "analysis/rules.h"
 #include "analysis/spot_depth.h"
 #include "analysis/views.h"
+#include "model/numbers.h"
+#include "model/sharp_range.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -16,33 +18,18 @@ namespace {
 
 constexpr double least_depth_ssim = 0.85, most_slope_per_mm = 0.02 / 10;  // the 2019 paper's, which counts in centimetres
 
-/// Places count from the vertex plane, theory's from the rear principal plane.
-double from_vertex_mm(const Subject& s) { return s.geometry().rear_principal_mm - s.geometry().vertex_plane_mm; }
-
-/// Of the depths measured, the one nearest to the central depth plane in inverse distance; and its run.
-struct Centre {
-    std::size_t run = 0, place = 0;
-};
-
-Centre centre(const Subject& s, const std::vector<DepthRun>& runs) {
-    const double wanted = 0.5 * (s.theory().depth_near_per_mm + s.theory().depth_far_per_mm);
-    Centre best;
-    double least = INFINITY;
-    for (std::size_t r = 0; r < runs.size(); ++r)
-        for (std::size_t k = 0; k < runs[r].depths_mm.size(); ++k)
-            if (const double away = std::abs(1 / (runs[r].depths_mm[k] - from_vertex_mm(s)) - wanted); away < least)
-                least = away, best = {r, k};
-    return best;
-}
-
 /// SSIM of screen and of content along one run.
 struct DepthCurves {
     Curve screen, content;
 };
 
-/// `noisy`: the place where the noise is measured; none if beyond the run's.
-DepthCurves measure(Subject& s, const std::vector<double>& depths, std::size_t noisy, double white, Job& job) {
+/// The noise is measured at one place.
+DepthCurves measure(Subject& s, const std::vector<double>& depths, double white, Job& job) {
     DepthCurves curves{{depths, {}}, {depths, {}}};
+    std::size_t noisy = 0;  // where the description puts the scene, or nearest to that
+    const auto away = [&](std::size_t k) { return std::abs(depths[k] - s.geometry().content_depth_mm); };
+    for (std::size_t k = 1; k < depths.size(); ++k)
+        if (away(k) < away(noisy)) noisy = k;
     for (std::size_t k = 0; k < depths.size(); ++k) {
         const ContentScene scene = s.scene().at_depth(depths[k]);
         const auto panel = elemental_panel(s.display(), s.geometry(), scene, s.threads(), job);
@@ -68,104 +55,166 @@ Interval explained(Interval i, const DepthRun& run) {
     return i;
 }
 
-void add_rules(Result& result, const std::string& region, const Curve& curve, const DepthRun& run, double centre_mm) {
-    const bool screen = region == "screen";
-    const Interval by_ssim = explained(where_at_least(curve, centre_mm, least_depth_ssim), run),
-                   steady = explained(where_steady(curve, centre_mm, most_slope_per_mm), run);
-    const auto best = std::max_element(curve.value.begin(), curve.value.end()) - curve.value.begin();
-    Json json{{"most_alike_mm", curve.at[std::size_t(best)]}, {"ssim_error", curve.error}, {"region", region}};
-    add_limits(result, json, screen ? "" : "content.", "ssim_rule_mm", by_ssim);
-    add_limits(result, json, screen ? "" : "content.", "gradient_rule_mm", steady);
-    if (!screen) {
-        result.figures["content"] = std::move(json);
+/// Where both hold: of each end the one nearer to the middle; one that was not found gives way to the other's.
+Interval narrower(const Interval& a, const Interval& b) {
+    if (a.empty || b.empty) return a.empty ? a : b;
+    const auto inner = [](const Limit& l, const Limit& m, bool low) {
+        if (std::isnan(l.at) || std::isnan(m.at)) return std::isnan(l.at) ? m : l;
+        return (l.at > m.at) == low ? l : m;
+    };
+    return {inner(a.low, b.low, true), inner(a.high, b.high, false)};
+}
+
+/// The part of an interval on one side of the lenses. An end that was not found is on the side to which it leads.
+Interval on_side(Interval i, bool in_front) {
+    if (i.empty) return i;
+    Limit none;
+    none.missing = "no depth on this side of the lenses keeps the rule";
+    if (in_front ? i.high.at <= 0 : i.low.at >= 0) return {none, none, true};
+    const Limit lenses{0, 0, {}};
+    if (in_front && !(i.low.at > 0)) i.low = lenses;
+    if (!in_front && !(i.high.at < 0)) i.high = lenses;
+    for (Limit* limit : {&i.low, &i.high})
+        if (limit->error > std::abs(limit->at))
+            *limit = {nan, nan,
+                      fmt::format("an end at {:.4g} mm has an error of {:.2g} mm, more than itself", limit->at, limit->error)};
+    return i;
+}
+
+/// The published rules, each as the connected interval about the depth that is most alike; and both together, on either side of the
+/// lenses.
+void add_rules(Result& result, const std::string& region, const Curve& curve, const DepthRun& run) {
+    const bool content = region == "content";
+    const double most_alike = curve.at[std::size_t(std::ranges::max_element(curve.value) - curve.value.begin())];
+    const Interval by_ssim = explained(where_at_least(curve, most_alike, least_depth_ssim), run),
+                   steady = explained(where_steady(curve, most_alike, most_slope_per_mm), run);
+    Json json{{"most_alike_mm", most_alike}, {"ssim_error", curve.error}, {"region", region}};
+    const std::string path = content ? "" : "screen.";
+    add_limits(result, json, path, "ssim_rule_mm", by_ssim);
+    add_limits(result, json, path, "gradient_rule_mm", steady);
+    if (!content) {
+        result.figures["screen"] = std::move(json);
         return;
     }
     result.figures.update(json);
-    const auto add = [&](const std::string& what, const Interval& i) {
-        result.findings.push_back(finding("Depth of field: " + what, "mm", i, {}, "the published rule"));
-    };
-    add(fmt::format("SSIM of {} or more", least_depth_ssim), by_ssim);
-    add("slope of 0.02 a centimetre or less", steady);
+    const Interval both = narrower(by_ssim, steady);
+    Json& spans = result.figures["by_likeness"];
+    for (const bool in_front : {false, true}) {
+        const std::string name = in_front ? "in_front_mm" : "behind_mm";
+        const Interval side = on_side(both, in_front);
+        spans[name] = side.empty ? Json() : limits_json(side);
+        spans[name + "_error"] = side.empty ? Json() : numbers_json({side.low.error, side.high.error});
+        const Finding line =
+            finding(fmt::format("Depth of field by likeness, {} the lenses", in_front ? "in front of" : "behind"), "mm", side, {},
+                    "the published rule: SSIM of the content is 0.85 or more and changes by 0.02 a centimetre or less");
+        if (!side.low.missing.empty() || !side.high.missing.empty()) result.note("by_likeness." + name, line.remark);
+        result.findings.push_back(line);
+    }
 }
 
-void add_likeness(Subject& s, Result& result, Plot& plot, Job& job) {
-    const std::vector<DepthRun> runs = dof_depths(s);
-    if (runs.empty()) {
+/// The resolution that the lenses' pitch and the panel's pixels allow at each depth, as the eye sees it.
+void add_resolution(const Subject& s, Result& result, const std::vector<double>& depths) {
+    const Geometry& g = s.geometry();
+    const double eye = eye_distance_mm(s.display()), to_eye = eye - g.vertex_plane_mm;
+    const auto by_lens = [&](double z) { return s.theory(0).lens_sampling_limit_per_mm * to_eye / (to_eye - z); };
+    const auto by_pixel = [&](double z) {
+        return g.gap_mm / (2 * s.display().panel.pixel_pitch_mm * std::abs(z + g.vertex_plane_mm - g.rear_principal_mm));
+    };
+    DataTable table{
+        "dof_resolution",
+        {{"depth_mm", depths}, {"lens_per_mm", {}}, {"pixel_per_mm", {}}, {"lens_per_degree", {}}, {"pixel_per_degree", {}}}};
+    for (const double z : depths) {
+        const double lens = by_lens(z), pixel = by_pixel(z);
+        const double row[] = {lens, pixel, cycles_per_degree(g, lens, z, eye), cycles_per_degree(g, pixel, z, eye)};
+        for (std::size_t k = 0; k < 4; ++k) table.columns[k + 1].values.push_back(row[k]);
+    }
+    Plot plot{"dof_resolution", "Finest detail by theory", "depth in front of the lenses, mm", "cycles per degree", {}};
+    std::vector<double> pixel = table.columns[4].values;
+    const double most = 4 * std::ranges::max(table.columns[3].values);
+    for (double& x : pixel)
+        if (!(x <= most)) x = nan;  // near the lenses it grows without end
+    plot.series = {{"of the lens pitch", depths, table.columns[3].values}, {"of the panel's pixels", depths, std::move(pixel)}};
+    Json& json = result.figures["resolution"];
+    json["at_the_lenses_per_mm"] = number_json(by_lens(0));
+    json["at_the_lenses_per_degree"] = number_json(cycles_per_degree(g, by_lens(0), 0, eye));
+    const double z = g.content_depth_mm, at_content = std::min(by_lens(z), by_pixel(z));
+    json["at_the_content_per_mm"] = number_json(at_content);
+    json["at_the_content_per_degree"] = number_json(cycles_per_degree(g, at_content, z, eye));
+    result.findings.push_back({"Resolution where the content stands: limit of lenses and pixels",
+                               "cycles per degree",
+                               {},
+                               {cycles_per_degree(g, at_content, z, eye)},
+                               fmt::format("{:.4g} cycles per mm, {:.4g} mm in front of the lenses", at_content, z)});
+    result.tables.push_back(std::move(table));
+    result.plots.push_back(std::move(plot));
+}
+
+void add_likeness(Subject& s, Result& result, Plot& plot, const DepthRun& run, Job& job) {
+    const std::vector<double>& depths = run.depths_mm;
+    if (depths.size() < 3) {
         const std::string why = fmt::format(
-            "none of the depths within twice theory's depth of field can be seen from {:.4g} mm: they are among the lenses, "
-            "at the eye or too far behind; --depths-mm chooses others",
+            "none of the depths that theory calls sharp can be seen from {:.4g} mm: they are among the lenses, at the eye or too "
+            "far "
+            "behind; --depths-mm chooses others",
             eye_distance_mm(s.display()));
-        for (const char* name : {"ssim_rule_mm", "gradient_rule_mm", "most_alike_mm"}) {
+        for (const char* name : {"ssim_rule_mm", "gradient_rule_mm", "most_alike_mm", "by_likeness"}) {
             result.figures[name] = Json();
             result.note(name, why);
         }
         result.remarks.push_back("Likeness was not measured: " + why + ".");
         return;
     }
-    const Centre middle = centre(s, runs);
     const double white = s.white_field(job);
-    DataTable table{"dof", {{"depth_mm", {}}, {"ssim", {}}, {"content_ssim", {}}}};
-    for (std::size_t r = 0; r < runs.size(); ++r) {
-        const std::vector<double>& depths = runs[r].depths_mm;
-        const DepthCurves curves = measure(s, depths, r == middle.run ? middle.place : depths.size(), white, job);
-        if (r == middle.run) {
-            add_rules(result, "screen", curves.screen, runs[r], depths[middle.place]);
-            add_rules(result, "content", curves.content, runs[r], depths[middle.place]);
-        }
-        const std::vector<double>* columns[] = {&depths, &curves.screen.value, &curves.content.value};
-        for (std::size_t c = 0; c < 3; ++c)
-            table.columns[c].values.insert(table.columns[c].values.end(), columns[c]->begin(), columns[c]->end());
-        const std::string where = runs.size() == 1 ? "" : r == 0 ? ", behind the lenses" : ", in front of the lenses";
-        plot.series.push_back({"screen" + where, depths, curves.screen.value});
-        plot.series.push_back({"content" + where, depths, curves.content.value});
-    }
-    result.figures["searched_mm"] = Json::array();
-    for (const DepthRun& run : runs) result.figures["searched_mm"].push_back({run.depths_mm.front(), run.depths_mm.back()});
-    result.tables.push_back(std::move(table));
+    const DepthCurves curves = measure(s, depths, white, job);
+    add_rules(result, "content", curves.content, run);
+    add_rules(result, "screen", curves.screen, run);
+    result.tables.push_back({"dof", {{"depth_mm", depths}, {"ssim", curves.screen.value}, {"content_ssim", curves.content.value}}});
+    plot.series = {{"content", depths, curves.content.value}, {"whole screen", depths, curves.screen.value}};
+    result.figures["searched_mm"] = {depths.front(), depths.back()};
 }
 
 }  // namespace
 
-std::int64_t dof_steps(const Subject& s) {
-    std::size_t depths = 0;
-    for (const DepthRun& run : dof_depths(s)) depths += run.depths_mm.size();
-    return 2 * std::int64_t(depths) + 4;
-}
+std::int64_t dof_steps(const Subject& s) { return 2 * std::int64_t(dof_depths(s).depths_mm.size()) + 4; }
 
 Result measure_dof(Subject& s, Job& job) {
     const std::vector<double>& asked = s.options().depths_mm;
     for (const double z : asked) refuse_depth_in_lenses(s.geometry(), z, "--depths-mm");
     if (!asked.empty() && asked.size() < 3) throw InputError("--depths-mm", "the depth of field needs three depths or more");
     Result result;
+    const Geometry& g = s.geometry();
+    const double eye = eye_distance_mm(s.display());
+    add_spot_depths(s, result);
+    result.figures["central_depth_mm"] = number_json(s.theory().central_depth_mm + g.rear_principal_mm - g.vertex_plane_mm);
     Plot plot{"dof",
               "Likeness of the simulated view to the scene",
               "depth of the scene in front of the lenses, mm",
               "SSIM",
               {},
               {{"0.85", least_depth_ssim, false}}};
-    add_likeness(s, result, plot, job);
-    const double from_vertex = from_vertex_mm(s), middle = s.theory().central_depth_mm + from_vertex;
-    const double near = depth_mm(s.theory().depth_near_per_mm) + from_vertex,
-                 far = depth_mm(s.theory().depth_far_per_mm) + from_vertex;
-    result.figures["paraxial_mm"] = numbers_json({near, far});
-    result.figures["central_depth_mm"] = number_json(middle);
-    const SharpDepths traced = add_spot_depths(s, result);
+    const DepthRun run = dof_depths(s);
+    add_likeness(s, result, plot, run, job);
     const auto mark = [&](const char* label, double z) {
-        for (const Series& series : plot.series)
-            if (z >= series.x.front() && z <= series.x.back()) return plot.marks.push_back({label, z});
+        if (!plot.series.empty() && z > run.depths_mm.front() && z < run.depths_mm.back()) plot.marks.push_back({label, z});
     };
-    mark("central depth plane", middle);
-    mark("paraxial", near);
-    mark("paraxial", far);
-    mark("spot", depth_mm(traced.near_per_mm) + from_vertex);
-    mark("spot", depth_mm(traced.far_per_mm) + from_vertex);
-    if (!plot.series.empty()) result.plots.push_back(std::move(plot));
+    mark("central depth plane", s.theory().central_depth_mm + g.rear_principal_mm - g.vertex_plane_mm);
+    for (const auto& [label, range] : {std::pair{"by the lens, theory", sharp_by_lens(s.display(), g, s.theory(), eye)},
+                                       {"by the pixel, theory", sharp_by_pixel(g, s.theory(), eye)}})
+        for (const DepthSpan& span : {range.behind, range.in_front})
+            for (const double end : {span.low, span.high})
+                if (end != 0) mark(label, end);
+    if (!plot.series.empty()) {
+        result.plots.push_back(std::move(plot));
+        add_resolution(s, result, run.depths_mm);
+    }
     result.remarks.push_back(
-        "A depth of field by likeness and one by spot size are different things: SSIM falls off slowly and peaks between the "
-        "lenses "
-        "and the central depth plane, since nearer scenes are sampled by more pixels' rays. Both are shown, neither is fitted to "
-        "the "
-        "other. Depths by spot size are one interval of 1/z: where it goes through infinity, sharp depths lie beyond both ends.");
+        "Three questions have three answers. By the lens: where a point's image is no wider than the lenses stand apart; it "
+        "contains "
+        "the lenses, and what is shown there is as fine as they are. By the pixel: where the lens blurs less than the panel's "
+        "pixels "
+        "are wide; at the lenses these have no width, so that no lens is that sharp there. By likeness: where pictures of the "
+        "content "
+        "look like it. Depths behind the lenses are negative; in front of them all end at the viewer.");
     return result;
 }
 

@@ -1,5 +1,7 @@
 #include "analysis/dof_depths.h"
 
+#include "model/sharp_range.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,18 +9,11 @@ namespace lfdsim {
 namespace {
 
 constexpr int depths = 31;
-constexpr double least_rows = 16;
-constexpr double least_mm = 1e-6;  // of a depth, where the lenses have no thickness
+constexpr double least_rows = 16, beyond = 1.25;
 
-/// An interval of 1/z, 1/mm from the rear principal plane.
-struct DepthRange {
-    double low, high;
-    double length() const { return std::max(high - low, 0.); }
-};
-
-/// Where the scene's centre can be seen behind the lenses, and in front of them.
+/// How far the scene's centre can go behind the lenses and in front of them, depths in mm.
 struct Reach {
-    DepthRange behind, before;
+    double behind, before;
 };
 
 Reach reach(const Subject& s) {
@@ -26,43 +21,52 @@ Reach reach(const Subject& s) {
     const Display& d = s.display();
     const double size = 0.5 * g.content_height_mm.value_or(0);  // objects without a common height are in a scene
     const Vec3d half = s.has_scene() ? s.scene().half_size_mm() : Vec3d{size, size, size};
-    const double rear = g.rear_principal_mm, from_panel = eye_distance_mm(d), eye = from_panel - rear;
+    const double from_panel = eye_distance_mm(d), eye = from_panel - g.vertex_plane_mm;
     const double rows_per_mm = double(d.camera.resolution[0]) / g.frame_width_mm;  // in the plane of the camera's target
     const double farthest = 2 * half[1] * rows_per_mm * from_panel / least_rows;   // from the eye
-    const double below = std::min(1.01 * (g.base_z_mm - rear), -least_mm), above = std::max(1.01 * (g.top_z_mm - rear), least_mm);
-    const double nearest = 0.9 * (eye - half[2]);
-    Reach r{{1, 0}, {1, 0}};
-    if (eye - farthest < below) r.behind = {1 / below, 1 / (eye - farthest)};
-    if (nearest > above) r.before = {1 / nearest, 1 / above};
-    return r;
+    return {eye - farthest, 0.9 * (eye - half[2])};
 }
 
 }  // namespace
 
-std::vector<DepthRun> dof_depths(const Subject& s) {
+DepthRun dof_depths(const Subject& s) {
     if (!s.options().depths_mm.empty()) {
         const std::string asked = "the requested depths end there";
-        return {{s.options().depths_mm, asked, asked}};
+        return {s.options().depths_mm, asked, asked};
     }
-    const Theory& t = s.theory();
-    const double middle = 0.5 * (t.depth_near_per_mm + t.depth_far_per_mm), half = t.depth_near_per_mm - t.depth_far_per_mm;
-    const DepthRange wanted{middle - half, middle + half};  // twice as wide
-    const auto cut = [&](const DepthRange& r) { return DepthRange{std::max(wanted.low, r.low), std::min(wanted.high, r.high)}; };
-    const Reach reachable = reach(s);
-    const DepthRange behind = cut(reachable.behind), before = cut(reachable.before);
-    const double from_vertex = s.geometry().rear_principal_mm - s.geometry().vertex_plane_mm;
-    const std::string twice = "twice theory's depth of field ends there", lenses = "the lenses stand there";
-    std::vector<DepthRun> runs;
-    const auto add = [&](const DepthRange& r, const std::string& beyond_low, const std::string& beyond_high) {
-        const int count = int(std::lround(depths * r.length() / (behind.length() + before.length())));
-        if (!(r.length() > 0) || count < 3) return;
-        DepthRun run{{}, r.high < wanted.high ? beyond_low : twice, r.low > wanted.low ? beyond_high : twice};
-        for (int k = 0; k < count; ++k) run.depths_mm.push_back(1 / (r.high + (r.low - r.high) * k / (count - 1)) + from_vertex);
-        runs.push_back(std::move(run));
-    };
-    add(behind, "beyond it the scene looks too small", lenses);
-    add(before, lenses, "beyond it the scene reaches the eye");
-    return runs;
+    const Geometry& g = s.geometry();
+    const double from_panel = eye_distance_mm(s.display()), eye = from_panel - g.vertex_plane_mm;
+    double low = 0, high = 0;
+    for (const SharpRange& range :
+         {sharp_by_lens(s.display(), g, s.theory(), from_panel), sharp_by_pixel(g, s.theory(), from_panel)})
+        for (const DepthSpan& span : {range.behind, range.in_front})
+            if (!span.empty()) {
+                low = std::min(low, std::isinf(span.low) ? std::min(2 * span.high, -eye / 4) : span.low);
+                high = std::max(high, span.high >= eye ? std::max(2 * span.low, eye / 4) : span.high);
+            }
+    low *= beyond, high *= beyond;
+    if (!(high > low)) return {};
+    high = std::max(high, g.top_z_mm - g.vertex_plane_mm + 0.1 * g.gap_mm);  // through the lenses
+    low = std::min(low, 1.01 * (g.base_z_mm - g.vertex_plane_mm) - 0.1 * g.gap_mm);
+    const Reach most = reach(s);
+    DepthRun run{{}, "a quarter beyond what theory calls sharp, or as far as that makes sense, ends there", {}};
+    run.why_high = run.why_low;
+    if (low < most.behind) low = most.behind, run.why_low = "beyond it the scene looks too small";
+    if (high > most.before) high = most.before, run.why_high = "beyond it the scene reaches the eye";
+    if (!(high > low) || low >= 0 || high <= g.top_z_mm - g.vertex_plane_mm) return run;
+    // z = c sinh v for even v: even steps near the lenses, even shares of the distance far from them. c: the depth of N gaps, where
+    // a pixel's image is a pitch wide.
+    const double c = s.theory().along[0].elemental_pitch_mm / s.display().panel.pixel_pitch_mm * g.gap_mm;
+    const double from = std::asinh(low / c), to = std::asinh(high / c);
+    const int behind = std::clamp(int(std::lround((depths - 1) * -from / (to - from))), 1, depths - 3);
+    for (int k = -behind; k < depths - behind; ++k) {
+        double z = c * std::sinh(k < 0 ? from * -k / behind : to * k / (depths - 1 - behind));
+        if (k == 0) z = g.top_z_mm - g.vertex_plane_mm;  // the lenses' own plane, and not inside of them
+        if (k < 0 && z > g.base_z_mm - g.vertex_plane_mm) continue;
+        if (k > 0 && z <= run.depths_mm.back()) continue;
+        run.depths_mm.push_back(z);
+    }
+    return run;
 }
 
 }  // namespace lfdsim

@@ -7,15 +7,17 @@
 
 namespace lfdsim {
 
-/// Depths of the scene's centre in front of the vertex plane, rising, without a gap; and why they end where they do.
+/// Depths of the scene's centre in front of the vertex plane, rising, from behind the lenses to in front of them; and why they end
+/// where they do.
 struct DepthRun {
     std::vector<double> depths_mm;
     std::string why_low, why_high;
 };
 
-/// Those of the options; else 31 in all, even over 1/z, over twice the range of theory's depth of field: one run behind the lenses,
-/// one in front of them, or both where the range goes through infinity. They are cut where the scene would reach the eye, where it
-/// would look smaller than 16 rows of the camera's picture, and at the lenses. Empty: nothing is left.
-std::vector<DepthRun> dof_depths(const Subject&);
+/// Those of the options; else 31 over what theory calls sharp by the lens or by the pixel, and a quarter more, the closer the
+/// nearer to the lenses; the lenses' own plane is one of them. Of depths that are sharp as far as the viewer, or without end behind
+/// the lenses, those to twice the first, or to a quarter of the viewing distance. Cut where the scene would reach the eye, and
+/// where it would look smaller than 16 rows of the camera's picture. Empty: nothing is left.
+DepthRun dof_depths(const Subject&);
 
 }  // namespace lfdsim

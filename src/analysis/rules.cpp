@@ -1,5 +1,7 @@
 #include "analysis/rules.h"
 
+#include "model/numbers.h"
+
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
@@ -47,7 +49,15 @@ Interval about(const Curve& c, double centre, double level) {
         none.missing = "the rule does not hold even in the middle";
         return {none, none, true};
     }
-    return {first_below(c, centre, -1, level), first_below(c, centre, 1, level)};
+    Interval found{first_below(c, centre, -1, level), first_below(c, centre, 1, level)};
+    for (Limit* limit : {&found.low, &found.high})
+        if (limit->error > std::abs(limit->at - centre)) {
+            const std::string missing =
+                fmt::format("it ends at {:.4g}, which is no farther from the middle, {:.4g}, than its error of {:.2g}", limit->at,
+                            centre, limit->error);
+            *limit = {nan, nan, missing};
+        }
+    return found;
 }
 
 double median(std::vector<double> v) {

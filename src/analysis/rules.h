@@ -10,7 +10,7 @@
 
 namespace lfdsim {
 
-/// Where an interval ends. NaN: nowhere, and `missing` says why.
+/// Where an interval ends. NaN: nowhere, or no farther from its centre than the error, and `missing` says why.
 struct Limit {
     double at = std::numeric_limits<double>::quiet_NaN();
     double error = std::numeric_limits<double>::quiet_NaN();  // from the curve's noise and half the step between its places

@@ -23,6 +23,10 @@ struct SharpDepths {
 /// over its depth, `airy_slope`, is added in quadrature.
 SharpDepths where_sharp(const std::vector<Line>& fan, double pixel_slope, double airy_slope = 0);
 
+/// From where to where a fan is no wider than `width_mm`, or than at the lens itself: depths z from the rear principal plane, below
+/// and above 0; infinite where it never is wider. The fan is not empty.
+std::array<double, 2> where_narrow(const std::vector<Line>& fan, double width_mm);
+
 /// Where a perfect wave that converges to L (or diverges from it, L < 0) through an aperture D differs from one to z by no more
 /// than a quarter of the wavelength at the rim: |1/z - 1/L| D^2 / 8 <= wavelength / 4 (Born and Wolf, section 8.8). Near, far.
 std::array<double, 2> quarter_wave_per_mm(double L, double D, double wavelength_mm);

@@ -68,34 +68,29 @@ TEST_P(Fields, EdgesStandWhereTheoryHasThem) {
         }
 }
 
-// Even over 1/z, over twice theory's range, which is 1/L -/+ a/(g D); an ideal lens is its own vertex and principal plane.
+// By the lens theory calls 0 to 2 L sharp, by the pixel less: a quarter more, through the lenses, which are one of the depths.
 TEST(Views, DepthsOfTheDepthOfField) {
     for (const double L : {60., -60.}) {
         const Display d = display(40, L);
-        const std::vector<DepthRun> runs = dof_depths(Subject(d, std::nullopt, {}));
-        ASSERT_EQ(runs.size(), 1u);
-        const std::vector<double>& depths = runs[0].depths_mm;
-        ASSERT_EQ(depths.size(), 31u);
-        const double half = 0.2 / (*d.array.gap_mm * 6);
-        EXPECT_NEAR(1 / depths.front(), 1 / L + 2 * half, 1e-9);
-        EXPECT_NEAR(1 / depths.back(), 1 / L - 2 * half, 1e-9);
-        EXPECT_NEAR(1 / depths[1] - 1 / depths[0], -4 * half / 30, 1e-9);
-        EXPECT_NE(runs[0].why_high.find("twice"), std::string::npos);
+        const std::vector<double> depths = dof_depths(Subject(d, std::nullopt, {})).depths_mm;
+        ASSERT_GE(depths.size(), 30u);
+        EXPECT_TRUE(std::ranges::is_sorted(depths));
+        EXPECT_NE(std::ranges::find(depths, 0.), depths.end());
+        EXPECT_NEAR(L > 0 ? depths.back() : depths.front(), 1.25 * 2 * L, 1e-6);
+        EXPECT_LT(depths.front(), 0);
     }
 }
 
-// Collimated, twice the range goes through infinity: to the eye before the lenses, to where the scene looks too small behind them.
+// Collimated, all depths are sharp by the lens and from some distance on by the pixel: as far as makes sense on either side.
 TEST(Views, DepthsThroughInfinityAreCut) {
     Display d = display(40, 200);
     d.lens.as<IdealLens>().focal_length_mm = *d.array.gap_mm;
     d.diffuser.reset();
-    const std::vector<DepthRun> runs = dof_depths(Subject(d, std::nullopt, {}));
-    ASSERT_EQ(runs.size(), 2u);
-    EXPECT_LT(runs[0].depths_mm.back(), 0);
-    EXPECT_GT(runs[1].depths_mm.front(), 0);
-    EXPECT_LT(runs[1].depths_mm.back(), 2000 - *d.array.gap_mm);
-    EXPECT_NE(runs[1].why_high.find("eye"), std::string::npos);
-    EXPECT_NE(runs[0].why_low.find("small"), std::string::npos);
+    const DepthRun run = dof_depths(Subject(d, std::nullopt, {}));
+    ASSERT_GT(run.depths_mm.size(), 25u);
+    EXPECT_LT(run.depths_mm.front(), 0);
+    EXPECT_GT(run.depths_mm.back(), 100);
+    EXPECT_LT(run.depths_mm.back(), 2000 - *d.array.gap_mm);
 }
 
 TEST(Views, AStoppedMeasureStops) {

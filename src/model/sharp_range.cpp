@@ -1,0 +1,58 @@
+#include "model/sharp_range.h"
+
+#include "model/numbers.h"
+
+#include <algorithm>
+#include <cmath>
+
+// docs/model.md, "Depth of field".
+namespace lfdsim {
+namespace {
+
+constexpr DepthSpan no_depths{nan, nan};
+constexpr double rounding_mm = 1e-6;  // of an end at the lenses
+
+/// z from `low` to `high`, all on one side of the principal plane, cut at the lenses and at the viewer.
+DepthSpan cut(const Geometry& g, double low, double high, bool in_front, double eye_mm) {
+    const double from_vertex = g.rear_principal_mm - g.vertex_plane_mm, viewer = eye_mm - g.vertex_plane_mm;
+    const DepthSpan span{in_front ? std::max(low + from_vertex, 0.) : low + from_vertex,
+                         in_front ? std::min(high + from_vertex, viewer) : std::min(high + from_vertex, 0.)};
+    return span.empty() || (in_front && span.low >= viewer) ? no_depths : span;
+}
+
+}  // namespace
+
+SharpRange range_of_inverse(const Geometry& g, double near, double far, double eye_mm) {
+    SharpRange range{no_depths, no_depths};
+    if (!(far <= near)) return range;
+    if (near > 0) range.in_front = cut(g, 1 / near, far > 0 ? 1 / far : infinity, true, eye_mm);
+    if (far < 0) range.behind = cut(g, near < 0 ? 1 / near : -infinity, 1 / far, false, eye_mm);
+    return range;
+}
+
+SharpRange range_between(const Geometry& g, double low, double high, double eye_mm) {
+    SharpRange range{no_depths, no_depths};
+    const double from_vertex = g.rear_principal_mm - g.vertex_plane_mm;
+    if (high + from_vertex >= 0) range.in_front = cut(g, low, high, true, eye_mm);
+    if (low + from_vertex < -rounding_mm) range.behind = cut(g, low, high, false, eye_mm);
+    return range;
+}
+
+SharpRange sharp_by_pixel(const Geometry& g, const Theory& t, double eye_mm) {
+    return range_of_inverse(g, t.depth_near_per_mm, t.depth_far_per_mm, eye_mm);
+}
+
+SharpRange sharp_by_lens(const Display& d, const Geometry& g, const Theory& t, double eye_mm) {
+    const std::size_t axis = g.clear_aperture_mm[1] > g.clear_aperture_mm[0] && !g.lattice.strips ? 1 : 0;
+    const double L = t.central_depth_mm, pitches = std::max(d.array.pitch_mm[axis] / g.clear_aperture_mm[axis], 1.);
+    if (std::isnan(L)) return {no_depths, no_depths};
+    if (std::isinf(L)) return range_between(g, -infinity, infinity, eye_mm);
+    const double one = L * (1 - pitches), other = L * (1 + pitches);  // |1 - z/L| = p/D
+    return range_between(g, std::min(one, other), std::max(one, other), eye_mm);
+}
+
+double cycles_per_degree(const Geometry& g, double per_mm, double depth, double eye_mm) {
+    return per_mm * (eye_mm - g.vertex_plane_mm - depth) * degree;
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,95 @@
+// Depths that are sharp, on either side of the lenses: against the equations of the spot, at depths on both sides of every end.
+#include "model/sharp_range.h"
+
+#include "analysis/rules.h"
+#include "analysis/spot_depth.h"
+#include "lenses.h"
+#include "model/numbers.h"
+
+#include <gtest/gtest.h>
+#include <random>
+
+namespace lfdsim {
+namespace {
+
+using namespace lens_examples;
+
+bool holds(const SharpRange& r, double depth) {
+    return (depth >= r.behind.low && depth <= r.behind.high) || (depth >= r.in_front.low && depth <= r.in_front.high);
+}
+
+// Ideal lenses have no thickness: depths count from the lens. Real, virtual and infinite central depths; D less than the pitch.
+TEST(SharpRange, HoldsWhereTheSpotIsNarrowEnough) {
+    std::mt19937 random(4);
+    const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+    int through_infinity = 0;
+    for (int n = 0; n < 300; ++n) {
+        const double pitch = between(0.3, 8), gap = pitch * between(0.8, 2.5), f = gap * (n % 10 == 0 ? 1 : between(0.85, 1.15));
+        Display d = ideal(pitch, gap, f, int(between(8, 90)));
+        if (n % 2 == 0) d.array.aperture = Aperture::circle, d.lens.as<IdealLens>().aperture_radius_mm = between(0.15, 0.5) * pitch;
+        const Geometry g = resolve(d);
+        const Theory t = theory(d, g);
+        const double D = g.clear_aperture_mm[0], a = d.panel.pixel_pitch_mm, eye = 600, L = t.central_depth_mm;
+        const SharpRange lens = sharp_by_lens(d, g, t, eye), pixel = sharp_by_pixel(g, t, eye);
+        EXPECT_TRUE(holds(lens, 0));
+        EXPECT_FALSE(holds(lens, eye) || holds(pixel, eye));  // the eye is 600 mm from the panel
+        through_infinity += std::isinf(pixel.behind.low) && !pixel.in_front.empty();
+        for (int k = 0; k < 100; ++k) {
+            const double z = k % 2 ? between(-3000, eye - g.vertex_plane_mm) : between(-60, 60), spot = D * std::abs(1 - z / L);
+            if (std::abs(spot - pitch) > 1e-9 * pitch) EXPECT_EQ(holds(lens, z), spot <= pitch) << n << " " << z;
+            EXPECT_EQ(holds(pixel, z), spot <= a * std::abs(z) / gap) << n << " " << z;
+        }
+    }
+    EXPECT_GT(through_infinity, 30);
+}
+
+// Every display: the fan of one lens at depths inside and outside of the ends; and theory's ends where there is no aberration.
+TEST(SharpRange, ByTheLensIsTheIntervalOfABruteForceSearch) {
+    for (const auto& [name, d] : all_lenses()) {
+        const Geometry g = resolve(d);
+        const std::vector<Line> fan = fans(LensTrace(d, g), {0, 0}, 1001).meridional;
+        const double pitch = d.array.pitch_mm[0], limit = std::max(pitch, width_at(fan, 0).mm);
+        const auto [low, high] = where_narrow(fan, pitch);
+        EXPECT_LE(low, 0) << name;
+        EXPECT_GE(high, 0) << name;
+        for (double z = -1000; z <= 1000; z += 0.37)
+            EXPECT_EQ(width_at(fan, z).mm <= limit, low <= z && z <= high) << name << " " << z;
+    }
+}
+
+TEST(SharpRange, FiguresNameBothSidesAndEndAtTheViewer) {
+    Display d = ideal(2, 3.3, 3.3, 20);  // collimated: through infinity
+    d.camera.position_mm = {0, 0, 600};
+    const Subject s(d, {}, {});
+    Result result;
+    add_spot_depths(s, result);
+    const Json& pixel = result.figures.at("by_pixel");
+    const double start = 2 * 3.3 / d.panel.pixel_pitch_mm;  // D = a z / g
+    EXPECT_EQ(pixel.at("behind_mm")[0], "-infinite");
+    EXPECT_NEAR(pixel.at("behind_mm")[1].get<double>(), -start, 1e-6 * start);
+    EXPECT_NEAR(pixel.at("in_front_mm")[0].get<double>(), start, 1e-6 * start);
+    EXPECT_NEAR(pixel.at("in_front_mm")[1].get<double>(), 600 - 3.3, 1e-9);
+    EXPECT_EQ(result.figures.at("by_lens").at("in_front_mm")[0], 0);
+    EXPECT_NEAR(result.figures.at("by_lens").at("in_front_mm")[1].get<double>(), 600 - 3.3, 1e-9);
+}
+
+TEST(SharpRange, CyclesPerDegreeAreThoseOfTheAngleAtTheEye) {
+    const Display d = ideal(2, 3.3, 3.2, 20);
+    const Geometry g = resolve(d);
+    for (const double z : {-200., 0., 150.}) {
+        const double away = 600 - 3.3 - z, one_degree = away * std::tan(1 * degree);
+        EXPECT_NEAR(cycles_per_degree(g, 0.25, z, 600), 0.25 * one_degree, 2e-4 * one_degree);
+    }
+}
+
+// A slope rule that ends within its own error of the middle says nothing.
+TEST(Rules, ALimitWithinItsErrorOfTheMiddleIsNone) {
+    Curve steps{{-2, -1, 0, 1, 2}, {0.5, 0.9, 0.9, 0.89, 0.5}, 0};
+    const Interval i = where_steady(steps, 0, 0.006);
+    EXPECT_TRUE(std::isnan(i.low.at) || std::abs(i.low.at) >= i.low.error);
+    EXPECT_TRUE(std::isnan(i.high.at));
+    EXPECT_NE(i.high.missing.find("error"), std::string::npos) << i.high.missing;
+}
+
+}  // namespace
+}  // namespace lfdsim
