@@ -58,7 +58,8 @@ struct AnalyzeArguments {
         command.add_option("--angles-deg", angles, "Views of the field of view; default: 61 or more, beyond the expected edges")
             .type_name("FROM,TO,STEP");
         command
-            .add_option("--depths-mm", depths, "Depths of the model for the depth of field; default: 31 over what theory calls sharp, through 0")
+            .add_option("--depths-mm", depths,
+                        "Depths of the model for the depth of field; default: 31 over what theory calls sharp, through 0")
             .type_name("FROM,TO,STEP");
         command.add_option("--viewing-distance-mm", viewing_distance, "Distance of the eyes from the panel; default the camera's")
             .type_name("D");
