@@ -25,7 +25,8 @@ struct ColourSpread {
     int dark = 0;                     // parts that are left out: their luminance is less than a tenth of the mean
 };
 /// Seven sets find where the largest distance is and in which direction from the mean each part lies; the eighth tells how far
-/// that way it is; each in turn, so that noise alone makes no distance. Errors include the excess of all sets together.
+/// that way it is; each in turn, so that noise alone makes no distance. Errors include the excess of all sets together, and what
+/// parts change that may as well be dark, or not.
 ColourSpread colour_spread(const std::vector<ColourSums>& parts, const std::vector<double>& weights);
 
 }  // namespace lfdsim

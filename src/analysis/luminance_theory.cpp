@@ -1,12 +1,16 @@
 #include "analysis/luminance_theory.h"
 
 #include "analysis/paraxial_lines.h"
+#include "engine/scene.h"
+#include "model/lens_errors.h"
 #include "model/numbers.h"
 #include "model/screen.h"
+#include "optics/layers.h"
+#include "optics/one_lens.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <optional>
 
 namespace lfdsim {
 namespace {
@@ -25,26 +29,91 @@ double transmission(const Display& d, const Geometry& g) {
     return t;
 }
 
-/// What lines of sight see that meet a lens's clear aperture, and those that come down beside it, over the panel's luminance.
-struct Passed {
-    double lens, beside;
-};
-Passed passed(const Display& d, const Geometry& g) {
-    const double t = transmission(d, g);
-    if (d.lens.is_thin() || d.array.surround == Surround::opaque || d.lens.stop_radius_mm) return {t, 0};
-    return {t, d.array.surround == Surround::plate ? t : 1};
+/// What a line of sight sees that comes down beside the lens, over the panel's luminance.
+double beside(const Display& d, const Geometry& g) {
+    if (d.lens.is_thin() || d.array.surround == Surround::opaque || d.lens.stop_radius_mm) return 0;
+    return d.array.surround == Surround::plate ? transmission(d, g) : 1;
 }
 
-/// The mean over lines of sight that aim at the screen: evenly chosen lenses, places in their cells and angles of the diffuser.
-/// Good to a thousandth.
-double seen_mean(const Display& d, const Geometry& g, double eye_mm) {
-    constexpr int count = 1 << 19;
+/// One glass lens as it is: lines bend at its own surfaces by Snell's law, and Fresnel's equations take their share. What other
+/// lenses hide of it, and light that goes on through walls, is left out.
+class RealLens {
+  public:
+    RealLens(const Display& d, const Geometry& g)
+        : scene_(make_scene<double>(without_errors(d), g)), rear_principal_mm_(g.rear_principal_mm) {}
+
+    struct Seen {
+        optics::Place<double> place;  // on the panel, from the array's middle in its axes
+        double weight;                // 0: the line ends on its way
+    };
+    Seen look(const ParaxialLine& line) const {
+        const Lattice<double>& l = scene_.lattice;
+        const double length = std::sqrt(1 + line.slope.x * line.slope.x + line.slope.y * line.slope.y),
+                     down = scene_.surface[0].z - rear_principal_mm_;
+        const optics::Vec3<double> to{-line.slope.x / length, -line.slope.y / length, -1 / length};
+        optics::Place<double> axis = line.axis;
+        optics::Ray<double> entering{};
+        optics::Hit<double> hit{};
+        // A line may meet the surface of the lens beside the one over which it passes the plane of H'.
+        constexpr int steps = 4;
+        for (int step = 0; step < steps; ++step) {
+            entering = {{line.at.x + down * line.slope.x - axis.x, line.at.y + down * line.slope.y - (l.strips ? 0 : axis.y), 0},
+                        to};
+            hit = optics::meet<optics::Shapes::all>(scene_, 0, entering);
+            const optics::Cell<double> lens = optics::lens_at(l, hit.at.x + axis.x, hit.at.y + axis.y);
+            if (!optics::holds(l, lens)) return {{}, 0};
+            const optics::Place<double> next = optics::axis_in_array(l, lens);
+            if (next.x == axis.x && next.y == axis.y) break;
+            axis = next;
+        }
+        optics::Passage<double> way{entering, {0, 0}, 1, true};
+        optics::pass_lens<optics::Shapes::all>(scene_, Rules{{scene_}}, entering, hit, way);
+        if (!way.alive) return {{}, 0};
+        const double z = scene_.surface[scene_.surface_count - 1].z;
+        const auto end = optics::down_to_panel(scene_, {way.ray.at.x, way.ray.at.y, way.ray.at.z + z}, scene_.glued, way.ray.to,
+                                               way.weight, way.alive);
+        return {{axis.x + end.x, (l.strips ? 0 : axis.y) + end.y}, way.alive ? way.weight : 0};
+    }
+
+  private:
+    /// Of pass_lens(): apertures, and the borders of its cell.
+    struct Rules : optics::Alone<double> {
+        bool within(double x, double y, bool ok) const {
+            return ok && (scene.aperture == Aperture::circle || optics::in_cell(scene.lattice, x, y));
+        }
+        void meets(int, const optics::Ray<double>&, const optics::Hit<double>& hit, double from_z, double z,
+                   optics::Passage<double>& way) const {
+            way.alive = way.alive && within(hit.at.x, hit.at.y, hit.ok) && z <= from_z;
+        }
+        void leaves(const optics::Passage<double>&) const {}
+        bool passes_back(double x, double y) const {
+            const double r = scene.surface[scene.surface_count - 1].semi_aperture, up = optics::across(scene.lattice, y);
+            return within(x, y, x * x + up * up <= r * r);
+        }
+        bool over(bool alive) const { return !alive; }
+    };
+
+    optics::Scene<double> scene_;
+    double rear_principal_mm_;
+};
+
+/// Means over lines of sight that aim at the screen in the vertex plane: evenly chosen lenses, places in their cells and angles of
+/// the diffuser.
+struct Means {
+    double paraxial;  // lenses without aberration
+    double real;      // lenses as they are; of thin ones the same
+};
+Means seen_means(const Display& d, const Geometry& g, double eye_mm) {
+    const int count = d.lens.is_thin() ? 1 << 19 : 1 << 18;
     const ParaxialLines lines(d, g, {0, 0, eye_mm});
+    std::optional<RealLens> lens;
+    if (!d.lens.is_thin()) lens.emplace(d, g);
     const Lattice<double>& l = g.lattice;
-    const Passed share = passed(d, g);
+    const double through = transmission(d, g), past = beside(d, g);
+    const double on_to_principal = (eye_mm - g.rear_principal_mm) / (eye_mm - g.vertex_plane_mm);  // from where lines aim
     const PanelBehind panel(g);
-    const Vec3d eye{0, 0, eye_mm};
-    double seen = 0, all = 0;
+    Means seen{0, 0};
+    double all = 0;
     const auto number = [&](double choice, std::size_t k) {
         return std::min(std::floor((0.5 + 0.5 * choice) * l.count[k]), l.count[k] - 1);
     };
@@ -56,19 +125,33 @@ double seen_mean(const Display& d, const Geometry& g, double eye_mm) {
             in = {in.x - centre.x, in.y - centre.y};
         }
         const auto aimed = optics::in_display(l, optics::Place<double>{axis.x + in.x, axis.y + in.y});
-        if (!panel.meets(eye, aimed.x, aimed.y)) continue;
+        if (!panel.meets({0, 0, eye_mm}, aimed.x, aimed.y)) continue;
         ++all;
-        const auto line = lines.look(aimed.x, aimed.y, c[2], c[3]);
-        if (line && lines.on_panel(line->seen)) seen += line->through ? share.lens : share.beside;
+        const auto line = lines.look(on_to_principal * aimed.x, on_to_principal * aimed.y, c[2], c[3]);
+        if (!line) continue;
+        const double by_theory = lines.on_panel(line->seen) ? line->through ? through : past : 0;
+        seen.paraxial += by_theory;
+        if (!lens || (!line->through && past > 0)) {
+            seen.real += by_theory;
+        } else {
+            const RealLens::Seen found = lens->look(*line);
+            if (found.weight > 0 && lines.on_panel(found.place)) seen.real += found.weight;
+        }
     }
-    return all > 0 ? seen / all : nan;
+    return all > 0 ? Means{seen.paraxial / all, seen.real / all} : Means{nan, nan};
 }
 
 }  // namespace
 
 TheoryFigure luminance_over_panel(const Display& d, const Geometry& g, double eye_mm) {
     if (d.panel.emission_exponent != 0) return {nan, "theory holds for a panel that is equally bright from all directions"};
-    return {seen_mean(d, g, eye_mm), ""};
+    const Means seen = seen_means(d, g, eye_mm);
+    // Light that is lost to one lens may find another way between lenses of glass.
+    constexpr double alike = 0.003;
+    if (d.array.surround != Surround::opaque && std::abs(seen.real - seen.paraxial) > alike * seen.paraxial)
+        return {nan,
+                "the lenses are so steep that part of the light leaves them by their walls, for which there is no simple theory"};
+    return {seen.real, ""};
 }
 
 }  // namespace lfdsim

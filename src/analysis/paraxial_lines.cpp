@@ -50,12 +50,12 @@ std::optional<ParaxialLine> ParaxialLines::look(double x, double y, double a, do
         optics::to_array(l, x + above_ * (slope[0] - turned[0]) - l.offset[0], y + above_ * (slope[1] - turned[1]) - l.offset[1]);
     const optics::Cell<double> lens = optics::lens_at(l, at.x, at.y);
     if (!optics::holds(l, lens)) return {};
-    const auto down = optics::to_array(l, turned[0], turned[1]);
+    const optics::Place<double> down = optics::to_array(l, turned[0], turned[1]);
     const optics::Place<double> axis = optics::axis_in_array(l, lens);
     const double qx = at.x - axis.x, qy = l.strips ? 0 : at.y - axis.y;
     const optics::Place<double> bent{down.x + power_per_mm_ * qx, down.y + power_per_mm_ * qy};
     const auto reach = reach_mm(bent.x * bent.x + bent.y * bent.y);
-    return ParaxialLine{axis, {at.x - reach.x * bent.x, at.y - reach.y * bent.y}, aperture_.holds(qx, qy)};
+    return ParaxialLine{axis, at, down, {at.x - reach.x * bent.x, at.y - reach.y * bent.y}, aperture_.holds(qx, qy)};
 }
 
 optics::Place<double> ParaxialLines::reach_mm(double slope_squared) const {

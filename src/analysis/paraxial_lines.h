@@ -9,9 +9,11 @@ namespace lfdsim {
 
 /// A line that the diffuser has turned and that comes down to a lens. Places in the array's own axes from its middle, mm.
 struct ParaxialLine {
-    optics::Place<double> axis;  // of the lens; of strips on x' alone
-    optics::Place<double> seen;  // on the panel
-    bool through;                // it meets the clear aperture; else `seen` has no meaning
+    optics::Place<double> axis;   // of the lens; of strips on x' alone
+    optics::Place<double> at;     // in the plane of H'
+    optics::Place<double> slope;  // dx/dz and dy/dz as it comes down there
+    optics::Place<double> seen;   // on the panel
+    bool through;                 // it meets the clear aperture; else `seen` has no meaning
 };
 
 /// The lenses have no thickness: lines bend by q/f in the plane of H', q from the axis (docs/model.md, "Moire" and "Crosstalk").

@@ -22,9 +22,10 @@ double even_below(double x, double width) { return width > 0 ? std::clamp(x / wi
 SlopeSpread::SlopeSpread(const Subject& s, double eye, int axis)
     : eye_mm_(eye),
       array_mm_(screen_size_mm(s.geometry())[std::size_t(axis)]),
-      aperture_slopes_(s.geometry().clear_aperture_mm[std::size_t(axis)] *
+      shape_(aperture_shape(s.display(), s.geometry())),
+      axis_(std::size_t(axis)),
+      aperture_slopes_(shape_.extent_mm(axis_) *
                        std::abs(1 / eye - 1 / s.geometry().focal_length_mm + 1 / s.geometry().gap_mm)),
-      round_((s.display().array.aperture == Aperture::circle || s.display().lens.stop_radius_mm) && !is_strips(s.display().array)),
       half_rad_(0),
       above_mm_(0),
       diffuser_scale_(1),
@@ -48,10 +49,8 @@ double SlopeSpread::width() const { return aperture_slopes_ + 2 * std::tan(half_
 
 SlopeSpread::Spread SlopeSpread::aperture() const {
     const double width = aperture_slopes_;
-    if (!round_ || width <= 0) return {-0.5 * width, 0.5 * width, [width](double x) { return even_below(x, width); }};
-    return {-0.5 * width, 0.5 * width, [width](double x) {  // chords of a disk
-                const double u = std::clamp(2 * x / width, -1., 1.);
-                return 0.5 + (u * std::sqrt(1 - u * u) + std::asin(u)) / pi;
+    return {-0.5 * width, 0.5 * width, [this, width](double x) {
+                return width > 0 ? shape_.below(axis_, x / width * shape_.extent_mm(axis_)) : even_below(x, 0);
             }};
 }
 

@@ -1,5 +1,6 @@
 // The slopes, at the lenses, of the light that one eye gathers from a screen, for lenses without aberration. Floor 3.
 #pragma once
+#include "analysis/aperture_wave.h"
 #include "analysis/subject.h"
 
 #include <array>
@@ -36,8 +37,10 @@ class SlopeSpread {
     static double convolved(std::array<const Spread*, 3> spreads, double low, double high);
     double turned_less(double angle) const;
 
-    double eye_mm_, array_mm_, aperture_slopes_, lens_slopes_per_mm_;
-    bool round_;
+    double eye_mm_, array_mm_;
+    ApertureShape shape_;
+    std::size_t axis_;
+    double aperture_slopes_, lens_slopes_per_mm_;
     double half_rad_, above_mm_, diffuser_scale_;  // half the diffuser's angle; its height above the vertex plane; 1 - d/M
     bool box_;
 };

@@ -48,8 +48,8 @@ void add_screen(Result& result, const ScreenLuminance& screen, const Subject& s,
                                {mean.value},
                                {theory.value},
                                theory.missing.empty()
-                                   ? "mean over the screen; theory: the lenses' fill factor, times their transmission at "
-                                     "normal incidence, times the share in front of the panel and within the border"
+                                   ? "mean over the screen; theory: of lines of sight that aim at the array, the share that "
+                                     "a lens leads to the panel, times what its surfaces let through"
                                    : theory.missing,
                                {mean.error}});
     result.findings.push_back(

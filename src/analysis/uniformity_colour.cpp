@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -14,6 +15,8 @@ namespace {
 constexpr int most_colour_parts_along = 48;
 constexpr std::int64_t colour_lines_of_screen = std::int64_t(1) << 23;
 constexpr int colour_lines_of_angle = 1 << 13, most_colour_angles = 257;
+constexpr std::array shifts{0.19, 0.43, 0.71};  // of angles between those, in steps, each with ...
+constexpr int fewer_lines = 4;                  // ... a quarter of their lines
 
 /// Lines of sight of each set in each part.
 int colour_lines_a_set(const ScreenParts& screen) {
@@ -126,6 +129,28 @@ void add_colour_of_screen(const ColouredWhite& white, const Subject& s, double d
     result.tables.push_back(std::move(table));
 }
 
+/// Angles between others, by a share of their step.
+std::vector<double> between(const std::vector<double>& angles, double shift) {
+    std::vector<double> shifted;
+    for (std::size_t k = 0; k + 1 < angles.size(); ++k) shifted.push_back(angles[k] + shift * (angles[k + 1] - angles[k]));
+    return shifted;
+}
+
+/// By how much the mean over a few angles may miss that over all: each step of the distance lies anywhere between two of them,
+/// which is a standard deviation of 1/sqrt(12) of an interval; twice that.
+double between_angles(const std::vector<double>& distance) {
+    double squares = 0;
+    for (std::size_t k = 0; k + 1 < distance.size(); ++k)
+        if (const double step = distance[k + 1] - distance[k]; std::isfinite(step)) squares += step * step / 12;
+    return 2 * std::sqrt(squares) / double(distance.size());
+}
+
+/// Colours change in steps where light passes from one subpixel to the next: what other angles find belongs to the error.
+void widen(Estimate& figure, const Estimate& found) {
+    if (std::isfinite(figure.value) && std::isfinite(found.value))
+        figure.error = std::max(figure.error, std::abs(found.value - figure.value));
+}
+
 void add_colour_over_angle(const ColouredWhite& white, const Subject& s, double distance, Parts& parts, Result& result) {
     const std::vector<double> angles = eyes_deg(s);
     const ScreenParts screen(s.display(), s.geometry(), most_colour_parts_along);
@@ -140,13 +165,22 @@ void add_colour_over_angle(const ColouredWhite& white, const Subject& s, double 
     DataTable table{"uniformity_colour_angle", {{"angle_deg", angles}}};
     for (const int axis : {0, 1}) {
         const std::string name = axis == 0 ? "horizontal" : "vertical";
-        std::vector<ColourSums> light(angles.size());
-        parts.run(int(angles.size()), [&](int k) {
-            const double angle = angles[std::size_t(k)] * degree, across = distance * std::sin(angle);
-            const Vec3d eye{axis == 0 ? across : 0, axis == 0 ? 0 : across, distance * std::cos(angle)};
-            if (eye[2] > nearest) light[std::size_t(k)] = light_of_block(white, s, eye, screen, middle, lines, 0).light;
-        });
-        const ColourSpread spread = colour_spread(light, std::vector(angles.size(), 1.));
+        const auto seen_from = [&](const std::vector<double>& from_deg, int lines_a_set) {
+            std::vector<ColourSums> light(from_deg.size());
+            parts.run(int(from_deg.size()), [&](int k) {
+                const double angle = from_deg[std::size_t(k)] * degree, across = distance * std::sin(angle);
+                const Vec3d eye{axis == 0 ? across : 0, axis == 0 ? 0 : across, distance * std::cos(angle)};
+                if (eye[2] > nearest) light[std::size_t(k)] = light_of_block(white, s, eye, screen, middle, lines_a_set, 0).light;
+            });
+            return colour_spread(light, std::vector(from_deg.size(), 1.));
+        };
+        ColourSpread spread = seen_from(angles, lines);
+        for (const double shift : shifts) {
+            const ColourSpread other = seen_from(between(angles, shift), lines / fewer_lines);
+            widen(spread.largest, other.largest);
+            widen(spread.mean, other.mean);
+        }
+        spread.mean.error = std::hypot(spread.mean.error, between_angles(spread.distance));
         Json& json = result.figures["colour"];
         add_spread(json, name + "_", spread);
         if (spread.dark == int(angles.size()))
@@ -212,10 +246,11 @@ ColouredWhite::Seen ColouredWhite::look(const Vec3d& eye, const ScreenParts& scr
 ColourWork colour_work(const Subject& s) {
     if (!has_colours(s.display())) return {0, 0};
     const ScreenParts screen(s.display(), s.geometry(), most_colour_parts_along);
-    const int angles = 2 * int(eyes_deg(s).size());
+    const int angles = 2 * int(eyes_deg(s).size()), others = 2 * int(shifts.size()) * (angles / 2 - 1);
     const std::int64_t paths = disperses(s.display()) ? 3 * s.display().render.wavelength_samples : 1;
-    return {screen.count() + angles, paths * (std::int64_t(colour_lines_a_set(screen)) * independent_sets * screen.count() +
-                                              std::int64_t(angles) * colour_lines_of_angle)};
+    return {screen.count() + angles + others,
+            paths * (std::int64_t(colour_lines_a_set(screen)) * independent_sets * screen.count() +
+                     (std::int64_t(angles) + others / fewer_lines) * colour_lines_of_angle)};
 }
 
 void tell_colour_uniformity(const Subject& s, double distance, Parts& parts, Result& result) {

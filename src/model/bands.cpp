@@ -13,33 +13,18 @@
 namespace lfdsim {
 namespace {
 
-/// Radius of a lens's pupil for lines of sight parallel to its axis, without the walls of its cell: the least of all aperture
-/// radii, each divided by the height at which a paraxial ray passes it that comes from the viewer at height 1.
-double pupil_radius_mm(const Display& d, const Geometry& g) {
-    double radius = std::numeric_limits<double>::infinity(), height = 1, slope = 0, z = g.vertex_plane_mm;
-    const auto narrow = [&](double aperture) { radius = std::min(radius, aperture / std::abs(height)); };
-    for (std::size_t k = g.surfaces.size(); k-- > 0;) {
-        const PlacedSurface& s = g.surfaces[k];
-        height += slope * (z - s.z_mm);
-        z = s.z_mm;
-        narrow(s.semi_aperture_mm);
-        if (d.lens.stop_radius_mm && s.z_mm == g.stop_z_mm) narrow(*d.lens.stop_radius_mm);
-        // Going down, a surface with c < 0 is convex to the ray.
-        slope = (s.index_above * slope + s.curvature_per_mm * (s.index_below - s.index_above) * height) / s.index_below;
-    }
-    return radius;
-}
-
 constexpr int bins = 32, places = 32 * bins, harmonics = places / 4;
 
 /// Amplitudes of the waves cos(2 pi k x / p) in the share of a cell's height that is lit at x from the joint between two lenses,
-/// for lenses of that radius in cells `pitch` wide and `other_pitch` high.
-std::vector<double> lit_waves(double pitch, double other_pitch, double radius) {
+/// for pupils of that radius, and no more than that part of their cells, in cells `pitch` wide and `other_pitch` high.
+std::vector<double> lit_waves(double pitch, double other_pitch, const Pupil& pupil) {
+    const double radius = pupil.radius_mm, half = 0.5 * pupil.cells * pitch;
     std::vector<double> amplitudes(harmonics), wave(2 * places);
     for (std::size_t m = 0; m < wave.size(); ++m) wave[m] = std::cos(pi * double(m) / places);
     for (std::size_t n = 0; n < places; ++n) {
         const double x = pitch * ((double(n) + 0.5) / places - 0.5);
-        const double lit = std::abs(x) < radius ? std::min(2 * std::sqrt(radius * radius - x * x) / other_pitch, 1.) : 0;
+        const double lit =
+            std::abs(x) < std::min(radius, half) ? std::min(2 * std::sqrt(radius * radius - x * x) / other_pitch, pupil.cells) : 0;
         for (std::size_t k = 0; k < harmonics; ++k)
             amplitudes[k] += (k == 0 ? 1. : 2.) / places * lit * wave[k * (2 * n + 1) % wave.size()];
     }
@@ -86,15 +71,17 @@ std::vector<double> strip_waves(double pitch, double radius, const Spread& sprea
     return waves;
 }
 
-/// Lenses in staggered rows, lit within `radius` in their cells: their light has the waves (m/px, n/2py) with m + n even.
+/// Lenses in staggered rows, lit within their pupils in their cells: their light has the waves (m/px, n/2py) with m + n even.
 class StaggeredLight {
   public:
-    StaggeredLight(const Lattice<double>& lattice, double radius) : lattice_(lattice), wave_(2 * places) {
+    StaggeredLight(const Lattice<double>& lattice, const Pupil& pupil) : lattice_(lattice), wave_(2 * places) {
+        const double radius = pupil.radius_mm, part = pupil.cells;
         for (std::size_t m = 0; m < wave_.size(); ++m) wave_[m] = std::cos(pi * double(m) / places);
         for (std::size_t n = 0; n < places; ++n) {
             const double x = lattice.pitch[0] * ((double(n) + 0.5) / places - 0.5), p = lattice.pitch[0];
-            const double cell = lattice.hexagonal ? (p - std::abs(x)) / std::numbers::sqrt3 : 0.5 * lattice.pitch[1];
-            lit_half_[n] = std::abs(x) < radius ? std::min(std::sqrt(radius * radius - x * x), cell) : 0;
+            const double cell = lattice.hexagonal ? (part * p - std::abs(x)) / std::numbers::sqrt3 : 0.5 * part * lattice.pitch[1];
+            const bool lit = std::abs(x) < std::min(radius, 0.5 * part * p);
+            lit_half_[n] = lit ? std::min(std::sqrt(radius * radius - x * x), cell) : 0;
         }
     }
 
@@ -156,9 +143,10 @@ double michelson_of(const std::vector<double>& waves) {
 }  // namespace
 
 double aperture_plane_mm(const Display& d, const Geometry& g, std::size_t axis) {
+    const bool filled = d.array.aperture == Aperture::cell, round = !filled || g.pupil.radius_mm < outer_radius_mm(d.array);
+    if (g.pupil.inner_z && round) return *g.pupil.inner_z;
     if (d.lens.is_thin() || stop_at_entrance(d, g)) return g.entrance_z_mm;
     const PlacedSurface& last = g.surfaces.back();
-    const bool filled = d.array.aperture == Aperture::cell;
     return last.z_mm + sag_mm(last.curvature_per_mm, last.conic, last.even_asphere,
                               filled ? std::min(d.array.pitch_mm[axis] / 2, last.semi_aperture_mm) : last.semi_aperture_mm);
 }
@@ -176,12 +164,17 @@ std::array<double, 2> band_contrast(const Display& d, const Geometry& g) {
     // Without an opaque surround light passes between the lenses too; a sheet of stops is black in any case.
     const bool strips = is_strips(d.array);
     if (d.array.surround != Surround::opaque && !d.lens.stop_radius_mm) return {0, strips ? nan : 0};
-    const double turn = d.array.turn_deg() * degree, radius = pupil_radius_mm(d, g);
-    if (strips)
-        return {radius < 0.5 * g.lattice.pitch[0] ? michelson_of(strip_waves(g.lattice.pitch[0], radius, {d, g, 0})) : 0, nan};
+    const double turn = d.array.turn_deg() * degree;
+    Pupil pupil = g.pupil;
+    if (d.array.aperture == Aperture::circle) pupil.cells = 1;
+    const bool whole = pupil.cells == 1 && pupil.radius_mm >= outer_radius_mm(d.array);
+    if (strips) {
+        const double half = std::min(pupil.radius_mm, 0.5 * pupil.cells * g.lattice.pitch[0]);
+        return {whole ? 0 : michelson_of(strip_waves(g.lattice.pitch[0], half, {d, g, 0})), nan};
+    }
     if (is_staggered(d.array)) {
-        if (radius >= outer_radius_mm(d.array)) return {0, 0};
-        const StaggeredLight light(g.lattice, radius);
+        if (whole) return {0, 0};
+        const StaggeredLight light(g.lattice, pupil);
         return {michelson_of(light.across({d, g, 0})), michelson_of(light.up({d, g, 1}))};
     }
     std::array<double, 2> contrast{};
@@ -189,7 +182,7 @@ std::array<double, 2> band_contrast(const Display& d, const Geometry& g) {
         const double height = d.diffuser ? *g.diffuser_z_mm - aperture_plane_mm(d, g, axis) : 0, pitch = d.array.pitch_mm[axis];
         // The waves run along the array's axis, the diffuser spreads along the display's.
         const double across = axis == 0 ? std::cos(turn) : -std::sin(turn), up = axis == 0 ? std::sin(turn) : std::cos(turn);
-        std::vector<double> seen = lit_waves(pitch, d.array.pitch_mm[1 - axis], radius);
+        std::vector<double> seen = lit_waves(pitch, d.array.pitch_mm[1 - axis], pupil);
         for (std::size_t k = 0; d.diffuser && k < seen.size(); ++k) {
             const double frequency = double(k) / pitch;
             seen[k] *= spread_transform(*d.diffuser, 0, height, frequency * across) *

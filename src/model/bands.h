@@ -11,8 +11,9 @@ namespace lfdsim {
 /// Bands of less contrast (Michelson's) go unnoticed beside the picture's own steps from lens to lens.
 inline constexpr double visible_band_contrast = 0.1;
 
-/// z, mm from the panel, of the plane that cuts off light on the viewer's side: the stop before the lens, else the lens's rim; of
-/// a lens that fills its cell, in the middle of the sides across the array's own x (axis 0) or y (1).
+/// z, mm from the panel, of the plane that cuts off light as a viewer sees it: of the pupil, where an aperture inside the lens
+/// limits it; else of the stop before the lens, or of the lens's rim; of a lens that fills its cell, in the middle of the sides
+/// across the array's own x (axis 0) or y (1).
 double aperture_plane_mm(const Display&, const Geometry&, std::size_t axis);
 
 /// The diffuser's full angle (full width at half maximum, if gaussian) that joins the lenses from `height_mm` above that plane:

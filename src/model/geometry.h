@@ -30,6 +30,15 @@ struct PlacedLayer {
     double thickness_mm, index;
 };
 
+/// A lens's pupil as an eye far away on its axis sees it, by paraxial optics: of the images of all apertures through the surfaces
+/// in front of them, the narrowest. A ray parallel to the axis at the height 1 passes an aperture of radius r at the height h: its
+/// image has the radius r / |h|.
+struct Pupil {
+    double radius_mm;               // of the round one: of surfaces and of the stop
+    std::optional<double> inner_z;  // where that image is, from the panel, if it is not of what light meets first
+    double cells;                   // the pupil's part of a cell that the lens fills, 1 or less: 1 over the greatest |h|
+};
+
 /// A valid display resolved to lengths on the z axis, with the errors of its array as a whole but for wedge and bow. All z in mm
 /// from the panel.
 struct Geometry {
@@ -50,7 +59,8 @@ struct Geometry {
     double focal_length_mm;               // f, paraxial; infinite for an afocal lens
     double glass_radius_mm;  // plano_convex: r of the cap in glass (a lens that fills its cell: at least to the corners); else semi
                              // aperture
-    std::array<double, 2> clear_aperture_mm;  // D along the array's own x and y: 2r, a cell's width, twice the stop radius
+    Pupil pupil;             // of a lens
+    std::array<double, 2> clear_aperture_mm;  // D, the pupil's width along the array's own x and y
     double stop_z_mm;                         // plane of the curved vertex (last vertex for surfaces, lens for ideal)
     std::optional<double> diffuser_z_mm;
     double panel_width_mm, panel_height_mm;

@@ -6,6 +6,7 @@
 #include "model/lens_errors.h"
 #include "model/numbers.h"
 #include "model/prescription.h"
+#include "model/pupil.h"
 
 namespace lfdsim {
 namespace {
@@ -56,14 +57,13 @@ void place_lens(const Lens& lens, const LensArray& array, const Panel& panel, Ge
     const double T = g.layers_top_mm, reduced_T = reduced_mm(g.layers);
     g.surfaces = prescription(lens, array, green_nm);
     const Cardinal paraxial = cardinal_points(g.surfaces);
-    double lowest = 0, highest = 0, vertex = 0, widest = 0, narrowest = g.surfaces.front().semi_aperture_mm;
+    double lowest = 0, highest = 0, vertex = 0, widest = 0;
     for (const PlacedSurface& s : g.surfaces) {
         const auto [low, high] = sag_range_mm(s);
         lowest = std::min(lowest, s.z_mm + low);
         highest = std::max(highest, s.z_mm + high);
         vertex = std::max(vertex, s.z_mm);
         widest = std::max(widest, s.semi_aperture_mm);
-        narrowest = std::min(narrowest, s.semi_aperture_mm);
     }
     // z of the first vertex
     const double first =
@@ -78,7 +78,6 @@ void place_lens(const Lens& lens, const LensArray& array, const Panel& panel, Ge
     g.rear_principal_mm = first + paraxial.rear_principal_mm;
     g.focal_length_mm = paraxial.focal_length_mm;
     g.glass_radius_mm = widest;
-    g.clear_aperture_mm.fill(2 * narrowest);
     // the curved vertex is the first one only for a plano-convex lens that faces the panel
     const auto* ball = std::get_if<PlanoConvex>(&lens.kind);
     const bool first_curved = ball && ball->facing == Facing::panel;
@@ -88,8 +87,11 @@ void place_lens(const Lens& lens, const LensArray& array, const Panel& panel, Ge
     const PlacedSurface& lowest_surface = g.surfaces.front();
     g.glued = is_flat(lowest_surface) && std::abs(g.base_z_mm - T) <= glue_mm && std::abs(lowest_surface.z_mm - T) <= glue_mm;
     if (g.glued) glue(g);
-    if (array.aperture == Aperture::cell) g.clear_aperture_mm = array.pitch_mm;
-    if (lens.stop_radius_mm) g.clear_aperture_mm.fill(2 * *lens.stop_radius_mm);
+    g.pupil = pupil(g.surfaces, lens.stop_radius_mm, g.stop_z_mm);
+    g.clear_aperture_mm.fill(2 * g.pupil.radius_mm);
+    if (array.aperture == Aperture::cell)
+        for (std::size_t k = 0; k < 2; ++k)
+            g.clear_aperture_mm[k] = std::min(g.clear_aperture_mm[k], g.pupil.cells * array.pitch_mm[k]);
 }
 
 // The array as a whole stands elsewhere. The diffuser, the content and the camera stay.
@@ -99,6 +101,7 @@ void misplace_array(const Errors& e, Geometry& g) {
         for (double* z : {&g.base_z_mm, &g.top_z_mm, &g.entrance_z_mm, &g.vertex_plane_mm, &g.reduced_vertex_plane_mm,
                           &g.front_principal_mm, &g.rear_principal_mm, &g.gap_mm, &g.stop_z_mm})
             *z += e.gap_mm;
+        if (g.pupil.inner_z) *g.pupil.inner_z += e.gap_mm;
         g.content_depth_mm -= e.gap_mm;
     }
     Lattice<double>& l = g.lattice;

@@ -73,7 +73,7 @@ std::vector<Figure> figures(const Display& d, const Geometry& g) {
             {"stop_z_mm", {g.stop_z_mm}, "plane of the aperture stop, if there is one"},
             {"diffuser_z_mm", {g.diffuser_z_mm.value_or(none)}, "diffuser", "", "there is no diffuser"},
             {"glass_radius_mm", {g.glass_radius_mm}, "radius of a lens"},
-            {"clear_aperture_mm", aperture, "D, clear aperture of a lens"},
+            {"clear_aperture_mm", aperture, "D, clear aperture of a lens: its pupil as the viewer sees it"},
             {"panel_width_mm", {g.panel_width_mm}, "panel, width"},
             {"panel_height_mm", {g.panel_height_mm}, "panel, height"},
             {"array_width_mm", {g.array_width_mm}, "lens array, width"},

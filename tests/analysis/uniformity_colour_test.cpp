@@ -84,6 +84,56 @@ TEST(Chromaticity, IsThatOfThePrimaries) {
     EXPECT_TRUE(std::isnan(chromaticity({0, 0, 0})[0]));
 }
 
+// A part within its noise of a tenth of the mean luminance may be dark or not: the error covers both.
+TEST(Chromaticity, ErrorsCoverPartsAtTheLimitOfDarkness) {
+    for (const double brightness : {0.0990, 0.0999, 0.1001, 0.1010}) {  // over the mean of all
+        std::vector<ColourSums> parts(10);
+        for (std::size_t k = 0; k < parts.size(); ++k)
+            for (std::size_t set = 0; set < independent_sets; ++set) {
+                const double noise = 0.03 * (set % 2 == 0 ? 1 : -1), blue = k % 2 == 0 ? 1 : 1.2;
+                if (k > 0) parts[k][0][set] = parts[k][1][set] = 1, parts[k][2][set] = blue;
+                if (k == 0) parts[k][0][set] = 3 * brightness * (1 + noise);
+            }
+        double rest = 0;
+        for (std::size_t k = 1; k < parts.size(); ++k) rest += 0.9278 + 0.0722 * parts[k][2][0];
+        const double mean = rest / (10 - brightness), red = brightness * mean / 0.2126;  // its luminance: that share of the mean
+        for (std::size_t set = 0; set < independent_sets; ++set) parts[0][0][set] = red * (1 + 0.03 * (set % 2 == 0 ? 1 : -1));
+        const ColourSpread found = colour_spread(parts, std::vector(10, 1.));
+        std::vector<std::array<double, 3>> lit;
+        for (std::size_t k = 1; k < parts.size(); ++k) lit.push_back({1, 1, parts[k][2][0]});
+        const Distances dark = distances(lit);
+        lit.push_back({red, 0, 0});
+        const Distances all = distances(lit);
+        ASSERT_GT(all.mean, dark.mean + 0.02);
+        for (const Distances& either : {dark, all}) {
+            EXPECT_NEAR(found.mean.value, either.mean, found.mean.error + 1e-9) << brightness;
+            EXPECT_NEAR(found.largest.value, either.largest, found.largest.error + 1e-9) << brightness;
+        }
+    }
+}
+
+// Between the eyes' angles, too, colours are what the figures say: a lens in focus shows one stripe after the other.
+TEST(ColourUniformity, ErrorsOverAngleCoverAnglesBetween) {
+    Display d = stripes();
+    d.lens.kind = IdealLens{{}, 1 / (1 / gap + 1 / (eye_mm - gap))};
+    Result result;
+    const Json json = colours_of(d, result);
+    std::vector<std::array<double, 3>> all;
+    constexpr int fine = 20000;
+    const double half = json["angle_deg"][1].get<double>() * degree, axis = axis_of((across - 1) / 2, across);
+    for (int k = 0; k < fine; ++k) {
+        const double angle = half * ((k + 0.5) / fine * 2 - 1), x = eye_mm * std::sin(angle), z = eye_mm * std::cos(angle) - gap;
+        const double in_pixel = (axis + (axis - x) * gap / z) / pixel, stripe = 3 * (in_pixel - std::floor(in_pixel));
+        std::array<double, 3> light{};
+        light[std::size_t(stripe)] = 3;
+        all.push_back(light);
+    }
+    EXPECT_NEAR(json["horizontal_delta_uv_mean"], distances(all).mean, json["horizontal_delta_uv_mean_error"].get<double>());
+    EXPECT_NEAR(json["horizontal_delta_uv_largest"], distances(all).largest,
+                json["horizontal_delta_uv_largest_error"].get<double>());
+    EXPECT_LT(json["horizontal_delta_uv_mean_error"], 0.03);
+}
+
 // A lens that images the eye onto the panel shows one point, and so one colour, without noise.
 TEST(ColourUniformity, InFocusEachLensHasTheColourOfOneStripe) {
     Display d = stripes();

@@ -89,12 +89,9 @@ def _resolve(text, nm):
     curved_is_last = d.ideal or d.lens.type == "surfaces" or d.lens.facing == "viewer"
     d.stop_z = d.vertex_plane if curved_is_last else d.surfaces[0].z
     d.stop_radius = getattr(d.lens, "stop_radius_mm", None)
-    if d.stop_radius:
-        d.clear_aperture = np.full(2, 2 * d.stop_radius)  # along x' and y'
-    elif d.fills_cell:
-        d.clear_aperture = d.cell.width
-    else:
-        d.clear_aperture = np.full(2, 2 * (d.lens.aperture_radius_mm if d.ideal else min(s.semi for s in d.surfaces)))
+    d.pupil = pupil(d)
+    cells = d.pupil.cells * np.asarray(d.cell.width) if d.fills_cell else np.inf
+    d.clear_aperture = np.minimum(np.full(2, 2 * d.pupil.radius), cells)  # along x' and y'
     d.errors = errors.of_display(text.get("errors"), d)
     diffuser = text.get("diffuser")
     d.diffuser = SimpleNamespace(**{"profile": "box", **diffuser}, z=d.vertex_plane + diffuser["distance_mm"]) if diffuser else None
@@ -132,6 +129,25 @@ def paraxial(d):
             m = np.array([[1, (after.z - s.z) / s.n_above], [0, 1]]) @ m
     (a, _), (c, e) = m
     return SimpleNamespace(f=-1 / c, front=d.surfaces[0].z + (e - 1) / c, rear=d.surfaces[-1].z + (1 - a) / c)
+
+
+def pupil(d):
+    """What the viewer sees, far away, of a lens's apertures by paraxial optics: the radius of the narrowest image of a round one, and of cells the least scale.
+
+    From an aperture to the viewer's side a matrix of (height, index times angle) is [[A, B], [C, D]], its determinant 1: the image is 1/D as large.
+    """
+    stop = d.stop_radius or math.inf
+    if d.ideal:
+        return SimpleNamespace(radius=min(math.inf if d.fills_cell else d.lens.aperture_radius_mm, stop), cells=1.0)
+    radius, cells, m = math.inf, 1.0, np.eye(2)
+    for k in reversed(range(len(d.surfaces))):
+        s = d.surfaces[k]
+        if k + 1 < len(d.surfaces):
+            above = d.surfaces[k + 1]
+            m = m @ np.array([[1, 0], [-(above.n_above - above.n_below) * above.c, 1]]) @ np.array([[1, (above.z - s.z) / s.n_above], [0, 1]])
+        scale = 1 / max(abs(m[1, 1]), 1e-300)
+        radius, cells = min(radius, scale * min(s.semi, stop if s.z == d.stop_z else math.inf)), min(cells, scale)
+    return SimpleNamespace(radius=radius, cells=cells)
 
 
 def by_axis(d, along):

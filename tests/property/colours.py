@@ -2,7 +2,7 @@
 import numpy as np
 
 import oracle
-from edges import error_of
+from edges import SURE, error_of
 from sight import SETS
 from white import radiance
 
@@ -59,27 +59,45 @@ def distances(light, weights):
     """({"largest": (distance of a part's colour from that of all light together, error), "mean": ...}); None in place of both where all is dark.
 
     light (3, SETS, parts). In turn all sets but one find the largest distance and the parts' directions, and that one tells how far they are.
+    Parts that may be dark or not, within their noise, make the error larger by what the figures would then change.
     """
-    luminance = np.tensordot(LUMINANCE, light.sum(axis=1), 1)
-    lit = luminance >= DARK * np.average(luminance, weights=weights)
+    luminance = np.tensordot(LUMINANCE, light, 1)
+    above = luminance - DARK * np.average(luminance, weights=weights, axis=1)[:, None]
     if not luminance.any():
         return {"largest": None, "mean": None}
-    light, weights = light[:, :, lit], weights[lit] / weights[lit].sum()
+    lit = above.mean(axis=0) >= 0
+    unsure = np.flatnonzero(np.abs(above.mean(axis=0)) <= SURE * above.std(axis=0, ddof=1) / np.sqrt(SETS))
+    found = distances_of_lit(light[:, :, lit], weights[lit] / weights[lit].sum())
+    plain = {name: of_all for name, (_, _, of_all) in found.items()}
+    open_error = dict.fromkeys(plain, 0.0)
+    for part in unsure:
+        other = lit.copy()
+        other[part] = not lit[part]
+        if other.any():
+            length = np.hypot(*off_colours(light[:, :, other].sum(axis=1), weights[other] / weights[other].sum()))
+            for name, value in (("largest", length.max()), ("mean", np.average(length, weights=weights[other]))):
+                open_error[name] += abs(value - plain[name])
+    return {name: (value, error + open_error[name]) for name, (value, error, _) in found.items()}
 
-    def off(parts):
-        return chromaticity(parts) - chromaticity(parts @ weights)[:, None]
 
+def off_colours(parts, weights):
+    return chromaticity(parts) - chromaticity(parts @ weights)[:, None]
+
+
+def distances_of_lit(light, weights):
+    """{name: (value, error, that of all sets together, which noise raises)}; the weights' sum is 1."""
     whole = light.sum(axis=1)
-    length = np.hypot(*off(whole))
+    of_whole = off_colours(whole, weights)
+    length = np.hypot(*of_whole)
     told = {"largest": [], "mean": []}
     for one in range(SETS):
-        others = off(whole - light[:, one])
+        others = off_colours(whole - light[:, one], weights)
         far = np.hypot(*others)
-        own = ((SETS * off(whole) - (SETS - 1) * others) * others).sum(axis=0) / np.maximum(far, 1e-300)
+        own = ((SETS * of_whole - (SETS - 1) * others) * others).sum(axis=0) / np.maximum(far, 1e-300)
         told["largest"].append(own[far.argmax()])
         told["mean"].append(own @ weights)
-    of_all = {"largest": length.max(), "mean": length @ weights}  # which noise raises
-    return {name: (np.mean(found), np.hypot(error_of(np.array(found)), (of_all[name] - np.mean(found)) / 3)) for name, found in told.items()}
+    of_all = {"largest": length.max(), "mean": length @ weights}
+    return {name: (np.mean(found), np.hypot(error_of(np.array(found)), (of_all[name] - np.mean(found)) / 3), of_all[name]) for name, found in told.items()}
 
 
 def light_of_parts(sight, eye, parts):
