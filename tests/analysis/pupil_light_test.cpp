@@ -10,6 +10,7 @@
 #include "analysis/luminance_theory.h"
 #include "analysis/uniformity.h"
 #include "model/numbers.h"
+#include "model/screen.h"
 
 namespace lfdsim {
 namespace {
@@ -63,9 +64,15 @@ class DrawLenses {
 double traced(const Display& d, const Geometry& g, double eye) {
     const EyeRays rays(d, g);
     const std::vector<Choice> choices = even_choices(1 << 15);
-    double sum = 0;
-    for (const Choice& c : choices) sum += rays.look({0, 0, eye}, c).light;
-    return sum / double(choices.size());
+    const PanelBehind panel(g);
+    double sum = 0, all = 0;
+    for (const Choice& c : choices) {
+        const Vec3d at = rays.aim({0, 0, eye}, c);
+        if (!panel.meets({0, 0, eye}, at[0], at[1])) continue;
+        ++all;
+        sum += rays.look({0, 0, eye}, c).light;
+    }
+    return sum / all;
 }
 
 double area_of(const ApertureShape& shape, const Lattice<double>& l) {
