@@ -6,6 +6,7 @@
 #include "cli/output.h"
 #include "cli/panel_source.h"
 #include "cli/work_options.h"
+#include "view/hidden_paths.h"
 #include "view/page.h"
 #include "view/panels.h"
 #include "view/server.h"
@@ -97,8 +98,13 @@ void run(const ViewArguments& args) {
     start.panel_image = args.panel_image.path();
     start.pattern = args.pattern;
 
-    const std::filesystem::path folder = args.folder.empty() ? start.display.parent_path() : std::filesystem::path(args.folder);
-    const view::Library library(start, folder.empty() ? "." : folder);
+    std::filesystem::path folder = args.folder.empty() ? start.display.parent_path() : std::filesystem::path(args.folder);
+    if (folder.empty()) folder = ".";
+    const view::Library library(start, folder);
+    std::vector<std::filesystem::path> elsewhere{"."};
+    for (const auto& file : {start.display, std::filesystem::path(start.model), start.panel_image})
+        if (file.has_parent_path()) elsewhere.push_back(file.parent_path());
+    options.as_told = [hidden = view::HiddenPaths(folder, elsewhere)](const std::string& text) { return hidden.without(text); };
     view::Panels panels;
     Job nobody;
     if (args.panel_image.given()) args.panel_image.warn(display);

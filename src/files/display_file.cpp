@@ -38,8 +38,8 @@ class DisplayReader {
         Display display;
         read_schema();
         read_table(source.root(), "", display, {"schema"});
+        visit_files(display, [&](const std::string& path, std::string& file) { place(path, file); });
         look_up_glasses(display);
-        place_files(display.content);
         read_lens_errors(display);
         judge(display);
         return display;
@@ -211,25 +211,19 @@ class DisplayReader {
                            [&](const FormatTable::Value& value) { return value.key.name == name; });
     }
 
-    // A path in a file is relative to where the file is, one on the command line to where it was typed.
-    void place(const std::string& key, std::string& path) const {
-        if (folder.empty() || path.empty() || path.starts_with("built-in:") || source.is_set(key)) return;
+    // A path in a file is relative to where the file is, one on the command line, alone or in a table or list, to where it was
+    // typed.
+    void place(std::string_view key, std::string& path) const {
+        if (folder.empty() || path.empty() || path.starts_with("built-in:")) return;
+        for (; !key.empty(); key = table_of_path(key))
+            if (source.is_set(key)) return;
         path = (folder / path).lexically_normal().string();
-    }
-
-    void place_files(Content& content) const {
-        place("content.model", content.model);
-        for (std::size_t i = 0; i < content.objects.size(); ++i) {
-            place(fmt::format("content.object.{}.model", i), content.objects[i].model);
-            place(fmt::format("content.object.{}.image", i), content.objects[i].image);
-        }
     }
 
     void read_lens_errors(Display& display) {
         constexpr const char* key = "errors.table";
         std::string& file = display.errors.table;
         if (file.empty() || is_wrong(key)) return;
-        place(key, file);
         // Which lenses there are is known if the array can be laid out.
         for (const char* needed : {"panel.pixels", "panel.pixel_pitch_mm", "array.pitch_mm", "array.count", "array.lattice"})
             if (is_wrong(needed)) return;
@@ -240,7 +234,7 @@ class DisplayReader {
         }
     }
 
-    std::vector<GlassCatalogue> read_catalogues(std::vector<std::string>& files) {
+    std::vector<GlassCatalogue> read_catalogues(const std::vector<std::string>& files) {
         constexpr const char* key = "glass_catalogues";
         std::vector<GlassCatalogue> catalogues;
         if (is_wrong(key)) return catalogues;
@@ -248,8 +242,7 @@ class DisplayReader {
             add(key, fmt::format("has {} files, allowed are {}", files.size(), max_catalogues));
             return catalogues;
         }
-        for (std::string& file : files) {
-            place(key, file);
+        for (const std::string& file : files) {
             try {
                 catalogues.push_back(read_agf(file));
             } catch (const InputError& error) {

@@ -6,9 +6,31 @@
 namespace lfdsim {
 namespace {
 
+template <class Field>
+struct Plain : std::bool_constant<std::is_arithmetic_v<Field> || has_words<Field>> {};
+template <class Number>
+struct Plain<std::optional<Number>> : Plain<Number> {};
+template <class Number>
+struct Plain<std::vector<Number>> : Plain<Number> {};
+template <class Number, std::size_t n>
+struct Plain<std::array<Number, n>> : Plain<Number> {};
+template <>
+struct Plain<Pitch> : std::true_type {};
+template <>
+struct Plain<Glass> : std::true_type {};  // a name is looked up in the catalogues, and a table has numbers
+/// Whether a value of this type can name no file: numbers, words and glasses. A type that is not known here can.
+template <class Field>
+inline constexpr bool is_plain = Plain<Field>::value;
+
+template <class T>
+bool names_file(const Key<T>& key) {
+    return key.text == TextOf::file &&
+           std::visit([]<class Field>(Field T::*) { return part_kind<Field> == PartKind::value && !is_plain<Field>; }, key.member);
+}
+
 template <class T>
 KeyInfo info(const Key<T>& key) {
-    return {key.name, key.range, key.required, key.doc, key.absent};
+    return {key.name, key.range, key.required, key.doc, key.absent, names_file(key)};
 }
 
 template <class T>
@@ -139,6 +161,34 @@ const FormatTable::Value* key_at(std::string_view path) {
             if (value.key.name == name) return &value;
     }
     return nullptr;
+}
+
+void visit_files(Display& d, const std::function<void(const std::string& path, std::string& file)>& visit) {
+    visit_all(d, [&](const std::string& path, const KeyInfo& key, ValueRef value) {
+        if (!key.names_file) return;
+        if (auto* const file = std::get_if<std::string*>(&value)) return visit(path, **file);
+        auto& files = *std::get<std::vector<std::string>*>(value);
+        for (std::size_t k = 0; k < files.size(); ++k) visit(path + "." + std::to_string(k), files[k]);
+    });
+}
+
+bool decides_a_file(std::string_view path) {
+    std::string key;  // without the numbers of elements, which format_tables() does not have
+    for (std::size_t start = 0; start <= path.size();) {
+        const std::size_t end = std::min(path.find('.', start), path.size());
+        const std::string_view part = path.substr(start, end - start);
+        if (part.find_first_not_of("0123456789") != part.npos) key.append(key.empty() ? "" : ".").append(part);
+        start = end + 1;
+    }
+    const auto within = [](std::string_view inner, std::string_view outer) {
+        return inner.starts_with(outer) && (inner.size() == outer.size() || inner[outer.size()] == '.');
+    };
+    for (const FormatTable& table : format_tables())
+        for (const FormatTable::Value& value : table.values) {
+            const std::string file = (table.path.empty() ? "" : table.path + ".") + std::string(value.key.name);
+            if (value.key.names_file && (within(key, file) || within(file, key))) return true;
+        }
+    return false;
 }
 
 }  // namespace lfdsim

@@ -244,7 +244,7 @@ constexpr Key<Render> render_keys[] = {
 };
 
 constexpr Key<Display> display_keys[] = {
-    {"name", &Display::name, no_range, false, "What reports and image files call the display."},
+    {"name", &Display::name, no_range, false, "What reports and image files call the display.", "", TextOf::label},
     {"glass_catalogues", &Display::glass_catalogues, no_range, false,
      "AGF files with glasses, relative to the description's folder; looked up before the glasses that ship. At most 8."},
     {"panel", &Display::panel, no_range, true, ""},

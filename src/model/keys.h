@@ -71,6 +71,10 @@ struct MemberOf<Content> {
                               std::vector<SceneObject> Content::*>;
 };
 
+/// What a text in a description is. A text that nothing is said of counts as a file's name, which visitors of the viewer may not
+/// set.
+enum class TextOf { file, label };
+
 template <class T>
 struct Key {
     std::string_view name;
@@ -79,6 +83,7 @@ struct Key {
     bool required;
     std::string_view doc;
     std::string_view absent = {};  // what holds without the key, where the field's own default does not say it
+    TextOf text = TextOf::file;    // unused for what is no text
 };
 
 template <class T>
@@ -159,6 +164,7 @@ struct KeyInfo {
     Range range;
     bool required;
     std::string_view doc, absent;
+    bool names_file;
 };
 
 template <class V>
@@ -192,6 +198,14 @@ const std::vector<FormatTable>& format_tables();
 
 /// The key at a dotted path ("lens.surface.0.conic"), of any kind, with a fresh value; null if there is none.
 const FormatTable::Value* key_at(std::string_view path);
+
+/// Calls visit for each file that a display names, with the dotted path of its key ("content.object.0.image",
+/// "glass_catalogues.1").
+void visit_files(Display&, const std::function<void(const std::string& path, std::string& file)>& visit);
+
+/// Whether what is set at a dotted path, in whatever form, could change which files a description names: at a key that names one,
+/// at a table or list that has such a key, or at an element of one.
+bool decides_a_file(std::string_view path);
 
 /// Words of an enumeration in the order of its values, and of kinds.
 template <class E>

@@ -23,15 +23,9 @@ namespace fs = std::filesystem;
 
 /// Paths that do not depend on the working directory, which may be another one later or in another process.
 Display placed(Display display) {
-    const auto place = [](std::string& file) {
+    visit_files(display, [](const std::string&, std::string& file) {
         if (!file.empty() && !file.starts_with("built-in:")) file = fs::absolute(file).lexically_normal().string();
-    };
-    for (std::string& file : display.glass_catalogues) place(file);
-    place(display.content.model);
-    for (SceneObject& object : display.content.objects) {
-        place(object.model);
-        place(object.image);
-    }
+    });
     return display;
 }
 

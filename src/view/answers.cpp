@@ -2,6 +2,7 @@
 
 #include "content/content.h"
 #include "files/display_file.h"
+#include "model/keys.h"
 #include "report/check.h"
 #include "report/description.h"
 #include "report/side_view.h"
@@ -96,25 +97,24 @@ class Cancellable : public Job {
     const std::function<bool()>& cancelled_;
 };
 
-/// A file's name for a description in the folder: relative to that where it lies below it.
-std::string name_in(const std::filesystem::path& folder, const std::string& file) {
+/// A file's name for a description that lies beside `other`: relative to that folder where the file lies below it.
+std::string name_beside(const std::filesystem::path& other, const std::string& file) {
     namespace fs = std::filesystem;
     const fs::path full = fs::absolute(file).lexically_normal(),
-                   relative = full.lexically_relative(fs::absolute(folder).lexically_normal());
+                   relative = full.lexically_relative(fs::absolute(other).lexically_normal().parent_path());
     const bool below = !relative.empty() && *relative.begin() != "..";
     return below ? relative.string() : full.string();
 }
 
-/// The current description, for a file in the folder.
-std::string toml(const Library& library, const Wanted& wanted, const std::filesystem::path& folder) {
+/// The current description, for the file `to`.
+std::string toml(const Library& library, const Wanted& wanted, const std::filesystem::path& to) {
     Display display = library.display(wanted);
-    for (SceneObject& object : display.content.objects)
-        for (std::string* const name : {&object.model, &object.image})
-            if (!name->empty() && *name != built_in_spheres) *name = name_in(folder, *name);
-    const std::string file = model_file(library, wanted, display);
-    if (file == scene_of_objects) return write_display(display);
-    if (file == model_of(display) && file == built_in_spheres) return write_display(display);  // given, or shown by default
-    display.content.model = file == built_in_spheres ? file : name_in(folder, file);
+    const std::string model = model_file(library, wanted, display);
+    const bool by_default = model == built_in_spheres && model == model_of(display);
+    if (model != scene_of_objects && !by_default) display.content.model = model;
+    visit_files(display, [&](const std::string&, std::string& file) {
+        if (!file.empty() && file != built_in_spheres) file = name_beside(to, file);
+    });
     return write_display(display);
 }
 
@@ -137,10 +137,10 @@ Json answer_to(const Library& library, Panels& panels, const Wanted& wanted, con
             return {{"displays", files.displays}, {"models", files.models}, {"pictures", files.pictures}};
         }
         case Ask::What::toml:
-            return {{"text", toml(library, wanted, library.description(wanted).file.parent_path())}};
+            return {{"text", toml(library, wanted, library.description(wanted).file)}};
         case Ask::What::save: {
             const std::filesystem::path path = library.new_file(ask.name);
-            save_text(path, toml(library, wanted, path.parent_path()), ask.overwrite);
+            save_text(path, toml(library, wanted, path), ask.overwrite);
             return {{"name", ask.name}};
         }
         case Ask::What::exr:

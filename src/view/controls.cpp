@@ -15,9 +15,8 @@
 namespace lfdsim::view {
 namespace {
 
-// Other parts of a message decide these.
-constexpr std::string_view left_out[] = {
-    "name", "content.model", "glass_catalogues", "camera.position_mm", "camera.resolution", "panel.subpixel_cell", "errors.table"};
+// Other parts of a message decide these, or nothing of the picture depends on them.
+constexpr std::string_view left_out[] = {"name", "camera.position_mm", "camera.resolution", "panel.subpixel_cell"};
 
 std::string label(std::string_view key) {
     for (const std::string_view unit : {"_per_mm", "_mm", "_nm", "_deg"})
@@ -117,7 +116,7 @@ class Lister {
     void add_key(const std::string& path, const KeyInfo& key, Field& field) {
         const std::string table(table_of_path(path));
         const bool idle = table == last_surface() && (key.name == "distance_mm" || key.name == "index");  // no surface follows
-        if (idle || gives_way(path) || of_no_object(path, field) ||
+        if (key.names_file || idle || gives_way(path) || of_no_object(path, field) ||
             std::find(std::begin(left_out), std::end(left_out), path) != std::end(left_out))
             return;
         Json control{{"key", path}, {"table", table}, {"label", label(key.name)}, {"unit", unit_of(std::string(key.name))}};
@@ -130,14 +129,14 @@ class Lister {
         list_.push_back(std::move(control));
     }
 
-    /// An object's files, and sizes and colours that it does not have.
+    /// Sizes and colours that an object does not have.
     template <class Field>
     static bool of_no_object(std::string_view path, const Field& field) {
         if (!path.starts_with("content.object.")) return false;
         if constexpr (std::is_same_v<Field, std::optional<double>> || std::is_same_v<Field, std::optional<Vec3d>>)
             return !field.has_value();
         else
-            return std::is_same_v<Field, std::string>;
+            return false;
     }
 
     /// A medium's glass is shown where it has a name, its index where it has no glass.

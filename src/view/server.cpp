@@ -166,8 +166,8 @@ void Server::Impl::upgrade(const std::shared_ptr<Caller>& caller) {
         return answer(caller, sentence(http::status::service_unavailable, "Too many visitors. Try again later."));
     auto& group = full ? turned_away : visitors;
     const auto place = std::make_shared<std::weak_ptr<Session>>();
-    const auto session = std::make_shared<Session>(std::move(caller->stream), options.most_silence, tally,
-                                                   [&group, place] { group.erase(place->lock()); });
+    const auto session =
+        std::make_shared<Session>(std::move(caller->stream), options, tally, [&group, place] { group.erase(place->lock()); });
     *place = session;
     group.insert(session);
     callers.remove(caller);

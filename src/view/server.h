@@ -28,6 +28,8 @@ struct ServerOptions {
     std::string token;               // of 128 random bits, in hexadecimal: make_token()
     int most_visitors = 8;
     std::chrono::seconds most_silence{120};  // of a browser; after half of it a ping is sent
+    std::function<std::string(const std::string&)> as_told =
+        {};  // what is sent in place of a text, to hide what visitors may not see
 };
 
 /// Counts since the start, for tests and the log.

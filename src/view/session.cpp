@@ -32,10 +32,10 @@ std::string error_text(const std::string& what) {
 
 }  // namespace
 
-Session::Session(boost::beast::tcp_stream stream, std::chrono::seconds most_silence, Tally& tally, std::function<void()> gone)
+Session::Session(boost::beast::tcp_stream stream, const ServerOptions& options, Tally& tally, std::function<void()> gone)
     : socket_(std::move(stream)),
       work_(socket_.get_executor()),
-      most_silence_(most_silence),
+      options_(options),
       tally_(tally),
       gone_(std::move(gone)),
       pause_(socket_.get_executor()) {
@@ -54,7 +54,7 @@ void Session::post(Work work) {
 /// Completes the WebSocket's handshake, then calls `then`.
 void Session::accept(const Request& request, std::function<void()> then) {
     socket_.next_layer().expires_never();
-    socket_.set_option(websocket::stream_base::timeout{5s, most_silence_, true});
+    socket_.set_option(websocket::stream_base::timeout{5s, options_.most_silence, true});
     socket_.read_message_max(longest_message);
     socket_.auto_fragment(true);
     socket_.write_buffer_bytes(fragment_bytes);
@@ -204,6 +204,7 @@ void Session::malformed(const std::string& what) {
 }
 
 void Session::text(std::string json) {
+    if (options_.as_told) json = options_.as_told(json);
     if (mailbox_.text(std::move(json)))
         post([](Session& s) { s.write(); });
     else

@@ -41,8 +41,8 @@ class Session : public Outbox, public std::enable_shared_from_this<Session> {
   public:
     using Connect = std::function<std::unique_ptr<Visitor>(Outbox&)>;
 
-    /// `gone` is called once, on the network thread, after the visitor has been destroyed.
-    Session(boost::beast::tcp_stream, std::chrono::seconds most_silence, Tally&, std::function<void()> gone);
+    /// `gone` is called once, on the network thread, after the visitor has been destroyed. The options must outlive the session.
+    Session(boost::beast::tcp_stream, const ServerOptions&, Tally&, std::function<void()> gone);
 
     // To be called on the network thread.
     void welcome(const Request&, Connect);                   // accepts the WebSocket and starts the visitor's thread
@@ -68,7 +68,7 @@ class Session : public Outbox, public std::enable_shared_from_this<Session> {
 
     boost::beast::websocket::stream<boost::beast::tcp_stream, false> socket_;  // pictures are compressed already
     boost::asio::executor_work_guard<boost::beast::tcp_stream::executor_type> work_;
-    const std::chrono::seconds most_silence_;
+    const ServerOptions& options_;
     Tally& tally_;
     const std::function<void()> gone_;
     Mailbox mailbox_;

@@ -2,7 +2,7 @@
 find_package(Boost 1.74 REQUIRED GLOBAL)  # the tests use it too
 
 lfdsim_floor(view
-  HEADERS access.h answers.h library.h messages.h outbox.h painter.h server.h
+  HEADERS access.h answers.h hidden_paths.h library.h messages.h outbox.h painter.h server.h
   LINK PUBLIC lfdsim_report lfdsim_files nlohmann_json::nlohmann_json
     PRIVATE Boost::headers Threads::Threads PNG::PNG JPEG::JPEG TBB::tbb fmt::fmt)
 lfdsim_precompile(lfdsim_view <fmt/format.h> <nlohmann/json.hpp>)

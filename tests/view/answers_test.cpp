@@ -157,6 +157,27 @@ TEST_F(AnswersTest, ScenesHaveControlsAndAreSaved) {
     EXPECT_EQ(saved.content.objects[1].model, "built-in:spheres");
 }
 
+// As `lfdsim view small.toml`: the folder is the one that the program was started in, and its description has no folder's name.
+TEST_F(AnswersTest, AreSavedWhereTheProgramWasStarted) {
+    const fs::path before = fs::current_path();
+    fs::current_path(folder);
+    std::ofstream("cup.obj") << "v 0 0 0\n";
+    std::ofstream("errors.csv") << "i,j,dx_mm,dy_mm,dz_mm,tilt_x_deg,tilt_y_deg,curvature\n0,0,0.1,0,0,0,0,0\n";
+    fs::create_directories("sub");
+    for (const char* served : {".", "./", "sub/.."}) {
+        const Library all({"small.toml", {"content.model=cup.obj", "errors.table=errors.csv"}, "", "", ""}, served);
+        EXPECT_EQ(parse_display(std::string(ask(all, wanted(), Ask::What::toml)["text"]), "text").content.model, "cup.obj");
+        EXPECT_EQ(ask(all, wanted(), Ask::What::save, "mine.toml", true)["problems"], Json::array()) << served;
+        EXPECT_EQ(ask(all, wanted(), Ask::What::save, "sub/mine.toml", true)["problems"], Json::array()) << served;
+        for (const char* saved : {"mine.toml", "sub/mine.toml"}) {
+            const Display read = read_display(saved);
+            EXPECT_TRUE(fs::equivalent(read.content.model, "cup.obj")) << saved;
+            EXPECT_TRUE(fs::equivalent(read.errors.table, "errors.csv")) << saved;
+        }
+    }
+    fs::current_path(before);
+}
+
 TEST_F(AnswersTest, SlidersStayWhileOneIsDragged) {
     const Json one = control(resolved(library(), wanted()), "array.gap_mm");
     const Json other = control(resolved(library(), wanted({"array.gap_mm=10.7"})), "array.gap_mm");

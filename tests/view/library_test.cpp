@@ -4,8 +4,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "files/display_file.h"
+#include "model/keys.h"
+#include "view/hidden_paths.h"
 
 namespace lfdsim::view {
 namespace {
@@ -178,6 +181,102 @@ TEST_F(LibraryTest, WhatIsWrongIsToldByKey) {
     Wanted inside_display;
     inside_display.eye_mm = {0, 0, 1};
     EXPECT_EQ(problem_of([&] { all.display(inside_display); }).where, "camera.position_mm");
+}
+
+// Every key of the table is set to the name of a file whose first line an error could quote, in every form that an override has.
+// What a visitor is told is the same whether there is such a file or not.
+TEST_F(LibraryTest, NoKeyOpensAVisitorsFile) {
+    const std::string secret = (root / "secret.csv").string();
+    const Library all = library();
+    const auto told = [&](const std::string& set) {
+        Wanted wanted;
+        wanted.set = {set};
+        std::string text;
+        try {
+            all.display(wanted);
+            text = "nothing";
+        } catch (const InputError& error) {
+            for (const Problem& p : error.problems) text += p.where + ": " + p.what + '\n';
+        }
+        return text;
+    };
+    int files = 0;
+    std::vector<std::string> overrides, of_files;
+    for (const FormatTable& table : format_tables()) {
+        for (const FormatTable::Value& value : table.values) {
+            const std::string name(value.key.name), in = table.path;
+            const std::string path = in.empty() ? name : in + (table.is == PartKind::list ? ".0." : ".") + name;
+            std::vector<std::array<std::string, 2>> forms;  // before and after the file's name
+            for (const char* quote : {"", "\"", "'"}) forms.push_back({path + "=" + quote, quote});
+            forms.push_back({path + "=[\"", "\"]"});
+            forms.push_back({path + ".0=\"", "\""});
+            forms.push_back({path + ".0=", ""});
+            forms.push_back({path + "={x=\"", "\"}"});
+            for (std::string outer = value.key.names_file ? path : ""; !(outer = table_of_path(outer)).empty();) {
+                for (const std::string& key : {path.substr(outer.size() + 1), "\"" + name + "\"", name}) {
+                    forms.push_back({outer + "={" + key + "=\"", "\"}"});
+                    forms.push_back({outer + "=[{" + key + "=\"", "\"}]"});
+                    forms.push_back({outer + "={" + key + "=[\"", "\"]}"});
+                }
+            }
+            files += value.key.names_file;
+            for (const auto& [before, after] : forms)
+                (value.key.names_file ? of_files : overrides).push_back(before + secret + after);
+        }
+    }
+    for (const std::string& set : of_files) EXPECT_THAT(told(set), HasSubstr("is not for set"));
+    std::vector<std::string> of_none;
+    for (const std::string& set : overrides) of_none.push_back(told(set));
+    std::ofstream(secret) << "password=hunter2,b\n";
+    for (std::size_t k = 0; k < overrides.size(); ++k) {
+        const std::string says = told(overrides[k]);
+        EXPECT_THAT(says, testing::Not(HasSubstr("hunter2")));
+        EXPECT_EQ(says, of_none[k]);
+    }
+    EXPECT_EQ(files, 5);  // content.model, a model and an image of objects, errors.table, glass_catalogues
+}
+
+// Every text in the table is the name of a file, unless the table says that it is none.
+TEST(KeysOfFiles, AreAllTextsButLabels) {
+    for (const FormatTable& table : format_tables())
+        for (const FormatTable::Value& value : table.values) {
+            const bool text = std::holds_alternative<const std::string*>(value.fresh) ||
+                              std::holds_alternative<const std::vector<std::string>*>(value.fresh);
+            EXPECT_EQ(value.key.names_file, text && value.key.name != "name") << table.path << " " << value.key.name;
+        }
+    for (const char* path : {"errors", "errors.table", "errors.table.0", "content.object.00.model", "content.object", "content",
+                             "content.object.3", "glass_catalogues.1"})
+        EXPECT_TRUE(decides_a_file(path)) << path;
+    for (const char* path :
+         {"errors.gap_mm", "error", "errors.table_mm", "content.object.0.width_mm", "content.light", "name", "lens", ""})
+        EXPECT_FALSE(decides_a_file(path)) << path;
+}
+
+// A link out of the folder tells nothing of what is there.
+TEST_F(LibraryTest, LinksOutTellNothing) {
+    const Library all = library();
+    const auto what = [&](const char* name) { return problem_of([&] { all.file(name); }).what; };
+    EXPECT_EQ(what("up/secret.toml"), what("up/nothing.toml"));
+    EXPECT_EQ(what("out.toml"), what("nothing.toml"));
+}
+
+TEST(HiddenPaths, LeaveNoAbsolutePath) {
+    const HiddenPaths hidden("/srv/my displays", {"/home/me/it's \"mine\"", "/"});
+    const auto shown = [&](const std::string& text) {
+        return nlohmann::json::parse(hidden.without(nlohmann::json{{"what", text}}.dump()))["what"].get<std::string>();
+    };
+    EXPECT_EQ(shown("/srv/my displays/tablet.toml:3:1"), "tablet.toml:3:1");
+    EXPECT_EQ(shown("lfdsim render '/srv/my displays/sub/tablet.toml' -o view.png"), "lfdsim render 'sub/tablet.toml' -o view.png");
+    EXPECT_EQ(shown("model = \"/home/me/it's \"mine\"/a b/cup.obj\""), "model = \"\u2026/a b/cup.obj\"");
+    EXPECT_EQ(shown("/data/with blanks/cup.obj: there is no such file"), "\u2026/cup.obj: there is no such file");
+    EXPECT_EQ(shown("cannot start /usr/libexec/read-model, see docs/view.md"), "cannot start \u2026/read-model, see docs/view.md");
+    EXPECT_EQ(shown("first\n/etc/passwd"), "first\n\u2026/passwd");
+    EXPECT_EQ(shown("--set content.model=/a/b.obj --model=\"/c/d/\""), "--set content.model=\u2026/b.obj --model=\"\u2026/d/\"");
+    for (const char* same :
+         {"a / b", "1/mm", "2 atan(p / 2g)", "../x/y.obj", "http://localhost/x", "<text x='1'/></text>", "R >= r/2", ""})
+        EXPECT_EQ(shown(same), same);
+    for (const FormatTable& table : format_tables())
+        for (const FormatTable::Value& value : table.values) EXPECT_EQ(shown(std::string(value.key.doc)), value.key.doc);
 }
 
 }  // namespace
