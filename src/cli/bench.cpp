@@ -94,7 +94,7 @@ Json about(const BenchSettings& s) {
         {"machine",
          {{"processor", processor()},
           {"processors", tbb::info::default_concurrency()},
-          {"memory_gb", std::round(memory_bytes() / 1e8) / 10}}},
+          {"memory_gb", std::round(installed_bytes() / 1e8) / 10}}},
         {"build", {{"compiler", compiler()}, {"type", build_type()}, {"flags", flags()}, {"kernel_flags", kernel_flags(s.kernel)}}},
         {"kernel", s.kernel},
         {"threads", s.threads},

@@ -79,7 +79,7 @@ Json findings() {
     all["kernels_this_processor_lacks"] = unavailable;
     all["kernel_forced_by_LFDSIM_KERNEL"] = forced_kernel();
     all["threads"] = tbb::info::default_concurrency();
-    all["memory_gb"] = std::round(memory_bytes() / 1e8) / 10;
+    all["memory_gb"] = std::round(installed_bytes() / 1e8) / 10;
     all["gpu"] = gpus();
     all["model_reader"] = model_reader();
     all["current_folder_writable"] = access(".", W_OK) == 0;

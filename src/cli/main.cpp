@@ -5,6 +5,7 @@
 #include "cli/output.h"
 #include "cli/usage.h"
 #include "engine/gpu.h"
+#include "engine/threads.h"
 #include "model/error.h"
 #include "model/printable.h"
 
@@ -14,6 +15,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <system_error>
 
 namespace {
 
@@ -73,6 +75,7 @@ int main(int argc, char** argv) {
     start_log();
     cli::catch_signals();
     try {
+        use_only_threads_to_be_had();
         run(argc, argv);
         return 0;
     } catch (const cli::Interrupted&) {
@@ -83,6 +86,10 @@ int main(int argc, char** argv) {
         return 2;
     } catch (const std::bad_alloc&) {
         spdlog::error("out of memory; make the picture or the panel smaller, or use fewer threads");
+    } catch (const std::system_error& error) {
+        const bool threads = error.code() == std::errc::resource_unavailable_try_again;
+        spdlog::error("{}{}", error.what(),
+                      threads ? ": no more threads or processes can be started here; raise the limit on them (ulimit -u)" : "");
     } catch (const std::exception& error) {
         spdlog::error("{}", error.what());
     }

@@ -1,6 +1,8 @@
 #include "content/content.h"
 #include "content/model.h"
 
+#include "image/free_memory.h"
+
 #include <fmt/format.h>
 
 #include <chrono>
@@ -37,6 +39,8 @@ ContentParts load_parts(const std::vector<ContentFile>& files, const LoadOptions
     const auto start = std::chrono::steady_clock::now();
     std::map<ContentFile, std::shared_ptr<const Model>> read;
     LoadOptions left = options;
+    // The process that reads and this one hold a model at the same time.
+    left.bytes = std::min(left.bytes, std::int64_t(free_memory().bytes / 2));
     ContentParts parts;
     for (const ContentFile& file : files) {
         std::shared_ptr<const Model>& model = read[file];

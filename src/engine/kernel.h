@@ -2,6 +2,8 @@
 #pragma once
 #include "optics/scene.h"
 
+#include <cstddef>
+
 namespace lfdsim {
 
 /// Filtered estimator: the square of two numbers that pixels are cut by, the diffuser's or those of a point of the pixel's area.
@@ -50,6 +52,10 @@ struct Done {
 constexpr int max_strata = 64;  // rows or columns of them, those at borders of lenses included
 constexpr int more_strata = 2;  // at most, at borders of lenses
 constexpr int few_strata = 8;   // up to so many the filtered estimator prefers speed, above that accuracy
+
+/// Memory for what a block of the filtered estimator works on, some megabytes, which is too much for a thread's stack. It belongs
+/// to the calling thread, until that ends, and is not cleared; the next call returns the same. Throws std::bad_alloc.
+void* block_memory(std::size_t bytes);
 
 using Kernel = void (*)(const Tile&);
 

@@ -1,10 +1,12 @@
 #include "engine/placement.h"
 
+#include "engine/memory.h"
 #include "model/lens_errors.h"
 #include "model/numbers.h"
 #include "model/prescription.h"
 #include "optics/lattice.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
@@ -56,6 +58,11 @@ double highest_rim_mm(const Geometry& g, double factor) {
 }  // namespace
 
 std::vector<LensError> lenses_as_built(const Display& d, const Lattice<double>& lattice) {
+    // The list, and the lenses that the tracer reads.
+    const double count = double(lattice.count[0]) * double(lattice.count[1]), bytes = count * (2 * sizeof(LensError));
+    constexpr double small_bytes = 1 << 20;
+    if (bytes > small_bytes)
+        require_memory("array.count", fmt::format("[errors] of {:.0f} lenses, each with its own,", count), bytes);
     std::vector<LensError> all = lens_errors(d, lattice);
     if (d.errors.bow_mm == 0) return all;
     const auto columns = std::size_t(lattice.count[0]);

@@ -1,6 +1,9 @@
 #include "image/formats.h"
 #include "model/printable.h"
 
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
@@ -34,7 +37,10 @@ constexpr int most_tile = 8192;
 /// claim.
 void start_library() {
     static const bool started = [] {
-        Imf::setGlobalThreadCount(int(std::thread::hardware_concurrency()));
+        // Where not all threads are to be had (engine/threads.h), the calling one does the work.
+        const int allowed = int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+        const int processors = tbb::info::default_concurrency();
+        Imf::setGlobalThreadCount(allowed < processors ? 0 : processors);
         Imf::Header::setMaxTileSize(most_tile, most_tile);
         return true;
     }();

@@ -1,9 +1,9 @@
 #include "image/image_file.h"
 
 #include "image/formats.h"
+#include "image/free_memory.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -42,13 +42,14 @@ Format format_to_write(const fs::path& path) {
     throw InputError(path.string(), fmt::format("unknown image extension \"{}\"; .png, .exr and .npy can be written", e));
 }
 
-/// Refuses pictures that would make the machine swap, or the operating system kill the program.
+/// Refuses pictures for which the operating system would kill the program.
 void check_memory(const InputFile& file, std::int64_t columns, std::int64_t rows, int floats_per_pixel) {
     const double needed = double(columns) * double(rows) * floats_per_pixel * sizeof(float);
-    const double present = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
-    if (needed > present)
-        file.refuse(fmt::format("is too large: {} x {} pixels take {:.1f} GB of memory, this machine has {:.1f} GB", columns, rows,
-                                needed / 1e9, present / 1e9));
+    constexpr double small_bytes = 1 << 20;
+    if (needed < small_bytes) return;
+    if (const FreeMemory free = free_memory(); needed > free.bytes)
+        file.refuse(fmt::format("is too large: {} x {} pixels take {} of memory; {} {} free", columns, rows, bytes_text(needed),
+                                free.whose, bytes_text(free.bytes)));
 }
 
 /// Begins a stage of the caller's job, if there is one and the picture is large enough to take long; else returns a job that does

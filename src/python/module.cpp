@@ -1,3 +1,4 @@
+#include "engine/threads.h"
 #include "model/printable.h"
 #include "python/parts.h"
 #include "report/folder_lock.h"
@@ -38,6 +39,7 @@ void translate(const std::exception_ptr& thrown, void*) {
 }  // namespace lfdsim::python
 
 NB_MODULE(_core, m) {
+    lfdsim::use_only_threads_to_be_had();
     m.attr("version") = LFDSIM_VERSION;
     nanobind::register_exception_translator(lfdsim::python::translate);
     m.def("harmless", &lfdsim::printable_lines, nanobind::arg("text"));

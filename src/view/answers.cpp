@@ -130,6 +130,7 @@ Json answer_to(const Library& library, Panels& panels, const Wanted& wanted, con
             if (ask.name == "spot") return {{"svg", svg(spot_plot(display))}};
             Cancellable job(cancelled);
             const ContentParts parts = panels.parts(model_source(model_file(library, wanted, display), display), display, job);
+            const auto claim = panels.budget().claim("panel.pixels", making_panel_text(display), 2 * making_panel_bytes(display));
             return {{"svg", svg(fov_plot(display, parts, job))}};
         }
         case Ask::What::files: {

@@ -1,9 +1,11 @@
 #include "view/drawing.h"
 
+#include "engine/memory.h"
 #include "engine/render.h"
 #include "engine/scene.h"
 #include "view/painter_job.h"
 
+#include <fmt/format.h>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -16,6 +18,7 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 constexpr double coarse_seconds = 0.022, stand_in_seconds = 0.012, long_seconds = 0.15;
+constexpr int picture_copies = 3;  // as rendered, encoded, and waiting to be sent
 constexpr std::array coarse_scales{1., 0.75, 0.6, 0.5, 0.4, 1. / 3, 0.25};
 constexpr std::array panel_divisors{1, 2, 3, 4};
 constexpr double jpeg_cost = 6e-9, png_cost = 25e-9, panel_cost = 30e-9;  // seconds of one core for a pixel; see render_cost()
@@ -26,7 +29,12 @@ void Drawing::begin(const Wanted& wanted) {
     eyes_.clear();
     wanted_ = wanted;
     coarse_is_full_ = false;
+    pictures_ = {};
     eyes_ = seen(library_, wanted);
+    for (const Seen& eye : eyes_) panels_.require(eye.key, eye.made_for);
+    const double count = double(eyes_.size()) + (wanted.beside == Beside::none ? 0 : 2);
+    pictures_ = panels_.budget().claim("size", fmt::format("pictures of {} x {} pixels", wanted.size[0], wanted.size[1]),
+                                       count * picture_copies * picture_bytes(wanted.size[0], wanted.size[1]));
 }
 
 std::string Drawing::beside_problem() const {
@@ -81,6 +89,7 @@ void Drawing::beside(const Lit& lit, const Display& display, const Geometry& geo
     const bool rest = header.quality == Quality::final;
     double white = 1;
     bool comparable = true;
+    const auto claim = panels_.budget().claim("panel.pixels", "a white panel to compare with", texel_bytes(display));
     try {
         white = (rest ? white_ : quick_white_).of(display, geometry, !rest, threads_, quiet);
     } catch (const InputError&) {  // no light, no likeness

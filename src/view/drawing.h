@@ -54,6 +54,7 @@ class Drawing {
     Panels& panels_;
     const int threads_;
     Wanted wanted_;
+    MemoryBudget::Claim pictures_;
     std::vector<Seen> eyes_;
     bool coarse_is_full_ = false;  // the last coarse picture of this state has its full size and the true panel
     Pace coarse_pace_{1}, final_pace_{1}, panel_pace_{1};

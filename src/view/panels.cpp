@@ -123,13 +123,46 @@ std::shared_ptr<const ShownPanel> Panels::get(const PanelKey& key, const Display
     return light;
 }
 
+double Panels::needed_bytes(const Source& source, const Display& display) {
+    return source.kind == Shown::Kind::panel_image ? texel_bytes(display) : making_panel_bytes(display);
+}
+
+/// Drops panels that nobody uses, those not used for longest first, until so much is free.
+void Panels::make_room(double bytes) {
+    const std::lock_guard lock(mutex_);
+    for (auto panel = panels_.end(); panel != panels_.begin() && !budget_.fits(bytes);)
+        if ((--panel)->light.use_count() == 1) panel = panels_.erase(panel);
+}
+
+MemoryBudget::Claim Panels::claim(const Source& source, const Display& display) {
+    const double bytes = needed_bytes(source, display);
+    make_room(bytes);
+    return budget_.claim("panel.pixels", making_panel_text(display), bytes);
+}
+
+void Panels::require(const PanelKey& key, const Display& display) {
+    if (!find(key)) claim(key.source, display);
+}
+
 std::shared_ptr<const ShownPanel> Panels::make(const Source& source, const Display& display, const Geometry& geometry, int threads,
                                                Job& job) {
+    struct Claimed {
+        MemoryBudget::Claim claim;
+        std::shared_ptr<const ShownPanel> light;
+    };
+    const auto made = std::make_shared<Claimed>();
+    made->claim = claim(source, display);
+    made->light = make_claimed(source, display, geometry, threads, job);
+    made->claim.shrink(texel_bytes(display));
+    return {made, made->light.get()};
+}
+
+std::shared_ptr<const ShownPanel> Panels::make_claimed(const Source& source, const Display& display, const Geometry& geometry,
+                                                       int threads, Job& job) {
     const Panel& panel = display.panel;
     if (source.kind == Shown::Kind::panel_image)
         return std::make_shared<ShownPanel>(read_panel_image(source.name, panel.encoding, panel.pixels[0], panel.pixels[1], &job),
                                             threads);
-    require_panel_memory(display);
     if (source.kind == Shown::Kind::pattern)
         return std::make_shared<ShownPanel>(shown_texels(pattern(source.name, display, geometry), panel.encoding), threads);
     const ContentScene posed = scene(source, display, geometry, job);

@@ -1,6 +1,7 @@
 // Light of panels: elemental images, patterns, files. Floor 5. Shared by all visitors; all calls from any thread.
 #pragma once
 #include "analysis/subject.h"
+#include "engine/memory.h"
 #include "view/library.h"
 
 #include <array>
@@ -55,6 +56,13 @@ PanelKey panel_key(const Source&, const Display&, const Geometry&);
 
 class Panels {
   public:
+    /// Of all visitors together; a panel's light holds its share for as long as anybody uses it.
+    MemoryBudget& budget() { return budget_; }
+
+    /// Throws InputError where the light of a panel, if it is not kept, would not fit into the memory that there is: panels that
+    /// nobody uses are dropped for it.
+    void require(const PanelKey&, const Display&);
+
     /// The light of a panel if it was made before and is still kept; else nothing.
     std::shared_ptr<const ShownPanel> find(const PanelKey&);
 
@@ -82,6 +90,11 @@ class Panels {
     Kept kept() const;
 
   private:
+    MemoryBudget::Claim claim(const Source&, const Display&);
+    static double needed_bytes(const Source&, const Display&);
+    void make_room(double bytes);
+    std::shared_ptr<const ShownPanel> make_claimed(const Source&, const Display&, const Geometry&, int threads, Job&);
+
     using PartsFuture = std::shared_future<ContentParts>;
     PartsFuture reading(const Source&, const Display&);
 
@@ -99,6 +112,7 @@ class Panels {
         Source source;
         PartsFuture parts;
     };
+    MemoryBudget budget_;       // outlives what is kept
     mutable std::mutex mutex_;  // of the lists; never held while something is made
     // Newest use first.
     std::list<Made> panels_;

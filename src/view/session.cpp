@@ -68,8 +68,9 @@ void Session::welcome(const Request& request, Connect connect) {
     accept(request, [this, connect = std::move(connect)] {
         try {
             visit_ = std::thread([self = shared_from_this(), connect] { self->visit(connect); });
-        } catch (const std::system_error&) {  // no more threads
-            return end();
+        } catch (const std::system_error&) {
+            mailbox_.text(error_text("The viewer's machine has no thread left for another visitor."));
+            return finish();
         }
         ++tally_.visitors;
         read();

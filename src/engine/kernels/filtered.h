@@ -11,20 +11,25 @@ namespace lfdsim {
 
 namespace {
 
-/// The arrays of a BlockState.
+/// The arrays of a BlockState, and the block's picture.
 struct BlockMemory {
+    S picture[most_side][most_side][4];
     S light[most_lanes][4];
     Sharp sharp[most_sharps];
     Grid grid[most_grids];
     Cut cut[most_cuts];
     Stratum stratum[most_cuts];
     Bundles bundles[max_strata * max_strata];
+
+    /// Placement new, whose header of the standard library kernels do not include.
+    static void* operator new(std::size_t, void* at) noexcept { return at; }
 };
 
 template <optics::Way through>
 class BlockRenderer {
   public:
-    BlockRenderer(const Tile& t, const EvenCuts& cuts, std::int32_t left, std::int32_t top) : tile(t), even(cuts), work(t, state) {
+    BlockRenderer(const Tile& t, const EvenCuts& cuts, void* at, std::int32_t left, std::int32_t top)
+        : tile(t), even(cuts), work(t, state), memory(*new (at) BlockMemory), picture(memory.picture) {
         state.grids.grid = memory.grid;
         state.grids.cut = memory.cut;
         state.grids.stratum = memory.stratum;
@@ -43,7 +48,7 @@ class BlockRenderer {
         if (state.sharps > 0 || state.any_alone)
             look_up_pixels();
         else if (!state.any_soft)
-            __builtin_memset(picture, 0, sizeof picture);
+            __builtin_memset(picture, 0, sizeof(BlockMemory::picture));
         write();
     }
 
@@ -103,22 +108,23 @@ class BlockRenderer {
     const EvenCuts& even;
     BlockState state;
     BlockWork<through> work;
-    S picture[most_side][most_side][4];  // of the block
-    BlockMemory memory;
+    BlockMemory& memory;
+    S (*const picture)[most_side][4];  // of the block
 };
 
-/// Not inlined, so that the stack, some megabytes, holds only one way through the array.
+/// Not inlined, so that the stack holds only one way through the array.
 template <optics::Way through>
-__attribute__((noinline)) void render_block(const Tile& tile, const EvenCuts& even, std::int32_t x, std::int32_t y) {
-    BlockRenderer<through>(tile, even, x, y).render();
+__attribute__((noinline)) void render_block(const Tile& tile, const EvenCuts& even, void* memory, std::int32_t x, std::int32_t y) {
+    BlockRenderer<through>(tile, even, memory, x, y).render();
 }
 
 template <optics::Way through>
 void render_filtered(const Tile& tile) {
     const EvenCuts even(*tile.scene, tile.strata);
+    void* const memory = block_memory(sizeof(BlockMemory));
     const std::int32_t side = tile.block_side;
     for (std::int32_t y = tile.y0 / side * side; y < tile.y1; y += side)
-        for (std::int32_t x = tile.x0 / side * side; x < tile.x1; x += side) render_block<through>(tile, even, x, y);
+        for (std::int32_t x = tile.x0 / side * side; x < tile.x1; x += side) render_block<through>(tile, even, memory, x, y);
 }
 
 }  // namespace

@@ -1,0 +1,14 @@
+// How many threads the system lets this process have. Floor 2.
+#pragma once
+
+namespace lfdsim {
+
+/// Threads that can be started now besides the calling one, at most `wanted`: tried, because limits on processes, groups of
+/// processes and address space all count.
+int threads_to_be_had(int wanted);
+
+/// From now on work is shared by no more threads than there can be: libraries wait for ever, or give up, for one that the system
+/// refuses. Where there are enough nothing changes; where there are none the calling thread does all the work.
+void use_only_threads_to_be_had();
+
+}  // namespace lfdsim
