@@ -158,7 +158,7 @@ TEST_F(PainterTest, ProblemsAreToldAndTheNextPictureComes) {
     Wanted w = wanted(2);
     w.shown = {Shown::Kind::model, "none.obj"};
     painter.want(w);
-    EXPECT_THAT(outbox.problems(2)[0]["what"].get<std::string>(), HasSubstr("does not exist"));
+    EXPECT_THAT(outbox.problems(2)[0]["what"].get<std::string>(), HasSubstr("is not in the folder"));
 
     lfdsim::test::save(folder / "bad.obj", "f 1 2 3\n");
     w = wanted(3);
