@@ -15,11 +15,11 @@ double colour_filter(double cycles_per_degree);
 inline constexpr double eye_limit_cycles_per_degree = 60;
 
 /// A filter, and the frequency beyond which nothing is seen.
-struct Eye {
+struct EyeFilter {
     double (*filter)(double cycles_per_degree);
     double finest_cycles_per_degree;
 };
-inline constexpr Eye eye_for_luminance{eye_filter, eye_limit_cycles_per_degree}, eye_for_colour{colour_filter, 12};
+inline constexpr EyeFilter eye_for_luminance{eye_filter, eye_limit_cycles_per_degree}, eye_for_colour{colour_filter, 12};
 
 /// Millimetres in a degree of what an eye sees from so far.
 double mm_per_degree(double distance_mm);

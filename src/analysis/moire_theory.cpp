@@ -97,7 +97,7 @@ double MoireTheory::diffuser(Place nu) const {
     return mean;
 }
 
-std::optional<Beat> MoireTheory::strongest(const Eye& eye) const {
+std::optional<Beat> MoireTheory::strongest(const EyeFilter& eye) const {
     if (shines_all_over(display_.panel)) return {};
     const Lattice<double>& lattice = geometry_.lattice;
     const ApertureShape aperture = aperture_shape(display_, geometry_);

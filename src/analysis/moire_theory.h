@@ -36,7 +36,7 @@ class MoireTheory {
     /// The strongest beat after the eye's filter; of those of its period that are within 1 % as strong, as symmetry
     /// makes them (and of all that are exactly as strong), that of the least direction. None where the panel has no
     /// structure, or where all are too fine for the eye.
-    std::optional<Beat> strongest(const Eye& = eye_for_luminance) const;
+    std::optional<Beat> strongest(const EyeFilter& = eye_for_luminance) const;
 
   private:
     struct Place {

@@ -109,7 +109,7 @@ std::optional<TracedAndTheory> between_eyes_percent(const Display& as_made, cons
     return TracedAndTheory{traced.percent(), in_theory.percent()};
 }
 
-std::optional<Blur> blur(const Display& d, const Geometry& g, double stop_mm) {
+std::optional<LensBlur> blur(const Display& d, const Geometry& g, double stop_mm) {
     if (d.lens.type() == LensType::pinhole) return {};
     const LensTrace lens(d, g);
     Fans rims = fans(lens, {0, 0}, fan_of_lens);
@@ -141,8 +141,8 @@ std::optional<Blur> blur(const Display& d, const Geometry& g, double stop_mm) {
         from = std::min(from, line.at * per_mm + line.slope);
         to = std::max(to, line.at * per_mm + line.slope);
     }
-    return Blur{std::sqrt(12 * squares / double(light.size())) / pixel_slope, (to - from) / pixel_slope,
-                where_sharp(fan, pixel_slope)};
+    return LensBlur{std::sqrt(12 * squares / double(light.size())) / pixel_slope, (to - from) / pixel_slope,
+                    where_sharp(fan, pixel_slope)};
 }
 
 namespace {

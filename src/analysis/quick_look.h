@@ -38,12 +38,12 @@ std::optional<TracedAndTheory> between_eyes_percent(const Display&, const Geomet
 
 /// The light of the panel's point on a lens's axis, in images of a panel pixel at the same depth. The width of light that is
 /// unevenly spread is that of an even spread of the same variance.
-struct Blur {
+struct LensBlur {
     double pixels, full_pixels;  // at the central depth plane: the light's width, and that of all rays to the very rims
     SharpDepths sharp;           // by all rays
 };
 /// Of rays no farther from the axis than `stop_mm` in the principal plane. None of pinholes, and where no light gets through.
-std::optional<Blur> blur(const Display&, const Geometry&, double stop_mm = infinity);
+std::optional<LensBlur> blur(const Display&, const Geometry&, double stop_mm = infinity);
 
 /// The strongest wave of colours that a viewer's left eye, or before near-eye displays the eye on the axis, sees on a white screen.
 /// Contrast is that of red, or blue, less luminance.

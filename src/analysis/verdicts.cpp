@@ -52,7 +52,7 @@ std::optional<Stop> widest_stop(const Geometry& g, Good good) {
 
 std::optional<Stop> stop_against_blur(const Display& d, const Geometry& g) {
     return widest_stop(g, [&](double radius) {
-        const std::optional<Blur> b = blur(d, g, radius);
+        const std::optional<LensBlur> b = blur(d, g, radius);
         return b && b->pixels <= 1;
     });
 }
@@ -154,7 +154,7 @@ std::string depths_in_words(double near_per_mm, double far_per_mm) {
 
 /// Whether the lenses are as sharp as theory without aberration has them.
 std::optional<std::string> on_blur(const Display& d, const Geometry& g, const Theory& t) {
-    const std::optional<Blur> b = blur(d, g);
+    const std::optional<LensBlur> b = blur(d, g);
     if (!b || !(b->pixels > most_blur_pixels)) return {};
     const double L = t.central_depth_mm;
     const auto wide = [&](double pixels) {

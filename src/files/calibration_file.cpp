@@ -20,7 +20,7 @@ constexpr Range pitch_range{1, 1e4}, center_range{-1e6, 1e6}, dpi_range{1, 1e5},
 constexpr double flattest = 0.1, steepest = 1e6;  // slopes: lenses are turned by 84 degrees at most
 constexpr std::size_t most_cells = 16;
 constexpr std::size_t enough_keys = 3;  // of its own ones, to tell a calibration among other things
-constexpr int deepest = 8;              // of things inside of others
+constexpr int deepest_nesting = 8;      // of things inside of others
 constexpr std::size_t most_found = 10;
 
 /// A member by its key, or else by one with another first letter: "cellPatternMode" for "CellPatternMode". `found_as`: its own key.
@@ -70,7 +70,7 @@ struct Found {
 /// All calibrations within: in objects, lists, and texts that are JSON themselves.
 void find_within(const std::shared_ptr<const LensJson>& text, const LensJson& json, const std::string& place, int depth,
                  std::vector<Found>& found) {
-    if (depth > deepest || found.size() >= most_found) return;
+    if (depth > deepest_nesting || found.size() >= most_found) return;
     if (own_keys_of(json) >= enough_keys) {
         const auto same = [&](const Found& other) { return other.same_unit(json); };
         if (std::none_of(found.begin(), found.end(), same)) found.push_back({place, text, &json});

@@ -30,8 +30,9 @@ std::optional<CylinderSheet> cylinder_sheet(double pitch_mm, double gap_mm, doub
 namespace {
 
 constexpr double usual_fov_deg = 30, one_in_three_deg = 18.434949;
-constexpr Range inch_range{0.1, 2000}, distance_range{5, 1e5}, fov_range{1, 120}, views_range{2, 1000}, slant_range{-60, 60},
-    pitch_range{1e-3, 1e4}, sheet_range{1e-3, 1e4}, eyes_range{1, 1000}, pixel_range{fewest_views * fewest_lenses, 1e5};
+constexpr Range inch_range{0.1, 2000}, distance_range{5, 1e5}, fov_range{1, 120}, views_range{2, 1000},
+    lenticular_slant_range{-60, 60}, pitch_range{1e-3, 1e4}, sheet_range{1e-3, 1e4}, eyes_range{1, 1000},
+    pixel_range{fewest_views * fewest_lenses, 1e5};
 
 class Design {
   public:
@@ -64,7 +65,7 @@ class Design {
             if (all.empty() || all.back().where != "--pixels") value("--pixels", double(n), pixel_range);
         value("--views", r_.views, views_range);
         value("--pitch-mm", r_.pitch_mm, pitch_range);
-        value("--slant-deg", r_.slant_deg, slant_range);
+        value("--slant-deg", r_.slant_deg, lenticular_slant_range);
         value("--fov-deg", r_.fov_deg, fov_range);
         value("--sheet-mm", r_.sheet_mm, sheet_range);
         value("--eye-distance-mm", r_.eyes_mm, eyes_range);
