@@ -12,7 +12,7 @@
 
 #include "../engine/pictures.h"
 
-namespace lfdsim {
+namespace lfdsim::crosstalk_pictures {
 namespace {
 
 constexpr double eye_mm = 500, gap_mm = 5, pixel_mm = 0.2, scale = 1 + gap_mm / eye_mm;
@@ -146,4 +146,4 @@ TEST(CrosstalkPictures, OfEveryLatticeAtLength) {
 }
 
 }  // namespace
-}  // namespace lfdsim
+}  // namespace lfdsim::crosstalk_pictures

@@ -1,9 +1,8 @@
 // glTF 2.0: numbers, names, poses and extensions, and files that lie.
 #include "gltf_maker.h"
 
+namespace gltf_maker {
 namespace {
-
-using namespace gltf_maker;
 
 template <class T>
 std::string bytes_of(const std::vector<T>& all) {
@@ -245,3 +244,4 @@ TEST(Gltf, LiesAreFound) {
 }
 
 }  // namespace
+}  // namespace gltf_maker

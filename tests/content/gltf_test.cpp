@@ -1,9 +1,8 @@
 // glTF 2.0: colours, textures and normals against closed forms.
 #include "gltf_maker.h"
 
+namespace gltf_maker {
 namespace {
-
-using namespace gltf_maker;
 
 TEST(Gltf, TexturesFromEveryPlaceStandUpright) {
     Folder folder;
@@ -158,3 +157,4 @@ TEST(Gltf, WhatIsNotShownIsSaid) {
 }
 
 }  // namespace
+}  // namespace gltf_maker
