@@ -298,13 +298,30 @@ class DisplayReader {
     std::vector<Located> superfluous;
 };
 
+/// Gives a model the depth that it has by default in the description as written: if it moved with each change of the gap or the
+/// lens, a sweep would compare pictures of different scenes. A description that cannot be shown without its overrides has no such
+/// depth.
+void keep_depth(Display& changed, std::string_view text, std::string_view name, const std::filesystem::path& folder) {
+    if (changed.content.depth_mm || !changed.content.objects.empty()) return;
+    try {
+        const Source source(text, name, {});
+        Display written = DisplayReader(source, folder).read();
+        if (!written.content.objects.empty()) return;
+        written.errors = {};  // content is made for the display without them
+        changed.content.depth_mm = resolve(written).content_depth_mm;
+    } catch (const InputError&) {
+    }
+}
+
 }  // namespace
 
 Display parse_display(std::string_view text, std::string_view name, const std::vector<std::string>& overrides,
                       const std::filesystem::path& folder) {
     check_text(text, name);
     const Source source(text, name, overrides);
-    return DisplayReader(source, folder).read();
+    Display display = DisplayReader(source, folder).read();
+    if (!overrides.empty() && !source.is_set("content.depth_mm")) keep_depth(display, text, name, folder);
+    return display;
 }
 
 Display read_display(const std::filesystem::path& path, const std::vector<std::string>& overrides) {

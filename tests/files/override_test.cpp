@@ -7,6 +7,7 @@
 
 #include "example.h"
 #include "files/display_file.h"
+#include "model/geometry.h"
 
 namespace lfdsim {
 namespace {
@@ -40,6 +41,22 @@ TEST(Override, ValuesOfEveryKind) {
     const Display d = set({"diffuser={distance_mm=3, angle_deg=[1, 2]}", "diffuser.profile=gaussian"});
     EXPECT_EQ(d.diffuser->angle_deg[1], 2);
     EXPECT_EQ(d.diffuser->profile, Profile::gaussian);
+}
+
+// A sweep of the gap would compare pictures of different scenes if the model moved with the central depth plane.
+TEST(Override, LeaveTheModelWhereItStood) {
+    const std::string no_depth = example_text + "\n[content]\nviewing_distance_mm = 2000.0\n";
+    const auto depth = [&](const std::vector<std::string>& overrides) {
+        return resolve(parse_display(no_depth, "d", overrides)).content_depth_mm;
+    };
+    const double written = depth({});
+    EXPECT_NE(written, 0);
+    EXPECT_EQ(depth({"array.gap_mm=9.0"}), written);
+    EXPECT_EQ(depth({"camera.position_mm=[0, 0, 900]", "panel.pixel_pitch_mm=0.2"}), written);
+    EXPECT_EQ(depth({"array.gap_mm=9.0", "content.depth_mm=7"}), 7);
+    // Taken away by name, it is the changed display's.
+    EXPECT_EQ(depth({"array.gap_mm=9.0", "content.depth_mm=none"}),
+              resolve(parse_display(with("gap_mm = ", "gap_mm = 9.0 #", no_depth), "d")).content_depth_mm);
 }
 
 TEST(Override, NoneTakesAway) {
