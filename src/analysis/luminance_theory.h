@@ -13,9 +13,10 @@ struct TheoryFigure {
     std::string missing;
 };
 
-/// Mean luminance over the panel's that an eye on axis sees of the screen: of lines of sight that aim at it, the share that the diffuser and a lens lead to the panel, times the transmission on that way, summed to a thousandth.
-/// Thin lenses are paraxial; glass ones stand by themselves, with their own surfaces. Lines between lenses of `clear` and `plate`
-/// see the panel as well; where lenses in these lose light to their walls there is no figure.
+/// Mean luminance over the panel's that an eye on axis sees of the screen: of lines of sight that aim at it, the share that the
+/// diffuser and a lens lead to the panel, times the transmission on that way, summed to a thousandth. Thin lenses are paraxial;
+/// glass ones stand by themselves, with their own surfaces. Lines between lenses of `clear` and `plate` see the panel as well;
+/// where lenses in these lose light to their walls there is no figure.
 TheoryFigure luminance_over_panel(const Display&, const Geometry&, double eye_mm);
 
 }  // namespace lfdsim

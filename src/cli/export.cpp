@@ -178,12 +178,12 @@ void run(const ExportArguments& args) {
     for (const std::string file : files) refuse_input(folder / file);
     const FolderLock lock(folder);
     keep_apart(folder, files, description, args.replace);
-    write_file(folder / description_file, description);
     PanelLight panel =
         shown_panel(args.panel_image, args.pattern, display, geometry, pattern_options, args.work.threads(), progress);
     panel.texels = light_of_channel(std::move(panel.texels), options.channel);
     if (fine.times > 1) panel.texels = fine_image(fine, display.panel, panel.texels);
     if (const auto deviation = panel_deviation(scene, panel.texels)) scene.deviations.push_back(*deviation);
+    write_file(folder / description_file, description);
 
     const std::string lfdsims = fmt::format("lfdsim render display.toml --panel-image {} -o lfdsim.exr", scene.panel_file);
     guard_output(folder / scene.panel_file);

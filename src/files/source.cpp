@@ -130,7 +130,10 @@ void Source::apply(const std::string& override_text) {
     const bool removes = value == "none" && !takes_word(path);
     for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
         toml::node* next = child(*node, parts[i]);
-        if (!next && removes) return;
+        if (!next && removes) {
+            set_[std::string(path)] = override_text;
+            return;
+        }
         if (!next && node->is_table() && !is_number(parts[i]))
             next = &node->as_table()->insert(parts[i], toml::table{}).first->second;
         if (!next) throw no_element(parts[i]);
@@ -142,6 +145,7 @@ void Source::apply(const std::string& override_text) {
             table->erase(parts.back());
         else
             throw InputError("", "an element of a list cannot be removed");
+        set_[std::string(path)] = override_text;
         return;
     }
     toml::table holder = parse_value(path, value);

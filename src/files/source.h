@@ -28,7 +28,7 @@ class Source {
     Place place(std::string_view path) const;
     /// Place of a key itself.
     Place place(const toml::key& key, std::string_view path) const;
-    /// Whether an override gave the value.
+    /// Whether an override gave the value, or took it away.
     bool is_set(std::string_view path) const { return set_.contains(std::string(path)); }
 
   private:
