@@ -24,8 +24,7 @@ SlopeSpread::SlopeSpread(const Subject& s, double eye, int axis)
       array_mm_(screen_size_mm(s.geometry())[std::size_t(axis)]),
       shape_(aperture_shape(s.display(), s.geometry())),
       axis_(std::size_t(axis)),
-      aperture_slopes_(shape_.extent_mm(axis_) *
-                       std::abs(1 / eye - 1 / s.geometry().focal_length_mm + 1 / s.geometry().gap_mm)),
+      aperture_slopes_(shape_.extent_mm(axis_) * std::abs(1 / eye - 1 / s.geometry().focal_length_mm + 1 / s.geometry().gap_mm)),
       half_rad_(0),
       above_mm_(0),
       diffuser_scale_(1),

@@ -13,8 +13,8 @@ namespace lfdsim {
 /// Reads and validates a description. `overrides` are "dotted.key=value" with the value in TOML syntax, applied before validation.
 /// Throws InputError with every problem found, each as file:line:column (or --set key) with what was given and what is allowed;
 /// an unknown key names the nearest known one. Files that it names (content.model, those of content.object, glass_catalogues)
-/// become relative to the working directory; glasses are looked up. With overrides a model keeps the depth that it has by default in
-/// the description as written, unless they set content.depth_mm.
+/// become relative to the working directory; glasses are looked up. With overrides a model keeps the depth that it has by default
+/// in the description as written, unless they set content.depth_mm.
 Display read_display(const std::filesystem::path&, const std::vector<std::string>& overrides = {});
 
 /// The same from text; `name` stands for the file in messages, and files that the text names are relative to `folder`. Limits:

@@ -37,6 +37,7 @@ double most_seconds = 0, file_bytes = 0;
 }  // namespace
 
 void allow_for(const std::filesystem::path& file) {
+    if (most_seconds == 0) return;
     std::error_code none;
     if (const auto bytes = std::filesystem::file_size(file, none); !none) file_bytes += double(bytes);
     // First SIGXCPU, which says why.

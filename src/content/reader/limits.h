@@ -10,7 +10,7 @@ namespace lfdsim::reader {
 void confine(std::int64_t bytes, double seconds);
 
 /// To be called for each file that is read: a few seconds, and more for each byte of all files, are what reading may take, so that
-/// a small file that makes a loader run in circles is given up soon.
+/// a small file that makes a loader run in circles is given up soon. Without confine() before it, nothing is limited.
 void allow_for(const std::filesystem::path&);
 
 }  // namespace lfdsim::reader
