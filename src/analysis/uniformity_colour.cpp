@@ -137,12 +137,12 @@ std::vector<double> between(const std::vector<double>& angles, double shift) {
 }
 
 /// By how much the mean over a few angles may miss that over all: each step of the distance lies anywhere between two of them,
-/// which is a standard deviation of 1/sqrt(12) of an interval; twice that.
-double between_angles(const std::vector<double>& distance) {
+/// which is a standard deviation of 1/sqrt(12) of an interval; twice that. Dark angles have no distance; steps lead over them.
+double between_angles(std::vector<double> distance) {
+    std::erase_if(distance, [](double d) { return !std::isfinite(d); });
     double squares = 0;
-    for (std::size_t k = 0; k + 1 < distance.size(); ++k)
-        if (const double step = distance[k + 1] - distance[k]; std::isfinite(step)) squares += step * step / 12;
-    return 2 * std::sqrt(squares) / double(distance.size());
+    for (std::size_t k = 0; k + 1 < distance.size(); ++k) squares += std::pow(distance[k + 1] - distance[k], 2) / 12;
+    return distance.empty() ? 0 : 2 * std::sqrt(squares) / double(distance.size());
 }
 
 /// Colours change in steps where light passes from one subpixel to the next: what other angles find belongs to the error.

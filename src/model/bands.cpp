@@ -137,7 +137,8 @@ double michelson_of(const std::vector<double>& waves) {
         least = std::min(least, std::max(light, 0.));
         greatest = std::max(greatest, light);
     }
-    return greatest > 0 ? (greatest - least) / (greatest + least) : 0;
+    constexpr double rounding = 1e-12;  // of the sums: what lies below it is an even light
+    return greatest - least > rounding * greatest ? (greatest - least) / (greatest + least) : 0;
 }
 
 }  // namespace

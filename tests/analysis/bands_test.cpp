@@ -112,6 +112,19 @@ TEST(Bands, AreForeseenAndAdvisedOf) {
     EXPECT_LT(differences[37], 0.05);
 }
 
+// What sums of cosines leave of an even light is no contrast.
+TEST(Bands, OfFilledCellsAreNone) {
+    Draw draw(8);
+    for (int n = 0; n < 40; ++n) {
+        Display d = draw.display();
+        d.array.aperture = Aperture::cell;
+        d.array.surround = Surround::opaque;
+        d.lens.kind = IdealLens{{}, d.array.gap_mm.value()};
+        d.lens.stop_radius_mm.reset();
+        EXPECT_EQ(band_contrast(d, resolve(d)), (std::array<double, 2>{0, 0})) << n;
+    }
+}
+
 // One lens pitch of spread joins round lenses of any size; the angle follows from the diffuser's own distance.
 TEST(Bands, OnePitchOfSpreadClosesThem) {
     Draw draw(7);
