@@ -154,6 +154,7 @@ bool GltfLoader::CanRead(const std::string& file, Assimp::IOSystem* io, bool) co
     const bool named = SimpleExtensionCheck(file, "gltf", "glb", "vrm");
     if (!description.is_object() || !description.contains("asset") || !description["asset"].is_object()) return named;
     const auto version = description["asset"].value("version", nlohmann::json());
+    if (version.is_number()) return version.get<double>() >= 2;  // files of version 1 have numbers here, too
     return version.is_string() ? !version.get<std::string>().starts_with("1") : named;
 }
 
