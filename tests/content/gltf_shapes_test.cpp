@@ -210,6 +210,13 @@ TEST(Gltf, DracoIsUnpacked) {
     EXPECT_THAT(packed.notes, testing::IsEmpty());
 }
 
+// Version 1 stays with Assimp, also where the version is a number, as collada2gltf wrote it.
+TEST(Gltf, VersionOneIsReadByAssimp) {
+    const fs::path sample = "/usr/share/assimp/models/glTF/CesiumMilkTruck/CesiumMilkTruck.gltf";
+    if (!fs::exists(sample)) GTEST_SKIP() << "needs Debian's assimp-testmodels";
+    EXPECT_GT(info(*load_model(sample)).triangles, 1000);
+}
+
 // Each change to a good file is refused in words that name the place.
 TEST(Gltf, LiesAreFound) {
     Folder folder;
