@@ -115,11 +115,9 @@ void add_rules(Result& result, const std::string& region, const Curve& curve, co
 /// The resolution that the lenses' pitch and the panel's pixels allow at each depth, as the eye sees it.
 void add_resolution(const Subject& s, Result& result, const std::vector<double>& depths) {
     const Geometry& g = s.geometry();
-    const double eye = eye_distance_mm(s.display()), to_eye = eye - g.vertex_plane_mm;
-    const auto by_lens = [&](double z) { return s.theory(0).lens_sampling_limit_per_mm * to_eye / (to_eye - z); };
-    const auto by_pixel = [&](double z) {
-        return g.gap_mm / (2 * s.display().panel.pixel_pitch_mm * std::abs(z + g.vertex_plane_mm - g.rear_principal_mm));
-    };
+    const double eye = eye_distance_mm(s.display());
+    const auto by_lens = [&](double z) { return lens_limit_per_mm(g, s.theory(), z, eye); };
+    const auto by_pixel = [&](double z) { return pixel_limit_per_mm(s.display(), g, z); };
     DataTable table{
         "dof_resolution",
         {{"depth_mm", depths}, {"lens_per_mm", {}}, {"pixel_per_mm", {}}, {"lens_per_degree", {}}, {"pixel_per_degree", {}}}};

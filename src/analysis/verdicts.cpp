@@ -3,6 +3,7 @@
 #include "analysis/quick_look.h"
 #include "model/bands.h"
 #include "model/numbers.h"
+#include "model/sharp_range.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -144,14 +145,6 @@ std::optional<std::string> on_eyes(const Display& d, const Geometry& g, const Se
         eyes, mixed->traced, digits(wide), digits(eye_distance_mm(d) * usual_eyes_apart_mm / wide), usual_eyes_apart_mm / wide);
 }
 
-/// "between 3 and 7 mm in front of the lenses", and the like, of an interval of inverse depths that may pass infinity.
-std::string depths_in_words(double near_per_mm, double far_per_mm) {
-    const double near = depth_mm(near_per_mm), far = depth_mm(far_per_mm);
-    if (near_per_mm > 0 && far_per_mm > 0) return fmt::format("from {} to {} are", digits(near), place(far));
-    if (near_per_mm < 0 && far_per_mm < 0) return fmt::format("from {} to {} are", digits(-far), place(near));
-    return fmt::format("farther than {} and than {} are", place(near), place(far));
-}
-
 /// Whether the lenses are as sharp as theory without aberration has them.
 std::optional<std::string> on_blur(const Display& d, const Geometry& g, const Theory& t) {
     const std::optional<LensBlur> b = blur(d, g);
@@ -162,15 +155,20 @@ std::optional<std::string> on_blur(const Display& d, const Geometry& g, const Th
         return std::isinf(L) ? fmt::format("{:.3g} degrees", std::atan(slope) / degree)
                              : fmt::format("{} mm", digits(slope * std::abs(L)));
     };
+    const double eye = eye_distance_mm(d);
+    const auto in_words = [&](const SharpRange& range, const char* are) {
+        const bool none = range.behind.empty() && range.in_front.empty();
+        return fmt::format("{}{} {}", none ? "" : "depths ", depths_in_words(g, range, eye), are);
+    };
     const std::string sharp =
         std::isnan(b->sharp.near_per_mm)
-            ? fmt::format("No depth is sharp (the spot comes nearest to a pixel's image {})", place(depth_mm(b->sharp.best_per_mm)))
-            : fmt::format("Depths {} sharp", depths_in_words(b->sharp.near_per_mm, b->sharp.far_per_mm));
+            ? fmt::format("no depth is sharp (the spot comes nearest to a pixel's image {})", place(depth_mm(b->sharp.best_per_mm)))
+            : in_words(range_of_inverse(g, b->sharp.near_per_mm, b->sharp.far_per_mm, eye), "are sharp");
     return fmt::format(
         "spherical aberration blurs the lenses: in the central depth plane, {}, a point of the panel becomes a spot {} wide, most "
         "of its "
-        "light {}, where the image of a pixel is {}. {}; without aberration depths {}. {}",
-        place(L), wide(b->full_pixels), wide(b->pixels), wide(1), sharp, depths_in_words(t.depth_near_per_mm, t.depth_far_per_mm),
+        "light {}, where the image of a pixel is {}: {}; without aberration {}. {}",
+        place(L), wide(b->full_pixels), wide(b->pixels), wide(1), sharp, in_words(sharp_by_pixel(g, t, eye), "would be"),
         stop_remedy(d, stop_against_blur(d, g)));
 }
 

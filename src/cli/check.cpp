@@ -49,9 +49,12 @@ std::string number_text(double x) {
 
 std::string table_of(const Figure& f) {
     std::vector<std::string> numbers;
-    for (const double x : f.values) numbers.push_back(number_text(x));
-    std::string value = fmt::format("{}", fmt::join(numbers, " x "));
-    if (std::ranges::all_of(f.values, [](double x) { return std::isfinite(x); })) value += " " + unit_of(f.name);
+    const bool interval = f.kind == Figure::Kind::interval;
+    for (const double x : f.values) numbers.push_back(interval && std::isfinite(x) ? fmt::format("{:.4g}", x) : number_text(x));
+    if (interval && std::isnan(f.values[0])) numbers.resize(1);
+    std::string value = fmt::format("{}", fmt::join(numbers, interval ? " to " : " x "));
+    const auto number = [&](double x) { return std::isfinite(x) || (interval && !std::isnan(x)); };
+    if (std::ranges::all_of(f.values, number)) value += " " + unit_of(f.name);
     return fmt::format("  {:<28} {:<22} {}", f.name, value, f.meaning);
 }
 
@@ -98,8 +101,9 @@ void run(const CheckArguments& args) {
     for (const std::string& warning : warnings) text += "  - " + warning + "\n";
     text += "\nPlaces and sizes (z from the panel)\n";
     for (const Figure& f : figures(display, geometry)) add_line(text, table_of(f));
-    text += "\nParaxial theory\n";
-    for (const Figure& f : figures(display, paraxial)) add_line(text, table_of(f));
+    text += "\nParaxial theory (depths from the lenses, negative behind them)\n";
+    for (const Figure& f : figures(display, geometry, paraxial))
+        if (f.kind != Figure::Kind::for_scripts) add_line(text, table_of(f));
     if (!colours.empty()) text += table_of(colours);
     const std::vector<Figure> largest = largest_errors(display, geometry);
     if (!largest.empty()) text += "\nLargest errors of single lenses\n";

@@ -1,7 +1,7 @@
 #include "files/write_first_order.h"
 
 #include "files/commented.h"
-#include "model/depth_words.h"
+#include "model/sharp_range.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,12 +27,6 @@ void write_panel_pixels(const Panel& panel, double inch, CommentedText& text) {
 }
 
 namespace {
-
-/// The depth whose inverse is given, in words.
-std::string end_of_depth(double per_mm) {
-    if (per_mm == 0) return "infinity";
-    return depth_in_words(1 / per_mm);
-}
 
 void write_lens(const FirstOrder& o, CommentedText& text) {
     const double f = o.theory.focal_length_mm, g = *o.display.array.gap_mm;
@@ -94,7 +88,8 @@ std::string pitch_reason(const FirstOrder& o) {
 
 void write_array(const FirstOrder& o, CommentedText& text) {
     const LensArray& array = o.display.array;
-    const double t = std::tan(o.request.fov_deg * std::acos(-1.0) / 360);
+    const double t = std::tan(o.request.fov_deg * std::acos(-1.0) / 360), eye = eye_distance_mm(o.display);
+    const Geometry geometry = resolve(o.display);
     text.table("array");
     if (array.lattice != LatticeKind::square) text.key("lattice", array.lattice);
     if (o.request.pitch_mm)
@@ -109,8 +104,8 @@ void write_array(const FirstOrder& o, CommentedText& text) {
     text.key("count", *array.count);
     text.note(
         "From the panel to the lens's panel-side principal plane: g = 1 / (2 tan(FOV/2) / p - 1/E), so that the field of view, 2 "
-        "atan(p' / 2g), is {:g} degrees (tan(FOV/2) = {:.5g}). Depth of field: |1/z - 1/L| <= a/(g D), from {} to {}.",
-        o.request.fov_deg, t, end_of_depth(o.theory.depth_near_per_mm), end_of_depth(o.theory.depth_far_per_mm));
+        "atan(p' / 2g), is {:g} degrees (tan(FOV/2) = {:.5g}). Depth of field by the pixel, |1/z - 1/L| <= a/(g D): {}.",
+        o.request.fov_deg, t, depths_in_words(geometry, sharp_by_pixel(geometry, o.theory, eye), eye));
     text.key("gap_mm", *array.gap_mm);
     if (array.aperture != Aperture::circle) text.key("aperture", array.aperture);
 }

@@ -1,5 +1,7 @@
 #include "model/advice_parts.h"
+#include "model/depth_words.h"
 #include "model/numbers.h"
+#include "model/sharp_range.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,11 +79,17 @@ void advise_on_scene(Advised& a) {
     // Depths count from the vertex plane, the theory's from the rear principal plane.
     const double from_lens = g.content_depth_mm + g.vertex_plane_mm - g.rear_principal_mm;
     const bool at_lenses = std::abs(from_lens) <= widest_aperture_mm(g);  // where all views agree
-    if (a.display.lens.type() != LensType::pinhole && !at_lenses && !is_sharp(a.theory, from_lens))
-        a.say(
-            "the content's centre, {:.4g} mm from the lenses, is outside the depth of field, whose ends are at "
-            "{:.4g} and {:.4g} mm",
-            from_lens, depth_mm(a.theory.depth_near_per_mm), depth_mm(a.theory.depth_far_per_mm));
+    if (a.display.lens.type() == LensType::pinhole || at_lenses || is_sharp(a.theory, from_lens)) return;
+    const double from_panel = eye_distance_mm(a.display);
+    const SharpRange by_pixel = sharp_by_pixel(g, a.theory, from_panel),
+                     by_lens = sharp_by_lens(a.display, g, a.theory, from_panel);
+    const bool within = by_lens.holds(g.content_depth_mm);
+    a.say(
+        "the content's centre, {}, is outside the depth of field by the pixel ({}), {} that by the lens ({}): its detail is {} the "
+        "lens "
+        "pitch",
+        depth_in_words(g.content_depth_mm), depths_in_words(g, by_pixel, from_panel), within ? "within" : "and outside",
+        depths_in_words(g, by_lens, from_panel), within ? "limited by" : "coarser than");
 }
 
 }  // namespace lfdsim

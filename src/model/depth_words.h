@@ -6,9 +6,12 @@
 
 namespace lfdsim {
 
+/// Four digits, without an exponent.
+inline std::string length_in_words(double mm) { return std::abs(mm) < 1e4 ? fmt::format("{:.4g}", mm) : fmt::format("{:.0f}", mm); }
+
 /// "12.5 mm in front of the lenses" or "12.5 mm behind the lenses", of a depth towards the viewer.
 inline std::string depth_in_words(double mm) {
-    return fmt::format("{:.4g} mm {} the lenses", std::abs(mm), mm < 0 ? "behind" : "in front of");
+    return fmt::format("{} mm {} the lenses", length_in_words(std::abs(mm)), mm < 0 ? "behind" : "in front of");
 }
 
 }  // namespace lfdsim

@@ -1,7 +1,9 @@
 #include "model/sharp_range.h"
 
+#include "model/depth_words.h"
 #include "model/numbers.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
@@ -49,6 +51,32 @@ SharpRange sharp_by_lens(const Display& d, const Geometry& g, const Theory& t, d
     if (std::isinf(L)) return range_between(g, -infinity, infinity, eye_mm);
     const double one = L * (1 - pitches), other = L * (1 + pitches);  // |1 - z/L| = p/D
     return range_between(g, std::min(one, other), std::max(one, other), eye_mm);
+}
+
+std::string depths_in_words(const Geometry& g, const SharpRange& range, double eye_mm) {
+    const DepthSpan &behind = range.behind, &front = range.in_front;
+    const bool to_viewer = front.high >= eye_mm - g.vertex_plane_mm;
+    const std::string before = to_viewer ? "the viewer" : depth_in_words(front.high);
+    if (!behind.empty() && !front.empty() && behind.high == 0 && front.low == 0)
+        return fmt::format("from {} to {}", std::isinf(behind.low) ? "infinity behind the lenses" : depth_in_words(behind.low),
+                           before);
+    std::string words;
+    if (!behind.empty())
+        words = std::isinf(behind.low) ? fmt::format("from {} to infinity", depth_in_words(behind.high))
+                                       : fmt::format("from {} to {}", length_in_words(-behind.high), depth_in_words(behind.low));
+    if (!front.empty())
+        words += fmt::format("{}from {} to {}", words.empty() ? "" : " and ",
+                             to_viewer ? depth_in_words(front.low) : length_in_words(front.low), before);
+    return words.empty() ? "no depth as far as the viewer" : words;
+}
+
+double lens_limit_per_mm(const Geometry& g, const Theory& t, double depth, double eye_mm) {
+    const double to_eye = eye_mm - g.vertex_plane_mm;
+    return t.along[0].lens_sampling_limit_per_mm * to_eye / (to_eye - depth);
+}
+
+double pixel_limit_per_mm(const Display& d, const Geometry& g, double depth) {
+    return g.gap_mm / (2 * d.panel.pixel_pitch_mm * std::abs(depth + g.vertex_plane_mm - g.rear_principal_mm));
 }
 
 double cycles_per_degree(const Geometry& g, double per_mm, double depth, double eye_mm) {

@@ -37,8 +37,8 @@ Json check_json(const Display& display, bool warnings) {
     const Theory paraxial = theory(display, geometry);
     Json notes = Json::object();
     add_notes(figures(display, geometry), "geometry", notes);
-    add_notes(figures(display, paraxial), "theory", notes);
-    Json theory = to_json(figures(display, paraxial));
+    add_notes(figures(display, geometry, paraxial), "theory", notes);
+    Json theory = to_json(figures(display, geometry, paraxial));
     if (const std::vector<ChannelTheory> colours = theory_by_colour(display); !colours.empty()) theory["colour"] = to_json(colours);
     Json errors = to_json(largest_errors(display, geometry));
     return {{"display", to_json(settings(display))},

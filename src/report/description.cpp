@@ -4,6 +4,7 @@
 #include "model/lattice.h"
 #include "model/lens_errors.h"
 #include "model/numbers.h"
+#include "model/sharp_range.h"
 #include "model/subpixels.h"
 
 #include <fmt/format.h>
@@ -111,9 +112,48 @@ std::vector<double> colour_shifts_mm(const Display& d, const Theory& t) {
     return shifts;
 }
 
+/// The published depth of field; NaN where half of it is more than L, so that it would reach to the lenses and beyond.
+double published_depth_mm(const Theory& t) {
+    return 0.5 * t.depth_of_field_mm < std::abs(t.central_depth_mm) ? t.depth_of_field_mm : nan;
+}
+
+/// Which depths are sharp, named as `analyze dof` names them, and the finest detail as the eye sees it.
+std::vector<Figure> sharpness(const Display& d, const Geometry& g, const Theory& t) {
+    constexpr const char* inside = "the camera stands inside the display or behind it";
+    const double eye = eye_distance_mm(d), z = g.content_depth_mm;
+    const bool pinhole = d.lens.type() == LensType::pinhole, before = eye > nearest_eye_mm(g);
+    const char* none = pinhole   ? "a pinhole has no image plane"
+                       : !before ? inside
+                                 : "no depth on this side of the lenses is sharp by theory";
+    const auto ends = [&](const DepthSpan& span) { return before ? std::vector{span.low, span.high} : std::vector{nan, nan}; };
+    constexpr auto interval = Figure::Kind::interval;
+    constexpr const char *lens = "a lens's spot D |1 - z/L| is no wider than the pitch p", *pixel = "|1/z - 1/L| <= a / (g D)";
+    const SharpRange by_lens = sharp_by_lens(d, g, t, eye), by_pixel = sharp_by_pixel(g, t, eye);
+    const double at_lenses = before ? lens_limit_per_mm(g, t, 0, eye) : nan,
+                 at_content = before && eye - g.vertex_plane_mm > z
+                                  ? std::min(lens_limit_per_mm(g, t, z, eye), pixel_limit_per_mm(d, g, z))
+                                  : nan;
+    return {{"by_lens_behind_mm", ends(by_lens.behind), "depth of field by the lens, behind the lenses", lens, none, interval},
+            {"by_lens_in_front_mm", ends(by_lens.in_front), "depth of field by the lens, in front of them, to the viewer at most",
+             lens, none, interval},
+            {"by_pixel_behind_mm", ends(by_pixel.behind), "depth of field by the pixel, behind the lenses", pixel, none, interval},
+            {"by_pixel_in_front_mm", ends(by_pixel.in_front),
+             "depth of field by the pixel, in front of them, to the viewer at most", pixel, none, interval},
+            {"at_the_lenses_per_degree",
+             {cycles_per_degree(g, at_lenses, 0, eye)},
+             "resolution limit at the lenses, as the eye sees it",
+             "E / 2p per radian",
+             inside},
+            {"at_the_content_per_degree",
+             {cycles_per_degree(g, at_content, z, eye)},
+             "resolution limit of lenses and pixels at the content's depth, as the eye sees it",
+             "the lesser of E / 2p and (E - z) g / (2 a |z|) per radian",
+             "the camera stands inside the display or behind the content"}};
+}
+
 }  // namespace
 
-std::vector<Figure> figures(const Display& d, const Theory& t) {
+std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t) {
     const bool by_axis = differs_by_axis(d.array);
     const auto along = [&](double AxisTheory::*figure) {
         const double x = t.along[0].*figure, y = t.along[1].*figure;
@@ -121,14 +161,8 @@ std::vector<Figure> figures(const Display& d, const Theory& t) {
     };
     constexpr const char* inside = "the camera stands inside the display or behind it";
     constexpr const char* pinhole = "a pinhole has no image plane";
-    // Depths are sharp from the near end's 1/z down to the far end's, z from the lenses towards the viewer: through infinity where
-    // the signs differ, and behind the lenses where 1/z is negative.
-    const auto end_of = [](double per_mm, bool near) {
-        if (per_mm > 0) return near ? "where it begins, in front of the lenses" : "where it ends towards the viewer";
-        if (per_mm < 0) return near ? "where it ends far behind the lenses" : "where it begins, behind the lenses";
-        return near ? "its end, at infinity" : "its other end, at infinity";
-    };
-    std::vector<Figure> all{
+    const bool pinhole_lens = d.lens.type() == LensType::pinhole;
+    std::vector<Figure> all = {
         {"fov_deg", along(&AxisTheory::fov_deg), "field of view of one lens, where an eye may move", "2 atan(p / 2g)"},
         {"fov_exact_deg", along(&AxisTheory::fov_exact_deg), "the same through the layers on the panel, which theory has paraxial",
          "Snell's law, from p'/2 on the panel to the axis at the lens",
@@ -148,11 +182,25 @@ std::vector<Figure> figures(const Display& d, const Theory& t) {
          "1/L = 1/f - 1/g",
          pinhole},
         {"pixel_image_mm", {t.pixel_image_mm}, "P_I, image of a panel pixel on it", "a |L| / g", pinhole},
-        {"depth_of_field_mm", {t.depth_of_field_mm}, "depth of field, as published", "2 |L| P_I / D", pinhole},
-        {"depth_near_mm", {depth_mm(t.depth_near_per_mm)}, end_of(t.depth_near_per_mm, true), "1 / (1/L + a / (g D))", pinhole},
-        {"depth_far_mm", {depth_mm(t.depth_far_per_mm)}, end_of(t.depth_far_per_mm, false), "1 / (1/L - a / (g D))", pinhole},
-        {"depth_near_diopters", {1000 * t.depth_near_per_mm}, "the same end as 1/z", "1/L + a / (g D)", pinhole},
-        {"depth_far_diopters", {1000 * t.depth_far_per_mm}, "the same end as 1/z", "1/L - a / (g D)", pinhole},
+        {"depth_of_field_mm",
+         {published_depth_mm(t)},
+         "depth of field, as published",
+         "2 |L| P_I / D, for ranges less deep than L is far",
+         pinhole_lens ? pinhole : "the published formula is for a range about L that does not reach the lenses"},
+        {"depth_near_mm", {depth_mm(t.depth_near_per_mm)}, "", "1 / (1/L + a / (g D))", pinhole, Figure::Kind::for_scripts},
+        {"depth_far_mm", {depth_mm(t.depth_far_per_mm)}, "", "1 / (1/L - a / (g D))", pinhole, Figure::Kind::for_scripts},
+        {"depth_near_diopters",
+         {1000 * t.depth_near_per_mm},
+         "depth of field by the pixel, nearest 1/z",
+         "1/L + a / (g D)",
+         pinhole},
+        {"depth_far_diopters",
+         {1000 * t.depth_far_per_mm},
+         "depth of field by the pixel, farthest 1/z",
+         "1/L - a / (g D)",
+         pinhole}};
+    for (Figure& f : sharpness(d, g, t)) all.push_back(std::move(f));
+    const std::vector<Figure> rest{
         {"views", along(&AxisTheory::views), "N, views across", "p / a, of strips along a row p / (a cos(slant))"},
         {"view_step_deg", along(&AxisTheory::view_step_deg), "angle from view to view", "field of view / N"},
         {"viewing_zone_parallel_deg", along(&AxisTheory::viewing_zone_parallel_deg),
@@ -170,6 +218,7 @@ std::vector<Figure> figures(const Display& d, const Theory& t) {
          "diffuser at L that closes the gaps between lenses", "2 atan(p / 2 |L|)", pinhole},
         {"gap_closing_here_deg", along(&AxisTheory::gap_closing_here_deg), "angle that closes them from where the diffuser stands",
          "2 atan(p / 2d), d its height above the lenses' rims", "there is no diffuser"}};
+    all.insert(all.end(), rest.begin(), rest.end());
     if (const std::vector<double> shifts = colour_shifts_mm(d, t); !shifts.empty())
         all.push_back({"subpixel_shift_mm", shifts,
                        "how far aside red, green and blue of content made for whole pixels are seen at the viewing distance",
@@ -201,6 +250,10 @@ Json to_json(const std::vector<Figure>& all) {
     Json json = Json::object();
     for (const Figure& f : all) {
         const bool of_channels = f.values.size() == 3;
+        if (f.kind == Figure::Kind::interval) {
+            json[f.name] = std::isnan(f.values[0]) ? Json() : numbers_json(f.values);
+            continue;
+        }
         json[f.name] = of_channels ? numbers_json(f.values) : number_json(f.values[0]);
         if (f.values.size() == 2) json[name_along_y(f.name)] = number_json(f.values[1]);
     }
@@ -209,12 +262,13 @@ Json to_json(const std::vector<Figure>& all) {
 
 void add_notes(const std::vector<Figure>& all, const std::string& part, Json& notes) {
     for (const Figure& f : all)
-        for (std::size_t k = 0; k < f.values.size(); ++k)
+        for (std::size_t k = 0; k < (f.kind == Figure::Kind::interval ? 1 : f.values.size()); ++k)
             if (std::isnan(f.values[k])) notes[part + "." + (k == 0 ? f.name : name_along_y(f.name))] = f.undefined;
 }
 
 std::string unit_of(const std::string& name) {
     if (name.ends_with("_per_mm")) return "1/mm";
+    if (name.ends_with("_per_degree")) return "cycles/degree";
     if (name.ends_with("_mm")) return "mm";
     if (name.ends_with("_nm")) return "nm";
     if (name.ends_with("_deg")) return "degrees";

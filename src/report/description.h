@@ -23,17 +23,18 @@ struct Figure {
     const char* name;
     std::vector<double> values;  // infinite where there is no finite one; NaN where it is undefined; two: along the array's x and y
     const char* meaning;
-    const char* formula = "";    // how it is computed; symbols as in docs/model.md
-    const char* undefined = "";  // why there is none, where the value is NaN
+    const char* formula = "";                                                 // how it is computed; symbols as in docs/model.md
+    const char* undefined = "";                                               // why there is none, where the value is NaN
+    enum class Kind { numbers, interval, for_scripts } kind = Kind::numbers;  // interval: of two ends; for_scripts: in JSON alone
 };
 std::vector<Figure> figures(const Display&, const Geometry&);
-std::vector<Figure> figures(const Display&, const Theory&);
+std::vector<Figure> figures(const Display&, const Geometry&, const Theory&);
 /// How far the errors of single lenses go, those of the table and those drawn together; none where there are no such errors.
 std::vector<Figure> largest_errors(const Display&, const Geometry&);
 
 Json to_json(const std::vector<Setting>&);  // {"panel": {"pixels": ...}, ...}
-Json to_json(const std::vector<Figure>&);  // {"fov_deg": ...}, along y "fov_y_deg"; "infinite" and "-infinite" as words, null where
-                                           // undefined
+Json to_json(const std::vector<Figure>&);   // {"fov_deg": ...}, along y "fov_y_deg"; intervals as [low, high]; "infinite" and
+                                            // "-infinite" as words, null where undefined
 /// Adds to `notes`, an object, why figures are undefined: {"PART.NAME": "..."}.
 void add_notes(const std::vector<Figure>&, const std::string& part, Json& notes);
 

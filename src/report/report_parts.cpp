@@ -4,6 +4,7 @@
 #include "image/image_file.h"
 #include "image/png_memory.h"
 #include "image/scaled.h"
+#include "model/sharp_range.h"
 #include "report/base64.h"
 #include "report/side_view.h"
 #include "report/svg_drawing.h"
@@ -87,6 +88,7 @@ std::string theory_rows(const Subject& s) {
     const auto number = [](double x, const char* unit) {
         return std::isfinite(x) ? fmt::format("{}{:.4g}{}", x < 0 ? "−" : "", std::abs(x), unit) : std::string("infinite");
     };
+    const double eye = eye_distance_mm(d);
     const bool by_axis = differs_by_axis(d.array);
     const auto along = [&](double x, double y, const char* unit) {
         return by_axis ? number(x, unit) + " × " + number(y, unit) : number(x, unit);
@@ -109,8 +111,8 @@ std::string theory_rows(const Subject& s) {
         {"Views across, and the angle between them",
          fmt::format("{}, {}", theory(&AxisTheory::views, ""), theory(&AxisTheory::view_step_deg, "°"))},
         {"Central depth plane L, from the lenses", number(t.central_depth_mm, " mm")},
-        {"Depth of field, from the lenses: ends",
-         fmt::format("{}, {}", number(depth_mm(t.depth_near_per_mm), " mm"), number(depth_mm(t.depth_far_per_mm), " mm"))},
+        {"Depth of field by the lens", depths_in_words(g, sharp_by_lens(d, g, t, eye), eye)},
+        {"Depth of field by the pixel", depths_in_words(g, sharp_by_pixel(g, t, eye), eye)},
         {"Image of a pixel at L", number(t.pixel_image_mm, " mm")},
         {"Whole screen seen from within", theory(&AxisTheory::viewing_zone_deg, "°")},
         {"Sampling by lenses, by pixels", fmt::format("{}, {}", theory(&AxisTheory::lens_sampling_limit_per_mm, "/mm"),

@@ -23,9 +23,12 @@ namespace {
 Json json_of(const std::vector<Figure>& figures) {
     Json all = Json::array();
     const Json values = to_json(figures);
-    for (const Figure& f : figures)
+    for (const Figure& f : figures) {
+        if (f.kind == Figure::Kind::for_scripts) continue;
         all.push_back(
             {{"name", f.name}, {"label", f.meaning}, {"unit", unit_of(f.name)}, {"value", values[f.name]}, {"doc", f.formula}});
+        if (f.kind == Figure::Kind::interval) all.back()["interval"] = true;
+    }
     return all;
 }
 
@@ -161,7 +164,7 @@ Json resolved(const Library& library, const Wanted& wanted) {
                         {"id", wanted.id},
                         {"name", display.name.empty() ? library.description(wanted).file.stem().string() : display.name},
                         {"controls", controls(display, described(library, wanted, display))},
-                        {"theory", json_of(figures(display, paraxial))},
+                        {"theory", json_of(figures(display, geometry, paraxial))},
                         {"geometry", json_of(figures(display, geometry))},
                         {"warnings", verdicts_and_advice(display, geometry, paraxial)},
                         {"command", command(library, wanted)}});

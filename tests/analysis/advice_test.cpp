@@ -171,6 +171,20 @@ TEST(Advice, PupilJoinsLenses) {
     EXPECT_THAT(advice_for(d), bands);
 }
 
+// The depths that it names are the named intervals of the depth of field, cut at the viewer, 580 mm in front of the lenses.
+TEST(Advice, ContentOutsideTheDepthOfField) {
+    Display d = read_display(LFDSIM_SOURCE_DIR "/displays/desktop-ideal.toml");
+    d.content.depth_mm = 100;
+    EXPECT_THAT(advice_for(d),
+                Contains(AllOf(HasSubstr("by the pixel (from 268"), HasSubstr("to 426"), HasSubstr("within that by the lens"))));
+    d.camera.position_mm = {0, 0, 400};
+    d.content.viewing_distance_mm = 400;
+    EXPECT_THAT(advice_for(d), Contains(AllOf(HasSubstr("mm in front of the lenses to the viewer)"), Not(HasSubstr("426")))));
+    d.content.depth_mm = -300;
+    EXPECT_THAT(advice_for(d),
+                Contains(HasSubstr("and outside that by the lens (from 0 mm in front of the lenses to the viewer)")));
+}
+
 // A model's width and depth are known once it has been read.
 TEST(Advice, OfTheModelItself) {
     EXPECT_THAT(advice_for(tablet(), Vec3d{100, 40, 60}), IsEmpty());

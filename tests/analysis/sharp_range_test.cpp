@@ -14,10 +14,6 @@ namespace {
 
 using namespace lens_examples;
 
-bool holds(const SharpRange& r, double depth) {
-    return (depth >= r.behind.low && depth <= r.behind.high) || (depth >= r.in_front.low && depth <= r.in_front.high);
-}
-
 // Ideal lenses have no thickness: depths count from the lens. Real, virtual and infinite central depths; D less than the pitch.
 TEST(SharpRange, HoldsWhereTheSpotIsNarrowEnough) {
     std::mt19937 random(4);
@@ -31,13 +27,13 @@ TEST(SharpRange, HoldsWhereTheSpotIsNarrowEnough) {
         const Theory t = theory(d, g);
         const double D = g.clear_aperture_mm[0], a = d.panel.pixel_pitch_mm, eye = 600, L = t.central_depth_mm;
         const SharpRange lens = sharp_by_lens(d, g, t, eye), pixel = sharp_by_pixel(g, t, eye);
-        EXPECT_TRUE(holds(lens, 0));
-        EXPECT_FALSE(holds(lens, eye) || holds(pixel, eye));  // the eye is 600 mm from the panel
+        EXPECT_TRUE(lens.holds(0));
+        EXPECT_FALSE(lens.holds(eye) || pixel.holds(eye));  // the eye is 600 mm from the panel
         through_infinity += std::isinf(pixel.behind.low) && !pixel.in_front.empty();
         for (int k = 0; k < 100; ++k) {
             const double z = k % 2 ? between(-3000, eye - g.vertex_plane_mm) : between(-60, 60), spot = D * std::abs(1 - z / L);
-            if (std::abs(spot - pitch) > 1e-9 * pitch) EXPECT_EQ(holds(lens, z), spot <= pitch) << n << " " << z;
-            EXPECT_EQ(holds(pixel, z), spot <= a * std::abs(z) / gap) << n << " " << z;
+            if (std::abs(spot - pitch) > 1e-9 * pitch) EXPECT_EQ(lens.holds(z), spot <= pitch) << n << " " << z;
+            EXPECT_EQ(pixel.holds(z), spot <= a * std::abs(z) / gap) << n << " " << z;
         }
     }
     EXPECT_GT(through_infinity, 30);
@@ -71,6 +67,19 @@ TEST(SharpRange, FiguresNameBothSidesAndEndAtTheViewer) {
     EXPECT_NEAR(pixel.at("in_front_mm")[1].get<double>(), 600 - 3.3, 1e-9);
     EXPECT_EQ(result.figures.at("by_lens").at("in_front_mm")[0], 0);
     EXPECT_NEAR(result.figures.at("by_lens").at("in_front_mm")[1].get<double>(), 600 - 3.3, 1e-9);
+}
+
+TEST(SharpRange, WordsNameNothingBehindTheViewer) {
+    const Geometry g = resolve(ideal(2, 3.3, 3.2, 20));  // the viewer is 596.7 mm in front of the lens
+    const auto words = [&](double low, double high) { return depths_in_words(g, range_between(g, low, high, 600), 600); };
+    EXPECT_EQ(words(21.5, 280), "from 21.5 to 280 mm in front of the lenses");
+    EXPECT_EQ(words(21.5, 2677), "from 21.5 mm in front of the lenses to the viewer");
+    EXPECT_EQ(words(-30, -7), "from 7 to 30 mm behind the lenses");
+    EXPECT_EQ(words(-30, 40), "from 30 mm behind the lenses to 40 mm in front of the lenses");
+    EXPECT_EQ(words(-infinity, infinity), "from infinity behind the lenses to the viewer");
+    EXPECT_EQ(words(700, 2677), "no depth as far as the viewer");
+    EXPECT_EQ(depths_in_words(g, range_of_inverse(g, 0.02, -0.01, 600), 600),
+              "from 100 mm behind the lenses to infinity and from 50 mm in front of the lenses to the viewer");
 }
 
 TEST(SharpRange, CyclesPerDegreeAreThoseOfTheAngleAtTheEye) {

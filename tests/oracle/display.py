@@ -169,7 +169,8 @@ def theory(d):
     depth = 1 / (1 / d.paraxial.f - 1 / g)  # 1/L = 1/f - 1/g
     image = pixel * abs(depth) / g
     return {**figures, "focal_length_mm": d.paraxial.f, "central_depth_mm": depth, "pixel_image_mm": image,
-            "depth_of_field_mm": 2 * abs(depth) * image / max(d.clear_aperture)}
+            # as published, of a range that does not reach the lenses
+            "depth_of_field_mm": 2 * abs(depth) * image / max(d.clear_aperture) if image < max(d.clear_aperture) else None}
 
 
 def focus(d):

@@ -10,7 +10,7 @@ function list(place, figures) {
   place.replaceChildren(...figures.flatMap((f) => {
     const unit = unit_text[f.unit] ?? (f.unit ? "\u202f" + f.unit : "");
     const one = (value) => (value === null ? "none" : typeof value === "number" ? short(value, 5) + unit : String(value));
-    const value = [f.value].flat().map(one).join(" × ");
+    const value = [f.value].flat().map(one).join(f.interval ? " to " : " × ");
     return [make("dt", { textContent: f.label, title: `${f.name}: ${f.doc || ""}` }), make("dd", { textContent: value.replace(/^-/, "\u2212") })];
   }));
 }
