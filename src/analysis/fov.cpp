@@ -129,22 +129,46 @@ void add_likeness(Result& result, Json& json, const std::string& name, const Ang
     const double low = g.diffused.at[0], high = g.diffused.at[1];
     const Falls expected{std::isnan(low) ? -edge_deg : low, std::isnan(high) ? edge_deg : high, reach_deg};
     add_limits(result, json, name + ".", "gradient_edge_deg", where_it_falls(curves.share, expected));
-    add_rules(result, json, name + ".", curves.screen, expected);
-    Json content = Json::object();
-    add_rules(result, content, name + ".content.", curves.content, expected);
-    json["content"] = std::move(content);
+    add_rules(result, json, name + ".", curves.content, expected);
+    for (const auto& [region, curve] : {std::pair{"content", &curves.content}, {"screen", &curves.screen}}) {
+        Json of_region = Json::object();
+        add_rules(result, of_region, fmt::format("{}.{}.", name, region), *curve, expected);
+        json[region] = std::move(of_region);
+    }
 
     const auto add = [&](const std::string& what, const Interval& measured, std::vector<double> theory, const std::string& remark) {
         add_finding(result, fmt::format("Likeness, {}: {}", name, what), measured, std::move(theory), remark);
     };
     add("edge", where_it_falls(curves.share, expected), {expected.low, expected.high},
         "where the scene's share in the view falls half-way; beside it the edge by geometry");
-    add("SSIM half-way down", where_it_falls(curves.screen, expected), {},
+    add("SSIM of the content half-way down", where_it_falls(curves.content, expected), {},
         "early by up to half the diffuser's angle: SSIM falls with the first ghost");
-    add(fmt::format("SSIM of {} or more", least_view_ssim), where_at_least(curves.screen, 0, least_view_ssim), {},
-        "the published rule");
-    add(fmt::format("slope of {} a degree or less", most_slope_per_deg), where_steady(curves.screen, 0, most_slope_per_deg), {},
+    const Interval of_screen = where_at_least(curves.screen, 0, least_view_ssim);
+    add(fmt::format("SSIM of the content {} or more", least_view_ssim), where_at_least(curves.content, 0, least_view_ssim), {},
+        "the published rule, where the content is");
+    add(fmt::format("SSIM of the whole screen {} or more", least_view_ssim), of_screen, {},
+        "the same with the background, which raises it where it is black in both pictures");
+    add(fmt::format("slope of the content's SSIM of {} a degree or less", most_slope_per_deg),
+        where_steady(curves.content, 0, most_slope_per_deg), {},
         "the published rule, which ends before the edge where steps are of a degree");
+    // The views that are nearest to the axis, mostly on it.
+    const std::vector<double>& angles = curves.content.at;
+    const auto middle = std::ranges::min_element(angles, {}, [](double a) { return std::abs(a); });
+    const std::size_t k = std::size_t(middle - angles.begin());
+    const auto figure = [&](Json& of, const Curve& c) {
+        of["middle_ssim"] = number_json(c.value[k]);
+        of["middle_ssim_error"] = number_json(c.error);
+    };
+    figure(json, curves.content);
+    figure(json["content"], curves.content);
+    figure(json["screen"], curves.screen);
+    result.findings.push_back({fmt::format("Likeness, {}: SSIM of the content at {:.3g} degrees", name, *middle),
+                               "",
+                               {curves.content.value[k]},
+                               {},
+                               fmt::format("of the whole screen {:.4g}, which a background that is black in both pictures raises",
+                                           curves.screen.value[k]),
+                               {curves.content.error}});
 }
 
 /// How much more the edges by likeness lie to one side than those by geometry.
@@ -297,8 +321,8 @@ Result measure_fov(Subject& subject, Job& job) {
         table.columns.push_back({name + "_ssim", curves.screen.value});
         table.columns.push_back({name + "_content_ssim", curves.content.value});
         table.columns.push_back({name + "_share", curves.share.value});
-        plot.series.push_back({name + ", screen", angles, curves.screen.value});
         plot.series.push_back({name + ", content", angles, curves.content.value});
+        plot.series.push_back({name + ", whole screen", angles, curves.screen.value});
         shares.series.push_back({name, angles, curves.share.value});
     }
     for (Plot* p : {&plot, &shares})
@@ -321,8 +345,9 @@ Result measure_fov(Subject& subject, Job& job) {
             "all of these places, or an eye would stand in it.",
             depth, described));
     result.remarks.push_back(
-        "The field of view is the geometric one: it depends on no content, picture or step. SSIM compares whole pictures: "
-        "aberration, the diffuser's blur and the panel's pixels lower it everywhere, the repeated views beyond the edge suddenly. "
+        "The field of view is the geometric one: it depends on no content, picture or step. SSIM is that of the content, "
+        "the rectangle about it: a background that is black in both pictures raises the whole screen's. Aberration, the diffuser's "
+        "blur and the panel's pixels lower it everywhere, the repeated views beyond the edge suddenly. "
         "So its edge should lie where geometry puts it, and the published thresholds rate the picture's quality.");
     return result;
 }

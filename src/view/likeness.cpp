@@ -45,7 +45,7 @@ Compared compared(Image& view, double white, const Display& display, const Geome
     Quiet quiet(job);
     Picture photograph = reference_photograph(display, geometry, scene, threads, {}, quiet);
     if (!photograph.complete) throw Stopped{};
-    const double likeness = ssim(view, photograph.image, std::array{seen_screen(display, geometry)}).front();
+    const double likeness = ssim(view, photograph.image, std::array{content_region(display, geometry, scene)}).front();
     return {std::move(photograph.image), likeness};
 }
 

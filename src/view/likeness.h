@@ -22,7 +22,7 @@ class WhiteField {
 
 struct Compared {
     Image photograph;
-    double ssim;  // over the screen, as `lfdsim analyze` measures it; NaN where too little of it is seen
+    double ssim;  // of the content, as `lfdsim analyze` measures it; NaN where too little of it is seen
 };
 
 /// `view` is the camera's whole picture; it is divided by `white`. Throws Stopped.

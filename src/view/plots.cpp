@@ -52,16 +52,17 @@ Plot fov_plot(const Display& display, const ContentParts& parts, const Job& job)
     const double white = subject.white_field(job);
     const auto shown = elemental_panel(d, g, scene, 0, job);
 
-    Series likeness_series{"SSIM of view and scene", {}, {}};
+    Series of_content{"content", {}, {}}, of_screen{"whole screen", {}, {}};
     for (int k = -angles_each_side; k <= angles_each_side; ++k) {
         const double angle = most * k / angles_each_side;
-        likeness_series.x.push_back(angle);
         const Display seen = seen_from(d, angle, 0);
-        likeness_series.y.push_back(
-            likeness(expected_view(seen, g, scene, 0, job), seen, g, shown->pyramid(), white, {}, job).screen);
+        const Likeness l = likeness(expected_view(seen, g, scene, 0, job), seen, g, shown->pyramid(), white, {}, job);
+        for (Series* of : {&of_content, &of_screen}) of->x.push_back(angle);
+        of_content.y.push_back(l.content);
+        of_screen.y.push_back(l.screen);
     }
     Plot plot{"fov", "Likeness of the simulated view to the scene", "horizontal angle of the view, degrees", "SSIM", {}};
-    plot.series.push_back(std::move(likeness_series));
+    plot.series = {std::move(of_content), std::move(of_screen)};
     for (const double side : {-edge, edge})
         if (std::abs(side) <= most) plot.marks.push_back({"2 atan(p' / 2g)", side});
     plot.marks.push_back({"eye", std::atan2(display.camera.position_mm[0], display.camera.position_mm[2]) / degree});

@@ -65,6 +65,9 @@ TEST_P(Fields, EdgesStandWhereTheoryHasThem) {
             EXPECT_EQ(of.at("own_lens_deg").at(0).get<double>(), -of.at("own_lens_deg").at(1).get<double>());
             EXPECT_NEAR(figure("gradient_edge_deg"), theory, figure("gradient_edge_deg_error")) << axis;
             EXPECT_LT(figure("gradient_edge_deg_error"), 2.5) << axis;
+            // The content's likeness leads; a black background raises the whole screen's, which stands beside it.
+            EXPECT_EQ(of.at("ssim_rule_deg"), of.at("content").at("ssim_rule_deg"));
+            EXPECT_LT(of.at("middle_ssim").get<double>(), of.at("screen").at("middle_ssim").get<double>() - 0.005);
         }
 }
 

@@ -199,7 +199,7 @@ TEST_F(PainterTest, LikenessIsThatOfTheAnalysis) {
     Job job;
     const double alike = likeness(expected_view(subject.display(), subject.geometry(), subject.scene(), 0, job), subject.display(),
                                   subject.geometry(), subject.panel(job), subject.white_field(job), {}, job)
-                             .screen;
+                             .content;
     EXPECT_NEAR(photograph.header["ssim"].get<double>(), alike, 2e-3);
     EXPECT_EQ(photograph.header["ssim"], view.header["ssim"]);
     EXPECT_EQ(

@@ -131,5 +131,5 @@ export const quality_words = { coarse: "coarse", fine: "fine", final: "sharp" };
 export function show_ssim(ssim, at_rest) {
   const place = byId("ssim");
   place.setAttribute("aria-live", at_rest ? "polite" : "off");
-  say(place, Number.isFinite(ssim) ? `SSIM ${ssim.toFixed(4)}` : "");
+  say(place, Number.isFinite(ssim) ? `SSIM of the content ${ssim.toFixed(4)}` : "");
 }
