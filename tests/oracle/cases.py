@@ -2,6 +2,8 @@
 import copy
 import math
 
+import numpy as np
+
 import errors
 
 SPHERE = {"type": "plano_convex", "sphere_radius_mm": 5.0, "aperture_radius_mm": 3.9, "cylinder_height_mm": 1.0, "index": 1.49}
@@ -170,6 +172,10 @@ def to_toml(value):
     def text(v):
         if isinstance(v, dict):  # a glass
             return "{ " + ", ".join(f"{k} = {text(w)}" for k, w in v.items()) + " }"
+        if isinstance(v, (np.generic, np.ndarray)):  # whose repr() names its type in some versions of NumPy
+            v = v.tolist()
+        if isinstance(v, (list, tuple)):
+            return "[" + ", ".join(map(text, v)) + "]"
         return {True: "true", False: "false"}[v] if isinstance(v, bool) else f'"{v}"' if isinstance(v, str) else repr(v)
     lines = [f"{k} = {text(v)}" for k, v in value.items() if not isinstance(v, dict)]
     for name, table in value.items():

@@ -3,10 +3,19 @@ import math
 
 import numpy as np
 
+from cases import to_toml
 from check_tools import IDEAL, LATTICES, LAYERS, LENS, P, PINHOLE, brute_owner, close, display, land, rays, same, turned
 from display import resolve
 from lattice import Lattice
 from path import OFF_PANEL, PANEL
+
+
+def written():
+    """Descriptions say numbers of NumPy, alone, in lists and in tables, as plain ones."""
+    row = {"glass": {"nd": np.float64(1.5)}, "semi": np.float32(0.5)}
+    text = to_toml({"schema": np.int64(1), "lens": {"size": np.array([1.5, 2.0]), "pair": [np.float64(3.0), True], "surface": [row]}})
+    wanted = "schema = 1\n[lens]\nsize = [1.5, 2.0]\npair = [3.0, true]\n[[lens.surface]]\nglass = { nd = 1.5 }\nsemi = 0.5\n"
+    return text == wanted, text
 
 
 def cells(name):

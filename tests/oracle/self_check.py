@@ -12,6 +12,7 @@ from check_tools import ASPHERE, FACING, IDEAL, LATTICES, LAYERS, LENS, PINHOLE
 
 def checks():
     """(name, check) pairs; a check returns (good, what was found)."""
+    yield "descriptions are written in plain numbers", arrays.written
     yield "hexagons and bricks stand where they should", arrays.neighbours
     yield "a stop's hole reaches beyond its brick", arrays.stop_beyond_the_cell
     yield "slant is a clockwise turn", arrays.slant
