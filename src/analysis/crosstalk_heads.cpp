@@ -121,7 +121,7 @@ Interval head_range(Eyes& eyes, const Heads& all) {
                                                                                                          : all.places.back();
         end.error += std::max(std::abs(nearest - end.at), std::abs(farthest - end.at));
     }
-    return {ends[0], ends[1]};
+    return known({ends[0], ends[1]}, 0);
 }
 
 /// The eyes are not both in the one viewing zone, so that crosstalk between them is undefined.

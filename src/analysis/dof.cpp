@@ -74,11 +74,7 @@ Interval on_side(Interval i, bool in_front) {
     const Limit lenses{0, 0, {}};
     if (in_front && !(i.low.at > 0)) i.low = lenses;
     if (!in_front && !(i.high.at < 0)) i.high = lenses;
-    for (Limit* limit : {&i.low, &i.high})
-        if (limit->error > std::abs(limit->at))
-            *limit = {nan, nan,
-                      fmt::format("an end at {:.4g} mm has an error of {:.2g} mm, more than itself", limit->at, limit->error)};
-    return i;
+    return known(i, 0);
 }
 
 /// The published rules, each as the connected interval about the depth that is most alike; and both together, on either side of the

@@ -90,7 +90,9 @@ struct Geometric {
     OwnRange lenses, diffused;
 };
 
-Interval interval(const OwnRange& r) { return {{r.at[0], r.error[0], r.missing[0]}, {r.at[1], r.error[1], r.missing[1]}}; }
+Interval interval(const OwnRange& r) {
+    return known({{r.at[0], r.error[0], r.missing[0]}, {r.at[1], r.error[1], r.missing[1]}}, 0);
+}
 
 /// How far on either side of its edge the field of view fades, degrees: by the lens aperture and the diffuser, and where images are
 /// made for another distance by the lenses across.

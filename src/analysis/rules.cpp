@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 namespace lfdsim {
 namespace {
@@ -49,15 +50,7 @@ Interval about(const Curve& c, double centre, double level) {
         none.missing = "the rule does not hold even in the middle";
         return {none, none, true};
     }
-    Interval found{first_below(c, centre, -1, level), first_below(c, centre, 1, level)};
-    for (Limit* limit : {&found.low, &found.high})
-        if (limit->error > std::abs(limit->at - centre)) {
-            const std::string missing =
-                fmt::format("it ends at {:.4g}, which is no farther from the middle, {:.4g}, than its error of {:.2g}", limit->at,
-                            centre, limit->error);
-            *limit = {nan, nan, missing};
-        }
-    return found;
+    return known({first_below(c, centre, -1, level), first_below(c, centre, 1, level)}, centre);
 }
 
 double median(std::vector<double> v) {
@@ -107,6 +100,17 @@ Limit fall(const Curve& c, double expected, double reach, int side) {
 }
 
 }  // namespace
+
+Interval known(Interval i, double centre) {
+    for (Limit* limit : {&i.low, &i.high})
+        if (limit->error > 0 && limit->error >= std::abs(limit->at - centre)) {
+            std::string missing =
+                fmt::format("it ends at {:.4g}, which is no farther from the middle, {:.4g}, than its error of {:.2g}", limit->at,
+                            centre, limit->error);
+            *limit = {nan, nan, std::move(missing)};
+        }
+    return i;
+}
 
 Interval where_at_least(const Curve& c, double centre, double least) { return about(c, centre, least); }
 

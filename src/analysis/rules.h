@@ -10,7 +10,7 @@
 
 namespace lfdsim {
 
-/// Where an interval ends. NaN: nowhere, or no farther from its centre than the error, and `missing` says why.
+/// Where an interval ends. NaN: nowhere, or nowhere that is known, and `missing` says why.
 struct Limit {
     double at = std::numeric_limits<double>::quiet_NaN();
     double error = std::numeric_limits<double>::quiet_NaN();  // from the curve's noise and half the step between its places
@@ -21,6 +21,9 @@ struct Interval {
     Limit low, high;
     bool empty = false;  // the rule does not hold at the centre itself: there are no limits
 };
+
+/// Takes away each end whose error reaches back to the centre that it was sought from: an error as large as the figure leaves none.
+Interval known(Interval, double centre);
 
 struct Curve {
     std::vector<double> at;     // rising, at least two

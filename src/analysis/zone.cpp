@@ -229,7 +229,7 @@ void add_sideways(Result& result, Search& search, const Subject& s, const std::a
         const bool corner = axis == 1 && s.display().array.lattice == LatticeKind::hexagon;
         json["theory_deg"] = corner ? Json() : Json{0 - theory, theory};
         for (const std::size_t t : {0u, 1u}) {
-            const Interval& mm = zone.limits[t];
+            const Interval mm = known(zone.limits[t], 0);
             const Interval deg = mapped(mm, degrees);
             const std::string percent = fmt::format("{:g}", 100 * thresholds[t]);
             add_limits(result, json, name + ".", fmt::format("wrong_{}_percent_mm", percent), mm);
@@ -271,8 +271,10 @@ void add_axis(Result& result, Search& search, const Subject& s, double distance)
         return Vec3d{0, 0, from_panel(inverse)};
     });
     for (double& place : zone.places) place = from_panel(place);
+    const double middle = zone.places[zone.places.size() / 2];
     const double theory_nearest = rear + theory.distance_mm(-1), theory_farthest = rear + theory.distance_mm(1);
-    const std::array<Interval, 2> limits{mapped(zone.limits[0], from_panel), mapped(zone.limits[1], from_panel)};
+    const std::array<Interval, 2> limits{known(mapped(zone.limits[0], from_panel), middle),
+                                         known(mapped(zone.limits[1], from_panel), middle)};
     Json json = Json::object();
     add_limits(result, json, "distance.", "wrong_1_percent_mm", limits[0]);
     add_limits(result, json, "distance.", "wrong_50_percent_mm", limits[1]);

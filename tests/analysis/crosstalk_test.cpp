@@ -168,6 +168,18 @@ TEST(Crosstalk, OfABarrierIsItsSlitsWidth) {
     EXPECT_NEAR(views.at("woods_percent"), 100 * (1 - share) / share, 2 + double(views.at("woods_percent_error")));
 }
 
+// Where crosstalk is just below what is tolerable, the head's range is as short as the step of its search.
+TEST(Crosstalk, ARangeAsShortAsItsErrorIsNone) {
+    Display d = aligned(9);
+    d.panel.subpixels = SubpixelLayout::none;
+    d.lens.kind = Pinhole{0.094};
+    d.array.aperture = Aperture::circle;
+    const Result result = measured(d);
+    EXPECT_NEAR(result.figures.at("between_eyes").at("left_eye_percent"), 9.4, 0.3);
+    for (const Json& end : result.figures.at("between_eyes").at("head_within_10_percent_mm")) EXPECT_TRUE(end.is_null()) << end;
+    EXPECT_NE(result.notes.at("between_eyes.head_within_10_percent_mm").find("than its error"), std::string::npos);
+}
+
 // The worst of many views that are alike is as bad as each of them.
 TEST(Crosstalk, OfTheWorstViewIsNotThatOfTheNoise) {
     Display d = display(20);

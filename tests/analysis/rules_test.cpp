@@ -34,6 +34,15 @@ TEST(Rules, WithoutACrossingItSaysHowFarItWasSearched) {
     EXPECT_NE(i.high.missing.find("20"), std::string::npos);
 }
 
+TEST(Rules, AnErrorAsLargeAsTheFigureLeavesNone) {
+    const Interval i = known({{-0.5, 0.5, {}}, {2.5, 0.5, {}}}, 0), aside = known({{8, 1, {}}, {11, 1.5, {}}}, 10);
+    EXPECT_TRUE(std::isnan(i.low.at) && std::isnan(i.low.error) && std::isnan(aside.high.at));
+    EXPECT_NE(i.low.missing.find("than its error of 0.5"), std::string::npos);
+    EXPECT_EQ(i.high.at, 2.5);
+    EXPECT_EQ(aside.low.at, 8);
+    EXPECT_EQ(known({{0, 0, {}}, {1, 0, {}}}, 0).low.at, 0);  // an end that is known, at the centre
+}
+
 TEST(Rules, TheIntervalIsTheConnectedOne) {
     const Interval i = where_at_least(curve([](double x) { return std::abs(x) == 5 ? 0. : 1.; }), 0, 0.5);
     EXPECT_NEAR(i.low.at, -4.5, 1e-12);

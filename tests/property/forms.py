@@ -24,6 +24,7 @@ BETWEEN_EYES_MM = 65.0
 LOOSE = 0.05  # of a frequency: a form that knows it no better does not tell
 SCREEN_LINES = 1 << 16  # of sight in each set, all parts of the screen together, for colours
 COLOUR_UNSURE = 0.002   # in u', v': a form that knows a distance no better does not tell
+LIT, MORE = 64, 16      # of a colour's lines of sight in each set so many should meet light: a narrow stop and small subpixels ask for up to so many times more
 VISIBLE = 0.01          # contrast: a wave of less need not be found
 
 
@@ -127,7 +128,7 @@ class Forms:
             sight = Sight(d, self.viewing, parts * each, self.seed, True, blocks=blocks)
             light = colours.light_of_parts(sight, eye if np.ndim(eye) == 1 else np.tile(np.repeat(eye, each, axis=0), (SETS, 1)), parts)
             for figure, form in colours.distances(light, weights).items():
-                out[f"colour.{name}_delta_uv_{figure}"] = UNSURE if form and form[1] > COLOUR_UNSURE else form
+                out[f"colour.{name}_delta_uv_{figure}"] = UNSURE if form and not form[1] <= COLOUR_UNSURE else form
 
         first, number = colours.blocks_of_screen(count)
         add("screen", first, number, number.prod(axis=1).astype(float), np.array([0.0, 0.0, self.eye]))
@@ -161,7 +162,10 @@ class Forms:
     def mtf(self, result):
         d, out = self.display, {}
         wavelengths = max(d.render.wavelength_samples if self.dispersing else 1, 1)
-        lines = self.sight(4 * MANY // wavelengths if self.coloured or self.structured else MANY, True)
+        number = 4 * MANY // wavelengths if self.coloured or self.structured else MANY
+        trial = colours.White(self.sight(LINES, True), np.array([0.0, 0.0, self.eye]))
+        lit = min(sum((light > 0).mean() for light, _, _ in trial.shining(c)) for c in ((0, 1, 2) if self.coloured else (1,)))
+        lines = self.sight(int(number * min(max(LIT / (number * max(lit, 1e-9)), 1), MORE)), True)
         narrow = (d.subpixels.high - d.subpixels.low).min(axis=0)  # the narrowest rectangle along x and y, in pixels
 
         @functools.cache
@@ -181,7 +185,7 @@ class Forms:
             if self.coloured:
                 named = {"red": spreads[0], "green": spreads[1], "blue": spreads[2], "luminance": sharpness.together(spreads)}
             forms = {name: sure(sharpness.mtf50, lines, spread, eye, m["depth_mm"], axis, greatest) for name, spread in named.items()}
-            forms = {name: UNSURE if form and form != UNSURE and form[1] > LOOSE * form[0] else form for name, form in forms.items()}
+            forms = {name: UNSURE if form and form != UNSURE and not form[1] <= LOOSE * form[0] else form for name, form in forms.items()}
             out |= {f"{path}.mtf50_per_mm.{name}": form for name, form in forms.items()}
             lens = (eye[2] - d.vertex_plane) / (2 * d.cell.width[axis] * (eye[2] - d.vertex_plane - m["depth_mm"]))
             pixel = d.gap / (2 * step * max(abs(z), 1e-300))

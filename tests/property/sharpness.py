@@ -56,6 +56,8 @@ def mtf50(sight, spread, eye, depth, axis, greatest):
     low, high = np.quantile(by[light > 0], [0.05, 0.95]) if light.any() else (0.0, math.inf)
     if high - low > MOST_OF_SCREEN * sight.display.array.count[axis] * sight.pitch[axis] * (1 - depth / eye[2]):
         raise Unsure
+    if not light.any(axis=1).all():  # a set that meets no light tells nothing, and neither does what they differ by
+        raise Unsure
 
     step = min(greatest / STEPS, 1 / (STEPS_A_TURN * max(high - low, 1e-300)))
     turn, wave, whole = np.exp(2j * np.pi * step * by), light.astype(complex), light.sum(axis=1)
