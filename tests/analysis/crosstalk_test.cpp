@@ -177,7 +177,8 @@ TEST(Crosstalk, ARangeAsShortAsItsErrorIsNone) {
     const Result result = measured(d);
     EXPECT_NEAR(result.figures.at("between_eyes").at("left_eye_percent"), 9.4, 0.3);
     for (const Json& end : result.figures.at("between_eyes").at("head_within_10_percent_mm")) EXPECT_TRUE(end.is_null()) << end;
-    EXPECT_NE(result.notes.at("between_eyes.head_within_10_percent_mm").find("than its error"), std::string::npos);
+    EXPECT_NE(result.notes.at("between_eyes.head_within_10_percent_mm").get<std::string>().find("than its error"),
+              std::string::npos);
 }
 
 // The worst of many views that are alike is as bad as each of them.
