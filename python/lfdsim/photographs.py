@@ -71,7 +71,7 @@ def compare_photograph(
 
     view: as render() returns it. photograph: (height, width, 3), uint8 or uint16 codes in `encoding` ("srgb" or "linear"), upright;
         or floats, linear light that no white limits.
-    corners_px: the outer corners of the lens array in the photograph, (x, y) in pixels from the picture's upper left corner: top left,
+    corners_px: the outer corners of the lens array (of its part before the panel) in the photograph, (x, y) in pixels from the picture's upper left corner: top left,
         top right, bottom right, bottom left of the screen as its viewer sees it. view_corners_px: in the view; see screen_corners().
     fit_corners: move each corner by up to 5 pixels of the photograph to where both agree best. fit_blur: blur the view by the Gaussian
         that makes it most similar to the photograph.
@@ -97,8 +97,8 @@ def screen_corners(
     frame_width_mm: float | None = None,
     size: Sequence[int] | None = None,
 ) -> NDArray[np.float64]:
-    """Where a view by render() shows the outer corners of the lens array: top left, top right, bottom right, bottom left; (x, y) in
-    pixels from the frame's upper left corner. Arguments as those of render()."""
+    """Where a view by render() shows the outer corners of the lens array, or of its part before the panel where it reaches over that:
+    top left, top right, bottom right, bottom left; (x, y) in pixels from the frame's upper left corner. Arguments as those of render()."""
     view = seen(display, None, camera_mm=camera_mm, target_mm=target_mm, frame_width_mm=frame_width_mm, size=size)
     return np.array(_core.screen_corners(view._handle))
 

@@ -44,10 +44,11 @@ Corners corners_from_display(const std::string& path, const Metadata& about, con
         throw InputError(path, fmt::format("is {} x {} pixels, a part of the camera's {} x {}; render the whole frame, or give the "
                                            "corners of the screen in it: --view-corners",
                                            view.width, view.height, display.camera.resolution[0], display.camera.resolution[1]));
-    const std::optional<Corners> corners = screen_corners(display, resolve(display));
-    if (!corners) throw InputError(path, "its camera does not have the whole screen in front of it; give --view-corners");
-    check_corners(path, *corners);
-    return *corners;
+    const ScreenCorners corners = screen_corners(display, resolve(display));
+    if (!corners.at)
+        throw InputError(path, corners.missing + "; give four points that both pictures show: --corners and --view-corners");
+    check_corners(path, *corners.at);
+    return *corners.at;
 }
 
 Json pairs(const Corners& corners) {
@@ -60,11 +61,11 @@ Json pairs(const Corners& corners) {
 
 PhotoOptions::PhotoOptions(Command command) {
     constexpr const char* four = "X,Y X,Y X,Y X,Y";
-    corners_option_ =
-        command.add_option("--corners", corners_,
-                           "B is a photograph of the display: the outer corners of its lens array there, in pixels from the upper "
-                           "left corner of the picture as viewers show it; top left, top right, bottom right, bottom left of the "
-                           "screen as its viewer sees it");
+    corners_option_ = command.add_option(
+        "--corners", corners_,
+        "B is a photograph of the display: the outer corners of its lens array there (of the part that is lit, "
+        "where the array reaches over the panel), in pixels from the upper left corner of the picture as viewers "
+        "show it; top left, top right, bottom right, bottom left of the screen as its viewer sees it");
     const Option view_corners =
         command.add_option("--view-corners", view_corners_,
                            "The same corners in A; default: from the display description stored in a picture made by lfdsim");

@@ -23,9 +23,10 @@ namespace {
 namespace nb = nanobind;
 
 Corners screen_corners(const Display& display) {
-    const std::optional<Corners> corners = lfdsim::screen_corners(display, resolve(display));
-    if (!corners) throw InputError("camera_mm, target_mm", "the camera does not have the whole screen in front of it");
-    return *corners;
+    const ScreenCorners corners = lfdsim::screen_corners(display, resolve(display));
+    if (!corners.at)
+        throw InputError("display, camera_mm, target_mm", corners.missing + "; give four points that view and photograph show");
+    return *corners.at;
 }
 
 Overlay overlay(const AnyPixels& view, const AnyPixels& photo, const Corners& corners, const Corners& view_corners,

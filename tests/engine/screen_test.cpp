@@ -12,6 +12,7 @@ namespace {
 
 Display oblique(double rotation_deg) {
     Display d = example();
+    d.panel.pixels = {400, 280};
     d.array.count = {11, 6};
     d.array.rotation_deg = rotation_deg;
     d.array.offset_mm = {3, -2};
@@ -26,7 +27,7 @@ TEST(ScreenCorners, RaysThroughThemMeetTheArray) {
     for (const double rotation : {0.0, 20.0, 90.0, -110.0, 180.0}) {
         const Display d = oblique(rotation);
         const Geometry g = resolve(d);
-        const auto corners = screen_corners(d, g);
+        const auto corners = screen_corners(d, g).at;
         ASSERT_TRUE(corners);
         optics::View view = make_view(d, g);
         view.start_z = g.vertex_plane_mm;
@@ -48,7 +49,43 @@ TEST(ScreenCorners, NoneBehindTheCamera) {
     d.array.count = {4000, 6};
     d.camera.position_mm = {0, 0, 50};
     d.camera.target_mm = {100, 0, 1};
-    EXPECT_FALSE(screen_corners(d, resolve(d)));
+    EXPECT_FALSE(screen_corners(d, resolve(d)).at);
+}
+
+// Slanted strips without a count cover the panel's bounding box. What is seen of them ends where the panel does.
+TEST(ScreenCorners, AreThePanelsWhereTheArrayReachesOverIt) {
+    for (const double slant : {18.43, -30., 71.6}) {
+        Display d = example();
+        d.array.lattice = LatticeKind::strips;
+        d.array.slant_deg = slant;
+        d.array.count.reset();
+        d.camera.position_mm = {25, -10, 400};  // it looks straight down at the panel's plane, where its frame is 44 mm wide
+        d.camera.target_mm = {25, -10, 0};
+        const Geometry g = resolve(d);
+        const auto corners = screen_corners(d, g).at;
+        ASSERT_TRUE(corners) << slant;
+        constexpr double right[] = {-1, 1, 1, -1}, up[] = {1, 1, -1, -1}, pixels = 160 / 44.;
+        for (std::size_t k = 0; k < 4; ++k) {
+            EXPECT_NEAR((*corners)[k][0], 80 + pixels * (right[k] * g.panel_width_mm / 2 - 25), 1e-9) << slant << ", corner " << k;
+            EXPECT_NEAR((*corners)[k][1], 56 - pixels * (up[k] * g.panel_height_mm / 2 + 10), 1e-9) << slant << ", corner " << k;
+        }
+    }
+}
+
+// Lenses that reach over the panel by less than half of one are lit to their rims.
+TEST(ScreenCorners, OfAnArrayThatThePanelLights) {
+    Display d = example();
+    d.array.count = {10, 7};  // as wide and high as the panel
+    d.camera.position_mm = {60, 0, 400};
+    const Geometry g = resolve(d);
+    const Corners corners = *screen_corners(d, g).at;
+    d.panel.pixels = {400, 280};
+    const Corners of_array = *screen_corners(d, resolve(d)).at;
+    EXPECT_EQ(corners, of_array);
+    d.array.count = {13, 9};
+    d.array.rotation_deg = 30;
+    d.panel.pixels = {160, 112};
+    EXPECT_NE(screen_corners(d, resolve(d)).missing.find("corners"), std::string::npos);
 }
 
 }  // namespace
