@@ -71,8 +71,9 @@ def compare_photograph(
 
     view: as render() returns it. photograph: (height, width, 3), uint8 or uint16 codes in `encoding` ("srgb" or "linear"), upright;
         or floats, linear light that no white limits.
-    corners_px: the outer corners of the lens array (of its part before the panel) in the photograph, (x, y) in pixels from the picture's upper left corner: top left,
-        top right, bottom right, bottom left of the screen as its viewer sees it. view_corners_px: in the view; see screen_corners().
+    corners_px: the outer corners of the lens array (of its part before the panel) in the photograph, (x, y) in pixels from the picture's
+        upper left corner: top left, top right, bottom right, bottom left of the screen as its viewer sees it. view_corners_px: in the
+        view; see screen_corners().
     fit_corners: move each corner by up to 5 pixels of the photograph to where both agree best. fit_blur: blur the view by the Gaussian
         that makes it most similar to the photograph.
     crop: (x0, y0, x1, y1): these columns and rows of the view only.
