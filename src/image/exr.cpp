@@ -68,11 +68,26 @@ void check_channels(const InputFile& file, const Imf::ChannelList& channels, con
     }
 }
 
+/// How many bytes one byte of the file stands for at best.
+double most_packed(Imf::Compression compression) {
+    switch (compression) {
+        case Imf::NO_COMPRESSION:
+            return 1;
+        case Imf::RLE_COMPRESSION:
+            return 64;  // runs of 128 take two
+        case Imf::B44_COMPRESSION:
+        case Imf::B44A_COMPRESSION:
+            return 32.0 / 3;  // a flat block of 4 x 4 half floats
+        case Imf::DWAA_COMPRESSION:
+        case Imf::DWAB_COMPRESSION:
+            return 1032 * 64;  // keeps one value of a flat block of 8 x 8, before deflate
+        default:
+            return 1032;  // deflate; PIZ packs less
+    }
+}
+
 void check_windows(const InputFile& file, const Window& data, const Window& display, Imf::Compression compression) {
-    // Three half floats are 6 bytes; deflate packs 1032 into one at best, PIZ fewer.
-    // DWA first keeps one value of a flat 8 x 8 block.
-    const bool dwa = compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
-    file.check_size(data.columns, data.rows, 1032.0 / 6 * (dwa ? 64 : 1));
+    file.check_size(data.columns, data.rows, most_packed(compression) / 6);  // three half floats are 6 bytes
     // Parts of the frame without data are black and take no bytes, so a small file may claim a large frame:
     // up to 2^25 pixels (7680 x 4320 are fewer) or 64 times the data.
     const double frame = double(display.columns) * double(display.rows);
@@ -117,7 +132,7 @@ void read_rows(const InputFile& file, Imf::InputFile& exr, const Names& names, c
 /// The next bytes of a header.
 class HeaderBytes {
   public:
-    explicit HeaderBytes(const InputFile& file) : file_(file) { fseeko(file.stream(), 0, SEEK_SET); }
+    explicit HeaderBytes(const InputFile& file) : file_(file) { go_to(0); }
     std::int32_t number() {
         std::array<unsigned char, 4> b{};
         if (std::fread(b.data(), 1, 4, file_.stream()) != 4) end();
@@ -129,13 +144,74 @@ class HeaderBytes {
             if (c == EOF || text.size() > 255) end();
         return text;
     }
-    std::int64_t left() const { return file_.size() - ftello(file_.stream()); }
-    void skip(std::int64_t bytes) { fseeko(file_.stream(), bytes, SEEK_CUR); }
+    std::int64_t at() const { return ftello(file_.stream()); }
+    std::int64_t left() const { return file_.size() - at(); }
+    void go_to(std::int64_t position) { fseeko(file_.stream(), position, SEEK_SET); }
+    void skip(std::int64_t bytes) { go_to(at() + bytes); }
 
   private:
     [[noreturn]] void end() const { file_.refuse("is damaged or not an EXR file: its header does not end"); }
     const InputFile& file_;
 };
+
+/// The bytes of attributes that have as many in every file.
+constexpr std::pair<std::string_view, std::int64_t> attribute_bytes[] = {{"box2f", 16},
+                                                                         {"box2i", 16},
+                                                                         {"chromaticities", 32},
+                                                                         {"compression", 1},
+                                                                         {"deepImageState", 1},
+                                                                         {"double", 8},
+                                                                         {"envmap", 1},
+                                                                         {"float", 4},
+                                                                         {"int", 4},
+                                                                         {"keycode", 28},
+                                                                         {"lineOrder", 1},
+                                                                         {"m33d", 72},
+                                                                         {"m33f", 36},
+                                                                         {"m44d", 128},
+                                                                         {"m44f", 64},
+                                                                         {"rational", 8},
+                                                                         {"tiledesc", 9},
+                                                                         {"timecode", 8},
+                                                                         {"v2d", 16},
+                                                                         {"v2f", 8},
+                                                                         {"v2i", 8},
+                                                                         {"v3d", 24},
+                                                                         {"v3f", 12},
+                                                                         {"v3i", 12}};
+
+/// Whether an attribute's value, which comes next, takes the bytes that it claims, no more and no fewer, and memory in proportion
+/// to them. OpenEXR goes on where it has read a value to, not where that claims to end, and what it then takes for a size may be
+/// any number.
+bool holds_what_it_claims(HeaderBytes& bytes, std::string_view type, std::int64_t size) {
+    for (const auto& [name, fixed] : attribute_bytes)
+        if (type == name) return size == fixed;
+    const std::int64_t end = bytes.at() + size;
+    if (type == "floatvector") return size % 4 == 0;
+    if (type == "preview") {
+        if (size < 8) return false;
+        const double columns = bytes.number(), rows = bytes.number();
+        return columns >= 0 && rows >= 0 && 4 * columns * rows == double(size - 8);
+    }
+    if (type == "idmanifest") {
+        if (size < 4) return false;
+        const std::int64_t unpacked = bytes.number();
+        return unpacked >= 0 && unpacked <= 1032 * size;  // deflate packs 1032 bytes into one at best
+    }
+    if (type == "stringvector") {
+        while (end - bytes.at() >= 4)
+            if (const std::int64_t text = bytes.number(); text >= 0 && text <= end - bytes.at())
+                bytes.skip(text);
+            else
+                return false;
+        return bytes.at() == end;
+    }
+    if (type == "chlist") {
+        while (!bytes.word().empty()) bytes.skip(16);
+        return bytes.at() == end;
+    }
+    return true;  // texts, and what OpenEXR keeps as it is
+}
 
 /// OpenEXR takes memory for what an attribute says that it holds before it reads that.
 void check_attributes(const InputFile& file) {
@@ -147,18 +223,14 @@ void check_attributes(const InputFile& file) {
         more = parts && !name.empty();  // the headers of parts end with an empty one
         for (; !name.empty(); name = bytes.word()) {
             const std::string type = bytes.word();
-            const std::int64_t size = bytes.number();
+            const std::int64_t size = bytes.number(), value = bytes.at();
             if (size < 0 || size > bytes.left())
                 file.refuse(
                     fmt::format("is damaged: its attribute \"{}\" claims {} bytes, more than the file has", shortened(name), size));
-            if (type == "idmanifest" && size >= 4) {  // deflate packs 1032 bytes into one at best
-                const std::int64_t unpacked = bytes.number();
-                if (unpacked < 0 || unpacked > 1032 * size)
-                    file.refuse(fmt::format("is damaged: its attribute \"{}\"", shortened(name)));
-                bytes.skip(size - 4);
-            } else {
-                bytes.skip(size);
-            }
+            if (!holds_what_it_claims(bytes, type, size))
+                file.refuse(
+                    fmt::format("is damaged: its attribute \"{}\" is no {} of {} bytes", shortened(name), shortened(type), size));
+            bytes.go_to(value + size);
         }
     }
 }

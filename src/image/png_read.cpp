@@ -1,6 +1,7 @@
 #include "image/encoding.h"
 #include "image/first_failure.h"
 #include "image/formats.h"
+#include "model/printable.h"
 
 #include <fmt/format.h>
 #include <png.h>
@@ -30,6 +31,23 @@ void check_signature(const InputFile& file) {
     std::array<png_byte, 8> signature{};
     if (std::fread(signature.data(), 1, 8, file.stream()) != 8 || png_sig_cmp(signature.data(), 0, 8) != 0)
         file.refuse("is not a PNG file, whatever its name says");
+}
+
+/// libpng takes memory for what a chunk claims to hold before it reads that.
+void check_chunks(const InputFile& file) {
+    constexpr std::int64_t first = 8, sum_bytes = 4;  // the signature; after each chunk
+    for (std::int64_t at = first; at < file.size();) {
+        std::array<png_byte, 8> head{};
+        if (fseeko(file.stream(), at, SEEK_SET) != 0 || std::fread(head.data(), 1, head.size(), file.stream()) != head.size())
+            break;
+        const std::string_view name(reinterpret_cast<const char*>(&head[4]), 4);
+        const std::int64_t bytes = png_get_uint_32(head.data());
+        at += std::int64_t(head.size()) + bytes + sum_bytes;
+        if (name == "IEND") break;
+        if (at > file.size())
+            file.refuse(fmt::format("is damaged: it ends too early, its chunk \"{}\" claims {} bytes", printable(name), bytes));
+    }
+    fseeko(file.stream(), first, SEEK_SET);
 }
 
 struct PngReader {
@@ -109,6 +127,7 @@ std::int64_t read_rows(const PngReader& reader, int passes, std::int64_t rows, c
 
 Metadata read_png_metadata(const InputFile& file) {
     check_signature(file);
+    check_chunks(file);
     const PngReader reader(file);
     // What deflate unpacks is taken as memory: so many texts, each so long, are more than any picture of ours has.
     png_set_chunk_cache_max(reader.png, 64);
@@ -123,9 +142,10 @@ Metadata read_png_metadata(const InputFile& file) {
 
 void read_png(const InputFile& file, Encoding encoding, const Allocate& allocate) {
     check_signature(file);
+    check_chunks(file);
     const PngReader reader(file);
     png_set_user_limits(reader.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // check_size is stricter
-    png_set_chunk_cache_max(reader.png, 16);                            // texts are not used: do not collect them
+    png_set_chunk_cache_max(reader.png, 1);                             // texts are not used: 1 collects none
     png_read_info(reader.png, reader.info);
 
     const std::int64_t columns = png_get_image_width(reader.png, reader.info);
