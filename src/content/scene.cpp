@@ -2,6 +2,7 @@
 
 #include "content/join.h"
 #include "content/turn.h"
+#include "image/free_memory.h"
 #include "model/keys.h"
 #include "model/vec.h"
 
@@ -101,7 +102,7 @@ void measure_textures(ContentScene::Impl& scene) {
 void build(ContentScene::Impl& scene) {
     const Model& m = *scene.model;
     scene.device.reset(rtcNewDevice(nullptr));
-    if (!scene.device) throw std::runtime_error("Embree cannot start");
+    if (!scene.device) throw std::runtime_error("Embree cannot start; " + free_text(free_memory()));
     scene.tree.reset(rtcNewScene(scene.device.get()));
     // Robust: rays through shared edges must not fall between the triangles.
     rtcSetSceneFlags(scene.tree.get(), RTC_SCENE_FLAG_ROBUST);

@@ -68,7 +68,7 @@ std::string format_reference_markdown() {
 
 A TOML file describes a display, the camera that looks at it and what it shows. Lengths are in millimetres and angles in degrees, as
 the keys' names say. The panel lies in z = 0, centred on the origin; +x is the viewer's right, +y is up, +z is towards the viewer.
-[model.md](model.md) describes the optics. `displays/` holds ready-made descriptions.
+[model.md](model.md) describes the optics, and of [model files](model.md#scene) what is shown and what is not. `displays/` holds ready-made descriptions.
 
 A key that is unknown, stands in the wrong table or has no meaning for the lens's type is an error, as is a value of another type or
 outside what is allowed; an integer may stand for a number. All errors are reported together, each with file, line and column.

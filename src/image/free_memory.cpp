@@ -150,7 +150,10 @@ FreeMemory free_memory(const fs::path& root) {
 }
 
 std::string bytes_text(double bytes) {
+    if (bytes < 0.95e6) return fmt::format("{:.0f} kB", bytes / 1e3);
     return bytes < 0.95e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.1f} GB", bytes / 1e9);
 }
+
+std::string free_text(const FreeMemory& free) { return fmt::format("{} {} free", free.whose, bytes_text(free.bytes)); }
 
 }  // namespace lfdsim

@@ -15,7 +15,10 @@ struct FreeMemory {
 /// `root`: where /proc and the groups' folders are found.
 FreeMemory free_memory(const std::filesystem::path& root = "/");
 
-/// "3.1 GB", "12 MB".
+/// "3.1 GB", "12 MB", "40 kB".
 std::string bytes_text(double bytes);
+
+/// "this machine has 3.1 GB free".
+std::string free_text(const FreeMemory&);
 
 }  // namespace lfdsim

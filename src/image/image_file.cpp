@@ -48,8 +48,8 @@ void check_memory(const InputFile& file, std::int64_t columns, std::int64_t rows
     constexpr double small_bytes = 1 << 20;
     if (needed < small_bytes) return;
     if (const FreeMemory free = free_memory(); needed > free.bytes)
-        file.refuse(fmt::format("is too large: {} x {} pixels take {} of memory; {} {} free", columns, rows, bytes_text(needed),
-                                free.whose, bytes_text(free.bytes)));
+        file.refuse(
+            fmt::format("is too large: {} x {} pixels take {} of memory; {}", columns, rows, bytes_text(needed), free_text(free)));
 }
 
 /// Begins a stage of the caller's job, if there is one and the picture is large enough to take long; else returns a job that does

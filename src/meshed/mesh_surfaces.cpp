@@ -1,5 +1,6 @@
 #include "meshed/mesh_surfaces.h"
 
+#include "image/free_memory.h"
 #include "model/vec.h"
 
 #include <oneapi/tbb/task_arena.h>
@@ -24,7 +25,7 @@ void check(RTCDevice device) {
 
 MeshSurfaces::MeshSurfaces(const LensMesh& mesh, const Geometry& geometry, LensNormals normals)
     : mesh_(mesh), normals_(normals), device_(rtcNewDevice(nullptr)) {
-    if (!device_) throw std::runtime_error("Embree cannot start");
+    if (!device_) throw std::runtime_error("Embree cannot start; " + free_text(free_memory()));
     mesh_.vertices_mm.push_back(0);  // Embree needs the buffer to be one number longer than the vertices
     for (std::size_t k = geometry.surfaces.size(); k-- > 0;) surfaces_.push_back(surface(k, geometry));
 }

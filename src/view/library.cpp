@@ -4,6 +4,7 @@
 #include "files/display_file.h"
 #include "model/camera.h"
 #include "model/keys.h"
+#include "model/printable.h"
 
 #include <nlohmann/json.hpp>
 
@@ -45,6 +46,10 @@ fs::path relative(const std::string& name) {
 // Both without links.
 bool inside(const fs::path& path, const fs::path& folder) {
     return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+void check_is_description(const fs::path& path, const std::string& name) {
+    if (path.extension() != ".toml") throw InputError(quoted(name), "does not end in .toml");
 }
 
 /// Throws InputError unless `path` leads to something in the folder.
@@ -113,7 +118,8 @@ fs::path Library::file(const std::string& name) const {
 
 fs::path Library::new_file(const std::string& name) const {
     const fs::path path = folder_ / relative(name);
-    if (path.extension() != ".toml") throw InputError(quoted(name), "does not end in .toml");
+    check_is_description(path, name);
+    if (!is_printable(name)) throw InputError(quoted(name), "has characters that cannot be seen");
     std::error_code error;
     if (!fs::is_directory(resolve_inside(path.parent_path(), folder_, name), error))
         throw InputError(quoted(name), "is not in a folder");
@@ -153,6 +159,7 @@ Library::Files Library::files() const {
 }
 
 Library::Description Library::description(const Wanted& wanted, int eye) const {
+    if (!wanted.display.empty()) check_is_description(wanted.display, wanted.display);
     Description description{wanted.display.empty() ? start_.display : file(wanted.display), start_.set};
     for (const std::string& one : wanted.set) {
         check_key(one);

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "files/display_file.h"
+#include "lenses.h"
 #include "model/advice.h"
 
 namespace lfdsim {
@@ -55,11 +55,9 @@ Display near_eye() {
 TEST(Advice, NoneForReadyDisplays) {
     EXPECT_THAT(advice_for(tablet()), IsEmpty());
     for (const char* name : {"clear", "ideal", "plate", "asphere", "spherical", "stopped"})
-        EXPECT_THAT(advice_for(read_display(std::string(LFDSIM_SOURCE_DIR "/displays/desktop-") + name + ".toml")), IsEmpty())
-            << name;
+        EXPECT_THAT(advice_for(lens_examples::shipped(std::string("desktop-") + name)), IsEmpty()) << name;
     for (const char* name : {"asphere-bare", "asphere-weak-diffuser"})
-        EXPECT_THAT(advice_for(read_display(std::string(LFDSIM_SOURCE_DIR "/displays/desktop-") + name + ".toml")),
-                    ElementsAre(HasSubstr("dark bands")))
+        EXPECT_THAT(advice_for(lens_examples::shipped(std::string("desktop-") + name)), ElementsAre(HasSubstr("dark bands")))
             << name;
 }
 

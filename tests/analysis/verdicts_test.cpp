@@ -6,7 +6,7 @@
 
 #include "analysis/quick_look.h"
 #include "example.h"
-#include "files/display_file.h"
+#include "lenses.h"
 
 namespace lfdsim {
 namespace {
@@ -22,8 +22,6 @@ std::vector<std::string> verdicts_of(const Display& d) {
     const Geometry g = resolve(d);
     return verdicts(d, g, theory(d, g));
 }
-
-Display ready(const std::string& name) { return read_display(LFDSIM_SOURCE_DIR "/displays/" + name + ".toml"); }
 
 /// A lenticular sheet for prints, focused on its own back, on the cover glass of a tablet.
 Display sheet_on_tablet() {
@@ -137,7 +135,7 @@ TEST(Verdicts, AberrationThatMixesTheEyes) {
 
 // Of third order: eight times the blur for twice the aperture; none of an ideal lens.
 TEST(Verdicts, SphericalAberration) {
-    Display d = ready("desktop-spherical");
+    Display d = lens_examples::shipped("desktop-spherical");
     const auto of_radius = [&](double mm) {
         Display slow = d;
         slow.lens.as<PlanoConvex>().aperture_radius_mm = mm;
@@ -149,15 +147,15 @@ TEST(Verdicts, SphericalAberration) {
                                HasSubstr("268.5 to 426.3 mm in front of the lenses would be"), HasSubstr("stop of"))));
     d.lens.stop_radius_mm = 2.5;  // about what it proposes
     EXPECT_THAT(verdicts_of(d), Not(Contains(HasSubstr("spherical aberration"))));
-    const Display ideal = ready("desktop-ideal");
+    const Display ideal = lens_examples::shipped("desktop-ideal");
     EXPECT_LT(blur(ideal, resolve(ideal))->full_pixels, 1e-9);
 }
 
 TEST(Verdicts, ColoursThatStayApart) {
-    Display upright = ready("tablet-lenticular");
+    Display upright = lens_examples::shipped("tablet-lenticular");
     upright.array.slant_deg = 0;
     EXPECT_THAT(verdicts_of(upright), Contains(AllOf(HasSubstr("red, green and blue apart"), HasSubstr("rgb_rows"))));
-    Display bare = ready("hexagon");
+    Display bare = lens_examples::shipped("hexagon");
     bare.diffuser.reset();
     EXPECT_THAT(verdicts_of(bare), Contains(AllOf(HasSubstr("red, green and blue apart"), HasSubstr("diffuser.angle_deg="))));
     // Two pixels under each lens: an eye sees one colour.
@@ -179,7 +177,7 @@ TEST(Verdicts, NoneOnGoodDisplays) {
     for (const char* name :
          {"barrier", "hexagon", "tablet-lenticular", "desktop-asphere", "desktop-asphere-bare", "desktop-asphere-colour",
           "desktop-clear", "desktop-doublet", "desktop-ideal", "desktop-plate", "desktop-stopped"})
-        EXPECT_THAT(verdicts_of(ready(name)), IsEmpty()) << name;
+        EXPECT_THAT(verdicts_of(lens_examples::shipped(name)), IsEmpty()) << name;
 }
 
 // Nothing is said, and nothing fails, where an eye sees nothing.

@@ -19,6 +19,18 @@ checks.refused(program, "missing model of the description", "photo tiny.toml --s
 checks.refused(program, "no reader", "photo tiny.toml --model pyramid.obj -o out.png", "lfdsim-model-reader", code=1,
                env={"LFDSIM_MODEL_READER": "/none"})
 
+# What the library says of a file that it reads in vain is said in words of this program.
+triangle = bytes(80) + (1).to_bytes(4, "little") + bytes(50)
+for name, content, says in [("short.stl", b"solid" + triangle[5:-3], "it must have 134 bytes; it has 131"),
+                            ("lying.stl", b"solid" + triangle[5:80] + (4000000000).to_bytes(4, "little") + triangle[84:], "names 4000000000 triangles"),
+                            ("empty.stl", b"solid x\nendsolid x\n", "has no triangles: nothing to show"),
+                            ("none.3mf", b"PK\3\4" + bytes(200), "is damaged, or not of the format that its name says")]:
+    (program.folder / name).write_bytes(content)
+    checks.refused(program, name, f"photo tiny.toml --model {name} -o out.png", says)
+(program.folder / "plain.obj").write_text("mtllib /etc/none.mtl\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n")
+code, _, err = program.run("photo tiny.toml --model plain.obj -o out.png")
+checks.that(code == 0 and err.count("warning") == 1 and "not found in the model's folder: shown without its colours" in err, f"no .mtl: {code} {err}")
+
 # Of many textures that are missing the first are named, the others counted.
 (program.folder / "bare.mtl").write_text("".join(f"newmtl m{k}\nmap_Kd none{k}.png\n" for k in range(40)))
 (program.folder / "bare.obj").write_text("mtllib bare.mtl\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n" +

@@ -65,4 +65,10 @@ for what in [resource.RLIMIT_AS, resource.RLIMIT_DATA]:
 code, said = limited("render tiny.toml -o out.png --pattern white --set array.count=[20000,20000] array.pitch_mm=0.01 errors.decenter_sd_mm=0.0001", (resource.RLIMIT_AS, 1 << 30))
 checks.that(code == 2, f"errors of many lenses: {code} {said}")
 
+# Libraries that cannot start say what there is, too.
+for what in [resource.RLIMIT_AS, resource.RLIMIT_DATA]:
+    for most in [100, 200]:
+        code, said = limited("photo tiny.toml -o out.png", (what, most << 20))
+        checks.that(code == 0 or re.search(r"(leaves|has) [\d.]+ .B free", said), f"limit {what}, {most} MiB, photo: {code} {said}")
+
 checks.finish()

@@ -1,6 +1,7 @@
 // PLY, and what OBJ and other texts hold beside plain meshes.
 #include "image/encoding.h"
 #include "image/image_file.h"
+#include "refused.h"
 #include "small_world.h"
 
 #include <algorithm>
@@ -38,16 +39,6 @@ void write_quarters(const Folder& folder) {
         for (int x = 0; x < 64; ++x)
             for (int c = 0; c < 3; ++c) texels.at(x, y)[c] = (y < 32 ? (x < 32 ? c == 0 : c == 1) : x >= 32 || c == 2) ? 1.f : 0.f;
     write_image(folder.path() / "quarters.png", texels);
-}
-
-std::string refused(const fs::path& file) {
-    try {
-        load_model(file);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    ADD_FAILURE() << file << " was read";
-    return {};
 }
 
 // Width over height, a million times more accurate than a picture.

@@ -1,5 +1,6 @@
 // glTF 2.0: numbers, names, poses and extensions, and files that lie.
 #include "gltf_maker.h"
+#include "refused.h"
 
 namespace gltf_maker {
 namespace {
@@ -10,16 +11,6 @@ std::string bytes_of(const std::vector<T>& all) {
 }
 
 constexpr const char* four = R"({"uri":"four.png"})";
-
-std::string refused(const fs::path& file) {
-    try {
-        load_model(file);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    ADD_FAILURE() << file << " was read";
-    return {};
-}
 
 // glTF 2.0, 3.6.2.2: integers are c/255, c/65535, max(c/127, -1), max(c/32767, -1) where they are normalized, else themselves.
 TEST(Gltf, Integers) {
@@ -200,6 +191,15 @@ TEST(Gltf, Avatars) {
     const fs::path file = Gltf().upright().material(textured).write_binary(folder, png);
     fs::rename(file, folder.path() / "avatar.vrm");
     expect_upright(folder.path() / "avatar.vrm");
+    // By version 0.x they look along -z, by 1.0 along +z as glTF does.
+    const auto with = [&](const char* extensions, const char* nodes) {
+        const std::string used = R"("extensions":)" + std::string(extensions);
+        return Gltf().nodes(nodes).upright().material(textured).texture(four).more(used).write(folder);
+    };
+    constexpr const char *as_it_is = R"([{"mesh":0}])", *turned = R"([{"mesh":0,"rotation":[0,1,0,0]}])";
+    expect_upright(with(R"({"VRM":{"specVersion":"0.0"}})", turned));
+    expect_upright(with(R"({"VRMC_vrm":{"specVersion":"1.0"}})", as_it_is));
+    expect_upright(with(R"({"VRM":{},"VRMC_vrm":{}})", as_it_is));
 }
 
 TEST(Gltf, DracoIsUnpacked) {

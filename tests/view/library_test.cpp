@@ -98,9 +98,21 @@ TEST_F(LibraryTest, NewFilesAreDescriptionsInTheFolder) {
     EXPECT_EQ(all.new_file("new.toml"), folder / "new.toml");
     EXPECT_EQ(all.new_file("models/new.toml"), folder / "models/new.toml");
     EXPECT_EQ(all.new_file("mine.toml"), folder / "mine.toml");  // to replace it or not is the caller's affair
-    for (const char* name : {"", "new.txt", "new", ".toml", "../new.toml", "/tmp/new.toml", "none/new.toml", "up/new.toml",
-                             "out.toml", "in.toml", "broken.toml", "pipe.toml", "folder.toml", "mine.toml/new.toml"})
+    for (const char* name :
+         {"", "new.txt", "new", ".toml", "../new.toml", "/tmp/new.toml", "none/new.toml", "up/new.toml", "out.toml", "in.toml",
+          "broken.toml", "pipe.toml", "folder.toml", "mine.toml/new.toml", "gpj.\u202enew.toml", "new\x1b[2J.toml"})
         EXPECT_THROW(all.new_file(name), InputError) << name;
+}
+
+// What a parser says of another file quotes from it.
+TEST_F(LibraryTest, OnlyDescriptionsAreReadAsDisplays) {
+    std::ofstream(folder / "notes.txt") << "password\n";
+    const Library all = library();
+    Wanted wanted;
+    wanted.display = "notes.txt";
+    const Problem problem = problem_of([&] { all.display(wanted); });
+    EXPECT_EQ(problem.where, "\"notes.txt\"");
+    EXPECT_EQ(problem.what, "does not end in .toml");
 }
 
 TEST_F(LibraryTest, ListsWhatMayBeNamed) {

@@ -16,6 +16,13 @@ Matrix local(const Item& node) {
                   node.at("scale").numbers<3>({1, 1, 1}).data());
 }
 
+/// Fronts look along +z by glTF, and VRM 1.0; VRM 0.x has them along -z.
+Matrix to_front(const Item& root) {
+    const Item extensions = root.at("extensions");
+    const double turn = extensions.has("VRM") && !extensions.has("VRMC_vrm") ? -1 : 1;
+    return {turn, 0, 0, 0, 0, 1, 0, 0, 0, 0, turn, 0, 0, 0, 0, 1};
+}
+
 }  // namespace
 
 Matrix placed(const double* t, const double* q, const double* s) {
@@ -52,6 +59,7 @@ GltfNodes::GltfNodes(const GltfFile& file) : file_(file) {
             parent = i;
         }
     }
+    const Matrix front = to_front(file.root());
     world_.resize(nodes.size());
     std::vector<bool> known(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -62,7 +70,7 @@ GltfNodes::GltfNodes(const GltfFile& file) : file_(file) {
         }
         for (; !line.empty(); line.pop_back()) {
             const std::size_t n = line.back();
-            world_[n] = parents_[n] == no_parent ? local(nodes[n]) : world_[parents_[n]] * local(nodes[n]);
+            world_[n] = (parents_[n] == no_parent ? front : world_[parents_[n]]) * local(nodes[n]);
             known[n] = true;
         }
     }

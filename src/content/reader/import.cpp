@@ -8,6 +8,7 @@
 #include "content/reader/move_to_origin.h"
 #include "content/reader/not_shown.h"
 #include "content/reader/ply_loader.h"
+#include "content/reader/refusal.h"
 #include "content/reader/repairs.h"
 #include "content/reader/textures.h"
 #include "content/reader/warnings.h"
@@ -338,7 +339,7 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     }
     if (!scene) {
         if (std::string(importer.GetErrorString()) == "std::bad_alloc") throw std::bad_alloc();
-        throw std::runtime_error(importer.GetErrorString());
+        throw std::runtime_error(refusal(importer.GetErrorString(), file));
     }
     // A face without a valid vertex means a damaged file: Assimp would leave it out and continue.
     for (const std::string& warning : warnings->texts)
@@ -347,7 +348,8 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     Model model = Conversion(*scene, *folder, format, turn(*scene, format, up), tilings, not_shown).run();
     // Blender's loader warns of every field that a version of the program did not have, 3MF's of every file of the archive.
     if (!format.starts_with("Blender") && !is_3mf)
-        model.notes.insert(model.notes.end(), warnings->texts.begin(), warnings->texts.end());
+        for (const std::string& warning : warnings->texts)
+            if (std::optional<std::string> plain = plain_warning(warning)) model.notes.push_back(std::move(*plain));
     model.files.insert(model.files.end(), folder->opened().begin(), folder->opened().end());
     mend_normals(model);
     return model;

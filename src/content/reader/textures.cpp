@@ -98,7 +98,8 @@ int Textures::index(const std::string& name) {
 }
 
 void Textures::leave_out(const std::string& name, const std::string& why) {
-    const std::string note = "texture \"" + name + "\" left out, shown grey: " + why;
+    const std::string which = name.starts_with('*') ? "embedded texture " + name.substr(1) : "texture \"" + name + '"';
+    const std::string note = which + " left out, shown grey: " + why;
     if (std::find(left_out_.begin(), left_out_.end(), note) == left_out_.end()) left_out_.push_back(note);
 }
 
