@@ -3,7 +3,9 @@ import json
 import os
 import re
 import resource
+import struct
 import subprocess
+import zlib
 
 from program import Checks, Program
 
@@ -70,5 +72,17 @@ for what in [resource.RLIMIT_AS, resource.RLIMIT_DATA]:
     for most in [100, 200]:
         code, said = limited("photo tiny.toml -o out.png", (what, most << 20))
         checks.that(code == 0 or re.search(r"(leaves|has) [\d.]+ .B free", said), f"limit {what}, {most} MiB, photo: {code} {said}")
+
+# A texture that memory does not hold is no damaged one: 16000 x 16000 texels of one bit.
+def chunk(name, data):
+    return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+
+(program.folder / "large.png").write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 16000, 16000, 1, 0, 0, 0, 0)) +
+                                           chunk(b"IDAT", zlib.compress(bytes(16000 * 2001), 1)) + chunk(b"IEND", b""))
+(program.folder / "large.mtl").write_text("newmtl a\nmap_Kd large.png\n")
+(program.folder / "large.obj").write_text("mtllib large.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n")
+code, said = limited("photo tiny.toml --model large.obj -o out.png", (resource.RLIMIT_AS, 1 << 30))
+checks.that(code == 0 and "shown grey: it takes more memory than there is" in said, f"a large texture: {code} {said}")
 
 checks.finish()

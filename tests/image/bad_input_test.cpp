@@ -44,46 +44,48 @@ std::vector<BadFile> bad_files() {
     const std::string text = "this is a text, and no picture at all\n";
     std::string flipped = png;
     flipped[png.size() / 2] = char(~flipped[png.size() / 2]);
-    return {{"empty.png", "", "is empty"},
-            {"empty.exr", "", "is empty"},
-            {"text.png", text, "is not a PNG file"},
-            {"text.exr", text, "not an EXR file"},
-            {"text.npy", text, "is not an NPY file"},
-            {"text.jpg", text, "not a JPEG file"},
-            {"exr.png", exr, "is not a PNG file"},
-            {"short.png", png.substr(0, 4), "is not a PNG file"},
-            {"header.png", png.substr(0, 20), "is damaged"},
-            {"half.png", png.substr(0, png.size() / 2), "it ends too early"},
-            {"no-end.png", png.substr(0, png.size() - 12), "it ends too early"},
-            {"flipped.png", flipped, "is damaged"},
-            {"half.exr", exr.substr(0, exr.size() / 2), "is damaged"},
-            {"claims.exr",
-             std::string("v/1\x01\x02\0\0\0x\0string\0\xf0\xff\xff\x7f"
-                         "abc",
-                         25),
-             "claims 2147483632 bytes"},
-            // OpenEXR reads 16 bytes of the box, and then of a text the length that stands behind them.
-            {"box.exr",
-             std::string("v/1\x01\x02\0\0\0b\0box2i\0\x1d\0\0\0"
-                         "................x\0string\0\xf0\xff\xff\x7f",
-                         49) +
-                 '\0',
-             "is no box2i of 29 bytes"},
-            {"texts.exr", std::string("v/1\x01\x02\0\0\0s\0stringvector\0\x05\0\0\0\xff\0\0\0a\0", 33),
-             "is no stringvector of 5 bytes"},
-            {"half.npy", npy.substr(0, npy.size() / 2), "more than its"},
-            {"short.npy", npy.substr(0, npy.size() - 1), "it must be"},
-            {"long.npy", npy + "x", "it must be"},
-            {"claim.png", png_claiming(100000, 20000), "more than its"},
-            {"huge.png", png_claiming(0x7fffffff, 0x7fffffff), "is too large"},
-            {"chunk.png", png_claiming(4, 3).substr(0, 33) + "\x40" + std::string(3, '\0') + "tEXtkey",
-             "\"tEXt\" claims 1073741824 bytes"},
-            {"zero.png", png_claiming(0, 5), "is damaged"},
-            {"huge.npy", npy_claiming("(999999999, 999999999, 3)"), "is too large"},
-            {"claim.npy", npy_claiming("(1000, 1000, 3)"), "more than its"},
-            {"overflow.npy", npy_claiming("(99999999999999999999, 1, 3)"), "must hold"},
-            {"picture.bmp", "BM", "unknown image extension \".bmp\""},
-            {"picture", "x", "unknown image extension"}};
+    return {
+        {"empty.png", "", "is empty"},
+        {"empty.exr", "", "is empty"},
+        {"text.png", text, "is not a PNG file"},
+        {"text.exr", text, "not an EXR file"},
+        {"text.npy", text, "is not an NPY file"},
+        {"text.jpg", text, "not a JPEG file"},
+        {"exr.png", exr, "is not a PNG file"},
+        {"short.png", png.substr(0, 4), "is not a PNG file"},
+        {"header.png", png.substr(0, 20), "is damaged"},
+        {"half.png", png.substr(0, png.size() / 2), "it ends too early"},
+        {"no-end.png", png.substr(0, png.size() - 12), "it ends too early"},
+        {"flipped.png", flipped, "is damaged"},
+        {"half.exr", exr.substr(0, exr.size() / 2), "is damaged"},
+        {"claims.exr",
+         std::string("v/1\x01\x02\0\0\0x\0string\0\xf0\xff\xff\x7f"
+                     "abc",
+                     25),
+         "claims 2147483632 bytes"},
+        // OpenEXR reads 16 bytes of the box, and then of a text the length that stands behind them.
+        {"box.exr",
+         std::string("v/1\x01\x02\0\0\0b\0box2i\0\x1d\0\0\0"
+                     "................x\0string\0\xf0\xff\xff\x7f",
+                     49) +
+             '\0',
+         "is no box2i of 29 bytes"},
+        {"texts.exr", std::string("v/1\x01\x02\0\0\0s\0stringvector\0\x05\0\0\0\xff\0\0\0a\0", 33),
+         "is no stringvector of 5 bytes"},
+        {"blanks.npy", std::string("\x93NUMPY\x01\0\xa0\x0f", 10) + "{'descr':" + std::string(3991, ' '), "its header is too long"},
+        {"half.npy", npy.substr(0, npy.size() / 2), "more than its"},
+        {"short.npy", npy.substr(0, npy.size() - 1), "it must be"},
+        {"long.npy", npy + "x", "it must be"},
+        {"claim.png", png_claiming(100000, 20000), "more than its"},
+        {"huge.png", png_claiming(0x7fffffff, 0x7fffffff), "is too large"},
+        {"chunk.png", png_claiming(4, 3).substr(0, 33) + "\x40" + std::string(3, '\0') + "tEXtkey",
+         "\"tEXt\" claims 1073741824 bytes"},
+        {"zero.png", png_claiming(0, 5), "is damaged"},
+        {"huge.npy", npy_claiming("(999999999, 999999999, 3)"), "is too large"},
+        {"claim.npy", npy_claiming("(1000, 1000, 3)"), "more than its"},
+        {"overflow.npy", npy_claiming("(99999999999999999999, 1, 3)"), "must hold"},
+        {"picture.bmp", "BM", "unknown image extension \".bmp\""},
+        {"picture", "x", "unknown image extension"}};
 }
 
 TEST(BadInput, EachFileHasItsMessage) {

@@ -25,10 +25,11 @@
 namespace lfdsim::reader {
 namespace {
 
-// stb's own words, where it has some.
+// stb's own words; where it gets no memory, it says so by one, or nothing.
 std::string failure() {
-    const char* const reason = stbi_failure_reason();
-    return reason ? reason : "it is damaged";
+    const char* const reason = std::exchange(stbi__g_failure_reason, nullptr);
+    if (!reason) return "it takes more memory than there is, or is damaged";
+    return reason == std::string_view("outofmem") ? "it takes more memory than there is" : reason;
 }
 
 Texture adopt(stbi_uc* pixels, int width, int height) {
