@@ -2,6 +2,7 @@
 import numpy as np
 
 import oracle
+from table import UNSURE
 
 ROUNDING = 1e-9
 
@@ -45,8 +46,12 @@ def forms(display, description):
             out[path], out[along_y(path)] = told(figures[0]), told(figures[1])
         else:
             out[path] = told(figures)
+    if display.fills_cell:  # without a narrower stop there is no gap to close, and the figure may be null
+        joined = np.isclose(display.clear_aperture, p)
+        paths = ("theory.gap_closing_diffuser_deg", along_y("theory.gap_closing_diffuser_deg"))
+        out |= {path: UNSURE for path, no_gap in zip(paths, joined) if no_gap and path in out}
     if display.lens.type == "pinhole":  # which images nothing
-        return {path: form for path, form in out.items() if path not in ("theory.focal_length_mm", "theory.gap_closing_diffuser_deg")}
+        return {path: form for path, form in out.items() if path != "theory.focal_length_mm" and not path.startswith("theory.gap_closing")}
     if len(display.colours) > 1:
         for name, at in zip("rgb", display.primaries):
             out[f"theory.colour.{name}.focal_length_mm"], out[f"theory.colour.{name}.gap_mm"] = told(at.paraxial.f), told(at.gap)
