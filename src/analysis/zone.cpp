@@ -18,48 +18,54 @@ namespace {
 
 constexpr int map_side = 61, curve_points = 181, distance_points = 61;  // odd: the middle is one of them
 constexpr int map_rays = 1024, curve_rays = 4096;
-constexpr std::uint32_t zone_sets = 4;  // of lines of sight, independent of one another
+constexpr std::uint32_t zone_sets = independent_sets;  // of lines of sight; the first of them draws maps and curves
+constexpr int set_rays = 2048;                         // of each where limits are sought
 constexpr double thresholds[] = {0.01, 0.5};
 constexpr const char* missing = "Rays that miss their own lens's elemental image";
 
-/// The share of wrong rays at a place on a search's path, lateral in mm or an inverse distance, by one set of lines.
-using Along = std::function<double(double, std::uint32_t)>;
+/// The share of wrong rays at a place on a search's path, lateral in mm or an inverse distance, by all sets of lines.
+using Along = std::function<Estimate(double)>;
 
 /// How far, from the middle of `places` towards their end (step 1) or start (-1), the share stays at most `most`: bisected between
-/// the last place where it does and the first where it does not, for each of the sets of lines of sight, which may fall there a
-/// place earlier or later.
+/// the last place where it does and the first where it does not. The error reaches to where the share does so less and plus its own
+/// error: far apart where it stays near `most` for long.
 Limit limit(const std::vector<double>& places, const std::vector<double>& wrong, int step, double most, const Along& wrong_at) {
-    const auto good = [&](double share) { return share <= most; };  // NaN: nothing is seen, which is not good
     const int middle = int(places.size()) / 2, last = step > 0 ? int(places.size()) - 1 : 0;
     const auto at = [&](int k) { return places[std::size_t(k)]; };
+    const auto first_good = [&](int k) {
+        return wrong[std::size_t(k)] <= most;
+    };  // by one set; NaN: nothing is seen, which is not good
     Limit none;
-    if (!good(wrong[std::size_t(middle)])) {
+    if (!first_good(middle)) {
         none.missing = "more are wrong even in the middle";
         return none;
     }
     int in = middle;
-    while (in != last && good(wrong[std::size_t(in + step)])) in += step;
+    while (in != last && first_good(in + step)) in += step;
     if (in == last) {
         none.missing = "no more are wrong as far as was searched";
         return none;
     }
-    std::array<double, zone_sets> found;
     double precision = 0;
-    for (std::uint32_t set = 0; set < zone_sets; ++set) {
+    const auto ends = [&](double errors, int halvings) {
+        const auto good = [&](double place) {
+            const Estimate share = wrong_at(place);
+            return share.value + errors * share.error <= most;
+        };
         int k = in;
-        while (k != middle && !good(wrong_at(at(k), set))) k -= step;
+        while (k != middle && !good(at(k))) k -= step;
         int next = k + step;
-        while (next != last && good(wrong_at(at(next), set))) next += step;
+        while (next != last && good(at(next))) next += step;
         double inside = at(next - step), outside = at(next);
-        for (int n = 0; n < 12; ++n) {
+        for (int n = 0; n < halvings; ++n) {
             const double half_way = 0.5 * (inside + outside);
-            (good(wrong_at(half_way, set)) ? inside : outside) = half_way;
+            (good(half_way) ? inside : outside) = half_way;
         }
-        found[set] = 0.5 * (inside + outside);
-        precision = std::max(precision, std::abs(outside - inside));
-    }
-    const auto [value, error] = estimate(found, precision);
-    return {value, error, {}};
+        if (errors == 0) precision = std::abs(outside - inside);
+        return errors > 0 ? inside : errors < 0 ? outside : 0.5 * (inside + outside);
+    };
+    const double found = ends(0, 12), early = ends(1, 6), late = ends(-1, 6);
+    return {found, precision + std::max(std::abs(found - early), std::abs(found - late)), {}};
 }
 
 std::vector<double> even_places(double low, double high, int count) {
@@ -119,7 +125,8 @@ class Search {
           choices_([&] {
               std::array<std::vector<Choice>, zone_sets> all;
               for (std::uint32_t set = 0; set < zone_sets; ++set)
-                  all[set] = even_choices(curve_rays * more_, zone_sets * std::uint32_t(s.display().render.seed) + set);
+                  all[set] = even_choices((set == 0 ? curve_rays : set_rays) * more_,
+                                          zone_sets * std::uint32_t(s.display().render.seed) + set);
               return all;
           }()),
           parts(job, s.threads(), map_side + 2 * (curve_points + 4) + distance_points + 4, zone_steps(s)) {}
@@ -143,8 +150,11 @@ class Search {
         parts.run(4, [&](int k) {
             Interval& limits = zone.limits[std::size_t(k / 2)];
             (k % 2 == 0 ? limits.low : limits.high) =
-                limit(zone.places, zone.wrong, k % 2 == 0 ? -1 : 1, thresholds[k / 2],
-                      [&](double place, std::uint32_t set) { return at(eye_at(place), curve_rays, set).wrong; });
+                limit(zone.places, zone.wrong, k % 2 == 0 ? -1 : 1, thresholds[k / 2], [&](double place) {
+                    std::array<double, zone_sets> found;
+                    for (std::uint32_t set = 0; set < zone_sets; ++set) found[set] = at(eye_at(place), set_rays, set).wrong;
+                    return estimate(found);
+                });
         });
         return zone;
     }

@@ -15,7 +15,7 @@ from sight import per_set
 from table import FORM_ERRORS
 
 SUBPIXEL, PIXEL = "subpixel", "pixel"  # what content is made for
-TIE = 1e-9  # of slopes: a pixel whose centre lies on the border of two views is half of either; of lens pitches: of two elemental images may be of either
+TIE = 1e-9  # of slopes: a pixel whose centre lies on the border of two views is half of either
 
 
 class Seen:
@@ -44,11 +44,9 @@ class Seen:
         else:
             points, shows = oracle.pixel_centres(d, column, row), True
         lines = oracle.nodal_lines(d, points)
-        beside = [oracle.nodal_lines(d, points + side * TIE * self.sight.pitch[0]) for side in (-1, 1)]
-        either = shows & ((beside[0].lens != beside[1].lens).any(axis=1) | (beside[0].owned != beside[1].owned))
         towards = (self.sight.centres(lines.lens) - points) / d.gap
         along_row = towards @ self.sight.axes[0] / self.sight.axes[0, 0] if d.strips else towards[:, 0]
-        return along_row, lines.owned & shows, either
+        return along_row, lines.owned & shows, self.sight.between_lenses(points) & shows
 
     def view_percent(self, middle, sampling):
         """Of an eye in the middle of a view, in steps: all other light over that of the view."""

@@ -3,6 +3,7 @@ import math
 
 import numpy as np
 
+AT_LEVEL = 2  # as many steps may lie near the level before an edge
 SURE = 3  # standard errors: what lies nearer to the level than these is not known to be on either side
 
 
@@ -13,7 +14,8 @@ class Unsure(Exception):
 def edge(share, level, step, limit):
     """The least x > 0 at which the mean of share(x), an array over sets of lines, falls below `level`: (x, its error), or None if it is below it at 0.
 
-    Searched outwards in steps, to `limit`; share may contain nan where there is nothing to see. None, too, if no edge is found.
+    Searched outwards in steps, to `limit`; share may contain nan where there is nothing to see. None, too, if no edge is found. A share that stays near the level
+    over several steps leaves the edge unsure.
     """
     here, before = share(0.0), 0.0
     middle = here.mean()
@@ -23,13 +25,20 @@ def edge(share, level, step, limit):
         raise Unsure
     if middle < level:
         return None
-    x = step
+    x, near = step, 0  # steps in a row
     while x < limit:
         now = share(x)
         if not now.mean() >= level:
+            if near > AT_LEVEL or is_near(now, level) and is_near(share(x + step), level):
+                raise Unsure
             return refine(share, level, before, here, x, now)
+        near = near + 1 if is_near(now, level) else 0
         before, here, x = x, now, x + step
     return None
+
+
+def is_near(share, level):
+    return abs(share.mean() - level) < SURE * error_of(share)
 
 
 def refine(share, level, low, at_low, high, at_high):

@@ -10,6 +10,7 @@ import numpy as np
 import oracle
 
 SETS = 16
+BORDER = 1e-9  # of a lens pitch
 _ROOT = {2: 1.32471795724, 4: 1.16730397826, 6: 1.11277568428}  # positive roots of x^(d+1) = x + 1: lattices that fill d dimensions evenly
 
 
@@ -65,6 +66,11 @@ class Sight:
         centre = self.centres(hits.lens) if not self.display.strips else hits.at - hits.off[:, :1] * self.axes[0]
         half = self.stretch * self.display.cell.extent @ np.abs(self.axes)  # of the box about the turned image
         return (hits.lens[:, 0] >= 0) & (np.abs(centre) + half <= self.half_panel * (1 + 1e-12)).all(axis=1)
+
+    def between_lenses(self, points):
+        """Whether panel points (n, 2) lie, within rounding, on the border of two elemental images: which has them is not known."""
+        low, high = (oracle.nodal_lines(self.display, points + side * BORDER * self.pitch[0]) for side in (-1, 1))
+        return (low.lens != high.lens).any(axis=1) | (low.owned != high.owned)
 
     def holds(self, off):
         """Whether places (n, 2), along x' and y' from the centre of an elemental image, lie in that image."""

@@ -4,17 +4,22 @@ import math
 import numpy as np
 
 import oracle
-from edges import both_edges
+from edges import Unsure, both_edges
 from sight import per_set
+
+
+OF_TWO_LENSES = 1e-4  # share of lines that end on pixels with centres on the border of two images: with more the form does not tell
 
 
 def right_share(sight, eye):
     """For each set the share of lines through lenses whose image has its middle on the panel that end on a pixel whose centre lies in their own elemental images."""
-    hits, panel = sight.see(eye), sight.display.panel
+    hits = sight.see(eye)
     passed = ((hits.status == oracle.PANEL) | (hits.status == oracle.OFF_PANEL)) & (hits.lens[:, 0] >= 0)
     middle = sight.centres(hits.lens) if not sight.display.strips else hits.at - hits.off[:, :1] * sight.axes[0]
     passed &= sight.on_screen(eye) & (np.abs(middle) <= sight.half_panel).all(axis=1)
-    centre = np.column_stack([hits.column + 0.5, -(hits.row + 0.5)]) * panel.pixel_pitch_mm + [-sight.half_panel[0], sight.half_panel[1]]
+    centre = oracle.pixel_centres(sight.display, hits.column, hits.row)
+    if (sight.between_lenses(centre) & passed).sum() > OF_TWO_LENSES * passed.sum():
+        raise Unsure
     off = (centre - sight.centres(hits.lens)) @ sight.axes.T
     own = (hits.column >= 0) & sight.holds(off)
     with np.errstate(invalid="ignore"):
