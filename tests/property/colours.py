@@ -8,6 +8,7 @@ from white import radiance
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # of linear red, green and blue
 XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])  # IEC 61966-2-1
+ON_SCREEN = 0.5  # parts of which less is in front of the panel have no figure of their own
 DARK = 0.1  # of the mean luminance: parts that are darker have no colour
 
 
@@ -101,6 +102,8 @@ def distances_of_lit(light, weights):
 
 
 def light_of_parts(sight, eye, parts):
-    """(3, SETS, parts): the lines of each set are as many for each part, one part after the other."""
-    white = White(sight, eye)
-    return np.array([sum(light for light, _, _ in white.shining(c)).reshape(SETS, parts, -1).mean(axis=2) for c in range(3)])
+    """((3, SETS, parts) light, the mean of what is on the screen; (parts,) the share that is): the lines of each set are as many for each part, one part after the
+    other."""
+    white, on = White(sight, eye), sight.on_screen(eye).reshape(SETS, parts, -1)
+    light = np.array([sum(light for light, _, _ in white.shining(c)).reshape(SETS, parts, -1) for c in range(3)])
+    return (light * on).sum(axis=3) / np.maximum(on.sum(axis=2), 1), on.mean(axis=(0, 2))

@@ -119,14 +119,16 @@ class Forms:
     def colour_of_white(self, told):
         """Of blocks of the screen, and of the middle one from angles: how far their colours are from that of all of them."""
         d, out = self.display, {}
-        count, share = np.array(d.array.count), 1 / max(sum(shares.any() for shares, _ in d.colours), 1)
+        count, share = self.sight(1, False).lenses, 1 / max(sum(shares.any() for shares, _ in d.colours), 1)
 
         def add(name, first, number, weights, eye):
             parts = len(weights)
             each = max(int(SCREEN_LINES * share) // parts, 8)  # of each set
             blocks = [np.repeat(v, each, axis=0) for v in (first, number)]
             sight = Sight(d, self.viewing, parts * each, self.seed, True, blocks=blocks)
-            light = colours.light_of_parts(sight, eye if np.ndim(eye) == 1 else np.tile(np.repeat(eye, each, axis=0), (SETS, 1)), parts)
+            light, on = colours.light_of_parts(sight, eye if np.ndim(eye) == 1 else np.tile(np.repeat(eye, each, axis=0), (SETS, 1)), parts)
+            if name == "screen":
+                light, weights = light[:, :, on >= colours.ON_SCREEN], (weights * on)[on >= colours.ON_SCREEN]
             for figure, form in colours.distances(light, weights).items():
                 out[f"colour.{name}_delta_uv_{figure}"] = UNSURE if form and not form[1] <= COLOUR_UNSURE else form
 

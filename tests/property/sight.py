@@ -24,7 +24,8 @@ def even_points(n, dimensions, seed):
 class Sight:
     """What eyes see of a display through n lines in each set; with_diffuser: turned by its angles, too. middle_half: of the lenses across and up alone.
 
-    blocks: for each line of a set the first lens, across and up, of those that it may go through, and their number: two arrays (n, 2).
+    blocks: for each line of a set the first lens, across and up, of those that it may go through, and their number: two arrays (n, 2). Strips are cut into squares,
+    which count as lenses here.
     """
 
     def __init__(self, display, viewing_distance, n, seed, with_diffuser=False, middle_half=False, blocks=None):
@@ -37,10 +38,16 @@ class Sight:
         count, self.pitch = np.array(d.array.count), np.array(d.array.pitch_mm)
         if d.strips:  # one row, as long as the panel reaches along it
             self.pitch[1] = 2 * np.abs(self.axes[1]) @ self.half_panel
+        self.lenses = count  # of blocks
+        if d.strips:
+            self.lenses = np.array([count[0], max(round(self.pitch[1] / self.pitch[0]), 1)])
         first = count // 4 if middle_half else np.zeros(2)
         first, number = (np.tile(part, (SETS, 1)) for part in blocks) if blocks else (first, count - 2 * first)
         self.in_cell = u[:, 2:4]  # places within a cell's box, from its corner, in pitches
         lens = (first + np.floor(u[:, :2] * number)).astype(np.int64)
+        if blocks and d.strips:
+            self.in_cell[:, 1] = (lens[:, 1] + self.in_cell[:, 1]) / self.lenses[1]
+            lens[:, 1] = 0
         axis, within = self.lattice.axis(lens[:, 0], lens[:, 1]), np.column_stack([(self.in_cell - 0.5) * self.pitch, np.zeros(len(u))])
         if d.array.lattice == "hexagon" and not middle_half:  # the box's corners are other hexagons': the same place in this one
             i, j, _ = self.lattice.cell(axis + within)
