@@ -19,8 +19,10 @@ def edge(share, level, step, limit):
     """
     here, before = share(0.0), 0.0
     middle = here.mean()
-    if math.isnan(middle):
+    if np.isnan(here).all():
         return None
+    if math.isnan(middle):  # sets that see nothing tell nothing
+        raise Unsure
     if abs(middle - level) < SURE * error_of(here) + 1e-9:
         raise Unsure
     if middle < level:

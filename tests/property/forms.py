@@ -67,11 +67,17 @@ class Forms:
     def sight(self, lines, with_diffuser):
         return Sight(self.display, self.viewing, lines, self.seed, with_diffuser)
 
+    def lit_sight(self, lines, with_diffuser):
+        """More lines where few get through."""
+        sight = self.sight(lines, with_diffuser)
+        share = (sight.see(np.array([0.0, 0.0, self.eye])).weight > 0).mean()
+        return sight if share * lines >= LIT / 2 else self.sight(int(lines * min(LIT / 2 / (lines * max(share, 1e-9)), MORE)), with_diffuser)
+
     def check(self, result):
         return paraxial.forms(self.display, self.description)
 
     def fov(self, result):
-        bare, out = self.sight(LINES, False), {}
+        bare, out = self.lit_sight(LINES, False), {}
         for axis, name in self.named_axes():
             out[f"{name}.own_lens_deg"] = pair(field_of_view.own_lens_deg, bare, axis, self.eye, self.hint[axis])
         if not self.display.strips:
@@ -85,7 +91,7 @@ class Forms:
 
     def edges_as_shown(self):
         """Through the diffuser where there is one."""
-        sight = self.sight(LINES, True)
+        sight = self.lit_sight(LINES, True)
         return {name: pair(field_of_view.own_lens_deg, sight, axis, self.eye, self.hint[axis]) for axis, name in self.named_axes()}
 
     def likeness(self, result):
