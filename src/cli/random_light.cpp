@@ -3,6 +3,7 @@
 #include "analysis/subject.h"
 #include "model/lens_errors.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
@@ -62,5 +63,12 @@ std::optional<RandomLight> random_light(const Display& display, const Geometry& 
     // Two independent pictures differ by the root of 2 times the noise of each.
     return RandomLight{double(changed) / double(lit), std::sqrt(squares / (2 * 3 * double(lit)))};
 }
+
+std::string words_of(const RandomLight& random) {
+    if (random.share < 0.005) return {};
+    return fmt::format("{:.0f} % of pixels by random rays of their own: noise {:.2g}", 100 * random.share, random.noise_rms);
+}
+
+Json json_of(const RandomLight& random) { return {{"share", random.share}, {"noise_rms", random.noise_rms}}; }
 
 }  // namespace lfdsim::cli

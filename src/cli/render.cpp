@@ -160,10 +160,8 @@ void run(const RenderArguments& args) {
     std::string noise;
     if (random) {
         random->noise_rms *= exposure.value_or(1);
-        facts.more["random_rays"] = {{"share", random->share}, {"noise_rms", random->noise_rms}};
-        if (random->share >= 0.005)
-            noise = fmt::format(", {:.0f} % of pixels by random rays of their own: noise {:.2g}", 100 * random->share,
-                                random->noise_rms);
+        facts.more["random_rays"] = json_of(*random);
+        if (const std::string words = words_of(*random); !words.empty()) noise = ", " + words;
     }
     if (facts.pixels_above_target > 0)
         spdlog::warn("{} did not reach the target error with the maximum number of samples",
