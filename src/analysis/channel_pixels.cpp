@@ -18,7 +18,7 @@ std::vector<LightPath> light_paths(const Display& d, const Geometry& green, std:
     return all;
 }
 
-ChannelPixels::ChannelPixels(const Display& d, std::size_t channel) {
+ChannelPixels::ChannelPixels(const Display& d, std::size_t channel) : size_{double(d.panel.pixels[0]), double(d.panel.pixels[1])} {
     for (const LitPart& lit : lit_parts(d.panel)) {
         if (lit.channel != 3 && lit.channel != int(channel)) continue;
         const double column = lit.plane.pixel[0], row = lit.plane.pixel[1];
@@ -39,7 +39,10 @@ std::optional<ChannelPixels::Shining> ChannelPixels::at(const Place& place) cons
         }
         if (inside) {
             const auto from_corner = [&](const Place& p) { return Place{corner[0] + p[0], corner[1] + p[1]}; };
-            return Shining{part.lit.brightness(), from_corner(part.shown), from_corner(part.pixel)};
+            const Place pixel = from_corner(part.pixel);
+            for (std::size_t k = 0; k < 2; ++k)
+                if (pixel[k] < 0 || pixel[k] >= size_[k]) return {};
+            return Shining{part.lit.brightness(), from_corner(part.shown)};
         }
     }
     return {};

@@ -33,9 +33,8 @@ class ChannelPixels {
     struct Shining {
         double brightness;  // over the pixel's own light: white is 1 in the mean
         Place shown;        // the point for which the content of the pixel that shines here is made
-        Place pixel;        // its column and row, perhaps off the panel
     };
-    /// Nothing where the channel does not shine. A subpixel that belongs to a pixel off the panel counts like the others.
+    /// Nothing where the channel does not shine, as where a subpixel belongs to a pixel off the panel.
     std::optional<Shining> at(const Place&) const;
 
     /// The mean of exp(2 pi i nu (place - shown)) over its light, nu in periods per pixel to the right and down.
@@ -55,6 +54,7 @@ class ChannelPixels {
         LitPart lit;
         Place shown, pixel;  // from the corner of the cell that it lies in
     };
+    Place size_;  // of the panel
     std::vector<Part> parts_;
 };
 

@@ -29,8 +29,6 @@ std::optional<MeantPanel::Meant> MeantPanel::at(double x_mm, double y_mm, const 
         if (weight == 0) continue;
         const auto shining = pixels_[channel].at(place);
         if (!shining) continue;  // subpixels do not overlap: the first that shines is the only one
-        for (std::size_t k = 0; k < 2; ++k)
-            if (shining->pixel[k] < 0 || shining->pixel[k] >= size_[k]) return {};
         const auto meant = slope(shining->shown);
         if (!meant) return {};
         return Meant{weight * shining->brightness, *meant};

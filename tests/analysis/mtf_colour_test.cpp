@@ -279,6 +279,18 @@ TEST(MtfOfColours, OfOtherLayoutsIsThatOfTheory) {
         }
 }
 
+// In odd rows of the delta layout blue reaches over its pixel's right border by half of one: there the first column's begins with
+// that of no pixel, and the last column's is cut.
+TEST(ChannelPixels, ArePartsOfPixelsOnThePanel) {
+    Display d = coloured(SubpixelLayout::delta, ContentSampling::subpixel, false);
+    d.panel.pixels = {10, 6};
+    const ChannelPixels blue(d, 2);
+    EXPECT_FALSE(blue.at({0.33, 1.5}));
+    for (const double column : {1., 5., 9.}) EXPECT_TRUE(blue.at({column + 0.33, 1.5})) << column;
+    EXPECT_TRUE(blue.at({0.83, 0.5}));
+    EXPECT_FALSE(blue.at({0.83, 6.5}));
+}
+
 // Where a channel shines, and for which point, against a search over the rectangles as they are described.
 TEST(ChannelPixels, AreTheDescribedRectangles) {
     Display d = coloured(SubpixelLayout::delta, ContentSampling::subpixel, false);
