@@ -1,5 +1,6 @@
 #include "report/report.h"
 
+#include "model/counted.h"
 #include "model/geometry.h"
 #include "report/check.h"
 #include "report/report_parts.h"
@@ -46,49 +47,52 @@ std::string missing_measures(const std::vector<Shown>& shown, const ReportAbout&
     return html + "</p>\n" + why + "</div>\n";
 }
 
-std::string contents(const std::vector<Shown>& shown) {
-    std::string html =
-        "<nav aria-label=\"Contents\"><ul>\n<li><a href=\"#verdict\">In short</a></li>\n<li><a href=\"#summary\">Theory and "
-        "measurement</a></li>\n"
-        "<li><a href=\"#display\">The display</a></li>\n";
-    for (const Shown& s : shown)
-        html += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", s.measure->name, escaped(s.measure->title));
-    return html + "<li><a href=\"#settings\">Settings</a></li>\n</ul></nav>\n";
-}
+constexpr const char* contents =
+    "<nav aria-label=\"Contents\"><ul>\n<li><a href=\"#verdict\">In short</a></li>\n<li><a href=\"#summary\">All figures</a></li>\n"
+    "<li><a href=\"#display\">The display</a></li>\n<li><a href=\"#settings\">Settings</a></li>\n</ul></nav>\n";
 
-/// What each measure found first, and what is worth knowing of the design: on a page of its own, before all tables and plots.
-std::string verdict(const Subject& subject, const std::vector<Shown>& shown) {
-    std::string found, doubts;
-    for (const Shown& s : shown)
-        if (const std::string line = headline(s.measured.at("report")); !line.empty())
-            found += fmt::format("<li><a href=\"#{}\">{}</a>: {}</li>\n", s.measure->name, escaped(s.measure->title), line);
+/// What is worth knowing of the design, what each measure found first, and pictures: on the first screen, before all tables and
+/// plots.
+std::string verdict(const Subject& subject, const ResultFolder& folder, const std::vector<Shown>& shown) {
+    std::string found, doubts, pictures;
+    for (const Shown& s : shown) {
+        const std::string seen = glance(folder, s.measured);
+        pictures += seen;
+        if (seen.empty() || !s.measured.at("report").at("findings").empty()) found += headline_row(s.measured.at("report"));
+    }
     const Display& display = subject.display();
     const Geometry geometry = resolve(display);
     for (const std::string& doubt : worth_knowing(display, geometry, theory(display, geometry)))
         doubts += fmt::format("<li>{}</li>\n", escaped(doubt));
     std::string html = "<section id=\"verdict\">\n<h2>In short</h2>\n";
-    if (!found.empty()) html += "<ul>\n" + found + "</ul>\n";
     html += doubts.empty() ? "<p>The description gives no cause for doubt.</p>\n"
                            : "<p class=\"warning\">Doubts about this design:</p>\n<ul>\n" + doubts + "</ul>\n";
+    if (!found.empty())
+        html +=
+            "<div class=\"wide\"><table class=\"findings\">\n<thead><tr><th scope=\"col\">Measure</th><th scope=\"col\">Figure</th>"
+            "<th scope=\"col\">Measured</th><th scope=\"col\">Theory</th></tr></thead>\n<tbody>" +
+            found + "</tbody></table></div>\n";
+    if (!pictures.empty()) html += "<div class=\"glance\">\n" + pictures + "</div>\n";
     return html + "</section>\n";
 }
 
 std::string summary(const std::vector<Shown>& shown) {
-    std::string html = "<section id=\"summary\">\n<h2>Theory and measurement</h2>\n";
-    html += findings_table;
+    std::string html = findings_table;
+    std::size_t figures = 0;
     for (const Shown& s : shown) {
         const std::string rows = finding_rows(s.measured.at("report"));
         if (rows.empty()) continue;
+        figures += s.measured.at("report").at("findings").size();
         html += fmt::format("<tbody><tr class=\"group\"><th colspan=\"4\"><a href=\"#{}\">{}</a></th></tr>\n{}</tbody>\n",
                             s.measure->name, escaped(s.measure->title), rows);
     }
-    return html + "</table></div>\n</section>\n";
+    return "<section id=\"summary\">\n<h2>Theory and measurement</h2>\n" +
+           folded(fmt::format("{} side by side", counted(figures, "figure")), html + "</table></div>\n") + "</section>\n";
 }
 
 /// Everything the results depend on; the description comes last, as text.
 std::string settings(const ResultFolder& folder, const ReportAbout& about) {
-    std::string html = "<section id=\"settings\">\n<h2>Settings</h2>\n<p>The command:</p>\n<pre>" + escaped(about.command) +
-                       "</pre>\n<div class=\"wide\"><table>\n";
+    std::string html = "<p>The command:</p>\n<pre>" + escaped(about.command) + "</pre>\n<div class=\"wide\"><table>\n";
     for (const auto& [key, value] : folder.settings().items()) {
         if (key == "display" || value.is_null()) continue;
         std::string text = value.is_string() ? value.get<std::string>() : value.is_object() ? "" : value.dump();
@@ -98,8 +102,10 @@ std::string settings(const ResultFolder& folder, const ReportAbout& about) {
                                     part.is_string() ? part.get<std::string>() : part.dump());
         html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escaped(key), escaped(text));
     }
-    return html + "</table></div>\n<p>The display's description, with all that options changed:</p>\n<pre>" +
-           escaped(about.description) + "</pre>\n</section>\n";
+    html += "</table></div>\n<p>The display's description, with all that options changed:</p>\n<pre>" + escaped(about.description) +
+            "</pre>\n";
+    return "<section id=\"settings\">\n<h2>Settings</h2>\n" + folded("The command, and all that the results depend on", html) +
+           "</section>\n";
 }
 
 }  // namespace
@@ -119,7 +125,7 @@ std::string report_html(const Subject& subject, const ResultFolder& folder, cons
         "<title>{0}: measurements</title>\n<style>{1}</style>\n</head>\n<body>\n<header>\n<h1>{0}</h1>\n"
         "<p class=\"about\">A light field display, simulated and measured by lfdsim {2}.</p>\n</header>\n",
         name, report_style, escaped(folder.settings().value("lfdsim", std::string())), ResultFolder::report_mark);
-    html += missing_measures(shown, about) + "<main>\n" + contents(shown) + verdict(subject, shown) + summary(shown) +
+    html += missing_measures(shown, about) + "<main>\n" + contents + verdict(subject, folder, shown) + summary(shown) +
             display_section(subject);
     for (const Shown& s : shown) html += measure_section(folder, s.measured);
     return html + settings(folder, about) + "</main>\n</body>\n</html>\n";

@@ -17,7 +17,8 @@
 namespace lfdsim {
 namespace {
 
-constexpr int most_columns = 1000;  // of a picture in the report
+constexpr int most_columns = 1000, glance_columns = 240;  // of a picture in the report, and at its head
+constexpr std::ptrdiff_t most_glances = 3;                // of a measure
 
 std::string text_of(const Json& json, const char* key) { return escaped(json.at(key).get<std::string>()); }
 
@@ -64,14 +65,15 @@ std::string plots(const ResultFolder& folder, const Json& list) {
     return html;
 }
 
-std::string pictures(const ResultFolder& folder, const Json& list, bool as_they_are) {
+/// With at most so many columns; 0: as they are.
+std::string pictures(const ResultFolder& folder, const Json& list, int most) {
     std::string html;
     for (const Json& entry : list)
         html += shown(folder, entry, [&](const auto& path) {
             std::string png = bytes_of(path);
             if (columns_of(png) == 0) throw InputError(path.string(), "is not a PNG");
-            if (!as_they_are && columns_of(png) > most_columns) {
-                const Image small = reduced(read_image(path, Encoding::srgb), most_columns);
+            if (most > 0 && columns_of(png) > most) {
+                const Image small = reduced(read_image(path, Encoding::srgb), most);
                 png = png_bytes(small.width, small.height, 3, encode8(small, Encoding::srgb));
             }
             const std::string caption = text_of(entry, "caption");
@@ -162,12 +164,30 @@ std::string finding_rows(const Json& report) {
     return html;
 }
 
-std::string headline(const Json& report) {
-    if (report.at("findings").empty()) return "";
+std::string headline_row(const Json& report) {
+    const std::string link =
+        fmt::format("<tr><th scope=\"row\"><a href=\"#{}\">{}</a></th>", text_of(report, "measure"), text_of(report, "title"));
+    if (report.at("findings").empty())
+        return link + fmt::format("<td class=\"remark\" colspan=\"3\">{}</td></tr>\n", text_of(report, "says"));
     const Json& f = report.at("findings").front();
-    const std::string unit = f.at("unit"), theory = f.at("theory").empty() ? "" : value_html(f.at("theory"), unit);
-    return fmt::format("{}, {}{}{}", text_of(f, "what"), value_html(f.at("measured"), unit), error_text(f.at("error")),
-                       theory.empty() ? "" : " (theory " + theory + ")");
+    const std::string unit = f.at("unit");
+    return link + fmt::format("<td class=\"remark\">{}</td><td>{}</td><td>{}</td></tr>\n", text_of(f, "what"),
+                              value_html(f.at("measured"), unit) + error_text(f.at("error")), value_html(f.at("theory"), unit));
+}
+
+std::string glance(const ResultFolder& folder, const Json& measured) {
+    const Json& report = measured.at("report");
+    std::string html;
+    for (const Json& entry : report.at("pictures"))
+        if (&entry - &report.at("pictures").front() < most_glances)
+            html += fmt::format("<a href=\"#{}\">{}</a>\n", text_of(report, "measure"),
+                                pictures(folder, Json::array({entry}), glance_columns));
+    return html;
+}
+
+std::string folded(const std::string& summary, const std::string& html) {
+    return fmt::format("<details class=\"fold\"><summary>{}</summary></details>\n<div class=\"folded\">\n{}</div>\n", summary,
+                       html);
 }
 
 std::vector<std::string> figures_of(const ResultFolder& folder, const Json& measured) {
@@ -177,20 +197,19 @@ std::vector<std::string> figures_of(const ResultFolder& folder, const Json& meas
         for (const Json& entry : report.at(list)) {
             const bool drawn = entry.at("file").get<std::string>().ends_with(".svg");
             const Json one = Json::array({entry});
-            all.push_back(drawn ? plots(folder, one) : pictures(folder, one, list == std::string_view("animations")));
+            all.push_back(drawn ? plots(folder, one)
+                                : pictures(folder, one, list == std::string_view("animations") ? 0 : most_columns));
         }
     return all;
 }
 
 std::string measure_section(const ResultFolder& folder, const Json& measured) {
     const Json& report = measured.at("report");
-    std::string html =
-        fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n<p class=\"says\">{}</p>\n<p class=\"source\">Source: {}</p>\n",
-                    text_of(report, "measure"), text_of(report, "title"), text_of(report, "says"), text_of(report, "source"));
+    std::string html = fmt::format("<p class=\"source\">Source: {}</p>\n", text_of(report, "source"));
     if (!report.at("findings").empty()) html += "<p>Its figures stand in <a href=\"#summary\">theory and measurement</a>.</p>\n";
     for (const Json& remark : report.at("remarks")) html += fmt::format("<p>{}</p>\n", escaped(remark.get<std::string>()));
     html += plots(folder, report.at("plots")) + plots(folder, report.at("maps"));
-    html += pictures(folder, report.at("pictures"), false) + pictures(folder, report.at("animations"), true);
+    html += pictures(folder, report.at("pictures"), most_columns) + pictures(folder, report.at("animations"), 0);
     std::string files;
     for (const Json& file : report.at("files")) files += ", " + escaped(file.get<std::string>());
     Json figures = measured;
@@ -198,21 +217,23 @@ std::string measure_section(const ResultFolder& folder, const Json& measured) {
     figures.erase("settings");
     html += fmt::format(
         "<details><summary>All figures, as in {0}.json</summary>\n<pre>{1}</pre>\n</details>\n"
-        "<p class=\"files\">Files: {0}.json{2}; measured in {3:.1f} s</p>\n</section>\n",
+        "<p class=\"files\">Files: {0}.json{2}; measured in {3:.1f} s</p>\n",
         text_of(report, "measure"), escaped(figures.dump(2)), files, report.at("seconds").get<double>());
-    return html;
+    return fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n<p class=\"says\">{}</p>\n{}</section>\n", text_of(report, "measure"),
+                       text_of(report, "title"), text_of(report, "says"), folded("Plots, pictures and remarks", html));
 }
 
 std::string display_section(const Subject& s) {
-    return "<section id=\"display\">\n<h2>The display</h2>\n" +
-           figure(inline_svg(side_view_svg(s)),
-                  "From the panel to the eye. Orange: rays from the eye, through the diffuser's middle and "
-                  "edges, back to the panel. Blue: the light of one pixel.") +
-           figure(inline_svg(lens_view_svg(s)),
-                  "Lenses near the middle, with rays traced through their surfaces; a faint ray ends at "
-                  "a rim or a stop.") +
-           "<div class=\"wide\"><table>\n<caption>Sizes and paraxial theory, from the description</caption>\n" + theory_rows(s) +
-           "</table></div>\n</section>\n";
+    const std::string html = figure(inline_svg(side_view_svg(s)),
+                                    "From the panel to the eye. Orange: rays from the eye, through the diffuser's middle and "
+                                    "edges, back to the panel. Blue: the light of one pixel.") +
+                             figure(inline_svg(lens_view_svg(s)),
+                                    "Lenses near the middle, with rays traced through their surfaces; a faint ray ends at "
+                                    "a rim or a stop.") +
+                             "<div class=\"wide\"><table>\n<caption>Sizes and paraxial theory, from the description</caption>\n" +
+                             theory_rows(s) + "</table></div>\n";
+    return "<section id=\"display\">\n<h2>The display</h2>\n" + folded("Drawings to scale, sizes and theory", html) +
+           "</section>\n";
 }
 
 }  // namespace lfdsim

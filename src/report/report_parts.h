@@ -17,8 +17,15 @@ std::string error_text(const Json& errors);
 /// Rows of the table of theory and measurement.
 std::string finding_rows(const Json& report);
 
-/// The first finding, with theory's value: "Horizontal, 27.4 ± 0.2° (theory 28.1°)". Empty if there is none.
-std::string headline(const Json& report);
+/// A row of the table at the head: the measure, its first finding with theory's value; without a finding, what it shows.
+std::string headline_row(const Json& report);
+
+/// The first pictures of a measure, small, as links to its section. Empty if there are none.
+std::string glance(const ResultFolder&, const Json& measured);
+
+/// What is shown when a reader asks for it, and on paper. It needs no script: the switch stands before what it opens, and a link to
+/// the section opens it, too.
+std::string folded(const std::string& summary, const std::string& html);
 
 /// Title, meaning, source, remarks, plots, pictures and all figures of one measure, from its NAME.json.
 std::string measure_section(const ResultFolder&, const Json& measured);

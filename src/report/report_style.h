@@ -13,9 +13,9 @@ inline constexpr const char* report_style = R"css(
 }
 * { box-sizing: border-box; }
 html { font: 16px/1.5 system-ui, "DejaVu Sans", sans-serif; color: var(--text); background: var(--page); }
-body { max-width: 62rem; margin: 0 auto; padding: 1.5rem 1rem 4rem; }
+body { max-width: 62rem; margin: 0 auto; padding: 1rem 1rem 4rem; }
 h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 .3rem; }
-h2 { font-size: 1.25rem; margin: 2.6rem 0 .4rem; padding-top: .5rem; border-top: 1px solid var(--line); }
+h2 { font-size: 1.25rem; margin: 1.4rem 0 .4rem; padding-top: .5rem; border-top: 1px solid var(--line); }
 p { margin: .5rem 0; max-width: 46rem; }
 a { color: inherit; text-underline-offset: .15em; }
 nav ul { margin: .5rem 0; padding: 0; list-style: none; display: flex; flex-wrap: wrap; gap: .1rem 1.4rem; }
@@ -34,6 +34,16 @@ tr.group th { padding-top: .9rem; }
 td { white-space: nowrap; }
 td.remark, table:not(.findings) td { white-space: normal; }
 td.remark { color: var(--faint); }
+.fold:not([open]) + .folded { display: none; }
+section:target > .fold { display: none; }
+section:target > .folded { display: block; }
+.glance { display: flex; flex-wrap: wrap; gap: .6rem; }
+.glance a { flex: 1 1 8rem; max-width: 15rem; text-decoration: none; }
+.glance figure { margin: 0; }
+.glance img { height: 7rem; width: 100%; object-fit: cover; }
+.glance figcaption { overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
+#verdict li, #verdict p { margin: .2rem 0; }
+#verdict ul { margin: .2rem 0; padding-left: 1.2rem; }
 figure { margin: 1.4rem 0; }
 figure img { max-width: 100%; height: auto; display: block; }
 figcaption { margin-top: .3rem; max-width: 46rem; }
@@ -46,6 +56,7 @@ pre {
   .drawing { overflow-x: auto; }
   .drawing > svg { min-width: 34rem; }
   td, th { padding-right: .7rem; }
+  #verdict td { white-space: normal; }
 }
 @media print {
   :root { color-scheme: light; --text: #000; --page: #fff; --faint: #444; --line: #bbb; --soft: #f5f5f3; --warn: #8a2a00; }
@@ -55,6 +66,7 @@ pre {
   figure, tr { break-inside: avoid; }
   pre { white-space: pre-wrap; }
   nav, details { display: none; }
+  .fold + .folded { display: block !important; }
 }
 )css";
 

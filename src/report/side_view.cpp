@@ -176,7 +176,7 @@ std::string side_view_svg(const Subject& display, SideFrame* frame) {
     drawing.text({width - 12, row - 2},
                  scale.true_to_scale() ? std::string("to scale")
                                        : fmt::format("heights drawn {:.3g} times as large as depths", scale.per_y / scale.per_z),
-                 "font-size=\"11\" text-anchor=\"end\" fill-opacity=\"0.7\"");
+                 "font-size=\"12\" text-anchor=\"end\" fill-opacity=\"0.7\"");
     return drawing.svg();
 }
 

@@ -10,7 +10,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr double lens_page_width = 960, left = 76, top = 16, notes_width = 220, lens_drawn = lens_page_width - left - notes_width,
+constexpr double lens_page_width = 960, left = 76, top = 16, notes_width = 236, lens_drawn = lens_page_width - left - notes_width,
                  lens_most_height = 440, front_side = 130;
 
 double rim_z(const PlacedSurface& f, double rim) { return f.z_mm + sag_mm(f.curvature_per_mm, f.conic, f.even_asphere, rim); }
@@ -139,7 +139,8 @@ std::vector<std::string> notes_of(const Subject& s) {
         d.lens.type() == LensType::pinhole  ? std::string("L: none, pinholes image nothing")
         : std::isfinite(t.central_depth_mm) ? fmt::format("L = {}: central depth", mm(t.central_depth_mm))
                                             : std::string("L: at infinity"),
-        fmt::format("{:.4g}\u00b0: field of view, dashed", t.along[1].fov_deg)};
+        fmt::format("{:.4g}\u00b0: field of view of one lens,", t.along[1].fov_deg),
+        "2 atan(p / 2g), dashed"};
     if (d.diffuser) lines.push_back(fmt::format("\u03c9 = {:.4g}\u00b0: diffuser, vertical", d.diffuser->angle_deg[1]));
     if (g.turn_deg != 0) lines.push_back("in the frame of the turned array");
     return lines;
@@ -222,7 +223,7 @@ std::string lens_view_svg(const Subject& display, SideFrame* frame) {
     drawing.text({lens_page_width - notes_width + 18, row + 27}, "the light of one pixel", "font-size=\"12\" fill=\"#1f7fc0\"");
     if (!scale.true_to_scale())
         drawing.text({lens_page_width - notes_width + 18, row + 48}, fmt::format("heights drawn {:.3g} times", per_y / per_z),
-                     "font-size=\"11\"");
+                     "font-size=\"12\"");
     drawing.text({lens_page_width - notes_width + 18, front_top - 9}, "as the viewer sees them", "font-size=\"12\"");
     draw_front(drawing, {lens_page_width - notes_width + 18, front_top}, front_side, display.display(), display.geometry());
     return drawing.svg();

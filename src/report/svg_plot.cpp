@@ -9,8 +9,7 @@
 namespace lfdsim {
 namespace {
 
-// Narrow, so that text of 12 pixels is readable when a plot is shown 480 pixels wide.
-constexpr double plot_width = 600, row_height = 20, mark_row = 15;
+constexpr double row_height = 20, mark_row = 15;
 
 // Colours that colour-blind people can distinguish, of medium lightness, so that they are visible on white and on black; the dashes
 // differ from one curve to the next, and when a colour is used again.
@@ -67,33 +66,39 @@ Ranges ranges(const Plot& plot) {
 }
 
 struct Legend {
+    explicit Legend(double width) : width_(width) {}
+
     struct Entry {
         std::string label;
         int series;  // -1: text alone
         double x;
         int row;
+        bool begins;  // the label
     };
     std::vector<Entry> entries;
     int rows = 0;
 
+    /// A label that is wider than the plot goes on in further rows.
     void add(const std::string& label, int series) {
         const double sample = series < 0 ? 0 : 36, wide = sample + text_width(label, 13) + 18;
-        if (rows == 0 || next_ + wide > plot_width - 12) {
+        if (rows == 0 || next_ + wide > width_ - 12) {
             ++rows;
             next_ = 12;
         }
-        entries.push_back({label, series, next_, rows - 1});
+        const std::vector<std::string> lines = wrapped(label, 13, width_ - 24 - sample);
+        for (std::size_t k = 0; k < lines.size(); ++k) entries.push_back({lines[k], series, next_, rows - 1 + int(k), k == 0});
+        if (lines.size() > 1) rows += int(lines.size()) - 1;
         next_ += wide;
     }
 
   private:
-    double next_ = 0;
+    double width_, next_ = 0;
 };
 
 bool within(const PlotAxis& axis, double value) { return value >= axis.low() && value <= axis.high(); }
 
-Legend legend_of(const Plot& plot, const PlotAxis& x, const PlotAxis& y) {
-    Legend legend;
+Legend legend_of(const Plot& plot, const PlotAxis& x, const PlotAxis& y, double width) {
+    Legend legend(width);
     for (std::size_t k = 0; k < plot.series.size(); ++k)
         if (plot.series.size() > 1 || !plot.series[k].label.empty()) legend.add(plot.series[k].label, int(k));
     for (const PlotMark& m : plot.marks)
@@ -108,7 +113,7 @@ struct MarkLabels {
     std::vector<LabelPlace> places;
     int rows = 0;
 
-    MarkLabels(const Plot& plot, const PlotAxis& axis, double left, double wide) {
+    MarkLabels(const Plot& plot, const PlotAxis& axis, double left, double wide, double whole) {
         for (const PlotMark& m : plot.marks)
             if (m.vertical && within(axis, m.at)) marks.push_back(&m);
         std::stable_sort(marks.begin(), marks.end(), [](const PlotMark* a, const PlotMark* b) { return a->at < b->at; });
@@ -118,7 +123,7 @@ struct MarkLabels {
             lines.push_back(left + wide * axis.share(m->at));
             labels.push_back(m->label);
         }
-        places = place_labels(lines, labels, 12, plot_width - 4);
+        places = place_labels(lines, labels, 12, whole - 4);
         for (const LabelPlace& place : places) rows = std::max(rows, place.row + 1);
     }
 };
@@ -155,35 +160,35 @@ void make_equal(Ranges& r, double wide, double high) {
 
 }  // namespace
 
-std::string svg(const Plot& plot) {
+std::string svg(const Plot& plot, double width) {
     Ranges r = ranges(plot);
     double right = 16;
     for (const PlotMark& m : plot.marks)
         if (!m.vertical) right = std::max(right, text_width(m.label, 12) + 12);
-    right = std::min(right, 0.4 * plot_width);
+    right = std::min(right, 0.4 * width);
     const double left = room_beside(PlotAxis(r.y.low, r.y.high, 6)) + 4;
     double area = 300;
     if (plot.equal_axes && !r.x.empty() && (r.x.high > r.x.low || r.y.high > r.y.low)) {
-        const double wide = plot_width - left - right, sides = (r.y.high - r.y.low) / (r.x.high - r.x.low);
+        const double wide = width - left - right, sides = (r.y.high - r.y.low) / (r.x.high - r.x.low);
         area = std::clamp(wide * sides, 200., 440.);
         make_equal(r, wide, area);
     }
-    const PlotAxis x(r.x.low, r.x.high, 9), y(r.y.low, r.y.high, 6);
+    const PlotAxis x(r.x.low, r.x.high, width < 480 ? 5 : 9), y(r.y.low, r.y.high, 6);
 
-    const std::vector<std::string> title = wrapped(plot.title, 17, plot_width - 24);
-    const Legend legend = legend_of(plot, x, y);
-    const MarkLabels marks(plot, x, left, plot_width - left - right);
+    const std::vector<std::string> title = wrapped(plot.title, 17, width - 24);
+    const Legend legend = legend_of(plot, x, y, width);
+    const MarkLabels marks(plot, x, left, width - left - right, width);
     const double legend_top = 12 + row_height * double(title.size());
     const double top = legend_top + row_height * legend.rows + mark_row * marks.rows + 14;
-    const Frame frame{left, top, plot_width - left - right, area, x, y};
+    const Frame frame{left, top, width - left - right, area, x, y};
 
-    Drawing drawing(plot_width, frame.bottom() + room_below, plot.title);
+    Drawing drawing(width, frame.bottom() + room_below, plot.title);
     for (std::size_t k = 0; k < title.size(); ++k)
         drawing.text({12, 22 + row_height * double(k)}, title[k], "font-size=\"15\" font-weight=\"600\"");
     for (const Legend::Entry& e : legend.entries) {
         const double at_y = legend_top + row_height * (e.row + 0.7);
         drawing.text({e.x + (e.series < 0 ? 0 : 34), at_y}, e.label, "");
-        if (e.series < 0) continue;
+        if (e.series < 0 || !e.begins) continue;
         const std::size_t k = std::size_t(e.series);
         if (plot.series[k].dots)
             drawing.add(dots(plot.series[k], {{e.x + 14, at_y - 4}}, k));

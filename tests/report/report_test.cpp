@@ -75,14 +75,32 @@ TEST(Report, ShowsWhatTheFolderHolds) {
         EXPECT_THAT(html, HasSubstr(text));
     EXPECT_THAT(html, HasSubstr(std::string(c.fov.says)));
     // In short first, and the table once.
-    EXPECT_THAT(html, HasSubstr("<a href=\"#fov\">Field of view</a>: Edge &amp; rim, −20.5 to 21° (theory −20 to 20°)</li>"));
+    EXPECT_THAT(html, HasSubstr("<a href=\"#fov\">Field of view</a></th><td class=\"remark\">Edge &amp; rim</td><td>−20.5 to "
+                                "21°</td><td>−20 to 20°</td></tr>"));
     EXPECT_LT(html.find("id=\"verdict\""), html.find("id=\"summary\""));
-    EXPECT_EQ(count(html, "<td>−20.5 to 21°</td>"), 1);
+    EXPECT_EQ(count(html, "<td>−20.5 to 21°</td>"), 2);  // and in the table of all
     EXPECT_THAT(html, HasSubstr("Source: "));
     EXPECT_THAT(html, Not(HasSubstr("incomplete.")));
     EXPECT_EQ(count(html, "<svg xmlns"), 2 + 2);  // views from the side; plot, map
-    EXPECT_EQ(count(html, "<img "), 3);
+    EXPECT_EQ(count(html, "<img "), 3 + 2);
     EXPECT_EQ(html, c.report());
+}
+
+// The first screen has the verdict, the headline figures and pictures; all else is folded, but not on paper.
+TEST(Report, FoldsAllButTheFirstScreen) {
+    const Case c;
+    c.folder.write(c.fov, result(), 1);
+    c.folder.write(c.dof, Result{}, 2);
+    const std::string html = c.report(), folded = "<div class=\"folded\">";
+    const std::size_t main = html.find("<main>"), first = html.find(folded);
+    for (const char* early : {"id=\"verdict\"", "<td>−20.5 to 21°</td>", "<img "})
+        EXPECT_LT(html.find(early, main), first) << early;
+    EXPECT_EQ(count(html, folded), 5);  // all figures, the display, two measures, settings
+    EXPECT_EQ(count(html, "<details class=\"fold\">"), 5);
+    for (const char* late : {"The plot's title", "A remark", "<pre>", "<svg xmlns"})
+        EXPECT_GT(html.find(late, main), first) << late;
+    const std::size_t print = html.find("@media print");
+    EXPECT_THAT(html.substr(print, html.find("</style>") - print), HasSubstr(".fold + .folded { display: block !important; }"));
 }
 
 TEST(Report, NeedsNoOtherFile) {
@@ -112,7 +130,7 @@ TEST(Report, ReducesWidePictures) {
         for (const char digit : code) three = three << 6 | std::uint32_t(digits.find(digit));
         widths.push_back(int(three >> 8));
     }
-    EXPECT_THAT(widths, testing::ElementsAre(1000, 30, 8));
+    EXPECT_THAT(widths, testing::ElementsAre(240, 30, 1000, 30, 8));
 }
 
 TEST(Report, SaysWhatIsMissing) {
