@@ -2,7 +2,6 @@
 
 #include "content/normals.h"
 #include "content/turn.h"
-#include "engine/memory.h"
 #include "image/encoding.h"
 #include "model/geometry.h"
 #include "model/keys.h"
@@ -18,8 +17,6 @@ std::string key_of(std::size_t object, const char* key) { return fmt::format("co
 
 // A file that many objects show is read once, but its mesh is there for each. Flat triangles have vertices of their own.
 void check_size(const ContentParts& parts, const std::vector<SceneObject>& objects) {
-    constexpr double vertex_bytes = 4 * (3 + 3 + 2 + 3), triangle_bytes = 4 * (3 + 1);
-    constexpr double posed_bytes = 4 * 3, tree_bytes = 120;  // of the scene: a vertex, and about what Embree needs for a triangle
     double vertices = 0, triangles = 0;
     for (std::size_t i = 0; i < objects.size(); ++i) {
         const auto own = double(parts[i]->triangles());
@@ -31,8 +28,6 @@ void check_size(const ContentParts& parts, const std::vector<SceneObject>& objec
                          fmt::format("the objects together have {:.0f} triangles and {:.0f} vertices, allowed are "
                                      "2^31 of each; show fewer, or coarser ones",
                                      triangles, vertices));
-    require_memory("content.object", fmt::format("the objects' {:.0f} triangles", triangles),
-                   vertices * (vertex_bytes + posed_bytes) + triangles * (triangle_bytes + tree_bytes));
 }
 
 // Adds one object after the other.

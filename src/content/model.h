@@ -41,4 +41,7 @@ class Model {
     std::size_t triangles() const { return indices.size() / 3; }
 };
 
+/// Memory that it takes.
+std::int64_t bytes_of(const Model&);
+
 }  // namespace lfdsim

@@ -1,4 +1,4 @@
-#include "content/content.h"
+#include "content/memory.h"
 #include "content/model.h"
 
 #include "image/free_memory.h"
@@ -7,10 +7,9 @@
 
 #include <chrono>
 #include <map>
+#include <set>
 
 namespace lfdsim {
-namespace {
-
 std::int64_t bytes_of(const Model& m) {
     const std::size_t numbers =
         m.positions.size() + m.normals.size() + m.uvs.size() + m.colours.size() + m.indices.size() + m.material_of.size();
@@ -19,7 +18,11 @@ std::int64_t bytes_of(const Model& m) {
     return std::int64_t(bytes);
 }
 
-}  // namespace
+double bytes_of(const ContentParts& parts) {
+    double bytes = 0;
+    for (const std::shared_ptr<const Model>& model : std::set(parts.begin(), parts.end())) bytes += double(bytes_of(*model));
+    return bytes;
+}
 
 std::vector<ContentFile> content_files(const Display& display) {
     std::vector<ContentFile> files;

@@ -1,7 +1,9 @@
 #include "content/scene.h"
 
 #include "content/join.h"
+#include "content/memory.h"
 #include "content/turn.h"
+#include "engine/memory.h"
 #include "image/free_memory.h"
 #include "model/keys.h"
 #include "model/vec.h"
@@ -103,6 +105,11 @@ void build(ContentScene::Impl& scene) {
     const Model& m = *scene.model;
     scene.device.reset(rtcNewDevice(nullptr));
     if (!scene.device) throw std::runtime_error("Embree cannot start; " + free_text(free_memory()));
+    const auto count = [](void* bytes, ssize_t more, bool) {
+        *static_cast<std::int64_t*>(bytes) += more;
+        return true;
+    };
+    rtcSetDeviceMemoryMonitorFunction(scene.device.get(), count, &scene.tree_bytes);
     scene.tree.reset(rtcNewScene(scene.device.get()));
     // Robust: rays through shared edges must not fall between the triangles.
     rtcSetSceneFlags(scene.tree.get(), RTC_SCENE_FLAG_ROBUST);
@@ -121,13 +128,62 @@ void build(ContentScene::Impl& scene) {
 }
 
 std::shared_ptr<ContentScene::Impl> posed(const ContentParts& parts, const Display& display, const Geometry& geometry) {
+    constexpr double small_bytes = 1 << 20;
+    if (const double bytes = making_scene_bytes(parts, display); bytes > small_bytes)
+        require_memory(model_key(display), making_scene_text(parts), bytes);
     const auto made = std::make_shared<ContentScene::Impl>();
-    made->model = display.content.objects.empty() ? parts.at(0) : joined(parts, display.content.objects);
+    made->joined = !display.content.objects.empty();
+    made->model = made->joined ? joined(parts, display.content.objects) : parts.at(0);
     pose(*made, display, geometry);
     return made;
 }
 
+template <class List>
+double bytes_of_list(const List& list) {
+    return double(sizeof(typename List::value_type)) * double(list.capacity());
+}
+
 }  // namespace
+
+std::string model_key(const Display& display) { return display.content.objects.empty() ? "content.model" : "content.object"; }
+
+std::string making_scene_text(const ContentParts& parts) {
+    std::size_t triangles = 0;
+    for (const auto& part : parts) triangles += part->triangles();
+    return fmt::format("showing {} triangles", triangles);
+}
+
+// Lists that grow while objects are joined may have room for twice as much. Embree 3 takes at most 115 bytes a triangle while it
+// builds a tree of many, and some blocks for one of few.
+double making_scene_bytes(const ContentParts& parts, const Display& display) {
+    constexpr double tree_bytes = 160, least_tree_bytes = 1 << 16, growth = 2, mip_levels = 4. / 3;
+    constexpr double vertex_bytes = 4 * (3 + 3 + 2 + 3), triangle_bytes = 4 * (3 + 1), posed_bytes = 4 * 3,
+                     texture_density_bytes = 4;
+    const std::vector<SceneObject>& objects = display.content.objects;
+    double bytes = least_tree_bytes;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const Model& part = *parts[i];
+        const bool flat = !objects.empty() && objects[i].shading == Shading::flat;  // its triangles have vertices of their own
+        const auto triangles = double(part.triangles());
+        const double vertices = flat ? 3 * triangles : double(part.vertices());
+        double texels = 0;
+        for (const Texture& t : part.textures) texels += double(t.rgba.size());
+        bytes += vertices * posed_bytes + triangles * (tree_bytes + texture_density_bytes) + texels * mip_levels;
+        if (!objects.empty()) bytes += growth * (vertices * vertex_bytes + triangles * triangle_bytes) + texels;
+    }
+    return bytes;
+}
+
+double bytes_of(const ContentScene& scene) {
+    const ContentScene::Impl& it = scene.impl();
+    double bytes = bytes_of_list(it.positions_mm) + bytes_of_list(it.texels_per_mm) + double(it.tree_bytes);
+    for (const MipMap& texture : it.textures) bytes += texture.bytes();
+    return bytes + (it.joined ? double(bytes_of(*it.model)) : 0);
+}
+
+void keep(const ContentScene& scene, std::shared_ptr<const void> other) { scene.impl().kept = std::move(other); }
+
+bool has_copies(const ContentScene& scene) { return scene.impl().weak_from_this().use_count() > 1; }
 
 Vec3d half_size_mm(const ContentParts& parts, const Display& display, const Geometry& geometry) {
     return posed(parts, display, geometry)->half_mm;

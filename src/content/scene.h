@@ -26,8 +26,10 @@ struct alignas(64) Lanes {
     float of[count];
 };
 
-struct ContentScene::Impl {
+struct ContentScene::Impl : std::enable_shared_from_this<Impl> {
+    mutable std::shared_ptr<const void> kept;  // for as long as this
     std::shared_ptr<const Model> model;
+    bool joined = false;  // the model was made for this scene
 
     // The frame of rays has its origin at centre_mm(), the middle of the posed model's box: there float32 is most precise, and
     // nothing here changes when the scene moves.
@@ -40,6 +42,7 @@ struct ContentScene::Impl {
     std::vector<MipMap> textures;
     std::vector<float> texels_per_mm;  // of each triangle, a mean over directions; 0: no texture
 
+    std::int64_t tree_bytes = 0;  // that Embree has taken
     struct Release {
         void operator()(RTCSceneTy* s) const { rtcReleaseScene(s); }
         void operator()(RTCDeviceTy* d) const { rtcReleaseDevice(d); }

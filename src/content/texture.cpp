@@ -39,6 +39,12 @@ float folded(float x, Wrap how) {
 
 }  // namespace
 
+double MipMap::bytes() const {
+    double bytes = 0;
+    for (const Level& level : levels_) bytes += 4. * double(level.codes.size());
+    return bytes;
+}
+
 MipMap::MipMap(const Texture& t, bool with_alpha) : with_alpha_(with_alpha), light_(decode_table(Encoding::srgb, 8).data()) {
     Level base{t.width, t.height, {}};
     base.codes.resize(std::size_t(t.width) * t.height);

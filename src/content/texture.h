@@ -21,6 +21,7 @@ class MipMap {
 
     int width() const { return levels_[0].width; }
     int height() const { return levels_[0].height; }
+    double bytes() const;
 
   private:
     struct Level {

@@ -70,9 +70,9 @@ MemoryBudget::Claim MemoryBudget::claim(const std::string& where, const std::str
     return Claim(*this, bytes);
 }
 
-bool MemoryBudget::fits(double bytes) const {
+double MemoryBudget::left() const {
     const std::lock_guard lock(mutex_);
-    return bytes <= bytes_ - claimed_ && bytes <= free_bytes();
+    return std::max(std::min(bytes_ - claimed_, free_bytes()), 0.);
 }
 
 MemoryBudget::Claim::Claim(Claim&& from) noexcept : of_(std::exchange(from.of_, nullptr)), bytes_(std::exchange(from.bytes_, 0)) {}

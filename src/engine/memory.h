@@ -53,7 +53,8 @@ class MemoryBudget {
     };
     /// Throws InputError as require_memory() does, if so much is not free, or is claimed by others. From any thread.
     [[nodiscard]] Claim claim(const std::string& where, const std::string& what, double bytes);
-    bool fits(double bytes) const;
+    bool fits(double bytes) const { return bytes <= left(); }
+    double left() const;
 
   private:
     mutable std::mutex mutex_;

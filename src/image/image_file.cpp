@@ -1,4 +1,5 @@
 #include "image/image_file.h"
+#include "image/picture_size.h"
 
 #include "image/formats.h"
 #include "image/free_memory.h"
@@ -193,6 +194,24 @@ std::optional<Image> read_layer(const fs::path& path, const std::string& name) {
         });
     if (image.rgb.empty()) return std::nullopt;
     return image;
+}
+
+std::array<std::int64_t, 2> picture_size(const fs::path& path) {
+    struct Known {
+        std::array<std::int64_t, 2> size;
+    };
+    const Format format = format_to_read(path);
+    const InputFile file(path);
+    try {
+        within_memory(file, [&] {
+            read(file, format, Encoding::srgb, Values::radiance, [](std::int64_t columns, std::int64_t rows) -> Pixels {
+                throw Known{{columns, rows}};
+            });
+        });
+    } catch (const Known& known) {
+        return known.size;
+    }
+    file.refuse("has no size");
 }
 
 Metadata read_metadata(const fs::path& path) {

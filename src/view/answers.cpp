@@ -48,6 +48,15 @@ Display described(const Library& library, Wanted wanted, const Display& display)
     }
 }
 
+/// The display that is wanted; where it is not valid, the one that the program was started with.
+Display wanted_or_started(const Library& library, const Wanted& wanted) {
+    try {
+        return library.display(wanted);
+    } catch (const InputError&) {
+        return read_display(library.start().display, library.start().set);
+    }
+}
+
 // File names may contain any bytes, JSON is UTF-8.
 Json in_utf8(Json json) {
     try {
@@ -87,7 +96,8 @@ Json side(const Display& display, const std::string& name) {
 /// The file of the model that is shown, or would be if nothing else were; or built-in:spheres, or scene_of_objects.
 std::string model_file(const Library& library, const Wanted& wanted, const Display& display) {
     if (wanted.shown.kind == Shown::Kind::model)
-        return wanted.shown.name == built_in_spheres ? wanted.shown.name : library.file(wanted.shown.name).string();
+        return wanted.shown.name == built_in_spheres ? wanted.shown.name
+                                                     : library.file(wanted.shown.name, Library::Kind::model).string();
     return library.model(display);
 }
 
@@ -130,15 +140,17 @@ Json answer_to(const Library& library, Panels& panels, const Wanted& wanted, con
             return side(library.display(wanted), ask.name);
         case Ask::What::plot: {
             const Display display = library.display(wanted);
-            if (ask.name == "spot") return {{"svg", svg(spot_plot(display))}};
+            if (ask.name == "spot") return {{"svg", svg(spot_plot(display), ask.width)}};
             Cancellable job(cancelled);
-            const ContentParts parts = panels.parts(model_source(model_file(library, wanted, display), display), display, job);
+            const ContentScene scene =
+                panels.scene(model_source(model_file(library, wanted, display), display), display, resolve(display), job);
             const auto claim = panels.budget().claim("panel.pixels", making_panel_text(display), 2 * making_panel_bytes(display));
-            return {{"svg", svg(fov_plot(display, parts, job))}};
+            return {{"svg", svg(fov_plot(display, scene, job), ask.width)}};
         }
         case Ask::What::files: {
-            const Library::Files files = library.files();
-            return {{"displays", files.displays}, {"models", files.models}, {"pictures", files.pictures}};
+            const Library::Files files = library.files(wanted_or_started(library, wanted));
+            return {
+                {"displays", files.displays}, {"eyes_mm", files.eyes_mm}, {"models", files.models}, {"pictures", files.pictures}};
         }
         case Ask::What::toml:
             return {{"text", toml(library, wanted, library.description(wanted).file)}};

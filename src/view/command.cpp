@@ -13,9 +13,11 @@ std::string shown_option(const Library& library, const Shown& shown) {
     const Start& start = library.start();
     switch (shown.kind) {
         case Shown::Kind::model:
-            return " --model " + (shown.name == built_in_spheres ? shown.name : shell_file(library.file(shown.name).string()));
+            return " --model " + (shown.name == built_in_spheres
+                                      ? shown.name
+                                      : shell_file(library.file(shown.name, Library::Kind::model).string()));
         case Shown::Kind::panel_image:
-            return " --panel-image " + shell_file(library.file(shown.name).string());
+            return " --panel-image " + shell_file(library.file(shown.name, Library::Kind::picture).string());
         case Shown::Kind::pattern:
             return " --pattern " + shell_word(shown.name);
         case Shown::Kind::start:

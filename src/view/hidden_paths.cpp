@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <string_view>
 
 namespace lfdsim::view {
@@ -28,6 +29,8 @@ bool begins_a_path(std::string_view json, std::size_t i) {
     if (json.substr(i - 1, 3) == "://") return false;  // a web address
     const char before = json[i - 1];
     if (i > 1 && json[i - 2] == '\\' && is_one_of(before, "nrt")) return true;  // a line's end or a tabulator, as in JSON
+    // An apostrophe after a letter is a prime, as in p'/2.
+    if (before == '\'' && i > 1 && std::isalnum(static_cast<unsigned char>(json[i - 2]))) return false;
     return is_one_of(before, " \"'`:;,([{>|=");
 }
 

@@ -2,6 +2,8 @@
 
 #include "content/content.h"
 #include "files/display_file.h"
+#include "files/text_file.h"
+#include "image/picture_size.h"
 #include "model/camera.h"
 #include "model/keys.h"
 #include "model/printable.h"
@@ -16,7 +18,7 @@ namespace lfdsim::view {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t most_files = 1000, most_entries = 100000, longest_name = 1000;
+constexpr std::size_t most_files = 1000, most_looked_at = 5000, most_entries = 100000, longest_name = 1000;
 constexpr int deepest = 6;  // folders below the served one
 
 std::string quoted(const std::string& name) { return fmt::format("\"{}\"", name); }
@@ -48,10 +50,6 @@ bool inside(const fs::path& path, const fs::path& folder) {
     return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-void check_is_description(const fs::path& path, const std::string& name) {
-    if (path.extension() != ".toml") throw InputError(quoted(name), "does not end in .toml");
-}
-
 /// Throws InputError unless `path` leads to something in the folder.
 fs::path resolve_inside(const fs::path& path, const fs::path& folder, const std::string& name) {
     // Links that lead out are told like names of nothing: what is there is nobody's affair.
@@ -65,6 +63,56 @@ bool ends_in(const fs::path& path, std::initializer_list<std::string_view> endin
     std::string ending = path.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
     return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+struct Served {
+    Library::Kind kind;
+    const char* is;  // "a model"
+    std::initializer_list<std::string_view> endings;
+};
+constexpr Served served[] = {
+    {Library::Kind::display, "a description of a display", {".toml"}},
+    {Library::Kind::model, "a model", {".3ds",  ".3mf", ".amf", ".ase", ".blend", ".cob", ".dae", ".dxf", ".fbx", ".glb",
+                                       ".gltf", ".hmp", ".ifc", ".lwo", ".obj",   ".off", ".ply", ".smd", ".stl", ".x"}},
+    {Library::Kind::picture, "a picture", {".png", ".jpg", ".jpeg", ".exr", ".npy"}},
+};
+
+/// Whether a text means to be a display's description: the key "schema" stands above its first table. Nothing else is looked at.
+bool is_description(std::string_view text) {
+    constexpr std::string_view blank = " \t\r", key = "schema";
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        std::string_view line = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        line.remove_prefix(std::min(line.find_first_not_of(blank), line.size()));
+        if (line.starts_with('[')) return false;
+        if (!line.starts_with(key)) continue;
+        line.remove_prefix(key.size());
+        line.remove_prefix(std::min(line.find_first_not_of(blank), line.size()));
+        if (line.starts_with('=')) return true;
+    }
+    return false;
+}
+
+bool meant_as_description(const fs::path& path) { return is_description(read_text(path)); }
+
+/// Adds a file that a page could show: of a model only the ending is looked at, of a picture the header. False: it could not.
+bool add(Library::Files& found, const fs::path& path, const std::string& name, Library::Kind kind, const Display& shown) {
+    try {
+        if (kind == Library::Kind::picture && picture_size(path) != shown.panel.pixels) return false;
+        if (kind == Library::Kind::display) {
+            if (!meant_as_description(path)) return false;
+            found.eyes_mm[name] = read_display(path).camera.position_mm;
+        }
+    } catch (const InputError&) {
+        return false;
+    }
+    (kind == Library::Kind::display ? found.displays
+     : kind == Library::Kind::model ? found.models
+                                    : found.pictures)
+        .push_back(name);
+    return true;
 }
 
 /// Throws InputError for keys that other parts of a message decide.
@@ -109,16 +157,21 @@ Library::Library(Start start, fs::path folder) : start_(std::move(start)), folde
 
 std::string Library::model(const Display& display) const { return start_.model.empty() ? model_of(display) : start_.model; }
 
-fs::path Library::file(const std::string& name) const {
+fs::path Library::file(const std::string& name, Kind kind) const {
     const fs::path path = folder_ / relative(name);
     if (std::error_code error; !fs::is_regular_file(resolve_inside(path, folder_, name), error))
         throw InputError(quoted(name), "is not a plain file");
+    const Served& is = *std::find_if(std::begin(served), std::end(served), [&](const Served& s) { return s.kind == kind; });
+    if (!ends_in(path, is.endings))
+        throw InputError(quoted(name), fmt::format("is not {}; those end in {}", is.is, fmt::join(is.endings, ", ")));
+    if (kind == Kind::display && !meant_as_description(path))
+        throw InputError(quoted(name), "is not a description of a display: those begin with schema = 1");
     return path.lexically_normal();
 }
 
 fs::path Library::new_file(const std::string& name) const {
     const fs::path path = folder_ / relative(name);
-    check_is_description(path, name);
+    if (path.extension() != ".toml") throw InputError(quoted(name), "does not end in .toml");
     if (!is_printable(name)) throw InputError(quoted(name), "has characters that cannot be seen");
     std::error_code error;
     if (!fs::is_directory(resolve_inside(path.parent_path(), folder_, name), error))
@@ -129,9 +182,9 @@ fs::path Library::new_file(const std::string& name) const {
     return path.lexically_normal();
 }
 
-Library::Files Library::files() const {
+Library::Files Library::files(const Display& display) const {
     Files found;
-    std::size_t entries = 0, named = 0;
+    std::size_t entries = 0, looked_at = 0, named = 0;
     std::error_code error;
     const fs::path real_folder = fs::canonical(folder_, error);
     fs::recursive_directory_iterator entry(folder_, fs::directory_options::skip_permission_denied, error);
@@ -142,25 +195,19 @@ Library::Files Library::files() const {
         if (hidden || entry.depth() >= deepest) entry.disable_recursion_pending();
         std::error_code broken;  // a broken link is skipped
         if (hidden || !fs::is_regular_file(path, broken) || !inside(fs::canonical(path, broken), real_folder)) continue;
-        std::vector<std::string>* kind =
-            ends_in(path, {".toml"})                                   ? &found.displays
-            : ends_in(path, {".png", ".jpg", ".jpeg", ".exr", ".npy"}) ? &found.pictures
-            : ends_in(path, {".3ds",  ".3mf", ".amf", ".ase", ".blend", ".cob", ".dae", ".dxf", ".fbx", ".glb",
-                             ".gltf", ".hmp", ".ifc", ".lwo", ".obj",   ".off", ".ply", ".smd", ".stl", ".x"})
-                ? &found.models
-                : nullptr;
+        const Served* const is =
+            std::find_if(std::begin(served), std::end(served), [&](const Served& s) { return ends_in(path, s.endings); });
         const std::string name = path.lexically_relative(folder_).generic_string();
-        if (!kind || name.size() > longest_name || !is_utf8(name)) continue;
-        kind->push_back(name);
-        ++named;
+        if (is == std::end(served) || name.size() > longest_name || !is_utf8(name)) continue;
+        if (++looked_at > most_looked_at) break;
+        if (add(found, path, name, is->kind, display)) ++named;
     }
     for (std::vector<std::string>* all : {&found.displays, &found.models, &found.pictures}) std::sort(all->begin(), all->end());
     return found;
 }
 
 Library::Description Library::description(const Wanted& wanted, int eye) const {
-    if (!wanted.display.empty()) check_is_description(wanted.display, wanted.display);
-    Description description{wanted.display.empty() ? start_.display : file(wanted.display), start_.set};
+    Description description{wanted.display.empty() ? start_.display : file(wanted.display, Kind::display), start_.set};
     for (const std::string& one : wanted.set) {
         check_key(one);
         description.set.push_back(one);

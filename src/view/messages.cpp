@@ -159,7 +159,10 @@ Ask ask(Object& object) {
         for (std::size_t i = 0; i < 2; ++i) a.at[i] = number(at[i], "at", 0, 1);
     }
     if (a.what == Ask::What::side) a.name = name_of({"display", "lens"});
-    if (a.what == Ask::What::plot) a.name = name_of({"fov", "spot"});
+    if (a.what == Ask::What::plot) {
+        a.name = name_of({"fov", "spot"});
+        if (const Parsed* width = object.find("width")) a.width = number(*width, "width", least_plot_width, 2 * plot_width);
+    }
     if (a.what == Ask::What::save) {
         a.name = text(object.at("name"), "name");
         if (const Parsed* overwrite = object.find("overwrite")) a.overwrite = flag(*overwrite, "overwrite");

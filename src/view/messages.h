@@ -1,6 +1,7 @@
 // Messages from a browser to the viewer, parsed and checked: docs/view-protocol.md. Floor 5.
 #pragma once
 #include "model/display.h"
+#include "report/svg.h"
 
 #include <array>
 #include <cstdint>
@@ -53,6 +54,7 @@ struct Ask {
     std::array<double, 2> at{};  // probe: point of the picture, 0 .. 1 from its upper left corner
     std::string name;            // side: "display" or "lens"; plot: "fov" or "spot"; save: file in the served folder
     bool overwrite = false;      // save
+    double width = plot_width;   // plot: pixels
 };
 
 using Message = std::variant<Wanted, Ask>;

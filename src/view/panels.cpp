@@ -1,9 +1,9 @@
 #include "view/panels.h"
 
-#include "model/lens_errors.h"
-
+#include "content/memory.h"
 #include "engine/memory.h"
 #include "image/image_file.h"
+#include "model/lens_errors.h"
 #include "model/subpixels.h"
 
 #include <algorithm>
@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::size_t most_panels = 3, most_scenes = 3, most_models = 2;
 constexpr double most_bytes = 2.0 * (1 << 30);
+constexpr double share_of_reading = 0.5;     // of the memory that is left: pictures of others go on meanwhile
+constexpr double least_for_reading = 512e6;  // half for the process that reads, whose libraries alone map more than 100 MB
 
 /// The first entry for which `is` holds, moved to the front; nullptr if there is none.
 template <class Entry, class Is>
@@ -67,9 +69,10 @@ Source source_of(const Library& library, const Shown& shown, const Display& disp
     const Start& start = library.start();
     switch (shown.kind) {
         case Shown::Kind::model:
-            return model_source(shown.name == built_in_spheres ? shown.name : library.file(shown.name).string(), display);
+            return model_source(
+                shown.name == built_in_spheres ? shown.name : library.file(shown.name, Library::Kind::model).string(), display);
         case Shown::Kind::panel_image:
-            return of_file(shown.kind, library.file(shown.name).string());
+            return of_file(shown.kind, library.file(shown.name, Library::Kind::picture).string());
         case Shown::Kind::pattern:
             return {shown.kind, shown.name};
         case Shown::Kind::start:
@@ -127,15 +130,23 @@ double Panels::needed_bytes(const Source& source, const Display& display) {
     return source.kind == Shown::Kind::panel_image ? texel_bytes(display) : making_panel_bytes(display);
 }
 
-/// Drops panels that nobody uses, those not used for longest first, until so much is free.
+bool Panels::is_read(const PartsFuture& parts) { return parts.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
+
+/// Drops what nobody uses until so much is free: panels, which are made soonest, then scenes, then the models that they were made
+/// from; those not used for longest first.
 void Panels::make_room(double bytes) {
-    const std::lock_guard lock(mutex_);
-    for (auto panel = panels_.end(); panel != panels_.begin() && !budget_.fits(bytes);)
-        if ((--panel)->light.use_count() == 1) panel = panels_.erase(panel);
+    const auto drop = [&](auto& all, const auto& idle) {
+        for (auto one = all.end(); one != all.begin() && !budget_.fits(bytes);)
+            if (idle(*--one)) one = all.erase(one);
+    };
+    drop(panels_, [](const Made& p) { return p.light.use_count() == 1; });
+    drop(scenes_, [](const Posed& p) { return !has_copies(p.scene); });
+    drop(models_, [](const Loaded& l) { return is_read(l.parts) && l.held.use_count() <= long(l.count); });
 }
 
 MemoryBudget::Claim Panels::claim(const Source& source, const Display& display) {
     const double bytes = needed_bytes(source, display);
+    const std::lock_guard lock(mutex_);
     make_room(bytes);
     return budget_.claim("panel.pixels", making_panel_text(display), bytes);
 }
@@ -189,7 +200,17 @@ ContentScene Panels::scene(const Source& source, const Display& display, const G
         const auto is = [&](const Posed& p) { return p.source == source && p.pose == pose; };
         if (const Posed* const posed = used(scenes_, is)) return posed->scene.before(geometry);
     }
-    const ContentScene made(parts(source, display, job), display, geometry);
+    const ContentParts read = parts(source, display, job);
+    const double bytes = making_scene_bytes(read, display);
+    const auto share = std::make_shared<MemoryBudget::Claim>();
+    {
+        const std::lock_guard lock(mutex_);
+        make_room(bytes);
+        *share = budget_.claim(model_key(display), making_scene_text(read), bytes);
+    }
+    const ContentScene made(read, display, geometry);
+    keep(made, share);
+    share->shrink(bytes_of(made));
     const std::lock_guard lock(mutex_);
     scenes_.push_front({source, pose, made});
     if (scenes_.size() > most_scenes) scenes_.pop_back();
@@ -218,13 +239,31 @@ Panels::PartsFuture Panels::reading(const Source& source, const Display& display
     const std::lock_guard lock(mutex_);
     if (const Loaded* const loaded = used(models_, [&](const Loaded& l) { return l.source == source; })) return loaded->parts;
     const bool scene = source.name == scene_of_objects;
-    const auto load = [files = scene ? content_files(display) : std::vector{ContentFile{source.name}}] {
-        return load_parts(files);
+    struct Read {
+        MemoryBudget::Claim claim;
+        ContentParts parts;
     };
-    models_.push_front({source, std::async(std::launch::async, load).share()});
+    auto read = std::make_shared<Read>();
+    LoadOptions options;
+    // The process that reads needs as much again. How much that is, is known only then.
+    make_room(2 * double(options.bytes));
+    const double most = std::clamp(share_of_reading * budget_.left(), least_for_reading, 2 * double(options.bytes));
+    options.bytes = std::int64_t(most / 2);
+    read->claim = budget_.claim(model_key(display), "reading a model", most);
+    const std::vector<ContentFile> files = scene ? content_files(display) : std::vector{ContentFile{source.name}};
+    const std::weak_ptr<const void> held = read;
+    auto load = [files, options, read = std::move(read)]() mutable {
+        const auto here = std::move(read);
+        here->parts = load_parts(files, options);
+        here->claim.shrink(bytes_of(here->parts));
+        ContentParts parts;
+        for (const auto& part : here->parts) parts.emplace_back(here, part.get());
+        return parts;
+    };
+    models_.push_front({source, std::async(std::launch::async, std::move(load)).share(), held, files.size()});
     std::size_t count = 0;
     models_.remove_if([&](const Loaded& l) {  // removing one that is being read would wait for its end
-        return ++count > most_models && l.parts.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+        return ++count > most_models && is_read(l.parts);
     });
     return models_.front().parts;
 }

@@ -56,11 +56,14 @@ PanelKey panel_key(const Source&, const Display&, const Geometry&);
 
 class Panels {
   public:
-    /// Of all visitors together; a panel's light holds its share for as long as anybody uses it.
+    /// `bytes`: for all visitors together.
+    explicit Panels(double bytes = free_bytes()) : budget_(bytes) {}
+
+    /// Of all visitors together; a panel's light, a model and a scene hold their shares for as long as anybody uses them.
     MemoryBudget& budget() { return budget_; }
 
-    /// Throws InputError where the light of a panel, if it is not kept, would not fit into the memory that there is: panels that
-    /// nobody uses are dropped for it.
+    /// Throws InputError where the light of a panel, if it is not kept, would not fit into the memory that there is: what is kept
+    /// and nobody uses is dropped for it.
     void require(const PanelKey&, const Display&);
 
     /// The light of a panel if it was made before and is still kept; else nothing.
@@ -92,10 +95,11 @@ class Panels {
   private:
     MemoryBudget::Claim claim(const Source&, const Display&);
     static double needed_bytes(const Source&, const Display&);
-    void make_room(double bytes);
+    void make_room(double bytes);  // with the lists locked
     std::shared_ptr<const ShownPanel> make_claimed(const Source&, const Display&, const Geometry&, int threads, Job&);
 
     using PartsFuture = std::shared_future<ContentParts>;
+    static bool is_read(const PartsFuture&);
     PartsFuture reading(const Source&, const Display&);
 
     struct Made {
@@ -111,6 +115,8 @@ class Panels {
     struct Loaded {
         Source source;
         PartsFuture parts;
+        std::weak_ptr<const void> held;  // by each of the parts
+        std::size_t count;
     };
     MemoryBudget budget_;       // outlives what is kept
     mutable std::mutex mutex_;  // of the lists; never held while something is made

@@ -30,7 +30,7 @@ Display small(Display d) {
 
 }  // namespace
 
-Plot fov_plot(const Display& display, const ContentParts& parts, const Job& job) {
+Plot fov_plot(const Display& display, const ContentScene& shown_there, const Job& job) {
     if (const auto [columns, rows] = display.panel.pixels; columns * rows > most_panel_pixels)
         throw InputError("panel.pixels",
                          fmt::format("{} x {} are too many for a plot that takes seconds, which is for 7680 x 4320 or "
@@ -43,7 +43,7 @@ Plot fov_plot(const Display& display, const ContentParts& parts, const Job& job)
         if (job.cancelled()) throw Stopped{};
     const Display d = small(display);
     const Geometry g = resolve(d);
-    Subject subject(d, ContentScene(parts, d, g), {});
+    Subject subject(d, shown_there.before(g), {});
     const double edge = 0.5 * subject.theory(0).fov_elemental_deg, depth = fov_depth_mm(subject);
     const double highest =
         std::acos(std::min(1.2 * nearest_eye_mm(g) / d.camera.position_mm[2], 1.)) / degree;  // still in front of the display

@@ -120,7 +120,8 @@ Probe probe(const Display& d, Place at) {
     probe.fan = fan(d, g, in_plane);
     const Sight sight = EyeRays(d, g).look_along(eye, to, 0, 0);
     if (!sight.through) {
-        probe.says = "No lens lets this line of sight through.";
+        probe.says =
+            "No lens lets light of the panel through here: the eye looks between two lenses, or past them. Point at another place.";
         return probe;
     }
     probe.lens = lens_of(g.lattice, sight.lens);

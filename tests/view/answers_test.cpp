@@ -66,7 +66,7 @@ std::string set(const std::string& key, const Json& value) {
 
 TEST(Controls, SlidersOfReadyDisplaysGoWhereTheDisplayIsValid) {
     const Library library({displays / "desktop-asphere.toml", {}, "", "", ""}, displays);
-    for (const std::string& name : library.files().displays) {
+    for (const std::string& name : library.files(read_display(library.start().display)).displays) {
         Wanted described;
         described.display = name;
         const Json message = resolved(library, described);

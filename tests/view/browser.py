@@ -30,6 +30,7 @@ def first_picture(page, server):
     stats = page.stats()
     assert stats["sent"] == sent, "the page does not come to rest"
     assert not stats["notes"], f"the program complains of the page: {stats['notes']}"
+    page.until("what to do next is said", lambda s: page.find("#probe-says").text.startswith("Point at the picture"))
     picture = page.picture()
     assert picture["size"] == picture["screen"], f"not one to one: {picture}"
     assert page.unscaled(), "the screen does not show the picture's own pixels"
@@ -166,11 +167,12 @@ def layouts(page):
     page.until("the picture alone", lambda s: s["quality"] == "final" and s["last_ids"]["one"] == s["id"])
 
 
-def drawings(page):
+def drawings(page, real):
     for name in ("fov", "spot", "lens", "display"):
         page.click(f"[data-drawing={name}]")
         page.until(f"the drawing {name}", lambda s: page.run("return !!document.querySelector('#drawing svg')"), 60)
         page.shot(f"drawing-{name}")
+        assert not real or page.smallest_text() >= 10.99, f"{name} has text of {page.smallest_text():.1f} pixels"
     x, y = page.run("const b = document.getElementById('stage').getBoundingClientRect(); return [b.left + b.width / 2, b.top + b.height / 2]")
     page.mouse("mouseMoved", x, y, buttons=0)
     page.until("a ray over the side view", lambda s: page.run("return document.querySelectorAll('#drawing .fan').length"))
@@ -180,6 +182,22 @@ def drawings(page):
     assert page.run("return window.attacked === undefined && !document.querySelector('svg script, svg [onload]')"), "a drawing ran a script"
     page.click("[data-drawing=display]")  # away again
     page.sharp()
+
+
+def another_display(page):
+    """It begins with the eye where its own camera stands; the list has what can be shown, and nothing else."""
+    page.find("#stage").send_keys("\ue014")  # right
+    page.sharp()
+    page.run("document.getElementById('display').onfocus()")
+    page.until("the list", lambda s: page.run("return document.querySelectorAll('#display option').length") > 2)
+    names = page.run("return [...document.querySelectorAll('#display option')].map((o) => o.value)")
+    assert "tablet-lenticular.toml" in names, names
+    page.choose("#display", "tablet-lenticular.toml")
+    page.sharp()
+    assert page.state()["eye"] == [0, 0, 450], page.state()["eye"]
+    page.choose("#display", "")
+    page.sharp()
+    assert page.state()["eye"] == [0, 0, 2000], page.state()["eye"]
 
 
 def files(page, folder):
@@ -259,7 +277,7 @@ def two_visitors(page, server):
     assert page.picture()["sum"] == before["sum"] != other[1]["sum"], "one's picture is the other's"
 
 
-def looks(page):
+def looks(page, real):
     for scheme in ("light", "dark"):
         page.colours(scheme)
         page.shot(f"desktop-{scheme}")
@@ -269,6 +287,16 @@ def looks(page):
     wide = page.run("return document.documentElement.scrollWidth")
     assert wide <= 390, f"the page is {wide} pixels wide on a phone"
     page.shot("phone")
+    if real:
+        for name in ("display", "fov"):
+            page.click(f"[data-drawing={name}]")
+            page.until(f"the drawing {name}", lambda s: page.run("return !!document.querySelector('#drawing svg')"), 60)
+            page.shot(f"phone-{name}")
+            assert page.smallest_text() >= 10.99, f"{name} has text of {page.smallest_text():.1f} pixels on a phone"
+        outside = page.run("""const box = document.getElementById('drawing').getBoundingClientRect();
+            return [...document.querySelectorAll('#drawing text')].filter((t) => t.getBoundingClientRect().right > box.right + 1).map((t) => t.textContent)""")
+        assert not outside, f"a plot's text is cut off: {outside}"
+        page.click("[data-drawing=fov]")
     page.run("window.scrollTo(0, 700)")
     page.shot("phone-below")
     page.size(1366, 768)
@@ -322,12 +350,13 @@ def main():
             parameters_do_not_block_each_other(page, bool(options.program))
             if options.program:
                 errors_are_drawn_again(page)
+                another_display(page)
             layouts(page)
-            drawings(page)
+            drawings(page, bool(options.program))
             files(page, folder)
             figures |= reload_and_reconnect(page, server)
             two_visitors(page, server)
-            looks(page)
+            looks(page, bool(options.program))
             page.size(2300, 1400)
             for size in ["1280x720", "1920x1080"] + ["3840x2160"] * options.full:
                 figures[size] = measured(page, size, 10 if options.full else 3)

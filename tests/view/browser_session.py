@@ -151,6 +151,12 @@ class Page:
         corner = [(round(left) + dx, round(top) + dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1)]  # halves are rounded either way
         return any(not ImageChops.difference(screen.crop((x, y, x + drawn.width, y + drawn.height)), drawn).getbbox() for x, y in corner)
 
+    def smallest_text(self):
+        """Of the drawing, in pixels of the screen."""
+        return self.run("""return Math.min(...[...document.querySelectorAll("#drawing text")].map((t) => {
+            const m = t.getScreenCTM();
+            return parseFloat(getComputedStyle(t).fontSize) * Math.hypot(m.a, m.b); }))""")
+
     def mouse(self, kind, x, y, buttons=1):
         self.cdp("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left" if buttons else "none", buttons=buttons, clickCount=1)
 

@@ -7,15 +7,20 @@
 #include <nlohmann/json.hpp>
 
 #include "files/display_file.h"
+#include "image/image_file.h"
 #include "model/keys.h"
 #include "view/hidden_paths.h"
 
 namespace lfdsim::view {
 namespace {
 namespace fs = std::filesystem;
+using testing::AnyOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
+
+using Kind = Library::Kind;
 
 const std::string ready_displays = LFDSIM_SOURCE_DIR "/displays";
 
@@ -63,9 +68,9 @@ Problem problem_of(Call call) {
 
 TEST_F(LibraryTest, FindsFilesOfTheFolderAlone) {
     const Library all = library();
-    EXPECT_TRUE(fs::equivalent(all.file("mine.toml"), folder / "mine.toml"));
-    EXPECT_TRUE(fs::equivalent(all.file("models/monkey.blend"), folder / "models/monkey.blend"));
-    EXPECT_TRUE(fs::equivalent(all.file("in.toml"), folder / "mine.toml"));
+    EXPECT_TRUE(fs::equivalent(all.file("mine.toml", Kind::display), folder / "mine.toml"));
+    EXPECT_TRUE(fs::equivalent(all.file("models/monkey.blend", Kind::model), folder / "models/monkey.blend"));
+    EXPECT_TRUE(fs::equivalent(all.file("in.toml", Kind::display), folder / "mine.toml"));
     const std::string secret = (root / "secret.toml").string(), nul("mine.toml\0x", 11);
     for (const std::string& name : {std::string(),
                                     std::string("."),
@@ -90,7 +95,7 @@ TEST_F(LibraryTest, FindsFilesOfTheFolderAlone) {
                                     std::string("bad\xff.toml"),
                                     std::string(100000, 'a'),
                                     std::string("nothing.toml")})
-        EXPECT_THROW(all.file(name), InputError) << name.substr(0, 100);
+        EXPECT_THROW(static_cast<void>(all.file(name, Kind::display)), InputError) << name.substr(0, 100);
 }
 
 TEST_F(LibraryTest, NewFilesAreDescriptionsInTheFolder) {
@@ -104,24 +109,45 @@ TEST_F(LibraryTest, NewFilesAreDescriptionsInTheFolder) {
         EXPECT_THROW(all.new_file(name), InputError) << name;
 }
 
-// What a parser says of another file quotes from it.
-TEST_F(LibraryTest, OnlyDescriptionsAreReadAsDisplays) {
-    std::ofstream(folder / "notes.txt") << "password\n";
+// What is in a file of another kind is nobody's affair, and no part of it comes into an error.
+TEST_F(LibraryTest, ReadsNothingOfOtherKinds) {
     const Library all = library();
-    Wanted wanted;
-    wanted.display = "notes.txt";
-    const Problem problem = problem_of([&] { all.display(wanted); });
-    EXPECT_EQ(problem.where, "\"notes.txt\"");
-    EXPECT_EQ(problem.what, "does not end in .toml");
+    const std::string secret = "hunter2";
+    for (const char* name : {"notes.md", "key.pem", "settings.toml", "broken_settings.toml", "list.toml", "photo.png", "cup.obj"})
+        std::ofstream(folder / name) << "password = \"" << secret << "\"\n[" << secret << "]\n= = " << secret << "\n";
+    for (const Kind kind : {Kind::display, Kind::model, Kind::picture})
+        for (const char* name :
+             {"notes.md", "key.pem", "settings.toml", "broken_settings.toml", "notes.txt", "photo.png", "cup.obj"}) {
+            if ((kind == Kind::picture && name == std::string("photo.png")) ||
+                (kind == Kind::model && name == std::string("cup.obj")))
+                continue;
+            const Problem problem = problem_of([&] { static_cast<void>(all.file(name, kind)); });
+            EXPECT_THAT(problem.what, AnyOf(HasSubstr("those end in"), HasSubstr("those begin with schema = 1"))) << name;
+            EXPECT_THAT(problem.where + problem.what, Not(HasSubstr(secret)));
+        }
+    for (const char* name : {"notes.md", "settings.toml", "broken_settings.toml", "notes.txt"}) {
+        Wanted wanted;
+        wanted.display = name;
+        const Problem problem = problem_of([&] { static_cast<void>(all.display(wanted)); });
+        EXPECT_THAT(problem.where, HasSubstr(name));
+        EXPECT_THAT(problem.where + problem.what, Not(HasSubstr(secret)));
+    }
 }
 
-TEST_F(LibraryTest, ListsWhatMayBeNamed) {
-    const Library::Files files = library().files();
-    EXPECT_THAT(files.displays, ElementsAre("in.toml", "mine.toml"));
+TEST_F(LibraryTest, ListsWhatCanBeShown) {
+    const Display started = read_display(start().display);
+    std::ofstream(folder / "broken_display.toml") << "schema = 1\n[panel]\n";
+    std::ofstream(folder / "settings.toml") << "[tool]\n";
+    fs::copy_file(start().display, folder / "good.toml");
+    fs::copy_file(start().display, folder / "models/good too.toml");
+    write_image(folder / "small.png", Image(8, 8));
+    write_image(folder / "whole.png", Image(int(started.panel.pixels[0]), int(started.panel.pixels[1])));
+    const Library::Files files = library().files(started);
+    EXPECT_THAT(files.displays, ElementsAre("good.toml", "models/good too.toml"));
     EXPECT_THAT(files.models, ElementsAre("models/Cup.OBJ", "models/deep/a/b/c/near.ply", "models/monkey.blend"));
-    EXPECT_THAT(files.pictures, ElementsAre("panel.png"));
+    EXPECT_THAT(files.pictures, ElementsAre("whole.png"));
     for (int i = 0; i < 1100; ++i) std::ofstream(folder / ("many" + std::to_string(i) + ".obj"));
-    const Library::Files many = library().files();
+    const Library::Files many = library().files(started);
     EXPECT_EQ(many.displays.size() + many.models.size() + many.pictures.size(), 1000u);
 }
 
@@ -267,7 +293,7 @@ TEST(KeysOfFiles, AreAllTextsButLabels) {
 // A link out of the folder tells nothing of what is there.
 TEST_F(LibraryTest, LinksOutTellNothing) {
     const Library all = library();
-    const auto what = [&](const char* name) { return problem_of([&] { all.file(name); }).what; };
+    const auto what = [&](const char* name) { return problem_of([&] { static_cast<void>(all.file(name, Kind::display)); }).what; };
     EXPECT_EQ(what("up/secret.toml"), what("up/nothing.toml"));
     EXPECT_EQ(what("out.toml"), what("nothing.toml"));
 }
@@ -284,8 +310,8 @@ TEST(HiddenPaths, LeaveNoAbsolutePath) {
     EXPECT_EQ(shown("cannot start /usr/libexec/read-model, see docs/view.md"), "cannot start \u2026/read-model, see docs/view.md");
     EXPECT_EQ(shown("first\n/etc/passwd"), "first\n\u2026/passwd");
     EXPECT_EQ(shown("--set content.model=/a/b.obj --model=\"/c/d/\""), "--set content.model=\u2026/b.obj --model=\"\u2026/d/\"");
-    for (const char* same :
-         {"a / b", "1/mm", "2 atan(p / 2g)", "../x/y.obj", "http://localhost/x", "<text x='1'/></text>", "R >= r/2", ""})
+    for (const char* same : {"a / b", "from p'/2 on", "1/mm", "2 atan(p / 2g)", "../x/y.obj", "http://localhost/x",
+                             "<text x='1'/></text>", "R >= r/2", ""})
         EXPECT_EQ(shown(same), same);
     for (const FormatTable& table : format_tables())
         for (const FormatTable::Value& value : table.values) EXPECT_EQ(shown(std::string(value.key.doc)), value.key.doc);

@@ -187,6 +187,30 @@ TEST_F(PainterTest, ProblemsAreToldAndTheNextPictureComes) {
     EXPECT_EQ(std::count_if(texts.begin(), texts.end(), [](const auto& t) { return t["type"] == "problems"; }), 6);  // each once
 }
 
+// One budget for all: what does not fit is refused to whom it is for, with both figures, and others see what they saw.
+TEST_F(PainterTest, WhatDoesNotFitIsRefusedAndOthersGoOn) {
+    Panels few(60e6);
+    Kept to_other;
+    Painter other(library, few, to_other, 2), painter(library, few, outbox, 2);
+    other.want(wanted(1));
+    const Sent before = to_other.wait(1);
+    painter.want(wanted(1, {"panel.pixels=[16000, 12000]"}));
+    const auto problem = outbox.problems(1)[0];
+    EXPECT_EQ(problem["key"], "panel.pixels");
+    EXPECT_THAT(problem["what"].get<std::string>(),
+                testing::ContainsRegex("16000 x 12000 pixels needs 6.4 GB of memory; .* has [0-9]+ MB free"));
+    Wanted large = wanted(2);
+    large.size = {3840, 2160};
+    painter.want(large);
+    EXPECT_EQ(outbox.problems(2)[0]["key"], "size");
+    painter.want(wanted(3));
+    outbox.wait(3);
+    other.want(wanted(2));
+    EXPECT_EQ(to_other.wait(2).picture, before.picture);
+    EXPECT_FALSE(
+        std::any_of(to_other.texts().begin(), to_other.texts().end(), [](const auto& t) { return t["type"] == "problems"; }));
+}
+
 TEST_F(PainterTest, LikenessIsThatOfTheAnalysis) {
     Painter painter(library, panels, outbox, 2);
     Wanted w = wanted(1);

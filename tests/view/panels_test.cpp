@@ -1,9 +1,11 @@
 #include "view/panels.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <algorithm>
 #include <set>
 
+#include "content/memory.h"
 #include "model/keys.h"
 #include "optics/scene.h"
 #include "visit.h"
@@ -118,6 +120,73 @@ void PanelsTest::tell_apart(const Source& source, const Display& before, int lea
     });
     EXPECT_GT(changed, least_changed);
     EXPECT_GT(told_apart, least_told_apart);
+}
+
+/// A hilly square of 2 n^2 triangles.
+void save_hills(const std::filesystem::path& path, int n) {
+    std::string text;
+    for (int i = 0; i <= n; ++i)
+        for (int j = 0; j <= n; ++j) text += fmt::format("v {} {} {}\n", i, j, (7 * i + 3 * j) % 5);
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const int a = i * (n + 1) + j + 1;
+            text += fmt::format("f {} {} {}\nf {} {} {}\n", a, a + 1, a + n + 2, a, a + n + 2, a + n + 1);
+        }
+    lfdsim::test::save(path, text);
+}
+
+TEST_F(PanelsTest, ModelsAndTheirTreesAreInTheBudget) {
+    const Display d = display();
+    const Geometry g = resolve(d);
+    Job job;
+    for (const char* name : {"a.obj", "b.obj"}) save_hills(folder / name, 60);
+    const Source a = model_source(folder / "a.obj", d), b = model_source(folder / "b.obj", d);
+    constexpr double all = 1200e6;
+    double model = 0, tree = 0;
+    {
+        Panels some(all);
+        const ContentParts parts = some.parts(a, d, job);
+        model = all - some.budget().left();
+        EXPECT_EQ(model, bytes_of(parts));
+        EXPECT_GT(model, 7200 * 16 + 3600 * 32);
+        const ContentScene scene = some.scene(a, d, g, job);
+        tree = all - some.budget().left() - model;
+        EXPECT_EQ(tree, bytes_of(scene));
+        EXPECT_GT(tree, 7200 * 60);
+        EXPECT_LT(tree, making_scene_bytes(parts, d));
+    }
+    // Idle ones give way to new ones.
+    Panels few(model + tree + 520e6);
+    static_cast<void>(few.scene(a, d, g, job));
+    static_cast<void>(few.scene(b, d, g, job));
+    EXPECT_EQ(few.kept().scenes, 1u);
+    // Those in use do not, and the error names both figures.
+    const ContentScene held = few.scene(a, d, g, job);
+    const auto claim = few.budget().claim("", "", few.budget().left() - 5e6);
+    try {
+        static_cast<void>(few.scene(b, d, g, job));
+        ADD_FAILURE();
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.problems[0].where, "content.model");
+        EXPECT_THAT(error.problems[0].what, testing::MatchesRegex("reading a model needs 512 MB of memory; .* has 5 MB free"));
+    }
+}
+
+TEST_F(PanelsTest, ATreeThatDoesNotFitIsRefused) {
+    const Display d = display();
+    Job job;
+    save_hills(folder / "hills.obj", 150);
+    const Source hills = model_source(folder / "hills.obj", d);
+    Panels few(1200e6);
+    static_cast<void>(few.parts(hills, d, job));
+    const auto claim = few.budget().claim("", "", few.budget().left() - 2e6);
+    try {
+        static_cast<void>(few.scene(hills, d, resolve(d), job));
+        ADD_FAILURE();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.problems[0].what, testing::StartsWith("showing 45000 triangles needs 8 MB of memory; "));
+    }
+    EXPECT_EQ(few.kept().scenes, 0u);
 }
 
 TEST_F(PanelsTest, KeyTellsElementalImagesApart) {

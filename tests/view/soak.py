@@ -62,13 +62,14 @@ def rest(page):
     return True
 
 
-def right_picture(page, program, folder):
+def right_picture(page, program, served, folder):
+    """The command is for a shell in the served folder: it has no absolute paths."""
     command = page.stats()["command"]
     words = shlex.split(command)
     assert words[0] == "lfdsim", command
     at = words.index("-o") + 1
-    words[0], words[at] = program, "soak.png"
-    subprocess.run(words + ["--progress", "none"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    words[0], words[at] = program, folder / "soak.png"
+    subprocess.run(words + ["--progress", "none"], cwd=served, check=True, stdout=subprocess.DEVNULL)
     wanted, shown = Image.open(folder / "soak.png").convert("RGB"), page.pixels()[0]
     differing = ImageChops.difference(wanted, shown).getbbox() if wanted.size == shown.size else "the sizes"
     assert not differing, f"differs in {differing}: {command}"
@@ -95,7 +96,7 @@ def main():
             while time.monotonic() < until:
                 pick.choice([drag, drag, keys, parameter])(page, pick)
                 if rest(page):
-                    right_picture(page, program, folder)
+                    right_picture(page, program, options.display.resolve().parent, folder)
                     counts["rests"] += 1
                 else:
                     counts["invalid"] += 1

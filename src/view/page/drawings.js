@@ -1,12 +1,16 @@
 // The program's drawings and plots, and on the side view the rays through the point under the pointer.
-import { byId, say } from "./dom.js";
+import { byId, clamp, say } from "./dom.js";
 
 const questions = {
   display: { what: "side", name: "display" }, lens: { what: "side", name: "lens" },
   fov: { what: "plot", name: "fov" }, spot: { what: "plot", name: "spot" },
 };
 const probe_pause_ms = 50;
+const point_at_it = "Point at the picture to read which lens is there and which panel pixel it shows.";
 const svg_space = "http://www.w3.org/2000/svg";
+
+const least_text = 11;  // pixels on the screen
+const phone_px = 480;   // in less room plots are drawn narrower
 
 /// A drawing for the page, without anything that could run or fetch something; null if the text is not a drawing.
 export function clean_svg(text) {
@@ -18,8 +22,6 @@ export function clean_svg(text) {
   for (const element of [root, ...root.querySelectorAll("*")])
     for (const { name, value } of [...element.attributes])
       if (/^on|href|^style$/i.test(name) || /url\((?!\s*["']?#)/i.test(value)) element.removeAttribute(name);
-  root.removeAttribute("width");
-  root.removeAttribute("height");
   return document.adoptNode(root);
 }
 
@@ -29,6 +31,7 @@ export class Drawings {
     Object.assign(this, { ask, optical, open: null, drawn: "", frame: null, fan: [], probing: false, probed: -Infinity });
     this.place = byId("drawing");
     this.buttons = [...document.querySelectorAll("[data-drawing]")];
+    new ResizeObserver(() => this.fit()).observe(this.place);
     for (const button of this.buttons) button.onclick = () => this.choose(this.open === button.dataset.drawing ? null : button.dataset.drawing);
   }
   choose(name) {
@@ -53,7 +56,8 @@ export class Drawings {
     this.asking = name + of;
     if (question.what === "plot") say(byId("drawing-says"), "measuring ...");
     try {
-      const answer = await this.ask(question.what, { name: question.name });
+      const room = this.place.clientWidth, width = question.what === "plot" && room < phone_px ? { width: clamp(room, 300, phone_px) } : {};
+      const answer = await this.ask(question.what, { name: question.name, ...width });
       if (this.open === name && this.asking === name + of) this.show(answer, of);
     } catch (error) {
       if (this.open === name) say(byId("drawing-says"), error.message);
@@ -65,14 +69,27 @@ export class Drawings {
     say(byId("drawing-says"), problems || (svg ? "" : "there is no drawing"));
     if (!svg) return;
     this.place.replaceChildren(svg);
+    this.fit();
     this.frame = answer.frame || null;
     this.drawn = of;
     this.age();
     this.draw_fan();
   }
+  /// As large as there is room for, but never with smaller text than can be read: then it can be scrolled.
+  fit() {
+    const svg = this.place.querySelector("svg"), [, , width, height] = (svg?.getAttribute("viewBox") ?? "").split(" ").map(Number);
+    if (!(width > 0 && height > 0)) return;
+    const smallest = Math.min(...[svg, ...svg.querySelectorAll("[font-size]")].map((e) => Number(e.getAttribute("font-size")) || Infinity));
+    const most = parseFloat(getComputedStyle(this.place).maxHeight) || Infinity;
+    const scale = Math.max(least_text / smallest, Math.min(this.place.clientWidth / width, most / height, 1.25));
+    svg.setAttribute("width", (scale * width).toFixed(1));
+    svg.setAttribute("height", (scale * height).toFixed(1));
+  }
   /// Asks what a point shows; only for the newest point, at most 20 times a second.
-  async probe(at) {
+  /// `pointed`: the user points at it.
+  async probe(at, pointed) {
     this.wanted = at;
+    this.pointed = pointed;
     if (this.probing || !at) return;
     this.probing = true;
     while (this.wanted) {
@@ -86,7 +103,7 @@ export class Drawings {
         const answer = await this.ask("probe", { at: place });
         if (this.silent) continue;
         this.fan = Array.isArray(answer.fan) ? answer.fan : [];
-        say(byId("probe-says"), answer.says || "");
+        say(byId("probe-says"), (this.pointed && answer.says) || point_at_it);
         this.draw_fan();
       } catch {
         // The connection is lost, which is shown elsewhere. A newer point may wait.
@@ -107,7 +124,12 @@ export class Drawings {
     svg?.querySelectorAll(".fan").forEach((line) => line.remove());
     if (!svg || !f) return;
     const [left, top, width, height] = f.box;
-    for (const line of this.fan) {
+    // From the eye, which the drawing of lenses does not reach.
+    const begun = (line) => line.map(([y, z], k) => {
+      const [next_y, next_z] = line[k + 1] ?? [y, z];
+      return z <= f.z_high ? [y, z] : [next_z < f.z_high ? y + ((next_y - y) * (z - f.z_high)) / (z - next_z) : y, f.z_high];
+    });
+    for (const line of this.fan.map(begun)) {
       const drawn = document.createElementNS(svg_space, "polyline");
       drawn.setAttribute("class", "fan");
       drawn.setAttribute("points", line.map(([y, z]) =>

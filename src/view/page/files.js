@@ -6,14 +6,18 @@ const files_say = (text) => say(byId("files-say"), text);
 
 export class Files {
   constructor(store, ask) {
-    Object.assign(this, { store, ask, hello: null, files: { displays: [], models: [], pictures: [] } });
+    Object.assign(this, { store, ask, hello: null, files: { displays: [], models: [], pictures: [] }, eyes: {} });
     const shown = byId("shown"), display = byId("display");
     shown.onchange = () => {
       const [kind, ...name] = shown.value.split(":");
       store.change({ shown: { kind, name: name.join(":"), hold: store.now.shown.hold } });
     };
-    // Parameters of one display do not apply to another.
-    display.onchange = () => store.change({ display: display.value, set: {} });
+    // Parameters of one display do not apply to another, nor does where the eye stands, nor a picture of its panel.
+    display.onchange = () => {
+      const { eye, shown: panel } = store.now, own = display.value ? this.eyes[display.value] : this.hello?.eye_mm;
+      const keeps = panel.kind !== "panel_image";
+      store.change({ display: display.value, set: {}, eye: own ?? eye, shown: keeps ? panel : { ...panel, kind: "start", name: "" } });
+    };
     for (const list of [shown, display]) list.onpointerdown = list.onfocus = () => this.look();
     byId("hold").onchange = (event) => store.change({ shown: { ...store.now.shown, hold: event.target.checked } });
     byId("copy").onclick = () => this.copy();
@@ -30,6 +34,7 @@ export class Files {
     try {
       const answer = await this.ask("files");
       for (const kind of Object.keys(this.files)) this.files[kind] = (Array.isArray(answer[kind]) ? answer[kind] : []).map(String);
+      this.eyes = answer.eyes_mm ?? {};
       this.fill();
     } catch {
       // without a connection the lists stay as they are

@@ -56,7 +56,10 @@ function at_rest() {
 
 function probe() {
   drawings.hush(store.now.layout !== "one");
-  if (store.now.layout === "one" && stats.hello) drawings.probe((over && picture.place(...over)) || [0.5, 0.5]);
+  if (store.now.layout === "one" && stats.hello) {
+    const at = over && picture.place(...over);
+    drawings.probe(at || [0.5, 0.5], !!at);
+  }
 }
 
 function connection_state(name, text) {

@@ -1,0 +1,12 @@
+// How large a picture is. Floor 0.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <filesystem>
+
+namespace lfdsim {
+
+/// Columns and rows. Only the file's header is read. Throws like read_image().
+std::array<std::int64_t, 2> picture_size(const std::filesystem::path&);
+
+}  // namespace lfdsim
