@@ -67,8 +67,8 @@ def pixels(array: Any, name: str, needed: int = 4, *, white: float = 1) -> NDArr
         raise InputError([(name, f"has the shape {given.shape}; give (height, width, 3)")])
     if given.size == 0 or max(given.shape) >= 2**31 or given.shape[0] * given.shape[1] >= 2**31:
         raise InputError([(name, f"has the shape {given.shape}; there must be 1 to 2^31 - 1 pixels")])
-    if given.size * needed > _core.memory_bytes():  # of what has to be copied, or is no real memory
-        raise InputError([(name, f"has the shape {given.shape}, which needs more than this machine's memory")])
+    # Of what has to be copied, or is no real memory.
+    _core.require_memory(name, f"an array of the shape {given.shape}", given.size * needed)
     if given.shape[2] == 4:
         if not (given[..., 3] >= (np.iinfo(given.dtype).max if codes else 1)).all():
             raise InputError([(name, f"has the shape {given.shape}, and its alpha is not full everywhere, which no panel shows; give (height, width, 3)")])

@@ -95,7 +95,7 @@ std::array<std::int64_t, 2> size(std::string_view option, std::string_view text)
         if (columns && rows && *columns > 0 && *rows > 0) return {*columns, *rows};
     }
     // Upper limits are the description's: these values become overrides of its keys.
-    refuse(option, text, "give columns x rows, such as 1920x1080");
+    refuse(option, text, fmt::format("give columns x rows, such as {}", option == "--grid" ? "9x9" : "1920x1080"));
 }
 
 Rect rectangle(std::string_view option, std::string_view text, std::int64_t width, std::int64_t height) {

@@ -52,7 +52,9 @@ struct ExportArguments {
             .type_name("r|g|b");
         command.add_option("--normals", normals, "The triangles' own, or the true surface's, interpolated; default flat")
             .type_name("flat|smooth");
-        command.add_flag("--replace", replace, "Write over files in the folder that are not of this display's scene");
+        command.add_flag(
+            "--replace", replace,
+            "Write over files in the folder that are not of this display's scene; those of an earlier one by other names stay");
     }
     Command command;
     std::string peer, folder, triangles, normals, channel;

@@ -19,7 +19,7 @@ constexpr std::string_view glyphs[] = {
     "698S888",   "00FHHHF1E", "GGMPHHH",  "40C444E",  "2062222IC", "GGIKOKI", "C44444E", "00QLLHH", "00MPHHH", "00EHHHE",
     "00UHHHUGG", "00FHHHF11", "00MPGGG",  "00FGE1U",  "88S8896",   "00HHHJD", "00HHHA4", "00HHLLA", "00HA4AH", "00HHHHF1E",
     "00V248V",   "2448442",   "4444444",  "8442448",  "008L2",     "CIIC"};
-constexpr std::string_view box = "VHHHHHV";
+constexpr std::string_view box = "VHHHHHV", plus_minus = "44V440V";
 
 // The letters of U+00C0 to U+00FF without their accents.
 constexpr std::string_view latin = "AAAAAAACEEEEIIIIDNOOOOOxOUUUUYTsaaaaaaaceeeeiiiidnooooo/ouuuuyty";
@@ -27,6 +27,8 @@ static_assert(latin.size() == 64);
 
 std::string_view glyph(char32_t c) {
     if (c == 0xb0) return glyphs[0x7f - 0x20];
+    if (c == 0xb1) return plus_minus;
+    if (c == 0x2032 || c == 0x2019) c = '\'';  // prime, apostrophe
     if (c >= 0xc0 && c <= 0xff) c = char32_t(latin[c - 0xc0]);
     if (c == 0xb5 || c == 0x3bc) c = 'u';                      // micro
     if ((c >= 0x2010 && c <= 0x2015) || c == 0x2212) c = '-';  // dashes, minus

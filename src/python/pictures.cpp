@@ -184,7 +184,7 @@ void add_pictures(nb::module_& m) {
           nb::arg("threads"), nb::arg("device"), nb::arg("kernel"), nb::arg("progress").none());
     m.def("pattern", test_pattern, nb::arg("display"), nb::arg("name"), nb::arg("cell_pixels"), nb::arg("view"),
           nb::arg("edge_deg"), nb::arg("depth_mm"));
-    m.def("memory_bytes", free_bytes);
+    m.def("require_memory", require_memory, nb::arg("where"), nb::arg("what"), nb::arg("bytes"));
     m.def("compare", compare, nb::arg("a"), nb::arg("b"), nb::arg("crop").none(), nb::arg("linear"));
     m.def("codes", codes, nb::arg("display"), nb::arg("panel"));
 }

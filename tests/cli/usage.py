@@ -35,6 +35,7 @@ for name, arguments, words in [
     ("spaces in steps", "analyze fov tiny.toml --angles-deg -30 30 1 -o out", "--angles-deg -30,30,1"),
     ("spaces in a crop", "compare panel.png panel.png --crop 0 0 5 5", "--crop 0,0,5,5"),
     ("spaces for an x", "render tiny.toml --size 96 x 54 -o out.png", "--size 96x54"),
+    ("a comma for an x in a grid", "views tiny.toml --grid 3,3 -o views", "give columns x rows, such as 9x9"),
     ("one number for three", "analyze fov tiny.toml --angles-deg 5 -o out", "give FROM,TO,STEP: 3 finite numbers with commas between, such as -30,30,1"),
     ("a negative count", "render tiny.toml --samples -1 -o out.png", "give a whole number from 1 to 16777216"),
     ("a negative seed", "render tiny.toml --seed -1 -o out.png", "give a whole number, 0 or more"),

@@ -70,6 +70,7 @@ TEST(Sheet, LettersAreDrawnByLinesWithSmoothEdges) {
                     2)
                   .rgb,
               drawn(" 1", 2).rgb);
+    EXPECT_NE(drawn("\xc2\xb1", 2).rgb, drawn("\xe4\xb8\xad", 2).rgb);  // plus or minus is no box
     EXPECT_EQ(drawn("\xff\xff", 2).rgb, drawn("\xe4\xb8\xad\xe4\xb8\xad", 2).rgb);
 }
 

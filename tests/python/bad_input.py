@@ -61,12 +61,21 @@ class Named(TinyTest):
         self.refused(TypeError, r"panel holds int64.*panel\.astype\(numpy\.uint8\)", lfdsim.render, d, codes.astype(int))
         huge = np.broadcast_to(np.float32(0), (10**7, 10**6, 3))  # without memory of its own
         self.refused(lfdsim.InputError, "panel: .*10000000.*pixels|memory", lfdsim.render, d, huge)
-        self.refused(lfdsim.InputError, "more than this machine's memory|pixels", lfdsim.compare, huge, huge)
-        with mock.patch("lfdsim._core.memory_bytes", return_value=1000):
-            self.refused(lfdsim.InputError, "panel: .* more than this machine's memory", lfdsim.render, d, good)
-        with mock.patch("lfdsim._core.memory_bytes", return_value=5 * good.size):  # of one picture, but not of what is made of it
-            self.refused(lfdsim.InputError, "picture: .* more than this machine's memory", lfdsim.png, good)
-            self.refused(lfdsim.InputError, "a: .* more than this machine's memory", lfdsim.compare, good, good)
+        self.refused(lfdsim.InputError, "needs .* of memory; .* free|pixels", lfdsim.compare, huge, huge)
+
+        def with_memory(most: int) -> Any:
+            def require(where: str, what: str, needed: float) -> None:
+                if needed > most:
+                    raise lfdsim.InputError([(where, f"{what} is refused")])
+            return mock.patch("lfdsim._core.require_memory", require)
+        with with_memory(1000):
+            self.refused(lfdsim.InputError, r"panel: an array of the shape \(48, 88, 3\) is refused", lfdsim.render, d, good)
+        with with_memory(5 * good.size):  # of one picture, but not of what is made of it
+            self.refused(lfdsim.InputError, "picture: an array of the shape", lfdsim.png, good)
+            self.refused(lfdsim.InputError, "a: an array of the shape", lfdsim.compare, good, good)
+        # The program's own words.
+        self.refused(lfdsim.InputError, r"a: 3 pictures needs 1000000.0 GB of memory; .* [\d.]+ [GM]B free",
+                     lfdsim._core.require_memory, "a", "3 pictures", 1e15)
         self.refused(lfdsim.InputError, "give one of them", lfdsim.render, d, good, model="pyramid.obj")
 
     def test_options(self) -> None:
