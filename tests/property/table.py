@@ -74,7 +74,7 @@ class Row:
         both = [c for c in told if c.form is not None and c.measured is not None]
         self.undefined = sum(c.form is None for c in self.cases)
         self.nulls = sum(c.null for c in self.cases) / max(len(self.cases) - self.undefined, 1)
-        self.agreement = sum(c.agrees for c in told) / len(told) if told else 0.0
+        self.agreement = sum(c.agrees for c in told) / len(told) if told else 1.0  # nulls alone are counted as such
         self.silent = sum(c.measured is None and not c.noted for c in self.cases)
         self.largest = max((c.over for c in both), default=0.0)
         self.goal, self.unit = next(((most, unit) for start, part, most, unit in MOST_ERRORS if measure.startswith(start) and part in measure), (MOST_ERROR, "%"))
