@@ -8,7 +8,8 @@
 
 namespace lfdsim {
 
-/// All the light of a panel point that gets through, as rays of equal light of a Lambertian panel.
+/// All the light of a panel point that gets through, as rays of equal light of a Lambertian panel; of strips, those of the plane
+/// across them: light that goes steeply along strips, which no eye sees, meets them as if they were stronger.
 struct Bundle {
     std::vector<LensRay> rays;
     double light = 0;  // area of their direction cosines

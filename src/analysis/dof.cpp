@@ -47,39 +47,23 @@ DepthCurves measure(Subject& s, const std::vector<double>& depths, double white,
     return curves;
 }
 
-/// Adds, to limits that were not found, why the run ends.
+/// Adds, to limits beyond the run's ends, why it ends there.
 Interval explained(Interval i, const DepthRun& run) {
-    if (i.empty) return i;
-    if (!i.low.missing.empty()) i.low.missing += ": " + run.why_low;
-    if (!i.high.missing.empty()) i.high.missing += ": " + run.why_high;
+    if (i.low.searched_out) i.low.missing += ": " + run.why_low;
+    if (i.high.searched_out) i.high.missing += ": " + run.why_high;
     return i;
 }
 
-/// Where both hold: of each end the one nearer to the middle; one that was not found gives way to the other's.
+/// Where both hold: of each end the one nearer to the middle.
 Interval narrower(const Interval& a, const Interval& b) {
     if (a.empty || b.empty) return a.empty ? a : b;
-    const auto inner = [](const Limit& l, const Limit& m, bool low) {
-        if (std::isnan(l.at) || std::isnan(m.at)) return std::isnan(l.at) ? m : l;
-        return (l.at > m.at) == low ? l : m;
-    };
+    const auto inner = [](const Limit& l, const Limit& m, bool low) { return (l.place() > m.place()) == low ? l : m; };
     return {inner(a.low, b.low, true), inner(a.high, b.high, false)};
 }
 
-/// The part of an interval on one side of the lenses. An end that was not found is on the side to which it leads.
-Interval on_side(Interval i, bool in_front) {
-    if (i.empty) return i;
-    Limit none;
-    none.missing = "no depth on this side of the lenses keeps the rule";
-    if (in_front ? i.high.at <= 0 : i.low.at >= 0) return {none, none, true};
-    const Limit lenses{0, 0, {}};
-    if (in_front && !(i.low.at > 0)) i.low = lenses;
-    if (!in_front && !(i.high.at < 0)) i.high = lenses;
-    return known(i, 0);
-}
-
 /// The published rules, each as the connected interval about the depth that is most alike; and both together, on either side of the
-/// lenses.
-void add_rules(Result& result, const std::string& region, const Curve& curve, const DepthRun& run) {
+/// lenses. Returns where both hold, for a plot: ends that are uncertain or beyond the search as far as they are known.
+PlotBar add_rules(Result& result, const std::string& region, const Curve& curve, const DepthRun& run) {
     const bool content = region == "content";
     const double most_alike = curve.at[std::size_t(std::ranges::max_element(curve.value) - curve.value.begin())];
     const Interval by_ssim = explained(where_at_least(curve, most_alike, least_depth_ssim), run),
@@ -90,14 +74,15 @@ void add_rules(Result& result, const std::string& region, const Curve& curve, co
     add_limits(result, json, path, "gradient_rule_mm", steady);
     if (!content) {
         result.figures["screen"] = std::move(json);
-        return;
+        return {};
     }
     result.figures.update(json);
     const Interval both = narrower(by_ssim, steady);
     Json& spans = result.figures["by_likeness"];
+    PlotBar bar{"by likeness", {}};
     for (const bool in_front : {false, true}) {
         const std::string name = in_front ? "in_front_mm" : "behind_mm";
-        const Interval side = on_side(both, in_front);
+        const Interval side = on_side_of_zero(both, in_front, "no depth on this side of the lenses keeps the rule");
         spans[name] = side.empty ? Json() : limits_json(side);
         spans[name + "_error"] = side.empty ? Json() : numbers_json({side.low.error, side.high.error});
         const Finding line =
@@ -105,7 +90,10 @@ void add_rules(Result& result, const std::string& region, const Curve& curve, co
                     "the published rule: SSIM of the content is 0.85 or more and changes by 0.02 a centimetre or less");
         if (!side.low.missing.empty() || !side.high.missing.empty()) result.note("by_likeness." + name, line.remark);
         result.findings.push_back(line);
+        const auto end = [](const Limit& l, double beyond) { return l.searched_out ? beyond : l.place(); };
+        if (!side.empty) bar.spans.push_back({end(side.low, -infinity), end(side.high, infinity)});
     }
+    return bar;
 }
 
 /// The resolution that the lenses' pitch and the panel's pixels allow at each depth, as the eye sees it.
@@ -160,11 +148,22 @@ void add_likeness(Subject& s, Result& result, Plot& plot, const DepthRun& run, J
     }
     const double white = s.white_field(job);
     const DepthCurves curves = measure(s, depths, white, job);
-    add_rules(result, "content", curves.content, run);
+    plot.bars.push_back(add_rules(result, "content", curves.content, run));
     add_rules(result, "screen", curves.screen, run);
     result.tables.push_back({"dof", {{"depth_mm", depths}, {"ssim", curves.screen.value}, {"content_ssim", curves.content.value}}});
     plot.series = {{"content", depths, curves.content.value}, {"whole screen", depths, curves.screen.value}};
     result.figures["searched_mm"] = {depths.front(), depths.back()};
+}
+
+/// An interval's two pieces, for a plot.
+std::vector<std::array<double, 2>> spans_of(const Json& range) {
+    std::vector<std::array<double, 2>> spans;
+    for (const char* side : {"behind_mm", "in_front_mm"}) {
+        const Json& ends = range.at(side);
+        if (ends.is_null() || ends[0].is_null() || ends[1].is_null()) continue;
+        spans.push_back({ends[0].is_number() ? ends[0].get<double>() : -infinity, ends[1].get<double>()});
+    }
+    return spans;
 }
 
 }  // namespace
@@ -177,7 +176,6 @@ Result measure_dof(Subject& s, Job& job) {
     if (!asked.empty() && asked.size() < 3) throw InputError("--depths-mm", "the depth of field needs three depths or more");
     Result result;
     const Geometry& g = s.geometry();
-    const double eye = eye_distance_mm(s.display());
     add_spot_depths(s, result);
     result.figures["central_depth_mm"] = number_json(s.theory().central_depth_mm + g.rear_principal_mm - g.vertex_plane_mm);
     Plot plot{"dof",
@@ -186,17 +184,13 @@ Result measure_dof(Subject& s, Job& job) {
               "SSIM",
               {},
               {{"0.85", least_depth_ssim, false}}};
+    for (const auto& [key, label] : {std::pair{"by_lens", "sharp by the lens"}, {"by_pixel", "sharp by the pixel"}})
+        plot.bars.push_back({label, spans_of(result.figures.at(key))});
     const DepthRun run = dof_depths(s);
     add_likeness(s, result, plot, run, job);
-    const auto mark = [&](const char* label, double z) {
-        if (!plot.series.empty() && z > run.depths_mm.front() && z < run.depths_mm.back()) plot.marks.push_back({label, z});
-    };
-    mark("central depth plane", s.theory().central_depth_mm + g.rear_principal_mm - g.vertex_plane_mm);
-    for (const auto& [label, range] : {std::pair{"by the lens, theory", sharp_by_lens(s.display(), g, s.theory(), eye)},
-                                       {"by the pixel, theory", sharp_by_pixel(g, s.theory(), eye)}})
-        for (const DepthSpan& span : {range.behind, range.in_front})
-            for (const double end : {span.low, span.high})
-                if (end != 0) mark(label, end);
+    const double central = s.theory().central_depth_mm + g.rear_principal_mm - g.vertex_plane_mm;
+    if (!plot.series.empty() && central > run.depths_mm.front() && central < run.depths_mm.back())
+        plot.marks.push_back({"central depth plane", central});
     if (!plot.series.empty()) {
         result.plots.push_back(std::move(plot));
         add_resolution(s, result, run.depths_mm);

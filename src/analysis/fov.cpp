@@ -117,17 +117,18 @@ void add_finding(Result& result, const std::string& what, const Interval& measur
     result.findings.push_back(finding(what, "deg", measured, std::move(theory), remark));
 }
 
-void add_geometry(Result& result, Json& json, const std::string& name, const Geometric& g, std::vector<double> theory) {
+void add_geometry(Result& result, Json& json, const std::string& name, const std::string& way, const Geometric& g,
+                  std::vector<double> theory) {
     add_limits(result, json, name + ".", "own_lens_deg", interval(g.lenses));
     add_limits(result, json, name + ".", "own_lens_with_diffuser_deg", interval(g.diffused));
-    add_finding(result, fmt::format("Field of view, {}", name), interval(g.lenses), theory,
+    add_finding(result, fmt::format("Field of view, {}", way), interval(g.lenses), theory,
                 "of the light from lenses whose whole image lies on the panel, half comes from their own images");
-    add_finding(result, fmt::format("Field of view, {}: with the diffuser", name), interval(g.diffused), theory,
+    add_finding(result, fmt::format("Field of view, {}: with the diffuser", way), interval(g.diffused), theory,
                 "the same light, turned by the diffuser");
 }
 
-void add_likeness(Result& result, Json& json, const std::string& name, const AngleCurves& curves, const Geometric& g,
-                  double edge_deg, double reach_deg) {
+void add_likeness(Result& result, Json& json, const std::string& name, const std::string& way, const AngleCurves& curves,
+                  const Geometric& g, double edge_deg, double reach_deg) {
     const double low = g.diffused.at[0], high = g.diffused.at[1];
     const Falls expected{std::isnan(low) ? -edge_deg : low, std::isnan(high) ? edge_deg : high, reach_deg};
     add_limits(result, json, name + ".", "gradient_edge_deg", where_it_falls(curves.share, expected));
@@ -139,7 +140,7 @@ void add_likeness(Result& result, Json& json, const std::string& name, const Ang
     }
 
     const auto add = [&](const std::string& what, const Interval& measured, std::vector<double> theory, const std::string& remark) {
-        add_finding(result, fmt::format("Likeness, {}: {}", name, what), measured, std::move(theory), remark);
+        add_finding(result, fmt::format("Likeness, {}: {}", way, what), measured, std::move(theory), remark);
     };
     add("edge", where_it_falls(curves.share, expected), {expected.low, expected.high},
         "where the scene's share in the view falls half-way; beside it the edge by geometry");
@@ -164,7 +165,7 @@ void add_likeness(Result& result, Json& json, const std::string& name, const Ang
     figure(json, curves.content);
     figure(json["content"], curves.content);
     figure(json["screen"], curves.screen);
-    result.findings.push_back({fmt::format("Likeness, {}: SSIM of the content at {:.3g} degrees", name, *middle),
+    result.findings.push_back({fmt::format("Likeness, {}: SSIM of the content at {:.3g} degrees", way, *middle),
                                "",
                                {curves.content.value[k]},
                                {},
@@ -190,9 +191,11 @@ double most_aside_deg(const Json& figures) {
 
 /// Where an eye may be in the plane at its distance: the width and the height.
 void add_eyebox(Result& result, const Subject& s, const std::array<OwnRange, 2>& ranges) {
+    // A hexagon's image is as high as from corner to corner.
+    const bool hexagon = s.display().array.lattice == LatticeKind::hexagon;
     const auto theory = [&](std::size_t axis) {
         return (s.viewing_distance_mm() - s.geometry().rear_principal_mm) * s.theory().along[axis].elemental_pitch_mm /
-               s.theory().gap_mm;
+               s.theory().gap_mm * (hexagon && axis == 1 ? 2 / std::sqrt(3) : 1);
     };
     std::vector<double> size, error;
     std::string missing;
@@ -206,14 +209,17 @@ void add_eyebox(Result& result, const Subject& s, const std::array<OwnRange, 2>&
              "mm",
              {size.back()},
              {theory(axis)},
-             why.empty() ? fmt::format("where an eye {:.4g} mm from the panel sees lenses' own images", s.viewing_distance_mm())
-                         : why,
+             !why.empty() ? why
+             : hexagon && axis == 1
+                 ? "theory: from corner to corner of the hexagons' images; the lenses' blur takes light from corners first"
+                 : fmt::format("where an eye {:.4g} mm from the panel sees lenses' own images", s.viewing_distance_mm()),
              {error.back()}});
         if (!why.empty()) missing = why;
     }
     result.figures["eyebox_mm"] = numbers_json(size);
     result.figures["eyebox_mm_error"] = numbers_json(error);
-    result.figures["theory_eyebox_mm"] = axes_json(s.display().array, theory(0), theory(1));
+    result.figures["theory_eyebox_mm"] =
+        hexagon ? numbers_json({theory(0), theory(1)}) : axes_json(s.display().array, theory(0), theory(1));
     if (!missing.empty()) result.note("eyebox_mm", missing);
 }
 
@@ -312,20 +318,21 @@ Result measure_fov(Subject& subject, Job& job) {
     }
     for (int axis = 0; axis < imaging_axes(display.array); ++axis) {
         const std::string name = axis == 0 ? "horizontal" : "vertical";
+        const std::string way = is_strips(display.array) ? "across the strips" : name;  // the arc's direction
         const Geometric& edges = geometric[std::size_t(axis)];
         const AngleCurves curves = measure(subject, shown, axis, angles, job);
         Json json = Json::object();
         // A hexagon's image has a corner above its middle, where theory's pitch has none.
         const bool corner = axis == 1 && display.array.lattice == LatticeKind::hexagon;
-        add_geometry(result, json, name, edges, corner ? std::vector<double>{} : std::vector{-edge[axis], edge[axis]});
-        add_likeness(result, json, name, curves, edges, edge[axis], fades_over_deg(subject, axis));
+        add_geometry(result, json, name, way, edges, corner ? std::vector<double>{} : std::vector{-edge[axis], edge[axis]});
+        add_likeness(result, json, name, way, curves, edges, edge[axis], fades_over_deg(subject, axis));
         result.figures[name] = std::move(json);
         table.columns.push_back({name + "_ssim", curves.screen.value});
         table.columns.push_back({name + "_content_ssim", curves.content.value});
         table.columns.push_back({name + "_share", curves.share.value});
-        plot.series.push_back({name + ", content", angles, curves.content.value});
-        plot.series.push_back({name + ", whole screen", angles, curves.screen.value});
-        shares.series.push_back({name, angles, curves.share.value});
+        plot.series.push_back({way + ", content", angles, curves.content.value});
+        plot.series.push_back({way + ", whole screen", angles, curves.screen.value});
+        shares.series.push_back({way, angles, curves.share.value});
     }
     for (Plot* p : {&plot, &shares})
         for (const double at : geometric[0].lenses.at)

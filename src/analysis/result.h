@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -62,12 +63,18 @@ struct PlotMark {
     double at;
     bool vertical = true;
 };
+/// A row above the plot in which intervals of its axis are drawn as bars, cut at its ends.
+struct PlotBar {
+    std::string label;
+    std::vector<std::array<double, 2>> spans;  // none: the row says so
+};
 struct Plot {
     std::string name;  // of the file: NAME.svg
     std::string title, x_label, y_label;
     std::vector<Series> series;
     std::vector<PlotMark> marks = {};
     bool equal_axes = false;  // a spot diagram: the same scale along both
+    std::vector<PlotBar> bars = {};
 };
 
 /// Numbers over a plane, row 0 at the top (the greatest y), as a picture in false colours with a scale. NaN: no value.

@@ -41,6 +41,8 @@ Limit first_below(const Curve& c, double centre, int side, double level) {
     }
     Limit none;
     none.missing = fmt::format("the rule still holds at {:.4g}, where the search ended", at);
+    none.holds_to = at;
+    none.searched_out = true;
     return none;
 }
 
@@ -107,7 +109,7 @@ Interval known(Interval i, double centre) {
             std::string missing =
                 fmt::format("it ends at {:.4g}, which is no farther from the middle, {:.4g}, than its error of {:.2g}", limit->at,
                             centre, limit->error);
-            *limit = {nan, nan, std::move(missing)};
+            *limit = {nan, nan, std::move(missing), limit->at};
         }
     return i;
 }
@@ -144,6 +146,17 @@ std::string why_missing(const Interval& i) {
 }
 
 }  // namespace
+
+Interval on_side_of_zero(Interval i, bool above, const std::string& nothing_there) {
+    if (i.empty) return i;
+    Limit none;
+    none.missing = nothing_there;
+    if (above ? i.high.place() <= 0 : i.low.place() >= 0) return {none, none, true};
+    const Limit zero{0, 0, {}};
+    if (above && i.low.place() <= 0) i.low = zero;
+    if (!above && i.high.place() >= 0) i.high = zero;
+    return known(i, 0);
+}
 
 Json limits_json(const Interval& i) { return numbers_json(bounds(i)); }
 std::vector<double> bounds(const Interval& i) { return {i.low.at, i.high.at}; }

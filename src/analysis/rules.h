@@ -15,6 +15,11 @@ struct Limit {
     double at = std::numeric_limits<double>::quiet_NaN();
     double error = std::numeric_limits<double>::quiet_NaN();  // from the curve's noise and half the step between its places
     std::string missing = {};
+    // Of one that was not found: as far as the rule is known to hold, the end of the search or an end that is too uncertain.
+    double holds_to = std::numeric_limits<double>::quiet_NaN();
+    bool searched_out = false;  // the rule holds as far as was searched
+
+    double place() const { return missing.empty() ? at : holds_to; }
 };
 
 struct Interval {
@@ -49,6 +54,10 @@ struct Falls {
 /// the curve crosses more than once, or where it ends before. The error contains the noise, half a step, the limit's distance from
 /// the expected place, which depends on no content, and half of the amount by which both limits lie to one side of those.
 Interval where_it_falls(const Curve&, const Falls&);
+
+/// The part of an interval above 0, or below it: its other end is 0 where it reaches across. Empty, with that reason, where it does
+/// not reach that side; an end nearer to 0 than its error is none.
+Interval on_side_of_zero(Interval, bool above, const std::string& nothing_there);
 
 /// [low, high] with null where there is none.
 Json limits_json(const Interval&);

@@ -110,7 +110,7 @@ void tell_spots(const Subject& s, const std::vector<Field>& fields, const std::v
             result.note(fmt::format("spots.{}", name), "there is no diffuser");
     if (is_strips(s.display().array))
         for (const char* name : {"sagittal_width_mm", "sagittal_with_diffuser_mm"})
-            result.note(fmt::format("spots.{}", name), "cylindrical lenses have line foci; widths are across the strips");
+            result.note(fmt::format("spots.{}", name), "cylindrical lenses have line foci; widths and radii are across the strips");
     result.tables.push_back(std::move(table));
 }
 
@@ -339,7 +339,9 @@ Result measure_spot(Subject& s, Job& job) {
              "mm",
              {spot_at(s, f, middle).rms},
              {},
-             "of the light of a Lambertian panel point about its centroid"});
+             is_strips(s.display().array)
+                 ? "of the light of a Lambertian panel point in the plane across the strips, about its centroid"
+                 : "of the light of a Lambertian panel point about its centroid"});
     tell_distortion(s, distortion(s.display(), s.geometry(), s.theory(), s.threads(), job), result);
     job.advance(2);
     if (fields.front().light.rays.empty())

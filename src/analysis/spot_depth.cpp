@@ -1,5 +1,6 @@
 #include "analysis/spot_depth.h"
 
+#include "model/lens_errors.h"
 #include "model/numbers.h"
 #include "model/sharp_range.h"
 
@@ -235,7 +236,7 @@ SharpDepths add_spot_depths(const Subject& s, Result& result) {
     const SharpRange by_pixel = sharp_by_pixel(g, t, eye);
     Teller tell(s, result);
     const SharpDepths traced = where_sharp(fan.all, tell.pixel_slope());
-    tell.by_lens(fan, s.display().array.pitch_mm[axis], sharp_by_lens(s.display(), g, t, eye));
+    tell.by_lens(fan, s.display().array.pitch_mm[axis] * pitch_scale(s.display().errors), sharp_by_lens(s.display(), g, t, eye));
     tell.by_pixel("by_pixel", "spot_diopters", "by the pixel", fan, 0, by_pixel,
                   "where the spot of the panel's point on the axis, traced, is no wider than a pixel's image; theory is paraxial: "
                   "where they differ the lens's aberrations are the cause");

@@ -92,7 +92,7 @@ ParaxialZone paraxial(const Subject& s, std::size_t axis) {
     const Lattice<double>& lattice = s.geometry().lattice;
     // Strips are crossed obliquely by an eye that moves along x.
     const double per = lattice.strips ? 1 / lattice.cos_turn : 1;
-    const double lenses = std::min(lattice.count[axis], std::ceil(screen_size_mm(s.geometry())[axis] / lattice.pitch[axis] - 1e-9));
+    const double lenses = lenses_across(s.geometry(), axis);
     return {per * s.theory().along[axis].elemental_pitch_mm / (2 * s.geometry().gap_mm),
             per * (lenses - 1) * lattice.pitch[axis] / 2, s.display().content.viewing_distance_mm - s.geometry().rear_principal_mm};
 }

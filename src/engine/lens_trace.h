@@ -40,6 +40,9 @@ class LensTrace {
     /// The point of the principal planes that towards() would give these cosines for.
     Point aim(Point panel, Point cosines) const;
 
+    /// Does the lens focus light along x alone?
+    bool of_strips() const { return scene_.lattice.strips; }
+
     /// A rectangle not much larger than all directions that get through. None if none does, or less than 1e-10 of them.
     std::optional<Directions> directions(Point panel) const;
 

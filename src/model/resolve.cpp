@@ -49,6 +49,14 @@ void glue(Geometry& g) {
     face.index_below = g.layers.empty() ? face.index_above : g.layers.back().index;
 }
 
+/// D of lenses whose pitch is `scale` times that of the description: cells grow with it, holes do not.
+void clear_apertures(const LensArray& array, double scale, Geometry& g) {
+    g.clear_aperture_mm.fill(2 * g.pupil.radius_mm);
+    if (array.aperture != Aperture::cell) return;
+    for (std::size_t k = 0; k < 2; ++k)
+        g.clear_aperture_mm[k] = std::min(g.clear_aperture_mm[k], g.pupil.cells * array.pitch_mm[k] * scale);
+}
+
 // Places the lens along z: its surfaces and planes, from gap or base.
 void place_lens(const Lens& lens, const LensArray& array, const Panel& panel, Geometry& g) {
     const double green_nm = panel.wavelengths_nm[green_channel];
@@ -88,14 +96,11 @@ void place_lens(const Lens& lens, const LensArray& array, const Panel& panel, Ge
     g.glued = is_flat(lowest_surface) && std::abs(g.base_z_mm - T) <= glue_mm && std::abs(lowest_surface.z_mm - T) <= glue_mm;
     if (g.glued) glue(g);
     g.pupil = pupil(g.surfaces, lens.stop_radius_mm, g.stop_z_mm);
-    g.clear_aperture_mm.fill(2 * g.pupil.radius_mm);
-    if (array.aperture == Aperture::cell)
-        for (std::size_t k = 0; k < 2; ++k)
-            g.clear_aperture_mm[k] = std::min(g.clear_aperture_mm[k], g.pupil.cells * array.pitch_mm[k]);
+    clear_apertures(array, 1, g);
 }
 
 // The array as a whole stands elsewhere. The diffuser, the content and the camera stay.
-void misplace_array(const Errors& e, Geometry& g) {
+void misplace_array(const Errors& e, const LensArray& array, Geometry& g) {
     if (e.gap_mm != 0) {
         for (PlacedSurface& s : g.surfaces) s.z_mm += e.gap_mm;
         for (double* z : {&g.base_z_mm, &g.top_z_mm, &g.entrance_z_mm, &g.vertex_plane_mm, &g.reduced_vertex_plane_mm,
@@ -118,6 +123,7 @@ void misplace_array(const Errors& e, Geometry& g) {
         l.per_pitch[k] = 1 / l.pitch[k];
         l.half_pitch[k] = l.pitch[k] / 2;
     }
+    clear_apertures(array, scale, g);
     g.array_width_mm *= scale;
     if (!l.strips) g.array_height_mm *= scale;
 }
@@ -162,7 +168,7 @@ Geometry resolve_unchecked(const Display& d) {
         g.content_depth_mm = d.content.depth_mm.value_or(middle_z_mm(d.content.objects));
         g.content_height_mm = d.content.height_mm;
     }
-    misplace_array(d.errors, g);
+    misplace_array(d.errors, d.array, g);
     return g;
 }
 

@@ -25,4 +25,8 @@ std::array<double, 2> screen_size_mm(const Geometry& g) {
     return size;
 }
 
+double lenses_across(const Geometry& g, std::size_t axis) {
+    return std::min(g.lattice.count[axis], std::max(std::ceil(screen_size_mm(g)[axis] / g.lattice.pitch[axis] - 1e-9), 1.));
+}
+
 }  // namespace lfdsim

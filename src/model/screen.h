@@ -30,4 +30,7 @@ class PanelBehind {
 /// mm; 0 where there is nothing.
 std::array<double, 2> screen_size_mm(const Geometry&);
 
+/// How many lenses stand side by side before the panel along an axis of the array.
+double lenses_across(const Geometry&, std::size_t axis);
+
 }  // namespace lfdsim

@@ -7,6 +7,7 @@
 #include "model/layers.h"
 #include "model/lens_errors.h"
 #include "model/numbers.h"
+#include "model/screen.h"
 #include "model/vec.h"
 
 namespace lfdsim {
@@ -48,7 +49,7 @@ AxisTheory theory_along(const Display& d, const Geometry& g, double L, std::size
     t.eyebox_mm = before ? eye * t.elemental_pitch_mm / gap : std::nan("");
     const auto zone_deg = [&](double e) {
         if (!before) return std::nan("");
-        const double m = g.lattice.count[axis], slope = p * (1 + e) / (2 * gap) - (m - 1) * p / 2 * std::abs(1 / eye - e / gap);
+        const double m = lenses_across(g, axis), slope = p * (1 + e) / (2 * gap) - (m - 1) * p / 2 * std::abs(1 / eye - e / gap);
         return 2 * std::atan(std::max(slope, 0.0)) / degree;
     };
     t.viewing_zone_parallel_deg = zone_deg(0);

@@ -117,6 +117,12 @@ double published_depth_mm(const Theory& t) {
     return 0.5 * t.depth_of_field_mm < std::abs(t.central_depth_mm) ? t.depth_of_field_mm : nan;
 }
 
+/// Whether an eye far away sees lenses without dark parts between them.
+bool fills_cells(const Display& d, const Geometry& g) {
+    return d.array.aperture == Aperture::cell && g.pupil.cells >= 1 - 1e-9 &&
+           g.pupil.radius_mm >= outer_radius_mm(d.array) * (1 - 1e-9);
+}
+
 /// Which depths are sharp, named as `analyze dof` names them, and the finest detail as the eye sees it.
 std::vector<Figure> sharpness(const Display& d, const Geometry& g, const Theory& t) {
     constexpr const char* inside = "the camera stands inside the display or behind it";
@@ -162,6 +168,13 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
     constexpr const char* inside = "the camera stands inside the display or behind it";
     constexpr const char* pinhole = "a pinhole has no image plane";
     const bool pinhole_lens = d.lens.type() == LensType::pinhole;
+    constexpr const char* no_gaps = "lenses that fill their cells have no gaps";
+    const bool gaps = !fills_cells(d, g);
+    const auto closing = [&](double AxisTheory::*figure) {
+        return gaps ? along(figure) : std::vector<double>(along(figure).size(), nan);
+    };
+    std::vector<double> views_elemental = along(&AxisTheory::elemental_pitch_mm);
+    for (double& views : views_elemental) views /= d.panel.pixel_pitch_mm * (g.lattice.strips ? g.lattice.cos_turn : 1);
     std::vector<Figure> all = {
         {"fov_deg", along(&AxisTheory::fov_deg), "field of view of one lens, where an eye may move", "2 atan(p / 2g)"},
         {"fov_exact_deg", along(&AxisTheory::fov_exact_deg), "the same through the layers on the panel, which theory has paraxial",
@@ -202,6 +215,8 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
     for (Figure& f : sharpness(d, g, t)) all.push_back(std::move(f));
     const std::vector<Figure> rest{
         {"views", along(&AxisTheory::views), "N, views across", "p / a, of strips along a row p / (a cos(slant))"},
+        {"views_elemental", views_elemental, "the same by whole elemental images: panel pixels across each",
+         "p' / a, of strips along a row p' / (a cos(slant))"},
         {"view_step_deg", along(&AxisTheory::view_step_deg), "angle from view to view", "field of view / N"},
         {"viewing_zone_parallel_deg", along(&AxisTheory::viewing_zone_parallel_deg),
          "zone that sees the whole screen, elemental images at lens pitch",
@@ -214,10 +229,10 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
         {"lens_sampling_limit_per_mm", along(&AxisTheory::lens_sampling_limit_per_mm), "resolution limit of the lens pitch",
          "1 / 2p"},
         {"pixel_image_limit_per_mm", {t.pixel_image_limit_per_mm}, "resolution limit of the panel pixels", "1 / 2 P_I", pinhole},
-        {"gap_closing_diffuser_deg", along(&AxisTheory::gap_closing_diffuser_deg),
-         "diffuser at L that closes the gaps between lenses", "2 atan(p / 2 |L|)", pinhole},
-        {"gap_closing_here_deg", along(&AxisTheory::gap_closing_here_deg), "angle that closes them from where the diffuser stands",
-         "2 atan(p / 2d), d its height above the lenses' rims", "there is no diffuser"}};
+        {"gap_closing_diffuser_deg", closing(&AxisTheory::gap_closing_diffuser_deg),
+         "diffuser at L that closes the gaps between lenses", "2 atan(p / 2 |L|)", gaps ? pinhole : no_gaps},
+        {"gap_closing_here_deg", closing(&AxisTheory::gap_closing_here_deg), "angle that closes them from where the diffuser is",
+         "2 atan(p / 2d), d its height above the lenses' rims", gaps ? "there is no diffuser" : no_gaps}};
     all.insert(all.end(), rest.begin(), rest.end());
     if (const std::vector<double> shifts = colour_shifts_mm(d, t); !shifts.empty())
         all.push_back({"subpixel_shift_mm", shifts,

@@ -9,7 +9,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr double row_height = 20, mark_row = 15;
+constexpr double row_height = 20, mark_row = 15, bar_row = 17;
 
 // Colours that colour-blind people can distinguish, of medium lightness, so that they are visible on white and on black; the dashes
 // differ from one curve to the next, and when a colour is used again.
@@ -147,6 +147,24 @@ void draw_series(Drawing& drawing, const Frame& frame, const Series& s, std::siz
     if (!alone.empty()) drawing.add(dots(s, alone, k));
 }
 
+/// A row for each bar, its label at the left, over what of it is drawn.
+void draw_bars(Drawing& drawing, const Frame& frame, const std::vector<PlotBar>& bars, double top) {
+    for (std::size_t k = 0; k < bars.size(); ++k) {
+        const double row = top + bar_row * double(k);
+        bool any = false;
+        for (const auto& [from, to] : bars[k].spans) {
+            const double low = std::max(from, frame.x.low()), high = std::min(to, frame.x.high());
+            if (!(low <= high)) continue;
+            const double left = frame.at(low, frame.y.low())[0], right = frame.at(high, frame.y.low())[0];
+            drawing.rectangle(
+                {left, row}, std::max(right - left, 1.), bar_row - 4,
+                fmt::format("fill=\"{}\" fill-opacity=\"0.35\" stroke=\"none\"", colours[(k + 2) % std::size(colours)]));
+            any = true;
+        }
+        drawing.text({frame.left + 4, row + bar_row - 6}, bars[k].label + (any ? "" : ": nowhere here"), "font-size=\"12\"");
+    }
+}
+
 /// The same scale along both: the axis that would be shown larger is widened. Room is left at the borders.
 void make_equal(Ranges& r, double wide, double high) {
     const double per_pixel = 1.06 * std::max((r.x.high - r.x.low) / wide, (r.y.high - r.y.low) / high);
@@ -179,7 +197,8 @@ std::string svg(const Plot& plot, double width) {
     const Legend legend = legend_of(plot, x, y, width);
     const MarkLabels marks(plot, x, left, width - left - right, width);
     const double legend_top = 12 + row_height * double(title.size());
-    const double top = legend_top + row_height * legend.rows + mark_row * marks.rows + 14;
+    const double bars_top = legend_top + row_height * legend.rows + 8;
+    const double top = bars_top + bar_row * double(plot.bars.size()) + mark_row * marks.rows + 6;
     const Frame frame{left, top, width - left - right, area, x, y};
 
     Drawing drawing(width, frame.bottom() + room_below, plot.title);
@@ -196,6 +215,7 @@ std::string svg(const Plot& plot, double width) {
             drawing.line({e.x, at_y - 4}, {e.x + 28, at_y - 4}, line_style(plot.series[k], k));
     }
     frame.draw(drawing, plot.x_label, plot.y_label, true);
+    draw_bars(drawing, frame, plot.bars, bars_top);
     for (std::size_t k = 0; k < marks.marks.size(); ++k) {
         const double at_x = frame.at(marks.marks[k]->at, y.low())[0], label_y = top - 5 - mark_row * marks.places[k].row;
         const double rise = marks.places[k].x < at_x ? -3 : 9;  // to the top of its label, or, if that had to make way, below

@@ -27,6 +27,23 @@ TEST(Rules, ThresholdIsInterpolatedAndCarriesTheCurvesError) {
     EXPECT_FALSE(i.empty);
 }
 
+// An interval about 10 whose lower end, 8, is known to 5 only: it is no place below 0, and does not reach there.
+TEST(Rules, AnUncertainEndStaysOnItsSide) {
+    Curve c{{-10, 0, 5, 10, 15, 20}, {0.2, 0.3, 0.7, 1, 0.9, 0.2}, 0.3};
+    const Interval i = where_at_least(c, 10, 0.85);
+    ASSERT_TRUE(std::isnan(i.low.at));
+    EXPECT_NEAR(i.low.place(), 7.5, 1e-12);
+    EXPECT_FALSE(i.low.searched_out);
+    EXPECT_TRUE(on_side_of_zero(i, false, "none").empty);
+    EXPECT_TRUE(std::isnan(on_side_of_zero(i, true, "none").low.at));
+    c.value = {0.9, 0.9, 0.9, 1, 0.9, 0.9};
+    const Interval all = where_at_least(c, 10, 0.85);
+    EXPECT_TRUE(all.low.searched_out && all.high.searched_out);
+    const Interval below = on_side_of_zero(all, false, "none");
+    EXPECT_TRUE(std::isnan(below.low.at));
+    EXPECT_EQ(below.high.at, 0);
+}
+
 TEST(Rules, WithoutACrossingItSaysHowFarItWasSearched) {
     const Interval i = where_at_least(curve([](double) { return 0.9; }), 0, 0.85);
     EXPECT_TRUE(std::isnan(i.low.at) && std::isnan(i.high.at));

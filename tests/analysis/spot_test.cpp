@@ -98,6 +98,16 @@ TEST(Spot, ShareOfALambertianPointThroughAHole) {
     EXPECT_NEAR(spot(r, "edge", 0).at("through_share").get<double>(), 1 / ((1 + tan2) * (1 + tan2)), 0.01);
 }
 
+// Steep light along strips meets them as if they were stronger: with it the radius was 15 mm at 100 mm, the width of the fan 2 mm.
+TEST(Spot, RadiusOfStripsIsThatOfLightAcrossThem) {
+    const Display d = shipped("tablet-lenticular");
+    const LensTrace lens(d, resolve(d));
+    const double radius = centroid_at(bundle(lens, {0, 0}, 200), 100).rms,
+                 width = width_at(fans(lens, {0, 0}, 200).meridional, 100).mm;
+    EXPECT_GT(radius, 0.15 * width);
+    EXPECT_LT(radius, 0.5 * width);
+}
+
 TEST(Spot, TablesAndFigures) {
     const Result r = spots_of(shipped("desktop-asphere"));
     // marginal planes: 0.4 mm narrower before and beyond than theory's 2.72, as another program says of planes 75 mm from 329.9 mm

@@ -71,6 +71,32 @@ TEST_P(Fields, EdgesStandWhereTheoryHasThem) {
         }
 }
 
+// Ideal hexagons, focused so far away that an eye sees a point under each: their images are 2 / sqrt(3) as high as they are wide.
+// Strips are told to be what they are.
+TEST(Views, EyeboxOfHexagonsAndFieldOfStrips) {
+    Display d = display(40, 1500);
+    d.diffuser.reset();
+    d.camera.resolution = {120, 72};
+    d.array.lattice = LatticeKind::hexagon;
+    AnalysisOptions options;
+    options.angles_deg = {-1, 0, 1};
+    Job job;
+    Subject hexagons(d, ContentScene(built_in_model(), d, resolve(d)), options);
+    const Json box = measure_fov(hexagons, job).figures;
+    const Json &theory = box.at("theory_eyebox_mm"), &measured = box.at("eyebox_mm");
+    EXPECT_NEAR(theory[1].get<double>(), theory[0].get<double>() * 2 / std::sqrt(3), 1e-6);
+    for (const std::size_t k : {0u, 1u}) EXPECT_NEAR(measured[k].get<double>() / theory[k].get<double>(), 1, 0.015) << k;
+    d.array.lattice = LatticeKind::strips;
+    d.array.count.reset();
+    Subject strips(d, ContentScene(built_in_model(), d, resolve(d)), options);
+    bool named = false;
+    for (const Finding& f : measure_fov(strips, job).findings) {
+        EXPECT_EQ(f.what.find("horizontal"), std::string::npos) << f.what;
+        named = named || f.what == "Field of view, across the strips";
+    }
+    EXPECT_TRUE(named);
+}
+
 // By the lens theory calls 0 to 2 L sharp, by the pixel less: a quarter more, through the lenses, which are one of the depths.
 TEST(Views, DepthsOfTheDepthOfField) {
     for (const double L : {60., -60.}) {

@@ -6,6 +6,8 @@
 #include "example.h"
 #include "model/geometry.h"
 #include "model/numbers.h"
+#include "model/screen.h"
+#include "model/sharp_range.h"
 
 namespace lfdsim {
 namespace {
@@ -46,6 +48,40 @@ TEST(Theory, RectanglesAreSquaresOfEachPitch) {
     EXPECT_EQ(t.depth_of_field_mm, across.depth_of_field_mm);
     EXPECT_EQ(t.depth_near_per_mm, across.depth_near_per_mm);
     EXPECT_EQ(resolve(d).clear_aperture_mm, (std::array{12., 9.}));
+}
+
+// An array that is stretched is one of that pitch: cells, and with them D, are wider; holes of round lenses are not.
+TEST(Theory, AStretchedArrayIsOneOfItsPitch) {
+    for (const Aperture aperture : {Aperture::cell, Aperture::circle}) {
+        Display built = example_ideal(), pitched = built;
+        built.array.aperture = pitched.array.aperture = aperture;
+        built.errors.pitch_ppm = 4000;
+        pitched.array.pitch_mm = 12 * 1.004;
+        const Geometry a = resolve(built), b = resolve(pitched);
+        const Theory s = theory(built, a), t = theory(pitched, b);
+        EXPECT_NEAR(a.clear_aperture_mm[0], b.clear_aperture_mm[0], 1e-12);
+        EXPECT_NEAR(s.depth_near_per_mm, t.depth_near_per_mm, 1e-15);
+        EXPECT_NEAR(s.depth_of_field_mm, t.depth_of_field_mm, 1e-9);
+        EXPECT_NEAR(s.along[0].views, t.along[0].views, 1e-12);
+        EXPECT_NEAR(s.along[0].viewing_zone_deg, t.along[0].viewing_zone_deg, 1e-9);
+        EXPECT_NEAR(sharp_by_lens(built, a, s, 2000).in_front.high, sharp_by_lens(pitched, b, t, 2000).in_front.high, 1e-9);
+    }
+}
+
+// Lenses beside the panel show nothing: the whole screen is what lies before the panel.
+TEST(Theory, TheZoneIsOfLensesBeforeThePanel) {
+    Display d = example_ideal();
+    d.content.viewing_distance_mm = 3000;  // made for another distance: each lens more across narrows the zone
+    d.array.count = {43, 24};
+    const double within = theory_of(d).along[0].viewing_zone_deg;
+    d.array.count = {73, 44};
+    const Geometry g = resolve(d);
+    EXPECT_EQ(lenses_across(g, 0), std::ceil(g.panel_width_mm / 12));
+    d.array.count = {std::int64_t(lenses_across(g, 0)), 24};
+    const double before = theory_of(d).along[0].viewing_zone_deg;
+    d.array.count = {73, 44};
+    EXPECT_EQ(theory_of(d).along[0].viewing_zone_deg, before);
+    EXPECT_LT(before, within);
 }
 
 // Half a unit in the last place that is given.
@@ -172,7 +208,8 @@ TEST(Theory, ViewingZonesByCountingLenses) {
     EXPECT_EQ(t.along[0].elemental_pitch_mm, 12);
     EXPECT_NEAR(t.along[0].viewing_zone_deg, counted_zone_deg(d, g, 12, 1500), 1e-6);
 
-    d.array.count = {400, 24};  // too wide to be seen as a whole
+    d.array.count = {400, 24};  // too wide to be seen as a whole, on a panel as wide
+    d.panel.pixels = {40000, 2160};
     d.content.viewing_distance_mm = 2000;
     EXPECT_EQ(theory_of(d).along[0].viewing_zone_parallel_deg, 0);
 }

@@ -7,6 +7,16 @@ from table import UNSURE
 ROUNDING = 1e-9
 
 
+def lenses_before_the_panel(display, pitch):
+    """Along x' and y': how many of the array's lenses the box about what is both the array's and the panel's is wide."""
+    turn, count = oracle.Lattice(display).turn, np.array(display.array.count)
+    half_panel = np.abs(turn) @ (np.array(display.panel.pixels) * display.panel.pixel_pitch_mm) / 2
+    middle = turn.T @ np.asarray(getattr(display.array, "offset_mm", (0.0, 0.0)))
+    half_array = count * pitch / 2
+    low, high = np.maximum(middle - half_array, -half_panel), np.minimum(middle + half_array, half_panel)
+    return np.minimum(count, np.maximum(np.ceil(np.maximum(high - low, 0) / pitch - 1e-9), 1))
+
+
 def forms(display, description):
     """Paths with (value, error); along y', where that differs, in paths of their own. Depths in dioptres, also those that are printed in mm."""
     g, f, p, a = display.gap, display.paraxial.f, display.cell.width, display.panel.pixel_pitch_mm
@@ -15,7 +25,7 @@ def forms(display, description):
     eye = description["camera"]["position_mm"][2] - display.paraxial.rear
     central, half = 1 / f - 1 / g, a / (g * max(display.clear_aperture))
     images = p * (1 + g / made_for)  # elemental ones: their pitch
-    outermost = (np.array(display.array.count) - 1) * p / 2  # lenses: from the middle to their axes
+    outermost = (lenses_before_the_panel(display, p) - 1) * p / 2  # from the middle to their axes
 
     def seen(slope):
         return np.degrees(2 * np.arctan(np.maximum(slope, 0)))

@@ -34,6 +34,47 @@ TEST(Check, SubpixelsShiftAsPixelsStep) {
     }
 }
 
+// Cells that lenses fill have no gaps to close; round lenses, and a stop in the cells, leave some.
+TEST(Check, NoDiffuserClosesGapsOfLensesThatFillTheirCells) {
+    Display d;
+    d.panel.pixels = {800, 600};
+    d.panel.pixel_pitch_mm = 0.1;
+    d.array.pitch_mm = 2;
+    d.array.gap_mm = 3.3;
+    d.diffuser = Diffuser{50, {1, 1}, Profile::box};
+    for (const LatticeKind lattice : {LatticeKind::square, LatticeKind::hexagon, LatticeKind::strips}) {
+        d.array.lattice = lattice;
+        d.array.aperture = Aperture::cell;
+        d.lens = {IdealLens{0.9, 3.2}, {}};
+        const Json filled = check_json(d);
+        for (const char* name : {"gap_closing_diffuser_deg", "gap_closing_here_deg"}) {
+            EXPECT_TRUE(filled.at("theory").at(name).is_null());
+            EXPECT_NE(filled.at("notes").at(std::string("theory.") + name).get<std::string>().find("no gaps"), std::string::npos);
+        }
+        d.lens.stop_radius_mm = 0.9;
+        EXPECT_TRUE(check_json(d).at("theory").at("gap_closing_here_deg").is_number());
+        d.lens.stop_radius_mm.reset();
+        d.array.aperture = Aperture::circle;
+        EXPECT_TRUE(check_json(d).at("theory").at("gap_closing_here_deg").is_number());
+    }
+}
+
+// Two pixels are behind each lens of a display for an eye at 600 mm, though the lens is less than two pixels wide.
+TEST(Check, ViewsAreAlsoCountedByWholeElementalImages) {
+    Display d;
+    d.panel.pixels = {800, 600};
+    d.panel.pixel_pitch_mm = 0.1;
+    d.lens.kind = IdealLens{0.09, 1.4};
+    d.array.lattice = LatticeKind::strips;
+    d.array.aperture = Aperture::cell;
+    d.array.gap_mm = 1.4;
+    d.array.pitch_mm = 0.2 / (1 + 1.4 / (600 - 1.4));
+    d.content.viewing_distance_mm = 600;
+    const Json theory = check_json(d).at("theory");
+    EXPECT_NEAR(theory.at("views_elemental"), 2, 1e-12);
+    EXPECT_NEAR(theory.at("views"), 2 * (600 - 1.4) / 600, 1e-12);
+}
+
 // Ideal lenses have no thickness. A depth z is within the intervals where D |1 - z/L| is at most p, or a pixel's image a |z|/g;
 // none is behind the viewer, and half a cycle per pitch at the lenses is E/2p per radian.
 TEST(Check, DepthsOfFieldAreThoseOfTheSpotAndEndAtTheViewer) {

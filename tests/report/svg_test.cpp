@@ -96,6 +96,20 @@ TEST(PlotSvg, NamesMarksWithinAndOutside) {
     EXPECT_THAT(text, Not(HasSubstr("nowhere")));
 }
 
+TEST(PlotSvg, DrawsIntervalsAsBarsCutAtTheAxis) {
+    Plot p = plot({{"", {-10, 10}, {1, 2}}});
+    p.bars = {{"through infinity", {{-infinity, -5}, {5, 99}}}, {"far away", {{40, 50}}}};
+    const std::string drawn = svg(p);
+    const std::regex bar("<rect x=\"([0-9.]+)\" y=\"[0-9.]+\" width=\"([0-9.]+)\"[^>]*fill-opacity=\"0.35\"");
+    std::vector<double> left, wide;
+    for (std::sregex_iterator at(drawn.begin(), drawn.end(), bar), end; at != end; ++at)
+        left.push_back(std::stod((*at)[1])), wide.push_back(std::stod((*at)[2]));
+    ASSERT_EQ(left.size(), 2u);
+    EXPECT_NEAR(wide[0], wide[1], 0.02);
+    EXPECT_NEAR(left[1] - left[0], 3 * wide[0], 0.03);  // from -10 and from 5, 5 long
+    EXPECT_THAT(drawn, HasSubstr("far away: nowhere here"));
+}
+
 TEST(PlotSvg, HasOneScaleForBothAxesWhereAsked) {
     Plot p = plot({{"", {0, 4}, {0, 1}, true}});
     p.equal_axes = true;
