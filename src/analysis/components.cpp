@@ -12,7 +12,7 @@
 namespace lfdsim {
 namespace {
 
-Image picture(const Display& d, const Pyramid& panel, RenderOptions how, std::optional<Rect> crop, const Job& job) {
+Image picture(const Display& d, const SummedPanel& panel, RenderOptions how, std::optional<Rect> crop, const Job& job) {
     Quiet quiet(job);
     how.crop = crop;
     Rendering r = render(d, resolve(d), panel, how, quiet);
@@ -76,10 +76,10 @@ Result measure_components(Subject& s, Job& job) {
     Display lenses = d;
     lenses.diffuser.reset();
     add("lenses", fmt::format("A checkerboard of {} panel pixels through the lens array alone", fine),
-        picture(lenses, board(fine).pyramid(), s.rendering(), {}, job));
+        picture(lenses, board(fine).summed(), s.rendering(), {}, job));
     if (d.diffuser)
         add("diffuser", fmt::format("A checkerboard of {} panel pixels through the diffuser alone, without lenses", coarse),
-            picture(diffuser_alone(d, s.geometry()), board(coarse).pyramid(), s.rendering(), {}, job));
+            picture(diffuser_alone(d, s.geometry()), board(coarse).summed(), s.rendering(), {}, job));
     else
         result.remarks.push_back("The display has no diffuser.");
     add("view", "What the whole display shows of the scene", picture(d, s.panel(job), s.rendering(), {}, job));

@@ -34,12 +34,12 @@ DepthCurves measure(Subject& s, const std::vector<double>& depths, double white,
         const ContentScene scene = s.scene().at_depth(depths[k]);
         const auto panel = elemental_panel(s.display(), s.geometry(), scene, s.threads(), job);
         const ExpectedView expected = expected_view(s.display(), s.geometry(), scene, s.threads(), job);
-        const Likeness l = likeness(expected, s.display(), s.geometry(), panel->pyramid(), white, s.rendering(), job);
+        const Likeness l = likeness(expected, s.display(), s.geometry(), panel->summed(), white, s.rendering(), job);
         curves.screen.value.push_back(l.screen);
         curves.content.value.push_back(l.content);
         job.advance(2);
         if (k != noisy) continue;
-        const Likeness error = likeness_error(l, expected, s.display(), s.geometry(), panel->pyramid(), white, s.rendering(), job);
+        const Likeness error = likeness_error(l, expected, s.display(), s.geometry(), panel->summed(), white, s.rendering(), job);
         curves.screen.error = error.screen;
         curves.content.error = error.content;
         job.advance(4);

@@ -23,7 +23,7 @@ constexpr double pixels_wanted = 8e5, most_pixels = 4e6;  // of all pictures of 
 
 }  // namespace
 
-EdgePlane::EdgePlane(const Subject& s, double depth_mm, const Direction& direction, const Pyramid& white, const Job& job)
+EdgePlane::EdgePlane(const Subject& s, double depth_mm, const Direction& direction, const SummedPanel& white, const Job& job)
     : s_(s),
       white_(white),
       job_(job),
@@ -85,7 +85,7 @@ double EdgePlane::pixel_mm(double most_per_mm) const {
 bool EdgePlane::look(EdgeSpread& spread, Eye from, double pixel, MtfCurves& curves) const {
     const EdgeView view = edge_view(s_.display(), s_.geometry(), bars_, from, pixel);
     if (view.edges.lines.empty()) return false;
-    const Image picture = picture_of(view, bars_.upright, panel_->pyramid(), s_.rendering(), job_),
+    const Image picture = picture_of(view, bars_.upright, panel_->summed(), s_.rendering(), job_),
                 white = picture_of(view, bars_.upright, white_, s_.rendering(), job_);
     spread.add(view.edges, picture, white);
     curves.lenses += view.lenses;

@@ -13,7 +13,7 @@ namespace lfdsim {
 class EdgePlane {
   public:
     /// Edges at a depth in front of the vertex plane. `white`: the panel that shows white all over.
-    EdgePlane(const Subject&, double depth_mm, const Direction&, const Pyramid& white, const Job&);
+    EdgePlane(const Subject&, double depth_mm, const Direction&, const SummedPanel& white, const Job&);
 
     /// Adds the edges to the curves of this plane and direction, from several angles, except where modulation is missing. Throws
     /// Stopped.
@@ -29,7 +29,7 @@ class EdgePlane {
     bool look(EdgeSpread&, Eye, double pixel, MtfCurves&) const;
 
     const Subject& s_;
-    const Pyramid& white_;
+    const SummedPanel& white_;
     const Job& job_;
     double pitch_mm_;  // the lenses' in the measured direction
     Bars bars_;

@@ -165,7 +165,7 @@ EdgeView edge_view(const Display& display, const Geometry& geometry, const Bars&
     return view;
 }
 
-Image picture_of(const EdgeView& view, bool upright, const Pyramid& panel, RenderOptions how, const Job& job) {
+Image picture_of(const EdgeView& view, bool upright, const SummedPanel& panel, RenderOptions how, const Job& job) {
     Quiet quiet(job);
     how.crop = view.crop;
     Rendering r = render(view.seen, resolve(view.seen), panel, how, quiet);

@@ -68,6 +68,6 @@ EdgeView edge_view(const Display&, const Geometry&, const Bars&, const Eye&, dou
 std::array<double, 2> seen_half_mm(const Display&, const Geometry&, const Bars&, const Eye&);
 
 /// The picture of a panel in that view, transposed where the edges are not upright. Throws Stopped.
-Image picture_of(const EdgeView&, bool upright, const Pyramid& panel, RenderOptions, const Job&);
+Image picture_of(const EdgeView&, bool upright, const SummedPanel& panel, RenderOptions, const Job&);
 
 }  // namespace lfdsim

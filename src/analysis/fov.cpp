@@ -32,7 +32,7 @@ constexpr const char* strips_upright = "strips show the same from above and from
 /// What all views share: the scene, its elemental images, the white field.
 struct ShownEdge {
     ContentScene scene;
-    const Pyramid& panel;
+    const SummedPanel& panel;
     double white;
 };
 
@@ -308,7 +308,7 @@ Result measure_fov(Subject& subject, Job& job) {
     std::unique_ptr<ShownPanel> own;
     if (depth != described)
         own = elemental_panel(display, subject.geometry(), subject.scene().at_depth(depth), subject.threads(), job);
-    const ShownEdge shown{subject.scene().at_depth(depth), own ? own->pyramid() : subject.panel(job), subject.white_field(job)};
+    const ShownEdge shown{subject.scene().at_depth(depth), own ? own->summed() : subject.panel(job), subject.white_field(job)};
     Plot plot{"fov", "Likeness of the simulated view to the scene", "angle of the view, degrees", "SSIM", {}};
     Plot shares{"fov-share", "The scene's share in the view", "angle of the view, degrees", "covariance / variance", {}};
     DataTable table{"fov", {{"angle_deg", angles}}};

@@ -20,7 +20,7 @@ constexpr int near_columns = 480, near_rows = 300, fringe_samples = 36;
 constexpr std::int64_t most_screen_columns = 960;
 
 /// A picture whose pixels are means over their area: single rays would beat with lenses and subpixels.
-Image mean_picture(Display d, const Subject& s, const Pyramid& panel, const Job& job) {
+Image mean_picture(Display d, const Subject& s, const SummedPanel& panel, const Job& job) {
     d.camera.pixel_filter = PixelFilter::box;
     d.render.estimator = Estimator::filtered;
     d.render.samples = fringe_samples;
@@ -93,11 +93,11 @@ void show_white_fringes(const Subject& s, const Job& job, Result& result) {
         rows = std::max<std::int64_t>(1, std::llround(double(rows) * double(most_screen_columns) / double(columns)));
         columns = most_screen_columns;
     }
-    Image screen = mean_picture(whole, s, white->pyramid(), job);
+    Image screen = mean_picture(whole, s, white->summed(), job);
     const double exposure = expose_together({&screen});
     result.pictures.push_back(
         {"uniformity-white", fmt::format("A white screen, seen on axis; its light times {:.3g}", exposure), std::move(screen)});
-    Image close = mean_picture(near_view(s, s.geometry().vertex_plane_mm, 0), s, white->pyramid(), job);
+    Image close = mean_picture(near_view(s, s.geometry().vertex_plane_mm, 0), s, white->summed(), job);
     const double close_exposure = expose_together({&close});
     result.pictures.push_back({"uniformity-white-close",
                                fmt::format("The middle {:g} lenses of a white screen, from the same place; light times {:.3g}",
@@ -116,8 +116,8 @@ void show_edge_fringes(const Subject& s, double depth_mm, const std::vector<doub
     std::vector<std::string> labels;
     for (const double angle : {angles.front(), angles.back()}) {
         const Display seen = near_view(s, bars.z_mm, angle);
-        pictures.push_back(mean_picture(seen, s, edge->pyramid(), job));
-        pictures.push_back(bars_picture(seen, bars, mean_of(mean_picture(seen, s, white->pyramid(), job))));
+        pictures.push_back(mean_picture(seen, s, edge->summed(), job));
+        pictures.push_back(bars_picture(seen, bars, mean_of(mean_picture(seen, s, white->summed(), job))));
         labels.push_back(fmt::format("display, {:.3g}\xc2\xb0", angle));
         labels.push_back(fmt::format("edge, {:.3g}\xc2\xb0", angle));
     }

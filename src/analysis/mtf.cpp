@@ -298,7 +298,7 @@ Result measure_mtf(Subject& s, Job& job) {
         for (const Direction& direction : directions(s.display())) {
             std::vector<MtfCurves> plane;
             for (std::size_t k = 0; k < angles.size(); ++k) plane.push_back(mtf_curves(s, seen[k], depth, angles[k], direction));
-            EdgePlane(s, depth, direction, white->pyramid(), job).measure(plane);
+            EdgePlane(s, depth, direction, white->summed(), job).measure(plane);
             std::move(plane.begin(), plane.end(), std::back_inserter(all));
             job.advance(1);
         }

@@ -28,7 +28,7 @@ const ContentScene& Subject::scene() const {
     return *scene_;
 }
 
-ShownPanel::ShownPanel(Texels texels, int threads) : texels_(std::move(texels)), pyramid_(texels_, threads) {}
+ShownPanel::ShownPanel(Texels texels, int threads) : texels_(std::move(texels)), summed_(texels_, threads) {}
 
 std::unique_ptr<ShownPanel> elemental_panel(const Display& display, const Geometry& geometry, const ContentScene& scene,
                                             int threads, const Job& job) {
@@ -38,9 +38,9 @@ std::unique_ptr<ShownPanel> elemental_panel(const Display& display, const Geomet
     return std::make_unique<ShownPanel>(shown_texels(picture.image, display.panel.encoding), threads);
 }
 
-const Pyramid& Subject::panel(const Job& job) {
+const SummedPanel& Subject::panel(const Job& job) {
     if (!shown_) shown_ = elemental_panel(display_, geometry_, scene(), threads(), job);
-    return shown_->pyramid();
+    return shown_->summed();
 }
 
 double Subject::white_field(const Job& job) {
@@ -56,7 +56,7 @@ double Subject::white_field(const Job& job) {
     Quiet quiet(job);
     RenderOptions how = rendering();
     how.crop = box;
-    const Rendering r = render(seen, geometry_, panel.pyramid(), how, quiet);
+    const Rendering r = render(seen, geometry_, panel.summed(), how, quiet);
     if (!r.complete) throw Stopped{};
     double sum = 0;
     const Region part = screen.shifted(-box.x0, -box.y0);

@@ -1,8 +1,8 @@
 // What is measured: a display, what it shows, and how finely. Floor 3.
 #pragma once
 #include "content/content.h"
-#include "engine/pyramid.h"
 #include "engine/render.h"
+#include "engine/summed_panel.h"
 #include "model/display.h"
 #include "model/geometry.h"
 #include "model/job.h"
@@ -38,15 +38,15 @@ class Quiet : public Job {
     const Job& whole_;
 };
 
-/// A panel image with its pyramid.
+/// A panel image with its tables.
 class ShownPanel {
   public:
     ShownPanel(Texels, int threads);
-    const Pyramid& pyramid() const { return pyramid_; }
+    const SummedPanel& summed() const { return summed_; }
 
   private:
     Texels texels_;
-    Pyramid pyramid_;
+    SummedPanel summed_;
 };
 
 class Subject {
@@ -70,7 +70,7 @@ class Subject {
 
     /// The elemental images of the scene where the description puts it, as the panel shows them: computed at the first call, and
     /// kept. Throws Stopped.
-    const Pyramid& panel(const Job&);
+    const SummedPanel& panel(const Job&);
 
     /// Mean light that the camera, on axis, sees of the array's rectangle when the panel is white, over all three channels: lenses
     /// in focus on subpixels show some of them alone. Simulated pictures are divided by it, so that light lost in lenses and gaps

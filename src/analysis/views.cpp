@@ -109,7 +109,7 @@ ExpectedView expected_view(const Display& seen, const Geometry& geometry, const 
              content_region(seen, geometry, scene).shifted(-box.x0, -box.y0)}};
 }
 
-Likeness likeness(const ExpectedView& view, const Display& seen, const Geometry& geometry, const Pyramid& panel, double white,
+Likeness likeness(const ExpectedView& view, const Display& seen, const Geometry& geometry, const SummedPanel& panel, double white,
                   RenderOptions how, const Job& job) {
     Quiet quiet(job);
     how.crop = view.box;
@@ -121,7 +121,7 @@ Likeness likeness(const ExpectedView& view, const Display& seen, const Geometry&
 // Points: another rendering with as many samples has as large an error as the first, independent of it. Filtered: one with four
 // times the strata has a much smaller error.
 Likeness likeness_error(const Likeness& first, const ExpectedView& view, const Display& seen, const Geometry& geometry,
-                        const Pyramid& panel, double white, const RenderOptions& how, const Job& job) {
+                        const SummedPanel& panel, double white, const RenderOptions& how, const Job& job) {
     Display again = seen;
     const bool filtered = estimator_of(seen) == Estimator::filtered;
     if (filtered)

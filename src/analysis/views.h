@@ -37,12 +37,12 @@ struct ExpectedView {
 ExpectedView expected_view(const Display& seen, const Geometry&, const ContentScene&, int threads, const Job&);
 
 /// Renders the view and compares it. Throws Stopped.
-Likeness likeness(const ExpectedView&, const Display& seen, const Geometry&, const Pyramid& panel, double white, RenderOptions,
+Likeness likeness(const ExpectedView&, const Display& seen, const Geometry&, const SummedPanel& panel, double white, RenderOptions,
                   const Job&);
 
 /// The error of `first`, a likeness, by the rendering's noise: renders again with other random numbers or more of them. Standard
 /// deviation of each figure. Throws Stopped.
-Likeness likeness_error(const Likeness& first, const ExpectedView&, const Display& seen, const Geometry&, const Pyramid& panel,
+Likeness likeness_error(const Likeness& first, const ExpectedView&, const Display& seen, const Geometry&, const SummedPanel& panel,
                         double white, const RenderOptions&, const Job&);
 
 }  // namespace lfdsim

@@ -81,8 +81,8 @@ void compare(const Pair& pair, const Duty& estimator, Bench& bench) {
     const Rect crop = band(displays[0], bench.settings.quick ? 16 : 216);
     const double error = pair.error(displays[0], displays[1], crop, bench);
     const Texels texels = noise_panel(displays[0]);
-    const Pyramid panel(texels, bench.settings.threads);
-    for (const Display& d : displays) panel.levels(panel_reading(d, resolve(d)));  // made before anything is timed
+    const SummedPanel panel(texels, bench.settings.threads);
+    for (const Display& d : displays) panel.planes(panel_reading(d));  // made before anything is timed
     std::vector<Case> cases;
     for (const Display& d : displays)
         cases.push_back(

@@ -80,7 +80,7 @@ struct View {
     std::string content;
     Texels panel;
     Rect crop;
-    Pyramid pyramid{panel};  // as for several views: made once
+    SummedPanel summed{panel};  // as for several views: made once
 
     std::string name() const {
         return fmt::format("{}, {}, crop {},{},{},{}", display.name, content, crop.x0, crop.y0, crop.x1, crop.y1);
@@ -90,7 +90,7 @@ struct View {
         how.choose(d);
         d.render.samples = samples;
         d.render.seed = seed;
-        return render(d, resolve(d), pyramid, {bench.settings.threads, bench.settings.kernel, crop}, job);
+        return render(d, resolve(d), summed, {bench.settings.threads, bench.settings.kernel, crop}, job);
     }
 };
 
@@ -110,13 +110,13 @@ std::optional<Reference> reference_of(const View& view, Bench& bench) {
     return r;
 }
 
-// Seconds are those of the whole call, so that what an estimator prepares is not left out, but for the panel's levels.
+// Seconds are those of the whole call, so that what an estimator prepares is not left out, but for the panel's tables.
 std::vector<Spent> points_of(const View& view, const Image& truth, Bench& bench) {
     std::vector<Spent> points;
     for (const Contender& e : estimators) {
         Display d = view.display;
         e.choose(d);
-        view.pyramid.levels(panel_reading(d, resolve(d)));
+        view.summed.planes(panel_reading(d));
         for (const std::int64_t samples : sample_counts) points.push_back({&e, samples, {}, {}});
     }
     std::vector<Case> cases;

@@ -53,13 +53,13 @@ void bench_gpu(Bench& bench) {
     const cuda::Found& found = found_gpus();
     if (!found.missing.empty()) return bench.not_measured("gpu", "all", found.missing);
     const Texels panel = noise_panel(bench_display());
-    const Pyramid pyramid(panel, bench.settings.threads);
+    const SummedPanel summed(panel, bench.settings.threads);
     std::vector<std::vector<double>> own(std::size(wanted));
     std::vector<Case> cases;
     for (std::size_t k = 0; k < std::size(wanted); ++k) {
         const Display d = display_of(wanted[k]);
         cases.push_back({wanted[k].name, [&, k, d, geometry = resolve(d)](Job& job) {
-                             const Rendering r = render(d, geometry, pyramid, on_gpu(), job);
+                             const Rendering r = render(d, geometry, summed, on_gpu(), job);
                              if (!job.cancelled()) own[k].push_back(r.gpu_seconds);
                              return Run{r.seconds, double(r.samples)};
                          }});
@@ -73,7 +73,7 @@ void bench_gpu(Bench& bench) {
     // Errors, in the middle rows: those of the same picture by the CPU, whose bits it has.
     const auto rows = [&](const Wanted& w) {
         const Display d = display_of(w);
-        return render(d, resolve(d), pyramid, on_gpu(band(d, 64)), bench.job()).image;
+        return render(d, resolve(d), summed, on_gpu(band(d, 64)), bench.job()).image;
     };
     const Image truth = rows({"", Estimator::point, 16384});
     for (std::size_t k = 0; k < all.size(); ++k) {

@@ -36,7 +36,7 @@ void bench_sweep(Bench& bench) {
     bench.heading(fmt::format("A field of view: {} views of {} x {}, 4 filtered samples, each with SSIM to an existing photograph",
                               sweep_views, d.camera.resolution[0], d.camera.resolution[1]));
     const Texels texels = noise_panel(d);
-    const Pyramid panel(texels, bench.settings.threads);
+    const SummedPanel panel(texels, bench.settings.threads);
     // As good as any for the time it takes: two views of the sweep, in turn, in the whole frame.
     const Region whole = Region::of({0, 0, int(d.camera.resolution[0]), int(d.camera.resolution[1])});
     std::vector<Expected> photographs;

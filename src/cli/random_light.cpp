@@ -33,8 +33,8 @@ std::vector<Rect> sample_squares(const Rect& frame, bool one) {
 
 }  // namespace
 
-std::optional<RandomLight> random_light(const Display& display, const Geometry& geometry, const Pyramid& panel, const Rendering& r,
-                                        RenderOptions options, const Job& whole) {
+std::optional<RandomLight> random_light(const Display& display, const Geometry& geometry, const SummedPanel& panel,
+                                        const Rendering& r, RenderOptions options, const Job& whole) {
     const Rect frame = options.crop.value_or(Rect{0, 0, r.image.width, r.image.height});
     Display other = display;
     other.render.seed ^= 1;  // stays within its range

@@ -17,7 +17,7 @@ struct RandomLight {
 };
 
 /// Of a picture by the filtered estimator without a target error. None where the sample shows no light, or the job is cancelled.
-std::optional<RandomLight> random_light(const Display&, const Geometry&, const Pyramid& panel, const Rendering&, RenderOptions,
+std::optional<RandomLight> random_light(const Display&, const Geometry&, const SummedPanel& panel, const Rendering&, RenderOptions,
                                         const Job&);
 
 /// "12 % of pixels by random rays of their own: noise 0.03"; empty where next to none are.

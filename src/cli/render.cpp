@@ -135,12 +135,12 @@ void run(const RenderArguments& args) {
     std::optional<RandomLight> random;
     const auto filtered_picture = [&] {
         const auto start = std::chrono::steady_clock::now();
-        const Pyramid pyramid(panel.texels, options.threads);
-        pyramid.levels(panel_reading(display, geometry));
+        const SummedPanel summed(panel.texels, options.threads);
+        summed.planes(panel_reading(display));
         const double prepared = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        Rendering made = render(display, geometry, pyramid, options, progress);
+        Rendering made = render(display, geometry, summed, options, progress);
         made.prepare_seconds = prepared;
-        if (made.complete) random = random_light(display, geometry, pyramid, made, options, progress);
+        if (made.complete) random = random_light(display, geometry, summed, made, options, progress);
         return made;
     };
     Rendering r = lens          ? render_meshed(display, geometry, panel.texels, *lens, options, progress)

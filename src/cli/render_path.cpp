@@ -121,7 +121,7 @@ PathMade render_path(const PathWork& w, const std::function<const Texels&()>& pa
     frames.keep_apart();
     const std::vector<std::int64_t> left = frames.left();
     if (left.empty()) return made;
-    const Pyramid pyramid(panel(), w.rendering.threads);
+    const SummedPanel summed(panel(), w.rendering.threads);
     const auto [columns, rows] = w.display.camera.resolution;
     const std::optional<Rect>& crop = w.rendering.crop;
     progress.stage("rendering",
@@ -138,7 +138,7 @@ PathMade render_path(const PathWork& w, const std::function<const Texels&()>& pa
     std::optional<Rendering> told;
     const auto make = [&](std::size_t i) {
         const Display display = at_frame(w.path, left[i], w.display);
-        return render(display, resolve(display), pyramid, w.rendering, frame);
+        return render(display, resolve(display), summed, w.rendering, frame);
     };
     const auto keep = [&](std::size_t i, Rendering r) {
         if (!r.complete) return false;
@@ -160,7 +160,7 @@ PathMade render_path(const PathWork& w, const std::function<const Texels&()>& pa
     progress.end();
     if (told) {
         const Display display = at_frame(w.path, oblique, w.display);
-        if (const auto random = random_light(display, resolve(display), pyramid, *told, w.rendering, progress)) {
+        if (const auto random = random_light(display, resolve(display), summed, *told, w.rendering, progress)) {
             made.more["random_rays"] = json_of(*random);
             made.more["random_rays"]["frame"] = oblique;
             if (const std::string words = words_of(*random); !words.empty())

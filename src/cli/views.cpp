@@ -236,7 +236,7 @@ class Maker {
     const Target& target_;
     std::optional<ContentScene> scene_;
     PanelLight light_;
-    std::optional<Pyramid> panel_;
+    std::optional<SummedPanel> panel_;
 };
 
 void write_text(const fs::path& path, std::string_view text) {

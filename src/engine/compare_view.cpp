@@ -18,14 +18,14 @@ Expected::Expected(Image photograph, Region on_screen, Region on_content)
       photograph_(std::move(photograph)),
       on_gpus_(std::make_shared<GpuPhotographs>()) {}
 
-ComparedView compare_view(const Display& display, const Geometry& geometry, const Pyramid& panel, const Expected& expected,
+ComparedView compare_view(const Display& display, const Geometry& geometry, const SummedPanel& panel, const Expected& expected,
                           float gain, const RenderOptions& options, Job& job) {
     if (options.target_error) throw std::invalid_argument("views are compared without a target error");
     const auto start = std::chrono::steady_clock::now();
     const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-    const std::vector<optics::PanelLevel>& levels = panel.levels(panel_reading(display, geometry));
+    const std::vector<optics::SummedImage>& planes = panel.planes(panel_reading(display));
     const std::vector<EvenPart> parts = even_parts(display);
-    const Work work(parts.front().display, geometry, levels, options);
+    const Work work(parts.front().display, geometry, planes, options);
     const Image& photograph = expected.photograph();
     const int width = work.tile.x1 - work.tile.x0, height = work.tile.y1 - work.tile.y0;
     if (photograph.width != width || photograph.height != height)
@@ -34,7 +34,7 @@ ComparedView compare_view(const Display& display, const Geometry& geometry, cons
     const ChosenDevice device = choose_device(options.device, options.kernel);
     RenderOptions on_cpu = options;
     if (device.gpu && !disperses(display) && parts.size() == 1) {
-        if (const auto done = compare_on_gpu(device, panel, levels, expected, gain, work, job))
+        if (const auto done = compare_on_gpu(device, panel, planes, expected, gain, work, job))
             return {done->likeness, done->run.done.complete, seconds(), done->run.seconds};
         on_cpu.device = "cpu";
     }

@@ -1,7 +1,7 @@
 // Views that are compared with photographs where they are rendered: on a GPU they never leave it. Floor 2.
 #pragma once
-#include "engine/pyramid.h"
 #include "engine/render.h"
+#include "engine/summed_panel.h"
 #include "image/likeness.h"
 
 #include <memory>
@@ -36,7 +36,7 @@ struct ComparedView {
 /// Renders a view, multiplies its light by `gain`, and measures its likeness to what is expected (image/likeness.h), with the same
 /// bits on every device. Throws what render() throws; InputError unless the photograph has the crop's size; std::invalid_argument
 /// for a target error, which would take too long for many views.
-ComparedView compare_view(const Display&, const Geometry&, const Pyramid& panel, const Expected&, float gain, const RenderOptions&,
-                          Job&);
+ComparedView compare_view(const Display&, const Geometry&, const SummedPanel& panel, const Expected&, float gain,
+                          const RenderOptions&, Job&);
 
 }  // namespace lfdsim

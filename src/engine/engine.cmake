@@ -1,6 +1,6 @@
 # The engine: its floor with the CPU's kernels (kernels.cmake) and, where they are compiled, the GPU's (gpu.cmake).
 lfdsim_floor(engine
-  HEADERS pyramid.h render.h screen.h
+  HEADERS summed_panel.h render.h screen.h
   LINK PUBLIC lfdsim_model lfdsim_image PRIVATE TBB::tbb fmt::fmt)
 set(here ${CMAKE_CURRENT_LIST_DIR})
 target_sources(lfdsim_engine PRIVATE ${here}/wide/render.cpp ${here}/wide/likeness.cpp)

@@ -78,14 +78,14 @@ auto& copy_on(Copies& copies, int number, Make make) {
 }
 
 /// The panel on GPU `number`, where it fits beside so many bytes more.
-const wide::DevicePanel& panel_on(wide::Queue& queue, int number, GpuPanels& panels, const std::vector<optics::PanelLevel>& levels,
+const wide::DevicePanel& panel_on(wide::Queue& queue, int number, GpuPanels& panels, const std::vector<optics::SummedImage>& planes,
                                   std::size_t more) {
     const std::lock_guard lock(panels.mutex);
-    const std::size_t needed = (panels.copies.contains(number) ? 0 : wide::DevicePanel::bytes(levels)) + more,
+    const std::size_t needed = (panels.copies.contains(number) ? 0 : wide::DevicePanel::bytes(planes)) + more,
                       free = queue.free_bytes();
     if (needed > free)
         throw DoesNotFit(fmt::format("panel and picture need {} MB, but only {} MB are free", needed >> 20, free >> 20));
-    return copy_on(panels, number, [&] { return wide::DevicePanel(queue, levels); });
+    return copy_on(panels, number, [&] { return wide::DevicePanel(queue, planes); });
 }
 
 /// do_it(queue) in a queue of the GPU; nothing where the CPU is to do it.
@@ -132,19 +132,19 @@ std::vector<std::string> gpus_given_up() {
     return reasons;
 }
 
-std::optional<GpuRun> render_on_gpu(const ChosenDevice& device, const Pyramid* pyramid,
-                                    const std::vector<optics::PanelLevel>& levels, Work& work, Job& job) {
+std::optional<GpuRun> render_on_gpu(const ChosenDevice& device, const SummedPanel* summed,
+                                    const std::vector<optics::SummedImage>& planes, Work& work, Job& job) {
     return on_gpu(device, [&](wide::Queue& queue) {
-        GpuPanels own, &panels = pyramid ? pyramid->on_gpus(levels) : own;
-        const wide::DevicePanel& panel = panel_on(queue, *device.gpu, panels, levels, wide::picture_bytes(queue, work.tile));
+        GpuPanels own, &panels = summed ? summed->on_gpus(planes) : own;
+        const wide::DevicePanel& panel = panel_on(queue, *device.gpu, panels, planes, wide::picture_bytes(queue, work.tile));
         const double before = queue.seconds();
         const Done done = wide::render(queue, panel, work.tile, work.target_error, work.result.error.rgb.data(), job);
         return GpuRun{queue.name(), queue.seconds() - before, done};
     });
 }
 
-std::optional<GpuComparison> compare_on_gpu(const ChosenDevice& device, const Pyramid& pyramid,
-                                            const std::vector<optics::PanelLevel>& levels, const Expected& expected, float gain,
+std::optional<GpuComparison> compare_on_gpu(const ChosenDevice& device, const SummedPanel& summed,
+                                            const std::vector<optics::SummedImage>& planes, const Expected& expected, float gain,
                                             const Work& work, Job& job) {
     return on_gpu(device, [&](wide::Queue& queue) {
         const Image& image = expected.photograph();
@@ -155,7 +155,7 @@ std::optional<GpuComparison> compare_on_gpu(const ChosenDevice& device, const Py
             GpuPhotographs& photographs = expected.on_gpus();
             const std::lock_guard lock(photographs.mutex);
             const std::size_t sent = photographs.copies.contains(*device.gpu) ? 0 : wide::Photograph::bytes(image);
-            panel = &panel_on(queue, *device.gpu, pyramid.on_gpus(levels), levels,
+            panel = &panel_on(queue, *device.gpu, summed.on_gpus(planes), planes,
                               wide::picture_bytes(queue, work.tile) + wide::Comparison::bytes(image.width, image.height) + sent);
             photograph = &copy_on(photographs, *device.gpu, [&] { return wide::Photograph(queue, image); });
         }

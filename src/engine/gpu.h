@@ -4,7 +4,7 @@
 #include "engine/cuda/cuda.h"
 #include "engine/devices.h"
 #include "engine/kernel.h"
-#include "engine/pyramid.h"
+#include "engine/summed_panel.h"
 #include "engine/wide/likeness.h"
 #include "engine/wide/render.h"
 #include "engine/work.h"
@@ -30,10 +30,10 @@ struct GpuRun {
     Done done;
 };
 
-/// Renders on the chosen GPU; the panel stays there as long as `pyramid` exists, where one is given. Returns nothing if the GPU
-/// failed or the picture does not fit, and the CPU is to render it. If the user insists on the GPU: throws InputError where it does
-/// not fit, DeviceError where the GPU failed. May be called by several threads.
-std::optional<GpuRun> render_on_gpu(const ChosenDevice&, const Pyramid* pyramid, const std::vector<optics::PanelLevel>&, Work&,
+/// Renders on the chosen GPU; the panel stays there as long as the `SummedPanel` exists, where one is given. Returns nothing if the
+/// GPU failed or the picture does not fit, and the CPU is to render it. If the user insists on the GPU: throws InputError where it
+/// does not fit, DeviceError where the GPU failed. May be called by several threads.
+std::optional<GpuRun> render_on_gpu(const ChosenDevice&, const SummedPanel* summed, const std::vector<optics::SummedImage>&, Work&,
                                     Job&);
 
 /// The same, but the picture is compared on the GPU and not transferred. The work's picture is not touched; it has no target error.
@@ -41,7 +41,7 @@ struct GpuComparison {
     GpuRun run;
     Likeness likeness;  // where the run is complete
 };
-std::optional<GpuComparison> compare_on_gpu(const ChosenDevice&, const Pyramid&, const std::vector<optics::PanelLevel>&,
+std::optional<GpuComparison> compare_on_gpu(const ChosenDevice&, const SummedPanel&, const std::vector<optics::SummedImage>&,
                                             const Expected&, float gain, const Work&, Job&);
 
 /// Copies of something on GPUs, by number.

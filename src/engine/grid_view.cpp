@@ -51,7 +51,7 @@ GridCamera grid_camera(const Display& display, const Geometry& geometry, const V
     return made;
 }
 
-Rendering grid_view(const GridCamera& made, const Pyramid& panel, int width, int height, RenderOptions options, Job& job) {
+Rendering grid_view(const GridCamera& made, const SummedPanel& panel, int width, int height, RenderOptions options, Job& job) {
     options.crop = made.crop;
     Rendering r = render(made.display, resolve(made.display), panel, options, job);
     const Image& fine = r.image;

@@ -20,6 +20,6 @@ GridCamera grid_camera(const Display&, const Geometry&, const ViewGrid&, int col
 
 /// The view: renders it and takes for each of its pixels the mean over its area. The image has width x height pixels; `crop` of the
 /// options does not count.
-Rendering grid_view(const GridCamera&, const Pyramid& panel, int width, int height, RenderOptions, Job&);
+Rendering grid_view(const GridCamera&, const SummedPanel& panel, int width, int height, RenderOptions, Job&);
 
 }  // namespace lfdsim

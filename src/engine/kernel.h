@@ -28,7 +28,7 @@ struct Tile {
     const optics::View* view;
     const optics::DirectionNumbers* directions;
     const float* texels;  // 4 floats a panel pixel
-    optics::PanelLevels levels;
+    optics::PanelLight panel;
     float* out;
     std::int32_t crop_x, crop_y, crop_width;
     std::int32_t x0, y0, x1, y1;

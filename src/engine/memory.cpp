@@ -2,7 +2,6 @@
 
 #include "image/free_memory.h"
 #include "model/error.h"
-#include "model/lattice.h"
 #include "model/subpixels.h"
 
 #include <fmt/format.h>
@@ -30,14 +29,13 @@ double free_bytes() { return std::max(free_memory().bytes - spare_bytes, 0.); }
 // float32 RGB; writers keep a few rows beside it.
 double picture_bytes(std::int64_t columns, std::int64_t rows) { return double(columns) * double(rows) * 12; }
 
-// Four floats a pixel, for the panel and for each plane of subpixels; a pyramid adds a third, and the sums of strips' long
-// footprints as much again.
+// Four floats a pixel, for the panel and for each plane of subpixels; a summed-area table takes as much again.
 double texel_bytes(const Display& d) {
     double pixels = 0;
     for (const PanelPlane& plane : planes(d.panel))
         pixels += std::ceil(double(d.panel.pixels[0]) / double(plane.cell[0])) *
                   std::ceil(double(d.panel.pixels[1]) / double(plane.cell[1]));
-    return pixels * 16 * 4 / 3 * (is_strips(d.array) ? 2 : 1);
+    return pixels * 16 * 2;
 }
 
 void require_memory(const std::string& where, const std::string& what, double bytes) {

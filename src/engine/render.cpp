@@ -77,13 +77,13 @@ void check_threads(const RenderOptions& options) {
 }
 
 /// On the GPU if one is chosen, else with the kernel. The job's stage is the caller's.
-Rendering render(Work& work, const char* kernel_name, Kernel kernel, const ChosenDevice& device, const Pyramid* pyramid,
-                 const std::vector<optics::PanelLevel>& levels, const RenderOptions& options, Job& job) {
+Rendering render(Work& work, const char* kernel_name, Kernel kernel, const ChosenDevice& device, const SummedPanel* summed,
+                 const std::vector<optics::SummedImage>& planes, const RenderOptions& options, Job& job) {
     work.make_pictures(options.target_error.has_value());
     Rendering& result = work.result;
     const auto start = std::chrono::steady_clock::now();
     std::optional<GpuRun> run;
-    if (device.gpu) run = render_on_gpu(device, pyramid, levels, work, job);
+    if (device.gpu) run = render_on_gpu(device, summed, planes, work, job);
     Done done;
     if (run) {
         result.device = result.kernel = run->name;
@@ -140,8 +140,8 @@ class Sum {
     Rendering sum_;
 };
 
-Rendering render(const Display& display, const Geometry& geometry, const std::vector<optics::PanelLevel>& levels,
-                 const Pyramid* pyramid, const RenderOptions& options, Job& job) {
+Rendering render(const Display& display, const Geometry& geometry, const std::vector<optics::SummedImage>& planes,
+                 const SummedPanel* summed, const RenderOptions& options, Job& job) {
     const KernelEntry& kernel = choose_kernel(options.kernel);
     const ChosenDevice device = choose_device(options.device, options.kernel);
     const std::vector<EvenPart> parts = even_parts(display, options.target_error.has_value());
@@ -149,9 +149,9 @@ Rendering render(const Display& display, const Geometry& geometry, const std::ve
         Sum sum;
         float weight = 0;
         for (const EvenPart& part : parts) {
-            Work work(part.display, there, levels, options);
+            Work work(part.display, there, planes, options);
             if (&part == &parts.front()) begin_stage(work, parts.size(), job);
-            Rendering one = render(work, kernel.name, kernel.run, device, pyramid, levels, options, job);
+            Rendering one = render(work, kernel.name, kernel.run, device, summed, planes, options, job);
             if (parts.size() == 1) return one;
             if (!one.complete) return weight > 0 ? sum.take_unfinished(weight) : std::move(one);
             sum.add(std::move(one), part.weight);
@@ -171,27 +171,28 @@ Rendering render(const Display& display, const Geometry& geometry, const std::ve
 }  // namespace
 
 Rendering render_with(const Tracer& tracer, const Display& display, const Geometry& geometry,
-                      const std::vector<optics::PanelLevel>& levels, const RenderOptions& options, Job& job) {
+                      const std::vector<optics::SummedImage>& planes, const RenderOptions& options, Job& job) {
     check_threads(options);
-    Work work(display, geometry, levels, options);
+    Work work(display, geometry, planes, options);
     work.tile.scene = &tracer.scene;
     begin_stage(work, 1, job);
-    return render(work, tracer.name, tracer.run, {}, nullptr, levels, options, job);
+    return render(work, tracer.name, tracer.run, {}, nullptr, planes, options, job);
 }
 
-Rendering render(const Display& display, const Geometry& geometry, const Pyramid& panel, const RenderOptions& options, Job& job) {
+Rendering render(const Display& display, const Geometry& geometry, const SummedPanel& panel, const RenderOptions& options,
+                 Job& job) {
     check_threads(options);
-    return render(display, geometry, panel.levels(panel_reading(display, geometry)), &panel, options, job);
+    return render(display, geometry, panel.planes(panel_reading(display)), &panel, options, job);
 }
 
 Rendering render(const Display& display, const Geometry& geometry, const Texels& panel, const RenderOptions& options, Job& job) {
     check_threads(options);
     const auto start = std::chrono::steady_clock::now();
-    const Pyramid pyramid(panel, options.threads);
-    const std::vector<optics::PanelLevel>& levels = pyramid.levels(panel_reading(display, geometry));
+    const SummedPanel summed(panel, options.threads);
+    const std::vector<optics::SummedImage>& planes = summed.planes(panel_reading(display));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    Rendering result = render(display, geometry, levels, nullptr, options, job);
-    if (levels.size() > 1) result.prepare_seconds = seconds;
+    Rendering result = render(display, geometry, planes, nullptr, options, job);
+    if (planes[0].sums) result.prepare_seconds = seconds;
     return result;
 }
 

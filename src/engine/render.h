@@ -1,6 +1,6 @@
 // The picture that an eye or camera sees of a display. Floor 2: threads, kernels, tiles over the optics.
 #pragma once
-#include "engine/pyramid.h"
+#include "engine/summed_panel.h"
 #include "image/compare.h"
 #include "image/image.h"
 #include "image/texels.h"
@@ -34,7 +34,7 @@ struct Rendering {
     int threads = 0;                         // 0 on a GPU
     Estimator estimator = Estimator::point;  // the one that was used
     std::int64_t samples = 0;                // all pixels together
-    double prepare_seconds = 0;              // of making the panel's pyramid, where it was made on the way
+    double prepare_seconds = 0;              // of making the panel's tables, where they were made on the way
     double seconds = 0;                      // of rendering; with a GPU including transfers to and from it
     double gpu_seconds = 0;                  // of the GPU alone, by its clock
 };
@@ -53,6 +53,6 @@ std::vector<KernelInfo> kernels();
 Rendering render(const Display&, const Geometry&, const Texels& panel, const RenderOptions&, Job&);
 
 /// The same with a prepared panel, for several views of one panel image.
-Rendering render(const Display&, const Geometry&, const Pyramid& panel, const RenderOptions&, Job&);
+Rendering render(const Display&, const Geometry&, const SummedPanel& panel, const RenderOptions&, Job&);
 
 }  // namespace lfdsim

@@ -13,7 +13,7 @@ struct Tracer {
 };
 
 /// As render(), with this kernel in place of those of the table. Throws InputError.
-Rendering render_with(const Tracer&, const Display&, const Geometry&, const std::vector<optics::PanelLevel>&, const RenderOptions&,
+Rendering render_with(const Tracer&, const Display&, const Geometry&, const std::vector<optics::SummedImage>&, const RenderOptions&,
                       Job&);
 
 }  // namespace lfdsim

@@ -1,9 +1,8 @@
 #include "engine/work.h"
 
 #include "engine/clear_borders.h"
-#include "engine/pyramid.h"
 #include "engine/scene.h"
-#include "model/subpixels.h"
+#include "engine/summed_panel.h"
 
 #include <fmt/format.h>
 #include <cmath>
@@ -28,10 +27,10 @@ Rect checked_crop(const std::optional<Rect>& crop, const Camera& camera) {
 
 }  // namespace
 
-Work::Work(const Display& display, const Geometry& geometry, const std::vector<optics::PanelLevel>& levels,
+Work::Work(const Display& display, const Geometry& geometry, const std::vector<optics::SummedImage>& planes,
            const RenderOptions& options) {
-    if (levels[0].columns != display.panel.pixels[0] || levels[0].rows != display.panel.pixels[1]) {
-        throw InputError("panel image", fmt::format("{} x {} pixels; the panel has {} x {}", levels[0].columns, levels[0].rows,
+    if (planes[0].columns != display.panel.pixels[0] || planes[0].rows != display.panel.pixels[1]) {
+        throw InputError("panel image", fmt::format("{} x {} pixels; the panel has {} x {}", planes[0].columns, planes[0].rows,
                                                     display.panel.pixels[0], display.panel.pixels[1]));
     }
     if (options.target_error && !(*options.target_error > 0 && std::isfinite(*options.target_error)))
@@ -58,13 +57,11 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
     scene.by_lens = shape.by_lens;
     if (filtered && shape.by_lens && shape.square.weak) add_clear_borders(scene, display, geometry, view, shape.part_mm);
 
-    // Of point samples there may be the panel alone.
-    const PanelReading reading = levels.size() == 1 ? PanelReading{.coarser = false} : panel_reading(display, geometry);
     tile = {&scene,
             &view,
             &sobol_directions(),
-            levels[0].texels,
-            panel_levels(levels, reading, scene.emission),
+            planes[0].texels,
+            {planes.data(), scene.emission.whole, &scene.emission},
             nullptr,
             crop.x0,
             crop.y0,

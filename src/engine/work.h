@@ -11,7 +11,7 @@ namespace lfdsim {
 
 /// Throws InputError for a bad crop, target error, number of samples or panel size.
 struct Work {
-    Work(const Display&, const Geometry&, const std::vector<optics::PanelLevel>& panel, const RenderOptions&);
+    Work(const Display&, const Geometry&, const std::vector<optics::SummedImage>& panel, const RenderOptions&);
     Work(const Work&) = delete;
     Work& operator=(const Work&) = delete;
 

@@ -71,9 +71,9 @@ Rendering render_meshed(const Display& display, const Geometry& geometry, const 
                         const RenderOptions& options, Job& job) {
     Display points = display;
     points.render.estimator = Estimator::point;
-    const optics::PanelLevel level{panel.data(), std::uint32_t(panel.columns()), std::uint32_t(panel.rows())};
+    const optics::SummedImage unsummed{panel.data(), nullptr, 0, std::uint32_t(panel.columns()), std::uint32_t(panel.rows())};
     const MeshedScene scene{make_scene<float>(points, geometry), &lens.surfaces()};
-    return render_with({"meshed", render_tile, scene}, points, geometry, {level}, options, job);
+    return render_with({"meshed", render_tile, scene}, points, geometry, {unsummed}, options, job);
 }
 
 }  // namespace lfdsim

@@ -10,8 +10,8 @@
 // positions on the panel are columns and rows, in panel pixels from where that axis meets the panel (PanelBase). The method is ray
 // differentials by finite differences (Igehy 1999); docs/model.md, "Filtered estimator", and docs/design.md explain it.
 #pragma once
-#include "optics/boxes.h"
 #include "optics/filtered_limits.h"
+#include "optics/panel_light.h"
 #include "optics/probe_team.h"
 #include "optics/strata.h"
 #include "optics/trace.h"
@@ -203,7 +203,6 @@ struct BundleShape {
     S x, y, probe_column, probe_row;                   // the probe nearest to the middle: mm, and its end on the panel
     S lean_column[2], lean_row[2];                     // sharp: added to the motion per picture pixel to the right and down
     S blur_width, blur_height;                         // squared: of a box as the camera's pixel and pupil spread each point
-    Footprint<S> footprint;                            // sharp: the box, which each pixel reads at its own position
     bool still;                                        // soft: the footprint does not move
     int nodes;                                         // soft: along an axis of the block; 1: its light is the same everywhere
 };
@@ -290,10 +289,11 @@ struct Slopes {
     }
 };
 
-/// Is the footprint too wide to be described by a single box? It may be long where there are sums.
+/// Is the footprint too wide to be described by a single box? It may be long along strips, which focus across them only.
 template <class S>
-LFDSIM_FN bool is_soft(const PanelLevels& levels, const BundleShape<S>& b) {
-    const S size = !levels.sums ? max(b.width, b.height) : levels.tall ? b.width : b.height;
+LFDSIM_FN bool is_soft(const Scene<S>& scene, const BundleShape<S>& b) {
+    const bool stand = abs(scene.lattice.cos_turn) >= abs(scene.lattice.sin_turn);
+    const S size = !scene.lattice.strips ? max(b.width, b.height) : stand ? b.width : b.height;
     return size > S(FilteredLimits::soft);
 }
 
@@ -338,13 +338,16 @@ struct ProbeBoxes {
 
     /// The light of each box, moved by (column, row): R, G, B and whether the probe lies in the part.
     template <class F>
-    LFDSIM_FN void look(const Probes<S>& probes, const PanelLevels& levels, const PanelBase<S>& base, S column, S row,
+    LFDSIM_FN void look(const Probes<S>& probes, const PanelLight& panel, const PanelBase<S>& base, S column, S row,
                         S (&light)[probes_each][4]) const {
-        for (int p = 0; p < probes_each; p += LaneTraits<F>::width)
-            light_of_boxes(levels, base,
-                           Boxes<F>{load<F>(probes.column + p) + F(column), load<F>(probes.row + p) + F(row), load<F>(width + p),
-                                    load<F>(height + p), load<F>(weight + p)},
-                           light + p);
+        for (int p = 0; p < probes_each; p += LaneTraits<F>::width) {
+            Light<F> found;
+            add_light(panel, base,
+                      Boxes<F>{load<F>(probes.column + p) + F(column), load<F>(probes.row + p) + F(row), load<F>(width + p),
+                               load<F>(height + p), load<F>(weight + p)},
+                      found);
+            found.store(light[p]);
+        }
         for (int p = 0; p < probes_each; ++p) light[p][3] = probes.in[p];
     }
 };

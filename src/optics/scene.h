@@ -52,7 +52,7 @@ struct SubpixelPart {
     std::int32_t cell[2];      // pixels
     S per_cell[2];             // 1 / cell
     std::int32_t pixel[2];     // whose light it shows, from the cell's first
-    std::int32_t plane;        // the number of the picture of those pixels of all cells (engine/pyramid.h)
+    std::int32_t plane;        // the number of the picture of those pixels of all cells (engine/summed_panel.h)
     S from[2], to[2], per[2];  // per: 1 / (to - from)
     S share;                   // of the channel's light
 };
@@ -167,21 +167,23 @@ struct View {
     std::uint64_t seed;
 };
 
-/// A level of the panel's pyramid: columns x rows cells of 4 floats (R, G, B, 0). Level 0 is the panel image itself.
-struct PanelLevel {
+/// An image of columns x rows pixels, 4 floats each (R, G, B, 0), and its summed-area table.
+struct SummedImage {
+    /// Units of light that a white pixel has in the table, and the most white pixels whose sum is below 2^31. Light of 16-bit
+    /// linear codes is a whole number of units.
+    static constexpr int units = 8 * 65535, most_pixels = 4096;
+
     const float* texels;
+    const std::uint32_t* sums;  // (columns + 1) x (rows + 1) x 4: of all pixels above and to the left, modulo 2^32; null: none
+    float light_per_unit;
     std::uint32_t columns, rows;
 };
 
-/// The panel's levels: `count` of its pyramid and, where footprints are long, as many of sums; then those of the further planes of
-/// subpixels, as many each (engine/pyramid.h).
-struct PanelLevels {
-    const PanelLevel* level;
-    int count;
-    bool sums;
-    bool tall;                    // footprints are long along columns, not along rows
-    bool whole;                   // all of each pixel shines in its own colour: as `emission` says, which else has the parts
-    std::uint32_t columns, rows;  // of the finest level
+/// What the filtered estimator reads of a panel: the panel itself, then the further planes of its subpixels
+/// (engine/summed_panel.h).
+struct PanelLight {
+    const SummedImage* plane;
+    bool whole;  // all of each pixel shines in its own colour: as `emission` says, which else has the parts
     const Emission<float>* emission;
 };
 

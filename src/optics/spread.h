@@ -1,7 +1,8 @@
 // The mean light of the panel over what a ray spreads there: by the two numbers of the filtered estimator's square, and by others.
 // Floor 1.
 #pragma once
-#include "optics/boxes.h"
+#include "optics/filtered_limits.h"
+#include "optics/panel_light.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
@@ -119,14 +120,13 @@ class Pieces {
 
 /// The mean over leaning lines of a panel with subpixels.
 template <int axis, class F>
-LFDSIM_LARGE Colours<F> subpixels_in_lines(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, const LeaningLines<F>& line,
-                                           Mask<F> fully) {
+LFDSIM_LARGE void add_lines(const PanelLight& panel, const PanelBase<Scalar<F>>& base, const LeaningLines<F>& line,
+                            Light<F>& light) {
     using S = Scalar<F>;
     constexpr int other = 1 - axis;
-    const Emission<S>& emission = *levels.emission;
+    const Emission<S>& emission = *panel.emission;
     const std::uint32_t number = axis == 0 ? base.row : base.column;
     Pieces<axis, F> piece(line);
-    Colours<F> sum;
     bool found = true;
     for (int n = 0; n < FilteredLimits::most_pieces && found; ++n) {
         found = false;
@@ -140,10 +140,9 @@ LFDSIM_LARGE Colours<F> subpixels_in_lines(const PanelLevels& levels, const Pane
             side[other] =
                 PlaneSide<F>(part, other, number, piece.middle, sqrt(line.across * line.across + piece.aside * piece.aside));
             side[other].squeeze(part, other, line.across, piece.aside);
-            add_part(levels, base, part, side, line.weight * piece.share, fully, sum);
+            add_part(panel, base, part, side, line.weight * piece.share, light);
         }
     }
-    return sum;
 }
 
 /// The light that spreads so far about a place by `square` and by `others`, `weight` times its mean. Where pixels shine all over,
@@ -151,21 +150,19 @@ LFDSIM_LARGE Colours<F> subpixels_in_lines(const PanelLevels& levels, const Pane
 /// there light is read along the line, or gaps take their exact share of two upright spreads; where a wide box hides how the rest
 /// leans, of boxes side by side along the diagonal of that rest. docs/model.md, "Filtered estimator".
 template <class F>
-LFDSIM_FN void light_of_spread(const PanelLevels& levels, const PanelBase<Scalar<F>>& base, F column, F row,
-                               const PanelSpread<F>& square, const PanelSpread<F>& others, Mask<F> fully, F weight,
-                               Scalar<F> (*light)[4]) {
+LFDSIM_FN void add_spread(const PanelLight& panel, const PanelBase<Scalar<F>>& base, F column, F row, const PanelSpread<F>& square,
+                          const PanelSpread<F>& others, F weight, Light<F>& light) {
     using S = Scalar<F>;
-    const F zero = F(0), tiny = F(S(1e-6)), least = F(S(least_box)), upright = F(S(FilteredLimits::upright));
+    const F zero = F(0), tiny = F(S(1e-6)), least = F(S(1.0 / 64)), upright = F(S(FilteredLimits::upright));
     const F all_wide2 = square.wide2 + others.wide2, all_high2 = square.high2 + others.high2;
     const Boxes<F> all{column, row, sqrt(all_wide2), sqrt(all_high2), weight};
-    if (levels.whole) return light_of_boxes(levels, base, all, light, fully);
+    if (panel.whole) return add_boxes(panel.plane[0], base, all, light);
     const F wide2 = max(all_wide2 - others.box_wide2, zero), high2 = max(all_high2 - others.box_high2, zero), wide = sqrt(wide2),
             high = sqrt(high2), wider = upright * max(all.wide, least), higher = upright * max(all.high, least);
     const Mask<F> in_box = (others.box_wide2 > wide2) && (others.box_high2 > high2), down = !(all.wide > all.high),
                   leans = !in_box && (upright * (abs(square.lean2) + abs(others.lean2)) > wider * higher),
                   hidden = in_box && (wide > wider) && (high > higher), apart = !in_box && !leans;
-    Colours<F> sum;
-    const auto add_lines = [&]<int axis>(Mask<F> some) {
+    const auto add_leaning = [&]<int axis>(Mask<F> some) {
         if (none(some)) return;
         F across2 = zero;  // what does not lean
         const auto line_of = [&](const PanelSpread<F>& spread) {
@@ -175,15 +172,15 @@ LFDSIM_FN void light_of_spread(const PanelLevels& levels, const PanelBase<Scalar
         };
         LeaningLines<F> lines{{column, row}, line_of(square), line_of(others), zero, select(some, weight, zero)};
         lines.across = sqrt(across2);
-        sum.add(subpixels_in_lines<axis>(levels, base, lines, fully));
+        add_lines<axis>(panel, base, lines, light);
     };
-    add_lines.template operator()<0>(leans && !down);
-    add_lines.template operator()<1>(leans && down);
+    add_leaning.template operator()<0>(leans && !down);
+    add_leaning.template operator()<1>(leans && down);
     if (any(apart)) {
         const F one[2] = {sqrt(square.wide2), sqrt(square.high2)}, other[2] = {sqrt(others.wide2), sqrt(others.high2)};
         Boxes<F> box = all;
         box.weight = select(apart, weight, zero);
-        add_subpixels(levels, base, box, fully, sum, [&](PlaneSide<F>& side, const SubpixelPart<S>& part, int axis) {
+        add_subpixels(panel, base, box, light, [&](PlaneSide<F>& side, const SubpixelPart<S>& part, int axis) {
             side.squeeze(part, axis, one[axis], other[axis]);
         });
     }
@@ -194,12 +191,11 @@ LFDSIM_FN void light_of_spread(const PanelLevels& levels, const PanelBase<Scalar
         const auto side = [&](F of_all2, F of_line2) {
             return sqrt(of_all2 - select(hidden, of_line2 - per * per * of_line2, zero));
         };
-        sum.add(subpixels_in(levels, base,
-                             Boxes<F>{column + at * wide, row + at * high, side(all_wide2, wide2), side(all_high2, high2),
-                                      select(in_box && (count > F(S(k))), per * weight, zero)},
-                             fully));
+        add_subpixels(panel, base,
+                      Boxes<F>{column + at * wide, row + at * high, side(all_wide2, wide2), side(all_high2, high2),
+                               select(in_box && (count > F(S(k))), per * weight, zero)},
+                      light);
     }
-    sum.by_lane(light);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

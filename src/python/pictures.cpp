@@ -121,7 +121,7 @@ nb::typed<nb::tuple, Pictured, Notes, double> render(const Display& display, con
             made.image = lfdsim::render(display, geometry, shown, options, job).image;
             seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         };
-        if (panel) return seen(panel->shown.pyramid());
+        if (panel) return seen(panel->shown.summed());
         if (pixels) return seen(texels_of(*pixels, display.panel.encoding, "panel"));
         Made content = elemental(display, geometry, threads, job);
         made.notes = std::move(content.notes);

@@ -117,7 +117,7 @@ Drawing::Frames Drawing::pictures(const std::vector<Lit>& all, Quality quality, 
         RenderOptions options;
         options.threads = threads_;
         options.rough = quality == Quality::coarse;
-        Rendering r = render(display, geometry, lit.light->pyramid(), options, job);
+        Rendering r = render(display, geometry, lit.light->summed(), options, job);
         if (!r.complete) throw Stopped{};
         FrameHeader header{wanted_.id,     lit.seen.lane,       quality,         r.image.width,
                            r.image.height, samples_of(display), 1000 * r.seconds};
@@ -178,7 +178,7 @@ Drawing::Frame Drawing::exr(std::int64_t id, Job& job) {
     FrameHeader header{id, "file", Quality::final};
     for (const Seen& eye : eyes_) {
         const Lit lit = true_light(eye, job);
-        Rendering r = render(eye.display, eye.geometry, lit.light->pyramid(), {threads_, "", {}}, job);
+        Rendering r = render(eye.display, eye.geometry, lit.light->summed(), {threads_, "", {}}, job);
         if (!r.complete) throw Stopped{};
         header.width = r.image.width;
         header.height = r.image.height;

@@ -56,7 +56,7 @@ Plot fov_plot(const Display& display, const ContentScene& shown_there, const Job
     for (int k = -angles_each_side; k <= angles_each_side; ++k) {
         const double angle = most * k / angles_each_side;
         const Display seen = seen_from(d, angle, 0);
-        const Likeness l = likeness(expected_view(seen, g, scene, 0, job), seen, g, shown->pyramid(), white, {}, job);
+        const Likeness l = likeness(expected_view(seen, g, scene, 0, job), seen, g, shown->summed(), white, {}, job);
         for (Series* of : {&of_content, &of_screen}) of->x.push_back(angle);
         of_content.y.push_back(l.content);
         of_screen.y.push_back(l.screen);

@@ -230,7 +230,7 @@ TEST(MtfOfColours, EdgesAreMadeForSubpixels) {
         Bars bars = bars_across(directions(d).front(), g.vertex_plane_mm + 120);
         bars.width_mm = 1e6;
         const auto panel = bars_panel(d, g, bars, 1);
-        const optics::PanelLevel& level = panel->pyramid().levels().front();
+        const optics::SummedImage& level = panel->summed().planes().front();
         std::int64_t wrong = 0, differ = 0;
         for (std::uint32_t row = 0; row < level.rows; ++row)
             for (std::uint32_t column = 0; column < level.columns; ++column) {

@@ -170,8 +170,8 @@ void light_stays_light(int drawn_displays, std::uint64_t hash) {
     EXPECT_GT(lit, drawn_displays / 3);
     EXPECT_EQ(bits.hash(), hash);
 }
-TEST(FilteredExtremes, LightStaysLight) { light_stays_light(100, 0xf074cabd74e53830); }
-TEST(FilteredExtremes, LightStaysLightAtLength) { light_stays_light(300, 0xfd7219ea3e3cb0c3); }
+TEST(FilteredExtremes, LightStaysLight) { light_stays_light(100, 0x14868d7b6d32972b); }
+TEST(FilteredExtremes, LightStaysLightAtLength) { light_stays_light(300, 0x889d8d4db5572d48); }
 
 /// Of the light of a picture that sees few of the diffuser's angles: a sum of boxes has a bell's moments, not its value everywhere.
 double form_error(const Display& d) { return d.diffuser && d.diffuser->profile == Profile::gaussian ? 0.16 : 0.02; }
@@ -238,8 +238,8 @@ void holds_on_every_lattice_and_camera(int drawn_displays, std::uint64_t hash) {
     EXPECT_GT(compared, drawn_displays / 5);
     EXPECT_EQ(bits.hash(), hash);
 }
-TEST(FilteredExtremes, OfEveryLatticeAndCamera) { holds_on_every_lattice_and_camera(50, 0xd1ddc1750a9ff541); }
-TEST(FilteredExtremes, OfEveryLatticeAndCameraAtLength) { holds_on_every_lattice_and_camera(150, 0xe775b60c9c485e36); }
+TEST(FilteredExtremes, OfEveryLatticeAndCamera) { holds_on_every_lattice_and_camera(50, 0xb71781ea3c408d81); }
+TEST(FilteredExtremes, OfEveryLatticeAndCameraAtLength) { holds_on_every_lattice_and_camera(150, 0x70702a898148b7f8); }
 
 }  // namespace
 }  // namespace lfdsim

@@ -1,4 +1,5 @@
-// Subpixels in pictures: single rays against a search over the described rectangles, means over boxes against sums of such rays.
+// Subpixels in pictures: single rays against a search over the described rectangles, means over boxes against the area of those
+// rectangles.
 #include "model/subpixels.h"
 
 #include <gtest/gtest.h>
@@ -101,49 +102,65 @@ struct ReadPanel {
     explicit ReadPanel(const Display& d)
         : panel(d.panel),
           shown(noise_panel(d)),
-          pyramid(shown),
+          summed(shown),
           reading{.planes = planes(d.panel)},
           scene(make_scene<float>(d, resolve(d))) {
-        levels = panel_levels(pyramid.levels(reading), reading, scene.emission);
+        light = {summed.planes(reading).data(), scene.emission.whole, &scene.emission};
     }
     double light_at(double x, double y, int c) const { return lfdsim::light_at(panel, shown, x, y, c); }
 
     Panel panel;
     Texels shown;
-    Pyramid pyramid;
+    SummedPanel summed;
     PanelReading reading;
     optics::Scene<float> scene;
-    optics::PanelLevels levels;
+    optics::PanelLight light;
     optics::PanelBase<float> base{40, 30, 0, 0};
 };
 
-/// Boxes with their middles from..to, in pixels from the panel's corner. Up to a pixel wide, where a box is read at the finest
-/// level and its mean is exact.
-void expect_means_of_points(const Display& d, std::array<double, 2> from, std::array<double, 2> to) {
+/// The mean of what the described rectangles show in a box.
+double mean_over(const ReadPanel& panel, double x, double y, double wide, double high, int c) {
+    const auto part = [](double middle, double size, double from, double to) {
+        return std::max(std::min(middle + size / 2, to) - std::max(middle - size / 2, from), 0.0);
+    };
+    const auto pixels = [](double middle, double size, std::int64_t count) {  // subpixels lie up to a cell away
+        return std::pair{std::max(std::int64_t(std::floor(middle - size / 2)) - 3, std::int64_t(0)),
+                         std::min(std::int64_t(std::floor(middle + size / 2)) + 3, count - 1)};
+    };
+    const auto [left, right] = pixels(x, wide, panel.panel.pixels[0]);
+    const auto [top, bottom] = pixels(y, high, panel.panel.pixels[1]);
+    double sum = 0;
+    for (std::int64_t row = top; row <= bottom; ++row)
+        for (std::int64_t column = left; column <= right; ++column)
+            for (const LitRect& lit : lit_rects(panel.panel, c, column, row)) {
+                const double at_x = double(column) + 0.5, at_y = double(row) + 0.5;
+                const double columns = double(panel.panel.pixels[0]), rows = double(panel.panel.pixels[1]);
+                sum += part(x, wide, std::max(at_x + lit.from[0], 0.0), std::min(at_x + lit.to[0], columns)) *
+                       part(y, high, std::max(at_y + lit.from[1], 0.0), std::min(at_y + lit.to[1], rows)) *
+                       double(panel.shown.data()[4 * (row * panel.shown.columns() + column) + c]);
+            }
+    return sum * gain(panel.panel, c) / (wide * high);
+}
+
+/// Boxes of up to 20 pixels with their middles from..to, in pixels from the panel's corner.
+void expect_means_of_rectangles(const Display& d, std::array<double, 2> from, std::array<double, 2> to) {
     const ReadPanel panel(d);
     Random random(7);
     for (int n = 0; n < 300; ++n) {
-        const double wide = random(0.05, 1), high = random(0.05, 1), x = random(from[0], to[0]), y = random(from[1], to[1]);
-        float light[1][4];
-        optics::light_of_boxes(panel.levels, panel.base,
-                               optics::Boxes<float>{float(x - 40), float(y - 30), float(wide), float(high), 1.0f}, light);
-        optics::Light<float> same;
-        optics::add_subpixels<float>(panel.levels, panel.base, float(wide), float(high), float(x - 40), float(y - 30), 1.0f, same);
-        constexpr int points = 64;
-        for (int c = 0; c < 3; ++c) {
-            double sum = 0;
-            for (int i = 0; i < points; ++i)
-                for (int j = 0; j < points; ++j)
-                    sum += panel.light_at(x + ((i + 0.5) / points - 0.5) * wide, y + ((j + 0.5) / points - 0.5) * high, c);
-            EXPECT_NEAR(light[0][c], sum / (points * points), 0.05 * gain(d.panel, c)) << x << " " << y << " " << c;
-            EXPECT_NEAR(same(0, c), light[0][c], 1e-4 * gain(d.panel, c));
-        }
+        const double wide = std::exp(random(std::log(0.05), std::log(20))), high = std::exp(random(std::log(0.05), std::log(20))),
+                     x = random(from[0], to[0]), y = random(from[1], to[1]);
+        optics::Light<float> light;
+        optics::add_light(panel.light, panel.base,
+                          optics::Boxes<float>{float(x - 40), float(y - 30), float(wide), float(high), 1.0f}, light);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(light(0, c), mean_over(panel, x, y, wide, high, c), 1e-3 * gain(d.panel, c))
+                << x << " " << y << " " << wide << " x " << high << " " << c;
     }
 }
 
-TEST_P(OfLayout, MeansOverBoxesAreThoseOfTheirPoints) {
+TEST_P(OfLayout, MeansOverBoxesAreThoseOfTheirRectangles) {
     const Display d = display();
-    expect_means_of_points(d, {-1, -1}, {double(d.panel.pixels[0]) + 1, double(d.panel.pixels[1]) + 1});
+    expect_means_of_rectangles(d, {-1, -1}, {double(d.panel.pixels[0]) + 1, double(d.panel.pixels[1]) + 1});
 }
 
 /// Light spreads evenly along a line and over a box about its points, both in panel pixels.
@@ -171,26 +188,25 @@ SpreadErrors errors_of(const Display& d, const std::function<LineOfBoxes(Random&
         box.add(float(of.wide), 0);
         box.add(0, float(of.high));
         if (of.told) box.box_wide2 = box.wide2, box.box_high2 = box.high2;
-        float read[1][4], upright[1][4];
-        optics::light_of_spread(panel.levels, panel.base, at_x, at_y, line, box, true, 1.0f, read);
-        optics::light_of_boxes(
-            panel.levels, panel.base,
-            optics::Boxes<float>{at_x, at_y, std::sqrt(line.wide2 + box.wide2), std::sqrt(line.high2 + box.high2), 1.0f}, upright,
-            true);
+        optics::Light<float> read, upright;
+        optics::add_spread(panel.light, panel.base, at_x, at_y, line, box, 1.0f, read);
+        optics::add_light(
+            panel.light, panel.base,
+            optics::Boxes<float>{at_x, at_y, std::sqrt(line.wide2 + box.wide2), std::sqrt(line.high2 + box.high2), 1.0f}, upright);
         double truth[3] = {0, 0, 0};  // of boxes, no wider than a pixel, along the line
         for (int k = 0; k < along; ++k) {
             const double share = (k + 0.5) / along - 0.5;
-            float light[1][4];
-            optics::light_of_boxes(panel.levels, panel.base,
-                                   optics::Boxes<float>{at_x + float(share * of.columns), at_y + float(share * of.rows),
-                                                        float(of.wide), float(of.high), 1.0f},
-                                   light);
-            for (int c = 0; c < 3; ++c) truth[c] += double(light[0][c]) / along;
+            optics::Light<float> light;
+            optics::add_light(panel.light, panel.base,
+                              optics::Boxes<float>{at_x + float(share * of.columns), at_y + float(share * of.rows), float(of.wide),
+                                                   float(of.high), 1.0f},
+                              light);
+            for (int c = 0; c < 3; ++c) truth[c] += double(light(0, c)) / along;
         }
         for (int c = 0; c < 3; ++c) {
             const auto add = [&](double& to, float light) { to += (light - truth[c]) * (light - truth[c]) / (3 * spreads); };
-            add(squares.read, read[0][c]);
-            add(squares.upright, upright[0][c]);
+            add(squares.read, read(0, c));
+            add(squares.upright, upright(0, c));
         }
     }
     return {std::sqrt(squares.upright), std::sqrt(squares.read)};
@@ -233,8 +249,8 @@ TEST(Subpixels, NothingShinesBeyondABorderThatCutsCells) {
     for (const std::int64_t columns : {121, 122}) {
         d.panel.pixels = {columns, 81};
         ASSERT_TRUE(validate(d).empty()) << validate(d).front().what;
-        expect_means_of_points(d, {double(columns) - 4, 40}, {double(columns) + 2, 83});
-        expect_means_of_points(d, {0, 77}, {double(columns) + 1, 83});
+        expect_means_of_rectangles(d, {double(columns) - 4, 40}, {double(columns) + 2, 83});
+        expect_means_of_rectangles(d, {0, 77}, {double(columns) + 1, 83});
     }
 }
 

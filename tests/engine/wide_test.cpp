@@ -32,12 +32,12 @@ void expect_same(const Image& a, const Image& b, const std::string& what) {
 
 Rendering by_host(const Display& d, const Texels& panel, const RenderOptions& options, HostQueue& queue) {
     Job job;
-    const Pyramid pyramid(panel);
+    const SummedPanel summed(panel);
     const Geometry geometry = resolve(d);
-    const auto& levels = pyramid.levels(panel_reading(d, geometry));
-    Work work(d, geometry, levels, options);
+    const auto& planes = summed.planes(panel_reading(d));
+    Work work(d, geometry, planes, options);
     work.make_pictures(options.target_error.has_value());
-    const wide::DevicePanel there(queue, levels);
+    const wide::DevicePanel there(queue, planes);
     const Done done = wide::render(queue, there, work.tile, work.target_error, work.result.error.rgb.data(), job);
     EXPECT_TRUE(done.complete);
     work.result.samples = done.samples;
@@ -143,11 +143,11 @@ TEST(Wide, StopsWhenAskedAndLeavesTheRestBlack) {
     d.render.estimator = Estimator::filtered;
     d.render.samples = 3600;  // of which few blocks fit at a time
     const Texels panel = uniform_panel(d, 1);
-    const Pyramid pyramid(panel);
+    const SummedPanel summed(panel);
     HostQueue queue;
-    Work work(d, resolve(d), pyramid.levels(), {});
+    Work work(d, resolve(d), summed.planes(), {});
     work.make_pictures(false);
-    const wide::DevicePanel there(queue, pyramid.levels());
+    const wide::DevicePanel there(queue, summed.planes());
     EXPECT_FALSE(wide::render(queue, there, work.tile, {}, nullptr, job).complete);
     EXPECT_GT(job.done, 0);
     EXPECT_LT(job.done, 160 * 112);
@@ -158,10 +158,10 @@ TEST(Wide, StopsWhenAskedAndLeavesTheRestBlack) {
 TEST(Wide, SaysWhatMemoryItWants) {
     Display d = example();
     const Texels panel = uniform_panel(d, 1);
-    const Pyramid pyramid(panel);
+    const SummedPanel summed(panel);
     HostQueue small(1000);
-    EXPECT_THROW(wide::DevicePanel(small, pyramid.levels()), wide::DeviceError);
-    EXPECT_GE(wide::DevicePanel::bytes(pyramid.levels()), std::size_t(panel.columns() * panel.rows()) * 16);
+    EXPECT_THROW(wide::DevicePanel(small, summed.planes()), wide::DeviceError);
+    EXPECT_GE(wide::DevicePanel::bytes(summed.planes()), std::size_t(panel.columns() * panel.rows()) * 16);
 }
 
 /// A photograph that is somewhat like the view of a crop, and regions of both.
@@ -186,21 +186,21 @@ TEST(Wide, LikenessHasTheSameBits) {
     Display d = example();
     d.camera.resolution = {480, 336};  // rows are taken in two parts
     const Texels panel = patterned_panel(d);
-    const Pyramid pyramid(panel);
+    const SummedPanel summed(panel);
     for (const Rect crop : {Rect{7, 5, 460, 330}, Rect{0, 0, 480, 336}, Rect{20, 20, 60, 30}}) {
         const RenderOptions options{0, "", crop, {}, "cpu"};
         const Image view = by_cpu(d, panel, options).image;
         const Expected expected = expected_of(view);
         HostQueue queue;
         Job job;
-        const wide::DevicePanel there(queue, pyramid.levels());
+        const wide::DevicePanel there(queue, summed.planes());
         const wide::Photograph photograph(queue, expected.photograph());
-        const Work work(d, resolve(d), pyramid.levels(), options);
+        const Work work(d, resolve(d), summed.planes(), options);
         wide::Comparison comparison(queue, photograph, expected.screen, expected.content);
         const wide::Buffer<float> seen(queue, view.rgb.size());
         EXPECT_TRUE(wide::render_there(queue, there, work.tile, seen.get(), job).complete);
         const Likeness wide = comparison.with(seen.get(), 1.3f),
-                       cpu = compare_view(d, resolve(d), pyramid, expected, 1.3f, options, job).likeness;
+                       cpu = compare_view(d, resolve(d), summed, expected, 1.3f, options, job).likeness;
         if (view.height > 11) {
             expect_same(wide, cpu);
             EXPECT_GT(cpu.screen, 0.1);
@@ -216,14 +216,14 @@ TEST(Wide, LikenessHasTheSameBits) {
 TEST(CompareView, WantsAPhotographOfTheCropsSize) {
     const Display d = example();
     const Texels panel = uniform_panel(d, 1);
-    const Pyramid pyramid(panel);
+    const SummedPanel summed(panel);
     Job job;
     const Expected expected(Image(30, 20), {}, {});
-    EXPECT_THROW(compare_view(d, resolve(d), pyramid, expected, 1, {}, job), InputError);
+    EXPECT_THROW(compare_view(d, resolve(d), summed, expected, 1, {}, job), InputError);
     RenderOptions options{0, "", Rect{0, 0, 30, 20}};
-    EXPECT_TRUE(compare_view(d, resolve(d), pyramid, expected, 1, options, job).complete);
+    EXPECT_TRUE(compare_view(d, resolve(d), summed, expected, 1, options, job).complete);
     options.target_error = 0.1;
-    EXPECT_THROW(compare_view(d, resolve(d), pyramid, expected, 1, options, job), std::invalid_argument);
+    EXPECT_THROW(compare_view(d, resolve(d), summed, expected, 1, options, job), std::invalid_argument);
 }
 
 TEST(Devices, AreChosenByWordOrExplained) {
@@ -333,7 +333,7 @@ TEST_F(OnGpu, FilteredHasTheCpusBits) {
 TEST_F(OnGpu, PicturesMadeAtOnceHaveTheCpusBits) {
     const std::vector<std::pair<std::string, Display>> all = diffused();
     const Texels panel = patterned_panel(all[0].second);
-    const Pyramid pyramid(panel);
+    const SummedPanel summed(panel);
     RenderOptions options;
     options.device = "cuda";
     const auto seen = [&](std::size_t k) {
@@ -343,7 +343,7 @@ TEST_F(OnGpu, PicturesMadeAtOnceHaveTheCpusBits) {
     };
     Job job;
     make_ahead(
-        20, true, [&](std::size_t k) { return render(seen(k), resolve(seen(k)), pyramid, options, job); },
+        20, true, [&](std::size_t k) { return render(seen(k), resolve(seen(k)), summed, options, job); },
         [&](std::size_t k, const Rendering& r) {
             expect_same(r.image, by_cpu(seen(k), panel, {}).image, "view " + std::to_string(k));
             return true;
@@ -354,16 +354,16 @@ TEST_F(OnGpu, LikenessHasTheCpusBits) {
     Display d = example();
     d.camera.resolution = {960, 672};
     const Texels panel = patterned_panel(d);
-    const Pyramid pyramid(panel);
+    const SummedPanel summed(panel);
     const Expected expected = expected_of(by_cpu(d, panel, {}).image);
     Job job;
     RenderOptions cpu, gpu;
     cpu.device = "cpu";
     gpu.device = "cuda";
     for (int k = 0; k < 3; ++k) {  // the photograph is there from the second on
-        const ComparedView seen = compare_view(d, resolve(d), pyramid, expected, 0.8f, gpu, job);
+        const ComparedView seen = compare_view(d, resolve(d), summed, expected, 0.8f, gpu, job);
         EXPECT_GT(seen.gpu_seconds, 0);
-        expect_same(seen.likeness, compare_view(d, resolve(d), pyramid, expected, 0.8f, cpu, job).likeness);
+        expect_same(seen.likeness, compare_view(d, resolve(d), summed, expected, 0.8f, cpu, job).likeness);
         d.camera.position_mm[0] += 11;
     }
 }

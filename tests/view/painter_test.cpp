@@ -198,7 +198,7 @@ TEST_F(PainterTest, WhatDoesNotFitIsRefusedAndOthersGoOn) {
     const auto problem = outbox.problems(1)[0];
     EXPECT_EQ(problem["key"], "panel.pixels");
     EXPECT_THAT(problem["what"].get<std::string>(),
-                testing::ContainsRegex("16000 x 12000 pixels needs 6.4 GB of memory; .* has [0-9]+ MB free"));
+                testing::ContainsRegex("16000 x 12000 pixels needs 8.4 GB of memory; .* has [0-9]+ MB free"));
     Wanted large = wanted(2);
     large.size = {3840, 2160};
     painter.want(large);

@@ -52,7 +52,7 @@ TEST_F(PanelsTest, AFileThatChangesIsReadAgain) {
     std::filesystem::remove(folder / "panel.png");
     write_image(folder / "panel.png", image);
     const auto white = get(display(), source_of(library, shown, display()));
-    EXPECT_EQ(white->pyramid().levels()[0].texels[0], 1);
+    EXPECT_EQ(white->summed().planes()[0].texels[0], 1);
 }
 
 TEST_F(PanelsTest, ScenesThatAreMovedAreThoseMadeThere) {

@@ -250,19 +250,16 @@ class BlockWork {
     LFDSIM_FN void add_box(const SharedBundle& b, F dx, F dy, F weight, optics::Light<F>& light) const {
         const F column = F(b.column) + F(b.column_right) * dx + F(b.column_down) * dy,
                 row = F(b.row) + F(b.row_right) * dx + F(b.row_down) * dy;
-        const bool small = !tile.levels.sums || optics::max(b.width, b.height) <= S(optics::most_box);
-        if (small && scene.emission.whole) return b.footprint.add(light, column, row, weight);
+        const optics::Boxes<F> box{column, row, F(optics::max(b.width, S(optics::least_box))),
+                                   F(optics::max(b.height, S(optics::least_box))), weight};
+        if (scene.emission.whole && optics::max(b.width, b.height) <= S(1))
+            return optics::add_small_boxes(tile.panel.plane[0], at.block.lens.panel, box, light);
         optics::Light<F> sum = light;  // the function below wants an address: `light` itself stays in registers
-        add_other_box(b, small, column, row, weight, sum);
+        add_other_box(box, sum);
         light = sum;
     }
-    LFDSIM_APART void add_other_box(const SharedBundle& b, bool small, const F& column, const F& row, const F& weight,
-                                    optics::Light<F>& light) const {
-        if (small) return optics::add_subpixels(tile.levels, at.block.lens.panel, b.width, b.height, column, row, weight, light);
-        S in_box[Packet::lanes][4];
-        optics::light_of_boxes(tile.levels, at.block.lens.panel, optics::Boxes<F>{column, row, F(b.width), F(b.height), weight},
-                               in_box);
-        light.add(in_box);
+    LFDSIM_APART void add_other_box(const optics::Boxes<F>& box, optics::Light<F>& light) const {
+        optics::add_light(tile.panel, at.block.lens.panel, box, light);
     }
 
     /// Adds what each pixel of the packet at (x, y) of the frame computes by itself: all strata where there are no places, else the

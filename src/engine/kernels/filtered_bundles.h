@@ -11,7 +11,6 @@
 #include "engine/kernels/filtered_grids.h"
 #include "optics/bundle.h"
 #include "optics/filtered_limits.h"
-#include "optics/footprint.h"
 #include "optics/strata.h"
 #include "optics/trace.h"
 
@@ -185,7 +184,7 @@ class BundleMaker {
         trace(i, x, j, y, inside);
         Shape b = optics::sum_up(probes, per_axis);
         if (b.state != State::sharp) return b;
-        const bool soft = optics::is_soft(tile.levels, b),
+        const bool soft = optics::is_soft(scene, b),
                    uneven = !scene.emission.whole && optics::max(b.width, b.height) < S(FilteredLimits::masked);
         if (soft && (fine_alone(tile, scene) || grid->narrow || uneven)) {
             b.state = State::broken;
@@ -280,7 +279,7 @@ class BundleMaker {
         boxes.make<F>(probes, per_axis);
         if (b.blur_width > 0 || b.blur_height > 0) boxes.blur(b.blur_width, b.blur_height);
         const bool cut_off[2] = {axis[0].stratum[i].cut_off, axis[1].stratum[j].cut_off};
-        const optics::PanelLevels levels = tile.levels;
+        const optics::PanelLight panel = tile.panel;
         const optics::PanelBase<S> base = block.lens.panel;
         S light[optics::probes_each][4];
         const S step = b.nodes == 1 ? S(0) : S(2) / S(b.nodes - 1), first = b.nodes == 1 ? S(0) : S(-1), reach = S(block.reach);
@@ -290,7 +289,7 @@ class BundleMaker {
                 const int n = row * b.nodes + column;
                 if (n == 0 || !b.still) {
                     const S move = b.still ? S(0) : reach;
-                    boxes.look<F>(probes, levels, base, (b.column_right * right + b.column_down * down) * move,
+                    boxes.look<F>(probes, panel, base, (b.column_right * right + b.column_down * down) * move,
                                   (b.row_right * right + b.row_down * down) * move, light);
                 }
                 S seen[optics::probes_each];
@@ -373,7 +372,6 @@ class BundleMaker {
             b.width = optics::sqrt(b.width * b.width + b.blur_width);
             b.height = optics::sqrt(b.height * b.height + b.blur_height);
         }
-        b.footprint = optics::Footprint<S>(tile.levels, block.lens.panel, b.width, b.height);
     }
 
     static constexpr S part_per_pixel = S(1) / S(FilteredLimits::pixels_a_part);

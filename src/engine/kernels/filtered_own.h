@@ -9,10 +9,10 @@
 #include "engine/kernel.h"
 #include "engine/kernels/filtered_axis.h"
 #include "engine/kernels/filtered_blur.h"
-#include "optics/boxes.h"
 #include "optics/bundle.h"
 #include "optics/filtered_limits.h"
 #include "optics/outline.h"
+#include "optics/panel_light.h"
 #include "optics/spread.h"
 #include "optics/strata.h"
 #include "optics/trace.h"
@@ -134,10 +134,8 @@ LFDSIM_APART void add_own_rays(const Tile& tile, const optics::PixelRays<F>& pix
         const F wide = F(4) * (optics::abs(across_c) + optics::abs(along_c)),
                 high = F(4) * (optics::abs(across_r) + optics::abs(along_r));
         const F column = one.column + across_c * to_a + along_c * to_b, row = one.row + across_r * to_a + along_r * to_b;
-        S in_box[optics::LaneTraits<F>::width][4];
-        optics::light_of_boxes(tile.levels, pixels.base,
-                               optics::Boxes<F>{column, row, wide, high, optics::select(together, weight, F(0))}, in_box);
-        light.add(in_box);
+        optics::add_light(tile.panel, pixels.base,
+                          optics::Boxes<F>{column, row, wide, high, optics::select(together, weight, F(0))}, light);
         one.alive = one.alive && !together;
     }
     if (optics::none(one.alive)) return;
@@ -217,13 +215,8 @@ class WaitingRays {
                 square.add(optics::select(lit, next.column - end[p].column, none),
                            optics::select(lit, next.row - end[p].row, none));
             }
-            S in_box[optics::LaneTraits<F>::width][4];
             const F weight = optics::select(rays.counts[p] && end[p].alive, rays.weight * end[p].weight, none);
-            // Where most of a box is what other numbers spread, those of the four do not stand side by side.
-            const optics::PanelSpread<F>& others = spread.on_panel;
-            const optics::Mask<F> fully = (others.wide2 > square.wide2) || (others.high2 > square.high2);
-            optics::light_of_spread(tile.levels, pixels.base, end[p].column, end[p].row, square, others, fully, weight, in_box);
-            light.add(in_box);
+            optics::add_spread(tile.panel, pixels.base, end[p].column, end[p].row, square, spread.on_panel, weight, light);
         }
         waits = none > none;
         for (int p = 0; p < 4; ++p) rays.counts[p] = waits;

@@ -26,7 +26,7 @@ LFDSIM_FN Tile tile_of(const Frame& frame) {
     tile.scene = &frame.scene;
     tile.view = &frame.view;
     tile.directions = &frame.directions;
-    tile.levels.emission = &frame.scene.emission;
+    tile.panel.emission = &frame.scene.emission;
     return tile;
 }
 

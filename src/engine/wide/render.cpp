@@ -37,7 +37,7 @@ class Renderer {
         frame_.directions = *tile.directions;
         frame_.tile = tile;
         frame_.tile.texels = panel.texels();
-        frame_.tile.levels.level = panel.levels();  // the emission is that of the frame's scene
+        frame_.tile.panel.plane = panel.planes();  // the emission is that of the frame's scene
         if (auto*& lens = frame_.scene.placement.lens) {
             const auto& count = frame_.scene.lattice.count;
             const std::size_t lenses = std::size_t(count[0]) * std::size_t(count[1]);
@@ -195,24 +195,32 @@ Done render_refined(Queue& queue, Renderer& renderer, const Tile& tile, double t
     return {samples, true};
 }
 
-}  // namespace
-
-DevicePanel::DevicePanel(Queue& queue, const std::vector<optics::PanelLevel>& levels) {
-    std::vector<optics::PanelLevel> there = levels;
-    for (optics::PanelLevel& level : there) {
-        const std::size_t count = std::size_t(level.columns) * level.rows * 4;
-        each_.emplace_back(queue, count);
-        queue.upload(each_.back().get(), level.texels, count * sizeof(float));
-        level.texels = each_.back().get();
-    }
-    texels_ = there[0].texels;
-    levels_ = Buffer<optics::PanelLevel>(queue, there.size());
-    queue.upload(levels_.get(), there.data(), there.size() * sizeof there[0]);
+std::size_t texel_count(const optics::SummedImage& image) { return std::size_t(image.columns) * image.rows * 4; }
+std::size_t sum_count(const optics::SummedImage& image) {
+    return (std::size_t(image.columns) + 1) * (std::size_t(image.rows) + 1) * 4;
 }
 
-std::size_t DevicePanel::bytes(const std::vector<optics::PanelLevel>& levels) {
+}  // namespace
+
+DevicePanel::DevicePanel(Queue& queue, const std::vector<optics::SummedImage>& planes) {
+    std::vector<optics::SummedImage> there = planes;
+    for (optics::SummedImage& plane : there) {
+        texels_.emplace_back(queue, texel_count(plane));
+        queue.upload(texels_.back().get(), plane.texels, texel_count(plane) * sizeof(float));
+        plane.texels = texels_.back().get();
+        if (!plane.sums) continue;
+        sums_.emplace_back(queue, sum_count(plane));
+        queue.upload(sums_.back().get(), plane.sums, sum_count(plane) * sizeof(std::uint32_t));
+        plane.sums = sums_.back().get();
+    }
+    planes_ = Buffer<optics::SummedImage>(queue, there.size());
+    queue.upload(planes_.get(), there.data(), there.size() * sizeof there[0]);
+}
+
+std::size_t DevicePanel::bytes(const std::vector<optics::SummedImage>& planes) {
     std::size_t all = 0;
-    for (const optics::PanelLevel& level : levels) all += std::size_t(level.columns) * level.rows * 4 * sizeof(float);
+    for (const optics::SummedImage& plane : planes)
+        all += texel_count(plane) * sizeof(float) + (plane.sums ? sum_count(plane) * sizeof(std::uint32_t) : 0);
     return all;
 }
 

@@ -9,20 +9,20 @@
 
 namespace lfdsim::wide {
 
-/// The panel's levels in a machine's memory.
+/// The panel's planes in a machine's memory.
 class DevicePanel {
   public:
     /// Throws DeviceError.
-    DevicePanel(Queue&, const std::vector<optics::PanelLevel>&);
+    DevicePanel(Queue&, const std::vector<optics::SummedImage>&);
 
-    const optics::PanelLevel* levels() const { return levels_.get(); }
-    const float* texels() const { return texels_; }
-    static std::size_t bytes(const std::vector<optics::PanelLevel>&);
+    const optics::SummedImage* planes() const { return planes_.get(); }
+    const float* texels() const { return texels_[0].get(); }
+    static std::size_t bytes(const std::vector<optics::SummedImage>&);
 
   private:
-    std::vector<Buffer<float>> each_;
-    Buffer<optics::PanelLevel> levels_;
-    const float* texels_;
+    std::vector<Buffer<float>> texels_;
+    std::vector<Buffer<std::uint32_t>> sums_;
+    Buffer<optics::SummedImage> planes_;
 };
 
 /// Bytes that a picture needs at least, in addition to the panel.

@@ -1,0 +1,95 @@
+#!/usr/bin/python3
+"""The filtered estimator's error on displays of many kinds: RMSE and brightness against 4096 point samples of another seed.
+
+bench/filtered.py [--cases NAME ...] [--samples N ...] [--panel checker|white ...] PROGRAM ...
+
+Several programs are compared. Crops of 96 x 54 pixels about the middle of the frame; linear light. A case takes a few seconds."""
+import argparse
+import json
+import pathlib
+import subprocess
+import tempfile
+import tomllib
+
+import numpy as np
+
+DISPLAYS = pathlib.Path(__file__).parent.parent / "displays"
+WHOLE = ["panel.subpixels=none", "panel.aperture_ratio=1"]
+PINHOLE = WHOLE + ["camera.pixel_filter=center", "camera.pupil_diameter_mm=none"]
+OBLIQUE = "camera.position_mm=[728,0,2000]"
+WEAK = ["diffuser.distance_mm=26", "diffuser.angle_deg=[2.2,2.2]"]
+CASES = {  # display, changes
+    "wide": ("desktop-asphere", []),
+    "wide, 20 degrees": ("desktop-asphere", [OBLIQUE]),
+    "wide, 960 across": ("desktop-asphere", ["camera.resolution=[960,540]"]),
+    "coarse": ("desktop-asphere", ["camera.resolution=[480,270]"]),
+    "spheres": ("desktop-spherical", []),
+    "doublet": ("desktop-doublet", []),
+    "stop": ("desktop-stopped", []),
+    "clear": ("desktop-clear", []),
+    "plate": ("desktop-plate", []),
+    "d45": ("desktop-asphere", WEAK),
+    "d45, 20 degrees": ("desktop-asphere", WEAK + [OBLIQUE]),
+    "weak": ("desktop-asphere-weak-diffuser", []),
+    "hexagons": ("hexagon", PINHOLE + ["diffuser.angle_deg=[3,3]", "diffuser.distance_mm=1"]),
+    "hexagons, wide": ("hexagon", PINHOLE + ["diffuser.angle_deg=[5,5]", "diffuser.distance_mm=10"]),
+    "hexagons, eye": ("hexagon", WHOLE),
+    "hexagons, eye, 20 degrees": ("hexagon", WHOLE + ["camera.position_mm=[255,0,700]"]),
+    "hexagons, stripes": ("hexagon", []),
+    "lenticular": ("tablet-lenticular", WHOLE),
+    "lenticular, 20 degrees": ("tablet-lenticular", WHOLE + ["camera.position_mm=[164,0,450]"]),
+    "lenticular, stripes": ("tablet-lenticular", []),
+    "barrier": ("barrier", WHOLE),
+    "barrier, rows": ("barrier", []),
+}
+
+
+def panel(kind, columns, rows):
+    """Squares of 3 pixels in red, of 22 in green, their mixture in blue; or white."""
+    light = np.ones((rows, columns, 3), np.float32)
+    if kind == "checker":
+        y, x = np.mgrid[:rows, :columns]
+        fine, large = (x // 3 + y // 3) & 1, (x // 22 + y // 22) & 1
+        light[...] = np.stack([fine, large, np.where(fine != large, 0.9, 0.1)], -1)
+    return light
+
+
+def picture(program, folder, case, shown, estimator, samples, seed):
+    display, changes = CASES[case]
+    width, height = next((json.loads(c.split("=")[1]) for c in changes if c.startswith("camera.resolution=")),
+                         tomllib.loads((DISPLAYS / f"{display}.toml").read_text())["camera"]["resolution"])
+    x, y = width // 2 - 48, height // 2 - 27
+    out = folder / "picture.npy"
+    command = [program, "render", DISPLAYS / f"{display}.toml", "--panel-image", shown, "--crop", f"{x},{y},{x + 96},{y + 54}", "--estimator", estimator,
+               "--samples", str(samples), "--seed", str(seed), "--device", "cpu", "--progress", "none", "-o", out]
+    subprocess.run(command + (["--set", *changes] if changes else []), check=True, stdout=subprocess.DEVNULL)
+    return np.load(out).astype(np.float64)
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("--cases", nargs="+", choices=CASES, default=list(CASES), metavar="NAME")
+    options.add_argument("--samples", nargs="+", type=int, default=[1, 4, 16])
+    options.add_argument("--panel", nargs="+", choices=["checker", "white"], default=["checker"])
+    options.add_argument("program", nargs="+", metavar="PROGRAM")
+    given = options.parse_args()
+    print("| display | panel | " + " | ".join(f"{p}, {n}" for p in given.program for n in given.samples) + " |")
+    print("|---" * (2 + len(given.program) * len(given.samples)) + "|")
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for case in given.cases:
+            for kind in given.panel:
+                columns, rows = tomllib.loads((DISPLAYS / f"{CASES[case][0]}.toml").read_text())["panel"]["pixels"]
+                shown = folder / "panel.npy"
+                np.save(shown, panel(kind, columns, rows))
+                truth = picture(given.program[0], folder, case, shown, "point", 4096, 77)
+                errors = []
+                for program in given.program:
+                    for samples in given.samples:
+                        error = picture(program, folder, case, shown, "filtered", samples, 1) - truth
+                        errors.append(f"{np.sqrt(np.mean(error**2)):.4f}, {100 * error.mean() / truth.mean():+.2f} %")
+                print(f"| {case} | {kind} | " + " | ".join(errors) + " |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
