@@ -9,7 +9,7 @@ ROUNDING = 1e-9
 
 def lenses_before_the_panel(display, pitch):
     """Along x' and y': how many of the array's lenses the box about what is both the array's and the panel's is wide."""
-    turn, count = oracle.Lattice(display).turn, np.array(display.array.count)
+    turn, count = oracle.Lattice(display).turn[:2, :2], np.array(display.array.count)
     half_panel = np.abs(turn) @ (np.array(display.panel.pixels) * display.panel.pixel_pitch_mm) / 2
     middle = turn.T @ np.asarray(getattr(display.array, "offset_mm", (0.0, 0.0)))
     half_array = count * pitch / 2
