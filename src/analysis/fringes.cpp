@@ -15,7 +15,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr double lenses_across = 16;  // of a picture from near by
+constexpr double lenses_near_by = 16;  // of a picture from near by
 constexpr int near_columns = 480, near_rows = 300, fringe_samples = 36;
 constexpr std::int64_t most_screen_columns = 960;
 
@@ -38,7 +38,7 @@ Display near_view(const Subject& s, double z_mm, double angle_deg) {
     d.camera.resolution = {near_columns, near_rows};
     d.camera.fov_deg.reset();
     d.camera.frame_width_mm =
-        lenses_across * d.array.pitch_mm[0] * std::abs(scale_to_plane(s.geometry(), z_mm, eye)) * std::cos(angle_deg * degree);
+        lenses_near_by * d.array.pitch_mm[0] * std::abs(scale_to_plane(s.geometry(), z_mm, eye)) * std::cos(angle_deg * degree);
     return d;
 }
 
@@ -101,7 +101,7 @@ void show_white_fringes(const Subject& s, const Job& job, Result& result) {
     const double close_exposure = expose_together({&close});
     result.pictures.push_back({"uniformity-white-close",
                                fmt::format("The middle {:g} lenses of a white screen, from the same place; light times {:.3g}",
-                                           lenses_across, close_exposure),
+                                           lenses_near_by, close_exposure),
                                std::move(close)});
 }
 
@@ -127,7 +127,7 @@ void show_edge_fringes(const Subject& s, double depth_mm, const std::vector<doub
          fmt::format(
              "A black and white edge {}, {:g} lenses wide, beside what should be seen, as bright as white is in the mean; light "
              "times {:.3g}",
-             depth_in_words(depth_mm), lenses_across, exposure),
+             depth_in_words(depth_mm), lenses_near_by, exposure),
          contact_sheet(pictures, labels, 2)});
 }
 
