@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The filtered estimator's error on displays of many kinds: RMSE and brightness against 4096 point samples of another seed.
 
-bench/filtered.py [--cases NAME ...] [--samples N ...] [--panel checker|white ...] PROGRAM ...
+bench/filtered.py [--estimator filtered|lens_by_lens] [--cases NAME ...] [--samples N ...] [--panel checker|white ...] PROGRAM ...
 
 Several programs are compared. Crops of 96 x 54 pixels about the middle of the frame; linear light. A case takes a few seconds."""
 import argparse
@@ -68,6 +68,7 @@ def picture(program, folder, case, shown, estimator, samples, seed):
 
 def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("--estimator", choices=["filtered", "lens_by_lens"], default="filtered")
     options.add_argument("--cases", nargs="+", choices=CASES, default=list(CASES), metavar="NAME")
     options.add_argument("--samples", nargs="+", type=int, default=[1, 4, 16])
     options.add_argument("--panel", nargs="+", choices=["checker", "white"], default=["checker"])
@@ -86,7 +87,7 @@ def main():
                 errors = []
                 for program in given.program:
                     for samples in given.samples:
-                        error = picture(program, folder, case, shown, "filtered", samples, 1) - truth
+                        error = picture(program, folder, case, shown, given.estimator, samples, 1) - truth
                         errors.append(f"{np.sqrt(np.mean(error**2)):.4f}, {100 * error.mean() / truth.mean():+.2f} %")
                 print(f"| {case} | {kind} | " + " | ".join(errors) + " |", flush=True)
 

@@ -21,8 +21,9 @@ constexpr KeyOption camera[] = {
     {"--size", "camera.resolution", Form::size, "WxH", "Pixels of the frame"},
 };
 constexpr KeyOption sample[] = {
-    {"--estimator", "render.estimator", Form::word, "filtered|point",
-     "Averages of the panel over footprints, or brute force: one panel pixel per sample"},
+    {"--estimator", "render.estimator", Form::word, "filtered|point|lens_by_lens",
+     "Averages of the panel over footprints, or brute force: one panel pixel per sample; lens_by_lens: what is to replace "
+     "filtered"},
     {"--samples", "render.samples", Form::count, "N",
      "Samples per pixel, where a diffuser, pixel filter or pupil spreads the light"},
     {"--seed", "render.seed", Form::count, "S", "Seed of the samples"},

@@ -93,7 +93,7 @@ void run(const RenderArguments& args) {
         display = args.display.read();
         crop = args.crop.read(display.camera, texel_bytes(display));
         if (!args.panel_image.given()) require_panel_memory(display);
-        if (args.command.given("--sampling") && !args.lens_mesh.given() && estimator_of(display) == Estimator::filtered)
+        if (args.command.given("--sampling") && !args.lens_mesh.given() && estimator_of(display) != Estimator::point)
             throw InputError("--sampling", "applies to points only; add --estimator point");
     });
     faults.of([&] { args.panel_image.check(); });

@@ -33,7 +33,7 @@ ComparedView compare_view(const Display& display, const Geometry& geometry, cons
                                          photograph.width, photograph.height, width, height));
     const ChosenDevice device = choose_device(options.device, options.kernel);
     RenderOptions on_cpu = options;
-    if (device.gpu && !disperses(display) && parts.size() == 1) {
+    if (device.gpu && !disperses(display) && parts.size() == 1 && estimator_of(display) != Estimator::lens_by_lens) {
         if (const auto done = compare_on_gpu(device, panel, planes, expected, gain, work, job))
             return {done->likeness, done->run.done.complete, seconds(), done->run.seconds};
         on_cpu.device = "cpu";

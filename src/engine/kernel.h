@@ -33,8 +33,9 @@ struct Tile {
     std::int32_t crop_x, crop_y, crop_width;
     std::int32_t x0, y0, x1, y1;
     std::uint32_t samples;
-    int strata;      // filtered estimator: rows and columns of strata, 1 .. max_strata - more_strata; 0: point samples
-    int block_side;  // filtered estimator: pixels, a multiple of 4
+    int strata;         // rows and columns of strata, 1 .. max_strata - more_strata; 0: point samples
+    bool lens_by_lens;  // the estimator of that name, else the filtered one
+    int block_side;     // filtered estimator: pixels, a multiple of 4
     Square square;
     Sampling sampling;
     int dimensions;  // of the sampler, those in use

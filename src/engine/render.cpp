@@ -143,7 +143,11 @@ class Sum {
 Rendering render(const Display& display, const Geometry& geometry, const std::vector<optics::SummedImage>& planes,
                  const SummedPanel* summed, const RenderOptions& options, Job& job) {
     const KernelEntry& kernel = choose_kernel(options.kernel);
-    const ChosenDevice device = choose_device(options.device, options.kernel);
+    ChosenDevice device = choose_device(options.device, options.kernel);
+    if (device.gpu && estimator_of(display) == Estimator::lens_by_lens) {
+        if (device.insists) throw InputError("--device", "the estimator lens_by_lens runs on the CPU; give --device cpu");
+        device.gpu.reset();
+    }
     const std::vector<EvenPart> parts = even_parts(display, options.target_error.has_value());
     const auto at_wavelength = [&](const Geometry& there) {
         Sum sum;

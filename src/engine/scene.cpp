@@ -325,6 +325,13 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
             (of_pixel ? pixel : std::min(span[0], span[1])) / parts};
 }
 
+bool cuts_pixel(const optics::Scene<float>& scene, const optics::View& view) {
+    if (!scene.box_filter) return false;
+    double span = 0;
+    for (int k = 0; k < 2; ++k) span = std::max(span, 2 * double(scene.holes_below[k]) * std::tan(double(scene.half_angle[k])));
+    return span < view.pixel_mm * std::abs((view.position[2] - view.start_z) / (view.forward[2] * view.distance));
+}
+
 const optics::DirectionNumbers& sobol_directions() {
     static constexpr optics::DirectionNumbers directions = optics::sobol_directions();
     return directions;

@@ -47,6 +47,9 @@ struct BlockShape {
 /// lenses have to be told apart; in coarse pictures they are anyway.
 BlockShape block_shape(const optics::Scene<float>&, const optics::View&, int strata, bool rough = false, bool converges = false);
 
+/// Are lenses' outlines to cut the pixel's area, because the diffuser, if there is one, spreads rays over less of the lenses?
+bool cuts_pixel(const optics::Scene<float>&, const optics::View&);
+
 const optics::DirectionNumbers& sobol_directions();
 
 }  // namespace lfdsim

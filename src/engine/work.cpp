@@ -42,7 +42,8 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
     const std::int64_t samples = samples_of(display);
 
     result.estimator = estimator_of(display);
-    const bool filtered = result.estimator == Estimator::filtered;
+    const bool lens_by_lens = result.estimator == Estimator::lens_by_lens;
+    const bool filtered = result.estimator != Estimator::point;
     const int strata = filtered ? int(std::lround(std::sqrt(double(samples)))) : 0;
     constexpr std::int64_t most = (max_strata - more_strata) * (max_strata - more_strata);
     if (filtered && samples > most)
@@ -52,8 +53,8 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
         throw std::logic_error("the filtered estimator's work is on even_parts()");
     if (dimensions > 0) target_error = options.target_error;
     // An error is estimated from what more samples change: all has to converge.
-    const BlockShape shape =
-        block_shape(scene, view, target_error ? 2 * few_strata : strata, options.rough, target_error.has_value());
+    BlockShape shape = block_shape(scene, view, target_error ? 2 * few_strata : strata, options.rough, target_error.has_value());
+    if (lens_by_lens) shape = {16, false, {.weak = false, .of_pixel = cuts_pixel(scene, view)}};
     scene.by_lens = shape.by_lens;
     if (filtered && shape.by_lens && shape.square.weak) add_clear_borders(scene, display, geometry, view, shape.part_mm);
 
@@ -72,6 +73,7 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
             crop.y1,
             std::uint32_t(samples),
             strata,
+            lens_by_lens,
             shape.side,
             shape.square,
             display.render.sampling,

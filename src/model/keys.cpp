@@ -228,8 +228,9 @@ constexpr Key<SceneObject> object_keys[] = {
 
 constexpr Key<Render> render_keys[] = {
     {"estimator", &Render::estimator, no_range, false,
-     "Each sample averages the panel over a lens's footprint, or, by brute force, reads one panel pixel. Without a diffuser "
-     "and pixel filter, samples are points in any case."},
+     "Each sample averages the panel over a lens's footprint, or, by brute force, reads one panel pixel. `lens_by_lens` is to "
+     "replace "
+     "`filtered`; it runs on the CPU. Without a diffuser and pixel filter, samples are points in any case."},
     {"samples", &Render::samples, Range{1, 16777216}, false,
      "Per picture pixel, where a diffuser, filter or pupil spreads the light. Filtered ones are rounded up to a square number, "
      "3844 at most.",
@@ -389,7 +390,7 @@ template <> std::span<const std::string_view> words<ContentSampling>() { static 
 template <> std::span<const std::string_view> words<MadeFor>() { static constexpr std::string_view w[] = {"description", "built"}; return w; }
 template <> std::span<const std::string_view> words<Shading>() { static constexpr std::string_view w[] = {"file", "smooth", "flat"}; return w; }
 template <> std::span<const std::string_view> words<PixelFilter>() { static constexpr std::string_view w[] = {"center", "box"}; return w; }
-template <> std::span<const std::string_view> words<Estimator>() { static constexpr std::string_view w[] = {"filtered", "point"}; return w; }
+template <> std::span<const std::string_view> words<Estimator>() { static constexpr std::string_view w[] = {"filtered", "point", "lens_by_lens"}; return w; }
 template <> std::span<const std::string_view> words<Sampling>() { static constexpr std::string_view w[] = {"sobol", "random"}; return w; }
 template <> std::span<const std::string_view> words<Fresnel>() { static constexpr std::string_view w[] = {"exact", "schlick", "none"}; return w; }
 // clang-format on

@@ -27,7 +27,7 @@ enum class ContentSampling { subpixel, pixel };                        // for wh
 enum class MadeFor { description, built };                             // whether elemental images know of an array's errors
 enum class Shading { file, smooth, flat };                             // whose normals a mesh is lit by
 enum class PixelFilter { center, box };
-enum class Estimator { filtered, point };
+enum class Estimator { filtered, point, lens_by_lens };
 enum class Sampling { sobol, random };
 enum class Fresnel { exact, schlick, none };
 

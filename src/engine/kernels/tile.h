@@ -21,6 +21,7 @@ using F = float;
 }  // namespace lfdsim
 
 #include "engine/kernels/filtered.h"
+#include "engine/kernels/lens_by_lens.h"
 #include "engine/kernels/points.h"
 #include "optics/camera.h"
 #include "optics/light.h"
@@ -52,6 +53,7 @@ void render_points(const Tile& tile) {
 }  // namespace
 
 void LFDSIM_KERNEL(const Tile& tile) {
+    if (tile.strata > 0 && tile.lens_by_lens) return render_lens_by_lens(tile);
     if (tile.strata > 0) return render_filtered<optics::Way::any>(tile);
     optics::with_way(*tile.scene, [&]<optics::Way through>() { render_points<through>(tile); });
 }

@@ -1,0 +1,196 @@
+// The estimator `lens_by_lens`: where the domain's rays cross the plane of the holes, and what of the domain lies in a lens.
+// Part of tile.h's source, compiled for each instruction set. Floor 2.
+#pragma once
+#include "engine/kernel.h"
+#include "engine/kernels/filtered_axis.h"
+#include "optics/outline.h"
+#include "optics/trace.h"
+
+namespace lfdsim {
+
+namespace {
+
+using optics::any;
+using optics::select;
+
+template <class G>
+struct SampleNumbers {
+    G of[optics::sampler_dimensions];
+    LFDSIM_FN G operator()(int d) const { return of[d]; }
+};
+
+/// The affine map from the domain to the plane of the holes about the middle of the domain: (x, y) + u (x_u, y_u) + v (x_v, y_v),
+/// mm in the array's frame.
+template <class G>
+struct DomainMap {
+    G x, y, x_u, y_u, x_v, y_v, per_area;
+
+    LFDSIM_FN G u_of(G dx, G dy) const { return (dx * y_v - dy * x_v) * per_area; }
+    LFDSIM_FN G v_of(G dx, G dy) const { return (dy * x_u - dx * y_u) * per_area; }
+};
+
+/// A part of a lens: one cell of the grid over what is seen of it.
+struct SeenPart {
+    F share, u, v, half_u, half_v;  // of the domain; the part's middle; half of its width and height
+    optics::PanelPoint<F> end;      // of the ray through the middle
+};
+
+class LensDomain {
+  public:
+    explicit LensDomain(const Tile& t)
+        : tile(t), scene(*t.scene), view(*t.view), domain(tile.square.of_pixel ? 2 : 0), dimensions(t.dimensions) {}
+
+    /// Where rays with these numbers cross the plane of the holes, in the array's frame.
+    template <class G>
+    LFDSIM_FN optics::Place<G> at_holes(const optics::PixelRays<G>& pixels, const SampleNumbers<G>& numbers) const {
+        optics::Ray<G> ray;
+        optics::sample_ray(scene, view, pixels, numbers, ray);
+        optics::Place<G> to{ray.to.x, ray.to.y};
+        if (scene.rotated) to = optics::to_array(scene.lattice, to.x, to.y);
+        const G per = G(-1) / ray.to.z;
+        return {ray.at.x + to.x * per * G(scene.holes_below[0]), ray.at.y + to.y * per * G(scene.holes_below[1])};
+    }
+    template <class G>
+    LFDSIM_FN DomainMap<G> map_of(const optics::PixelRays<G>& pixels, SampleNumbers<G> numbers) const {
+        const G step = G(S(0.5)), zero = G(S(0));
+        optics::Place<G> at[5];
+        for (int k = 0; k < 5; ++k) {
+            numbers.of[domain] = k == 1 ? -step : k == 2 ? step : zero;
+            numbers.of[domain + 1] = k == 3 ? -step : k == 4 ? step : zero;
+            at[k] = at_holes(pixels, numbers);
+        }
+        DomainMap<G> map{at[0].x, at[0].y, at[2].x - at[1].x, at[2].y - at[1].y, at[4].x - at[3].x, at[4].y - at[3].y, zero};
+        map.per_area = G(S(1)) / (map.x_u * map.y_v - map.x_v * map.y_u);
+        return map;
+    }
+
+    /// Half the size of what the domain spans in the plane of the holes.
+    template <class G>
+    LFDSIM_FN static optics::Place<G> reach_of(const DomainMap<G>& map, G width) {
+        return {width * (optics::abs(map.x_u) + optics::abs(map.x_v)), width * (optics::abs(map.y_u) + optics::abs(map.y_v))};
+    }
+
+    /// f(i, j) for the cells of the lattice that a box about (x, y) may meet.
+    template <class Do>
+    void for_cells(S x, S y, S half_x, S half_y, const Do& f) const {
+        const Lattice<S>& lattice = scene.lattice;
+        const S reach_y = optics::reach_of_cell(lattice);
+        const S first_j = lattice.strips ? S(0) : optics::floor((y - half_y - reach_y) * lattice.per_pitch[1] + S(1)),
+                last_j = lattice.strips ? S(0) : optics::floor((y + half_y + reach_y) * lattice.per_pitch[1]);
+        for (S j = first_j; j <= last_j; ++j) {
+            const S from = x - (lattice.staggered ? optics::stagger(lattice, j) : S(0));
+            const S first_i = optics::floor((from - half_x) * lattice.per_pitch[0] + S(0.5)),
+                    last_i = optics::floor((from + half_x) * lattice.per_pitch[0] + S(0.5));
+            for (S i = first_i; i <= last_i; ++i) f(i, j);
+        }
+    }
+
+    /// The outline of a lens's cell in the domain's numbers. A strip has no end.
+    template <class G>
+    LFDSIM_FN optics::Corners<G> corners_of(const DomainMap<G>& map, optics::Cell<S> lens) const {
+        const Lattice<S>& lattice = scene.lattice;
+        const optics::Place<S> axis = optics::axis_of(lattice, lens);
+        const G to_x = G(axis.x) - map.x, to_y = lattice.strips ? G(S(0)) : G(axis.y) - map.y;
+        optics::Corners<G> corners;
+        S x[6], y[6];
+        if (lattice.hexagonal) {
+            const S wide = lattice.half_pitch[0], high = optics::reach_of_cell(lattice);
+            const S at_x[6] = {wide, wide, 0, -wide, -wide, 0},
+                    at_y[6] = {S(-0.5) * high, S(0.5) * high, high, S(0.5) * high, S(-0.5) * high, -high};
+            corners.count = 6;
+            for (int k = 0; k < 6; ++k) x[k] = at_x[k], y[k] = at_y[k];
+        } else {
+            const S wide = lattice.strips ? scene.hole_half : lattice.half_pitch[0],
+                    high = lattice.strips ? S(1) : lattice.half_pitch[1];
+            corners.count = 4;
+            for (int k = 0; k < 4; ++k) x[k] = k < 2 ? wide : -wide, y[k] = k == 1 || k == 2 ? high : -high;
+        }
+        const G along = lattice.strips ? S(2) * reach_of(map, G(S(1))).y : G(S(1));
+        for (int k = 0; k < corners.count; ++k) {
+            const G dx = to_x + G(x[k]), dy = to_y + G(y[k]) * along;
+            corners.x[k] = map.u_of(dx, dy);
+            corners.y[k] = map.v_of(dx, dy);
+        }
+        return corners;
+    }
+
+    optics::PanelPoint<F> trace(const optics::PixelRays<F>& pixels, const SampleNumbers<F>& numbers, optics::Mask<F> some) const {
+        optics::Ray<F> ray;
+        optics::sample_ray(scene, view, pixels, numbers, ray);
+        return optics::trace_any<F>(scene, pixels.extent, pixels.base, ray, some && pixels.alive);
+    }
+
+    /// The part of a cell that lies in a round hole: |(x, y)| <= r, an ellipse in the domain. Six points of Gauss's rule along v
+    /// between the part's ends, each with the chord along u.
+    template <class G>
+    LFDSIM_FN optics::Moments<G> part_in_hole(const DomainMap<G>& map, G from_x, G from_y, const optics::Box<G>& cell) const {
+        const G zero = G(0), one = G(1), half = G(S(0.5)), radius2 = G(scene.hole_radius * scene.hole_radius);
+        const G size2 = map.x_u * map.x_u + map.y_u * map.y_u, per = one / size2;
+        // The ellipse's ends in v.
+        const G middle = zero - map.v_of(from_x, from_y), reach = optics::sqrt(radius2 * size2) * optics::abs(map.per_area);
+        const G low = optics::max(cell.low, middle - reach), high = optics::min(cell.high, middle + reach),
+                span = optics::max(high - low, zero);
+        constexpr S node[6] = {S(0.033765243), S(0.169395307), S(0.380690407), S(0.619309593), S(0.830604693), S(0.966234757)},
+                    weight[6] = {S(0.085662246), S(0.180380787), S(0.233956967), S(0.233956967), S(0.180380787), S(0.085662246)};
+        const G centre_u = half * (cell.left + cell.right), centre_v = half * (cell.low + cell.high);
+        G sum = zero, sum_u = zero, sum_v = zero, sum_uu = zero, sum_vv = zero;
+        for (int k = 0; k < 6; ++k) {
+            const G v = low + span * G(node[k]), x = from_x + map.x_v * v, y = from_y + map.y_v * v;
+            const G b = (x * map.x_u + y * map.y_u) * per,
+                    root = optics::sqrt(optics::max(b * b - (x * x + y * y - radius2) * per, zero));
+            const G left = optics::max(cell.left, zero - b - root), right = optics::min(cell.right, root - b),
+                    wide = optics::max(right - left, zero);
+            const G part = wide * G(weight[k]), at_u = half * (left + right) - centre_u, at_v = v - centre_v;
+            sum = sum + part;
+            sum_u = sum_u + part * at_u;
+            sum_v = sum_v + part * at_v;
+            sum_uu = sum_uu + part * (at_u * at_u + wide * wide * G(S(1.0 / 12)));
+            sum_vv = sum_vv + part * at_v * at_v;
+        }
+        const G per_sum = one / optics::max(sum, G(S(1e-12))), u = sum_u * per_sum, v = sum_v * per_sum;
+        const auto half_width = [&](G variance) { return optics::sqrt(G(S(3)) * optics::max(variance, zero)); };
+        return {sum * span, centre_u + u, centre_v + v, half_width(sum_uu * per_sum - u * u), half_width(sum_vv * per_sum - v * v)};
+    }
+    /// Does the hole hold the cell?
+    LFDSIM_FN optics::Mask<F> hole_holds(const DomainMap<F>& map, F from_x, F from_y, const optics::Box<F>& cell) const {
+        F most = F(0);
+        for (int k = 0; k < 4; ++k) {
+            const F u = k % 2 == 1 ? cell.right : cell.left, v = k >= 2 ? cell.high : cell.low;
+            const F x = from_x + map.x_u * u + map.x_v * v, y = from_y + map.y_u * u + map.y_v * v;
+            most = optics::max(most, x * x + y * y);
+        }
+        return most <= F(scene.hole_radius * scene.hole_radius);
+    }
+
+    /// The part of a cell that lies in a lens.
+    LFDSIM_FN SeenPart part_of(const DomainMap<F>& map, optics::Cell<S> lens, const optics::Corners<F>& corners,
+                               const optics::Box<F>& cell, optics::Mask<F> there) const {
+        const F zero = F(0), half = F(S(0.5)), du = cell.right - cell.left, dv = cell.high - cell.low;
+        SeenPart part{
+            F(S(0.25)) * du * dv, half * (cell.left + cell.right), half * (cell.low + cell.high), half * du, half * dv, {}};
+        const bool round = scene.hole_radius > S(0) && !scene.leaky;
+        const optics::Place<S> axis = optics::axis_of(scene.lattice, lens);
+        const F from_x = map.x - F(axis.x), from_y = map.y - (scene.lattice.strips ? map.y : F(axis.y));
+        const optics::Mask<F> cut = there && !(round ? hole_holds(map, from_x, from_y, cell) : optics::holds(corners, cell));
+        if (any(cut)) {
+            const optics::Moments<F> of = round ? part_in_hole(map, from_x, from_y, cell) : optics::part_within(corners, cell);
+            part = {select(cut, F(S(0.25)) * of.area, part.share),
+                    select(cut, of.x, part.u),
+                    select(cut, of.y, part.v),
+                    select(cut, of.half_width, part.half_u),
+                    select(cut, of.half_height, part.half_v),
+                    {}};
+        }
+        part.share = select(there && (part.share > F(S(1e-7))), part.share, zero);
+        return part;
+    }
+
+    const Tile& tile;
+    const optics::Scene<S>& scene;
+    const optics::View& view;
+    const int domain, dimensions;  // the domain's first number; how many numbers a sample has
+};
+
+}  // namespace
+
+}  // namespace lfdsim

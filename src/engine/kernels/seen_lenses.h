@@ -1,0 +1,182 @@
+// The estimator `lens_by_lens`: the lenses that a group of 4 x 4 pixels sees, and how the ends of their rays move.
+// Part of tile.h's source, compiled for each instruction set. Floor 2.
+#pragma once
+#include "engine/kernels/lens_domain.h"
+
+namespace lfdsim {
+
+namespace {
+
+/// How the end of a ray through a lens moves on the panel with each of its numbers, panel pixels.
+struct Derivatives {
+    S column[optics::sampler_dimensions], row[optics::sampler_dimensions];
+    bool known;
+};
+
+constexpr int most_divisions = max_strata;
+constexpr int most_seen_lenses = 256;
+
+/// A lens that the pixels of a group see.
+struct SeenLens {
+    S i, j;
+    Derivatives by;
+};
+
+class SeenLenses : public LensDomain {
+  public:
+    SeenLenses(const Tile& t, SeenLens* room) : LensDomain(t), lenses(room) {}
+
+    /// Lists the lenses that a group sees, with the derivatives of their rays; false: there are too many, or the domain is no area.
+    bool list_lenses(std::int32_t x, std::int32_t y) {
+        // The group's middle, as the packets' rays are: relative to the base lens that they share.
+        const double middle_x = x + side / 2, middle_y = y + side / 2;
+        const optics::BaseLens<S> base = optics::base_lens<S>(view, middle_x, middle_y);
+        const auto ray_at = [&](double column, double row) {
+            double d[3], px, py;
+            optics::follow_to_first_plane(view, column, row, d, px, py);
+            const double inverse = 1 / __builtin_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+            const S z = S(d[2] * inverse);
+            return optics::PixelRays<S>{S(px - base.x), S(py - base.y), {S(d[0] * inverse), S(d[1] * inverse), z},
+                                        S(inverse),     z < S(-1e-9),   base.extent,
+                                        base.panel};
+        };
+        const optics::PixelRays<S> middle = ray_at(middle_x, middle_y);
+        count = 0;
+        for (S& of : spread) of = 0;
+        if (!middle.alive) return false;
+        const SampleNumbers<S> none{};
+        const DomainMap<S> map = map_of(middle, none);
+        if (!(optics::abs(map.per_area) < S(1e12))) return false;
+        // What the group's pixels, and other numbers than the domain's, move the plane of the holes by: in mm and in the domain's
+        // numbers.
+        optics::Place<S> half = reach_of(map, S(1)), more{S(0), S(0)};
+        S widen_u = 0, widen_v = 0;
+        const auto moved = [&](optics::Place<S> to) {
+            const S dx = to.x - map.x, dy = to.y - map.y;
+            more = {more.x + optics::abs(dx), more.y + optics::abs(dy)};
+            widen_u = widen_u + optics::abs(map.u_of(dx, dy));
+            widen_v = widen_v + optics::abs(map.v_of(dx, dy));
+        };
+        moved(at_holes(ray_at(middle_x + side / 2, middle_y), none));
+        moved(at_holes(ray_at(middle_x, middle_y + side / 2), none));
+        for (int d = 0; d < dimensions; ++d) {
+            if (d / 2 == domain / 2) continue;
+            SampleNumbers<S> one = none;
+            one.of[d] = 1;
+            moved(at_holes(middle, one));
+        }
+        half = {half.x + more.x, half.y + more.y};
+        const S columns = S(2) * half.x * scene.lattice.per_pitch[0] + S(2),
+                rows = scene.lattice.strips ? S(1) : S(2) * half.y * scene.lattice.per_pitch[1] + S(2);
+        if (!(columns * rows < S(2 * most_seen_lenses))) return false;
+        const optics::Box<S> seen{-1 - widen_u, 1 + widen_u, -1 - widen_v, 1 + widen_v};
+        S weight = 0;
+        for_cells(map.x, map.y, half.x, half.y, [&](S i, S j) {
+            if (!scene.leaky && !base.extent.holds(optics::Cell<S>{i, j})) return;
+            const optics::Place<S> axis = optics::axis_of(scene.lattice, optics::Cell<S>{i, j});
+            optics::Moments<S> part = scene.hole_radius > S(0) && !scene.leaky
+                                          ? part_in_hole(map, map.x - axis.x, map.y - axis.y, seen)
+                                          : optics::part_within(corners_of(map, {i, j}), seen);
+            if (!(part.area > 0)) return;
+            if (count++ >= most_seen_lenses) return;
+            SeenLens& lens = lenses[count - 1];
+            lens.i = i;
+            lens.j = j;
+            lens.by = derivatives_at(middle, part);
+            if (!lens.by.known) {  // hidden by another lens, perhaps: through the lens's middle
+                part.x = map.u_of(axis.x - map.x, scene.lattice.strips ? S(0) : axis.y - map.y);
+                part.y = map.v_of(axis.x - map.x, scene.lattice.strips ? S(0) : axis.y - map.y);
+                lens.by = derivatives_at(middle, part);
+            }
+            if (!lens.by.known) return;
+            weight = weight + part.area;
+            for (int d = 0; d < dimensions; ++d)
+                spread[d / 2] = spread[d / 2] + part.area * (optics::abs(lens.by.column[d]) + optics::abs(lens.by.row[d]));
+        });
+        for (S& of : spread) of = weight > 0 ? of / weight : S(0);
+        divide();
+        return count <= most_seen_lenses;
+    }
+
+    /// Traces the ray through the middle of a part, and rays to both sides of it in each number, all from the group's middle.
+    Derivatives derivatives_at(const optics::PixelRays<S>& middle, const optics::Moments<S>& part) const {
+        constexpr int rays = 1 + 2 * optics::sampler_dimensions, lanes = optics::LaneTraits<F>::width,
+                      room = (rays + lanes - 1) / lanes * lanes;
+        S numbers[optics::sampler_dimensions][room] = {}, step[optics::sampler_dimensions];
+        for (int d = 0; d < optics::sampler_dimensions; ++d) step[d] = S(0.25);
+        step[domain] = optics::max(S(0.5) * part.half_width, S(0.01));
+        step[domain + 1] = optics::max(S(0.5) * part.half_height, S(0.01));
+        for (int k = 0; k < room; ++k) {
+            numbers[domain][k] = part.x;
+            numbers[domain + 1][k] = part.y;
+            const int d = (k - 1) / 2;
+            if (k > 0 && d < dimensions) numbers[d][k] = numbers[d][k] + (k % 2 == 1 ? step[d] : -step[d]);
+        }
+        S column[room], row[room], lit[room], i[room], j[room];
+        const optics::PixelRays<F> same{F(middle.x),          F(middle.y), {F(middle.to.x), F(middle.to.y), F(middle.to.z)},
+                                        F(middle.per_length), F(0) < F(1), middle.extent,
+                                        middle.base};
+        for (int k = 0; k < room; k += lanes) {
+            SampleNumbers<F> of;
+            for (int d = 0; d < optics::sampler_dimensions; ++d) of.of[d] = optics::load<F>(numbers[d] + k);
+            const optics::PanelPoint<F> end = trace(same, of, same.alive);
+            optics::store(end.column, column + k);
+            optics::store(end.row, row + k);
+            optics::store(select(end.alive, F(1), F(0)), lit + k);
+            optics::store(end.cell.i, i + k);
+            optics::store(end.cell.j, j + k);
+        }
+        Derivatives by{};
+        by.known = lit[0] > 0;
+        if (!by.known) return by;
+        for (int d = 0; d < dimensions; ++d) {
+            S sides = 0;
+            for (int k = 1 + 2 * d; k < 3 + 2 * d; ++k) {
+                if (!(lit[k] > 0 && i[k] == i[0] && j[k] == j[0])) continue;
+                const S per = (k % 2 == 1 ? S(1) : S(-1)) / step[d];
+                by.column[d] = by.column[d] + (column[k] - column[0]) * per;
+                by.row[d] = by.row[d] + (row[k] - row[0]) * per;
+                sides = sides + 1;
+            }
+            if (sides == 2) by.column[d] = S(0.5) * by.column[d], by.row[d] = S(0.5) * by.row[d];
+        }
+        return by;
+    }
+
+    /// Divides the pairs of numbers, N cells in all at most: always the pair with the largest spread on the panel per division. The
+    /// widest of the other pairs is what a box serves best, so it counts less.
+    void divide() {
+        const int pairs = dimensions / 2, own = domain / 2, most = tile.strata * tile.strata;
+        for (int& n : divisions) n = 1;
+        S of[3] = {spread[0], spread[1], spread[2]};
+        int widest = -1;
+        for (int q = 0; q < pairs; ++q)
+            if (q != own && (widest < 0 || of[q] > of[widest])) widest = q;
+        if (widest >= 0) of[widest] = of[widest] * S(0.3);
+        of[own] = optics::max(of[own], S(0.5) * (spread[0] + spread[1] + spread[2]));
+        if (pairs == 1) {
+            divisions[own] = tile.strata;
+            return;
+        }
+        for (;;) {
+            int best = -1;
+            const int product = divisions[0] * divisions[0] * divisions[1] * divisions[1] * divisions[2] * divisions[2];
+            for (int q = 0; q < pairs; ++q) {
+                const int n = divisions[q], next = product / (n * n) * (n + 1) * (n + 1);
+                if (next <= most && n < most_divisions && (best < 0 || of[q] / S(n) > of[best] / S(divisions[best]))) best = q;
+            }
+            if (best < 0) return;
+            ++divisions[best];
+        }
+    }
+
+    static constexpr int side = optics::shared_width;  // of a group
+    SeenLens* const lenses;
+    int count = 0;                 // of lenses that the group sees
+    S spread[3] = {};              // of each pair of numbers, over the panel, pixels
+    int divisions[3] = {1, 1, 1};  // of each pair along both of its numbers
+};
+
+}  // namespace
+
+}  // namespace lfdsim
