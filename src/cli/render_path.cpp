@@ -135,7 +135,7 @@ PathMade render_path(const PathWork& w, const std::function<const Texels&()>& pa
     };
     const bool tells_noise = !w.rendering.target_error && estimator_of(w.display) == Estimator::filtered;
     const std::int64_t oblique = *std::ranges::max_element(left, {}, slope);
-    std::optional<Rendering> told;
+    std::optional<Rendering> most_oblique;
     const auto make = [&](std::size_t i) {
         const Display display = at_frame(w.path, left[i], w.display);
         return render(display, resolve(display), summed, w.rendering, frame);
@@ -153,14 +153,14 @@ PathMade render_path(const PathWork& w, const std::function<const Texels&()>& pa
         above_target += facts.pixels_above_target;
         made.how = how_made(r);
         made.more = how_made_json(r);
-        if (tells_noise && left[i] == oblique) told = std::move(r);
+        if (tells_noise && left[i] == oblique) most_oblique = std::move(r);
         return true;
     };
     make_ahead(left.size(), renders_on_gpu(w.rendering), make, keep);
     progress.end();
-    if (told) {
+    if (most_oblique) {
         const Display display = at_frame(w.path, oblique, w.display);
-        if (const auto random = random_light(display, resolve(display), summed, *told, w.rendering, progress)) {
+        if (const auto random = random_light(display, resolve(display), summed, *most_oblique, w.rendering, progress)) {
             made.more["random_rays"] = json_of(*random);
             made.more["random_rays"]["frame"] = oblique;
             if (const std::string words = words_of(*random); !words.empty())

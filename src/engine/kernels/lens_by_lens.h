@@ -23,6 +23,7 @@ namespace lfdsim {
 
 namespace {
 
+/// What a thread works on, too much for its stack.
 struct LensByLensMemory {
     SeenPart part[most_divisions * most_divisions];
     SeenLens lens[most_seen_lenses];
@@ -31,6 +32,7 @@ struct LensByLensMemory {
     static void* operator new(std::size_t, void* at) noexcept { return at; }
 };
 
+/// Renders groups of pixels, one after the other.
 class LensByLens : SeenLenses {
   public:
     LensByLens(const Tile& t, LensByLensMemory& m) : SeenLenses(t, m.lens), memory(m) {}

@@ -13,6 +13,7 @@ namespace {
 using optics::any;
 using optics::select;
 
+/// The numbers of a sample, as sample_ray() asks for them.
 template <class G>
 struct SampleNumbers {
     G of[optics::sampler_dimensions];
@@ -35,6 +36,7 @@ struct SeenPart {
     optics::PanelPoint<F> end;      // of the ray through the middle
 };
 
+/// The pair of numbers that lenses' outlines cut, and a sample's rays.
 class LensDomain {
   public:
     explicit LensDomain(const Tile& t)
@@ -50,6 +52,7 @@ class LensDomain {
         const G per = G(-1) / ray.to.z;
         return {ray.at.x + to.x * per * G(scene.holes_below[0]), ray.at.y + to.y * per * G(scene.holes_below[1])};
     }
+    /// By central differences at +-1/2, half way from the middle of the domain to its ends.
     template <class G>
     LFDSIM_FN DomainMap<G> map_of(const optics::PixelRays<G>& pixels, SampleNumbers<G> numbers) const {
         const G step = G(S(0.5)), zero = G(S(0));
@@ -114,6 +117,7 @@ class LensDomain {
         return corners;
     }
 
+    /// Where rays with these numbers end on the panel.
     optics::PanelPoint<F> trace(const optics::PixelRays<F>& pixels, const SampleNumbers<F>& numbers, optics::Mask<F> some) const {
         optics::Ray<F> ray;
         optics::sample_ray(scene, view, pixels, numbers, ray);

@@ -22,6 +22,7 @@ struct SeenLens {
     Derivatives by;
 };
 
+/// The lenses that a group of pixels sees, and into how many cells it divides each pair of numbers.
 class SeenLenses : public LensDomain {
   public:
     SeenLenses(const Tile& t, SeenLens* room) : LensDomain(t), lenses(room) {}
