@@ -28,16 +28,14 @@ constexpr const char* definitions[][2] = {
 
 /// Crosstalk where the middle of the screen is looked at, and by theory.
 struct Middle {
-    Estimate measured;
-    double theory = nan;
+    Crosstalk measured, theory;
 };
 
 /// Of several views; undefined where there are none.
 struct ViewsCrosstalk {
-    std::vector<double> view{0};  // their middles, in steps
-    std::vector<Estimate> all{Estimate()},
-        next{Estimate()};  // percent of all other views together, and of one neighbour, their mean
-    Estimate worst;
+    std::vector<double> view{0};               // their middles, in steps
+    std::vector<Crosstalk> all{{}}, next{{}};  // of all other views together, and of one neighbour, their mean
+    Crosstalk worst;
     std::size_t innermost = 0, worst_at = 0;
     Middle middle, middle_of_other;
 
@@ -45,7 +43,7 @@ struct ViewsCrosstalk {
     std::size_t ranked(double share) const {
         std::vector<std::size_t> order(all.size());
         std::iota(order.begin(), order.end(), std::size_t(0));
-        const auto rank = [&](std::size_t n) { return std::isnan(all[n].value) ? infinity : all[n].value; };
+        const auto rank = [&](std::size_t n) { return std::isnan(all[n].percent.value) ? infinity : all[n].percent.value; };
         std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
         return order[std::size_t(share * double(order.size() - 1))];
     }
@@ -53,17 +51,17 @@ struct ViewsCrosstalk {
 
 /// The worst of many noisy figures is too great by chance. It says where to look, and other lines of sight how much is there; what
 /// it exceeds those by is part of the error, as another may be the worst.
-Estimate measured_anew(const Eyes& eyes, double view, const Estimate& chosen) {
+Crosstalk measured_anew(const Eyes& eyes, double view, const Crosstalk& chosen) {
     const MeantLight light = eyes.light(eyes.at(view * eyes.view_mm(), Eyes::Lines::anew), eyes.shown);
-    Estimate anew = percent(light, eyes.of_view(light, view));
-    if (chosen.value > anew.value) anew.error += chosen.value - anew.value;
+    Crosstalk anew = crosstalk_of(light, eyes.of_view(light, view));
+    anew.percent.error += std::max(chosen.percent.value - anew.percent.value, 0.);
     return anew;
 }
 
 Middle at_middle_view(const Eyes& eyes, const MeantPanel& panel, const MeantLight& light, const MetPlaces& theory) {
     const double view = eyes.views.innermost();
     const MeantLight by_theory = eyes.theory_light(theory, panel);
-    return {percent(light, eyes.of_view(light, view)), percent(by_theory, eyes.of_view(by_theory, view)).value};
+    return {crosstalk_of(light, eyes.of_view(light, view)), crosstalk_of(by_theory, eyes.of_view(by_theory, view))};
 }
 
 /// The eye in the middle of each whole view in turn, most_views of them at most, evenly; the innermost one the finest.
@@ -80,11 +78,11 @@ ViewsCrosstalk look_at_views(Eyes& eyes) {
         const MetPlaces met = eyes.at(k * eyes.view_mm(), n == views.innermost ? Eyes::Lines::fine : Eyes::Lines::curve);
         const MeantLight light = eyes.light(met, eyes.shown);
         const Leak found = eyes.of_view(light, k);
-        const Sums below = eyes.view(light, k - 1), above = eyes.view(light, k + 1);
-        Sums neighbours;
-        for (std::size_t m = 0; m < neighbours.size(); ++m) neighbours[m] = 0.5 * (below[m] + above[m]);
-        views.all[n] = percent(light, found);
-        views.next[n] = light.crosstalk_percent(neighbours, found.signal);
+        const LightPart below = eyes.view(light, k - 1), above = eyes.view(light, k + 1);
+        LightPart neighbours{{}, 0.5 * (below.open + above.open)};
+        for (std::size_t m = 0; m < neighbours.light.size(); ++m) neighbours.light[m] = 0.5 * (below.light[m] + above.light[m]);
+        views.all[n] = crosstalk_of(light, found);
+        views.next[n] = crosstalk_of(neighbours, found.signal, light.missed());
         if (n != views.innermost) return;
         const MetPlaces theory = eyes.theory_at(k * eyes.view_mm(), Eyes::Lines::fine);
         views.middle = at_middle_view(eyes, eyes.shown, light, theory);
@@ -103,21 +101,23 @@ constexpr const char* no_light = "no light that is meant for any lens reaches an
 
 void add_middle(const Eyes& eyes, const ViewsCrosstalk& views, ContentSampling sampling, Result& result) {
     Json& json = result.figures["between_views"];
-    for (const auto& [name, formula] : definitions) add_figure(json, name, views.middle.measured);
-    json["theory_percent"] = number_json(views.middle.theory);
+    for (const auto& [name, formula] : definitions) add_figure(json, name, views.middle.measured.percent);
+    json["theory_percent"] = number_json(views.middle.theory.percent.value);
     if (eyes.other) {
         Json other = {{"sampling", name_of(*eyes.other_sampling)}};
-        add_figure(other, "woods_percent", views.middle_of_other.measured);
-        other["theory_percent"] = number_json(views.middle_of_other.theory);
+        add_figure(other, "woods_percent", views.middle_of_other.measured.percent);
+        other["theory_percent"] = number_json(views.middle_of_other.theory.percent.value);
         json["other_sampling"] = std::move(other);
     }
     const auto add = [&](const std::string& what, const Middle& found) {
         result.findings.push_back({what,
                                    "%",
-                                   {found.measured.value},
-                                   {found.theory},
-                                   "all other views together, over the one that is meant; the panel's black is 0",
-                                   {found.measured.error}});
+                                   {found.measured.percent.value},
+                                   {found.theory.percent.value},
+                                   found.measured.left_to_rounding
+                                       ? left_to_rounding
+                                       : "all other views together, over the one that is meant; the panel's black is 0",
+                                   {found.measured.percent.error}});
     };
     const std::string of = eyes.other ? fmt::format("; {}", made_for(sampling)) : "";
     add("Crosstalk between views, the innermost one: Woods, IEC 62629-22-1 and IDMS alike" + of, views.middle);
@@ -132,17 +132,29 @@ void between_views(const Subject& s, Eyes& eyes, Result& result) {
     json["innermost_view"] = eyes.views.innermost();
     const ViewsCrosstalk views = eyes.views.count() > 0 ? look_at_views(eyes) : ViewsCrosstalk();
     add_middle(eyes, views, s.display().content.sampling, result);
-    add_figure(json, "next_view_alone_percent", views.next[views.innermost]);
-    add_figure(json, "median_view_percent", views.all[views.ranked(0.5)]);
+    add_figure(json, "next_view_alone_percent", views.next[views.innermost].percent);
+    const Crosstalk& median = views.all[views.ranked(0.5)];
+    add_figure(json, "median_view_percent", median.percent);
     json["worst_view"] = views.view[views.worst_at];
-    add_figure(json, "worst_view_percent", views.worst);
+    add_figure(json, "worst_view_percent", views.worst.percent);
     if (eyes.views.count() == 0)
         result.note("between_views", no_view);
-    else if (std::isnan(views.middle.measured.value))
+    else if (views.middle.measured.left_to_rounding)
+        result.note("between_views", left_to_rounding);
+    else if (std::isnan(views.middle.measured.percent.value))
         result.note("between_views", no_light);
+    const auto tell = [&](const std::string& name, const Crosstalk& found) {
+        if (found.left_to_rounding) result.note("between_views." + name, left_to_rounding);
+    };
+    tell("theory_percent", views.middle.theory);
+    tell("other_sampling.woods_percent", views.middle_of_other.measured);
+    tell("other_sampling.theory_percent", views.middle_of_other.theory);
+    tell("next_view_alone_percent", views.next[views.innermost]);
+    tell("median_view_percent", median);
+    tell("worst_view_percent", views.worst);
     std::vector<double> all, next;
-    for (const Estimate& e : views.all) all.push_back(e.value);
-    for (const Estimate& e : views.next) next.push_back(e.value);
+    for (const Crosstalk& c : views.all) all.push_back(c.percent.value);
+    for (const Crosstalk& c : views.next) next.push_back(c.percent.value);
     result.tables.push_back(
         {"crosstalk_views", {{"view", views.view}, {"crosstalk_percent", all}, {"next_view_crosstalk_percent", next}}});
 }
@@ -156,7 +168,9 @@ void curves_of_views(Eyes& eyes, double spread, Result& result) {
     const double first = eyes.views.innermost() > 0 ? eyes.views.innermost() - shown : -shown;
     std::vector<std::vector<double>> shares(eyes.views.innermost() > 0 ? 2 * shown : 2 * shown + 1,
                                             std::vector<double>(places.size()));
-    const auto share = [&](const MeantLight& light, double view) { return total(eyes.view(light, view)) / total(light.all()); };
+    const auto share = [&](const MeantLight& light, double view) {
+        return total(eyes.view(light, view).light) / total(light.all().light);
+    };
     eyes.parts.run(places_of_curves, [&](int part) {
         const auto n = std::size_t(part);
         const MeantLight light = eyes.light(eyes.at(places[n]), eyes.shown);

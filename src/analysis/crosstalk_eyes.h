@@ -22,8 +22,12 @@ inline const char* made_for(ContentSampling sampling) {
 
 /// A view's light, or an eye's, and that which it should not see.
 struct Leak {
-    Sums signal, leak;
+    LightPart signal, leak;
 };
+
+inline constexpr const char* left_to_rounding =
+    "centres of pixels lie on the border of two lenses' elemental images: rounding decides which lens has them, and what is meant "
+    "for which eye; lfdsim check has the remedy";
 
 /// Whether many lines of sight end where it is dark, or where a colour shines that is dim.
 inline bool structured(const Subject& s) { return !shines_all_over(s.display().panel); }
@@ -64,17 +68,18 @@ class Eyes {
 
     double view_mm() const { return views.step_slope() * eye_mm; }
     /// Light of the view whose middle, in steps, this is.
-    Sums view(const MeantLight& light, double middle) const {
+    LightPart view(const MeantLight& light, double middle) const {
         return light.between((middle - 0.5) * views.step_slope(), (middle + 0.5) * views.step_slope());
     }
     Leak of_view(const MeantLight& light, double middle) const {
         Leak found{view(light, middle), light.all()};
-        for (std::size_t k = 0; k < found.leak.size(); ++k) found.leak[k] -= found.signal[k];
+        for (std::size_t k = 0; k < found.leak.light.size(); ++k) found.leak.light[k] -= found.signal.light[k];
+        found.leak.open += found.signal.open;
         return found;
     }
     /// Of the left (0) or right eye (1).
     static Leak of_side(const MeantLight& light, std::size_t side) {
-        const Sums left = light.between(-infinity, 0), right = light.between(0, infinity);
+        const LightPart left = light.between(-infinity, 0), right = light.between(0, infinity);
         return side == 0 ? Leak{left, right} : Leak{right, left};
     }
 
@@ -101,7 +106,9 @@ class Eyes {
     LineSets lines_, fine_, anew_, of_theory_, of_theory_curve_;
 };
 
-inline Estimate percent(const MeantLight& light, const Leak& found) { return light.crosstalk_percent(found.leak, found.signal); }
+inline Crosstalk crosstalk_of(const MeantLight& light, const Leak& found) {
+    return crosstalk_of(found.leak, found.signal, light.missed());
+}
 
 /// Two eyes whose head moves, while the right half of what the panel shows stays meant for the right eye.
 void between_eyes(const Subject&, Eyes&, Result&);

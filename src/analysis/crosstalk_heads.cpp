@@ -13,7 +13,7 @@ namespace {
 constexpr double tolerable_percent = 10;  // of the head's range
 
 /// Crosstalk of the left (0) and the right eye (1) of one head.
-using BothEyes = std::array<Estimate, 2>;
+using BothEyes = std::array<Crosstalk, 2>;
 
 /// Between the eyes of heads at several places.
 struct Heads {
@@ -21,7 +21,7 @@ struct Heads {
     std::vector<double> places;
     std::vector<BothEyes> found;
     BothEyes of_other;  // in the middle, with the other sampling
-    double theory = nan, theory_of_other = nan;
+    Crosstalk theory = {}, theory_of_other = {};
 
     std::size_t middle() const { return places.size() / 2; }
 };
@@ -32,20 +32,24 @@ BothEyes look_with_both(const Eyes& eyes, double head, double apart) {
     BothEyes found;
     for (const std::size_t side : {0u, 1u}) {
         const MeantLight light = eyes.light(eyes.at(eye_of_head(head, side, apart)), eyes.shown);
-        found[side] = percent(light, Eyes::of_side(light, side));
+        found[side] = crosstalk_of(light, Eyes::of_side(light, side));
     }
     return found;
 }
 
 /// Theory of a head in the middle: both eyes together.
-double theory_of_eyes(const Eyes& eyes, const std::array<MetPlaces, 2>& met, const MeantPanel& panel) {
-    double signal = 0, leak = 0;
+Crosstalk theory_of_eyes(const Eyes& eyes, const std::array<MetPlaces, 2>& met, const MeantPanel& panel) {
+    Leak both;
+    const auto add = [](LightPart& sum, const LightPart& part) {
+        for (std::size_t k = 0; k < sum.light.size(); ++k) sum.light[k] += part.light[k];
+        sum.open += part.open;
+    };
     for (const std::size_t side : {0u, 1u}) {
         const Leak found = Eyes::of_side(eyes.theory_light(met[side], panel), side);
-        signal += total(found.signal);
-        leak += total(found.leak);
+        add(both.signal, found.signal);
+        add(both.leak, found.leak);
     }
-    return 100 * leak / signal;
+    return crosstalk_of(both.leak, both.signal, 0);
 }
 
 Heads look_with_heads(Eyes& eyes, double apart) {
@@ -61,7 +65,7 @@ Heads look_with_heads(Eyes& eyes, double apart) {
             const MetPlaces met = eyes.at(eye_of_head(0, side, apart), Eyes::Lines::fine);
             const auto of = [&](const MeantPanel& panel) {
                 const MeantLight light = eyes.light(met, panel);
-                return percent(light, Eyes::of_side(light, side));
+                return crosstalk_of(light, Eyes::of_side(light, side));
             };
             all.found[n][side] = of(eyes.shown);
             if (eyes.other) all.of_other[side] = of(*eyes.other);
@@ -75,8 +79,8 @@ Heads look_with_heads(Eyes& eyes, double apart) {
 }
 
 /// Of the eye that sees worse. No light counts as the worst.
-Estimate worse(const BothEyes& both) {
-    const auto rank = [](const Estimate& e) { return std::isnan(e.value) ? infinity : e.value; };
+Crosstalk worse(const BothEyes& both) {
+    const auto rank = [](const Crosstalk& c) { return std::isnan(c.percent.value) ? infinity : c.percent.value; };
     return rank(both[0]) > rank(both[1]) ? both[0] : both[1];
 }
 
@@ -84,13 +88,16 @@ Estimate worse(const BothEyes& both) {
 /// `errors` times its error added to each figure.
 Limit head_limit(const Eyes& eyes, const Heads& all, int side, double errors) {
     const auto allowed = [&](const BothEyes& both) {
-        const Estimate e = worse(both);
+        const Crosstalk found = worse(both);
+        if (found.left_to_rounding) return errors < 0;
+        const Estimate& e = found.percent;
         return e.value + errors * (std::isfinite(e.error) ? e.error : 0) <= tolerable_percent;  // not where it is NaN
     };
     Limit found;
     std::size_t n = all.middle();
     if (!allowed(all.found[n])) {
-        found.missing = "the rule does not hold even in the middle";
+        const bool rounding = worse(all.found[n]).left_to_rounding;
+        found.missing = rounding ? left_to_rounding : "the rule does not hold even in the middle";
         return found;
     }
     const std::size_t last = side < 0 ? 0 : all.places.size() - 1;
@@ -145,23 +152,31 @@ void add_eyes(const Eyes& eyes, const Heads& all, ContentSampling sampling, Resu
     if (eyes.other) other["sampling"] = name_of(*eyes.other_sampling);
     for (const std::size_t side : {0u, 1u}) {
         const std::string name = side == 0 ? "left" : "right";
-        const auto add = [&](Json& to, const std::string& of, const Estimate& found, double theory) {
-            add_figure(to, name + "_eye_percent", found);
+        const auto add = [&](Json& to, const std::string& of, const Crosstalk& found, const Crosstalk& theory) {
+            add_figure(to, name + "_eye_percent", found.percent);
             result.findings.push_back({fmt::format("Crosstalk between the eyes, {} eye, head in the middle{}", name, of),
                                        "%",
-                                       {found.value},
-                                       {theory},
-                                       "what is meant for the other side of the head, over what is meant for its own",
-                                       {found.error}});
+                                       {found.percent.value},
+                                       {theory.percent.value},
+                                       found.left_to_rounding
+                                           ? left_to_rounding
+                                           : "what is meant for the other side of the head, over what is meant for its own",
+                                       {found.percent.error}});
         };
-        const Estimate& middle = all.found[all.middle()][side];
+        const Crosstalk& middle = all.found[all.middle()][side];
         add(json, eyes.other ? fmt::format("; {}", made_for(sampling)) : "", middle, all.theory);
         if (eyes.other) add(other, fmt::format("; {}", made_for(*eyes.other_sampling)), all.of_other[side], all.theory_of_other);
-        if (std::isnan(middle.value)) result.note("between_eyes." + name + "_eye_percent", "no light reaches the eye");
+        if (std::isnan(middle.percent.value))
+            result.note("between_eyes." + name + "_eye_percent",
+                        middle.left_to_rounding ? left_to_rounding : "no light reaches the eye");
+        if (all.of_other[side].left_to_rounding)
+            result.note("between_eyes.other_sampling." + name + "_eye_percent", left_to_rounding);
     }
-    json["theory_percent"] = number_json(all.theory);
+    json["theory_percent"] = number_json(all.theory.percent.value);
+    if (all.theory.left_to_rounding) result.note("between_eyes.theory_percent", left_to_rounding);
     if (!eyes.other) return;
-    other["theory_percent"] = number_json(all.theory_of_other);
+    if (all.theory_of_other.left_to_rounding) result.note("between_eyes.other_sampling.theory_percent", left_to_rounding);
+    other["theory_percent"] = number_json(all.theory_of_other.percent.value);
     json["other_sampling"] = std::move(other);
 }
 
@@ -177,7 +192,7 @@ void between_eyes(const Subject& s, Eyes& eyes, Result& result) {
     for (const std::size_t side : {0u, 1u}) {
         const std::string name = side == 0 ? "left" : "right";
         std::vector<double> percents;
-        for (const BothEyes& both : all.found) percents.push_back(both[side].value);
+        for (const BothEyes& both : all.found) percents.push_back(both[side].percent.value);
         Series drawn{name + " eye", all.places, percents};
         for (double& y : drawn.y)
             if (!(y <= 100)) y = std::numeric_limits<double>::quiet_NaN();
@@ -186,7 +201,8 @@ void between_eyes(const Subject& s, Eyes& eyes, Result& result) {
     }
     const Interval range = head_range(eyes, all);
     plot.marks.push_back({"10 %", tolerable_percent, false});
-    if (all.theory <= 100) plot.marks.push_back({"theory, head in the middle", all.theory, false});
+    if (const double theory = all.theory.percent.value; theory <= 100)
+        plot.marks.push_back({"theory, head in the middle", theory, false});
     add_limits(result, result.figures["between_eyes"], "between_eyes.", "head_within_10_percent_mm", range);
     result.findings.push_back(finding("Head's places where both eyes have at most 10 % crosstalk", "mm", range, {},
                                       "the panel's picture stays; searched to 1.5 eye distances"));

@@ -1,5 +1,10 @@
 #include "analysis/meant_panel.h"
 
+#include "analysis/eye_rays.h"
+#include "model/numbers.h"
+
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace lfdsim {
@@ -22,6 +27,12 @@ MeantPanel::MeantPanel(const Display& d, const Geometry& g, ContentSampling samp
     for (std::size_t channel = 0; channel < channels; ++channel) pixels_.emplace_back(made, channel);
 }
 
+void MeantPanel::Slopes::add(double slope) {
+    constexpr double rounding = 1e-9;
+    const auto same = [&](double other) { return std::isnan(slope) ? std::isnan(other) : std::abs(other - slope) <= rounding; };
+    if (count_ < slopes_.size() && std::ranges::none_of(all(), same)) slopes_[count_++] = slope;
+}
+
 std::optional<MeantPanel::Meant> MeantPanel::at(double x_mm, double y_mm, const ChannelWeights& weights) const {
     const ChannelPixels::Place place{x_mm / pixel_mm_ + 0.5 * size_[0], 0.5 * size_[1] - y_mm / pixel_mm_};
     for (std::size_t channel = 0; channel < pixels_.size(); ++channel) {
@@ -29,17 +40,45 @@ std::optional<MeantPanel::Meant> MeantPanel::at(double x_mm, double y_mm, const 
         if (weight == 0) continue;
         const auto shining = pixels_[channel].at(place);
         if (!shining) continue;  // subpixels do not overlap: the first that shines is the only one
-        const auto meant = slope(shining->shown);
-        if (!meant) return {};
-        return Meant{weight * shining->brightness, *meant};
+        // Where pitches are known to a nanometre, a border n lenses from the middle is known to n/2 of them.
+        const Point shown = mm(shining->shown);
+        const Slopes found = slopes(shown, 0.5e-6 * (1 + std::hypot(shown[0], shown[1]) / pickup_.lattice().pitch[0]));
+        if (std::ranges::all_of(found.all(), [](double slope) { return std::isnan(slope); })) return {};
+        return Meant{weight * shining->brightness, found};
     }
     return {};
 }
 
-std::optional<double> MeantPanel::slope(const ChannelPixels::Place& place) const {
-    const double x = (place[0] - 0.5 * size_[0]) * pixel_mm_, y = (0.5 * size_[1] - place[1]) * pixel_mm_;
+double MeantPanel::share_on_borders() const {
+    constexpr double near_pixels = 0.02;
+    double all = 0, on_borders = 0;
+    for (const Choice& c : even_choices(1 << 12))
+        for (const ChannelPixels& pixels : pixels_) {
+            const auto shining = pixels.at({(0.5 + 0.5 * c[0]) * size_[0], (0.5 + 0.5 * c[1]) * size_[1]});
+            if (!shining) continue;
+            const Slopes found = slopes(mm(shining->shown), near_pixels * pixel_mm_);
+            const auto lenses = std::ranges::count_if(found.all(), [](double slope) { return !std::isnan(slope); });
+            if (lenses > 0) all += shining->brightness;
+            if (lenses > 1) on_borders += shining->brightness;
+        }
+    return all > 0 ? on_borders / all : 0;
+}
+
+MeantPanel::Slopes MeantPanel::slopes(const Point& point, double margin) const {
+    Slopes found(slope(point));
+    if (!pickup_.near_border(point[0], point[1], margin)) return found;
+    constexpr int directions = 8;
+    for (int k = 0; k < directions; ++k) {
+        const double turn = 2 * pi * k / directions;
+        found.add(slope({point[0] + 2 * margin * std::cos(turn), point[1] + 2 * margin * std::sin(turn)}));
+    }
+    return found;
+}
+
+double MeantPanel::slope(const Point& point) const {
+    const auto [x, y] = point;
     const NodalLine line = pickup_.line(x, y);
-    if (!line.owned) return {};
+    if (!line.owned) return nan;
     const Lattice<double>& lattice = pickup_.lattice();
     const double per_mm = (pickup_.scale - 1) / gap_mm_;  // 1/E
     // e C - P over g. Lenses that stand by themselves have gaps of their own: their lines' slope, seen from the middle.

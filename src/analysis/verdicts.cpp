@@ -1,6 +1,8 @@
 #include "analysis/verdicts.h"
 
+#include "analysis/meant_panel.h"
 #include "analysis/quick_look.h"
+#include "content/shown_points.h"
 #include "model/bands.h"
 #include "model/numbers.h"
 #include "model/sharp_range.h"
@@ -17,6 +19,7 @@ constexpr double most_seen_share = 0.5;    // of an elemental image at once: bey
 constexpr double most_mixed_percent = 50;  // between the eyes: a third of the light
 constexpr double most_aberrated_percent = 15, most_more_percent = 10;  // of which aberration brings so much
 constexpr double most_blur_pixels = 1.5;
+constexpr double most_on_borders = 0.1;         // of the panel's light, pixels whose centres lie on borders of elemental images
 constexpr double most_visible_contrast = 0.05;  // of colours, after the eye's filter
 
 /// Three digits, without an exponent.
@@ -27,6 +30,8 @@ std::string place(double z) {
     return std::isinf(z) ? "at infinity"
                          : fmt::format("{} mm {} the lenses", digits(std::abs(z)), z < 0 ? "behind" : "in front of");
 }
+
+double share_on_borders(const Display& d, const Geometry& g) { return MeantPanel(d, g, d.content.sampling).share_on_borders(); }
 
 bool valid(const Display& d) { return validate(d).empty(); }
 
@@ -216,6 +221,44 @@ std::string mixing_remedy(const Display& d, const Theory& t, const ColourWave& w
     return "Use smaller pixels, or lenses and gap of which an eye sees more of the panel at once";
 }
 
+/// Moved by half a pixel, or with a row or column more, pixels stand beside the borders.
+std::string border_remedy(const Display& d) {
+    const auto helps = [](const Display& changed) {
+        return valid(changed) && share_on_borders(changed, resolve(changed)) < most_on_borders;
+    };
+    std::string remedy;
+    const double half = 0.5 * d.panel.pixel_pitch_mm;
+    for (const auto [x, y] : {std::array{half, 0.}, {0., half}, {half, half}, {0.5 * half, 0.}, {0.5 * half, 0.5 * half}}) {
+        Display moved = d;
+        moved.array.offset_mm[0] += x;
+        moved.array.offset_mm[1] += y;
+        if (!helps(moved)) continue;
+        remedy = fmt::format("Move the array by a part of a pixel (--set 'array.offset_mm=[{:.6g}, {:.6g}]')",
+                             moved.array.offset_mm[0], moved.array.offset_mm[1]);
+        break;
+    }
+    for (const auto [columns, rows] : {std::array{1, 0}, {0, 1}, {1, 1}}) {
+        Display larger = d;
+        larger.panel.pixels[0] += columns;
+        larger.panel.pixels[1] += rows;
+        if (!helps(larger)) continue;
+        remedy += fmt::format("{} a panel of {} x {} pixels (--set 'panel.pixels=[{}, {}]')", remedy.empty() ? "Use" : ", or use",
+                              larger.panel.pixels[0], larger.panel.pixels[1], larger.panel.pixels[0], larger.panel.pixels[1]);
+        break;
+    }
+    return remedy.empty() ? "Move the array (array.offset_mm), or use another pitch (array.pitch_mm)" : remedy;
+}
+
+/// Whether it is clear which lens shows which pixel.
+std::optional<std::string> on_borders(const Display& d, const Geometry& g) {
+    const double share = share_on_borders(d, g);
+    if (!(share >= most_on_borders)) return {};
+    return fmt::format(
+        "the centres of {:.0f} % of the {} lie on the border of two lenses' elemental images: both lenses show half of such a one, "
+        "and rounding decides for which of them its content is made, and so which eye is meant to see it. {}",
+        100 * share, made_by_channel(d) ? "subpixels" : "pixels", border_remedy(d));
+}
+
 /// Whether a white screen is white.
 std::optional<std::string> on_colours(const Display& d, const Geometry& g, const Theory& t) {
     const std::optional<ColourWave> wave = colour_wave(d, g);
@@ -237,6 +280,7 @@ std::vector<std::string> verdicts(const Display& d, const Geometry& g, const The
         if (verdict) all.push_back(std::move(*verdict));
         return verdict.has_value();
     };
+    add(on_borders(d, g));
     const std::optional<SeenAtOnce> seen = seen_at_once(d, g);
     const bool mixed = seen && add(on_separation(d, g, t, *seen));
     if (!mixed) {  // else the rest follows from that

@@ -106,6 +106,12 @@ class Pickup {
         return {off.x / (lattice_.pitch[0] * scale), lattice_.strips ? 0 : off.y / (lattice_.pitch[1] * scale), l.owned};
     }
 
+    /// Whether the panel point (x, y) is nearer than `margin` mm to the border of an elemental image.
+    bool near_border(double x, double y, double margin) const {
+        const Place at = place(x, y);
+        return !optics::in_cell(lattice_, at.u * lattice_.pitch[0], at.v * lattice_.pitch[1], -margin / scale);
+    }
+
   private:
     /// A lens's nodal points from the array's middle, in the array's frame, mm; 1/g of that lens; how far its rear one is above
     /// those of lenses as described.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../engine/pictures.h"
+#include "analysis/meant_light.h"
 #include "analysis/slope_spread.h"
 
 namespace lfdsim {
@@ -135,6 +136,63 @@ TEST(Crosstalk, OfAlignedLensesIsNone) {
         EXPECT_LT(views.at("worst_view_percent"), 1.5) << images;
         EXPECT_GE(views.at("whole_views"), images - 1) << images;
     }
+}
+
+// A figure of pixels that rounding gives to one of two lenses covers what it is with either, or it is null. Lenses an odd number of
+// pixels wide, in odd numbers, have their borders on pixels' centres where columns are even.
+TEST(Crosstalk, ErrorsCoverBothLensesOfPixelsOnABorder) {
+    int known = 0, unknown = 0;
+    for (const LatticeKind lattice : {LatticeKind::strips, LatticeKind::square, LatticeKind::hexagon, LatticeKind::brick})
+        for (const SubpixelLayout subpixels : {SubpixelLayout::none, SubpixelLayout::rgb_rows})
+            for (const int images : {3, 9}) {
+                Display d = aligned(images);
+                d.panel.subpixels = subpixels;
+                d.array.lattice = lattice;
+                d.array.count = {lattice == LatticeKind::strips || lattice == LatticeKind::square ? 21 : 20, 15};
+                if (lattice == LatticeKind::strips) d.array.count = {21, 1};
+                d.array.pitch_mm = images * d.panel.pixel_pitch_mm * (1 - 1.4368 / 600);
+                const MetPlaces lit(LineSets(512, 0), 1, [&](const Choice& c, std::size_t) {
+                    return MetPlaces::Met{8 * d.panel.pixel_pitch_mm * images * c[0], 9 * d.panel.pixel_pitch_mm * c[1], 1};
+                });
+                const double step = d.panel.pixel_pitch_mm / 1.4368;
+                const auto percents = [&](double moved) {
+                    d.array.offset_mm[0] = moved;
+                    const MeantLight light(lit, {luminance_weights}, MeantPanel(d, resolve(d), ContentSampling::subpixel));
+                    std::vector<Crosstalk> found;
+                    for (const double from : {-100., -0.4 * images, -2., 0.2, 0.3 * images})
+                        found.push_back(
+                            crosstalk_of(light.between(-1, from * step), light.between(from * step, 1), light.missed()));
+                    return found;
+                };
+                const std::vector<Crosstalk> border = percents(0), left = percents(-1e-5), right = percents(1e-5);
+                for (std::size_t k = 0; k < border.size(); ++k) {
+                    (border[k].left_to_rounding ? unknown : known)++;
+                    if (border[k].left_to_rounding) continue;
+                    for (const Crosstalk& beside : {left[k], right[k]}) {
+                        EXPECT_FALSE(beside.left_to_rounding);
+                        EXPECT_NEAR(border[k].percent.value, beside.percent.value, border[k].percent.error + 1e-9)
+                            << int(lattice) << " " << images << " " << k;
+                    }
+                }
+            }
+    EXPECT_GT(known, 40);
+    EXPECT_GT(unknown, 10);
+}
+
+// Two views: each pixel but the middle one of its image stands on a border.
+TEST(Crosstalk, OfTwoViewsOnOddColumnsIsLeftToRounding) {
+    Display d = aligned(2);
+    d.panel.pixels[0] = 241;  // and a pitch to the nanometre
+    d.panel.subpixels = SubpixelLayout::none;
+    const Result result = measured(d);
+    const Json& eyes = result.figures.at("between_eyes");
+    for (const char* name : {"left_eye_percent", "right_eye_percent", "theory_percent"}) {
+        EXPECT_TRUE(eyes.at(name).is_null()) << name << eyes.at(name);
+        EXPECT_NE(result.notes.at(std::string("between_eyes.") + name).get<std::string>().find("border"), std::string::npos);
+    }
+    EXPECT_NE(result.notes.at("between_eyes.head_within_10_percent_mm").get<std::string>().find("border"), std::string::npos);
+    d.array.offset_mm[0] = 0.5 * d.panel.pixel_pitch_mm;
+    EXPECT_LT(measured(d).figures.at("between_eyes").at("left_eye_percent"), 0.5);
 }
 
 // Half of E p'/g = 129.69 mm less half of the eyes' distance; what one lens spreads over is 0.3 mm of that.

@@ -173,6 +173,38 @@ TEST(Verdicts, ColoursThatStayApart) {
     EXPECT_THAT(verdicts_of(two), Contains(HasSubstr("has one tint")));
 }
 
+// Lenses four pixels wide before a panel whose middle is a pixel's: every fourth pixel stands on the border of two of them.
+TEST(Verdicts, PixelsOnTheBorderOfTwoLenses) {
+    const auto border = Contains(HasSubstr("lie on the border of two lenses"));
+    for (const LatticeKind lattice : {LatticeKind::strips, LatticeKind::square, LatticeKind::hexagon, LatticeKind::brick}) {
+        Display d;
+        d.panel.pixels = {81, 60};
+        d.panel.pixel_pitch_mm = 0.1;
+        d.array.lattice = lattice;
+        d.array.count = {20, lattice == LatticeKind::strips ? 1 : 12};
+        d.array.gap_mm = 1;
+        d.array.pitch_mm = 4 * 0.1 / (1 + 1 / 400.);
+        d.array.aperture = Aperture::cell;
+        d.lens.kind = IdealLens{{}, 1};
+        d.camera.position_mm = {0, 0, 401};
+        d.content.viewing_distance_mm = 401;
+        EXPECT_THAT(verdicts_of(d),
+                    Contains(AllOf(HasSubstr("of the pixels lie on the border of two lenses"),
+                                   HasSubstr("--set 'array.offset_mm=[0.05, 0]'"), HasSubstr("--set 'panel.pixels=[82, 60]'"))))
+            << int(lattice);
+        Display even = d, moved = d;
+        even.panel.pixels[0] = 82;
+        moved.array.offset_mm = {0.05, 0};
+        EXPECT_THAT(verdicts_of(even), Not(border)) << int(lattice);
+        EXPECT_THAT(verdicts_of(moved), Not(border)) << int(lattice);
+        // Subpixels of stripes stand beside the pixel's centre, but green.
+        d.panel.subpixels = SubpixelLayout::rgb_stripe;
+        EXPECT_EQ(testing::Matches(border)(verdicts_of(d)), false) << int(lattice);
+        d.content.sampling = ContentSampling::pixel;
+        EXPECT_THAT(verdicts_of(d), border) << int(lattice);
+    }
+}
+
 TEST(Verdicts, NoneOnGoodDisplays) {
     for (const char* name :
          {"barrier", "hexagon", "tablet-lenticular", "desktop-asphere", "desktop-asphere-bare", "desktop-asphere-colour",

@@ -12,7 +12,7 @@ import oracle
 from colours import LUMINANCE, White
 from edges import error_of
 from sight import per_set
-from table import FORM_ERRORS
+from table import FORM_ERRORS, UNSURE
 
 SUBPIXEL, PIXEL = "subpixel", "pixel"  # what content is made for
 TIE = 1e-9  # of slopes: a pixel whose centre lies on the border of two views is half of either
@@ -66,7 +66,9 @@ def above(x):
 
 
 def over(leak, signal, either):
-    """In per cent, of rows over sets: (value, error); None without signal."""
+    """In per cent, of rows over sets: (value, error); None without signal, UNSURE where pixels of two lenses make out half of it."""
+    if 2 * either.sum() > max(leak.sum(), 0.02 * signal.sum()):
+        return UNSURE
     open_light = either.sum() + max(leak.max(), signal.max())
     leak, signal = per_set(leak.sum(axis=0)), per_set(signal.sum(axis=0))
     if not signal.sum() > 0:
