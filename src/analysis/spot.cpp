@@ -4,6 +4,7 @@
 
 #include "model/depth_words.h"
 #include "model/numbers.h"
+#include "model/pupil.h"
 #include "optics/lattice.h"
 
 #include <fmt/format.h>
@@ -165,7 +166,7 @@ void tell_focus(const Subject& s, const std::vector<Field>& fields, const std::v
     Plot rms{"spot_through_focus", "Spot size through focus", "depth in front of the lenses, mm", "RMS radius, mm", {}};
     Plot width{"spot_width", "Width of the spot on the axis", "depth in front of the lenses, mm", "full width, mm", {}};
     std::vector<double> theory;
-    const double L = s.theory().central_depth_mm, D = s.geometry().clear_aperture_mm[0];
+    const double L = s.theory().central_depth_mm, D = light_width_mm(s.display(), s.geometry())[0];
     for (const double z : places) theory.push_back(D * std::abs(std::isinf(L) ? 1 : z / L - 1));
     width.series.push_back({"paraxial", at, theory});
     for (const Field& f : fields) {
@@ -322,7 +323,7 @@ Result measure_spot(Subject& s, Job& job) {
     if (job.cancelled()) throw Stopped{};
     job.advance(1);
 
-    const double L = s.theory().central_depth_mm, D = s.geometry().clear_aperture_mm[0];
+    const double L = s.theory().central_depth_mm, D = light_width_mm(s.display(), s.geometry())[0];
     for (const std::size_t k : {std::size_t(0), depths.size() / 2, depths.size() - 1}) {
         const double z = depths[k];
         result.findings.push_back(

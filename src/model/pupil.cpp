@@ -1,5 +1,7 @@
 #include "model/pupil.h"
 
+#include "model/lens_errors.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -37,6 +39,33 @@ Pupil pupil(const std::vector<PlacedSurface>& surfaces, std::optional<double> st
         for (Ray* ray : {&parallel, &oblique}) ray->slope = (s.index_above * ray->slope + power * ray->height) / s.index_below;
     }
     return found;
+}
+
+std::array<double, 2> light_width_mm(const Display& d, const Geometry& g) {
+    // A ray that leaves the panel's point with a slope of 1 in air is g from the axis in both principal planes.
+    double height = 0, slope = 1, z = 0, index = 1;  // slope times index
+    const auto climb = [&](double to_z, double in) {
+        height += slope * (to_z - z) / in;
+        z = to_z;
+    };
+    std::array<double, 2> width;
+    width.fill(std::numeric_limits<double>::infinity());
+    for (const PlacedLayer& layer : g.layers) climb(z + layer.thickness_mm, layer.index);
+    for (const PlacedSurface& s : g.surfaces) {
+        climb(s.z_mm, index);
+        double radius = s.semi_aperture_mm;
+        if (d.lens.stop_radius_mm && s.z_mm == g.stop_z_mm) radius = std::min(radius, *d.lens.stop_radius_mm);
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double half =
+                d.array.aperture == Aperture::cell ? std::min(radius, 0.5 * d.array.pitch_mm[k] * pitch_scale(d.errors)) : radius;
+            width[k] = std::min(width[k], 2 * g.gap_mm * half / std::abs(height));
+        }
+        const double power =
+            s.form == SurfaceForm::thin ? 1 / s.focal_length_mm : s.curvature_per_mm * (s.index_above - s.index_below);
+        slope -= power * height;
+        index = s.index_above;
+    }
+    return width;
 }
 
 }  // namespace lfdsim

@@ -3,6 +3,7 @@
 
 #include "content/pickup.h"
 #include "lenses.h"
+#include "model/pupil.h"
 
 #include <gtest/gtest.h>
 #include <cmath>
@@ -106,6 +107,36 @@ TEST(Spot, RadiusOfStripsIsThatOfLightAcrossThem) {
                  width = width_at(fans(lens, {0, 0}, 200).meridional, 100).mm;
     EXPECT_GT(radius, 0.15 * width);
     EXPECT_LT(radius, 0.5 * width);
+}
+
+// A small stop lets paraxial light pass alone, wherever it stands: in the panel's surface, inside, or before the viewer's. Seen
+// from the viewer's side at z_p from H', it makes spots of D |L - z| / |L - z_p|, which rays in double precision find as well.
+TEST(Spot, TheoryKnowsWhereThePupilStands) {
+    for (const double gap : {22.7, 9.})  // with a real, and with a virtual central depth plane
+        for (const int place : {0, 1, 2}) {
+            const auto stop = [&](int at) { return at == place ? 0.02 : 5.6; };
+            Display d = ideal(8, gap, 10, 20);
+            d.panel.pixel_pitch_mm = 1;
+            d.lens = {
+                SurfaceLens{{{0.036, 0, {}, stop(0), 2.8, 1.53}, {0, 0, {}, stop(1), 2.8, 1.53}, {-0.055, 0, {}, stop(2), 0, 1}}},
+                {}};
+            const Geometry g = resolve(d);
+            const double L = theory(d, g).central_depth_mm, from_vertex = g.rear_principal_mm - g.vertex_plane_mm;
+            const double inside = (2 - place) * 2.8 / 1.53,  // below the viewer's surface, reduced, and where it is seen
+                seen = inside / (1 - 0.53 * 0.055 * inside);
+            const double pupil_from_rear = -seen - from_vertex, D = g.clear_aperture_mm[0];
+            const Result r = spots_of(d);
+            for (const int depth : {0, 4}) {
+                const double z = spot(r, "axis", depth).at("depth_mm").get<double>() - from_vertex,
+                             width = D * std::abs((L - z) / (L - pupil_from_rear));
+                EXPECT_NEAR(spot(r, "axis", depth).at("meridional_width_mm"), width, 1e-3 * width) << place << " " << gap;
+                EXPECT_NEAR(light_width_mm(d, g)[0] * std::abs(1 - z / L), width, 1e-9) << place << " " << gap;
+            }
+            for (const Finding& f : r.findings)
+                if (f.what.starts_with("Full width") && f.theory[0] > 1e-9) {
+                    EXPECT_NEAR(f.measured[0], f.theory[0], 1e-3 * f.theory[0]) << f.what;
+                }
+        }
 }
 
 TEST(Spot, TablesAndFigures) {
