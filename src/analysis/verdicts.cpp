@@ -154,13 +154,13 @@ std::optional<std::string> on_eyes(const Display& d, const Geometry& g, const Se
 std::optional<std::string> on_blur(const Display& d, const Geometry& g, const Theory& t) {
     const std::optional<LensBlur> b = blur(d, g);
     if (!b || !(b->pixels > most_blur_pixels)) return {};
-    const double L = t.central_depth_mm;
+    const double eye = eye_distance_mm(d);
+    const double L = std::abs(t.central_depth_mm) > 1000 * eye ? infinity : t.central_depth_mm;  // lenses focused on the panel
     const auto wide = [&](double pixels) {
         const double slope = pixels * d.panel.pixel_pitch_mm / g.gap_mm;
         return std::isinf(L) ? fmt::format("{:.3g} degrees", std::atan(slope) / degree)
                              : fmt::format("{} mm", digits(slope * std::abs(L)));
     };
-    const double eye = eye_distance_mm(d);
     const auto in_words = [&](const SharpRange& range, const char* are) {
         const bool none = range.behind.empty() && range.in_front.empty();
         return fmt::format("{}{} {}", none ? "" : "depths ", depths_in_words(g, range, eye), are);

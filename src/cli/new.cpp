@@ -7,9 +7,12 @@
 #include "files/write_first_order.h"
 #include "model/first_order.h"
 #include "model/lenticular.h"
+#include "report/check.h"
 
 #include <fmt/format.h>
+#include <cmath>
 #include <filesystem>
+#include <functional>
 
 // lfdsim new: a commented description of a first-order design.
 namespace lfdsim::cli {
@@ -105,15 +108,45 @@ LenticularRequest lenticular_request(const NewArguments& args) {
     return request;
 }
 
-/// Names the design, writes it and says what it is.
+std::vector<std::string> worth_knowing(const Display& d) {
+    const Geometry g = resolve(d);
+    return lfdsim::worth_knowing(d, g, theory(d, g));
+}
+
+/// The widest field of view, below that of a design, of which `check` has nothing to say.
+template <class Request, class Design>
+std::string narrower(Request request, Design (*design)(const Request&), double fov_deg) {
+    for (int tenths = 9; tenths >= 3; --tenths) {
+        const double fov = std::round(0.1 * tenths * fov_deg);
+        request.fov_deg = fov;
+        try {
+            Design made = design(request);
+            made.display.content.model = built_in_spheres;
+            if (worth_knowing(made.display).empty())
+                return fmt::format("  Of a narrower field of view, --fov-deg {:g}, there would be nothing to say.\n", fov);
+        } catch (const InputError&) {
+            break;  // of a narrower field lenses stand farther from the panel
+        }
+    }
+    return {};
+}
+
+/// Names the design, writes it and says what it is, and of what `check` would warn. `narrower`: designs with a narrower field.
 template <class Design>
 void finish(const NewArguments& args, Design& made, std::string (*write)(const Design&, const std::string&),
-            const std::string& what) {
+            const std::string& what, const std::function<std::string()>& narrower) {
     made.display.name = std::filesystem::path(args.output.path()).stem();
     made.display.content.model = built_in_spheres;
     args.output.write(write(made, NewDescription::made_by()));
     const std::string name = shell_file(args.output.path());
-    print(fmt::format("{}: {}\nNext: lfdsim check {}, lfdsim view {}\n", args.output.path(), what, name, name));
+    std::string text = fmt::format("{}: {}\n", args.output.path(), what);
+    if (const std::vector<std::string> doubts = worth_knowing(made.display); !doubts.empty()) {
+        text +=
+            "It is a valid display, but worth knowing (--set: an option of lfdsim check, view and others, or a key of the file):\n";
+        for (const std::string& doubt : doubts) text += "  - " + doubt + "\n";
+        text += narrower();
+    }
+    print(text + fmt::format("Next: lfdsim check {}, lfdsim view {}\n", name, name));
 }
 
 void run(const NewArguments& args) {
@@ -137,13 +170,15 @@ void run(const NewArguments& args) {
                 "{} strips of {:.4g} mm, slant {:.4g} degrees, {:.4g} views over {:.4g} degrees, {:.4g} mm from view to view "
                 "at the eye",
                 array.count->at(0), array.pitch_mm[0], array.slant_deg.value_or(0), strips->views, strips->fov_deg,
-                strips->view_step_mm));
+                strips->view_step_mm),
+            [&] { return strips->two_view ? std::string() : narrower(lenticular_request(args), lenticular, strips->fov_deg); });
     }
     const Display& d = lenses->display;
     finish(args, *lenses, write_first_order,
            fmt::format("{} x {} lenses of {:.4g} mm, {} x {} views over {:g} degrees, central depth plane at {:g} mm",
                        (*d.array.count)[0], (*d.array.count)[1], d.array.pitch_mm[0], lenses->views, lenses->views,
-                       lenses->request.fov_deg, *lenses->request.depth_mm));
+                       lenses->request.fov_deg, *lenses->request.depth_mm),
+           [&] { return narrower(request_of(args, d.array.lattice), first_order, lenses->request.fov_deg); });
 }
 
 }  // namespace

@@ -125,7 +125,8 @@ void write_diffuser(const FirstOrder& o, CommentedText& text) {
             "In front of the lenses, as far as the central depth plane is behind them, at most a quarter of the way to the eye.");
     text.key("distance_mm", diffuser.distance_mm);
     text.note(
-        "2 atan(p / 2d): the angle of a lens pitch seen from the diffuser at distance d, so that dark gaps between lenses close.");
+        "2 atan(p / 2d): the angle of a lens pitch seen from the diffuser at distance d, so that dark gaps between lenses close{}.",
+        o.display.array.lattice == LatticeKind::hexagon ? "; upwards p is from row to row" : "");
     text.key("angle_deg", diffuser.angle_deg);
 }
 

@@ -88,7 +88,10 @@ void write_array(const Lenticular& o, CommentedText& text) {
     text.note("As many as cover the panel{}.",
               array.slant_deg ? "" : "; with these the borders of elemental images fall between pixels");
     text.key("count", *array.count);
-    if (array.offset_mm[0] != 0) text.key("offset_mm", array.offset_mm);
+    if (array.offset_mm[0] != 0) {
+        if (array.slant_deg) text.note("Half a step of subpixels, so that no subpixel's centre lies on the border of two lenses.");
+        text.key("offset_mm", array.offset_mm);
+    }
     text.note("{}. From view to view an eye moves by a E/g = {:.4g} mm.", reason_for_gap(o), o.view_step_mm);
     if (array.gap_mm) text.key("gap_mm", *array.gap_mm);
     if (array.base_z_mm) {

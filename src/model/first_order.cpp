@@ -173,8 +173,9 @@ std::optional<Problem> design(FirstOrder& o) {
     } else {
         Diffuser& diffuser = d.diffuser.emplace();
         diffuser.distance_mm = L > 0 ? L : rounded(std::min(-L, D / 4));
-        diffuser.angle_deg[0] = rounded(2 * std::atan(p / (2 * diffuser.distance_mm)) / degree);
-        diffuser.angle_deg[1] = diffuser.angle_deg[0];
+        const std::array<double, 2> spacing = spacing_mm(d.panel, d.array);
+        for (const std::size_t k : {0u, 1u})
+            diffuser.angle_deg[k] = rounded(2 * std::atan(spacing[k] / (2 * diffuser.distance_mm)) / degree);
     }
     d.content.depth_mm = L;
     // To the eye as high as half the panel; no higher than |L|, as it may be as deep as high.

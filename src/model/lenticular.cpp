@@ -184,12 +184,29 @@ class Design {
     /// one of an even number of lenses; with an odd one they are half an elemental image beside it.
     void place_lenses_on_pixels() {
         d_.array.count = lens_count(d_.panel, d_.array);
+        if (slant_deg_ != 0) return place_lenses_on_subpixels();
         const double N = std::round(made_.views);
-        if (slant_deg_ != 0 || std::abs(made_.views - N) > 1e-3) return;
+        if (std::abs(made_.views - N) > 1e-3) return;
         std::int64_t& count = d_.array.count->at(0);
         const bool odd_panel = r_.pixels[0] % 2 == 1, odd_views = std::int64_t(N) % 2 == 1, odd_count = count % 2 == 1;
         if (odd_count != (odd_panel && odd_views)) ++count;
         if (odd_panel && !odd_views) d_.array.offset_mm = {to_nanometre(a_ / 2 / (1 + gap_ / eye_)), 0};
+    }
+
+    /// Lenses that lean: where from row to row they move by a simple part of a subpixel, and their elemental images are as many
+    /// parts wide, the places of subpixels' centres in them are multiples of that part. Those on a border move half of it away.
+    void place_lenses_on_subpixels() {
+        const double lean = 3 * std::tan(slant_deg_ * degree), N = 3 * elemental_ / a_;  // in subpixels
+        const auto [columns, rows] = r_.pixels;
+        const auto count = double(d_.array.count->at(0));
+        for (const int parts : {1, 2, 3, 4}) {
+            const auto off = [&](double x) { return std::abs(x * parts - std::round(x * parts)); };
+            if (off(lean) * double(rows) > 0.2 || off(N) * count > 0.2) continue;
+            const double first_row = rows % 2 == 0 ? 0.5 : 0, border = d_.array.count->at(0) % 2 == 0 ? 0 : N / 2;
+            if (off(0.5 - 1.5 * double(columns) - lean * first_row - border) < 0.1)
+                d_.array.offset_mm = {to_nanometre(a_ / 6 / parts / (1 + gap_ / eye_)), 0};
+            return;
+        }
     }
 
     void make_view() {

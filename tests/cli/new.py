@@ -1,6 +1,7 @@
 """`lfdsim new` as a user runs it: designs of all sizes that check calls valid, files that are kept, clear errors."""
 import json
 import math
+import re
 
 import numpy
 from program import Checks, Program
@@ -32,6 +33,32 @@ for name, (options, lenses) in DESIGNS.items():
     # The spherical lenses of a wall mix what eyes see from far away, and check says so.
     told = [w for w in checked["warnings"] if not (name == "wall" and "aberration mixes" in w)]
     checks.that(not told, f"{name}: check warns {told}")
+    checks.that(all(w in said for w in checked["warnings"]), f"{name}: new does not say {checked['warnings']}, but {said!r}")
+
+# Whatever check says of a design new has said at once; and a field of view that it names is one of which check says nothing.
+DOUBTFUL = [  # options, what is told
+    ("--panel-inch 100 --pixels 7680x4320 --distance-mm 3000", "the lenses' aberration mixes"),
+    ("--panel-inch 30.5 --pixels 2560x1440 --distance-mm 5387 --lattice hexagon --fov-deg 40 --views 32 --depth-mm 100", "see nearly the same"),
+    ("--panel-inch 150 --pixels 1920x1080 --distance-mm 464 --lattice strips", "views do not separate"),
+    ("--panel-inch 23.7 --pixels 3840x2160 --distance-mm 5316 --lattice strips --fov-deg 40 --slant-deg 0", "the central depth plane, at infinity"),
+    ("--panel-inch 23.5 --pixels 1280x720 --distance-mm 605 --lattice strips --slant-deg -9.46", "red, green and blue apart"),
+    ("--panel-inch 96.5 --pixels 2560x1600 --distance-mm 554 --lattice strips --views 2", "the lenses' aberration mixes"),
+    ("--panel-inch 1.5 --pixels 2560x1440 --distance-mm 25", "dark bands"),
+    ("--panel-inch 115 --pixels 7680x4320 --distance-mm 984 --lens ideal", "the scene is small"),
+    ("--panel-inch 8.4 --pixels 1920x1080 --distance-mm 1070 --lattice hexagon", None),  # whose rows are nearer than lenses
+    ("--panel-inch 32.8 --pixels 2560x1600 --distance-mm 618 --lattice strips --lens ideal", None),  # three views: no subpixel on a border
+    ("--panel-inch 32.8 --pixels 2561x1601 --distance-mm 618 --lattice strips --lens ideal", None),
+]
+for options, doubt in DOUBTFUL:
+    said = program.must(f"new {options} -o doubtful.toml --force")
+    warnings = json.loads(program.must("check doubtful.toml --json"))["warnings"]
+    checks.that(all(w in said for w in warnings), f"{options}: new does not say {warnings}, but {said!r}")
+    checks.that(doubt in said if doubt else not warnings, f"{options}: {said!r}")
+    if field := re.search(r"--fov-deg ([0-9.]+), there would be nothing", said):
+        kept = re.sub(r" --fov-deg \S+", "", options)
+        program.must(f"new {kept} --fov-deg {field[1]} -o narrower.toml --force")
+        warnings = json.loads(program.must("check narrower.toml --json"))["warnings"]
+        checks.that(not warnings, f"{options} --fov-deg {field[1]}: {warnings}")
 
 # A pitch, views and lattice are those that were asked for.
 for name, key, wanted in (("hexagons", "views", 20), ("pitch", "views", 20), ("hexagons", "fov_elemental_deg", 30), ("pitch", "fov_elemental_deg", 25)):
