@@ -6,12 +6,14 @@
 #include "cli/usage.h"
 #include "engine/gpu.h"
 #include "engine/threads.h"
+#include "image/own_stack.h"
 #include "model/error.h"
 #include "model/printable.h"
 
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <functional>
 #include <memory>
 #include <new>
 #include <string>
@@ -69,15 +71,10 @@ void run(int argc, char** argv) {
     for (const std::string& reason : gpus_given_up()) spdlog::warn("{}; the CPU went on", reason);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    start_log();
-    cli::catch_signals();
+/// The exit code.
+int run_and_tell(const std::function<int()>& work) {
     try {
-        use_only_threads_to_be_had();
-        run(argc, argv);
-        return 0;
+        return work();
     } catch (const cli::Interrupted&) {
         return cli::interrupted_exit;
     } catch (const InputError& error) {
@@ -94,4 +91,19 @@ int main(int argc, char** argv) {
         spdlog::error("{}", error.what());
     }
     return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    start_log();
+    cli::catch_signals();
+    const auto work = [&] {
+        return run_and_tell([&] {
+            use_only_threads_to_be_had();
+            run(argc, argv);
+            return 0;
+        });
+    };
+    return run_and_tell([&] { return on_enough_stack(work); });
 }

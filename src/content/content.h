@@ -31,6 +31,7 @@ struct LoadOptions {
     std::int64_t bytes = std::int64_t(4) << 30;  // its address space, and what it may send
     std::string up;                              // the file's axis that points up: "y" or "z"; "" by format
     const Job* job = nullptr;                    // may cancel the reading, which then throws as where a file cannot be read
+    std::string whose = "the most that reading a file may take";  // what limit `bytes` is, for the message where it is met
 };
 
 /// A model file's name for the model that is built in: five chequered spheres at five depths.

@@ -80,7 +80,7 @@ std::shared_ptr<const Model> load(const std::string& what, const fs::path& path,
     try {
         Reply reply{};
         reader.value(reply);
-        if (reply == Reply::out_of_memory) refuse(fmt::format("it needs more than {} MiB", options.bytes >> 20));
+        if (reply == Reply::out_of_memory) refuse(too_large_text(options));
         if (reply == Reply::refusal) {
             std::string why;
             reader.array(why);

@@ -27,6 +27,10 @@ std::string timeout_text(double seconds) { return fmt::format("reading it took m
 
 }  // namespace
 
+std::string too_large_text(const LoadOptions& options) {
+    return fmt::format("it needs more than {} MiB, {}", options.bytes >> 20, options.whose);
+}
+
 ReaderProcess::ReaderProcess(const std::string& what, const std::filesystem::path& path, const LoadOptions& options)
     : options_(options), left_(options.bytes) {
     const std::string program = reader_path().string(), bytes = std::to_string(options.bytes),
@@ -63,7 +67,7 @@ ReaderProcess::~ReaderProcess() {
 
 void ReaderProcess::get(char* to, std::size_t bytes) {
     left_ -= std::int64_t(bytes);
-    if (left_ < 0) throw Failure(fmt::format("it needs more than {} MiB", options_.bytes >> 20));
+    if (left_ < 0) throw Failure(too_large_text(options_));
     while (bytes > 0) {
         const auto wait =
             std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - std::chrono::steady_clock::now()).count();
@@ -82,7 +86,7 @@ void ReaderProcess::get(char* to, std::size_t bytes) {
 std::size_t ReaderProcess::count(std::size_t size) {
     std::uint64_t n = 0;
     value(n);
-    if (n > std::uint64_t(left_) / size) throw Failure(fmt::format("it needs more than {} MiB", options_.bytes >> 20));
+    if (n > std::uint64_t(left_) / size) throw Failure(too_large_text(options_));
     return n;
 }
 

@@ -53,4 +53,7 @@ class ReaderProcess {
     pid_t process_ = -1;
 };
 
+/// Why a file is refused that needs more memory than it may have.
+std::string too_large_text(const LoadOptions&);
+
 }  // namespace lfdsim

@@ -2,10 +2,12 @@
 
 #include "content/memory.h"
 #include "engine/memory.h"
+#include "image/free_memory.h"
 #include "image/image_file.h"
 #include "model/lens_errors.h"
 #include "model/subpixels.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -249,6 +251,8 @@ Panels::PartsFuture Panels::reading(const Source& source, const Display& display
     make_room(2 * double(options.bytes));
     const double most = std::clamp(share_of_reading * budget_.left(), least_for_reading, 2 * double(options.bytes));
     options.bytes = std::int64_t(most / 2);
+    options.whose = fmt::format("what the viewer gives to reading a model of the {} that are left to all its visitors together",
+                                bytes_text(budget_.left()));
     read->claim = budget_.claim(model_key(display), "reading a model", most);
     const std::vector<ContentFile> files = scene ? content_files(display) : std::vector{ContentFile{source.name}};
     const std::weak_ptr<const void> held = read;

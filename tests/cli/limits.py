@@ -43,6 +43,13 @@ for kernel in kernels:
         code, said = limited(f"render tiny.toml -o out.npy --panel-image panel.png --kernel {kernel} {what}", (resource.RLIMIT_STACK, 1 << 20))
         checks.that(code == 0, f"a stack of 1 MiB: {kernel} {what}: {code} {said}")
 
+# With less the program works on a stack of its own: lines of sight, spots, pictures, models that a process of their own reads.
+(program.folder / "triangle.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+for command in ["analyze fov tiny.toml -o fov --size 40x24 --angles-deg -10,10,5", "analyze spot tiny.toml -o spot", "check tiny.toml",
+                "render tiny.toml -o out.png --model triangle.obj"]:
+    code, said = limited(command, (resource.RLIMIT_STACK, 64 << 10))
+    checks.that(code == 0, f"a stack of 64 KiB: {command}: {code} {said}")
+
 # As few threads as there may be: the calling one does the work, or the program says why it cannot. As nobody where root runs the test.
 program.folder.chmod(0o777)
 as_nobody = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "test", "-x", program.path]
@@ -52,6 +59,8 @@ if os.getuid() != 0 or subprocess.run(as_nobody).returncode == 0:
                         "render tiny.toml -o out.png --panel-image panel.png"]:
             code, said = limited(command, (resource.RLIMIT_NPROC, most), nobody=True)
             checks.that(code == 0, f"{most} threads: {command}: {code} {said}")
+    code, said = limited("check tiny.toml", (resource.RLIMIT_NPROC, 1), (resource.RLIMIT_STACK, 128 << 10), nobody=True)
+    checks.that(code == 1 and "ulimit -s" in said, f"a small stack, and no thread: {code} {said}")
     code, said = limited("view tiny.toml", (resource.RLIMIT_NPROC, 1), nobody=True)
     checks.that(code == 1 and "ulimit -u" in said, f"the viewer without a thread: {code} {said}")
 else:

@@ -5,6 +5,7 @@
 #include "content/reader/limits.h"
 #include "content/reader/picture.h"
 #include "content/transfer.h"
+#include "image/own_stack.h"
 
 #include <unistd.h>
 #include <cstdio>
@@ -39,7 +40,9 @@ class Writer {
 
 }  // namespace
 
-int main(int count, char** arguments) {
+namespace {
+
+int answer(int count, char** arguments) {
     if (count != 6) {
         std::fputs("lfdsim-model-reader is started by lfdsim, not by hand\n", stderr);
         return 2;
@@ -61,4 +64,10 @@ int main(int count, char** arguments) {
     }
     std::fflush(stdout);
     std::_Exit(0);  // no destructors: a damaged model may have corrupted memory
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    return lfdsim::on_enough_stack([&] { return answer(count, arguments); });
 }
