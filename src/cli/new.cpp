@@ -108,9 +108,9 @@ LenticularRequest lenticular_request(const NewArguments& args) {
     return request;
 }
 
-std::vector<std::string> worth_knowing(const Display& d) {
+std::vector<std::string> told_by_check(const Display& d) {
     const Geometry g = resolve(d);
-    return lfdsim::worth_knowing(d, g, theory(d, g));
+    return worth_knowing(d, g, theory(d, g));
 }
 
 /// The widest field of view, below that of a design, of which `check` has nothing to say.
@@ -122,7 +122,7 @@ std::string narrower(Request request, Design (*design)(const Request&), double f
         try {
             Design made = design(request);
             made.display.content.model = built_in_spheres;
-            if (worth_knowing(made.display).empty())
+            if (told_by_check(made.display).empty())
                 return fmt::format("  Of a narrower field of view, --fov-deg {:g}, there would be nothing to say.\n", fov);
         } catch (const InputError&) {
             break;  // of a narrower field lenses stand farther from the panel
@@ -140,7 +140,7 @@ void finish(const NewArguments& args, Design& made, std::string (*write)(const D
     args.output.write(write(made, NewDescription::made_by()));
     const std::string name = shell_file(args.output.path());
     std::string text = fmt::format("{}: {}\n", args.output.path(), what);
-    if (const std::vector<std::string> doubts = worth_knowing(made.display); !doubts.empty()) {
+    if (const std::vector<std::string> doubts = told_by_check(made.display); !doubts.empty()) {
         text +=
             "It is a valid display, but worth knowing (--set: an option of lfdsim check, view and others, or a key of the file):\n";
         for (const std::string& doubt : doubts) text += "  - " + doubt + "\n";
