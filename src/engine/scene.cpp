@@ -306,7 +306,8 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
     const double below = double(scene.holes_below[0]);
     const bool leaps = pixel / below * (view.start_z - below) * view.pixels_per_mm > L::leaping;
     const bool by_lens = scene.by_lens || (leaps && !weak);
-    if (!by_lens || !(weak || side == 4)) return {side, by_lens, {weak, false, false, false, weak ? parts : 1}};
+    if (!by_lens || !(weak || side == 4))
+        return {side, by_lens, {weak, false, false, false, weak ? parts : 1}, 0, !by_lens && !weak && !moving && side > 4};
 
     // Lens by lens, pixels behind a weak diffuser share only a block's list of lenses, and parts of it what the camera spreads. So
     // do pixels so coarse that no more of them would share a bundle than it has probes.

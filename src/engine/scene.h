@@ -40,7 +40,8 @@ struct BlockShape {
     int side;      // pixels: 16, 8 or 4
     bool by_lens;  // what the scene's shall be
     Square square;
-    double part_mm = 0;  // where the square is weak: the least width of one of its parts on the lenses
+    double part_mm = 0;   // where the square is weak: the least width of one of its parts on the lenses
+    bool shared = false;  // one grid of strata serves all lenses, with fixed places on them
 };
 /// For so many strata an axis: a block spans less than a pixel sees of a lens, much less where many strata ask for a fine picture,
 /// nearly as much for a rough one. `converges`: with more samples everything shall be divided. The scene's `by_lens` says whether

@@ -54,7 +54,8 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
     if (dimensions > 0) target_error = options.target_error;
     // An error is estimated from what more samples change: all has to converge.
     BlockShape shape = block_shape(scene, view, target_error ? 2 * few_strata : strata, options.rough, target_error.has_value());
-    if (lens_by_lens) shape = {16, false, {.weak = false, .of_pixel = cuts_pixel(scene, view)}};
+    if (lens_by_lens) shape = {16, false, {.weak = false, .of_pixel = false}};
+    shape.square.of_pixel = lens_by_lens || (filtered && !shape.shared) ? cuts_pixel(scene, view) : shape.square.of_pixel;
     scene.by_lens = shape.by_lens;
     if (filtered && shape.by_lens && shape.square.weak) add_clear_borders(scene, display, geometry, view, shape.part_mm);
 
@@ -73,7 +74,7 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
             crop.y1,
             std::uint32_t(samples),
             strata,
-            lens_by_lens,
+            lens_by_lens || (filtered && !shape.shared),
             shape.side,
             shape.square,
             display.render.sampling,

@@ -4,6 +4,7 @@
 #include "engine/kernel.h"
 #include "engine/kernels/filtered_axis.h"
 #include "engine/kernels/filtered_block.h"
+#include "engine/kernels/lens_by_lens.h"
 #include "optics/camera.h"
 #include "optics/trace.h"
 
@@ -39,6 +40,16 @@ class BlockRenderer {
         work.begin(even, left, top);
         work.make_bundles();
         work.survey();
+    }
+
+    /// Do the pixels share all rays?
+    bool shares() const {
+        if (!state.block.alive) return false;
+        for (int k = 0; k < work.strata(); ++k)
+            if (state.bundles[k].through.state == SharedBundle::State::broken ||
+                state.bundles[k].beside.state == SharedBundle::State::broken)
+                return false;
+        return true;
     }
 
     void render() {
@@ -79,10 +90,7 @@ class BlockRenderer {
             for (std::int32_t x = x0; x < x0 + tile.block_side; x += Packet::width) {
                 if (x >= tile.x1 || y >= tile.y1 || x + Packet::width <= tile.x0 || y + Packet::height <= tile.y0) continue;
                 S found[Packet::height][Packet::width * 4];
-                if (state.block.alive)
-                    work.template look_from<max_strata>(x, y).store(found[0], state.per_axis == 0);
-                else
-                    light_alone<through>(tile, even, x, y).store(found[0]);
+                work.template look_from<max_strata>(x, y).store(found[0], state.per_axis == 0);
                 for (int row = 0; row < Packet::height; ++row) {
                     S* const to = picture[y - y0 + row][x - x0];
                     if (state.any_soft)
@@ -112,19 +120,38 @@ class BlockRenderer {
     S (*const picture)[most_side][4];  // of the block
 };
 
-/// Not inlined, so that the stack holds only one way through the array.
+/// Not inlined, so that it has a stack frame of its own. False: pixels cannot share all of the block's rays, and nothing is
+/// rendered.
 template <optics::Way through>
-__attribute__((noinline)) void render_block(const Tile& tile, const EvenCuts& even, void* memory, std::int32_t x, std::int32_t y) {
-    BlockRenderer<through>(tile, even, memory, x, y).render();
+__attribute__((noinline)) bool render_block(const Tile& tile, const EvenCuts& even, void* memory, std::int32_t x, std::int32_t y) {
+    BlockRenderer<through> block(tile, even, memory, x, y);
+    if (!block.shares()) return false;
+    block.render();
+    return true;
 }
 
+/// What a thread works on.
+struct FilteredMemory {
+    BlockMemory block;
+    LensByLensMemory lenses;
+
+    static void* operator new(std::size_t, void* at) noexcept { return at; }
+};
+
+/// Blocks of pixels whose rays are shared; where that does not hold for a whole block, its pixels are rendered lens by lens.
 template <optics::Way through>
 void render_filtered(const Tile& tile) {
     const EvenCuts even(*tile.scene, tile.strata);
-    void* const memory = block_memory(sizeof(BlockMemory));
+    FilteredMemory& memory = *new (block_memory(sizeof(FilteredMemory))) FilteredMemory;
+    LensByLens lens_by_lens(tile, memory.lenses);
     const std::int32_t side = tile.block_side;
+    constexpr std::int32_t group = optics::shared_width;
     for (std::int32_t y = tile.y0 / side * side; y < tile.y1; y += side)
-        for (std::int32_t x = tile.x0 / side * side; x < tile.x1; x += side) render_block<through>(tile, even, memory, x, y);
+        for (std::int32_t x = tile.x0 / side * side; x < tile.x1; x += side) {
+            if (render_block<through>(tile, even, &memory.block, x, y)) continue;
+            for (std::int32_t row = y; row < y + side; row += group)
+                for (std::int32_t column = x; column < x + side; column += group) lens_by_lens.render(column, row);
+        }
 }
 
 }  // namespace
