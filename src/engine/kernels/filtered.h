@@ -138,6 +138,22 @@ struct FilteredMemory {
     static void* operator new(std::size_t, void* at) noexcept { return at; }
 };
 
+/// Renders a block; where its pixels cannot share all rays, its quarters, and the smallest of these lens by lens.
+template <optics::Way through>
+void render_square(Tile tile, const EvenCuts& even, FilteredMemory& memory, LensByLens& lens_by_lens, std::int32_t x,
+                   std::int32_t y) {
+    if (render_block<through>(tile, even, &memory.block, x, y)) return;
+    const int half = tile.block_side / 2;
+    for (std::int32_t row = y; row < y + 2 * half; row += half)
+        for (std::int32_t column = x; column < x + 2 * half; column += half)
+            if (half > 4) {
+                tile.block_side = half;
+                render_square<through>(tile, even, memory, lens_by_lens, column, row);
+            } else {
+                lens_by_lens.render(column, row);
+            }
+}
+
 /// Blocks of pixels whose rays are shared; where that does not hold for a whole block, its pixels are rendered lens by lens.
 template <optics::Way through>
 void render_filtered(const Tile& tile) {
@@ -145,12 +161,9 @@ void render_filtered(const Tile& tile) {
     FilteredMemory& memory = *new (block_memory(sizeof(FilteredMemory))) FilteredMemory;
     LensByLens lens_by_lens(tile, memory.lenses);
     const std::int32_t side = tile.block_side;
-    constexpr std::int32_t group = optics::shared_width;
     for (std::int32_t y = tile.y0 / side * side; y < tile.y1; y += side)
         for (std::int32_t x = tile.x0 / side * side; x < tile.x1; x += side) {
-            if (render_block<through>(tile, even, &memory.block, x, y)) continue;
-            for (std::int32_t row = y; row < y + side; row += group)
-                for (std::int32_t column = x; column < x + side; column += group) lens_by_lens.render(column, row);
+            render_square<through>(tile, even, memory, lens_by_lens, x, y);
         }
 }
 

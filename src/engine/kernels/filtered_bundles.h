@@ -49,6 +49,21 @@ LFDSIM_BOTH bool clip_to_hole(S radius, Range& x, Range& y) {
     return true;
 }
 
+/// Shrinks the ranges to the bounding box of the part beside a round hole; false: there is none.
+LFDSIM_BOTH bool clip_beside_hole(S radius, Range& x, Range& y) {
+    auto farthest = [](Range r) { return optics::max(optics::abs(r.from), optics::abs(r.to)); };
+    const S far_x = farthest(x), far_y = farthest(y), r2 = radius * radius;
+    if (far_x * far_x + far_y * far_y <= r2) return false;
+    auto clip = [&](Range& r, S far) {
+        const S near = optics::sqrt(optics::max(r2 - far * far, S(0)));
+        if (r.from > -near) r.from = optics::max(r.from, near);
+        if (r.to < near) r.to = optics::min(r.to, -near);
+    };
+    clip(x, far_y);
+    clip(y, far_x);
+    return true;
+}
+
 template <optics::Way through>
 class BundleMaker {
   public:
@@ -134,8 +149,9 @@ class BundleMaker {
             SharedBundle& to = inside ? b.through : b.beside;
             Shape shape;
             shape.state = State::dark;
-            if (!inside || r == 0 || clip_to_hole(r, hole_x, hole_y))
-                shape = probe(i, inside ? hole_x : x, j, inside ? hole_y : y, inside, to.colour);
+            hole_x = x, hole_y = y;
+            if (r == 0 || (inside ? clip_to_hole(r, hole_x, hole_y) : clip_beside_hole(r, hole_x, hole_y)))
+                shape = probe(i, hole_x, j, hole_y, inside, to.colour);
             // Where a stop hides the panel from the middle of a block, other pixels may see through it.
             if (inside && shape.state == State::dark && scene.has_stop && (axis[0].moving || axis[1].moving))
                 shape.state = State::broken;
@@ -184,16 +200,21 @@ class BundleMaker {
         trace(i, x, j, y, inside);
         Shape b = optics::sum_up(probes, per_axis);
         if (b.state != State::sharp) return b;
-        const bool soft = optics::is_soft(scene, b),
-                   uneven = !scene.emission.whole && optics::max(b.width, b.height) < S(FilteredLimits::masked);
+        bool soft = optics::is_soft(scene, b);
+        const bool uneven = !scene.emission.whole && optics::max(b.width, b.height) < S(FilteredLimits::masked);
         if (soft && (fine_alone(tile, scene) || grid->narrow || uneven)) {
             b.state = State::broken;
             return b;
         }
         if (!soft) lean(b, i, x, j, y);
-        if (soft || follows_at_once) {
+        if (soft || !inside || follows_at_once) {
             follow(b);
             finish();
+        }
+        // The little light beside holes, where it moves unevenly, counts as the block's middle sees it.
+        if (!inside && b.state == State::broken) {
+            b.state = State::soft;
+            b.still = soft = true;
         }
         if (!soft || b.state == State::broken) return b;
         if (scene.by_lens && !b.still && runs_away(b)) {
