@@ -1,7 +1,7 @@
 #include "engine/compare_view.h"
 
-#include "engine/even_parts.h"
 #include "engine/gpu.h"
+#include "engine/scene.h"
 #include "engine/work.h"
 #include "model/colour.h"
 #include "model/error.h"
@@ -24,8 +24,7 @@ ComparedView compare_view(const Display& display, const Geometry& geometry, cons
     const auto start = std::chrono::steady_clock::now();
     const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
     const std::vector<optics::SummedImage>& planes = panel.planes(panel_reading(display));
-    const std::vector<EvenPart> parts = even_parts(display);
-    const Work work(parts.front().display, geometry, planes, options);
+    const Work work(by_points(display), geometry, planes, options);
     const Image& photograph = expected.photograph();
     const int width = work.tile.x1 - work.tile.x0, height = work.tile.y1 - work.tile.y0;
     if (photograph.width != width || photograph.height != height)
@@ -33,7 +32,7 @@ ComparedView compare_view(const Display& display, const Geometry& geometry, cons
                                          photograph.width, photograph.height, width, height));
     const ChosenDevice device = choose_device(options.device, options.kernel);
     RenderOptions on_cpu = options;
-    if (device.gpu && !disperses(display) && parts.size() == 1 && estimator_of(display) != Estimator::lens_by_lens) {
+    if (device.gpu && !disperses(display) && estimator_of(display) != Estimator::lens_by_lens) {
         if (const auto done = compare_on_gpu(device, panel, planes, expected, gain, work, job))
             return {done->likeness, done->run.done.complete, seconds(), done->run.seconds};
         on_cpu.device = "cpu";

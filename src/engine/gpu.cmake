@@ -31,8 +31,8 @@ set(LFDSIM_CUDA_STATE "${LFDSIM_CUDA_STATE}" CACHE INTERNAL "which toolkit the G
 message(STATUS "GPU kernels: ${LFDSIM_CUDA_STATE}")
 
 if(LFDSIM_CUDA_STATE MATCHES "^CUDA")
-  # The kernels of a step take up to a minute, those of all steps in one file took ten: the longest first.
-  set(cuda_files bundles.cu pixels_many.cu pixels_few.cu alone.cu points_sobol.cu points_random.cu blocks.cu queue.cu)
+  # The kernels of each sampler take up to a minute: the longest first.
+  set(cuda_files points_sobol.cu points_random.cu queue.cu)
   list(TRANSFORM cuda_files PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/engine/cuda/ OUTPUT_VARIABLE cuda_sources)
   add_library(lfdsim_cuda OBJECT ${cuda_sources})
   lfdsim_for_shared_libraries(lfdsim_cuda)

@@ -81,11 +81,11 @@ auto& copy_on(Copies& copies, int number, Make make) {
 const wide::DevicePanel& panel_on(wide::Queue& queue, int number, GpuPanels& panels, const std::vector<optics::SummedImage>& planes,
                                   std::size_t more) {
     const std::lock_guard lock(panels.mutex);
-    const std::size_t needed = (panels.copies.contains(number) ? 0 : wide::DevicePanel::bytes(planes)) + more,
+    const std::size_t needed = (panels.copies.contains(number) ? 0 : wide::DevicePanel::bytes(planes[0])) + more,
                       free = queue.free_bytes();
     if (needed > free)
         throw DoesNotFit(fmt::format("panel and picture need {} MB, but only {} MB are free", needed >> 20, free >> 20));
-    return copy_on(panels, number, [&] { return wide::DevicePanel(queue, planes); });
+    return copy_on(panels, number, [&] { return wide::DevicePanel(queue, planes[0]); });
 }
 
 /// do_it(queue) in a queue of the GPU; nothing where the CPU is to do it.
@@ -136,7 +136,7 @@ std::optional<GpuRun> render_on_gpu(const ChosenDevice& device, const SummedPane
                                     const std::vector<optics::SummedImage>& planes, Work& work, Job& job) {
     return on_gpu(device, [&](wide::Queue& queue) {
         GpuPanels own, &panels = summed ? summed->on_gpus(planes) : own;
-        const wide::DevicePanel& panel = panel_on(queue, *device.gpu, panels, planes, wide::picture_bytes(queue, work.tile));
+        const wide::DevicePanel& panel = panel_on(queue, *device.gpu, panels, planes, wide::picture_bytes(work.tile));
         const double before = queue.seconds();
         const Done done = wide::render(queue, panel, work.tile, work.target_error, work.result.error.rgb.data(), job);
         return GpuRun{queue.name(), queue.seconds() - before, done};
@@ -156,7 +156,7 @@ std::optional<GpuComparison> compare_on_gpu(const ChosenDevice& device, const Su
             const std::lock_guard lock(photographs.mutex);
             const std::size_t sent = photographs.copies.contains(*device.gpu) ? 0 : wide::Photograph::bytes(image);
             panel = &panel_on(queue, *device.gpu, summed.on_gpus(planes), planes,
-                              wide::picture_bytes(queue, work.tile) + wide::Comparison::bytes(image.width, image.height) + sent);
+                              wide::picture_bytes(work.tile) + wide::Comparison::bytes(image.width, image.height) + sent);
             photograph = &copy_on(photographs, *device.gpu, [&] { return wide::Photograph(queue, image); });
         }
         wide::Comparison comparison(queue, *photograph, expected.screen, expected.content);

@@ -76,28 +76,43 @@ void check_threads(const RenderOptions& options) {
         throw InputError("--threads", fmt::format("{}; allowed: 1 to {}, or 0 for all", options.threads, most_threads));
 }
 
-/// On the GPU if one is chosen, else with the kernel. The job's stage is the caller's.
-Rendering render(Work& work, const char* kernel_name, Kernel kernel, const ChosenDevice& device, const SummedPanel* summed,
-                 const std::vector<optics::SummedImage>& planes, const RenderOptions& options, Job& job) {
+/// What `run` does and how long it takes are added to the work's result.
+template <class Run>
+bool time(Work& work, const RenderOptions& options, const Run& run) {
     work.make_pictures(options.target_error.has_value());
     Rendering& result = work.result;
     const auto start = std::chrono::steady_clock::now();
-    std::optional<GpuRun> run;
-    if (device.gpu) run = render_on_gpu(device, summed, planes, work, job);
-    Done done;
-    if (run) {
-        result.device = result.kernel = run->name;
-        result.gpu_seconds = run->seconds;
-        done = run->done;
-    } else {
+    const std::optional<Done> done = run(result);
+    if (!done) return false;
+    result.samples = done->samples;
+    result.complete = done->complete;
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return true;
+}
+
+/// With the kernel. The job's stage is the caller's.
+Rendering render(Work& work, const char* kernel_name, Kernel kernel, const RenderOptions& options, Job& job) {
+    time(work, options, [&](Rendering& result) -> std::optional<Done> {
         result.kernel = kernel_name;
         result.threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
-        done = render_on_cpu(kernel, result.threads, work, job);
-    }
-    result.samples = done.samples;
-    result.complete = done.complete;
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return std::move(result);
+        return render_on_cpu(kernel, result.threads, work, job);
+    });
+    return std::move(work.result);
+}
+
+/// By points on the GPU; nothing where the CPU is to render it. The job's stage is the caller's.
+std::optional<Rendering> render_points_on_gpu(Work& work, const ChosenDevice& device, const SummedPanel* summed,
+                                              const std::vector<optics::SummedImage>& planes, const RenderOptions& options,
+                                              Job& job) {
+    const bool rendered = time(work, options, [&](Rendering& result) -> std::optional<Done> {
+        const std::optional<GpuRun> run = render_on_gpu(device, summed, planes, work, job);
+        if (!run) return {};
+        result.device = result.kernel = run->name;
+        result.gpu_seconds = run->seconds;
+        return run->done;
+    });
+    if (!rendered) return {};
+    return std::move(work.result);
 }
 
 void begin_stage(const Work& work, std::size_t pictures, Job& job) {
@@ -150,12 +165,18 @@ Rendering render(const Display& display, const Geometry& geometry, const std::ve
     }
     const std::vector<EvenPart> parts = even_parts(display, options.target_error.has_value());
     const auto at_wavelength = [&](const Geometry& there) {
+        if (device.gpu) {
+            Work work(by_points(display), there, planes, options);
+            begin_stage(work, 1, job);
+            if (auto one = render_points_on_gpu(work, device, summed, planes, options, job)) return *std::move(one);
+            device.gpu.reset();
+        }
         Sum sum;
         float weight = 0;
         for (const EvenPart& part : parts) {
             Work work(part.display, there, planes, options);
             if (&part == &parts.front()) begin_stage(work, parts.size(), job);
-            Rendering one = render(work, kernel.name, kernel.run, device, summed, planes, options, job);
+            Rendering one = render(work, kernel.name, kernel.run, options, job);
             if (parts.size() == 1) return one;
             if (!one.complete) return weight > 0 ? sum.take_unfinished(weight) : std::move(one);
             sum.add(std::move(one), part.weight);
@@ -180,7 +201,7 @@ Rendering render_with(const Tracer& tracer, const Display& display, const Geomet
     Work work(display, geometry, planes, options);
     work.tile.scene = &tracer.scene;
     begin_stage(work, 1, job);
-    return render(work, tracer.name, tracer.run, {}, nullptr, planes, options, job);
+    return render(work, tracer.name, tracer.run, options, job);
 }
 
 Rendering render(const Display& display, const Geometry& geometry, const SummedPanel& panel, const RenderOptions& options,

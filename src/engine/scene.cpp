@@ -251,6 +251,13 @@ Estimator estimator_of(const Display& display) {
     return spreads ? display.render.estimator : Estimator::point;
 }
 
+Display by_points(const Display& display) {
+    Display of = display;
+    if (estimator_of(of) != Estimator::point) of.render.samples = of.render.samples.value_or(points_on_gpu);
+    of.render.estimator = Estimator::point;
+    return of;
+}
+
 std::int64_t samples_of(const Display& display) {
     if (sample_dimensions(display) == 0) return 1;
     if (estimator_of(display) == Estimator::point) return display.render.samples.value_or(default_points);

@@ -28,6 +28,10 @@ optics::View make_view(const Display&, const Geometry&);
 /// diffuser nor a pixel filter).
 Estimator estimator_of(const Display&);
 
+/// The display as a GPU renders it: by points, so many unless it says how many.
+constexpr std::int64_t points_on_gpu = 256;
+Display by_points(const Display&);
+
 /// Samples per pixel: what the display asks for, or the default; for the filtered estimator rounded up to a square number, rows
 /// times columns of strata.
 std::int64_t samples_of(const Display&);

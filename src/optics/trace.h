@@ -73,14 +73,6 @@ constexpr Way compiled(Way way) {
 #endif
 }
 
-/// The way of the filtered estimator on a GPU, where a call, as `any` needs it, takes registers for all that it may reach. Few rays
-/// are traced there: general ways, which have the same bits, serve.
-constexpr Way for_few_rays(Way way) {
-    if (way == Way::placed_plano_convex || way == Way::placed_opaque) return Way::placed;
-    if (is_plain(way)) return compiled(Way::plano_convex);
-    return way == Way::plano_convex || way == Way::staggered || way == Way::glass || way == Way::placed ? way : Way::other;
-}
-
 /// do_it.operator()<way>() for the way through a display.
 template <class S, class Do>
 inline decltype(auto) with_way(const Scene<S>& scene, const Do& do_it) {

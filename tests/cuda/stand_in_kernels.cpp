@@ -1,7 +1,7 @@
 // Kernel launches of the stand-in (stand_in.h): a kernel's items run on the CPU's threads.
 //
 // The compiler turns kernel<<<...>>>() into calls of the runtime's functions below, from __cudaRegisterFunction, which gives the
-// mangled name of each kernel, to cudaLaunchKernel. The step and its template arguments are read from that name, and the same item
+// mangled name of each kernel, to cudaLaunchKernel. The kernel and its template arguments are read from that name, and the same item
 // functions as on a GPU (engine/wide/items.h, likeness_items.h), compiled for the CPU (../engine/host_items.cpp), do the work.
 #include "../engine/host_items.h"
 #include "stand_in.h"
@@ -37,7 +37,7 @@ void work_off(std::int64_t items, Item item) {
 }
 
 /// Does what a GPU does when the kernel of this mangled name is launched: adds to the stream item<...>() of engine/wide/, with the
-/// template arguments that the name contains (step, way through the array, whether it is the simple case), for all items that the
+/// template arguments that the name contains (the way through the array, the sampler; the step of a comparison), for all items that the
 /// grid covers. A launch that the queue (engine/cuda/) must not make ends the program.
 void launch(const std::string& name, const Configuration& c, void** arguments) {
     // A grid that is too small leaves items undone.
@@ -52,11 +52,11 @@ void launch(const std::string& name, const Configuration& c, void** arguments) {
             for (std::size_t k = 1; k < found.size(); ++k) all.push_back(std::stoi(found[k]));
         return all;
     };
-    if (const auto n = numbers("step_kernelI.*?StepE(\\d+)E.*?WayE(\\d+)ELb(\\d)E"); !n.empty()) {
+    if (const auto n = numbers("point_kernelI.*?WayE(\\d+)ELb(\\d)E"); !n.empty()) {
         const wide::Frame frame = *static_cast<wide::Frame*>(arguments[0]);
         stream_of(c.stream)->add([=] {
-            const HostKernel kernel = host_kernel(wide::Step(n[0]), frame);
-            if (kernel.way != n[1] || kernel.simple != (n[2] != 0))
+            const HostKernel kernel = host_kernel(frame);
+            if (kernel.way != n[0] || kernel.sobol != (n[1] != 0))
                 misused("another kernel was launched than the frame asks for: " + name);
             work_off(items, [&](std::int64_t i) { kernel.item(frame, i); });
         });

@@ -2,15 +2,15 @@
 
 #include "engine/wide/items.h"
 #include "engine/wide/likeness_items.h"
+#include "optics/trace.h"
 
-lfdsim::HostKernel lfdsim::host_kernel(wide::Step step, const wide::Frame& frame) {
-    HostKernel kernel{};
-    wide::choose_step(step, frame, [&]<wide::Step s, bool simple>() {
-        wide::with_way_of_step<s>(frame, [&]<optics::Way way>() {
-            kernel = {int(way), simple, [](const wide::Frame& f, std::int64_t i) { wide::item<s, way, simple>(f, i); }};
-        });
+lfdsim::HostKernel lfdsim::host_kernel(const wide::Frame& frame) {
+    return optics::with_way(frame.scene, [&]<optics::Way way>() {
+        const auto of = [&]<bool sobol>() {
+            return HostKernel{int(way), sobol, [](const wide::Frame& f, std::int64_t i) { wide::point_item<way, sobol>(f, i); }};
+        };
+        return frame.tile.sampling == Sampling::sobol ? of.template operator()<true>() : of.template operator()<false>();
     });
-    return kernel;
 }
 
 lfdsim::HostLikenessItem lfdsim::host_likeness_item(wide::LikenessStep step) {
@@ -20,12 +20,3 @@ lfdsim::HostLikenessItem lfdsim::host_likeness_item(wide::LikenessStep step) {
     });
     return item;
 }
-
-lfdsim::wide::BlockSize lfdsim::host_block_size(int across, bool by_lens) {
-    const Room room(across, by_lens);
-    return {wide::BlockLayout(across, room).end, room.strata};
-}
-
-std::size_t lfdsim::host_even_bytes() { return sizeof(EvenCuts); }
-
-int lfdsim::host_places_per_axis(const Tile& tile) { return places_per_axis(tile); }

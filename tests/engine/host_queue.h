@@ -36,11 +36,9 @@ class HostQueue : public wide::Queue {
     void upload(void* to, const void* from, std::size_t bytes) override { std::memcpy(to, from, bytes); }
     void download(void* to, const void* from, std::size_t bytes) override { std::memcpy(to, from, bytes); }
     /// From the last item to the first: no order among them is promised.
-    void run(wide::Step step, const wide::Frame& frame, std::int64_t items) override {
-        ++runs[step];
-        const HostKernel kernel = host_kernel(step, frame);
-        ways[step].insert(kernel.way);
-        if (teams && step == wide::Step::bundles) return run_bundles_by_teams(frame, items);
+    void run(const wide::Frame& frame, std::int64_t items) override {
+        const HostKernel kernel = host_kernel(frame);
+        ways.insert(kernel.way);
         for (std::int64_t i = items - 1; i >= 0; --i) kernel.item(frame, i);
     }
     void run(wide::LikenessStep step, const wide::LikenessFrame& frame, std::int64_t items) override {
@@ -48,13 +46,8 @@ class HostQueue : public wide::Queue {
         for (std::int64_t i = items - 1; i >= 0; --i) item(frame, i);
     }
     double seconds() override { return 0; }
-    wide::BlockSize block_size(int across, bool by_lens) const override { return host_block_size(across, by_lens); }
-    std::size_t even_bytes() const override { return host_even_bytes(); }
-    int places_per_axis(const Tile& tile) const override { return host_places_per_axis(tile); }
 
-    bool teams = false;  // is the step `bundles` done as on a GPU?
-    std::map<wide::Step, int> runs;
-    std::map<wide::Step, std::set<int>> ways;  // optics::Way of the kernels
+    std::set<int> ways;  // optics::Way of the kernels
 
   private:
     std::size_t memory_, used_ = 0;

@@ -30,6 +30,12 @@ void expect_same(const Image& a, const Image& b, const std::string& what) {
     EXPECT_EQ(differ, 0) << what << ": numbers that differ, of " << a.rgb.size();
 }
 
+Display diffused_example() {
+    Display d = example();
+    d.diffuser = Diffuser{40, {5.7, 5.7}, Profile::box};
+    return d;
+}
+
 Rendering by_host(const Display& d, const Texels& panel, const RenderOptions& options, HostQueue& queue) {
     Job job;
     const SummedPanel summed(panel);
@@ -37,7 +43,7 @@ Rendering by_host(const Display& d, const Texels& panel, const RenderOptions& op
     const auto& planes = summed.planes(panel_reading(d));
     Work work(d, geometry, planes, options);
     work.make_pictures(options.target_error.has_value());
-    const wide::DevicePanel there(queue, planes);
+    const wide::DevicePanel there(queue, planes[0]);
     const Done done = wide::render(queue, there, work.tile, work.target_error, work.result.error.rgb.data(), job);
     EXPECT_TRUE(done.complete);
     work.result.samples = done.samples;
@@ -61,74 +67,23 @@ TEST(Wide, PointsHaveTheSameBits) {
             const Rendering wide = by_host(d, panel, options, queue), cpu = by_cpu(d, panel, options);
             expect_same(wide.image, cpu.image, name);
             EXPECT_EQ(wide.samples, cpu.samples);
-            ways.merge(queue.ways[wide::Step::points]);
+            ways.merge(queue.ways);
         }
     }
     for (const optics::Way plain : {optics::Way::plain, optics::Way::plain_schlick}) EXPECT_TRUE(ways.contains(int(plain)));
 }
 
-TEST(Wide, FilteredHasTheSameBits) {
-    for (auto& [name, d] : diffused()) {
-        const Texels panel = patterned_panel(d);
-        for (const int samples : {4, 25, 64, 100}) {
-            d.render.samples = samples;
-            HostQueue queue;
-            const RenderOptions options{0, "", samples > 25 ? Rect{50, 41, 90, 60} : Rect{35, 23, 99, 71}};
-            const Display even = even_parts(d).front().display;
-            expect_same(by_host(even, panel, options, queue).image, by_cpu(even, panel, options).image,
-                        name + ", " + std::to_string(samples));
-            EXPECT_EQ(queue.runs[wide::Step::points], 0);
-            EXPECT_GT(queue.runs[wide::Step::pixels], 0);
-        }
-    }
-}
-
-// What a GPU's teams of threads exchange.
-TEST(Wide, TeamsMakeTheSameBundles) {
-    if (address_sanitizer) GTEST_SKIP() << "AddressSanitizer does not know fibers";
-    for (auto& [name, d] : diffused()) {
-        const Texels panel = patterned_panel(d);
-        for (const int samples : {1, 16}) {
-            d.render.samples = samples;
-            const Display even = even_parts(d).front().display;
-            HostQueue queue;
-            queue.teams = true;
-            const RenderOptions options{0, "", Rect{66, 43, 82, 51}};
-            expect_same(by_host(even, panel, options, queue).image, by_cpu(even, panel, options).image,
-                        name + ", " + std::to_string(samples));
-        }
-    }
-}
-
-TEST(Wide, FinePicturesHaveTheSameBits) {  // blocks of 8 and 16 pixels, several parts of the picture
-    for (auto& [name, d] : diffused()) {
-        const Texels panel = patterned_panel(d);
-        for (const int width : {480, 1600}) {
-            d.camera.resolution = {width, width * 7 / 10};
-            HostQueue queue;
-            const Rect crop{width / 2 - 70, width / 4, width / 2 + 50, width / 4 + 50};
-            const Display even = even_parts(d).front().display;
-            expect_same(by_host(even, panel, {0, "", crop}, queue).image, by_cpu(even, panel, {0, "", crop}).image,
-                        name + ", " + std::to_string(width));
-        }
-    }
-}
-
 TEST(Wide, TargetErrorsHaveTheSameBits) {
-    for (const Estimator estimator : {Estimator::filtered, Estimator::point}) {
-        Display d = example();
-        d.diffuser = Diffuser{40, {5.7, 5.7}, Profile::box};
-        d.render.estimator = estimator;
-        const Texels panel = patterned_panel(d);
-        RenderOptions options{0, "", Rect{9, 20, 75, 60}};
-        options.target_error = estimator == Estimator::point ? 0.03 : 0.006;
-        HostQueue queue;
-        const Rendering wide = by_host(d, panel, options, queue), cpu = by_cpu(d, panel, options);
-        expect_same(wide.image, cpu.image, "picture");
-        expect_same(wide.error, cpu.error, "error");
-        EXPECT_EQ(wide.samples, cpu.samples);
-        EXPECT_GT(wide.samples, 66 * 40 * 17);  // more than the first step
-    }
+    Display d = diffused_example();
+    const Texels panel = patterned_panel(d);
+    RenderOptions options{0, "", Rect{9, 20, 75, 60}};
+    options.target_error = 0.03;
+    HostQueue queue;
+    const Rendering wide = by_host(d, panel, options, queue), cpu = by_cpu(d, panel, options);
+    expect_same(wide.image, cpu.image, "picture");
+    expect_same(wide.error, cpu.error, "error");
+    EXPECT_EQ(wide.samples, cpu.samples);
+    EXPECT_GT(wide.samples, 66 * 40 * 17);  // more than the first step
 }
 
 TEST(Wide, StopsWhenAskedAndLeavesTheRestBlack) {
@@ -138,16 +93,14 @@ TEST(Wide, StopsWhenAskedAndLeavesTheRestBlack) {
         bool cancelled() const override { return done > 0; }
         std::int64_t done = 0;
     } job;
-    Display d = example();
-    d.diffuser = Diffuser{40, {5.7, 5.7}, Profile::box};
-    d.render.estimator = Estimator::filtered;
-    d.render.samples = 3600;  // of which few blocks fit at a time
+    Display d = diffused_example();
+    d.render.samples = 200000;  // of which few squares are rendered at a time
     const Texels panel = uniform_panel(d, 1);
     const SummedPanel summed(panel);
     HostQueue queue;
     Work work(d, resolve(d), summed.planes(), {});
     work.make_pictures(false);
-    const wide::DevicePanel there(queue, summed.planes());
+    const wide::DevicePanel there(queue, summed.planes()[0]);
     EXPECT_FALSE(wide::render(queue, there, work.tile, {}, nullptr, job).complete);
     EXPECT_GT(job.done, 0);
     EXPECT_LT(job.done, 160 * 112);
@@ -160,8 +113,8 @@ TEST(Wide, SaysWhatMemoryItWants) {
     const Texels panel = uniform_panel(d, 1);
     const SummedPanel summed(panel);
     HostQueue small(1000);
-    EXPECT_THROW(wide::DevicePanel(small, summed.planes()), wide::DeviceError);
-    EXPECT_GE(wide::DevicePanel::bytes(summed.planes()), std::size_t(panel.columns() * panel.rows()) * 16);
+    EXPECT_THROW(wide::DevicePanel(small, summed.planes()[0]), wide::DeviceError);
+    EXPECT_GE(wide::DevicePanel::bytes(summed.planes()[0]), std::size_t(panel.columns() * panel.rows()) * 16);
 }
 
 /// A photograph that is somewhat like the view of a crop, and regions of both.
@@ -193,7 +146,7 @@ TEST(Wide, LikenessHasTheSameBits) {
         const Expected expected = expected_of(view);
         HostQueue queue;
         Job job;
-        const wide::DevicePanel there(queue, summed.planes());
+        const wide::DevicePanel there(queue, summed.planes()[0]);
         const wide::Photograph photograph(queue, expected.photograph());
         const Work work(d, resolve(d), summed.planes(), options);
         wide::Comparison comparison(queue, photograph, expected.screen, expected.content);
@@ -317,27 +270,33 @@ TEST_F(OnGpu, PointsHaveTheCpusBits) {
     }
 }
 
-TEST_F(OnGpu, FilteredHasTheCpusBits) {
+TEST_F(OnGpu, OtherEstimatorsGiveWayToPoints) {
     for (auto& [name, d] : diffused()) {
         const Texels panel = patterned_panel(d);
-        for (const int samples : {1, 4, 64, 400}) {
+        RenderOptions options{0, "", Rect{35, 23, 99, 71}};
+        for (const std::optional<std::int64_t> samples : {std::optional<std::int64_t>{}, {9}}) {
             d.render.samples = samples;
-            expect_cpu_bits(name, d, panel, {});
+            options.device = "cuda";
+            Job job;
+            const Rendering gpu = render(d, resolve(d), panel, options, job);
+            EXPECT_EQ(gpu.estimator, Estimator::point);
+            EXPECT_EQ(gpu.samples, 64 * 48 * samples.value_or(256));
+            Display points = d;
+            points.render.estimator = Estimator::point;
+            points.render.samples = samples.value_or(256);
+            expect_same(gpu.image, by_cpu(points, panel, options).image, name);
         }
-        d.render.samples = 4;
-        d.camera.resolution = {1600, 1120};
-        expect_cpu_bits(name + ", fine", d, panel, {});
     }
 }
 
 TEST_F(OnGpu, PicturesMadeAtOnceHaveTheCpusBits) {
-    const std::vector<std::pair<std::string, Display>> all = diffused();
-    const Texels panel = patterned_panel(all[0].second);
+    const Display middle = diffused_example();
+    const Texels panel = patterned_panel(middle);
     const SummedPanel summed(panel);
     RenderOptions options;
     options.device = "cuda";
     const auto seen = [&](std::size_t k) {
-        Display d = all[0].second;
+        Display d = middle;
         d.camera.position_mm[0] += 5 * double(k);
         return d;
     };
@@ -369,14 +328,10 @@ TEST_F(OnGpu, LikenessHasTheCpusBits) {
 }
 
 TEST_F(OnGpu, TargetErrorsHaveTheCpusBits) {
-    Display d = example();
-    d.diffuser = Diffuser{40, {5.7, 5.7}, Profile::box};
+    const Display d = diffused_example();
     RenderOptions options;
-    for (const Estimator estimator : {Estimator::filtered, Estimator::point}) {
-        d.render.estimator = estimator;
-        options.target_error = estimator == Estimator::point ? 0.03 : 0.006;
-        expect_cpu_bits("target error", d, patterned_panel(d), options);
-    }
+    options.target_error = 0.03;
+    expect_cpu_bits("target error", d, patterned_panel(d), options);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
 // Kernels of point samples that are random.
-#include "engine/cuda/step_kernels.cuh"
+#include "engine/cuda/point_kernels.cuh"
 
-template struct lfdsim::cuda::StepKernels<lfdsim::wide::Step::points, false>;
+template struct lfdsim::cuda::PointKernels<false>;

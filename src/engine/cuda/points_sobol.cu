@@ -1,4 +1,4 @@
-// Kernels of point samples that are Sobol points.
-#include "engine/cuda/step_kernels.cuh"
+// Kernels of point samples at Sobol's points.
+#include "engine/cuda/point_kernels.cuh"
 
-template struct lfdsim::cuda::StepKernels<lfdsim::wide::Step::points, true>;
+template struct lfdsim::cuda::PointKernels<true>;

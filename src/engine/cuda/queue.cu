@@ -1,6 +1,6 @@
 // A GPU's queue, over the CUDA runtime, and the kernels that compare views.
 #include "engine/cuda/cuda.h"
-#include "engine/cuda/step_kernels.h"
+#include "engine/cuda/point_kernels.h"
 #include "engine/wide/likeness_items.h"
 
 #include <cuda_runtime.h>
@@ -10,9 +10,6 @@
 namespace lfdsim::cuda {
 
 namespace {
-
-using wide::Frame;
-using wide::Step;
 
 void check(cudaError_t result, const char* doing) {
     if (result == cudaSuccess) return;
@@ -96,10 +93,11 @@ class CudaQueue : public wide::Queue {
         check(cudaStreamSynchronize(steps_), "rendering");
     }
 
-    void run(Step step, const Frame& frame, std::int64_t items) override {
+    void run(const wide::Frame& frame, std::int64_t items) override {
         if (items <= 0) return;
         start_clock();
-        wide::choose_step(step, frame, [&]<Step s, bool simple>() { StepKernels<s, simple>::start(frame, items, steps_); });
+        frame.tile.sampling == Sampling::sobol ? PointKernels<true>::start(frame, items, steps_)
+                                               : PointKernels<false>::start(frame, items, steps_);
         check(cudaGetLastError(), "starting work");
         check(cudaEventRecord(ended_, steps_), "starting work");
     }
@@ -123,13 +121,6 @@ class CudaQueue : public wide::Queue {
         return seconds_;
     }
 
-    wide::BlockSize block_size(int across, bool by_lens) const override {
-        const Room room(across, by_lens);
-        return {wide::BlockLayout(across, room).end, room.strata};
-    }
-    std::size_t even_bytes() const override { return sizeof(EvenCuts); }
-    int places_per_axis(const Tile& tile) const override { return lfdsim::places_per_axis(tile); }
-
   private:
     void use() { check(cudaSetDevice(gpu_), "choosing it"); }
     void start_clock() {
@@ -141,12 +132,8 @@ class CudaQueue : public wide::Queue {
     // Bytes of local memory per thread, of the kernel that needs most.
     static std::size_t largest_stack() {
         std::size_t most = 0;
-        for (const cudaError_t asked : {StepKernels<Step::points, true>::raise_to_local_bytes(most),
-                                        StepKernels<Step::points, false>::raise_to_local_bytes(most),
-                                        StepKernels<Step::bundles, true>::raise_to_local_bytes(most),
-                                        StepKernels<Step::pixels, true>::raise_to_local_bytes(most),
-                                        StepKernels<Step::pixels, false>::raise_to_local_bytes(most),
-                                        StepKernels<Step::alone, true>::raise_to_local_bytes(most)})
+        for (const cudaError_t asked :
+             {PointKernels<true>::raise_to_local_bytes(most), PointKernels<false>::raise_to_local_bytes(most)})
             check(asked, "reading a kernel's needs");
         return most;
     }
@@ -194,7 +181,7 @@ Found find() {
         // Does this binary hold code that the GPU can run?
         std::size_t bytes = 0;
         cudaError_t works = cudaSetDevice(k);
-        if (works == cudaSuccess) works = StepKernels<Step::even, true>::raise_to_local_bytes(bytes);
+        if (works == cudaSuccess) works = PointKernels<true>::raise_to_local_bytes(bytes);
         cudaGetLastError();
         if (works == cudaSuccess)
             any = true;

@@ -9,12 +9,6 @@
 
 namespace lfdsim::wide {
 
-/// A block's memory, and how many bundles it has at most.
-struct BlockSize {
-    std::size_t bytes;
-    std::int64_t bundles;
-};
-
 /// Work is done in the order in which it is submitted; run() does not wait for it. Functions throw DeviceError where the machine
 /// fails. To be used by one thread at a time.
 class Queue {
@@ -37,16 +31,10 @@ class Queue {
     /// Copies what is there after all work submitted so far. Waits for that work and no later work.
     virtual void download(void* to, const void* from, std::size_t bytes) = 0;
 
-    virtual void run(Step, const Frame&, std::int64_t items) = 0;
+    virtual void run(const Frame&, std::int64_t items) = 0;
     virtual void run(LikenessStep, const LikenessFrame&, std::int64_t items) = 0;
     /// Seconds that the steps have taken on the machine so far, by its own clock. Waits for all of them.
     virtual double seconds() = 0;
-
-    /// What the items rely on: a block whose square is cut into `across` columns and rows, lens by lens or not; the memory of the
-    /// even cuts; the places along an axis of a block.
-    virtual BlockSize block_size(int across, bool by_lens) const = 0;
-    virtual std::size_t even_bytes() const = 0;
-    virtual int places_per_axis(const Tile&) const = 0;
 };
 
 /// The machine failed, or lacks memory.

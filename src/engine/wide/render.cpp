@@ -9,35 +9,17 @@ namespace lfdsim::wide {
 namespace {
 
 constexpr std::int64_t most_points = std::int64_t(1) << 31;  // in one step: a fraction of a second, after which Ctrl-C takes effect
-constexpr int point_side = 16;
+constexpr std::int64_t square_pixels = refined_side * refined_side;
 
-/// Bytes for a block and its entries in lists of work: of bundles, and two of blocks.
-std::size_t listed_bytes(const BlockSize& block) { return block.bytes + (std::size_t(block.bundles) + 2) * sizeof(std::uint32_t); }
-
-/// Memory for the blocks at hand: for all of a picture, if they take no more than a gigabyte, else for enough of them to fill any
-/// machine. With a target error strata change, and any block must find room.
-std::size_t block_memory(const Queue& queue, const Tile& tile) {
-    const auto along = [&](std::int32_t from, std::int32_t to) { return std::size_t((to - from) / tile.block_side + 2); };
-    const std::size_t all = along(tile.x0, tile.x1) * along(tile.y0, tile.y1) *
-                            listed_bytes(queue.block_size(tile.strata, tile.scene->by_lens)),
-                      largest = listed_bytes(queue.block_size(max_strata - more_strata, true));
-    return std::max(largest, std::clamp(all, std::size_t(256) << 20, std::size_t(1) << 30));
-}
-
-constexpr std::size_t lists = 3;                // of work
-constexpr std::int64_t most_workers = 1 << 17;  // more than any machine has threads at once
-
-/// Renders blocks, a part of them at a time.
+/// Renders squares of the frame, a part of them at a time.
 class Renderer {
   public:
-    Renderer(Queue& queue, const DevicePanel& panel, const Tile& tile)
-        : queue_(queue), memory_bytes_(tile.strata > 0 ? block_memory(queue, tile) : 0) {
+    Renderer(Queue& queue, const DevicePanel& panel, const Tile& tile) : queue_(queue) {
         frame_.scene = *tile.scene;
         frame_.view = *tile.view;
         frame_.directions = *tile.directions;
         frame_.tile = tile;
         frame_.tile.texels = panel.texels();
-        frame_.tile.panel.plane = panel.planes();  // the emission is that of the frame's scene
         if (auto*& lens = frame_.scene.placement.lens) {
             const auto& count = frame_.scene.lattice.count;
             const std::size_t lenses = std::size_t(count[0]) * std::size_t(count[1]);
@@ -48,100 +30,45 @@ class Renderer {
     }
     Frame& frame() { return frame_; }
 
-    /// Renders all blocks of the tile's rectangle, and calls after(n) after each part, of n pixels; stops, and returns false, where
-    /// after() returns false before the last part.
+    /// Renders all squares of the tile's rectangle, and calls after(n) after each part, of n pixels; stops, and returns false,
+    /// where after() returns false before the last part.
     template <class After>
     bool run_all(After after) {
-        prepare();
-        const int side = frame_.tile.block_side;
         const Tile& t = frame_.tile;
         frame_.listed = nullptr;
-        frame_.first_column = t.x0 / side;
-        frame_.first_row = t.y0 / side;
-        frame_.columns = (t.x1 - 1) / side + 1 - frame_.first_column;
-        return run(std::int64_t(frame_.columns) * ((t.y1 - 1) / side + 1 - frame_.first_row), after);
-    }
-
-    /// Renders the blocks of whole squares of the frame.
-    void run_listed(const std::vector<RefinedBlock>& squares) {
-        prepare();
-        const int side = frame_.tile.block_side;
-        std::vector<ListedBlock> all;
-        for (std::size_t k = 0; k < squares.size(); ++k)
-            for (int y = 0; y < refined_side; y += side)
-                for (int x = 0; x < refined_side; x += side) all.push_back({squares[k].x + x, squares[k].y + y, std::int32_t(k)});
-        if (all.size() > listed_room_) {
-            listed_ = Buffer<ListedBlock>(queue_, all.size());
-            listed_room_ = all.size();
-        }
-        queue_.upload(listed_.get(), all.data(), all.size() * sizeof(ListedBlock));
-        frame_.listed = listed_.get();
-        run(std::int64_t(all.size()), [](std::int64_t) { return true; });
-    }
-
-  private:
-    void prepare() {
-        Tile& t = frame_.tile;
-        if (t.strata == 0) {
-            t.block_side = point_side;
-            return;
-        }
-        const BlockSize block = queue_.block_size(t.strata, frame_.scene.by_lens);
-        frame_.bytes_per_block = block.bytes;
-        if (!memory_.get()) {
-            even_ = Buffer<std::byte>(queue_, queue_.even_bytes());
-            counts_ = Buffer<std::uint32_t>(queue_, lists);
-            memory_ = Buffer<std::byte>(queue_, memory_bytes_);
-        }
-        at_once_ = std::int64_t(memory_bytes_ / listed_bytes(block));
-        std::byte* const numbers = memory_.get() + std::size_t(at_once_) * block.bytes;
-        frame_.even = even_.get();
-        frame_.memory = memory_.get();
-        frame_.busy = {counts_.get(), reinterpret_cast<std::uint32_t*>(numbers)};
-        frame_.alone = {counts_.get() + 1, frame_.busy.number + at_once_};
-        frame_.bundles = {counts_.get() + 2, frame_.alone.number + at_once_};
-        queue_.run(Step::even, frame_, t.strata + 1);
-    }
-
-    template <class After>
-    bool run(std::int64_t blocks, After after) {
-        const Tile& t = frame_.tile;
-        const std::int64_t pixels = std::int64_t(t.block_side) * t.block_side;
-        const std::int64_t at_once =
-            t.strata == 0 ? std::max<std::int64_t>(most_points / (pixels * std::max(t.samples, 1u)), 1) : at_once_;
-        for (std::int64_t first = 0; first < blocks; first += at_once) {
-            const std::int64_t count = std::min(at_once, blocks - first);
-            frame_.first_block = first;
-            t.strata == 0 ? queue_.run(Step::points, frame_, count * pixels) : run_filtered(count, pixels);
-            if (!after(count * pixels) && first + count < blocks) return false;
+        frame_.first_column = t.x0 / refined_side;
+        frame_.first_row = t.y0 / refined_side;
+        frame_.columns = (t.x1 - 1) / refined_side + 1 - frame_.first_column;
+        const std::int64_t squares = std::int64_t(frame_.columns) * ((t.y1 - 1) / refined_side + 1 - frame_.first_row);
+        const std::int64_t at_once = std::max<std::int64_t>(most_points / (square_pixels * std::max(t.samples, 1u)), 1);
+        for (std::int64_t first = 0; first < squares; first += at_once) {
+            const std::int64_t count = std::min(at_once, squares - first);
+            frame_.first_square = first;
+            queue_.run(frame_, count * square_pixels);
+            if (!after(count * square_pixels) && first + count < squares) return false;
         }
         return true;
     }
 
-    void run_filtered(std::int64_t blocks, std::int64_t pixels) {
-        const Tile& t = frame_.tile;
-        frame_.workers = std::min(blocks * pixels, most_workers);
-        queue_.clear(counts_.get(), lists * sizeof(std::uint32_t));
-        queue_.run(Step::blocks, frame_, blocks);
-        queue_.run(Step::bundles, frame_, frame_.workers);
-        queue_.run(Step::survey, frame_, blocks);
-        if (const std::int64_t places = queue_.places_per_axis(t)) {
-            queue_.run(Step::places, frame_, blocks * places * places);
-            queue_.run(Step::soft, frame_, blocks * pixels);
+    /// Renders these squares of the frame, a few samples a pixel.
+    void run_listed(const std::vector<RefinedBlock>& squares) {
+        std::vector<ListedSquare> all;
+        for (const RefinedBlock& square : squares) all.push_back({square.x, square.y});
+        if (all.size() > listed_room_) {
+            listed_ = Buffer<ListedSquare>(queue_, all.size());
+            listed_room_ = all.size();
         }
-        queue_.run(Step::pixels, frame_, frame_.workers);
-        queue_.run(Step::alone, frame_, frame_.workers);
+        queue_.upload(listed_.get(), all.data(), all.size() * sizeof(ListedSquare));
+        frame_.listed = listed_.get();
+        queue_.run(frame_, std::int64_t(all.size()) * square_pixels);
     }
 
+  private:
     Queue& queue_;
-    const std::size_t memory_bytes_;
     Frame frame_{};
     Buffer<optics::PlacedLens<float>> lenses_;
-    Buffer<std::byte> even_, memory_;
-    Buffer<std::uint32_t> counts_;  // of the lists of work
     std::size_t listed_room_ = 0;
-    std::int64_t at_once_ = 0;  // blocks
-    Buffer<ListedBlock> listed_;
+    Buffer<ListedSquare> listed_;
 };
 
 /// Renders squares of the frame for refine_tile.
@@ -152,17 +79,14 @@ class Painter : public BlockPainter {
         t.x0 = t.y0 = 0;
         t.x1 = t.view->width;
         t.y1 = t.view->height;
-        side_ = t.block_side;
     }
-    void paint(const std::vector<RefinedBlock>& squares, int strata, std::uint32_t points, std::uint64_t seed,
+    void paint(const std::vector<RefinedBlock>& squares, int, std::uint32_t points, std::uint64_t seed,
                std::vector<RefinedPicture>& pictures) override {
         Frame& frame = renderer_.frame();
         if (pictures.size() > room_) out_ = Buffer<RefinedPicture>(queue_, room_ = pictures.size());
         queue_.upload(out_.get(), pictures.data(), pictures.size() * sizeof(RefinedPicture));
         frame.tile.out = reinterpret_cast<float*>(out_.get());
-        frame.tile.strata = strata;
         frame.tile.samples = points;
-        frame.tile.block_side = side_;
         frame.view.seed = seed;
         renderer_.run_listed(squares);
         queue_.download(pictures.data(), out_.get(), pictures.size() * sizeof(RefinedPicture));
@@ -171,7 +95,6 @@ class Painter : public BlockPainter {
   private:
     Queue& queue_;
     Renderer& renderer_;
-    int side_;
     Buffer<RefinedPicture> out_;
     std::size_t room_ = 0;
 };
@@ -196,37 +119,17 @@ Done render_refined(Queue& queue, Renderer& renderer, const Tile& tile, double t
 }
 
 std::size_t texel_count(const optics::SummedImage& image) { return std::size_t(image.columns) * image.rows * 4; }
-std::size_t sum_count(const optics::SummedImage& image) {
-    return (std::size_t(image.columns) + 1) * (std::size_t(image.rows) + 1) * 4;
-}
 
 }  // namespace
 
-DevicePanel::DevicePanel(Queue& queue, const std::vector<optics::SummedImage>& planes) {
-    std::vector<optics::SummedImage> there = planes;
-    for (optics::SummedImage& plane : there) {
-        texels_.emplace_back(queue, texel_count(plane));
-        queue.upload(texels_.back().get(), plane.texels, texel_count(plane) * sizeof(float));
-        plane.texels = texels_.back().get();
-        if (!plane.sums) continue;
-        sums_.emplace_back(queue, sum_count(plane));
-        queue.upload(sums_.back().get(), plane.sums, sum_count(plane) * sizeof(std::uint32_t));
-        plane.sums = sums_.back().get();
-    }
-    planes_ = Buffer<optics::SummedImage>(queue, there.size());
-    queue.upload(planes_.get(), there.data(), there.size() * sizeof there[0]);
+DevicePanel::DevicePanel(Queue& queue, const optics::SummedImage& panel) : texels_(queue, texel_count(panel)) {
+    queue.upload(texels_.get(), panel.texels, texel_count(panel) * sizeof(float));
 }
 
-std::size_t DevicePanel::bytes(const std::vector<optics::SummedImage>& planes) {
-    std::size_t all = 0;
-    for (const optics::SummedImage& plane : planes)
-        all += texel_count(plane) * sizeof(float) + (plane.sums ? sum_count(plane) * sizeof(std::uint32_t) : 0);
-    return all;
-}
+std::size_t DevicePanel::bytes(const optics::SummedImage& panel) { return texel_count(panel) * sizeof(float); }
 
-std::size_t picture_bytes(const Queue& queue, const Tile& tile) {
-    const std::size_t picture = std::size_t(tile.x1 - tile.x0) * std::size_t(tile.y1 - tile.y0) * 3 * sizeof(float);
-    return picture + (tile.strata > 0 ? block_memory(queue, tile) : 0);
+std::size_t picture_bytes(const Tile& tile) {
+    return std::size_t(tile.x1 - tile.x0) * std::size_t(tile.y1 - tile.y0) * 3 * sizeof(float);
 }
 
 Done render_there(Queue& queue, const DevicePanel& panel, const Tile& tile, float* out, Job& job) {
@@ -240,13 +143,13 @@ Done render_there(Queue& queue, const DevicePanel& panel, const Tile& tile, floa
     frame.tile.crop_width = tile.x1 - tile.x0;
     std::int64_t told = 0;
     const bool complete = renderer.run_all([&](std::int64_t done) {
-        done = std::min(done, pixels - told);  // blocks reach beyond the tile
+        done = std::min(done, pixels - told);  // squares reach beyond the tile
         told += done;
         if (told < pixels) queue.seconds();  // waits, so that the caller does not run far ahead of the machine
         job.advance(done);
         return !job.cancelled();
     });
-    return {told * (tile.strata > 0 ? std::int64_t(tile.strata) * tile.strata : std::int64_t(tile.samples)), complete};
+    return {told * std::int64_t(tile.samples), complete};
 }
 
 Done render(Queue& queue, const DevicePanel& panel, const Tile& tile, std::optional<double> target_error, float* error, Job& job) {

@@ -1,4 +1,4 @@
-// Renders a picture on a wide machine, with the same bits as the CPU's kernels. Floor 2.
+// Renders a picture by points on a wide machine, with the same bits as the CPU's kernels. Floor 2.
 #pragma once
 #include "engine/kernel.h"
 #include "engine/wide/queue.h"
@@ -9,27 +9,24 @@
 
 namespace lfdsim::wide {
 
-/// The panel's planes in a machine's memory.
+/// The panel in a machine's memory.
 class DevicePanel {
   public:
     /// Throws DeviceError.
-    DevicePanel(Queue&, const std::vector<optics::SummedImage>&);
+    DevicePanel(Queue&, const optics::SummedImage& panel);
 
-    const optics::SummedImage* planes() const { return planes_.get(); }
-    const float* texels() const { return texels_[0].get(); }
-    static std::size_t bytes(const std::vector<optics::SummedImage>&);
+    const float* texels() const { return texels_.get(); }
+    static std::size_t bytes(const optics::SummedImage& panel);
 
   private:
-    std::vector<Buffer<float>> texels_;
-    std::vector<Buffer<std::uint32_t>> sums_;
-    Buffer<optics::SummedImage> planes_;
+    Buffer<float> texels_;
 };
 
 /// Bytes that a picture needs at least, in addition to the panel.
-std::size_t picture_bytes(const Queue&, const Tile&);
+std::size_t picture_bytes(const Tile&);
 
-/// Renders the tile to `out` in the machine's memory, 3 floats of linear light a pixel, black where it was not rendered before the
-/// job was cancelled. Throws DeviceError.
+/// Renders the tile by points to `out` in the machine's memory, 3 floats of linear light a pixel, black where it was not rendered
+/// before the job was cancelled. Throws DeviceError.
 Done render_there(Queue&, const DevicePanel&, const Tile&, float* out, Job&);
 
 /// Renders the tile to the caller's memory; only the panel is already in the machine's. `target_error` with `error`: as

@@ -1,18 +1,21 @@
-// The GPU's kernels of the steps. Each step has a file of its own, so that several are compiled at once. Floor 2.
+// The GPU's kernels of point samples. Those of each sampler have a file of their own, so that both are compiled at once. Floor 2.
 #pragma once
-#include "engine/wide/items.h"
+#include "engine/wide/frame.h"
 
 #include <cuda_runtime.h>
 
+#include <cstddef>
+#include <cstdint>
+
 namespace lfdsim::cuda {
 
-constexpr int threads = optics::block_threads;
+constexpr int threads = 128;  // of a thread block
 
 inline unsigned thread_blocks(std::int64_t items) { return unsigned((items + threads - 1) / threads); }
 
-/// The kernels of a step, one for each way through an array; `simple` as for wide::item().
-template <wide::Step step, bool simple>
-struct StepKernels {
+/// One kernel for each way through an array.
+template <bool sobol>
+struct PointKernels {
     /// Starts the kernel of the frame's display for `items` > 0 items; cudaGetLastError() tells whether it could.
     static void start(const wide::Frame& frame, std::int64_t items, cudaStream_t stream);
     /// Raises `most` to the bytes of local memory per thread of the kernel that takes most of them.
