@@ -6,21 +6,6 @@
 
 namespace lfdsim {
 
-/// Filtered estimator: the square of two numbers that pixels are cut by, the diffuser's or those of a point of the pixel's area.
-struct Square {
-    bool weak;      // the diffuser is so weak that strata move with the pixels in every block
-    bool of_pixel;  // the numbers are those of the pixel's area
-    // More samples divide into cells not only the square, but also what else spreads a pixel's own rays: the pixel's area or the
-    // diffuser's angles, whichever the square is not, and the pupil.
-    bool divides_other, divides_pupil;
-    // Into so many parts along each axis a pixel that finds out by itself what it sees of a lens divides the square; each takes
-    // four rays, or one.
-    int parts = 1;
-    // Pixels' own rays are turned as the diffuser turns them, one turn after the other, and numbers of places are of first order in
-    // both. Otherwise both have the two turns independent, each along its own axis.
-    bool exact_turns = false;
-};
-
 /// A tile of the picture: pixels x0 .. x1-1, y0 .. y1-1 of the whole frame. Pixel (x, y) goes to
 /// out[((y - crop_y) crop_width + x - crop_x) 3].
 struct Tile {
@@ -34,9 +19,9 @@ struct Tile {
     std::int32_t x0, y0, x1, y1;
     std::uint32_t samples;
     int strata;         // rows and columns of strata, 1 .. max_strata - more_strata; 0: point samples
-    bool lens_by_lens;  // the estimator of that name, else the filtered one
-    int block_side;     // filtered estimator: pixels, a multiple of 4
-    Square square;
+    bool lens_by_lens;  // else by blocks that share rays
+    int block_side;     // of these: pixels, 16, 8 or 4
+    bool cuts_pixel;    // lens by lens: outlines of lenses cut the pixel's area, not the diffuser's angles
     Sampling sampling;
     int dimensions;  // of the sampler, those in use
 };

@@ -86,8 +86,8 @@ void add_lens(optics::Scene<S>& scene, const Geometry& geometry) {
     scene.hollow_back = surfaces.front().z_mm + sag_range_mm(surfaces.front())[1] > wall_bottom + 1e-9;
 }
 
-// The holes of the lenses (strata.h). Seen from above, at angles up to the slope of its cap at the rim, a round lens is the circle
-// of its rim; one that fills its cell is the cell, each edge at the height of its middle. A stop in front of the lens may be
+// The holes of the lenses (optics/strata.h). Seen from above, at angles up to the slope of its cap at the rim, a round lens is the
+// circle of its rim; one that fills its cell is the cell, each edge at the height of its middle. A stop in front of the lens may be
 // narrower.
 template <class S>
 void add_holes(optics::Scene<S>& scene, const Display& display, const Geometry& geometry, double start_z) {
@@ -153,17 +153,6 @@ optics::Emission<S> make_emission(const Panel& panel) {
     return to;
 }
 
-/// How far the camera's pupil moves rays in the plane of the holes, in half widths of a hole.
-double shift_by_pupil(const optics::Scene<float>& scene, const optics::View& view) {
-    if (!scene.thin_lens) return 0;
-    const double away = std::abs((view.position[2] - view.start_z + double(scene.holes_below[0])) / view.forward[2]);
-    const double shift = view.pupil_radius * std::abs(1 - away * view.frame_per_focus / view.distance);
-    const Lattice<float>& lattice = scene.lattice;
-    const float hole =
-        scene.hole_radius > 0 ? scene.hole_radius : std::min({scene.hole_half, lattice.half_pitch[0], lattice.half_pitch[1]});
-    return shift / double(hole);
-}
-
 }  // namespace
 
 template <class S>
@@ -213,8 +202,6 @@ DisplayScene<S> make_scene(const Display& display, const Geometry& geometry) {
     scene.box_filter = display.camera.pixel_filter == PixelFilter::box;
     scene.thin_lens = display.camera.pupil_diameter_mm.value_or(0) > 0;
     place_lenses(display, geometry, scene);
-    scene.by_lens = scene.placement.given || is_staggered(array) || is_strips(array) || scene.rotated || !scene.has_diffuser ||
-                    scene.box_filter || scene.thin_lens;
     return scene;
 }
 
@@ -271,73 +258,51 @@ int sample_dimensions(const Display& display) {
     return display.diffuser ? 2 : 0;
 }
 
-BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& view, int strata, bool rough, bool converges) {
+namespace {
+
+/// The width of the picture's pixels, projected along the line of sight onto the diffuser's plane; mm.
+double pixel_on_diffuser(const optics::View& view) {
+    return view.pixel_mm * std::abs((view.position[2] - view.start_z) / (view.forward[2] * view.distance));
+}
+
+/// What a diffused ray spans along an axis in the plane of the holes; mm.
+double diffused_span(const optics::Scene<float>& scene, int axis) {
+    return 2 * double(scene.holes_below[axis]) * std::tan(std::min(double(scene.half_angle[axis]), 1.5));
+}
+
+}  // namespace
+
+BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& view, int strata, bool rough) {
     using L = FilteredLimits;
-    // Compares the picture's pixels, projected along the line of sight onto the diffuser's plane, with a lens pitch and with what a
-    // diffused ray spans in the plane of the holes; mm.
-    const double pixel = view.pixel_mm * std::abs((view.position[2] - view.start_z) / (view.forward[2] * view.distance));
-    const double seen = std::min(scene.lattice.pitch[0], scene.lattice.pitch[1]);
-    // Without a diffuser pixels share a block's list of lenses and what the pupil spreads.
-    const int many = 16 * pixel < seen ? 16 : 8 * pixel < 4 * seen ? 8 : 4;
-    // A pupil that is divided moves the lens's outline as it should, but its few cells show, most of all in the gaps of a panel
-    // with subpixels: unless there are enough of them, or a diffuser's box, itself not divided, covers those gaps, or other lenses
-    // are seen from its edge than from its middle.
-    const bool whole = scene.emission.whole;
-    const double pupil = shift_by_pupil(scene, view);
-    const bool moves_pupil = pupil > L::aside, sees_others = pupil > L::far_aside;
-    const int enough = whole ? few_strata : 2 * few_strata;
-    const int parts = (strata + 1) / 2;
-    if (!scene.has_diffuser)
-        return {
-            many, true, {true, true, false, converges || sees_others || (moves_pupil && strata > enough), parts}, pixel / parts};
-    double span[2];
+    constexpr BlockShape none{false, 4};
+    const Lattice<float>& lattice = scene.lattice;
+    if (!scene.has_diffuser || scene.box_filter || scene.thin_lens || scene.placement.given || scene.rotated || lattice.strips ||
+        lattice.staggered || lattice.hexagonal)
+        return none;
+    const double pixel = pixel_on_diffuser(view);
+    double alike = std::min(lattice.pitch[0], lattice.pitch[1]);  // mm over which pixels of a block may see the same
     bool weak = true;
     for (int k = 0; k < 2; ++k) {
-        span[k] = 2 * double(scene.holes_below[k]) * std::tan(std::min(double(scene.half_angle[k]), 1.5));
-        weak = weak && span[k] < L::weak_span * pixel && span[k] < L::weak * double(scene.lattice.pitch[k]);
+        const double span = diffused_span(scene, k);
+        if (!(span > L::least_span * pixel)) return none;
+        weak = weak && span < L::weak_span * pixel && span < L::weak * double(lattice.pitch[k]);
+        alike = std::min(alike, span);
     }
-    double alike = seen;  // mm over which pixels of a block may see the same
-    bool moving = weak;
-    for (int k = 0; k < 2 && !weak; ++k) span[k] > L::moving_span* pixel ? alike = std::min(alike, span[k]) : moving = true;
-    // Many strata ask for a fine picture, in which nonlinear motion over a block would show. Where strata move with the pixels, the
-    // edges of lenses, where bundles break, are sharp in the picture.
+    // How far, in panel pixels, a ray through one point of a lens moves from one pixel of the picture to the next.
+    const double below = double(scene.holes_below[0]), leap = pixel / below * (view.start_z - below) * view.pixels_per_mm;
+    if (weak || leap > L::leaping) return none;
+    // Many strata ask for a fine picture, in which nonlinear motion over a block would show.
     const double wide = strata > 2 * few_strata ? L::block_finest
-                        : moving                ? L::block_moving
                         : strata > few_strata   ? L::block_fine
                         : rough                 ? L::block_rough
                                                 : L::block_usual;
     const double half_as_wide = std::min(2 * wide, rough ? L::half_block_rough : L::half_block_usual);
     const int side = 16 * pixel < wide * alike ? 16 : 8 * pixel < half_as_wide * alike ? 8 : 4;
-    // Rows and columns of lenses are cut together unless pixels are so coarse on the panel that footprints leap from one to the
-    // next: panel pixels, for rays through one point of a lens.
-    const double below = double(scene.holes_below[0]);
-    const bool leaps = pixel / below * (view.start_z - below) * view.pixels_per_mm > L::leaping;
-    const bool by_lens = scene.by_lens || (leaps && !weak);
-    if (!by_lens || !(weak || side == 4))
-        return {side, by_lens, {weak, false, false, false, weak ? parts : 1}, 0, !by_lens && !weak && !moving && side > 4};
-
-    // Lens by lens, pixels behind a weak diffuser share only a block's list of lenses, and parts of it what the camera spreads. So
-    // do pixels so coarse that no more of them would share a bundle than it has probes.
-    const double diffused = std::max(span[0], span[1]);
-    const bool of_pixel = scene.box_filter && diffused < pixel;
-    // No box is right to the last. But a round hole that cuts the diffuser's angles has one place.
-    const bool moves = of_pixel || scene.hole_radius == 0;
-    const bool divides_other = converges || strata > 2 * few_strata;
-    const int few = 8 * pixel < seen ? 8 : 4;
-    const bool divides_pupil = converges || sees_others || (moves_pupil && (whole || !divides_other));
-    const bool small_turns = std::max(scene.half_angle[0], scene.half_angle[1]) < float(L::small_turn);
-    const bool exact_turns = of_pixel || (small_turns && scene.hole_radius == 0);
-    return {of_pixel ? many : few,
-            true,
-            {true, of_pixel, moves && divides_other, moves && divides_pupil, parts, exact_turns},
-            (of_pixel ? pixel : std::min(span[0], span[1])) / parts};
+    return {side > 4 || strata <= few_strata, side};
 }
 
 bool cuts_pixel(const optics::Scene<float>& scene, const optics::View& view) {
-    if (!scene.box_filter) return false;
-    double span = 0;
-    for (int k = 0; k < 2; ++k) span = std::max(span, 2 * double(scene.holes_below[k]) * std::tan(double(scene.half_angle[k])));
-    return span < view.pixel_mm * std::abs((view.position[2] - view.start_z) / (view.forward[2] * view.distance));
+    return scene.box_filter && std::max(diffused_span(scene, 0), diffused_span(scene, 1)) < pixel_on_diffuser(view);
 }
 
 const optics::DirectionNumbers& sobol_directions() {

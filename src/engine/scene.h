@@ -39,18 +39,15 @@ std::int64_t samples_of(const Display&);
 /// Dimensions of the sampler that a display needs; 0: there is nothing to sample, one ray a pixel is exact.
 int sample_dimensions(const Display&);
 
-/// The blocks of pixels in which the filtered estimator shares its rays.
+/// How the filtered estimator renders a display.
 struct BlockShape {
-    int side;      // pixels: 16, 8 or 4
-    bool by_lens;  // what the scene's shall be
-    Square square;
-    double part_mm = 0;   // where the square is weak: the least width of one of its parts on the lenses
-    bool shared = false;  // one grid of strata serves all lenses, with fixed places on them
+    bool shared;  // blocks of pixels cut the diffuser's angles by one grid of strata, and share its rays; else lens by lens
+    int side;     // of such a block, pixels: 16, 8 or 4
 };
-/// For so many strata an axis: a block spans less than a pixel sees of a lens, much less where many strata ask for a fine picture,
-/// nearly as much for a rough one. `converges`: with more samples everything shall be divided. The scene's `by_lens` says whether
-/// lenses have to be told apart; in coarse pictures they are anyway.
-BlockShape block_shape(const optics::Scene<float>&, const optics::View&, int strata, bool rough = false, bool converges = false);
+/// One grid serves a pinhole camera that looks through pixels' middles and a diffuser that spans lenses, in rows and columns along
+/// its axes, not too coarsely. A block spans less than a pixel sees of a lens, much less where many strata, so many along an axis,
+/// ask for a fine picture, nearly as much for a rough one.
+BlockShape block_shape(const optics::Scene<float>&, const optics::View&, int strata, bool rough = false);
 
 /// Are lenses' outlines to cut the pixel's area, because the diffuser, if there is one, spreads rays over less of the lenses?
 bool cuts_pixel(const optics::Scene<float>&, const optics::View&);

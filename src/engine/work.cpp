@@ -1,6 +1,5 @@
 #include "engine/work.h"
 
-#include "engine/clear_borders.h"
 #include "engine/scene.h"
 #include "engine/summed_panel.h"
 
@@ -52,12 +51,8 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
     if (filtered && display.diffuser && display.diffuser->profile != Profile::box)
         throw std::logic_error("the filtered estimator's work is on even_parts()");
     if (dimensions > 0) target_error = options.target_error;
-    // An error is estimated from what more samples change: all has to converge.
-    BlockShape shape = block_shape(scene, view, target_error ? 2 * few_strata : strata, options.rough, target_error.has_value());
-    if (lens_by_lens) shape = {16, false, {.weak = false, .of_pixel = false}};
-    shape.square.of_pixel = lens_by_lens || (filtered && !shape.shared) ? cuts_pixel(scene, view) : shape.square.of_pixel;
-    scene.by_lens = shape.by_lens;
-    if (filtered && shape.by_lens && shape.square.weak) add_clear_borders(scene, display, geometry, view, shape.part_mm);
+    // A target error takes more strata than the first picture has.
+    const BlockShape shape = block_shape(scene, view, target_error ? 2 * few_strata : strata, options.rough);
 
     tile = {&scene,
             &view,
@@ -76,7 +71,7 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
             strata,
             lens_by_lens || (filtered && !shape.shared),
             shape.side,
-            shape.square,
+            cuts_pixel(scene, view),
             display.render.sampling,
             dimensions};
 }

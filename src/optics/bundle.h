@@ -4,15 +4,17 @@
 // is traced through a stratum from the block's middle only. Their ends on the panel give the footprint: its mean position, its
 // spread, and the share of light transmitted. Three rays from other points of the block show how the footprint moves from pixel to
 // pixel, and whether this motion is linear. Where rays are lost on the way, or end under different lenses, the bundle is broken,
-// and each pixel traces rays of its own.
+// and the block's pixels cannot share its rays.
 //
 // Positions in the planes of diffuser and holes are in mm along the display's axes, from the axis of the block's base lens;
 // positions on the panel are columns and rows, in panel pixels from where that axis meets the panel (PanelBase). The method is ray
 // differentials by finite differences (Igehy 1999); docs/model.md, "Filtered estimator", and docs/design.md explain it.
 #pragma once
+#include "optics/camera.h"
+#include "optics/diffuser.h"
 #include "optics/filtered_limits.h"
 #include "optics/panel_light.h"
-#include "optics/probe_team.h"
+#include "optics/probes.h"
 #include "optics/strata.h"
 #include "optics/trace.h"
 
@@ -36,9 +38,6 @@ struct PixelBlock {
     Sweep<S> sweep[2][block_rays];  // along x' and y': where the diffuser sends the ray in the plane of the holes
     LFDSIM_FN int nodes() const { return 2 * reach > FilteredLimits::node_step ? 2 * reach / FilteredLimits::node_step + 1 : 2; }
     bool alive;  // all rays reach the display, evenly spaced on it, and strata may treat the diffuser's two turns as independent
-    // How the ray of the middle moves in the first plane, and its slope changes, from the pupil's middle to its right and upper
-    // edge.
-    S pupil_at[2][2], pupil_slope[2][2];  // along x and y
 };
 
 /// Do all rays still go down, at no grazing angle, after the diffuser's largest turn? A ray turned past the horizontal does not
@@ -92,48 +91,23 @@ LFDSIM_FN PixelBlock<S> pixel_block(const Scene<S>& scene, const View& view, int
     const double middle_x = column + block.reach, middle_y = row + block.reach;
     block.lens = base_lens<S>(view, middle_x, middle_y);
     block.alive = true;
-    auto from_axis = [&](double x, double y) {
-        const Place<double> from{x - block.lens.x, y - block.lens.y};
-        return scene.by_lens ? to_display(view.lattice, from.x, from.y) : from;
-    };
     for (int k = 0; k < block_rays; ++k) {
         double d[3], x, y;
         follow_to_first_plane(view, middle_x + block.reach * block_right(k), middle_y + block.reach * block_down(k), d, x, y);
         const double inverse = 1 / __builtin_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         const double z = d[2] * inverse;
         block.to[k] = {S(d[0] * inverse), S(d[1] * inverse), S(z)};
-        const Place<double> at = from_axis(x, y);
-        block.sweep[0][k] = {S(at.x), S(-d[0] / d[2]), scene.holes_below[0], S(sense(0))};
-        block.sweep[1][k] = {S(at.y), S(-d[1] / d[2]), scene.holes_below[1], S(sense(1))};
+        block.sweep[0][k] = {S(x - block.lens.x), S(-d[0] / d[2]), scene.holes_below[0], S(sense(0))};
+        block.sweep[1][k] = {S(y - block.lens.y), S(-d[1] / d[2]), scene.holes_below[1], S(sense(1))};
         block.alive = block.alive && z < -1e-6;
-    }
-    if (scene.thin_lens) {
-        double d[3], x, y;
-        follow_to_first_plane(view, middle_x, middle_y, d, x, y);
-        const PixelRays<S> middle{S(0),
-                                  S(0),
-                                  block.to[0],
-                                  S(1 / __builtin_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2])),
-                                  true,
-                                  block.lens.extent,
-                                  block.lens.panel};
-        for (int k = 0; k < 2; ++k) {
-            const Ray<S> moved = displaced(view, middle, S(0), S(0), S(k == 0 ? 1 : 0), S(k == 1 ? 1 : 0));
-            const Place<S> at = to_display(scene.lattice, moved.at.x, moved.at.y);
-            block.pupil_at[k][0] = at.x;
-            block.pupil_at[k][1] = at.y;
-            block.pupil_slope[k][0] = -moved.to.x / moved.to.z - block.sweep[0][0].slope;
-            block.pupil_slope[k][1] = -moved.to.y / moved.to.z - block.sweep[1][0].slope;
-        }
     }
     for (int a = 0; a < 2 && block.alive; ++a) {
         const Sweep<S>* s = block.sweep[a];
         const S bend = s[1].at + s[2].at + s[3].at - S(3) * s[0].at,
                 turn = s[1].slope + s[2].slope + s[3].slope - S(3) * s[0].slope;
-        const S pitch = scene.by_lens ? min(scene.lattice.pitch[0], scene.lattice.pitch[1]) : scene.lattice.pitch[a];
-        block.alive = abs(bend) + abs(turn * scene.holes_below[a]) < S(FilteredLimits::bend) * pitch;
+        block.alive = abs(bend) + abs(turn * scene.holes_below[a]) < S(FilteredLimits::bend) * scene.lattice.pitch[a];
     }
-    block.alive = block.alive && all_go_down(scene, block) && (!scene.has_diffuser || axes_part(scene, block, most_misjudged));
+    block.alive = block.alive && all_go_down(scene, block) && axes_part(scene, block, most_misjudged);
     return block;
 }
 
@@ -141,17 +115,17 @@ LFDSIM_FN PixelBlock<S> pixel_block(const Scene<S>& scene, const View& view, int
 /// axis; and where on the panel they end.
 template <class S>
 struct Probes {
-    S at_x[probes_each], at_y[probes_each], x[probes_each], y[probes_each];
-    S column[probes_each], row[probes_each], weight[probes_each];  // weight 0: lost
-    S cell_i[probes_each], cell_j[probes_each];                    // the lens
-    S in[probes_each];                                             // 1: lies in the part of the stratum at hand, else 0
-    S has_right[probes_each], has_left[probes_each], has_above[probes_each], has_below[probes_each];  // 1: has that neighbour
+    S at_x[most_probes], at_y[most_probes], x[most_probes], y[most_probes];
+    S column[most_probes], row[most_probes], weight[most_probes];  // weight 0: lost
+    S cell_i[most_probes], cell_j[most_probes];                    // the lens
+    S in[most_probes];                                             // 1: lies in the part of the stratum at hand, else 0
+    S has_right[most_probes], has_left[most_probes], has_above[most_probes], has_below[most_probes];  // 1: has that neighbour
 
     /// per_axis x per_axis probes, row after row. The rest count as lost: sums include them, but a narrow packet never traces them.
     LFDSIM_FN void lay_out(int per_axis) {
-        for (int p = 0; p < probes_each; ++p) {
+        for (int p = 0; p < most_probes; ++p) {
             column[p] = row[p] = weight[p] = cell_i[p] = cell_j[p] = in[p] = S(0);
-            const int i = probe_number(p) % per_axis, j = probe_number(p) / per_axis;
+            const int i = p % per_axis, j = p / per_axis;
             has_right[p] = i + 1 < per_axis ? S(1) : S(0);
             has_left[p] = i > 0 ? S(1) : S(0);
             has_above[p] = j + 1 < per_axis ? S(1) : S(0);
@@ -160,28 +134,19 @@ struct Probes {
     }
 };
 
-/// Where a ray from (x, y) in the diffuser's plane ends on the panel that goes `across`, `up` and `down`.
-template <Way through, class F>
-LFDSIM_FN PanelPoint<F> trace_probe(const Scene<Scalar<F>>& scene, const PixelBlock<Scalar<F>>& block, F x, F y, F across, F up,
-                                    F down) {
-    const F per = F(1) / sqrt(across * across + up * up + down * down);
-    Place<F> at{x, y};
-    if (scene.by_lens) at = to_array(scene.lattice, x, y);
-    return trace_array<through>(scene, block.lens.extent, block.lens.panel,
-                                Ray<F>{{at.x, at.y, F(0)}, {across * per, up * per, -(down * per)}}, F(0) < F(1));
-}
-
-/// Traces the first `count` probes (up to a full packet more) to the panel. Their points (x, y) are so far below the first plane:
-/// the holes' edges across y' may lie at another height than those across x'.
-template <Way through, class F>
-LFDSIM_FN void trace_probes(const Scene<Scalar<F>>& scene, const PixelBlock<Scalar<F>>& block, Probes<Scalar<F>>& probes, int count,
-                            const Scalar<F> (&below)[2]) {
-    // The displacement in y is scaled to the plane of x; the factor is 1 where both are the same plane.
-    const F down = F(below[0]), to_plane_x = F(below[0] / below[1]);
-    for (int p = 0; p < min(count, probes_each); p += LaneTraits<F>::width) {
-        const F x = load<F>(probes.at_x + p), y = load<F>(probes.at_y + p);
-        const PanelPoint<F> point =
-            trace_probe<through>(scene, block, x, y, load<F>(probes.x + p) - x, (load<F>(probes.y + p) - y) * to_plane_x, down);
+/// Traces the first `count` probes (up to a full packet more) to the panel.
+template <class F>
+LFDSIM_FN void trace_probes(const Scene<Scalar<F>>& scene, const PixelBlock<Scalar<F>>& block, Probes<Scalar<F>>& probes,
+                            int count) {
+    // The holes' edges across y' may lie at another height than those across x': the displacement in y is scaled to the plane of x;
+    // the factor is 1 where both are the same plane.
+    const F down = F(scene.holes_below[0]), to_plane_x = F(scene.holes_below[0] / scene.holes_below[1]);
+    for (int p = 0; p < min(count, most_probes); p += LaneTraits<F>::width) {
+        const F x = load<F>(probes.at_x + p), y = load<F>(probes.at_y + p), across = load<F>(probes.x + p) - x,
+                up = (load<F>(probes.y + p) - y) * to_plane_x;
+        const F per = F(1) / sqrt(across * across + up * up + down * down);
+        const PanelPoint<F> point = trace_array<Way::any>(
+            scene, block.lens.extent, block.lens.panel, Ray<F>{{x, y, F(0)}, {across * per, up * per, -(down * per)}}, F(0) < F(1));
         store(point.column, probes.column + p);
         store(point.row, probes.row + p);
         store(select(point.alive, point.weight, F(0)), probes.weight + p);
@@ -192,7 +157,7 @@ LFDSIM_FN void trace_probes(const Scene<Scalar<F>>& scene, const PixelBlock<Scal
 
 /// What a block sees through a stratum, or through the part of it that lies inside its round hole, or beside that hole. Dark: no
 /// light. Sharp: each pixel reads one box of the panel. Soft: wider than a panel pixel, the mean over a box around each probe.
-/// Broken: each pixel traces rays of its own.
+/// Broken: pixels of the block cannot share its rays.
 template <class S>
 struct BundleShape {
     enum class State { dark, sharp, soft, broken } state;
@@ -202,7 +167,6 @@ struct BundleShape {
     S weight;                                          // mean share of light transmitted over the part, lost rays counted as 0
     S x, y, probe_column, probe_row;                   // the probe nearest to the middle: mm, and its end on the panel
     S lean_column[2], lean_row[2];                     // sharp: added to the motion per picture pixel to the right and down
-    S blur_width, blur_height;                         // squared: of a box as the camera's pixel and pupil spread each point
     bool still;                                        // soft: the footprint does not move
     int nodes;                                         // soft: along an axis of the block; 1: its light is the same everywhere
 };
@@ -216,23 +180,22 @@ struct SharedBundle : BundleShape<S> {
 template <class S>
 LFDSIM_FN BundleShape<S> sum_up(const Probes<S>& probes, int per_axis) {
     using State = typename BundleShape<S>::State;
-    S lit[probes_each], t[probes_each], c[probes_each], r[probes_each];
-    for (int p = 0; p < probes_each; ++p) lit[p] = probes.in[p] * probes.weight[p] > S(0) ? S(1) : S(0);
+    S lit[most_probes], t[most_probes], c[most_probes], r[most_probes];
+    for (int p = 0; p < most_probes; ++p) lit[p] = probes.in[p] * probes.weight[p] > S(0) ? S(1) : S(0);
     BundleShape<S> b;
     const S part = sum_of(probes.in), count = sum_of(lit);
     b.state = part > S(0) ? State::dark : State::broken;
     if (count == S(0)) return b;
-    bool is_lit[probes_each];
-    for (int p = 0; p < probes_each; ++p) is_lit[p] = lit[p] > S(0);
+    bool is_lit[most_probes];
+    for (int p = 0; p < most_probes; ++p) is_lit[p] = lit[p] > S(0);
     int one = first_probe(is_lit);
     const S per = S(1) / count;
     auto mean = [&](auto value) {
-        for (int p = 0; p < probes_each; ++p) t[p] = lit[p] > S(0) ? value(p) : S(0);
+        for (int p = 0; p < most_probes; ++p) t[p] = lit[p] > S(0) ? value(p) : S(0);
         return sum_of(t) * per;
     };
-    const S column = of_probe(probes.column, one), row = of_probe(probes.row, one), cell_i = of_probe(probes.cell_i, one),
-            cell_j = of_probe(probes.cell_j, one);
-    for (int p = 0; p < probes_each; ++p) {  // small numbers
+    const S column = probes.column[one], row = probes.row[one], cell_i = probes.cell_i[one], cell_j = probes.cell_j[one];
+    for (int p = 0; p < most_probes; ++p) {  // small numbers
         c[p] = probes.column[p] - column;
         r[p] = probes.row[p] - row;
     }
@@ -246,20 +209,19 @@ LFDSIM_FN BundleShape<S> sum_up(const Probes<S>& probes, int per_axis) {
     b.width = sqrt(max(spread * (mean([&](int p) { return c[p] * c[p]; }) - mean_c * mean_c), S(0)));
     b.height = sqrt(max(spread * (mean([&](int p) { return r[p] * r[p]; }) - mean_r * mean_r), S(0)));
     const S others = mean([&](int p) { return probes.cell_i[p] == cell_i && probes.cell_j[p] == cell_j ? S(0) : S(1); });
-    for (int p = 0; p < probes_each; ++p) {
+    for (int p = 0; p < most_probes; ++p) {
         const S dx = probes.x[p] - x, dy = probes.y[p] - y;
         t[p] = lit[p] > S(0) ? dx * dx + dy * dy : S(1e30);
     }
     const S nearest = least_of(t);
-    bool is_nearest[probes_each];
-    for (int p = 0; p < probes_each; ++p) is_nearest[p] = t[p] == nearest;
+    bool is_nearest[most_probes];
+    for (int p = 0; p < most_probes; ++p) is_nearest[p] = t[p] == nearest;
     one = first_probe(is_nearest);
-    b.x = of_probe(probes.x, one);
-    b.y = of_probe(probes.y, one);
-    b.probe_column = of_probe(probes.column, one);
-    b.probe_row = of_probe(probes.row, one);
+    b.x = probes.x[one];
+    b.y = probes.y[one];
+    b.probe_column = probes.column[one];
+    b.probe_row = probes.row[one];
     for (int k = 0; k < 2; ++k) b.lean_column[k] = b.lean_row[k] = S(0);
-    b.blur_width = b.blur_height = S(0);
     b.state = others == S(0) ? State::sharp : State::broken;
     return b;
 }
@@ -271,15 +233,15 @@ struct Slopes {
     S column[2], row[2];  // along x and y
 
     LFDSIM_FN Slopes(const Probes<S>& probes, const BundleShape<S>& b) {
-        S lit[probes_each], t[probes_each];
-        for (int p = 0; p < probes_each; ++p) lit[p] = probes.in[p] * probes.weight[p] > S(0) ? S(1) : S(0);
+        S lit[most_probes], t[most_probes];
+        for (int p = 0; p < most_probes; ++p) lit[p] = probes.in[p] * probes.weight[p] > S(0) ? S(1) : S(0);
         const S count = sum_of(lit);
         for (int a = 0; a < 2; ++a) {
             const S* const at = a == 0 ? probes.x : probes.y;
-            for (int p = 0; p < probes_each; ++p) t[p] = lit[p] * at[p];
+            for (int p = 0; p < most_probes; ++p) t[p] = lit[p] * at[p];
             const S mean = sum_of(t) / count;
             auto sum = [&](auto value) {
-                for (int p = 0; p < probes_each; ++p) t[p] = lit[p] > S(0) ? (at[p] - mean) * value(p) : S(0);
+                for (int p = 0; p < most_probes; ++p) t[p] = lit[p] > S(0) ? (at[p] - mean) * value(p) : S(0);
                 return sum_of(t);
             };
             const S spread = sum([&](int p) { return at[p] - mean; }), per = spread > S(0) ? S(1) / spread : S(0);
@@ -289,28 +251,20 @@ struct Slopes {
     }
 };
 
-/// Is the footprint too wide to be described by a single box? It may be long along strips, which focus across them only.
-template <class S>
-LFDSIM_FN bool is_soft(const Scene<S>& scene, const BundleShape<S>& b) {
-    const bool stand = abs(scene.lattice.cos_turn) >= abs(scene.lattice.sin_turn);
-    const S size = !scene.lattice.strips ? max(b.width, b.height) : stand ? b.width : b.height;
-    return size > S(FilteredLimits::soft);
-}
-
 /// The panel's light over small boxes around the probes of a part of a stratum, each as wide as the distance to the next probes.
 template <class S>
 struct ProbeBoxes {
-    S width[probes_each], height[probes_each], weight[probes_each];  // panel pixels; 0: lost
+    S width[most_probes], height[most_probes], weight[most_probes];  // panel pixels; 0: lost
 
     template <class F>
     LFDSIM_FN void make(const Probes<S>& probes, int per_axis) {
-        S lit[probes_each];
-        for (int p = 0; p < probes_each; ++p) {
+        S lit[most_probes];
+        for (int p = 0; p < most_probes; ++p) {
             weight[p] = probes.in[p] * probes.weight[p];
             lit[p] = weight[p] > S(0) ? S(1) : S(0);
         }
         const Neighbours<S> columns(probes.column), rows(probes.row), lights(lit);
-        for (int p = 0; p < probes_each; p += LaneTraits<F>::width) {
+        for (int p = 0; p < most_probes; p += LaneTraits<F>::width) {
             F wide = F(0), high = F(0);
             auto add_step = [&](const S* behind, const S* before, int step) {  // to the next probe, else from the last
                 const F c = load<F>(probes.column + p), r = load<F>(probes.row + p);
@@ -328,19 +282,11 @@ struct ProbeBoxes {
         }
     }
 
-    /// Adds squared widths.
-    LFDSIM_FN void blur(S wide, S high) {
-        for (int p = 0; p < probes_each; ++p) {
-            width[p] = sqrt(width[p] * width[p] + wide);
-            height[p] = sqrt(height[p] * height[p] + high);
-        }
-    }
-
     /// The light of each box, moved by (column, row): R, G, B and whether the probe lies in the part.
     template <class F>
     LFDSIM_FN void look(const Probes<S>& probes, const PanelLight& panel, const PanelBase<S>& base, S column, S row,
-                        S (&light)[probes_each][4]) const {
-        for (int p = 0; p < probes_each; p += LaneTraits<F>::width) {
+                        S (&light)[most_probes][4]) const {
+        for (int p = 0; p < most_probes; p += LaneTraits<F>::width) {
             Light<F> found;
             add_light(panel, base,
                       Boxes<F>{load<F>(probes.column + p) + F(column), load<F>(probes.row + p) + F(row), load<F>(width + p),
@@ -348,26 +294,9 @@ struct ProbeBoxes {
                       found);
             found.store(light[p]);
         }
-        for (int p = 0; p < probes_each; ++p) light[p][3] = probes.in[p];
+        for (int p = 0; p < most_probes; ++p) light[p][3] = probes.in[p];
     }
 };
-
-/// What the camera adds to a bundle's spread: its pixel, over which the bundle moves as it does from pixel to pixel, and its pupil,
-/// from whose middle to its right and upper edge it moves as rays p and p + 1 tell. The variance of a box of width w is w^2 / 12,
-/// that of a disk of radius r along an axis r^2 / 4.
-template <class S>
-LFDSIM_FN void blur(const Scene<S>& scene, BundleShape<S>& b, const Probes<S>& rays, int p) {
-    if (scene.box_filter) {
-        b.blur_width = b.column_right * b.column_right + b.column_down * b.column_down;
-        b.blur_height = b.row_right * b.row_right + b.row_down * b.row_down;
-    }
-    for (int k = 0; k < 2 && scene.thin_lens; ++k) {
-        if (!(of_probe(rays.weight, p + k) > S(0))) continue;
-        const S c = of_probe(rays.column, p + k) - b.probe_column, r = of_probe(rays.row, p + k) - b.probe_row;
-        b.blur_width = b.blur_width + S(3) * c * c;
-        b.blur_height = b.blur_height + S(3) * r * r;
-    }
-}
 
 /// Derives a bundle's motion per picture pixel from rays p .. p + 2, which go through its probe's point from the block's points 1,
 /// 2 and 3. The bundle becomes broken if the motion is not linear, or a ray is lost or ends under another lens, unless it is so
@@ -375,18 +304,16 @@ LFDSIM_FN void blur(const Scene<S>& scene, BundleShape<S>& b, const Probes<S>& r
 template <class S>
 LFDSIM_FN void follow(BundleShape<S>& b, const Probes<S>& rays, int p, int reach) {
     const S column = b.probe_column, row = b.probe_row, per = S(1) / S(reach);
-    b.column_right = (of_probe(rays.column, p) - column) * per;
-    b.row_right = (of_probe(rays.row, p) - row) * per;
-    b.column_down = (of_probe(rays.column, p + 1) - column) * per;
-    b.row_down = (of_probe(rays.row, p + 1) - row) * per;
-    const S uneven_column =
-                abs(of_probe(rays.column, p) + of_probe(rays.column, p + 1) + of_probe(rays.column, p + 2) - S(3) * column),
-            uneven_row = abs(of_probe(rays.row, p) + of_probe(rays.row, p + 1) + of_probe(rays.row, p + 2) - S(3) * row);
+    b.column_right = (rays.column[p] - column) * per;
+    b.row_right = (rays.row[p] - row) * per;
+    b.column_down = (rays.column[p + 1] - column) * per;
+    b.row_down = (rays.row[p + 1] - row) * per;
+    const S uneven_column = abs(rays.column[p] + rays.column[p + 1] + rays.column[p + 2] - S(3) * column),
+            uneven_row = abs(rays.row[p] + rays.row[p + 1] + rays.row[p + 2] - S(3) * row);
     const auto even = [](S uneven, S size) { return uneven <= S(FilteredLimits::least_uneven) + S(FilteredLimits::uneven) * size; };
     bool whole = even(uneven_column, b.width) && even(uneven_row, b.height);
     for (int k = p; k < p + 3; ++k)
-        whole = whole && of_probe(rays.weight, k) > S(0) && of_probe(rays.cell_i, k) == of_probe(rays.cell_i, p) &&
-                of_probe(rays.cell_j, k) == of_probe(rays.cell_j, p);
+        whole = whole && rays.weight[k] > S(0) && rays.cell_i[k] == rays.cell_i[p] && rays.cell_j[k] == rays.cell_j[p];
     // A footprint much wider than its motion over the block, or so wide that its rays scatter widely, is treated as still.
     const S way_column = S(reach) * (abs(b.column_right) + abs(b.column_down)),
             way_row = S(reach) * (abs(b.row_right) + abs(b.row_down));

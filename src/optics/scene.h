@@ -86,17 +86,6 @@ struct Placement {
     S search_top, search_bottom;  // highest and lowest z from the vertex plane at which lenses are met
 };
 
-/// Where light still enters a lens that fills its cell. Seen obliquely, a lens hides a band along the border from the next one, and
-/// its own border, which is not all at the height of the holes, appears elsewhere. So many slopes: from `-most` to `most` towards
-/// the border, and from 0 to `most` along it. (optics/outline.h)
-template <class S>
-struct ClearBorders {
-    static constexpr int towards = 9, along = 5;
-    static constexpr S unknown = S(-1e20);
-    S most;                       // 0: light enters up to the border
-    S beyond[2][towards][along];  // mm beyond the borders across x' (of hexagons: all of them), and across y'; or `unknown`
-};
-
 template <class S>
 struct Scene {
     // panel
@@ -136,9 +125,7 @@ struct Scene {
     S holes_below[2];  // height of the first plane of the display above the holes' edges across x' and y'
     S hole_radius;     // of round ones; 0: the cells themselves, or slits
     S hole_half;       // strips: half the width of what light enters
-    bool by_lens;      // blocks of pixels cut what they see lens by lens, not into rows and columns of the whole array
     bool leaky;        // light goes on between them too
-    ClearBorders<S> clear_borders;
 
     // light
     Fresnel fresnel;

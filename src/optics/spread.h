@@ -185,7 +185,7 @@ LFDSIM_FN void add_spread(const PanelLight& panel, const PanelBase<Scalar<F>>& b
         });
     }
     // Each is as wide as its part of the diagonal, and as what does not lie along it.
-    const F count = select(hidden, F(S(FilteredLimits::in_line)), F(1)), per = quotient(F(1), count);
+    const F count = select(hidden, F(S(3)), F(1)), per = quotient(F(1), count);
     for (int k = 0; any(in_box && (count > F(S(k)))); ++k) {
         const F at = (F(S(k)) - F(S(0.5)) * (count - F(1))) * per;
         const auto side = [&](F of_all2, F of_line2) {

@@ -5,7 +5,7 @@
 // round lens covers has a closed form. (docs/model.md, "Filtered estimator".)
 #pragma once
 #include "optics/diffuser.h"
-#include "optics/lens_array.h"
+#include "optics/lane.h"
 #include "optics/scene.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
@@ -22,33 +22,15 @@ struct Sweep {
         const F t = F(sense) * tangent;
         return (slope + t) / (F(1) - slope * t);
     }
-    /// In that plane, or so far above it.
-    LFDSIM_FN F place(F tangent, Scalar<F> above = 0) const { return at + F(height - above) * turned(tangent); }
-    /// The tangent of the angle that sends the ray to `place` there.
-    LFDSIM_FN F tangent(F place, Scalar<F> above = 0) const {
-        const F to = (place - at) * F(Scalar<F>(1) / (height - above));
+    LFDSIM_FN F place(F tangent) const { return at + F(height) * turned(tangent); }
+    /// The tangent of the angle that sends the ray to `place`.
+    LFDSIM_FN F tangent(F place) const {
+        const F to = (place - at) * F(Scalar<F>(1) / height);
         return F(sense) * ((to - slope) / (F(1) + slope * to));
     }
 };
 /// Turning about y by a positive angle sends a ray towards -x; about x, towards +y.
 LFDSIM_FN int sense(int axis) { return axis == 0 ? -1 : 1; }
-/// By how much the turn along an axis, of that small tangent, changes a ray's slope along the other one: slope x slope per radian.
-template <class F>
-LFDSIM_FN F turned_aside(F slope_x, F slope_y, int axis, F tangent) {
-    return F(Scalar<F>(sense(axis))) * tangent * slope_x * slope_y;
-}
-
-/// The diffuser as strata take it: each turn moves a ray that goes down along its own axis alone, as Sweep has it.
-template <class F>
-LFDSIM_FN Vec3<F> scatter_apart(const Scene<Scalar<F>>& scene, Vec3<F> to, F uniform_a, F uniform_b) {
-    const F per = F(-1) / to.z, none = F(0);
-    const auto slope = [&](F before, int axis, F uniform) {
-        return Sweep<F>{none, before * per, 0, Scalar<F>(sense(axis))}.turned(diffuser_tangent(scene, axis, uniform));
-    };
-    const F x = slope(to.x, 0, uniform_a), y = slope(to.y, 1, uniform_b), down = F(1) / sqrt(F(1) + x * x + y * y);
-    return {x * down, y * down, none - down};
-}
-
 /// Half the area of the unit circle between x = 0 and t: (t sqrt(1 - t^2) + asin t) / 2, odd; |t| is cut to 1. The arc sine is
 /// Abramowitz and Stegun's 4.4.46: error 2e-8.
 template <class F>
@@ -67,8 +49,7 @@ LFDSIM_FN F circle_part(F t) {
 /// lens's axis, where it begins and ends.
 template <class F>
 struct Span {
-    F low, high;           // of the diffuser's number
-    F share;               // (high - low) / 2
+    F share;
     F from, to;            // from <= to
     F part_from, part_to;  // circle_part of them
 };
@@ -109,19 +90,6 @@ LFDSIM_FN F hole_cover(const Span<F>& a, const Span<F>& b) {
     }
     // A rectangle without width or height counts, too: the diffuser may not turn rays along that axis.
     return select((width >= F(0)) && (height >= F(0)), min(max(cover, F(0)), F(1)), F(0));
-}
-
-/// The same for spans whose circle_part is not known yet. Where pixels see little of a lens most lie well inside its hole.
-template <class F>
-LFDSIM_FN F hole_cover_alone(Span<F> a, Span<F> b) {
-    const F x = max(abs(a.from), abs(a.to)), y = max(abs(b.from), abs(b.to));
-    const Mask<F> inside = (x * x + y * y <= F(1)) && (a.to >= a.from) && (b.to >= b.from);
-    if (!any(!inside)) return F(1);
-    for (Span<F>* span : {&a, &b}) {
-        span->part_from = circle_part(span->from);
-        span->part_to = circle_part(span->to);
-    }
-    return select(inside, F(1), hole_cover(a, b));
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

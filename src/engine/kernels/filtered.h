@@ -1,170 +1,307 @@
-// The filtered estimator on the CPU: block after block, its pixels in packets.
+// The filtered estimator on the CPU: blocks of pixels that share the rays of bundles.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
 #include "engine/kernel.h"
 #include "engine/kernels/filtered_axis.h"
-#include "engine/kernels/filtered_block.h"
+#include "engine/kernels/filtered_bundles.h"
 #include "engine/kernels/lens_by_lens.h"
+#include "optics/bundle.h"
 #include "optics/camera.h"
-#include "optics/trace.h"
+#include "optics/filtered_limits.h"
+#include "optics/light.h"
+#include "optics/panel_light.h"
+#include "optics/strata.h"
+
+#include <cstddef>
 
 namespace lfdsim {
 
 namespace {
 
-/// The arrays of a BlockState, and the block's picture.
-struct BlockMemory {
-    S picture[most_side][most_side][4];
-    S light[most_lanes][4];
-    Sharp sharp[most_sharps];
-    Grid grid[most_grids];
-    Cut cut[most_cuts];
-    Stratum stratum[most_cuts];
-    Bundles bundles[max_strata * max_strata];
+/// Light that varies smoothly over a block is computed at its places, the corners of squares of place_step pixels, at most 5 x 5,
+/// and interpolated between them, unless many strata ask for a finer picture.
+constexpr int most_side = 16, place_step = FilteredLimits::place_step, most_places = most_side / place_step + 1, most_lanes = 32;
+
+/// A sharp bundle, and the share of the light at each place that comes through it.
+struct Sharp {
+    const SharedBundle* bundle;
+    S weight[most_lanes];
+};
+constexpr int most_sharps = 2 * (few_strata + more_strata) * (few_strata + more_strata);
+
+/// What a thread works on, too much for its stack.
+struct FilteredMemory {
+    Axis axis[2];
+    Bundles bundles[max_strata * max_strata];  // row after row
+    Sharp sharp[most_sharps];                  // where there are places, in the order of the bundles
+    S light[most_lanes][4];                    // of soft bundles at places
+    S picture[most_side][most_side][4];        // of the block
+    LensByLensMemory lenses;
 
     /// Placement new, whose header of the standard library kernels do not include.
     static void* operator new(std::size_t, void* at) noexcept { return at; }
 };
 
-template <optics::Way through>
-class BlockRenderer {
+/// Renders a block of pixels.
+class FilteredBlock {
   public:
-    BlockRenderer(const Tile& t, const EvenCuts& cuts, void* at, std::int32_t left, std::int32_t top)
-        : tile(t), even(cuts), work(t, state), memory(*new (at) BlockMemory), picture(memory.picture) {
-        state.grids.grid = memory.grid;
-        state.grids.cut = memory.cut;
-        state.grids.stratum = memory.stratum;
-        state.bundles = memory.bundles;
-        state.sharp = memory.sharp;
-        state.light = memory.light;
-        work.begin(even, left, top);
-        work.make_bundles();
-        work.survey();
-    }
+    FilteredBlock(const Tile& t, FilteredMemory& m, int side_pixels, std::int32_t x, std::int32_t y)
+        : tile(t),
+          scene(*t.scene),
+          memory(m),
+          side(side_pixels),
+          per_axis(t.strata > few_strata || side <= place_step ? 0 : side / place_step + 1),
+          x0(x),
+          y0(y),
+          block(optics::pixel_block<S>(
+              scene, *t.view, side, S(t.strata > few_strata ? FilteredLimits::misjudged_fine : FilteredLimits::misjudged), x, y)) {}
 
-    /// Do the pixels share all rays?
-    bool shares() const {
-        if (!state.block.alive) return false;
-        for (int k = 0; k < work.strata(); ++k)
-            if (state.bundles[k].through.state == SharedBundle::State::broken ||
-                state.bundles[k].beside.state == SharedBundle::State::broken)
-                return false;
-        return true;
-    }
-
-    void render() {
-        for (int k = 0; k < state.per_axis * state.per_axis; k += Packet::lanes)
-            work.template look_at_places<few_strata + more_strata>(k);
-        if (state.any_soft) interpolate();
-        if (state.sharps > 0 || state.any_alone)
-            look_up_pixels();
-        else if (!state.any_soft)
-            __builtin_memset(picture, 0, sizeof(BlockMemory::picture));
+    /// False: the pixels cannot share all rays, and nothing is rendered.
+    bool render(const EvenCuts& even) {
+        if (!block.alive) return false;
+        for (int a = 0; a < 2; ++a)
+            if (!cut_axis(scene, block.sweep[a], a, even, memory.axis[a])) return false;
+        if (!BundleMaker(tile, block, memory.axis).make_all(memory.bundles)) return false;
+        if (per_axis > 0) {
+            list_bundles();
+            for (int k = 0; k < per_axis * per_axis; k += Packet::lanes) look_at_places(k);
+        }
+        if (any_soft)
+            interpolate();
+        else
+            __builtin_memset(memory.picture, 0, sizeof memory.picture);
+        if (sharps > 0 || per_axis == 0) look_up_pixels();
         write();
+        return true;
     }
 
   private:
     using Packet = optics::Block<F>;
+    using State = SharedBundle::State;
+
+    /// Lists the sharp bundles, and finds out whether there are soft ones.
+    void list_bundles() {
+        for (int k = 0; k < memory.axis[0].strata * memory.axis[1].strata; ++k)
+            for (const SharedBundle* b : {&memory.bundles[k].through, &memory.bundles[k].beside}) {
+                any_soft = any_soft || b->state == State::soft;
+                if (b->state == State::sharp) memory.sharp[sharps++].bundle = b;
+            }
+    }
+
+    /// Computes, for a packet of places from number k on, the light of soft bundles and the weights of the sharp ones.
+    void look_at_places(int k) {
+        constexpr int lanes = Packet::lanes;
+        const S per_reach = S(1) / S(block.reach);
+        S right[lanes], down[lanes];
+        for (int n = 0; n < lanes; ++n) {
+            right[n] = S((k + n) % per_axis * place_step - block.reach);
+            down[n] = S(optics::min((k + n) / per_axis, per_axis - 1) * place_step - block.reach);
+        }
+        F flat[3] = {F(0), F(0), F(0)};
+        Sharp* next = memory.sharp;
+        const F dx = optics::load<F>(right) * F(per_reach), dy = optics::load<F>(down) * F(per_reach);
+        for_bundles(dx, dy, [&](const SharedBundle& b, F weight) {
+            if (b.state == State::soft) add_soft(b, dx, dy, weight, flat);
+            if (b.state == State::sharp) optics::store(weight, next++->weight + k);
+        });
+        S colour[3][lanes];
+        for (int c = 0; c < 3; ++c) optics::store(flat[c], colour[c]);
+        for (int n = 0; n < lanes; ++n)
+            for (int c = 0; c < 3; ++c) memory.light[k + n][c] = colour[c][n];
+    }
 
     /// Interpolates the light at places for the pixels between them.
     void interpolate() {
         const S per = S(1) / S(place_step);
-        const int per_axis = state.per_axis;
-        for (int y = 0; y < tile.block_side; ++y) {
+        const auto between = [](S a, S b, S share) { return a + (b - a) * share; };
+        for (int y = 0; y < side; ++y) {
             const S t = (S(y % place_step) + S(0.5)) * per;
-            const S(*const upper)[4] = state.light + y / place_step * per_axis;
+            const S(*const upper)[4] = memory.light + y / place_step * per_axis;
             S row[most_places][4];
             for (int i = 0; i < per_axis; ++i)
-                for (int c = 0; c < 4; ++c) row[i][c] = between_places(upper[i][c], upper[per_axis + i][c], t);
+                for (int c = 0; c < 4; ++c) row[i][c] = between(upper[i][c], upper[per_axis + i][c], t);
             for (int i = 0; i + 1 < per_axis; ++i)
                 for (int k = 0; k < place_step; ++k)
                     for (int c = 0; c < 4; ++c)
-                        picture[y][i * place_step + k][c] = between_places(row[i][c], row[i + 1][c], (S(k) + S(0.5)) * per);
+                        memory.picture[y][i * place_step + k][c] = between(row[i][c], row[i + 1][c], (S(k) + S(0.5)) * per);
         }
     }
 
-    /// Light that is looked up for each pixel; it comes on top of what is interpolated.
+    /// Adds the light that is looked up for each pixel.
     void look_up_pixels() {
-        const std::int32_t x0 = state.x0, y0 = state.y0;
-        for (std::int32_t y = y0; y < y0 + tile.block_side; y += Packet::height) {
-            for (std::int32_t x = x0; x < x0 + tile.block_side; x += Packet::width) {
+        for (std::int32_t y = y0; y < y0 + side; y += Packet::height) {
+            for (std::int32_t x = x0; x < x0 + side; x += Packet::width) {
                 if (x >= tile.x1 || y >= tile.y1 || x + Packet::width <= tile.x0 || y + Packet::height <= tile.y0) continue;
                 S found[Packet::height][Packet::width * 4];
-                work.template look_from<max_strata>(x, y).store(found[0], state.per_axis == 0);
+                look_from(x, y, found[0]);
                 for (int row = 0; row < Packet::height; ++row) {
-                    S* const to = picture[y - y0 + row][x - x0];
-                    if (state.any_soft)
-                        for (int k = 0; k < Packet::width * 4; ++k) to[k] = to[k] + found[row][k];
-                    else
-                        __builtin_memcpy(to, found[row], sizeof found[row]);
+                    S* const to = memory.picture[y - y0 + row][x - x0];
+                    for (int k = 0; k < Packet::width * 4; ++k) to[k] = to[k] + found[row][k];
                 }
+            }
+        }
+    }
+
+    /// Looks up the light of the packet at (x, y) of the frame: R, G, B and an unused number of each pixel.
+    void look_from(std::int32_t x, std::int32_t y, S* found) const {
+        S right_of[Packet::lanes], below[Packet::lanes];  // of the packet's first pixel
+        for (int k = 0; k < Packet::lanes; ++k) {
+            right_of[k] = S(k % Packet::width) + S(0.5);
+            below[k] = S(k / Packet::width) + S(0.5);
+        }
+        const F right = optics::load<F>(right_of), down = optics::load<F>(below);
+        const F dx = right + F(S(x - x0 - block.reach)), dy = down + F(S(y - y0 - block.reach));
+        optics::Light<F> boxes;
+        if (per_axis > 0) {
+            add_sharp(x - x0, y - y0, right, down, dx, dy, boxes);
+            return boxes.store(found);
+        }
+        F flat[3] = {F(0), F(0), F(0)};
+        add_all(dx, dy, boxes, flat);
+        boxes.store(found);
+        for (int c = 0; c < 3; ++c) {
+            S colour[Packet::lanes];
+            optics::store(flat[c], colour);
+            for (int k = 0; k < Packet::lanes; ++k) found[4 * k + c] = found[4 * k + c] + colour[k];
+        }
+    }
+
+    /// Adds the light of sharp bundles for the packet whose first pixel is (x, y) of the block, by their weights at places.
+    void add_sharp(int x, int y, F right, F down, F dx, F dy, optics::Light<F>& to) const {
+        const int corner = y / place_step * per_axis + x / place_step;
+        const F per = F(S(1) / S(place_step)), s = (right + F(S(x % place_step))) * per, t = (down + F(S(y % place_step))) * per;
+        optics::Light<F> sum = to;
+        for (const Sharp* k = memory.sharp; k < memory.sharp + sharps; ++k) {
+            const S *const upper = k->weight + corner, *const lower = upper + per_axis;
+            if (!(upper[0] + upper[1] + lower[0] + lower[1] > S(0))) continue;
+            const F above = F(upper[0]) + F(upper[1] - upper[0]) * s, beneath = F(lower[0]) + F(lower[1] - lower[0]) * s;
+            add_box(*k->bundle, dx, dy, above + (beneath - above) * t, sum);
+        }
+        to = sum;
+    }
+
+    /// Adds the light of all bundles for the pixels at (dx, dy) of the block; that of soft ones to `flat`.
+    void add_all(F dx, F dy, optics::Light<F>& boxes, F (&flat)[3]) const {
+        const S reach = S(block.reach), per_reach = S(1) / reach;
+        const F right = dx * F(per_reach), down = dy * F(per_reach);
+        for_bundles(right, down, [&](const SharedBundle& b, F weight) {
+            if (b.state == State::dark || optics::none(weight > F(0))) return;
+            if (b.state == State::soft) add_soft(b, right, down, weight, flat);
+            if (b.state == State::sharp) add_box(b, right * F(reach), down * F(reach), weight, boxes);
+        });
+    }
+
+    /// Adds the light of a soft bundle at (dx, dy), -1 .. 1 across the block: bilinear between its nodes.
+    LFDSIM_FN static void add_soft(const SharedBundle& b, F dx, F dy, F weight, F (&to)[3]) {
+        for (int c = 0; c < 3; ++c) to[c] = to[c] + weight * soft_light(b, dx, dy, c);
+    }
+    LFDSIM_FN static F soft_light(const SharedBundle& b, F dx, F dy, int c) {
+        const auto between = [](S low, S middle, S high, F at) {
+            return F(middle) + F(high - middle) * optics::max(at, F(0)) + F(middle - low) * optics::min(at, F(0));
+        };
+        const int n = b.nodes;
+        if (n == 1) return F(b.colour[0][c]);
+        F row[optics::most_nodes];
+        const auto at = [&](int j, int i) { return b.colour[j * n + i][c]; };
+        if (n == 2) {
+            const F half = F(S(0.5)), s = half + half * dx, t = half + half * dy;
+            for (int j = 0; j < 2; ++j) row[j] = F(at(j, 0)) + F(at(j, 1) - at(j, 0)) * s;
+            return row[0] + (row[1] - row[0]) * t;
+        }
+        for (int j = 0; j < 3; ++j) row[j] = between(at(j, 0), at(j, 1), at(j, 2), dx);
+        return row[1] + (row[2] - row[1]) * optics::max(dy, F(0)) + (row[1] - row[0]) * optics::min(dy, F(0));
+    }
+
+    /// Adds the box of a sharp bundle at (dx, dy) picture pixels from the block's middle.
+    LFDSIM_FN void add_box(const SharedBundle& b, F dx, F dy, F weight, optics::Light<F>& light) const {
+        const F column = F(b.column) + F(b.column_right) * dx + F(b.column_down) * dy,
+                row = F(b.row) + F(b.row_right) * dx + F(b.row_down) * dy;
+        const optics::Boxes<F> box{column, row, F(optics::max(b.width, S(optics::least_box))),
+                                   F(optics::max(b.height, S(optics::least_box))), weight};
+        if (scene.emission.whole && optics::max(b.width, b.height) <= S(1))
+            return optics::add_small_boxes(tile.panel.plane[0], block.lens.panel, box, light);
+        optics::Light<F> sum = light;  // the function below wants an address: `light` itself stays in registers
+        add_other_box(box, sum);
+        light = sum;
+    }
+    LFDSIM_APART void add_other_box(const optics::Boxes<F>& box, optics::Light<F>& light) const {
+        optics::add_light(tile.panel, block.lens.panel, box, light);
+    }
+
+    /// f(bundle, its share of the light) for each bundle, with the shares of the lanes at (dx, dy) of the block, -1 .. 1.
+    template <class Do>
+    LFDSIM_FN void for_bundles(F dx, F dy, const Do& f) const {
+        optics::Span<F> across[max_strata];
+        const Axis(&axis)[2] = memory.axis;
+        Spans columns(scene, axis[0], 0, dx, dy), rows(scene, axis[1], 1, dx, dy);
+        for (int i = 0; i < axis[0].strata; ++i) across[i] = columns.next();
+        const Bundles* next = memory.bundles;
+        for (int j = 0; j < axis[1].strata; ++j) {
+            const optics::Span<F> up = rows.next();
+            for (int i = 0; i < axis[0].strata; ++i, ++next) {
+                const F share = across[i].share * up.share;
+                if (optics::none(share > F(0))) {  // only other pixels of the block see it
+                    f(next->through, F(0));
+                    f(next->beside, F(0));
+                    continue;
+                }
+                const F cover = scene.hole_radius == 0 ? F(1) : optics::hole_cover(across[i], up);
+                f(next->through, share * cover * F(next->through.weight));
+                f(next->beside, share * (F(1) - cover) * F(next->beside.weight));
             }
         }
     }
 
     /// Writes those pixels of the block that belong to the tile.
     void write() const {
-        const std::int32_t x0 = state.x0, y0 = state.y0;
-        const int from = optics::max(int(tile.x0 - x0), 0), to = optics::min(int(tile.x1 - x0), tile.block_side);
-        for (int y = optics::max(int(tile.y0 - y0), 0); y < optics::min(int(tile.y1 - y0), tile.block_side); ++y) {
+        const int from = optics::max(int(tile.x0 - x0), 0), to = optics::min(int(tile.x1 - x0), side);
+        for (int y = optics::max(int(tile.y0 - y0), 0); y < optics::min(int(tile.y1 - y0), side); ++y) {
             S* out = tile.out + (std::int64_t(y0 + y - tile.crop_y) * tile.crop_width + (x0 + from - tile.crop_x)) * 3;
-            for (int x = from; x < to; ++x, out += 3) __builtin_memcpy(out, picture[y][x], 3 * sizeof(S));
+            for (int x = from; x < to; ++x, out += 3) __builtin_memcpy(out, memory.picture[y][x], 3 * sizeof(S));
         }
     }
 
     const Tile& tile;
-    const EvenCuts& even;
-    BlockState state;
-    BlockWork<through> work;
-    BlockMemory& memory;
-    S (*const picture)[most_side][4];  // of the block
+    const optics::Scene<S>& scene;
+    FilteredMemory& memory;
+    const int side, per_axis;   // places along an axis; 0: none
+    const std::int32_t x0, y0;  // first pixel
+    const optics::PixelBlock<S> block;
+    int sharps = 0;         // sharp bundles, where there are places
+    bool any_soft = false;  // bundles, where there are places
 };
 
-/// Not inlined, so that it has a stack frame of its own. False: pixels cannot share all of the block's rays, and nothing is
-/// rendered.
-template <optics::Way through>
-__attribute__((noinline)) bool render_block(const Tile& tile, const EvenCuts& even, void* memory, std::int32_t x, std::int32_t y) {
-    BlockRenderer<through> block(tile, even, memory, x, y);
-    if (!block.shares()) return false;
-    block.render();
-    return true;
-}
+/// Renders a tile block by block.
+class FilteredEstimator {
+  public:
+    explicit FilteredEstimator(const Tile& t)
+        : tile(t),
+          even(*t.scene, t.strata),
+          memory(*new (block_memory(sizeof(FilteredMemory))) FilteredMemory),
+          lens_by_lens(t, memory.lenses) {}
 
-/// What a thread works on.
-struct FilteredMemory {
-    BlockMemory block;
-    LensByLensMemory lenses;
+    /// The block's quarters where its pixels cannot share all rays; the smallest of those lens by lens.
+    void render(int side, std::int32_t x, std::int32_t y) {
+        if (x >= tile.x1 || y >= tile.y1 || x + side <= tile.x0 || y + side <= tile.y0) return;
+        const int least = tile.strata > few_strata ? 8 : 4;
+        if (side >= least && FilteredBlock(tile, memory, side, x, y).render(even)) return;
+        if (side == optics::shared_width) return lens_by_lens.render(x, y);
+        for (int k = 0; k < 4; ++k) render(side / 2, x + k % 2 * (side / 2), y + k / 2 * (side / 2));
+    }
 
-    static void* operator new(std::size_t, void* at) noexcept { return at; }
+  private:
+    const Tile& tile;
+    const EvenCuts even;
+    FilteredMemory& memory;
+    LensByLens lens_by_lens;
 };
 
-/// Renders a block; where its pixels cannot share all rays, its quarters, and the smallest of these lens by lens.
-template <optics::Way through>
-void render_square(Tile tile, const EvenCuts& even, FilteredMemory& memory, LensByLens& lens_by_lens, std::int32_t x,
-                   std::int32_t y) {
-    if (render_block<through>(tile, even, &memory.block, x, y)) return;
-    const int half = tile.block_side / 2;
-    for (std::int32_t row = y; row < y + 2 * half; row += half)
-        for (std::int32_t column = x; column < x + 2 * half; column += half)
-            if (half > 4) {
-                tile.block_side = half;
-                render_square<through>(tile, even, memory, lens_by_lens, column, row);
-            } else {
-                lens_by_lens.render(column, row);
-            }
-}
-
-/// Blocks of pixels whose rays are shared; where that does not hold for a whole block, its pixels are rendered lens by lens.
-template <optics::Way through>
-void render_filtered(const Tile& tile) {
-    const EvenCuts even(*tile.scene, tile.strata);
-    FilteredMemory& memory = *new (block_memory(sizeof(FilteredMemory))) FilteredMemory;
-    LensByLens lens_by_lens(tile, memory.lenses);
+/// Not inlined, so that it has a stack frame of its own.
+__attribute__((noinline)) void render_filtered(const Tile& tile) {
+    FilteredEstimator estimator(tile);
     const std::int32_t side = tile.block_side;
     for (std::int32_t y = tile.y0 / side * side; y < tile.y1; y += side)
-        for (std::int32_t x = tile.x0 / side * side; x < tile.x1; x += side) {
-            render_square<through>(tile, even, memory, lens_by_lens, x, y);
-        }
+        for (std::int32_t x = tile.x0 / side * side; x < tile.x1; x += side) estimator.render(side, x, y);
 }
 
 }  // namespace

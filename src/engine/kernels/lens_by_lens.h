@@ -126,7 +126,7 @@ class LensByLens : SeenLenses {
         if (!any(sees)) return;
         // Cells about as wide as those of the whole domain.
         const auto cells = [&](F size) {
-            const F n = F(S(0.5) * S(divisions[domain / 2])) * size - F(S(0.3));
+            const F n = F(S(0.5) * S(divisions[domain / 2])) * size - F(S(FilteredLimits::cell_to_spare));
             return optics::max(optics::min(zero - optics::floor(zero - n), F(S(most_divisions))), one);
         };
         const F columns = select(sees, cells(seen.right - seen.left), zero), rows = select(sees, cells(seen.high - seen.low), zero);
@@ -204,6 +204,7 @@ class LensByLens : SeenLenses {
     /// by side, and of what spreads light the widest is the box, all else two points of Gauss's rule along each axis.
     LFDSIM_FN void add_boxes(const optics::PixelRays<F>& pixels, const SeenPart& part, const F (&edge)[2][2],
                              const optics::PanelSpread<F> (&others)[3], optics::Light<F>& light) const {
+        using L = FilteredLimits;
         const F zero = F(0), one = F(1), half = F(S(0.5));
         optics::PanelSpread<F> other{};
         for (const optics::PanelSpread<F>& of : others) {
@@ -216,8 +217,9 @@ class LensByLens : SeenLenses {
             const int across = 1 - a;
             const F upright = optics::sqrt(edge[across][across] * edge[across][across] + (across == 0 ? other.wide2 : other.high2));
             const F lean = optics::abs(edge[a][across]);
-            const F n = optics::min(zero - optics::floor(zero - lean / (F(S(0.25)) * upright + F(S(1e-6)))), F(S(8)));
-            return select((lean > F(S(0.25)) * upright) && (lean > F(S(0.25))), n, one);
+            const F n =
+                optics::min(zero - optics::floor(zero - lean / (F(S(L::leaning)) * upright + F(S(1e-6)))), F(S(L::most_boxes)));
+            return select((lean > F(S(L::leaning)) * upright) && (lean > F(S(L::leaning))), n, one);
         };
         F pieces_u = leans(0), pieces_v = leans(1);
         const optics::Mask<F> by_u = pieces_u > pieces_v;
@@ -247,7 +249,7 @@ class LensByLens : SeenLenses {
                 const F largest = optics::max(size * size, largest_other), sum = size * size + others2;
                 aside = F(S(0.28867513)) * optics::sqrt(optics::max(sum - largest, zero));
                 size = optics::sqrt(largest);
-                aside = select(aside > F(S(0.04)) * size, aside, zero);
+                aside = select(aside > F(S(L::aside)) * size, aside, zero);
             };
             split(wide, optics::max(optics::max(others[0].wide2, others[1].wide2), others[2].wide2), other.wide2, aside_x);
             split(high, optics::max(optics::max(others[0].high2, others[1].high2), others[2].high2), other.high2, aside_y);

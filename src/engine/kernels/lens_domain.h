@@ -40,7 +40,7 @@ struct SeenPart {
 class LensDomain {
   public:
     explicit LensDomain(const Tile& t)
-        : tile(t), scene(*t.scene), view(*t.view), domain(tile.square.of_pixel ? 2 : 0), dimensions(t.dimensions) {}
+        : tile(t), scene(*t.scene), view(*t.view), domain(tile.cuts_pixel ? 2 : 0), dimensions(t.dimensions) {}
 
     /// Where rays with these numbers cross the plane of the holes, in the array's frame.
     template <class G>

@@ -2,6 +2,8 @@
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
 #include "engine/kernels/lens_domain.h"
+#include "optics/camera.h"
+#include "optics/filtered_limits.h"
 
 namespace lfdsim {
 
@@ -153,7 +155,7 @@ class SeenLenses : public LensDomain {
         int widest = -1;
         for (int q = 0; q < pairs; ++q)
             if (q != own && (widest < 0 || of[q] > of[widest])) widest = q;
-        if (widest >= 0) of[widest] = of[widest] * S(0.3);
+        if (widest >= 0) of[widest] = of[widest] * S(FilteredLimits::boxed_spread);
         of[own] = optics::max(of[own], S(0.5) * (spread[0] + spread[1] + spread[2]));
         if (pairs == 1) {
             divisions[own] = tile.strata;

@@ -54,7 +54,7 @@ void render_points(const Tile& tile) {
 
 void LFDSIM_KERNEL(const Tile& tile) {
     if (tile.strata > 0 && tile.lens_by_lens) return render_lens_by_lens(tile);
-    if (tile.strata > 0) return render_filtered<optics::Way::any>(tile);
+    if (tile.strata > 0) return render_filtered(tile);
     optics::with_way(*tile.scene, [&]<optics::Way through>() { render_points<through>(tile); });
 }
 
