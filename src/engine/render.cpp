@@ -78,7 +78,7 @@ void check_threads(const RenderOptions& options) {
 
 /// What `run` does and how long it takes are added to the work's result.
 template <class Run>
-bool time(Work& work, const RenderOptions& options, const Run& run) {
+bool timed(Work& work, const RenderOptions& options, const Run& run) {
     work.make_pictures(options.target_error.has_value());
     Rendering& result = work.result;
     const auto start = std::chrono::steady_clock::now();
@@ -92,7 +92,7 @@ bool time(Work& work, const RenderOptions& options, const Run& run) {
 
 /// With the kernel. The job's stage is the caller's.
 Rendering render(Work& work, const char* kernel_name, Kernel kernel, const RenderOptions& options, Job& job) {
-    time(work, options, [&](Rendering& result) -> std::optional<Done> {
+    timed(work, options, [&](Rendering& result) -> std::optional<Done> {
         result.kernel = kernel_name;
         result.threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
         return render_on_cpu(kernel, result.threads, work, job);
@@ -104,7 +104,7 @@ Rendering render(Work& work, const char* kernel_name, Kernel kernel, const Rende
 std::optional<Rendering> render_points_on_gpu(Work& work, const ChosenDevice& device, const SummedPanel* summed,
                                               const std::vector<optics::SummedImage>& planes, const RenderOptions& options,
                                               Job& job) {
-    const bool rendered = time(work, options, [&](Rendering& result) -> std::optional<Done> {
+    const bool rendered = timed(work, options, [&](Rendering& result) -> std::optional<Done> {
         const std::optional<GpuRun> run = render_on_gpu(device, summed, planes, work, job);
         if (!run) return {};
         result.device = result.kernel = run->name;

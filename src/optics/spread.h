@@ -1,4 +1,4 @@
-// The mean light of the panel over what a ray spreads there: by the two numbers of the filtered estimator's square, and by others.
+// The mean light of the panel over what a ray spreads there: by the two numbers of the domain that outlines cut, and by others.
 // Floor 1.
 #pragma once
 #include "optics/filtered_limits.h"
@@ -7,24 +7,18 @@
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
 /// How far light spreads on the panel: twelve times the variances of column and row, and their covariance. Those of an upright box
-/// are its width and its height squared, and 0; and how much of it is known to be such a box.
+/// are its width and its height squared, and 0.
 template <class F>
 struct PanelSpread {
-    F wide2, high2, lean2, box_wide2, box_high2;
+    F wide2, high2, lean2;
 
-    /// Adds what spreads evenly over so many columns and rows at once; of its variance a share.
-    LFDSIM_FN void add(F columns, F rows, F share = F(1)) {
-        wide2 = wide2 + share * columns * columns;
-        high2 = high2 + share * rows * rows;
-        lean2 = lean2 + share * columns * rows;
+    /// Adds what spreads evenly over so many columns and rows at once.
+    LFDSIM_FN void add(F columns, F rows) {
+        wide2 = wide2 + columns * columns;
+        high2 = high2 + rows * rows;
+        lean2 = lean2 + columns * rows;
     }
 };
-
-template <class F>
-LFDSIM_FN PanelSpread<F> select(Mask<F> first, const PanelSpread<F>& a, const PanelSpread<F>& b) {
-    return {select(first, a.wide2, b.wide2), select(first, a.high2, b.high2), select(first, a.lean2, b.lean2),
-            select(first, a.box_wide2, b.box_wide2), select(first, a.box_high2, b.box_high2)};
-}
 
 /// Light that two spreads move along one axis, each evenly and so far: what of it lies between 0 and a place.
 template <class F>
@@ -145,23 +139,18 @@ LFDSIM_LARGE void add_lines(const PanelLight& panel, const PanelBase<Scalar<F>>&
     }
 }
 
-/// The light that spreads so far about a place by `square` and by `others`, `weight` times its mean. Where pixels shine all over,
-/// one upright box of the same variances will do. Gaps between them tell a leaning line from such a box, and two spreads from one:
-/// there light is read along the line, or gaps take their exact share of two upright spreads; where a wide box hides how the rest
-/// leans, of boxes side by side along the diagonal of that rest. docs/model.md, "Filtered estimator".
+/// Adds the light that spreads so far about a place by `square` and by `others`, `weight` times its mean, of a panel whose pixels
+/// do not shine all over. The gaps between them tell a leaning line from an upright box of the same variances, and two spreads from
+/// one: light is read along the line, or gaps take their exact share of two upright spreads. docs/model.md, "Black matrix and
+/// subpixels".
 template <class F>
 LFDSIM_FN void add_spread(const PanelLight& panel, const PanelBase<Scalar<F>>& base, F column, F row, const PanelSpread<F>& square,
                           const PanelSpread<F>& others, F weight, Light<F>& light) {
     using S = Scalar<F>;
     const F zero = F(0), tiny = F(S(1e-6)), least = F(S(1.0 / 64)), upright = F(S(FilteredLimits::upright));
-    const F all_wide2 = square.wide2 + others.wide2, all_high2 = square.high2 + others.high2;
-    const Boxes<F> all{column, row, sqrt(all_wide2), sqrt(all_high2), weight};
-    if (panel.whole) return add_boxes(panel.plane[0], base, all, light);
-    const F wide2 = max(all_wide2 - others.box_wide2, zero), high2 = max(all_high2 - others.box_high2, zero), wide = sqrt(wide2),
-            high = sqrt(high2), wider = upright * max(all.wide, least), higher = upright * max(all.high, least);
-    const Mask<F> in_box = (others.box_wide2 > wide2) && (others.box_high2 > high2), down = !(all.wide > all.high),
-                  leans = !in_box && (upright * (abs(square.lean2) + abs(others.lean2)) > wider * higher),
-                  hidden = in_box && (wide > wider) && (high > higher), apart = !in_box && !leans;
+    const Boxes<F> all{column, row, sqrt(square.wide2 + others.wide2), sqrt(square.high2 + others.high2), weight};
+    const F wider = upright * max(all.wide, least), higher = upright * max(all.high, least);
+    const Mask<F> down = !(all.wide > all.high), leans = upright * (abs(square.lean2) + abs(others.lean2)) > wider * higher;
     const auto add_leaning = [&]<int axis>(Mask<F> some) {
         if (none(some)) return;
         F across2 = zero;  // what does not lean
@@ -176,26 +165,13 @@ LFDSIM_FN void add_spread(const PanelLight& panel, const PanelBase<Scalar<F>>& b
     };
     add_leaning.template operator()<0>(leans && !down);
     add_leaning.template operator()<1>(leans && down);
-    if (any(apart)) {
-        const F one[2] = {sqrt(square.wide2), sqrt(square.high2)}, other[2] = {sqrt(others.wide2), sqrt(others.high2)};
-        Boxes<F> box = all;
-        box.weight = select(apart, weight, zero);
-        add_subpixels(panel, base, box, light, [&](PlaneSide<F>& side, const SubpixelPart<S>& part, int axis) {
-            side.squeeze(part, axis, one[axis], other[axis]);
-        });
-    }
-    // Each is as wide as its part of the diagonal, and as what does not lie along it.
-    const F count = select(hidden, F(S(3)), F(1)), per = quotient(F(1), count);
-    for (int k = 0; any(in_box && (count > F(S(k)))); ++k) {
-        const F at = (F(S(k)) - F(S(0.5)) * (count - F(1))) * per;
-        const auto side = [&](F of_all2, F of_line2) {
-            return sqrt(of_all2 - select(hidden, of_line2 - per * per * of_line2, zero));
-        };
-        add_subpixels(panel, base,
-                      Boxes<F>{column + at * wide, row + at * high, side(all_wide2, wide2), side(all_high2, high2),
-                               select(in_box && (count > F(S(k))), per * weight, zero)},
-                      light);
-    }
+    if (!any(!leans)) return;
+    const F one[2] = {sqrt(square.wide2), sqrt(square.high2)}, other[2] = {sqrt(others.wide2), sqrt(others.high2)};
+    Boxes<F> box = all;
+    box.weight = select(leans, zero, weight);
+    add_subpixels(panel, base, box, light, [&](PlaneSide<F>& side, const SubpixelPart<S>& part, int axis) {
+        side.squeeze(part, axis, one[axis], other[axis]);
+    });
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

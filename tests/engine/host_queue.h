@@ -47,7 +47,10 @@ class HostQueue : public wide::Queue {
     }
     double seconds() override { return 0; }
 
-    std::set<int> ways;  // optics::Way of the kernels
+    std::int64_t points_at_once() const override { return points; }
+
+    std::int64_t points = std::int64_t(1) << 31;  // at once
+    std::set<int> ways;                           // optics::Way of the kernels
 
   private:
     std::size_t memory_, used_ = 0;

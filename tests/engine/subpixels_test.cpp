@@ -166,7 +166,6 @@ TEST_P(OfLayout, MeansOverBoxesAreThoseOfTheirRectangles) {
 /// Light spreads evenly along a line and over a box about its points, both in panel pixels.
 struct LineOfBoxes {
     double columns, rows, wide, high;
-    bool told = false;  // to the program, that the box is one
 };
 
 /// RMS of what the light of such spreads differs from the mean over their points: of upright boxes of the same variances, and as
@@ -187,7 +186,6 @@ SpreadErrors errors_of(const Display& d, const std::function<LineOfBoxes(Random&
         line.add(float(of.columns), float(of.rows));
         box.add(float(of.wide), 0);
         box.add(0, float(of.high));
-        if (of.told) box.box_wide2 = box.wide2, box.box_high2 = box.high2;
         optics::Light<float> read, upright;
         optics::add_spread(panel.light, panel.base, at_x, at_y, line, box, 1.0f, read);
         optics::add_light(
@@ -231,13 +229,6 @@ TEST_P(OfLayout, SmallSpreadsLoseNoLight) {
     EXPECT_LT(error.read, 0.02 + error.upright);
 }
 
-TEST_P(OfLayout, WideBoxesKeepTheirWidth) {
-    const auto error = errors_of(display(), [](Random& random) {
-        const double size = random(0.2, 0.4);
-        return LineOfBoxes{size, size, 1, 1, true};
-    });
-    EXPECT_LT(error.read, 0.4 * error.upright);
-}
 TEST(Subpixels, NothingShinesBeyondABorderThatCutsCells) {
     Display d = ideal_example();
     d.panel.subpixels = SubpixelLayout::custom;

@@ -94,10 +94,10 @@ TEST(Wide, StopsWhenAskedAndLeavesTheRestBlack) {
         std::int64_t done = 0;
     } job;
     Display d = diffused_example();
-    d.render.samples = 200000;  // of which few squares are rendered at a time
     const Texels panel = uniform_panel(d, 1);
     const SummedPanel summed(panel);
     HostQueue queue;
+    queue.points = 5 * 256 * *d.render.samples;  // of five squares
     Work work(d, resolve(d), summed.planes(), {});
     work.make_pictures(false);
     const wide::DevicePanel there(queue, summed.planes()[0]);

@@ -203,13 +203,17 @@ class BundleMaker {
         b.height = optics::sqrt(optics::max(height, S(0)));
     }
 
+    /// All that a pixel at (dx, dy) of the block, -1 .. 1, sees along axis a, from the axis of a stratum's lens.
+    Range ends_of(int a, int stratum, S dx, S dy) const {
+        const S start = axis[a].first.at(dx, dy), end = axis[a].last.at(dx, dy), at = axis[a].stratum[stratum].axis;
+        return {optics::min(start, end) - at, optics::max(start, end) - at};
+    }
+
     /// The part of a range of a stratum along axis a that a pixel at (dx, dy) of the block, -1 .. 1, sees; an empty range at the
     /// nearest end if it sees none.
     Range seen_of(int a, int stratum, Range r, S dx, S dy) const {
-        const Gradient &first = axis[a].first, &last = axis[a].last;
-        const S start = first.middle + first.right * dx + first.down * dy, end = last.middle + last.right * dx + last.down * dy,
-                at = axis[a].stratum[stratum].axis, low = optics::min(start, end) - at, high = optics::max(start, end) - at;
-        return {optics::min(optics::max(r.from, low), r.to), optics::max(optics::min(r.to, high), r.from)};
+        const Range seen = ends_of(a, stratum, dx, dy);
+        return {optics::min(optics::max(r.from, seen.from), r.to), optics::max(optics::min(r.to, seen.to), r.from)};
     }
 
     /// Adds the light of the probes' boxes to the sums at the nodes, each weighted with the share of its part of the range that a
@@ -242,15 +246,14 @@ class BundleMaker {
 
     /// Multiplies `seen` of each probe by the share of its part of a range along axis a that a pixel at (dx, dy) of the block sees.
     void narrow(int a, int stratum, Range r, const S* places, S dx, S dy, S* seen) const {
-        const Gradient &first = axis[a].first, &last = axis[a].last;
-        const S start = first.middle + first.right * dx + first.down * dy, end = last.middle + last.right * dx + last.down * dy,
-                at = axis[a].stratum[stratum].axis, low = optics::min(start, end) - at, high = optics::max(start, end) - at;
+        const Range ends = ends_of(a, stratum, dx, dy);
         const S range = r.to - r.from, half = S(0.5) * range / S(per_axis);
         if (!(half > 0)) return;
         const S per = S(0.5) / half,
                 least = S(FilteredLimits::least_seen);  // where nothing is seen, the mean over all of it serves interpolation
         for (int p = 0; p < optics::most_probes; ++p) {
-            const S middle = r.from + places[p] * range, part = optics::min(high, middle + half) - optics::max(low, middle - half);
+            const S middle = r.from + places[p] * range,
+                    part = optics::min(ends.to, middle + half) - optics::max(ends.from, middle - half);
             seen[p] = seen[p] * optics::min(optics::max(part * per, least), S(1));
         }
     }

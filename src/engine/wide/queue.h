@@ -32,6 +32,8 @@ class Queue {
     virtual void download(void* to, const void* from, std::size_t bytes) = 0;
 
     virtual void run(const Frame&, std::int64_t items) = 0;
+    /// Points that it traces in a fraction of a second: a longer run is divided, so that Ctrl-C takes effect.
+    virtual std::int64_t points_at_once() const { return std::int64_t(1) << 31; }
     virtual void run(LikenessStep, const LikenessFrame&, std::int64_t items) = 0;
     /// Seconds that the steps have taken on the machine so far, by its own clock. Waits for all of them.
     virtual double seconds() = 0;

@@ -8,7 +8,6 @@ namespace lfdsim::wide {
 
 namespace {
 
-constexpr std::int64_t most_points = std::int64_t(1) << 31;  // in one step: a fraction of a second, after which Ctrl-C takes effect
 constexpr std::int64_t square_pixels = refined_side * refined_side;
 
 /// Renders squares of the frame, a part of them at a time.
@@ -40,7 +39,7 @@ class Renderer {
         frame_.first_row = t.y0 / refined_side;
         frame_.columns = (t.x1 - 1) / refined_side + 1 - frame_.first_column;
         const std::int64_t squares = std::int64_t(frame_.columns) * ((t.y1 - 1) / refined_side + 1 - frame_.first_row);
-        const std::int64_t at_once = std::max<std::int64_t>(most_points / (square_pixels * std::max(t.samples, 1u)), 1);
+        const std::int64_t at_once = std::max<std::int64_t>(queue_.points_at_once() / (square_pixels * std::max(t.samples, 1u)), 1);
         for (std::int64_t first = 0; first < squares; first += at_once) {
             const std::int64_t count = std::min(at_once, squares - first);
             frame_.first_square = first;
