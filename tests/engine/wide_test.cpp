@@ -97,7 +97,7 @@ TEST(Wide, StopsWhenAskedAndLeavesTheRestBlack) {
     const Texels panel = uniform_panel(d, 1);
     const SummedPanel summed(panel);
     HostQueue queue;
-    queue.points = 5 * 256 * *d.render.samples;  // of five squares
+    queue.points = 7 * 256 * *d.render.samples;  // of seven squares
     Work work(d, resolve(d), summed.planes(), {});
     work.make_pictures(false);
     const wide::DevicePanel there(queue, summed.planes()[0]);
