@@ -1,8 +1,8 @@
 // Kernel launches of the stand-in (stand_in.h): a kernel's items run on the CPU's threads.
 //
 // The compiler turns kernel<<<...>>>() into calls of the runtime's functions below, from __cudaRegisterFunction, which gives the
-// mangled name of each kernel, to cudaLaunchKernel. The kernel and its template arguments are read from that name, and the same item
-// functions as on a GPU (engine/wide/items.h, likeness_items.h), compiled for the CPU (../engine/host_items.cpp), do the work.
+// mangled name of each kernel, to cudaLaunchKernel. The kernel and its template arguments are read from that name, and the same
+// item functions as on a GPU (engine/wide/items.h, likeness_items.h), compiled for the CPU (../engine/host_items.cpp), do the work.
 #include "../engine/host_items.h"
 #include "stand_in.h"
 
@@ -37,8 +37,8 @@ void work_off(std::int64_t items, Item item) {
 }
 
 /// Does what a GPU does when the kernel of this mangled name is launched: adds to the stream item<...>() of engine/wide/, with the
-/// template arguments that the name contains (the way through the array, the sampler; the step of a comparison), for all items that the
-/// grid covers. A launch that the queue (engine/cuda/) must not make ends the program.
+/// template arguments that the name contains (the way through the array, the sampler; the step of a comparison), for all items that
+/// the grid covers. A launch that the queue (engine/cuda/) must not make ends the program.
 void launch(const std::string& name, const Configuration& c, void** arguments) {
     // A grid that is too small leaves items undone.
     const std::int64_t items = std::min(*static_cast<std::int64_t*>(arguments[1]), std::int64_t(c.grid.x) * c.block.x);
