@@ -2,6 +2,7 @@
 """The filtered estimator's error on displays of many kinds: RMSE and brightness against 4096 point samples of another seed.
 
 bench/filtered.py [--estimator filtered|lens_by_lens] [--cases NAME ...] [--samples N ...] [--panel checker|white ...] PROGRAM ...
+bench/filtered.py --default [--cases NAME ...] PROGRAM: default pictures and 36 points, with their time and samples; crops of 512 x 512 pixels.
 
 Several programs are compared. Crops of 96 x 54 pixels about the middle of the frame; linear light. A case takes a few seconds."""
 import argparse
@@ -54,16 +55,33 @@ def panel(kind, columns, rows):
     return light
 
 
-def picture(program, folder, case, shown, estimator, samples, seed):
+def picture(program, folder, case, shown, estimator, samples, seed, size=(96, 54)):
+    """The middle of the frame, and what `render --json` says of it; samples 0: the default."""
     display, changes = CASES[case]
-    width, height = next((json.loads(c.split("=")[1]) for c in changes if c.startswith("camera.resolution=")),
-                         tomllib.loads((DISPLAYS / f"{display}.toml").read_text())["camera"]["resolution"])
-    x, y = width // 2 - 48, height // 2 - 27
+    frame = next((json.loads(c.split("=")[1]) for c in changes if c.startswith("camera.resolution=")),
+                 tomllib.loads((DISPLAYS / f"{display}.toml").read_text())["camera"]["resolution"])
+    (x, y), (width, height) = [(whole - min(whole, part)) // 2 for whole, part in zip(frame, size)], [min(*pair) for pair in zip(frame, size)]
     out = folder / "picture.npy"
-    command = [program, "render", DISPLAYS / f"{display}.toml", "--panel-image", shown, "--crop", f"{x},{y},{x + 96},{y + 54}", "--estimator", estimator,
-               "--samples", str(samples), "--seed", str(seed), "--device", "cpu", "--progress", "none", "-o", out]
-    subprocess.run(command + (["--set", *changes] if changes else []), check=True, stdout=subprocess.DEVNULL)
-    return np.load(out).astype(np.float64)
+    command = [program, "render", DISPLAYS / f"{display}.toml", "--panel-image", shown, "--crop", f"{x},{y},{x + width},{y + height}", "--estimator", estimator,
+               *(["--samples", str(samples)] if samples else []), "--seed", str(seed), "--device", "cpu", "--threads", "1", "--progress", "none", "--json", "-o", out]
+    done = subprocess.run(command + (["--set", *changes] if changes else []), check=True, stdout=subprocess.PIPE)
+    return np.load(out).astype(np.float64), json.loads(done.stdout)
+
+
+def rmse(a, b):
+    return np.sqrt(np.mean((a - b)**2))
+
+
+def defaults(program, folder, case, shown):
+    """A row of the table of default pictures."""
+    truth = picture(program, folder, case, shown, "point", 1024, 77, (512, 512))[0]
+    row = []
+    for estimator, samples in (("filtered", 0), ("point", 36)):
+        light, made = picture(program, folder, case, shown, estimator, samples, 1, (512, 512))
+        row += [f"{rmse(light, truth):.4f}", f"{1e9 * made['seconds'] / (light.size / 3):.0f}"]
+        if not samples:
+            row += [f"{made['samples'] / (light.size / 3):.1f}", f"{100 * made['points_share']:.0f} %", f"{made['measured_error']:.4f}"]
+    return " | ".join([case, *row])
 
 
 def main():
@@ -72,10 +90,14 @@ def main():
     options.add_argument("--cases", nargs="+", choices=CASES, default=list(CASES), metavar="NAME")
     options.add_argument("--samples", nargs="+", type=int, default=[1, 4, 16])
     options.add_argument("--panel", nargs="+", choices=["checker", "white"], default=["checker"])
+    options.add_argument("--default", action="store_true")
     options.add_argument("program", nargs="+", metavar="PROGRAM")
     given = options.parse_args()
-    print("| display | panel | " + " | ".join(f"{p}, {n}" for p in given.program for n in given.samples) + " |")
-    print("|---" * (2 + len(given.program) * len(given.samples)) + "|")
+    if given.default:
+        print("| display | RMSE | ns a pixel | samples a pixel | by points | measured error | RMSE of 36 points | ns a pixel |\n|---|---|---|---|---|---|---|---|")
+    else:
+        print("| display | panel | " + " | ".join(f"{p}, {n}" for p in given.program for n in given.samples) + " |")
+        print("|---" * (2 + len(given.program) * len(given.samples)) + "|")
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         for case in given.cases:
@@ -83,12 +105,15 @@ def main():
                 columns, rows = tomllib.loads((DISPLAYS / f"{CASES[case][0]}.toml").read_text())["panel"]["pixels"]
                 shown = folder / "panel.npy"
                 np.save(shown, panel(kind, columns, rows))
-                truth = picture(given.program[0], folder, case, shown, "point", 4096, 77)
+                if given.default:
+                    print(f"| {defaults(given.program[0], folder, case, shown)} |", flush=True)
+                    continue
+                truth = picture(given.program[0], folder, case, shown, "point", 4096, 77)[0]
                 errors = []
                 for program in given.program:
                     for samples in given.samples:
-                        error = picture(program, folder, case, shown, given.estimator, samples, 1) - truth
-                        errors.append(f"{np.sqrt(np.mean(error**2)):.4f}, {100 * error.mean() / truth.mean():+.2f} %")
+                        error = picture(program, folder, case, shown, given.estimator, samples, 1)[0] - truth
+                        errors.append(f"{rmse(error, 0):.4f}, {100 * error.mean() / truth.mean():+.2f} %")
                 print(f"| {case} | {kind} | " + " | ".join(errors) + " |", flush=True)
 
 

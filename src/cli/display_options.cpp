@@ -22,8 +22,8 @@ constexpr KeyOption camera[] = {
 };
 constexpr KeyOption sample[] = {
     {"--estimator", "render.estimator", Form::word, "filtered|point|lens_by_lens",
-     "Averages of the panel over footprints, or brute force: one panel pixel per sample; lens_by_lens: what is to replace "
-     "filtered"},
+     "Averages of the panel over footprints where they agree with points, or brute force: one panel pixel per sample; "
+     "lens_by_lens: averages whether they agree or not"},
     {"--samples", "render.samples", Form::count, "N",
      "Samples per pixel, where a diffuser, pixel filter or pupil spreads the light"},
     {"--seed", "render.seed", Form::count, "S", "Seed of the samples"},

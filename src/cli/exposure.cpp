@@ -60,6 +60,7 @@ std::optional<double> ExposureOption::factor(const Display& display, const Geome
 void ExposureOption::apply(double factor, Rendering& r) {
     for (std::vector<float>* light : {&r.image.rgb, &r.error.rgb})
         for (float& x : *light) x *= float(factor);
+    if (r.measured_error) *r.measured_error *= factor;
 }
 
 }  // namespace lfdsim::cli

@@ -7,7 +7,6 @@
 #include "cli/exposure.h"
 #include "cli/lens_mesh_options.h"
 #include "cli/panel_source.h"
-#include "cli/random_light.h"
 #include "cli/render_path.h"
 #include "cli/rendered.h"
 #include "cli/shown_panel.h"
@@ -131,21 +130,8 @@ void run(const RenderArguments& args) {
     const RenderOptions options{args.work.threads(), args.kernel, crop, target};
     if (path) return render_frames(args, display, *path, options, light, progress);
     const PanelLight panel = light();
-    const bool tells_noise = !lens && !target && estimator_of(display) == Estimator::filtered;
-    std::optional<RandomLight> random;
-    const auto filtered_picture = [&] {
-        const auto start = std::chrono::steady_clock::now();
-        const SummedPanel summed(panel.texels, options.threads);
-        summed.planes(panel_reading(display));
-        const double prepared = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        Rendering made = render(display, geometry, summed, options, progress);
-        made.prepare_seconds = prepared;
-        if (made.complete) random = random_light(display, geometry, summed, made, options, progress);
-        return made;
-    };
-    Rendering r = lens          ? render_meshed(display, geometry, panel.texels, *lens, options, progress)
-                  : tells_noise ? filtered_picture()
-                                : render(display, geometry, panel.texels, options, progress);
+    Rendering r = lens ? render_meshed(display, geometry, panel.texels, *lens, options, progress)
+                       : render(display, geometry, panel.texels, options, progress);
     const std::optional<double> exposure = args.exposure.factor(display, geometry, options, progress);
     if (exposure) ExposureOption::apply(*exposure, r);
     Rendered facts = rendered(r, target, keeps_layers(args.output.path()));
@@ -157,12 +143,6 @@ void run(const RenderArguments& args) {
         facts.about["lens_mesh"] = args.lens_mesh.text(*lens);
         facts.more["lens_mesh"] = args.lens_mesh.json(*lens);
     }
-    std::string noise;
-    if (random) {
-        random->noise_rms *= exposure.value_or(1);
-        facts.more["random_rays"] = json_of(*random);
-        if (const std::string words = words_of(*random); !words.empty()) noise = ", " + words;
-    }
     if (facts.pixels_above_target > 0)
         spdlog::warn("{} did not reach the target error with the maximum number of samples",
                      counted(facts.pixels_above_target, "pixel"));
@@ -170,7 +150,7 @@ void run(const RenderArguments& args) {
 
     facts.more.update(panel.made);
     print_made(Made{args.output.path(), r.image.width, r.image.height, "samples", r.samples, r.seconds}, args.work.json(),
-               ", " + how_made(r) + noise + (lens ? "; " + args.lens_mesh.text(*lens) : ""), facts.more);
+               ", " + how_made(r) + (lens ? "; " + args.lens_mesh.text(*lens) : ""), facts.more);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include "cli/input_files.h"
 #include "cli/interrupt.h"
 #include "cli/numbered_pictures.h"
-#include "cli/random_light.h"
 #include "cli/rendered.h"
 #include "engine/ahead.h"
 #include "engine/scene.h"
@@ -127,15 +126,8 @@ PathMade render_path(const PathWork& w, const std::function<const Texels&()>& pa
     progress.stage("rendering",
                    std::int64_t(left.size()) * (crop ? std::int64_t(crop->x1 - crop->x0) * (crop->y1 - crop->y0) : columns * rows));
     std::size_t above_target = 0;
+    double largest_error = 0;
     Frame frame(progress);
-    // Rays become random where footprints are long: the frame that is seen most obliquely tells of all.
-    const auto slope = [&](std::int64_t k) {
-        const Vec3d at = w.path.camera(k, w.display.camera).position_mm;
-        return std::hypot(at[0], at[1]) / at[2];
-    };
-    const bool tells_noise = !w.rendering.target_error && estimator_of(w.display) == Estimator::filtered;
-    const std::int64_t oblique = *std::ranges::max_element(left, {}, slope);
-    std::optional<Rendering> most_oblique;
     const auto make = [&](std::size_t i) {
         const Display display = at_frame(w.path, left[i], w.display);
         return render(display, resolve(display), summed, w.rendering, frame);
@@ -151,22 +143,16 @@ PathMade render_path(const PathWork& w, const std::function<const Texels&()>& pa
         made.samples += r.samples;
         made.seconds += r.seconds;
         above_target += facts.pixels_above_target;
-        made.how = how_made(r);
-        made.more = how_made_json(r);
-        if (tells_noise && left[i] == oblique) most_oblique = std::move(r);
+        if (r.measured_error.value_or(0) >= largest_error) {  // that frame tells of all
+            largest_error = r.measured_error.value_or(0);
+            made.how = how_made(r);
+            made.more = how_made_json(r);
+            if (r.measured_error) made.more["frame"] = left[i];
+        }
         return true;
     };
     make_ahead(left.size(), renders_on_gpu(w.rendering), make, keep);
     progress.end();
-    if (most_oblique) {
-        const Display display = at_frame(w.path, oblique, w.display);
-        if (const auto random = random_light(display, resolve(display), summed, *most_oblique, w.rendering, progress)) {
-            made.more["random_rays"] = json_of(*random);
-            made.more["random_rays"]["frame"] = oblique;
-            if (const std::string words = words_of(*random); !words.empty())
-                made.how += fmt::format("; in frame {}, the most oblique, {}", oblique, words);
-        }
-    }
     if (above_target > 0)
         spdlog::warn("{} did not reach the target error with the maximum number of samples", counted(above_target, "pixel"));
     if (w.rendering.target_error) made.more["pixels_above_target"] = above_target;

@@ -4,6 +4,7 @@
 #include "model/keys.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 
 namespace lfdsim::cli {
@@ -11,12 +12,17 @@ namespace lfdsim::cli {
 std::string how_made(const Rendering& r) {
     const std::string estimator(lfdsim::word(r.estimator));
     if (r.device != "cpu") return fmt::format("{}, {} ({:.1f} ms)", estimator, r.device, r.gpu_seconds * 1e3);
-    return fmt::format("{}, {}, {}", estimator, r.kernel, counted(r.threads, "thread"));
+    std::string how = fmt::format("{}, {}, {}", estimator, r.kernel, counted(r.threads, "thread"));
+    if (r.points_share > 0) how += fmt::format("; {:.0f} % of pixels by points", std::max(100 * r.points_share, 1.0));
+    if (r.measured_error) how += fmt::format("; error {:.2g}", *r.measured_error);
+    return how;
 }
 
 Json how_made_json(const Rendering& r) {
     Json all{
         {"device", r.device}, {"kernel", r.kernel}, {"threads", r.threads}, {"estimator", std::string(lfdsim::word(r.estimator))}};
+    if (r.estimator == Estimator::filtered) all["points_share"] = r.points_share;
+    if (r.measured_error) all["measured_error"] = *r.measured_error;
     if (r.device != "cpu") all["gpu_seconds"] = r.gpu_seconds;
     return all;
 }
@@ -28,6 +34,10 @@ Rendered rendered(Rendering& r, std::optional<double> target_error, bool layers)
                   {"seconds", fmt::format("{:.3f}", r.seconds)}},
                  {},
                  how_made_json(r)};
+    if (r.measured_error) {
+        all.about["points_share"] = fmt::format("{:.3f}", r.points_share);
+        all.about["measured_error"] = fmt::format("{:.2g}", *r.measured_error);
+    }
     if (r.prepare_seconds > 0) all.more["prepare_seconds"] = r.prepare_seconds;
     if (!target_error) return all;
     double squares = 0;

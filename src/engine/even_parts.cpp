@@ -11,15 +11,14 @@ namespace lfdsim {
 
 constexpr int many_boxes = 6;  // along an axis
 
-std::vector<EvenPart> even_parts(const Display& display, bool converges) {
+std::vector<EvenPart> even_parts(const Display& display) {
     if (!display.diffuser || display.diffuser->profile == Profile::box || estimator_of(display) == Estimator::point)
         return {{display, 1}};
     // The samples of all parts together are about those wanted: as many along an axis for boxes as for each box's own, of which
     // more are better spent where there are many.
     const double wanted = std::sqrt(double(samples_of(display)));
     if (!(wanted <= max_strata - more_strata)) return {{display, 1}};  // which will be refused
-    const int boxes = converges ? many_boxes : std::min(int(std::ceil(std::sqrt(wanted))), many_boxes),
-              each = int(std::ceil(wanted / boxes));
+    const int boxes = std::min(int(std::ceil(std::sqrt(wanted))), many_boxes), each = int(std::ceil(wanted / boxes));
     std::vector<EvenPart> parts;
     for (const DiffuserBox& box : boxes_of_bell(*display.diffuser, boxes)) {
         const auto number = std::uint64_t(parts.size());

@@ -13,8 +13,7 @@ struct EvenPart {
 
 /// The filtered estimator's blocks take light to be spread evenly over the diffuser's angles, and a bell would have no end: of a
 /// bell these are displays with box diffusers (model/bell.h), the more and the finer rendered the more samples are wanted; of any
-/// other display, and for point samples, the display itself. `converges`: samples are taken until an error is small, which the
-/// number of boxes must not limit. Weights sum to 1.
-std::vector<EvenPart> even_parts(const Display&, bool converges = false);
+/// other display, and for point samples, the display itself. Weights sum to 1.
+std::vector<EvenPart> even_parts(const Display&);
 
 }  // namespace lfdsim

@@ -11,9 +11,6 @@ namespace {
 constexpr int group_side = 4;
 constexpr std::int64_t most_points = 1 << 20;  // a pixel
 constexpr std::uint32_t points_at_once = 16;
-// The first step is a large one: 1 and 2 strata, or 2 and 4, may have the same cuts, on the lenses' borders, and thus no
-// difference.
-constexpr int strata_steps[] = {1, 4, 8, 16, 32, max_strata - more_strata};
 
 /// A block's results so far.
 struct Block {
@@ -25,49 +22,31 @@ struct Block {
 class Refinement {
   public:
     Refinement(BlockPainter& painter, const Tile& tile, double target, const Job& job)
-        : painter_(painter), tile_(tile), view_(*tile.view), target_(target), job_(job) {}
+        : painter_(painter), view_(*tile.view), target_(target), job_(job) {}
 
     std::vector<Block> run(const std::vector<RefinedBlock>& of) {
         for (const RefinedBlock& at : of) blocks_.push_back({at});
         for (Block& b : blocks_) open_.push_back(&b);
-        tile_.strata > 0 ? refine_filtered() : refine_points();
+        refine();
         return std::move(blocks_);
     }
     std::int64_t samples = 0;
 
   private:
-    void paint(int strata, std::uint32_t points, std::uint64_t repetition) {
+    void paint(std::uint64_t repetition) {
         std::vector<RefinedBlock> at;
         for (const Block* b : open_) at.push_back(b->at);
         pictures_.assign(at.size(), {});
-        painter_.paint(at, strata, points, view_.seed + repetition * 0x9e3779b97f4a7c15u, pictures_);
-        for (const RefinedBlock& b : at)
-            samples += std::int64_t(strata > 0 ? strata * strata : int(points)) * (right(b) - b.x) * (bottom(b) - b.y);
+        painter_.paint(at, points_at_once, view_.seed + repetition * 0x9e3779b97f4a7c15u, pictures_);
+        for (const RefinedBlock& b : at) samples += std::int64_t(points_at_once) * (right(b) - b.x) * (bottom(b) - b.y);
     }
 
-    void refine_filtered() {
-        paint(strata_steps[0], 0, 0);
-        for (std::size_t k = 0; k < open_.size(); ++k) open_[k]->picture = pictures_[k];
-        for (std::size_t step = 1; step < std::size(strata_steps) && !open_.empty() && !job_.cancelled(); ++step) {
-            paint(strata_steps[step], 0, 0);
-            for (std::size_t k = 0; k < open_.size(); ++k) {
-                Block& b = *open_[k];
-                for (std::size_t i = 0; i < b.error.size(); ++i) {
-                    const float difference = pictures_[k][i] - b.picture[i];
-                    b.error[i] = difference * difference;
-                }
-                b.picture = pictures_[k];
-            }
-            close();
-        }
-    }
-
-    void refine_points() {
+    void refine() {
         std::int64_t repetitions = 0;
         for (std::int64_t wanted = 8; !open_.empty(); wanted *= 2) {
             for (; repetitions < wanted; ++repetitions) {
                 if (job_.cancelled()) return;
-                paint(0, points_at_once, std::uint64_t(repetitions));
+                paint(std::uint64_t(repetitions));
                 for (std::size_t k = 0; k < open_.size(); ++k) {
                     Block& b = *open_[k];
                     for (std::size_t i = 0; i < b.sum.size(); ++i) {
@@ -123,7 +102,6 @@ class Refinement {
     int bottom(const RefinedBlock& b) const { return std::min(b.y + refined_side, view_.height); }
 
     BlockPainter& painter_;
-    const Tile& tile_;
     const optics::View& view_;
     const double target_;
     const Job& job_;
@@ -137,10 +115,10 @@ class KernelPainter : public BlockPainter {
     KernelPainter(Kernel kernel, const Tile& of, const Job& job) : kernel_(kernel), tile_(of), view_(*of.view), job_(job) {
         tile_.view = &view_;
     }
-    void paint(const std::vector<RefinedBlock>& blocks, int strata, std::uint32_t points, std::uint64_t seed,
+    void paint(const std::vector<RefinedBlock>& blocks, std::uint32_t points, std::uint64_t seed,
                std::vector<RefinedPicture>& pictures) override {
         tile_.crop_width = refined_side;
-        tile_.strata = strata;
+        tile_.strata = 0;
         tile_.samples = points;
         view_.seed = seed;
         for (std::size_t k = 0; k < blocks.size() && !job_.cancelled(); ++k) {

@@ -15,11 +15,11 @@ struct RefinedBlock {
 };
 
 /// Renders blocks of 16 x 16 pixels, whole even where a crop cuts through them, so that no pixel depends on the crop; pixels
-/// outside the frame are left as they are. With strata = 0: so many point samples. May stop once the job is cancelled.
+/// outside the frame are left as they are. May stop once the job is cancelled.
 class BlockPainter {
   public:
     virtual ~BlockPainter() = default;
-    virtual void paint(const std::vector<RefinedBlock>&, int strata, std::uint32_t points, std::uint64_t seed,
+    virtual void paint(const std::vector<RefinedBlock>&, std::uint32_t points, std::uint64_t seed,
                        std::vector<RefinedPicture>& pictures) = 0;
 };
 
@@ -28,9 +28,8 @@ class BlockPainter {
 /// group's error of each colour is written to `error`, laid out as the picture. Returns the number of samples taken, or nothing
 /// where the job was cancelled on the way: a small target may take long. The order in which blocks are done changes no bit.
 ///
-/// Points: independent repetitions with seeds of their own, twice as many each time; the error is the standard error of their mean.
-/// Filtered: at least twice as many rows and columns of strata each time; the error is the difference from the time before, that
-/// is, the error of the coarser picture.
+/// Samples are points, in independent repetitions with seeds of their own, twice as many each time; the error is the standard error
+/// of their mean.
 std::optional<std::int64_t> refine_tile(BlockPainter&, const Tile& tile, double target, float* error, const Job&);
 
 /// The same with a CPU kernel, block after block.

@@ -1,5 +1,6 @@
 #include "engine/render.h"
 
+#include "engine/choice.h"
 #include "engine/devices.h"
 #include "engine/even_parts.h"
 #include "engine/gpu.h"
@@ -27,48 +28,95 @@ namespace {
 constexpr int tile_width = 64, tile_height = 16;  // neighbouring pixels see nearby panel pixels: a tile's texels stay in the cache
 constexpr int most_threads = 1024;
 
-/// Tile by tile, on all threads.
-Done render_on_cpu(Kernel kernel, int threads, Work& work, Job& job) {
-    const Tile& whole = work.tile;
+/// paint(tile) for each tile of the crop, on all threads; it returns the samples that it took, or nothing where it was stopped.
+template <class Paint>
+Done for_tiles(const Tile& whole, Job& job, const Paint& paint) {
     std::atomic<std::int64_t> taken{0};
     std::atomic<bool> complete{true};
+    // Tiles lie on a grid of the whole frame, so that none cuts through a packet's block except at the crop's border.
+    const tbb::blocked_range2d<int> tiles(whole.y0 / tile_height, (whole.y1 - 1) / tile_height + 1, 1, whole.x0 / tile_width,
+                                          (whole.x1 - 1) / tile_width + 1, 1);
+    tbb::parallel_for(
+        tiles,
+        [&](const tbb::blocked_range2d<int>& r) {
+            Tile tile = whole;
+            tile.x0 = std::max(r.cols().begin() * tile_width, whole.x0);
+            tile.x1 = std::min(r.cols().end() * tile_width, whole.x1);
+            tile.y0 = std::max(r.rows().begin() * tile_height, whole.y0);
+            tile.y1 = std::min(r.rows().end() * tile_height, whole.y1);
+            const std::optional<std::int64_t> samples = job.cancelled() ? std::nullopt : paint(tile);
+            if (!samples) {
+                complete = false;
+                return;
+            }
+            taken += *samples;
+            job.advance(std::int64_t(tile.x1 - tile.x0) * (tile.y1 - tile.y0));
+        },
+        tbb::simple_partitioner());
+    return {taken, complete};
+}
+
+/// do_it() with so many threads.
+template <class Do>
+auto on_threads(int threads, const Do& do_it) {
     // TBB uses at most as many threads as there are processors unless set otherwise; the user may ask for more.
     const tbb::global_control workers(tbb::global_control::max_allowed_parallelism,
                                       std::size_t(std::max(threads, tbb::info::default_concurrency())));
     tbb::task_arena arena(threads);
-    arena.execute([&] {
-        // Tiles lie on a grid of the whole frame, so that none cuts through a packet's block except at the crop's border.
-        const tbb::blocked_range2d<int> tiles(whole.y0 / tile_height, (whole.y1 - 1) / tile_height + 1, 1, whole.x0 / tile_width,
-                                              (whole.x1 - 1) / tile_width + 1, 1);
-        tbb::parallel_for(
-            tiles,
-            [&](const tbb::blocked_range2d<int>& r) {
-                if (job.cancelled()) {
-                    complete = false;
-                    return;
-                }
-                Tile tile = whole;
-                tile.x0 = std::max(r.cols().begin() * tile_width, whole.x0);
-                tile.x1 = std::min(r.cols().end() * tile_width, whole.x1);
-                tile.y0 = std::max(r.rows().begin() * tile_height, whole.y0);
-                tile.y1 = std::min(r.rows().end() * tile_height, whole.y1);
-                const std::int64_t part = std::int64_t(tile.x1 - tile.x0) * (tile.y1 - tile.y0);
-                if (work.target_error) {
-                    const auto samples_taken = refine_tile(kernel, tile, *work.target_error, work.result.error.rgb.data(), job);
-                    if (!samples_taken) {
-                        complete = false;
-                        return;
-                    }
-                    taken += *samples_taken;
-                } else {
-                    kernel(tile);
-                    taken += part * (tile.strata > 0 ? tile.strata * tile.strata : std::int64_t(tile.samples));
-                }
-                job.advance(part);
-            },
-            tbb::simple_partitioner());
+    return arena.execute(do_it);
+}
+
+/// By the estimator of the work's tile.
+Done render_on_cpu(Kernel kernel, int threads, Work& work, Job& job) {
+    return on_threads(threads, [&] {
+        return for_tiles(work.tile, job, [&](const Tile& tile) -> std::optional<std::int64_t> {
+            if (work.target_error) return refine_tile(kernel, tile, *work.target_error, work.result.error.rgb.data(), job);
+            kernel(tile);
+            return std::int64_t(tile.x1 - tile.x0) * (tile.y1 - tile.y0) *
+                   (tile.strata > 0 ? tile.strata * tile.strata : std::int64_t(tile.samples));
+        });
     });
-    return {taken, complete};
+}
+
+/// Each region by what is chosen for it.
+Done render_chosen(Kernel kernel, int threads, Choice& choice, Job& job) {
+    return on_threads(threads, [&]() -> Done {
+        Work& work = choice.work();
+        const Tile& whole = work.tile;
+        constexpr int side = Choice::region_side;
+        const int left = whole.x0 / side, top = whole.y0 / side, columns = (whole.x1 - 1) / side + 1 - left,
+                  rows = (whole.y1 - 1) / side + 1 - top;
+        std::vector<RegionChoice> chosen(std::size_t(columns) * std::size_t(rows));
+        const auto region_of = [&](const Tile& tile) {
+            return std::size_t((tile.y0 / side - top) * columns + tile.x0 / side - left);
+        };
+        choice.look(kernel);
+        tbb::parallel_for(0, columns * rows, [&](int k) {
+            if (!job.cancelled()) chosen[std::size_t(k)] = choice.choose(kernel, left + k % columns, top + k / columns);
+        });
+        std::vector<std::atomic<std::int64_t>> pixels(chosen.size());
+        Done done = for_tiles(whole, job, [&](const Tile& tile) -> std::optional<std::int64_t> {
+            const RegionChoice& of = chosen[region_of(tile)];
+            pixels[region_of(tile)] += std::int64_t(tile.x1 - tile.x0) * (tile.y1 - tile.y0);
+            float* const error = work.result.error.rgb.data();
+            if (of.strata == 0 && of.points == 0) return refine_tile(kernel, tile, *work.target_error, error, job);
+            if (work.target_error)
+                for (std::int32_t y = tile.y0; y < tile.y1; ++y)
+                    std::fill_n(error + (std::int64_t(y - tile.crop_y) * tile.crop_width + tile.x0 - tile.crop_x) * 3,
+                                (tile.x1 - tile.x0) * 3, float(of.error));
+            return choice.render(kernel, of, tile);
+        });
+        double by_points = 0, squares = 0;
+        for (std::size_t k = 0; k < chosen.size(); ++k) {
+            done.samples += chosen[k].samples;
+            by_points += chosen[k].strata == 0 ? double(pixels[k]) : 0;
+            squares += double(pixels[k]) * chosen[k].error * chosen[k].error;
+        }
+        const double all = double(whole.x1 - whole.x0) * (whole.y1 - whole.y0);
+        work.result.points_share = by_points / all;
+        if (!work.target_error) work.result.measured_error = std::sqrt(squares / all);
+        return done;
+    });
 }
 
 void check_threads(const RenderOptions& options) {
@@ -115,6 +163,16 @@ std::optional<Rendering> render_points_on_gpu(Work& work, const ChosenDevice& de
     return std::move(work.result);
 }
 
+/// Each region by the estimator that a measurement chooses. The job's stage is the caller's.
+Rendering render_chosen(Choice& choice, const char* kernel_name, Kernel kernel, const RenderOptions& options, Job& job) {
+    timed(choice.work(), options, [&](Rendering& result) -> std::optional<Done> {
+        result.kernel = kernel_name;
+        result.threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+        return render_chosen(kernel, result.threads, choice, job);
+    });
+    return std::move(choice.work().result);
+}
+
 void begin_stage(const Work& work, std::size_t pictures, Job& job) {
     job.stage("rendering", std::int64_t(work.tile.x1 - work.tile.x0) * (work.tile.y1 - work.tile.y0) * std::int64_t(pictures));
 }
@@ -133,6 +191,10 @@ class Sum {
             sum_.estimator = one.estimator;
         }
         const std::size_t first = channel.value_or(0), step = channel ? 3 : 1;
+        sum_.points_share = std::max(sum_.points_share, one.points_share);
+        if (one.measured_error)  // independent ones, each of a third of the numbers or of all
+            sum_.measured_error =
+                std::hypot(sum_.measured_error.value_or(0), weight * *one.measured_error / std::sqrt(double(step)));
         for (std::size_t k = first; k < sum_.image.rgb.size(); k += step) sum_.image.rgb[k] += weight * one.image.rgb[k];
         for (std::size_t k = first; k < sum_.error.rgb.size(); k += step)
             sum_.error.rgb[k] = std::hypot(sum_.error.rgb[k], weight * one.error.rgb[k]);
@@ -163,13 +225,18 @@ Rendering render(const Display& display, const Geometry& geometry, const std::ve
         if (device.insists) throw InputError("--device", "the estimator lens_by_lens runs on the CPU; give --device cpu");
         device.gpu.reset();
     }
-    const std::vector<EvenPart> parts = even_parts(display, options.target_error.has_value());
+    const std::vector<EvenPart> parts = even_parts(display);
     const auto at_wavelength = [&](const Geometry& there) {
         if (device.gpu) {
             Work work(by_points(display), there, planes, options);
             begin_stage(work, 1, job);
             if (auto one = render_points_on_gpu(work, device, summed, planes, options, job)) return *std::move(one);
             device.gpu.reset();
+        }
+        if (estimator_of(display) == Estimator::filtered && !options.rough) {
+            Choice choice(display, there, planes, options);
+            begin_stage(choice.work(), 1, job);
+            return render_chosen(choice, kernel.name, kernel.run, options, job);
         }
         Sum sum;
         float weight = 0;

@@ -21,8 +21,7 @@ struct RenderOptions {
     std::optional<Rect> crop;  // of the camera's frame; the image has the crop's size and the full frame's pixels, bit for bit
     std::optional<double> target_error = {};  // > 0, linear light: take samples until the error is below it, see refine.h
     std::string device = {};  // cpu | cuda | cuda:N | auto: a GPU where there is one; empty: as set_default_device says
-    bool rough = false;       // filtered estimator: half the time where lenses span few pixels, errors as with 100 random points;
-                              // for moving pictures
+    bool rough = false;       // filtered estimator: filtered light without measuring its error; for moving pictures
 };
 
 struct Rendering {
@@ -33,7 +32,9 @@ struct Rendering {
     std::string kernel;                      // the one that ran; on a GPU its name
     int threads = 0;                         // 0 on a GPU
     Estimator estimator = Estimator::point;  // the one that was used
-    std::int64_t samples = 0;                // all pixels together
+    std::int64_t samples = 0;                // all pixels together, with those taken to choose estimators
+    double points_share = 0;                 // of the pixels of a filtered picture: by points, as measured to be needed (choice.h)
+    std::optional<double> measured_error;    // of a filtered picture: root mean square, linear light, as measured at places
     double prepare_seconds = 0;              // of making the panel's tables, where they were made on the way
     double seconds = 0;                      // of rendering; with a GPU including transfers to and from it
     double gpu_seconds = 0;                  // of the GPU alone, by its clock

@@ -41,7 +41,6 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
     const std::int64_t samples = samples_of(display);
 
     result.estimator = estimator_of(display);
-    const bool lens_by_lens = result.estimator == Estimator::lens_by_lens;
     const bool filtered = result.estimator != Estimator::point;
     const int strata = filtered ? int(std::lround(std::sqrt(double(samples)))) : 0;
     constexpr std::int64_t most = (max_strata - more_strata) * (max_strata - more_strata);
@@ -69,7 +68,7 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
             crop.y1,
             std::uint32_t(samples),
             strata,
-            lens_by_lens || (filtered && !shape.shared),
+            filtered && (result.estimator == Estimator::lens_by_lens || !shape.shared),
             shape.side,
             cuts_pixel(scene, view),
             display.render.sampling,

@@ -228,13 +228,13 @@ constexpr Key<SceneObject> object_keys[] = {
 
 constexpr Key<Render> render_keys[] = {
     {"estimator", &Render::estimator, no_range, false,
-     "Each sample averages the panel over a lens's footprint, or, by brute force, reads one panel pixel. `lens_by_lens` is to "
-     "replace "
-     "`filtered`; it runs on the CPU. Without a diffuser and pixel filter, samples are points in any case."},
+     "`filtered`: averages of the panel over lenses' footprints where they agree with points, else points, on a GPU points alone; "
+     "`point`: by brute force, each sample reads one panel pixel; `lens_by_lens`: averages over footprints whether they agree or "
+     "not, on the CPU. Without a diffuser and pixel filter, samples are points in any case."},
     {"samples", &Render::samples, Range{1, 16777216}, false,
      "Per picture pixel, where a diffuser, filter or pupil spreads the light. Filtered ones are rounded up to a square number, "
      "3844 at most.",
-     "4 if filtered, else 100"},
+     "points: 100, on a GPU in place of filtered ones 256; filtered: 4, or as many points as a small error takes"},
     {"sampling", &Render::sampling, no_range, false, "Of point samples: low-discrepancy points, or plain random ones."},
     {"fresnel", &Render::fresnel, no_range, false,
      "What each glass surface transmits: by Fresnel's equations, by Schlick's formula, or all light."},

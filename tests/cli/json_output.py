@@ -2,7 +2,6 @@
 import array
 import json
 import math
-import statistics
 
 from program import Checks, Program
 
@@ -62,24 +61,21 @@ for style in ["auto", "lines", "json", "none", "bar"]:
     if style == "bar":
         checks.that("[=====" in err and err.endswith("\n"), f"--progress bar: {err!r}")
 
-# What single random rays made is told: the share of pixels that another seed changes, and their noise, as pictures of other seeds show it.
+# A picture's error is measured while it is made: it is that against many points.
 def light_of(path):
     data = (program.folder / path).read_bytes()
     return array.array("f", data[10 + int.from_bytes(data[8:10], "little"):])
 
 
-noisy = "render tiny.toml --panel-image panel.png --size 64x36 --json --progress none --set render.samples=4 diffuser.angle_deg=[20,20]"
-told = [result(f"{noisy} render.seed={seed} -o noisy{seed}.npy --threads {1 + seed % 2}") for seed in range(8)]
-pictures = [light_of(f"noisy{seed}.npy") for seed in range(8)]
-lit = [k for k in range(0, len(pictures[0]), 3) if any(p[k + c] > 0 for p in pictures[:2] for c in range(3))]
-changed = sum(any(pictures[0][k + c] != pictures[1][k + c] for c in range(3)) for k in lit) / len(lit)
-noise = math.sqrt(sum(statistics.variance(p[k + c] for p in pictures) for k in lit for c in range(3)) / (3 * len(lit)))
-random_rays = told[0]["random_rays"]
-checks.that(random_rays["share"] > 0.1 and abs(random_rays["share"] - changed) < 1e-9, f"random rays {random_rays}, changed {changed}")
-checks.that(abs(random_rays["noise_rms"] / noise - 1) < 0.15, f"random rays {random_rays}, noise {noise}")
-checks.that(result(f"{noisy} render.seed=0 -o again.npy --threads 2")["random_rays"] == random_rays, "random rays depend on threads")
-checks.that("% of pixels by random rays of their own: noise 0." in program.must(noisy.replace("--json ", "") + " -o words.npy"), "noise is not told")
-exact = result("render tiny.toml --panel-image panel.png --size 64x36 --json --progress none --set render.fresnel=none lens={type='ideal',focal_length_mm=5.2} "
-               "array.aperture=cell -o exact.npy")
-checks.that(exact["random_rays"]["share"] < 0.05, f"random rays where blocks share all: {exact['random_rays']}")
+for changes in ("diffuser.angle_deg=[20,20]", "diffuser.angle_deg=[2,2]", "panel.subpixels='rgb_stripe' panel.aperture_ratio=0.5"):
+    shown = f"render tiny.toml --panel-image panel.png --size 64x36 --json --progress none --set {changes}"
+    told, seen = result(f"{shown} -o default.npy"), light_of("default.npy")
+    result(f"{shown} render.estimator='point' render.samples=16384 render.seed=9 -o true.npy")
+    true = light_of("true.npy")
+    error = math.sqrt(sum((a - b) ** 2 for a, b in zip(seen, true)) / len(true))
+    checks.that(told["estimator"] == "filtered" and 0 <= told["points_share"] <= 1, f"{changes}: {told}")
+    checks.that(error / 1.5 < told["measured_error"] < 3 * error + 1e-4, f"{changes}: measured {told['measured_error']}, true {error}")
+    again = result(f"{shown} -o again.npy --threads 2")
+    checks.that(again["measured_error"] == told["measured_error"] and light_of("again.npy") == seen, f"{changes}: depends on threads")
+    checks.that("; error 0." in program.must(shown.replace("--json ", "") + " -o words.npy"), "the error is not told")
 checks.finish()

@@ -87,6 +87,7 @@ struct CancelledJob : Job {
 TEST(EvenParts, AreOneStageAndLoseNothingWhereTheyEnd) {
     Display d = behind_a_bell("desktop-asphere", 1, PixelFilter::box, 0);
     d.render.samples = 16;  // 4 parts
+    d.render.estimator = Estimator::lens_by_lens;
     const RenderOptions options{1, "", Rect{1800, 1000, 1928, 1064}};
     const Texels white = uniform_panel(d, 1);
     const std::int64_t pixels = 128 * 64;

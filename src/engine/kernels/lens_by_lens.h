@@ -62,7 +62,7 @@ class LensByLens : SeenLenses {
         std::uint32_t lane[optics::Block<F>::lanes];
         for (int k = 0; k < optics::Block<F>::lanes; ++k)
             lane[k] = std::uint32_t((row + k / optics::Block<F>::width) * view.width + column + k % optics::Block<F>::width);
-        const int samples = tile.strata * tile.strata;
+        const int samples = 16 * tile.strata * tile.strata;
         optics::Sampler<F> sampler(tile.sampling, dimensions, view.seed, optics::load<F>(lane));
         optics::Light<F> light;
         for (int k = 0; k < samples; ++k) {

@@ -103,7 +103,8 @@ class LensDomain {
             corners.count = 6;
             for (int k = 0; k < 6; ++k) x[k] = at_x[k], y[k] = at_y[k];
         } else {
-            const S wide = lattice.strips ? scene.hole_half : lattice.half_pitch[0],
+            // Between strips light may go on beside them: their cells then meet.
+            const S wide = lattice.strips && !scene.leaky ? scene.hole_half : lattice.half_pitch[0],
                     high = lattice.strips ? S(1) : lattice.half_pitch[1];
             corners.count = 4;
             for (int k = 0; k < 4; ++k) x[k] = k < 2 ? wide : -wide, y[k] = k == 1 || k == 2 ? high : -high;

@@ -79,7 +79,7 @@ class Painter : public BlockPainter {
         t.x1 = t.view->width;
         t.y1 = t.view->height;
     }
-    void paint(const std::vector<RefinedBlock>& squares, int, std::uint32_t points, std::uint64_t seed,
+    void paint(const std::vector<RefinedBlock>& squares, std::uint32_t points, std::uint64_t seed,
                std::vector<RefinedPicture>& pictures) override {
         Frame& frame = renderer_.frame();
         if (pictures.size() > room_) out_ = Buffer<RefinedPicture>(queue_, room_ = pictures.size());
