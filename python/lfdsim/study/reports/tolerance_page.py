@@ -53,7 +53,7 @@ def write(found: Tolerance, percent: float) -> pathlib.Path:
 def _counts(found: Tolerance) -> list[str]:
     """How many draws there are, and how many of them are impossible: of all errors together, and of each alone and at other sizes."""
     layout, told = found.layout, []
-    blocks = {"of all errors together": [], "of each error alone and at other sizes": []}
+    blocks: dict[str, list[int]] = {"of all errors together": [], "of each error alone and at other sizes": []}
     for group, scale, block in layout.blocks():
         blocks["of all errors together" if group == ALL and scale == 1 else "of each error alone and at other sizes"] += list(block)
     for what, numbers in blocks.items():
