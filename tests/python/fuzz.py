@@ -35,6 +35,11 @@ ODD: list[Any] = [
 ]  # fmt: skip
 
 
+def full_alpha(array: np.ndarray) -> int:
+    """The least alpha of a pixel that hides all behind it."""
+    return int(np.iinfo(array.dtype).max) if array.dtype.kind == "u" else 1
+
+
 class Fuzz(TinyTest):
     def setUp(self) -> None:
         super().setUp()
@@ -115,6 +120,8 @@ class Fuzz(TinyTest):
         if draw.random() < 0.3:
             shape = [draw.choice([0, 1, 2, 3, 4, 11, ROWS, COLUMNS]) for _ in range(draw.randrange(4))]
             shape += [draw.choice([0, 1, 2, 3]) for _ in range(draw.randrange(3))]
+        elif draw.random() < 0.1:
+            shape[2] = 4
         made = np.zeros(shape, kind)
         layout = draw.choice(["C", "C", "F", "strided", "reversed", "broadcast", "transposed", "unaligned", "read-only"])
         if made.dtype.kind in "fu" and made.size:
@@ -122,6 +129,8 @@ class Fuzz(TinyTest):
             if made.dtype.kind == "f" and draw.random() < 0.4:
                 with np.errstate(over="ignore"):
                     made.flat[draw.randrange(made.size)] = draw.choice([np.nan, np.inf, -np.inf, -1.0, 1e30, 1e-45, 70000.0])
+            if made.ndim == 3 and made.shape[2] == 4 and draw.random() < 0.7:
+                made[..., 3] = full_alpha(made)
         if layout == "F":
             made = np.asfortranarray(made)
         if layout == "strided" and made.ndim:
@@ -139,7 +148,7 @@ class Fuzz(TinyTest):
         return made
 
     def test_arrays(self) -> None:
-        """Also: what is taken is what its plain copy is."""
+        """Also: what is taken is what the plain copy of its colours is. Alpha may be there where it is full everywhere."""
         d, picture = self.display, self.picture
         calls = {
             "panel": lambda array: lfdsim.render(d, array, crop=(40, 20, 48, 24)),
@@ -157,8 +166,9 @@ class Fuzz(TinyTest):
             if result is None:
                 continue
             self.assertTrue(array.dtype.kind == "f" or array.dtype.name in ("uint8", "uint16"), what)
-            self.assertTrue(np.isfinite(array).all() and array.ndim == 3 and array.shape[2] == 3, what)
-            plain = np.array(array.tolist(), np.float32 if array.dtype.kind == "f" else array.dtype.newbyteorder("="))
+            self.assertTrue(array.ndim == 3 and array.shape[2] in (3, 4), what)
+            self.assertTrue(np.isfinite(array[..., :3]).all() and (array[..., 3:] >= full_alpha(array)).all(), what)
+            plain = np.array(array[..., :3].tolist(), np.float32 if array.dtype.kind == "f" else array.dtype.newbyteorder("="))
             np.testing.assert_array_equal(result, calls[name](plain), f"seed {SEED}: {what}")
 
 
