@@ -32,12 +32,14 @@ ComparedView compare_view(const Display& display, const Geometry& geometry, cons
                                          photograph.width, photograph.height, width, height));
     const ChosenDevice device = choose_device(options.device, options.kernel);
     RenderOptions on_cpu = options;
+    Display shown = display;
     if (device.gpu && !disperses(display) && estimator_of(display) != Estimator::lens_by_lens) {
         if (const auto done = compare_on_gpu(device, panel, planes, expected, gain, work, job))
             return {done->likeness, done->run.done.complete, seconds(), done->run.seconds};
-        on_cpu.device = "cpu";
+        on_cpu.device = "cpu";  // with the same bits
+        shown = by_points(display);
     }
-    Rendering view = render(display, geometry, panel, on_cpu, job);
+    Rendering view = render(shown, geometry, panel, on_cpu, job);
     ComparedView result;
     result.complete = view.complete;
     if (view.complete) result.likeness = likeness(std::move(view.image), gain, photograph, expected.screen, expected.content);

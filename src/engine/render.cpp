@@ -231,7 +231,7 @@ Rendering render(const Display& display, const Geometry& geometry, const std::ve
             Work work(by_points(display), there, planes, options);
             begin_stage(work, 1, job);
             if (auto one = render_points_on_gpu(work, device, summed, planes, options, job)) return *std::move(one);
-            device.gpu.reset();
+            return render(work, kernel.name, kernel.run, options, job);  // the same bits
         }
         if (estimator_of(display) == Estimator::filtered && !options.rough) {
             Choice choice(display, there, planes, options);

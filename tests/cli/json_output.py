@@ -34,7 +34,7 @@ checks.that(central == "infinite" or abs(central) > 1e6, f"g = f: L is {central}
 checks.that(any("dark bands" in w for w in result("check tiny.toml --json --set diffuser.angle_deg=[0.1,0.1]")["warnings"]), "no warning")
 
 for arguments, units in [("eia tiny.toml --model pyramid.obj -o eia.png", 88 * 48), ("photo tiny.toml --model pyramid.obj -o photo.png", 96 * 54),
-                         ("render tiny.toml --model pyramid.obj -o view.png", 96 * 54 * 16)]:
+                         ("render tiny.toml --model pyramid.obj --estimator point --samples 16 -o view.png", 96 * 54 * 16)]:
     made = result(arguments + " --json --progress none")
     checks.that(made.get("rays", made.get("samples")) == units, f"{arguments}: {made}, wanted {units}")
     checks.that((program.folder / made["output"]).exists() and made["seconds"] >= 0, f"{arguments}: {made}")
@@ -74,7 +74,8 @@ for changes in ("diffuser.angle_deg=[20,20]", "diffuser.angle_deg=[2,2]", "panel
     true = light_of("true.npy")
     error = math.sqrt(sum((a - b) ** 2 for a, b in zip(seen, true)) / len(true))
     checks.that(told["estimator"] == "filtered" and 0 <= told["points_share"] <= 1, f"{changes}: {told}")
-    checks.that(error / 1.5 < told["measured_error"] < 3 * error + 1e-4, f"{changes}: measured {told['measured_error']}, true {error}")
+    allowed = 0.06 * sum(true) / len(true)  # the largest of points; a picture's error is told as at most so large
+    checks.that(error / 1.3 < told["measured_error"] < max(allowed, 3 * error), f"{changes}: measured {told['measured_error']}, true {error}, allowed {allowed}")
     again = result(f"{shown} -o again.npy --threads 2")
     checks.that(again["measured_error"] == told["measured_error"] and light_of("again.npy") == seen, f"{changes}: depends on threads")
     checks.that("; error 0." in program.must(shown.replace("--json ", "") + " -o words.npy"), "the error is not told")
