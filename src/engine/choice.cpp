@@ -9,12 +9,12 @@ namespace lfdsim {
 
 namespace {
 
-// Errors are allowed as shares of the frame's mean light, or of the target error.
+// Errors are allowed as shares of the frame's light (root mean square), or of the target error.
 constexpr double mean_allowed = 0.003, mean_of_target = 0.3;  // of the mean over a neighbourhood of pixels
 constexpr double rms_allowed = 0.01;                          // of a pixel of filtered light, or as much as that of 36 points
 constexpr double of_36_points = 0.5;                          // the error of 36 Sobol points over that of 16
 constexpr double points_rms = 0.06;                           // of a pixel by points, so that the mean over 500 is right to 0.003
-constexpr double least_light = 0.01;                          // a darker frame is judged as one of this mean light
+constexpr double least_light = 0.05;                          // a darker frame is judged as one of this light
 
 constexpr std::uint32_t first_points = 16, last_points = 256;  // at a region's places: each step takes four times as many
 constexpr std::uint32_t most_chosen_points = 4096;             // a pixel
@@ -165,11 +165,11 @@ Choice::Light Choice::points_at(Kernel kernel, const std::vector<Rect>& places, 
 }
 
 void Choice::look(Kernel kernel) {
-    const Light light =
-        points_at(kernel, places_in({0, 0, points_.view.width, points_.view.height}, frame_places_an_axis), first_points, 3);
-    double sum = 0;
-    for (const float of : light) sum += of;
-    light_ = std::max(sum / double(light.size()), least_light);
+    const std::vector<Rect> places = places_in({0, 0, points_.view.width, points_.view.height}, frame_places_an_axis);
+    const Light a = points_at(kernel, places, first_points, 3), b = points_at(kernel, places, first_points, 4);
+    double squares = 0;  // a dark background does not count
+    for (std::size_t k = 0; k < a.size(); ++k) squares += double(a[k]) * b[k];
+    light_ = std::max(std::sqrt(squares / double(a.size())), least_light);
 }
 
 RegionChoice Choice::choose(Kernel kernel, int column, int row) const {

@@ -34,7 +34,7 @@ class Choice {
     Work& work() { return points_; }
     const Work& work() const { return points_; }
 
-    /// Measures the mean light of the whole frame, which errors are judged by. Comes before choose().
+    /// Measures the light of the whole frame, which errors are judged by. Comes before choose().
     void look(Kernel);
     /// The region's choice, which depends neither on the crop nor on what is chosen elsewhere.
     RegionChoice choose(Kernel, int column, int row) const;
@@ -59,7 +59,7 @@ class Choice {
     std::list<Part> filtered_;
     std::vector<int> strata_;             // an axis, of filtered light, the fewest first
     std::optional<std::uint32_t> given_;  // points a pixel, where the description has a number of samples
-    double light_ = 0;                    // mean of the frame
+    double light_ = 0;                    // of the frame, root mean square
 };
 
 }  // namespace lfdsim
