@@ -13,7 +13,7 @@ namespace {
 constexpr double mean_allowed = 0.003, mean_of_target = 0.3;  // of the mean over a neighbourhood of pixels
 constexpr double rms_allowed = 0.01;                          // of a pixel of filtered light, or as much as that of 36 points
 constexpr double of_36_points = 0.5;                          // the error of 36 Sobol points over that of 16
-constexpr double points_rms = 0.06;                           // of a pixel by points, so that the mean over 500 is right to 0.003
+constexpr double points_rms = 0.04;                           // of a pixel by points, so that the mean over 500 is right to 0.002
 constexpr double least_light = 0.05;                          // a darker frame is judged as one of this light
 
 constexpr std::uint32_t first_points = 16, last_points = 256;  // at a region's places: each step takes four times as many
