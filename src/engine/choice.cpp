@@ -35,14 +35,14 @@ std::uint32_t scrambled(std::uint32_t a) {
 /// met at the same part each time.
 std::vector<Rect> places_in(const Rect& region, int an_axis) {
     std::vector<Rect> places;
-    const auto start = [&](int low, int high, int k, std::uint32_t number) {
-        const int from = low + (high - low) * k / an_axis, size = low + (high - low) * (k + 1) / an_axis - from;
-        return (from + place_side * int(number % std::uint32_t(std::max(size / place_side, 1)))) / place_side * place_side;
+    const auto start = [&](std::int64_t low, std::int64_t high, int k, std::uint32_t number) {
+        const std::int64_t from = low + (high - low) * k / an_axis, size = low + (high - low) * (k + 1) / an_axis - from;
+        return int((from + place_side * (number % std::max<std::int64_t>(size / place_side, 1))) / place_side * place_side);
     };
     for (int j = 0; j < an_axis; ++j)
         for (int i = 0; i < an_axis; ++i) {
             const std::uint32_t number =
-                scrambled(std::uint32_t(region.y0 * 8191 + region.x0) * 1024 + std::uint32_t(j * an_axis + i));
+                scrambled((std::uint32_t(region.y0) * 8191 + std::uint32_t(region.x0)) * 1024 + std::uint32_t(j * an_axis + i));
             const int x = start(region.x0, region.x1, i, number & 0xffff), y = start(region.y0, region.y1, j, number >> 16);
             places.push_back({x, y, std::min(x + place_side, region.x1), std::min(y + place_side, region.y1)});
         }

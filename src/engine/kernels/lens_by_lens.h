@@ -57,7 +57,7 @@ class LensByLens : SeenLenses {
     }
 
   private:
-    /// The light of a packet by as many points, where lenses are not told apart.
+    /// The light of a packet by 16 points for each sample, where lenses are not told apart.
     optics::Light<F> light_of_points(const optics::PixelRays<F>& pixels, std::int32_t column, std::int32_t row) const {
         std::uint32_t lane[optics::Block<F>::lanes];
         for (int k = 0; k < optics::Block<F>::lanes; ++k)
