@@ -1,6 +1,7 @@
 #include "engine/choice.h"
 
 #include "engine/scene.h"
+#include "optics/filtered_limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,20 +10,7 @@ namespace lfdsim {
 
 namespace {
 
-// Errors are allowed as shares of the frame's light (root mean square), or of the target error.
-constexpr double mean_allowed = 0.003, mean_of_target = 0.3;  // of the mean over a neighbourhood of pixels
-constexpr double rms_allowed = 0.01;                          // of a pixel of filtered light, or as much as that of 36 points
-constexpr double of_36_points = 0.5;                          // the error of 36 Sobol points over that of 16
-constexpr double points_rms = 0.04;                           // of a pixel by points, so that the mean over 500 is right to 0.002
-constexpr double least_light = 0.05;                          // a darker frame is judged as one of this light
-
-constexpr std::uint32_t first_points = 16, last_points = 256;  // at a region's places: each step takes four times as many
-constexpr std::uint32_t most_chosen_points = 4096;             // a pixel
-constexpr double falls_as = -0.62;                             // power of the number of points by which their error falls, at least
-
-constexpr int place_side = 4;                     // pixels; as many as share a list of lenses
-constexpr int places_an_axis = 12, together = 3;  // neighbourhoods are 3 x 3 places
-constexpr int frame_places_an_axis = 16;
+using Limits = FilteredLimits;
 
 /// A number that looks random (a bijective hash with good avalanche).
 std::uint32_t scrambled(std::uint32_t a) {
@@ -37,14 +25,15 @@ std::vector<Rect> places_in(const Rect& region, int an_axis) {
     std::vector<Rect> places;
     const auto start = [&](std::int64_t low, std::int64_t high, int k, std::uint32_t number) {
         const std::int64_t from = low + (high - low) * k / an_axis, size = low + (high - low) * (k + 1) / an_axis - from;
-        return int((from + place_side * (number % std::max<std::int64_t>(size / place_side, 1))) / place_side * place_side);
+        return int((from + Limits::place_side * (number % std::max<std::int64_t>(size / Limits::place_side, 1))) /
+                   Limits::place_side * Limits::place_side);
     };
     for (int j = 0; j < an_axis; ++j)
         for (int i = 0; i < an_axis; ++i) {
             const std::uint32_t number =
                 scrambled((std::uint32_t(region.y0) * 8191 + std::uint32_t(region.x0)) * 1024 + std::uint32_t(j * an_axis + i));
             const int x = start(region.x0, region.x1, i, number & 0xffff), y = start(region.y0, region.y1, j, number >> 16);
-            places.push_back({x, y, std::min(x + place_side, region.x1), std::min(y + place_side, region.y1)});
+            places.push_back({x, y, std::min(x + Limits::place_side, region.x1), std::min(y + Limits::place_side, region.y1)});
         }
     return places;
 }
@@ -84,8 +73,8 @@ struct Agreement {
 
     Agreement(const std::vector<float>& f, const std::vector<float>& a, const std::vector<float>& b,
               const std::vector<Rect>& places) {
-        constexpr double all = places_an_axis * places_an_axis, pairs = all * (all - 1);
-        double error[places_an_axis][places_an_axis], sum = 0, squares = 0, fourth = 0;
+        constexpr double all = Limits::places_an_axis * Limits::places_an_axis, pairs = all * (all - 1);
+        double error[Limits::places_an_axis][Limits::places_an_axis], sum = 0, squares = 0, fourth = 0;
         std::size_t k = 0;
         for (std::size_t n = 0; n < places.size(); ++n) {
             double here = 0, product = 0;
@@ -94,7 +83,7 @@ struct Agreement {
                 product += to_a * to_b / double(colours_of(places[n]));
                 here += 0.5 * (to_a + to_b) / double(colours_of(places[n]));
             }
-            error[n / places_an_axis][n % places_an_axis] = here;
+            error[n / Limits::places_an_axis][n % Limits::places_an_axis] = here;
             sum += here;
             squares += here * here;
             square += product / all;
@@ -104,12 +93,13 @@ struct Agreement {
         region2 = (sum * sum - squares) / pairs;
         region_noise = squares / all * std::sqrt(2 / pairs);
 
-        constexpr int hoods = places_an_axis / together;  // along an axis
-        constexpr double each = together * together, local_pairs = hoods * hoods * each * (each - 1);
+        constexpr int hoods = Limits::places_an_axis / Limits::together;  // along an axis
+        constexpr double each = Limits::together * Limits::together, local_pairs = hoods * hoods * each * (each - 1);
         for (int n = 0; n < hoods * hoods; ++n) {
             double total = 0, own = 0;
-            for (int q = 0; q < together * together; ++q) {
-                const double of = error[n / hoods * together + q / together][n % hoods * together + q % together];
+            for (int q = 0; q < Limits::together * Limits::together; ++q) {
+                const double of =
+                    error[n / hoods * Limits::together + q / Limits::together][n % hoods * Limits::together + q % Limits::together];
                 total += of;
                 own += of * of;
             }
@@ -165,33 +155,34 @@ Choice::Light Choice::points_at(Kernel kernel, const std::vector<Rect>& places, 
 }
 
 void Choice::look(Kernel kernel) {
-    const std::vector<Rect> places = places_in({0, 0, points_.view.width, points_.view.height}, frame_places_an_axis);
-    const Light a = points_at(kernel, places, first_points, 3), b = points_at(kernel, places, first_points, 4);
+    const std::vector<Rect> places = places_in({0, 0, points_.view.width, points_.view.height}, Limits::frame_places_an_axis);
+    const Light a = points_at(kernel, places, Limits::first_points, 3), b = points_at(kernel, places, Limits::first_points, 4);
     double squares = 0;  // a dark background does not count
     for (std::size_t k = 0; k < a.size(); ++k) squares += double(a[k]) * b[k];
-    light_ = std::max(std::sqrt(squares / double(a.size())), least_light);
+    light_ = std::max(std::sqrt(squares / double(a.size())), Limits::least_light);
 }
 
 RegionChoice Choice::choose(Kernel kernel, int column, int row) const {
     const int x0 = column * region_side, y0 = row * region_side;
-    const std::vector<Rect> places = places_in(
-        {x0, y0, std::min(x0 + region_side, points_.view.width), std::min(y0 + region_side, points_.view.height)}, places_an_axis);
+    const std::vector<Rect> places =
+        places_in({x0, y0, std::min(x0 + region_side, points_.view.width), std::min(y0 + region_side, points_.view.height)},
+                  Limits::places_an_axis);
     std::vector<Light> filtered;
     for (const int strata : strata_) filtered.push_back(filtered_at(kernel, places, strata));
 
     const double target = points_.target_error.value_or(0);
     RegionChoice choice;
     std::size_t candidate = 0;
-    double spread = 0, rms = target > 0 ? target : rms_allowed * light_,
-           mean = std::max(mean_allowed * light_, mean_of_target * target);
-    std::uint32_t points = first_points;
-    const auto error_of = [&](std::uint32_t wanted) { return spread * std::pow(double(wanted) / points, falls_as); };
+    double spread = 0, rms = target > 0 ? target : Limits::rms_allowed * light_,
+           mean = std::max(Limits::mean_allowed * light_, Limits::mean_of_target * target);
+    std::uint32_t points = Limits::first_points;
+    const auto error_of = [&](std::uint32_t wanted) { return spread * std::pow(double(wanted) / points, Limits::falls_as); };
     for (;; points *= 4) {
         const Light a = points_at(kernel, places, points, 1), b = points_at(kernel, places, points, 2);
         choice.samples += std::int64_t(2 * points * (a.size() / 3));
         spread = std::sqrt(spread2_of(a, b));
         if (given_ && target == 0) rms = mean = error_of(*given_);  // the better of two
-        if (!given_ && target == 0 && points == first_points) rms = std::max(rms, of_36_points * spread);
+        if (!given_ && target == 0 && points == Limits::first_points) rms = std::max(rms, Limits::of_36_points * spread);
         for (; candidate < filtered.size(); ++candidate) {
             const Agreement of(filtered[candidate], a, b, places);
             if (of.right(rms, mean)) {
@@ -201,13 +192,14 @@ RegionChoice Choice::choose(Kernel kernel, int column, int row) const {
             }
             if (!of.wrong(rms, mean)) break;
         }
-        const bool enough = given_ || target > 0 || spread <= (points < 36 ? rms_allowed : points_rms) * light_;
-        if (points == last_points || (candidate == filtered.size() && enough)) break;
+        const bool enough = given_ || target > 0 || spread <= (points < 36 ? Limits::rms_allowed : Limits::points_rms) * light_;
+        if (points == Limits::last_points || (candidate == filtered.size() && enough)) break;
     }
     if (target > 0) return choice;
     choice.points = given_.value_or(points);
     if (!given_)
-        while (error_of(choice.points) > points_rms * light_ && choice.points < most_chosen_points) choice.points *= 2;
+        while (error_of(choice.points) > Limits::points_rms * light_ && choice.points < Limits::most_chosen_points)
+            choice.points *= 2;
     choice.error = error_of(choice.points);
     return choice;
 }

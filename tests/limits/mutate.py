@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Which tests notice that a limit of the filtered or the lens-by-lens estimator (src/optics/filtered_limits.h) is another one?
+"""Which tests notice that a limit of the estimators or of the choice between them (src/optics/filtered_limits.h) is another one?
 
-Changes one limit after the other, compiles the scalar kernel and the engine with it, and runs the tests that keep the bits of filtered
+Changes one limit after the other, compiles the scalar kernel and the engine with it, and runs the tests that keep the bits of
 pictures. Prints a line for each limit; exit code 1 if one went unnoticed. Takes about a minute for each; the sources stay as they are.
 Usage: tests/limits/mutate.py [--build build/release] [LIMIT...]
 """
@@ -17,15 +17,15 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HEADER = "optics/filtered_limits.h"
-TESTS = ["FilteredEstimator.KeepsItsBits*", "FilteredExtremes.LightStaysLight", "*HasTheSameBitsEverywhere*", "*OfEveryLatticeAndCamera*"]
+TESTS = ["FilteredEstimator.KeepsItsBits*", "FilteredExtremes.LightStaysLight", "*HasTheSameBitsEverywhere*", "*OfEveryLatticeAndCamera*", "Choice.KeepsItsBits"]
 
 
 def limits(text):
     """(name, value, another value) of each limit."""
     found = []
-    for kind, declared in re.findall(r"static constexpr (double|int) ([^;]+);", text):
+    for kind, declared in re.findall(r"static constexpr (double|int|std::uint32_t) ([^;]+);", text):
         for name, value in re.findall(r"(\w+) = ([^,\s]+)", declared):
-            if kind == "int":  # node_step: there is no room for more nodes
+            if kind != "double":  # node_step: there is no room for more nodes
                 found.append((name, value, str(int(value) * 3 // 2 if name == "node_step" else int(value) // 2)))
             else:
                 found.append((name, value, f"{1.5 * float(value):g}"))
@@ -41,7 +41,7 @@ class Engine:
         for entry in json.loads((build / "compile_commands.json").read_text()):
             source = pathlib.Path(entry["file"])
             text = source.read_text() if "Unity" in source.parts else str(source)
-            if source.name == "scalar.cpp" or "src/engine/scene.cpp" in text:
+            if source.name == "scalar.cpp" or any(f"src/engine/{name}.cpp" in text for name in ("scene", "choice")):
                 self.compile[source.name + ".o"] = entry
         lines = subprocess.run(["ninja", "-C", build, "-t", "commands", "engine_tests"], capture_output=True, text=True, check=True)
         self.link = next(line for line in reversed(lines.stdout.splitlines()) if "-o engine_tests" in line)
