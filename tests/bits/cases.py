@@ -5,6 +5,7 @@ Pictures are small and of a few lenses, so that each takes some ten milliseconds
 import copy
 import dataclasses
 import pathlib
+import random
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 READY = sorted(file.stem for file in (ROOT / "displays").glob("*.toml"))
@@ -51,10 +52,12 @@ def changed(description, changes):
     return new
 
 
-# A part of each ready display, a few lenses wide: (panel pixels, more settings, frame width, an oblique camera).
+# A part of each ready display, a few lenses wide: (panel pixels, more settings, frame width, an oblique camera). Seen straight it is seen
+# from near, too: only where lenses are many pixels wide do blocks of pixels share rays.
 DESKTOP = ((616, 352), ["array.count=[7,4]"], 90, "380,160,1950")
 PARTS = {"barrier": ((256, 160), [], 26, "100,50,330"), "tablet-lenticular": ((256, 160), [], 23, "80,40,440"),
          "hexagon": ((240, 136), [], 23, "130,60,690")}
+NEAR = 5  # times narrower
 UNDIFFUSED = ("desktop-asphere-bare",)  # one ray for each pixel, whatever the estimator
 
 # 9 x 6 lenses in front of 144 x 96 pixels, seen from 0.5 m through a diffuser: what each feature is shown on.
@@ -145,9 +148,10 @@ ANALYZED = {
     "errors": ({**LATTICES["rectangle"], **ERRORS["all"]}, ("zone", "crosstalk", "mtf", "uniformity", "spot")),
     "pinhole": ({"lens": LENSES["pinhole"], "diffuser": None}, ("crosstalk", "uniformity")),
 }
+DRAWN = range(1, 81)
 QUICK = ("components", "dof", "moire", "spot")  # with BASE
 # The samples of --quick.
-QUICK_STRAIGHT, QUICK_OBLIQUE = [("filtered", 4)], [("filtered", None), ("lens_by_lens", 4), ("point", 4)]
+QUICK_STRAIGHT, QUICK_OBLIQUE = [("filtered", 4)], [("filtered", None), ("lens_by_lens", 36), ("point", 4)]
 
 
 def render(name, display, panel, *words, size="48x27", **options):
@@ -163,11 +167,26 @@ def label(kind, samples):
     return kind if samples is None else f"{kind}-{samples}"
 
 
+def drawn(number):
+    """A display drawn at random, with settings at the ends of their ranges, and how it is sampled."""
+    draw = random.Random(number)
+    wide, far = 10 ** draw.uniform(-0.3, 1.8), 10 ** draw.uniform(2, 3.2)
+    camera = [far * draw.uniform(-1, 1) * 1.5, far * draw.uniform(-1, 1) * 0.5, far]
+    display = changed(BASE, {
+        "lens": draw.choice(list(LENSES.values())), "diffuser.angle_deg": [wide, wide * draw.uniform(0.3, 1)],
+        "diffuser.distance_mm": 10 ** draw.uniform(0, 1.8), "camera.position_mm": camera, "camera.frame_width_mm": 10 ** draw.uniform(0.3, 1.8)})
+    for more in (draw.choice(list(LATTICES.values())), draw.choice([{}, GAUSSIAN]), draw.choice([{}, {"camera.pixel_filter": "box"}]),
+                 draw.choice([{}, {"camera.pupil_diameter_mm": 4.0}]), draw.choice([{}, {"panel.subpixels": "rgb_stripe"}])):
+        display = changed(display, more)
+    return display, draw.choice(["filtered", "filtered", "lens_by_lens"]), draw.choice([1, 4, 16, 64])
+
+
 def pictures_of_ready():
     for display in READY:
         panel, settings, width, oblique = PARTS.get(display, DESKTOP)
-        part = ["--set", f"panel.pixels=[{panel[0]},{panel[1]}]", *settings, "--frame-width-mm", str(width)]
-        for view, camera in [("straight", []), ("oblique", ["--camera-mm", oblique])]:
+        part = ["--set", f"panel.pixels=[{panel[0]},{panel[1]}]", *settings]
+        for view, camera in [("straight", ["--frame-width-mm", str(width / NEAR)]),
+                             ("oblique", ["--frame-width-mm", str(width), "--camera-mm", oblique])]:
             for sampled in SAMPLED if display not in UNDIFFUSED else SAMPLED[:1] + SAMPLED[-1:]:
                 yield render(f"{display}/{view}/{label(*sampled)}", display, panel, *part, *camera, *estimator(*sampled),
                              quick=sampled in (QUICK_STRAIGHT if view == "straight" else QUICK_OBLIQUE))
@@ -176,15 +195,17 @@ def pictures_of_ready():
 def pictures_of_features():
     panel = tuple(BASE["panel"]["pixels"])
     for name, changes in FEATURES.items():
+        yield render(f"{name}/near/filtered-16", changed(BASE, changes), panel, "--frame-width-mm", "7", *estimator("filtered", 16))
         for sampled in [("filtered", None), ("lens_by_lens", 16), ("point", 9)]:
             if changes.get("diffuser", 0) is None and sampled[0] == "lens_by_lens":
                 sampled = ("filtered", 4)
-            yield render(f"{name}/{label(*sampled)}", changed(BASE, changes), panel, "--camera-mm", "35,-20,490", *estimator(*sampled))
+            yield render(f"{name}/{label(*sampled)}", changed(BASE, changes), panel, "--camera-mm", "35,-20,490", *estimator(*sampled),
+                         quick=sampled[0] == "point")
     for lattice, changes in LATTICES.items():
         for lens, description in LENSES.items():
             display = changed(changed(BASE, changes), {"lens": description})
             for sampled in [("filtered", 4), ("lens_by_lens", 4), ("point", 4)]:
-                yield render(f"{lattice}/{lens}/{label(*sampled)}", display, panel, *estimator(*sampled))
+                yield render(f"{lattice}/{lens}/{label(*sampled)}", display, panel, *estimator(*sampled), quick=sampled[0] != "lens_by_lens")
         for surround, more in [("clear", CLEAR), ("plate", PLATE), ("cell", CELL)]:
             yield render(f"{lattice}/{surround}/point-4", changed(changed(BASE, changes), more), panel, "--camera-mm", "60,30,480",
                          *estimator("point", 4))
@@ -194,6 +215,12 @@ def pictures_of_features():
     yield render("blocks/lens_by_lens-4", BASE, panel, *estimator("lens_by_lens", 4), size="160x90")
     yield render("blocks/ideal/filtered", changed(BASE, {"lens": LENSES["ideal"]}), panel, size="288x40")
     yield render("regions/filtered", BASE, panel, size="520x30")
+    for name in ("wide-diffuser", "gaussian-wide", "pupil", "plate"):
+        yield render(f"close/{name}/filtered-16", changed(BASE, FEATURES[name]), panel, "--camera-mm", "14,9,100", "--frame-width-mm", "5",
+                     *estimator("filtered", 16))
+    for number in DRAWN:
+        display, kind, samples = drawn(number)
+        yield render(f"drawn/{number}/{label(kind, samples)}", display, panel, *estimator(kind, samples), quick=number % 2 == 0)
     yield render("crop/filtered", BASE, panel, "--crop", "31,17,60,41", size="96x54")
     yield render("target-error/filtered", BASE, panel, "--target-error", "0.02", *estimator("filtered", None))
     yield render("target-error/point", BASE, panel, "--target-error", "0.05", *estimator("point", None))
