@@ -59,7 +59,7 @@ class RealLens {
         for (int step = 0; step < steps; ++step) {
             entering = {{line.at.x + down * line.slope.x - axis.x, line.at.y + down * line.slope.y - (l.strips ? 0 : axis.y), 0},
                         to};
-            hit = optics::meet<optics::Shapes::all>(scene_, 0, entering);
+            hit = optics::meet<optics::Facts{}>(scene_, 0, entering);
             const optics::Cell<double> lens = optics::lens_at(l, hit.at.x + axis.x, hit.at.y + axis.y);
             if (!optics::holds(l, lens)) return {{}, 0};
             const optics::Place<double> next = optics::axis_in_array(l, lens);
@@ -67,7 +67,7 @@ class RealLens {
             axis = next;
         }
         optics::Passage<double> way{entering, {0, 0}, 1, true};
-        optics::pass_lens<optics::Shapes::all>(scene_, Rules{{scene_}}, entering, hit, way);
+        optics::pass_lens<optics::Facts{}>(scene_, Rules{{scene_}}, entering, hit, way);
         if (!way.alive) return {{}, 0};
         const double z = scene_.surface[scene_.surface_count - 1].z;
         const auto end = optics::down_to_panel(scene_, {way.ray.at.x, way.ray.at.y, way.ray.at.z + z}, scene_.glued, way.ray.to,

@@ -7,8 +7,8 @@ endif()
 # AddressSanitizer's checks are calls: they run half as fast, and compile in less than half of the time.
 if(LFDSIM_QUICK_SANITIZERS)
   set(LFDSIM_KERNELS scalar baseline)
-  set(scalar_quick -fno-sanitize=undefined "SHELL:-mllvm -asan-instrumentation-with-call-threshold=0" -DLFDSIM_FEW_WAYS)
-  set(baseline_quick -fno-sanitize=address -DLFDSIM_FEW_WAYS)
+  set(scalar_quick -fno-sanitize=undefined "SHELL:-mllvm -asan-instrumentation-with-call-threshold=0" -DLFDSIM_FEW_SPECIALISATIONS)
+  set(baseline_quick -fno-sanitize=address -DLFDSIM_FEW_SPECIALISATIONS)
 endif()
 # One object for each kernel: the same source for each instruction set. No errno and no traps in mathematics; contraction is off
 # everywhere.

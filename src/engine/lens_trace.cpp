@@ -132,7 +132,7 @@ double LensTrace::blocked(Point panel, Point cosines, LensRay& out) const {
     }
     const auto& first = scene_.surface[0];
     const optics::Ray<double> entering{place(top, first.z), to};
-    optics::pass_lens<optics::Shapes::all>(scene_, aim, entering, optics::meet<optics::Shapes::all>(scene_, 0, entering), way);
+    optics::pass_lens<optics::Facts{}>(scene_, aim, entering, optics::meet<optics::Facts{}>(scene_, 0, entering), way);
     if (!way.alive) return aim.miss > 0 ? aim.miss : missed(0, aim.last);
     const auto principal = place(at.z + scene_.surface[count - 1].z, -rear_principal_mm_);
     out = {principal.x, principal.y, -to.x / to.z, -to.y / to.z};

@@ -53,7 +53,7 @@ struct MeshedScene : optics::Scene<float> {
 };
 
 namespace optics {
-/// For trace_opaque<Shapes::meshed>; the scene must be a MeshedScene.
+/// For trace_opaque<Specialisations::meshed>; the scene must be a MeshedScene.
 inline Hit<float> meet_mesh(const Scene<float>& scene, int k, const Ray<float>& ray) {
     return static_cast<const MeshedScene&>(scene).surfaces->meet(k, ray);
 }

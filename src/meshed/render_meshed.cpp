@@ -29,7 +29,7 @@ void render_tile(const Tile& tile) {
                 optics::sample_ray(scene, *tile.view, pixel, sampler, way.ray);
                 optics::to_first_vertex(scene, way);
                 if (!way.alive) continue;
-                const auto point = optics::trace_opaque<optics::Shapes::meshed>(scene, pixel.extent, pixel.base, way);
+                const auto point = optics::trace_opaque<optics::Specialisations::meshed>(scene, pixel.extent, pixel.base, way);
                 optics::Light<float> light;
                 light.add(scene.emission, tile.texels, optics::Fetch<float>(optics::panel_pixel(scene, pixel.base, point)));
                 for (int c = 0; c < 3; ++c) sum[c] += double(light(0, c));

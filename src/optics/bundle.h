@@ -145,8 +145,8 @@ LFDSIM_FN void trace_probes(const Scene<Scalar<F>>& scene, const PixelBlock<Scal
         const F x = load<F>(probes.at_x + p), y = load<F>(probes.at_y + p), across = load<F>(probes.x + p) - x,
                 up = (load<F>(probes.y + p) - y) * to_plane_x;
         const F per = F(1) / sqrt(across * across + up * up + down * down);
-        const PanelPoint<F> point = trace_array<Way::any>(
-            scene, block.lens.extent, block.lens.panel, Ray<F>{{x, y, F(0)}, {across * per, up * per, -(down * per)}}, F(0) < F(1));
+        const PanelPoint<F> point = trace_any<F>(scene, block.lens.extent, block.lens.panel,
+                                                 Ray<F>{{x, y, F(0)}, {across * per, up * per, -(down * per)}}, F(0) < F(1));
         store(point.column, probes.column + p);
         store(point.row, probes.row + p);
         store(select(point.alive, point.weight, F(0)), probes.weight + p);

@@ -3,8 +3,7 @@
 // Rays go down, from the viewer's side to the panel's. Light that goes up is traced downwards through the lens turned over
 // (turned_over() in model/prescription.h), its mirror image in the plane of the panel.
 #pragma once
-#include <type_traits>
-
+#include "optics/facts.h"
 #include "optics/lens_array.h"
 #include "optics/scene.h"
 #include "optics/surface.h"
@@ -20,81 +19,37 @@ struct Passage {
     Mask<F> alive;
 };
 
-/// The forms of surface that a kernel is compiled for, so that the 2019 paper's lens without a stop does not pay for the others:
-/// that lens's in rows and columns, with plain light (for_plain_facts) or any; as strips, and in staggered rows; any of revolution
-/// in rows and columns; all of them in all lattices, glued too. All but the last have air under them. For triangles in place of
-/// surfaces (src/meshed) the caller supplies meet_mesh(scene, k, ray).
-enum class Shapes { plain, plain_schlick, plano_convex, plano_convex_strips, plano_convex_staggered, any, all, meshed };
-
-template <Shapes shapes>
-constexpr bool are_plain = shapes == Shapes::plain || shapes == Shapes::plain_schlick;
-
-template <Shapes shapes>
-constexpr bool are_plano_convex = are_plain<shapes> || shapes == Shapes::plano_convex || shapes == Shapes::plano_convex_strips ||
-                                  shapes == Shapes::plano_convex_staggered;
-
-/// The lattice is known, and that air is under the lenses.
-template <Shapes shapes>
-constexpr bool know_lattice = are_plano_convex<shapes> || shapes == Shapes::any;
-
-/// What most displays and cameras have in common. (Shapes::plain_schlick has Schlick's equation, too.)
-template <class S, class Fact>
-LFDSIM_FN void for_plain_facts(const Scene<S>& scene, const Fact& fact) {
-    fact(!scene.box_filter);
-    fact(!scene.thin_lens);
-    fact(scene.has_diffuser && scene.start_above != S(0));
-    fact(!scene.rotated);
-    fact(scene.diffuser_profile == Profile::box);
-    fact(scene.emission_exponent == S(0));
-    fact(scene.emission.whole);
-    fact(scene.aperture == Aperture::circle);
-}
-
-#ifdef __CUDACC__
-constexpr bool copies_lattice = true;  // CUDA's compiler does not heed assume(), but it follows the numbers of a copy
-#else
-constexpr bool copies_lattice = false;
-#endif
-
-/// The lattice as a kernel is compiled for it.
-template <Shapes shapes, class S>
-LFDSIM_FN auto lattice_of(const Scene<S>& scene)
-    -> std::conditional_t<copies_lattice && know_lattice<shapes>, Lattice<S>, const Lattice<S>&> {
-    if constexpr (copies_lattice && know_lattice<shapes>) {
+/// The lattice, whose kind is a constant where it is known.
+template <Facts facts, class S>
+LFDSIM_FN decltype(auto) lattice_of(const Scene<S>& scene) {
+    if constexpr (facts.strips == Known::ask || facts.staggered == Known::ask) {
+        return (scene.lattice);
+    } else {
         Lattice<S> lattice = scene.lattice;
-        lattice.strips = shapes == Shapes::plano_convex_strips;
-        lattice.staggered = shapes == Shapes::plano_convex_staggered;
+        lattice.strips = facts.strips == Known::yes;
+        lattice.staggered = facts.staggered == Known::yes;
         lattice.hexagonal = lattice.hexagonal && lattice.staggered;
         return lattice;
-    } else {
-        return scene.lattice;
     }
 }
 
-/// Tells the compiler, which leaves out what cannot be, which lattices and what under the lenses a kernel is compiled for. It takes
-/// these one by one only, and forgets them where a function is called.
-template <Shapes shapes, class S>
+/// Tells the compiler what is known where code that is compiled for any display follows. It takes facts one by one only, and
+/// forgets them where a function is called.
+template <Facts facts, class S>
 LFDSIM_FN void assume(const Scene<S>& scene) {
-    if constexpr (shapes == Shapes::all) return;
-    if (scene.glued) __builtin_unreachable();
-    if (scene.layer_count != 0) __builtin_unreachable();
-    if constexpr (shapes == Shapes::plano_convex_staggered) {
-        if (!scene.lattice.staggered) __builtin_unreachable();
-    } else {
-        if (scene.lattice.staggered) __builtin_unreachable();
-        if (scene.lattice.hexagonal) __builtin_unreachable();
-    }
-    if constexpr (shapes == Shapes::plano_convex_strips) {
-        if (!scene.lattice.strips) __builtin_unreachable();
-    } else {
-        if (scene.lattice.strips) __builtin_unreachable();
-    }
+    if (facts.on_air == Known::yes && scene.glued) __builtin_unreachable();
+    if (facts.on_air == Known::yes && scene.layer_count != 0) __builtin_unreachable();
+    if (facts.staggered == Known::yes && !scene.lattice.staggered) __builtin_unreachable();
+    if (facts.staggered == Known::no && scene.lattice.staggered) __builtin_unreachable();
+    if (facts.staggered == Known::no && scene.lattice.hexagonal) __builtin_unreachable();
+    if (facts.strips == Known::yes && !scene.lattice.strips) __builtin_unreachable();
+    if (facts.strips == Known::no && scene.lattice.strips) __builtin_unreachable();
 }
 
 /// Surface k, counted from the viewer's side.
-template <Shapes shapes, class S>
+template <Facts facts, class S>
 LFDSIM_FN Shape shape_of(const Scene<S>& scene, int k) {
-    if (are_plano_convex<shapes>) return k == 0 ? Shape::sphere : Shape::plane;
+    if (facts.plano_convex == Known::yes) return k == 0 ? Shape::sphere : Shape::plane;
     return scene.surface[k].shape;
 }
 
@@ -128,25 +83,24 @@ LFDSIM_FN Hit<F> meet_cylinder(Shape shape, const Surface& surface, const Ray<F>
 }
 
 /// Surface k.
-template <Shapes shapes, class F>
+template <Facts facts, class F>
 LFDSIM_FN Hit<F> meet(const Scene<Scalar<F>>& scene, int k, Ray<F> in_vertex_plane) {
-    if constexpr (shapes == Shapes::meshed)
+    if constexpr (facts.meshed == Known::yes)
         return meet_mesh(scene, k, in_vertex_plane);
     else
-        return (shapes == Shapes::all || shapes == Shapes::plano_convex_strips) && lattice_of<shapes>(scene).strips
-                   ? meet_cylinder(scene.surface[k].shape, scene.surface[k], in_vertex_plane)
-                   : meet(shape_of<shapes>(scene, k), scene.surface[k], in_vertex_plane);
+        return holds<facts.strips>(scene.lattice.strips) ? meet_cylinder(scene.surface[k].shape, scene.surface[k], in_vertex_plane)
+                                                         : meet(shape_of<facts>(scene, k), scene.surface[k], in_vertex_plane);
 }
 
 /// Within the walls of its cell? Those of a round lens are its surfaces' semi-apertures, which `ok` has tested.
-template <Shapes shapes, class F>
+template <Facts facts, class F>
 LFDSIM_FN Mask<F> inside_cell(const Scene<Scalar<F>>& scene, Vec3<F> at, Mask<F> ok) {
-    if (are_plain<shapes> || scene.aperture == Aperture::circle) return ok;
-    return ok && in_cell(lattice_of<shapes>(scene), at.x, at.y);
+    if (facts.plain_light == Known::yes || scene.aperture == Aperture::circle) return ok;
+    return ok && in_cell(lattice_of<facts>(scene), at.x, at.y);
 }
 
 /// Refracts a ray that comes down from the viewer's side (Snell's law as vectors; total internal reflection ends it).
-template <Shapes shapes, class F>
+template <Facts facts, class F>
 LFDSIM_FN void refract_down(const Scene<Scalar<F>>& scene, Shape shape, const SurfaceData<Scalar<F>>& surface, const Hit<F>& hit,
                             Passage<F>& way) {
     const F eta = F(surface.media.eta);
@@ -161,9 +115,9 @@ LFDSIM_FN void refract_down(const Scene<Scalar<F>>& scene, Shape shape, const Su
         way.ray.to = {eta * i.x + m * hit.normal.x, eta * i.y + m * hit.normal.y, eta * i.z + m * hit.normal.z};
     }
     way.ray.at = hit.at;
-    const bool vanishes =
-        !are_plano_convex<shapes> && scene.glued && surface.media.n_above == surface.media.n_below;  // the lens's medium goes on
-    const Fresnel fresnel = shapes == Shapes::plain_schlick ? Fresnel::schlick : scene.fresnel;
+    const bool vanishes = facts.plano_convex != Known::yes && scene.glued &&
+                          surface.media.n_above == surface.media.n_below;  // the lens's medium goes on
+    const Fresnel fresnel = facts.schlick == Known::yes ? Fresnel::schlick : scene.fresnel;
     if (fresnel != Fresnel::none && !vanishes) {
         way.weight =
             way.weight * transmittance(fresnel, F(surface.media.schlick_t0), F(surface.media.n_above), F(surface.media.n_below),
@@ -205,11 +159,11 @@ LFDSIM_FN Place<F> bend(const Scene<Scalar<F>>& scene, Place<F> q, Place<F> slop
 ///   meet(k, ray)                            where a ray in the vertex plane of surface k meets it;
 ///   stop_between(from, end, at, to, ...)    the stop, in place of passes_stop();
 ///   wall_bottom()                           where the black part ends.
-template <Shapes shapes, class F, class Rules>
+template <Facts facts, class F, class Rules>
 LFDSIM_FN void pass_lens(const Scene<Scalar<F>>& scene, Rules&& rules, const Ray<F>& entering, Hit<F> hit, Passage<F>& way) {
     using S = Scalar<F>;
-    const int count = are_plano_convex<shapes> ? 2 : scene.surface_count;
-    const bool has_stop = !are_plano_convex<shapes> && scene.has_stop;
+    const int count = facts.plano_convex == Known::yes ? 2 : scene.surface_count;
+    const bool has_stop = facts.plano_convex != Known::yes && scene.has_stop;
     constexpr bool by_itself = requires { rules.stand; };
     // The stop is tested where the ray first crosses its plane: before the first surface or after any. z from the panel.
     Mask<F> stop_ahead = way.alive;
@@ -233,7 +187,7 @@ LFDSIM_FN void pass_lens(const Scene<Scalar<F>>& scene, Rules&& rules, const Ray
     }
     rules.meets(0, entering, hit, above_all, hit.at.z + F(scene.surface[0].z), way);
     if (rules.over(way.alive)) return;
-    refract_down<shapes>(scene, shape_of<shapes>(scene, 0), scene.surface[0], hit, way);
+    refract_down<facts>(scene, shape_of<facts>(scene, 0), scene.surface[0], hit, way);
     for (int k = 1; k < count; ++k) {
         const SurfaceData<S>&above = scene.surface[k - 1], &surface = scene.surface[k];
         const F t = quotient(F(surface.z - above.z) - way.ray.at.z, way.ray.to.z);  // to its vertex plane
@@ -242,23 +196,23 @@ LFDSIM_FN void pass_lens(const Scene<Scalar<F>>& scene, Rules&& rules, const Ray
         if constexpr (by_itself)
             hit = rules.meet(k, ray);
         else
-            hit = meet<shapes>(scene, k, ray);
+            hit = meet<facts>(scene, k, ray);
         const F from_z = way.ray.at.z + F(above.z), z = hit.at.z + F(surface.z);
         if (has_stop) stop_between(from_z, z, way.ray.at, way.ray.to, from_z);
         rules.meets(k, ray, hit, from_z, z, way);
         // Downwards throughout: a ray turned up, or meeting a surface behind itself, is absorbed.
         way.alive = way.alive && (way.ray.to.z < F(0));
-        if (shape_of<shapes>(scene, k) != Shape::plane) way.alive = way.alive && (z <= from_z);
+        if (shape_of<facts>(scene, k) != Shape::plane) way.alive = way.alive && (z <= from_z);
         if (rules.over(way.alive)) return;
-        refract_down<shapes>(scene, shape_of<shapes>(scene, k), surface, hit, way);
+        refract_down<facts>(scene, shape_of<facts>(scene, k), surface, hit, way);
     }
     const F z = way.ray.at.z + F(scene.surface[count - 1].z);
     if (has_stop) stop_between(z, -above_all, way.ray.at, way.ray.to, z);
     if constexpr (by_itself)
         if (has_stop) way.alive = way.alive && !stop_ahead;
     rules.leaves(way);
-    if (shape_of<shapes>(scene, count - 1) != Shape::plane) way.alive = way.alive && (way.ray.to.z < F(0));
-    if (!are_plano_convex<shapes> && scene.hollow_back) {  // the way out is the hole in the black part's lower face
+    if (shape_of<facts>(scene, count - 1) != Shape::plane) way.alive = way.alive && (way.ray.to.z < F(0));
+    if (facts.plano_convex != Known::yes && scene.hollow_back) {  // the way out is the hole in the black part's lower face
         F wall_bottom = F(scene.wall_bottom);
         if constexpr (by_itself) wall_bottom = rules.wall_bottom();
         const F down = (wall_bottom - z) / way.ray.to.z;

@@ -22,13 +22,8 @@ struct Encounter {
     Mask<F> enters;
 };
 
-template <Shapes shapes, class S>
-LFDSIM_FN bool are_thin(const Scene<S>& scene) {
-    return shapes == Shapes::all && scene.thin;
-}
-
 /// `ray` in the array's frame, z from the vertex plane; fall = 1 / ray.to.z.
-template <Shapes shapes, class F>
+template <Facts facts, class F>
 LFDSIM_FN Encounter<F> meet_placed(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F fall,
                                    Cell<F> cell) {
     using S = Scalar<F>;
@@ -42,7 +37,7 @@ LFDSIM_FN Encounter<F> meet_placed(const Scene<Scalar<F>>& scene, const Extent<S
         fall = F(1) / to.z;
     }
     const Mask<F> comes = there && (to.z < F(0));
-    const bool thin = are_thin<shapes>(scene);
+    const bool thin = holds<facts.ideal>(scene.thin);
     const S vertex = thin ? scene.ideal_z : scene.surface[0].z;
     at.way = (F(vertex - scene.placement.vertex_z) - from.z) * fall;
     at.entering = {{from.x + to.x * at.way, from.y + to.y * at.way, F(0)}, to};
@@ -53,12 +48,12 @@ LFDSIM_FN Encounter<F> meet_placed(const Scene<Scalar<F>>& scene, const Extent<S
         if (scene.aperture == Aperture::cell) at.hit.ok = in_cell(scene.lattice, p.x, p.y);
         at.enters = comes && at.hit.ok;
     } else {
-        at.hit = meet_curved<shapes>(scene, 0, at.entering, at.stand.curvature);
-        at.hit.ok = inside_cell<Shapes::all>(scene, at.hit.at, at.hit.ok);
-        if (!are_plano_convex<shapes> && scene.dimple) {  // the entrance is the rim
+        at.hit = meet_curved<facts>(scene, 0, at.entering, at.stand.curvature);
+        at.hit.ok = inside_cell<Facts{}>(scene, at.hit.at, at.hit.ok);
+        if (facts.plano_convex != Known::yes && scene.dimple) {  // the entrance is the rim
             const F down = (outmost_rim(scene, true, at.stand.curvature) - F(vertex)) * fall;
             const F x = p.x + to.x * down, y = across(scene.lattice, p.y + to.y * down), r = F(scene.surface[0].semi_aperture);
-            at.enters = inside_cell<Shapes::all>(scene, Vec3<F>{x, p.y + to.y * down, F(0)}, comes && (x * x + y * y <= r * r));
+            at.enters = inside_cell<Facts{}>(scene, Vec3<F>{x, p.y + to.y * down, F(0)}, comes && (x * x + y * y <= r * r));
             at.way = at.way + down;
         } else {
             at.enters = comes && at.hit.ok;
@@ -97,10 +92,10 @@ LFDSIM_FN void around(const Lattice<Scalar<F>>& lattice, Cell<F> cell, const Do&
 }
 
 /// Takes what rays of `near` meet in a cell, if they meet its lens before the one at hand.
-template <Shapes shapes, class F>
+template <Facts facts, class F>
 LFDSIM_FN void meet_in(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F fall, Cell<F> cell,
                        Mask<F> near, Encounter<F>& first) {
-    const Encounter<F> next = meet_placed<shapes>(scene, extent, ray, fall, cell);
+    const Encounter<F> next = meet_placed<facts>(scene, extent, ray, fall, cell);
     take(near && next.enters && (!first.enters || (next.way < first.way)), next, first);
 }
 
@@ -131,7 +126,7 @@ LFDSIM_FN Mask<F> nears_one_border(const Lattice<Scalar<F>>& lattice, Cell<F> ow
 /// The rays of `astray` pass cells whose neighbours' lenses may stand out into them: finds the lens that each meets first, if it
 /// meets any before the one at hand. `from`, `end`: where they come down to search_top, and where their ways end, from the axis of
 /// their own cell; `at`: the former from the base lens's axis.
-template <Shapes shapes, class F>
+template <Facts facts, class F>
 LFDSIM_RARE void meet_others(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F fall,
                              Place<F> from, Place<F> end, Place<F> at, Mask<F> astray, Encounter<F>& first) {
     using S = Scalar<F>;
@@ -140,7 +135,7 @@ LFDSIM_RARE void meet_others(const Scene<Scalar<F>>& scene, const Extent<Scalar<
     Cell<F> other = own;
     if (!(scene.lattice.staggered && !scene.lattice.hexagonal) &&
         none(astray && !nears_one_border(scene.lattice, own, from, end, F(max(placement.reach, S(0))), other)))
-        return meet_in<shapes>(scene, extent, ray, fall, other, astray, first);
+        return meet_in<facts>(scene, extent, ray, fall, other, astray, first);
 
     const F depth = F(placement.search_top - placement.search_bottom), r2 = F(placement.radius * placement.radius);
     const Place<F> m{-(ray.to.x * fall), -(ray.to.y * fall)};  // lateral displacement per mm of descent
@@ -157,7 +152,7 @@ LFDSIM_RARE void meet_others(const Scene<Scalar<F>>& scene, const Extent<Scalar<
             const Mask<F> known = (here.i == own.i) && (here.j == own.j),
                           near = active && !known && extent.holds(here) && (ex * ex + ey * ey <= r2);
             if (none(near)) return;
-            meet_in<shapes>(scene, extent, ray, fall, here, near, first);
+            meet_in<facts>(scene, extent, ray, fall, here, near, first);
         });
         return F(0) > F(1);
     });
@@ -180,7 +175,7 @@ LFDSIM_FN Mask<F> nears_another(const Lattice<Scalar<F>>& lattice, Place<F> at, 
 }
 
 /// The first lens that a ray meets; `ray` in the array's frame, z from the vertex plane.
-template <Shapes shapes, class F>
+template <Facts facts, class F>
 LFDSIM_FN Encounter<F> enter_placed(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray,
                                     Mask<F> alive) {
     const Placement<Scalar<F>>& placement = scene.placement;
@@ -188,7 +183,7 @@ LFDSIM_FN Encounter<F> enter_placed(const Scene<Scalar<F>>& scene, const Extent<
     const F up = (F(placement.search_top) - ray.at.z) * fall, down = (F(placement.search_bottom) - ray.at.z) * fall;
     const F x = ray.at.x + ray.to.x * up, y = ray.at.y + ray.to.y * up;
     const Cell<F> cell = cell_at(scene.lattice, x, y);
-    Encounter<F> first = meet_placed<shapes>(scene, extent, ray, fall, cell);
+    Encounter<F> first = meet_placed<facts>(scene, extent, ray, fall, cell);
     // A way from there to the lens, or to below all lenses, that is further from the cell's border than lenses stand out of their
     // own cells leads past no other one. Nor does one that is further from other lenses than they are wide.
     const Place<F> axis = axis_of(scene.lattice, cell);
@@ -208,7 +203,7 @@ LFDSIM_FN Encounter<F> enter_placed(const Scene<Scalar<F>>& scene, const Extent<
     if (any(astray)) {
         const Ray<F> here = ray;
         Encounter<F> found = first;
-        meet_others<shapes>(scene, extent, here, fall, from_axis, end, {x, y}, astray, found);
+        meet_others<facts>(scene, extent, here, fall, from_axis, end, {x, y}, astray, found);
         first = found;
     }
     return first;
@@ -240,13 +235,13 @@ LFDSIM_RARE Mask<F> passes_any_hole(const Scene<Scalar<F>>& scene, const Extent<
 
 /// The rules of pass_lens() for a lens that stands by itself. Its stop's hole stands in the array's frame, moved with the lens but
 /// not turned; a ray may pass that of any lens.
-template <Shapes shapes, class F>
-struct Placed : InArray<Shapes::all, F> {
+template <Facts facts, class F>
+struct Placed : InArray<Facts{}, F> {
     const Stand<F> stand;
 
     LFDSIM_FN Place<F> axis() const { return {F(0), F(0)}; }
     LFDSIM_FN Hit<F> meet(int k, const Ray<F>& in_vertex_plane) const {
-        return meet_curved<shapes>(this->scene, k, in_vertex_plane, stand.curvature);
+        return meet_curved<facts>(this->scene, k, in_vertex_plane, stand.curvature);
     }
 
     LFDSIM_FN F wall_bottom() const { return outmost_rim(this->scene, false, stand.curvature); }
@@ -271,8 +266,8 @@ struct Placed : InArray<Shapes::all, F> {
 };
 
 /// A thin lens or a pinhole: way.ray leaves it in the lens's frame.
-template <Shapes shapes, class F>
-LFDSIM_FN void pass_thin(const Scene<Scalar<F>>& scene, const Placed<shapes, F>& rules, const Encounter<F>& met, Passage<F>& way) {
+template <Facts facts, class F>
+LFDSIM_FN void pass_thin(const Scene<Scalar<F>>& scene, const Placed<facts, F>& rules, const Encounter<F>& met, Passage<F>& way) {
     const Vec3<F> to = met.entering.to;
     const F fall = F(1) / to.z, power = F(scene.ideal_power) * met.stand.curvature;
     const F mx = to.x * fall + met.hit.at.x * power, my = to.y * fall + across(scene.lattice, met.hit.at.y) * power;
@@ -333,25 +328,25 @@ LFDSIM_FN PanelPoint<F> out_of_array(const Scene<Scalar<F>>& scene, const PanelB
 }
 
 /// From the plane z = entrance, in which way.ray starts, to the panel.
-template <Shapes shapes, class F>
+template <Facts facts, class F>
 LFDSIM_FN PanelPoint<F> trace_placed(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
                                      const PanelBase<Scalar<F>>& base, Passage<F> way) {
     using S = Scalar<F>;
     const Placement<S>& placement = scene.placement;
     const Ray<F> ray = in_array(scene, base, way.ray);
     way.alive = way.alive && (ray.to.z < F(S(-1e-9)));
-    const Encounter<F> met = enter_placed<shapes>(scene, extent, ray, way.alive);
+    const Encounter<F> met = enter_placed<facts>(scene, extent, ray, way.alive);
     way.alive = way.alive && met.hit.ok;
     way.cell = met.cell;
     way.ray = met.entering;
-    assume<shapes>(scene);
-    const Placed<shapes, F> rules{{scene, extent, way.cell}, met.stand};
+    assume<facts>(scene);
+    const Placed<facts, F> rules{{scene, extent, way.cell}, met.stand};
     S plane = scene.ideal_z;
-    if (are_thin<shapes>(scene)) {
+    if (holds<facts.ideal>(scene.thin)) {
         pass_thin(scene, rules, met, way);
     } else {
-        pass_lens<shapes>(scene, rules, met.entering, met.hit, way);
-        plane = scene.surface[are_plano_convex<shapes> ? 1 : scene.surface_count - 1].z;
+        pass_lens<facts>(scene, rules, met.entering, met.hit, way);
+        plane = scene.surface[facts.plano_convex == Known::yes ? 1 : scene.surface_count - 1].z;
     }
     Vec3<F> at{way.ray.at.x, way.ray.at.y, way.ray.at.z + F(plane - placement.vertex_z)}, to = way.ray.to;
     if (placement.tilted) {

@@ -13,13 +13,13 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 
 /// Where a ray in the vertex plane of the first surfaces, x and y from the base lens's axis, meets the first surface of the lens in
 /// `cell`. The hit is relative to the axis of that lens.
-template <Shapes shapes, class F>
+template <Facts facts, class F>
 LFDSIM_FN Hit<F> meet_first(const Scene<Scalar<F>>& scene, Ray<F> ray, Cell<F> cell) {
-    const Place<F> axis = axis_of(lattice_of<shapes>(scene), cell);
+    const Place<F> axis = axis_of(lattice_of<facts>(scene), cell);
     ray.at.x = ray.at.x - axis.x;
     ray.at.y = ray.at.y - axis.y;
-    Hit<F> hit = meet<shapes>(scene, 0, ray);
-    hit.ok = inside_cell<shapes>(scene, hit.at, hit.ok);
+    Hit<F> hit = meet<facts>(scene, 0, ray);
+    hit.ok = inside_cell<facts>(scene, hit.at, hit.ok);
     return hit;
 }
 
@@ -43,15 +43,15 @@ LFDSIM_FN Mask<F> passes_two_cells(const Scene<Scalar<F>>& scene, Cell<F> first,
 /// The rays of `astray` miss the cap of the cell they point at: finds the cap of another cell, if any, that they meet before they
 /// are down at the rims, and writes hit and cell of those that do. (x, y): where they enter the zone of the caps, zone_bottom <= z
 /// <= zone_top, from the base lens's axis; m = -d(x, y)/dz, the lateral displacement per mm of descent.
-template <Shapes shapes, class F>
+template <Facts facts, class F>
 LFDSIM_RARE void meet_neighbours(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F x, F y, F mx,
                                  F my, Mask<F> astray, Hit<F>& hit, Cell<F>& cell) {
-    assume<shapes>(scene);
+    assume<facts>(scene);
     const Cell<F> own = cell;
     auto try_cell = [&](Cell<F> here, Mask<F> active) {
         active = active && !((here.i == own.i) && (here.j == own.j));
         if (none(active)) return active;
-        const Hit<F> next = meet_first<shapes>(scene, ray, here);
+        const Hit<F> next = meet_first<facts>(scene, ray, here);
         const Mask<F> met = active && next.ok;
         auto choose = [&](F a, F b) { return select(met, a, b); };
         hit = {{choose(next.at.x, hit.at.x), choose(next.at.y, hit.at.y), choose(next.at.z, hit.at.z)},
@@ -111,36 +111,36 @@ LFDSIM_FN Mask<F> may_enter(const Scene<Scalar<F>>& scene, const Extent<Scalar<F
 /// Finds the lens through which a ray enters the array (way.cell) and where it meets that lens's first surface. `ray` starts in the
 /// vertex plane of the first surfaces; the hit is relative to the axis of the lens found. Most rays meet the cap of the cell they
 /// point at; a ray that misses it and leaves the cell before it is down at the rims is tested against the next cells.
-template <Shapes shapes, class F>
+template <Facts facts, class F>
 LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, Passage<F>& way) {
     const auto& first = scene.surface[0];
     const F fall = inverse(ray.to.z);  // dx/dz = to.x fall
     // The cell is that at the point where the ray enters the zone of the caps (the plane of the rims, if they are the highest).
     F x = ray.at.x, y = ray.at.y;
-    if (!are_plano_convex<shapes> && scene.zone_top != first.z) {
+    if (facts.plano_convex != Known::yes && scene.zone_top != first.z) {
         const F up = F(scene.zone_top - first.z) * fall;
         x = x + ray.to.x * up;
         y = y + ray.to.y * up;
     }
-    way.cell = cell_at(lattice_of<shapes>(scene), x, y);
-    Hit<F> hit = meet_first<shapes>(scene, ray, way.cell);
+    way.cell = cell_at(lattice_of<facts>(scene), x, y);
+    Hit<F> hit = meet_first<facts>(scene, ray, way.cell);
     hit.ok = both(hit.ok, extent.holds(way.cell));
-    if (!are_plano_convex<shapes> && scene.dimple) {  // the entrance is the rim's circle or cell
+    if (facts.plano_convex != Known::yes && scene.dimple) {  // the entrance is the rim's circle or cell
         const Place<F> axis = axis_of(scene.lattice, way.cell);
         const F lx = x - axis.x, ly = across(scene.lattice, y - axis.y), r = F(first.semi_aperture);
         hit.ok = hit.ok && (lx * lx + ly * ly <= r * r);
-    } else if (are_plano_convex<shapes> || scene.zone_top > scene.zone_bottom) {
+    } else if (facts.plano_convex == Known::yes || scene.zone_top > scene.zone_bottom) {
         const F kd = F(scene.zone_bottom - scene.zone_top) * fall;
         Mask<F> astray = both(way.alive, !hit.ok);
         if (LaneTraits<F>::width > 1 || any(astray)) {
-            astray = both(astray, may_meet_neighbours(lattice_of<shapes>(scene), way.cell, x, y, ray.to.x * kd, ray.to.y * kd,
+            astray = both(astray, may_meet_neighbours(lattice_of<facts>(scene), way.cell, x, y, ray.to.x * kd, ray.to.y * kd,
                                                       F(first.semi_aperture)));
             if (any(astray)) astray = both(astray, may_enter(scene, extent, way.cell, x + ray.to.x * kd, y + ray.to.y * kd));
             if (any(astray)) {
                 Hit<F> found = hit;
                 Cell<F> cell = way.cell;
                 const Ray<F> from = ray;
-                meet_neighbours<shapes>(scene, extent, from, x, y, -(ray.to.x * fall), -(ray.to.y * fall), astray, found, cell);
+                meet_neighbours<facts>(scene, extent, from, x, y, -(ray.to.x * fall), -(ray.to.y * fall), astray, found, cell);
                 hit = found;
                 hit.ok = both(found.ok, way.alive);  // else it would be kept in memory
                 way.cell = cell;
@@ -152,49 +152,50 @@ LFDSIM_FN Hit<F> enter_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<
 }
 
 /// The rules of pass_lens() for a lens in an array: apertures and cells, as masks over a packet's rays.
-template <Shapes shapes, class F>
+template <Facts facts, class F>
 struct InArray {
     const Scene<Scalar<F>>& scene;
     const Extent<Scalar<F>>& extent;
     const Cell<F> cell;
 
-    LFDSIM_FN Place<F> axis() const { return axis_of(lattice_of<shapes>(scene), cell); }
+    LFDSIM_FN Place<F> axis() const { return axis_of(lattice_of<facts>(scene), cell); }
     LFDSIM_FN void meets(int k, const Ray<F>&, const Hit<F>& hit, F, F, Passage<F>& way) const {
-        if (k > 0) way.alive = way.alive && inside_cell<shapes>(scene, hit.at, hit.ok);  // enter_array() has tested the first
+        if (k > 0) way.alive = way.alive && inside_cell<facts>(scene, hit.at, hit.ok);  // enter_array() has tested the first
     }
     LFDSIM_FN Mask<F> passes_stop(Mask<F>, F x, F y) const { return optics::passes_stop(scene, extent, x, y); }
     LFDSIM_FN void leaves(const Passage<F>&) const {}
     LFDSIM_FN Mask<F> passes_back(F x, F y) const {
         const F r = F(scene.surface[scene.surface_count - 1].semi_aperture);
         const F z = F(0), from_middle = across(scene.lattice, y);
-        return inside_cell<shapes>(scene, Vec3<F>{x, y, z}, x * x + from_middle * from_middle <= r * r);
+        return inside_cell<facts>(scene, Vec3<F>{x, y, z}, x * x + from_middle * from_middle <= r * r);
     }
     LFDSIM_FN bool over(Mask<F>) const { return false; }
 };
 
 /// From the vertex plane of the first surfaces, in which way.ray starts (from the base lens's axis), through one lens to the panel.
 /// The radiance is multiplied by cos^m of the ray's angle at the panel, m the emission exponent.
-template <Shapes shapes, class F>
+template <Facts facts, class F>
 LFDSIM_FN PanelPoint<F> trace_opaque(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
                                      const PanelBase<Scalar<F>>& base, Passage<F> way) {
     using S = Scalar<F>;
-    const int count = are_plano_convex<shapes> ? 2 : scene.surface_count;
+    const int count = facts.plano_convex == Known::yes ? 2 : scene.surface_count;
     const Ray<F> entering = way.ray;
-    const Hit<F> hit = enter_array<shapes>(scene, extent, entering, way);
-    assume<shapes>(scene);
-    pass_lens<shapes>(scene, InArray<shapes, F>{scene, extent, way.cell}, entering, hit, way);
+    const Hit<F> hit = enter_array<facts>(scene, extent, entering, way);
+    assume<facts>(scene);
+    pass_lens<facts>(scene, InArray<facts, F>{scene, extent, way.cell}, entering, hit, way);
     const Vec3<F> leaves{way.ray.at.x, way.ray.at.y, way.ray.at.z + F(scene.surface[count - 1].z)};
     Place<F> end;
-    if constexpr (shapes != Shapes::all) {
+    if constexpr (facts.on_air == Known::yes) {
         const F t = quotient(-leaves.z, way.ray.to.z);
         end = {leaves.x + way.ray.to.x * t, leaves.y + way.ray.to.y * t};
     } else {
         const Mask<F> glued = F(scene.glued ? 1 : 0) > F(0);
         end = down_to_panel(scene, leaves, glued, way.ray.to, way.weight, way.alive);
     }
-    if (!are_plain<shapes> && scene.emission_exponent != S(0))
+    if (facts.plain_light != Known::yes && scene.emission_exponent != S(0))
         way.weight = way.weight * power(-way.ray.to.z, scene.emission_exponent);
-    return panel_point<are_plain<shapes>>(scene, lattice_of<shapes>(scene), base, way.cell, end.x, end.y, way.weight, way.alive);
+    return panel_point<facts.plain_light == Known::yes>(scene, lattice_of<facts>(scene), base, way.cell, end.x, end.y, way.weight,
+                                                        way.alive);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -67,13 +67,13 @@ struct CurvedSurface {
 };
 
 /// Where a ray meets surface k of lenses that stand like this.
-template <Shapes shapes, class F>
+template <Facts facts, class F>
 LFDSIM_FN Hit<F> meet_curved(const Scene<Scalar<F>>& scene, int k, const Ray<F>& in_vertex_plane, F factor) {
-    const Shape shape = shape_of<shapes>(scene, k);
-    if (!scene.placement.curved || shape == Shape::plane) return meet<shapes>(scene, k, in_vertex_plane);
+    const Shape shape = shape_of<facts>(scene, k);
+    if (!scene.placement.curved || shape == Shape::plane) return meet<facts>(scene, k, in_vertex_plane);
     const CurvedSurface<F> surface(scene.surface[k], factor);
-    return shapes == Shapes::all && scene.lattice.strips ? meet_cylinder(shape, surface, in_vertex_plane)
-                                                         : meet(shape, surface, in_vertex_plane);
+    return holds<facts.strips>(scene.lattice.strips) ? meet_cylinder(shape, surface, in_vertex_plane)
+                                                     : meet(shape, surface, in_vertex_plane);
 }
 
 /// z of the highest rim of a lens's surfaces, or of the lowest.

@@ -100,7 +100,8 @@ SidePath through_lens(const Display& d, const Geometry& g, const SideRay& from) 
     const auto& first = scene.surface[0];
     const optics::Ray<double> ray{{0, start.y_at(sense * first.z), 0}, {0, start.dy, sense * start.dz}};
     optics::Passage<double> way{ray, {0, 0}, 1, true};
-    optics::pass_lens<optics::Shapes::any>(scene, Pen{{scene}, path, sense}, ray, optics::meet(first.shape, first, ray), way);
+    optics::pass_lens<optics::Specialisations::opaque>(scene, Pen{{scene}, path, sense}, ray, optics::meet(first.shape, first, ray),
+                                                       way);
     path.through = way.alive;
     if (path.through) go_on(way.ray.at.y, way.ray.at.z + scene.surface[scene.surface_count - 1].z, way.ray.to.y, way.ray.to.z);
     if (!up) down_through_layers(g, path);

@@ -28,14 +28,14 @@ class Backward {
         const double length = std::hypot(ray.mx, ray.my, 1);
         const optics::Ray<double> start{{ray.x + ray.mx * start_, ray.y + ray.my * start_, 0},
                                         {-ray.mx / length, -ray.my / length, -1 / length}};
-        return optics::with_way(scene_, [&]<optics::Way way>() { return end<way>(start); });
+        return optics::with_facts(scene_, [&]<optics::Facts facts>() { return end<facts>(start); });
     }
 
   private:
-    template <optics::Way way>
+    template <optics::Facts facts>
     std::optional<Point> end(const optics::Ray<double>& start) const {
         const auto point =
-            optics::trace_array<way>(scene_, optics::Extent<double>{0, 0, 0, 0}, optics::PanelBase<double>{}, start, true);
+            optics::trace_array<facts>(scene_, optics::Extent<double>{0, 0, 0, 0}, optics::PanelBase<double>{}, start, true);
         if (!point.alive) return {};
         return Point{point.column * pixel_, -point.row * pixel_};
     }

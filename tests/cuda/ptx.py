@@ -9,7 +9,7 @@ import sys
 import tempfile
 
 ARCHITECTURES = [75, 86, 90]
-WAYS = ["plain", "plain_schlick", "plano_convex", "strips", "staggered", "opaque", "ideal", "glass", "other"]
+SPECIALISATIONS = ["paper_plain", "paper_plain_schlick", "paper", "paper_strips", "paper_staggered", "opaque", "ideal", "lit_between", "others"]
 
 
 def functions(ptx):
@@ -52,19 +52,19 @@ def main():
                 faults.append(f"sm_{arch} does not compile:\n{made.stderr}")
                 continue
             used = re.findall(r"Compiling entry function 'probe_(\w+)'.*?(\d+) bytes spill stores.*?Used (\d+) registers", made.stderr, re.S)
-            if sorted(way for way, _, _ in used) != sorted(WAYS):
+            if sorted(name for name, _, _ in used) != sorted(SPECIALISATIONS):
                 faults.append(f"sm_{arch}: kernels missing: {used}")
-            for way, spilled, registers in used:
-                print(f"sm_{arch} {way}: {registers} registers, {spilled} bytes spilled")
+            for name, spilled, registers in used:
+                print(f"sm_{arch} {name}: {registers} registers, {spilled} bytes spilled")
         found = functions(ptx.read_text())
-        for way in WAYS:
-            if f"probe_{way}" not in found:
-                faults.append(f"no kernel probe_{way} in the PTX")
+        for name in SPECIALISATIONS:
+            if f"probe_{name}" not in found:
+                faults.append(f"no kernel probe_{name} in the PTX")
                 continue
-            loop = loop_of(found[f"probe_{way}"])
+            loop = loop_of(found[f"probe_{name}"])
             divisions, roots = (sum(any(t in line for t in texts) for line in loop)
                                 for texts in (("div.rn", "rcp.rn", "rcp.approx"), ("sqrt.rn", "rsqrt.approx")))
-            print(f"PTX of a sample, {way}: {len(loop)} instructions in all branches, {divisions} divisions, {roots} roots")
+            print(f"PTX of a sample, {name}: {len(loop)} instructions in all branches, {divisions} divisions, {roots} roots")
         for name, body in found.items():
             doubles = [line.strip() for line in body.splitlines() if ".f64" in line and not line.strip().startswith(".")]
             own = re.sub(r"// begin inline asm.*?// end inline asm", "", body, flags=re.S)  # divisions' and roots' are meant

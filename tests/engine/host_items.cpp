@@ -5,9 +5,9 @@
 #include "optics/trace.h"
 
 lfdsim::HostKernel lfdsim::host_kernel(const wide::Frame& frame) {
-    return optics::with_way(frame.scene, [&]<optics::Way way>() {
+    return optics::with_facts(frame.scene, [&]<optics::Facts facts>() {
         const auto of = [&]<bool sobol>() {
-            return HostKernel{int(way), sobol, [](const wide::Frame& f, std::int64_t i) { wide::point_item<way, sobol>(f, i); }};
+            return HostKernel{facts, sobol, [](const wide::Frame& f, std::int64_t i) { wide::point_item<facts, sobol>(f, i); }};
         };
         return frame.tile.sampling == Sampling::sobol ? of.template operator()<true>() : of.template operator()<false>();
     });

@@ -2,6 +2,7 @@
 #pragma once
 #include "engine/wide/frame.h"
 #include "engine/wide/likeness_frame.h"
+#include "optics/facts.h"
 
 #include <cstdint>
 
@@ -9,7 +10,7 @@ namespace lfdsim {
 
 /// The kernel of a frame.
 struct HostKernel {
-    int way;     // optics::Way, through the array
+    optics::Facts facts;
     bool sobol;  // the template argument of wide::point_item
     void (*item)(const wide::Frame&, std::int64_t i);
 };

@@ -38,7 +38,7 @@ class HostQueue : public wide::Queue {
     /// From the last item to the first: no order among them is promised.
     void run(const wide::Frame& frame, std::int64_t items) override {
         const HostKernel kernel = host_kernel(frame);
-        ways.insert(kernel.way);
+        specialisations.push_back(kernel.facts);
         for (std::int64_t i = items - 1; i >= 0; --i) kernel.item(frame, i);
     }
     void run(wide::LikenessStep step, const wide::LikenessFrame& frame, std::int64_t items) override {
@@ -50,7 +50,7 @@ class HostQueue : public wide::Queue {
     std::int64_t points_at_once() const override { return points; }
 
     std::int64_t points = std::int64_t(1) << 31;  // at once
-    std::set<int> ways;                           // optics::Way of the kernels
+    std::vector<optics::Facts> specialisations;   // of the kernels
 
   private:
     std::size_t memory_, used_ = 0;

@@ -87,7 +87,8 @@ template <class F>
 std::int64_t traced(const optics::Scene<F>& scene, const optics::View& view, int column, int row) {
     const optics::Sampler<F> sampler(Sampling::sobol, optics::sampler_dimensions, 0, 0);
     const auto rays = optics::pixel_rays<F>(view, column, row);
-    const auto hit = optics::with_way(scene, [&]<optics::Way way>() { return optics::trace<way>(scene, view, rays, sampler); });
+    const auto hit =
+        optics::with_facts(scene, [&]<optics::Facts facts>() { return optics::trace<facts>(scene, view, rays, sampler); });
     return hit.lit ? std::int64_t(hit.pixel) : -1;
 }
 

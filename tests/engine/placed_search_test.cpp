@@ -39,11 +39,11 @@ int wrong_of(const Display& d, int rays, std::mt19937& random, int& entering) {
         const optics::Ray<double> ray{
             {width * (0.5 + share(random)), height * (0.5 + share(random)), scene.placement.search_top + 1},
             {mx * per, my * per, -per}};
-        const auto found = optics::enter_placed<optics::Shapes::all>(scene, extent, ray, true);
+        const auto found = optics::enter_placed<optics::Facts{}>(scene, extent, ray, true);
         double first = 1e30;
         for (double j = 0; j < lattice.count[1]; ++j)
             for (double i = 0; i < lattice.count[0]; ++i) {
-                const auto met = optics::meet_placed<optics::Shapes::all>(scene, extent, ray, 1 / ray.to.z, Cell<double>{i, j});
+                const auto met = optics::meet_placed<optics::Facts{}>(scene, extent, ray, 1 / ray.to.z, Cell<double>{i, j});
                 if (met.enters) first = std::min(first, met.way);
             }
         entering += first < 1e30;

@@ -30,7 +30,7 @@ TEST(Means, OfManySamplesAreTheirAverage) {
                 double sum[3] = {};
                 for (int n = 0; n < samples; ++n, sampler.next(sobol_directions())) {
                     const auto hit =
-                        optics::trace<optics::Way::plano_convex>(scene, view, optics::pixel_rays<float>(view, x, y), sampler);
+                        optics::trace<optics::Specialisations::paper>(scene, view, optics::pixel_rays<float>(view, x, y), sampler);
                     for (int c = 0; c < 3 && hit.lit; ++c) sum[c] += double(hit.weight) * double(panel.data()[hit.pixel * 4 + c]);
                 }
                 // 256 roundings of 6e-8 of a sum below 1 each, at random: at most 256 x 6e-8 relative

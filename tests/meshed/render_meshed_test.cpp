@@ -49,8 +49,8 @@ Comparison compare(const Display& d, std::int64_t triangles, LensNormals normals
             optics::Passage<float> way{{}, {0, 0}, 1, pixel.alive};
             optics::sample_ray(scene, view, pixel, sampler, way.ray);
             optics::to_first_vertex(scene, way);
-            const auto a = optics::trace_opaque<optics::Shapes::any>(scene, pixel.extent, pixel.base, way);
-            const auto b = optics::trace_opaque<optics::Shapes::meshed>(scene, pixel.extent, pixel.base, way);
+            const auto a = optics::trace_opaque<optics::Specialisations::opaque>(scene, pixel.extent, pixel.base, way);
+            const auto b = optics::trace_opaque<optics::Specialisations::meshed>(scene, pixel.extent, pixel.base, way);
             found.one += a.alive != b.alive;
             if (!a.alive || !b.alive) continue;
             ++found.both;

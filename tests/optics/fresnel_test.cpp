@@ -106,10 +106,10 @@ TEST(Fresnel, PassagesCarryTheRightWeight) {
             const double down = kind == Fresnel::none ? 1 : transmitted<double>(kind, 1, 1.5, above);
             const double up = kind == Fresnel::none ? 1 : transmitted<double>(kind, 1.5, 1, below);
             Passage<double> way{{{0, 0, 0}, {std::sin(above), 0, -std::cos(above)}}, {0, 0}, 1, true};
-            refract_down<Shapes::all>(scene, Shape::plane, scene.surface[0], meet(Shape::plane, scene.surface[0], way.ray), way);
+            refract_down<Facts{}>(scene, Shape::plane, scene.surface[0], meet(Shape::plane, scene.surface[0], way.ray), way);
             EXPECT_NEAR(way.weight, down, 1e-13);
             way.weight = 1;
-            refract_down<Shapes::all>(scene, Shape::plane, scene.surface[1], meet(Shape::plane, scene.surface[1], way.ray), way);
+            refract_down<Facts{}>(scene, Shape::plane, scene.surface[1], meet(Shape::plane, scene.surface[1], way.ray), way);
             EXPECT_NEAR(way.weight, up, 1e-13);
 
             const Crossing<double> here{0, {0, 0, 1}, {0, 0}, true};

@@ -96,7 +96,7 @@ TYPED_TEST(Laws, RefractionObeysSnell) {
     for_each_ray<F>([&](const Surface&, const Scene<F>& scene, V, V, const Ray<F>& ray) {
         const Hit<F> hit = meet(scene.surface[0].shape, scene.surface[0], ray);
         Passage<F> way{ray, {F(0), F(0)}, F(1), true};
-        refract_down<Shapes::all>(scene, scene.surface[0].shape, scene.surface[0], hit, way);
+        refract_down<Facts{}>(scene, scene.surface[0].shape, scene.surface[0], hit, way);
         const V i = wide(ray.to), t = wide(way.ray.to), n = wide(hit.normal);
         EXPECT_TRUE(way.alive);
         EXPECT_NEAR(length(t), 1, bound<F>);
@@ -153,7 +153,7 @@ TYPED_TEST(Laws, SequentialLightEndsBeyondTheCriticalAngle) {
     for (double angle = 0.5 * degree; angle < 89.6 * degree; angle += degree) {
         const Ray<F> ray{{F(0), F(0), F(0)}, {F(std::sin(angle)), F(0), F(-std::cos(angle))}};
         Passage<F> way{ray, {F(0), F(0)}, F(1), true};
-        refract_down<Shapes::all>(scene, back.shape, back, meet(back.shape, back, ray), way);
+        refract_down<Facts{}>(scene, back.shape, back, meet(back.shape, back, ray), way);
         EXPECT_EQ(way.alive, angle < critical) << angle / degree;
         if (way.alive) {
             EXPECT_NEAR(double(way.ray.to.x), 1.5 * std::sin(angle), bound<F>);
@@ -169,7 +169,7 @@ TEST(PlaneLimit, SpheresFlattenIntoThePlane) {
     const Ray<double> ray{{3, -2, 0}, {0.3, 0.4, -std::sqrt(0.75)}};
     auto pass = [&](const Scene<double>& scene, Shape shape) {
         Passage<double> way{ray, {0, 0}, 1, true};
-        refract_down<Shapes::all>(scene, shape, scene.surface[0], meet(shape, scene.surface[0], ray), way);
+        refract_down<Facts{}>(scene, shape, scene.surface[0], meet(shape, scene.surface[0], ray), way);
         EXPECT_TRUE(way.alive);
         return way.ray;
     };

@@ -32,7 +32,7 @@ struct Bench {
             vertex = s.z;
             const Hit<double> hit = meet(s.shape, s, way.ray);
             way.alive = way.alive && hit.ok;
-            refract_down<Shapes::all>(scene, s.shape, s, hit, way);
+            refract_down<Facts{}>(scene, s.shape, s, hit, way);
         }
         stand(way.ray, vertex, end);
         ray = way.ray;

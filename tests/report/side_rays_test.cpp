@@ -26,9 +26,9 @@ double traced(const Display& d, const SideRay& ray) {
     const Ray<double> start{{0, ray.y_at(first), 0}, {0, ray.dy, ray.dz}};
     PanelPoint<double> point{};
     if (d.lens.type() == LensType::ideal)
-        point = trace_array<Way::ideal>(scene, extent, base, start, true);
+        point = trace_array<Specialisations::ideal>(scene, extent, base, start, true);
     else
-        point = trace_array<Way::opaque>(scene, extent, base, start, true);
+        point = trace_array<Specialisations::opaque>(scene, extent, base, start, true);
     return point.alive ? -point.row * d.panel.pixel_pitch_mm : NAN;
 }
 

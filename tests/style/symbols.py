@@ -2,7 +2,7 @@
 
 The kernel's source is compiled once per instruction set, and the linker keeps one copy of each weak symbol: were a function shared, an
 old machine could meet AVX-512 code in it. So each weak symbol of kernel ISA must sit in a namespace called ISA. Looked at are the
-objects of the build and, since optimisation inlines most such functions away, the scalar one compiled without it and for few ways:
+objects of the build and, since optimisation inlines most such functions away, the scalar one compiled without it and with few specialisations:
 the source is the same for all. Contracted sums (fused multiply and add), which not every instruction set has, would round differently.
 
 Usage: symbols.py BUILD_DIRECTORY
@@ -40,7 +40,7 @@ for command in json.loads((build / "compile_commands.json").read_text()):
     with tempfile.NamedTemporaryFile(suffix=".o") as unoptimised:
         kernels = [built]
         if isa == "scalar":
-            subprocess.run(shlex.split(command["command"]) + ["-O0", "-DLFDSIM_FEW_WAYS", "-o", unoptimised.name], cwd=command["directory"], check=True)
+            subprocess.run(shlex.split(command["command"]) + ["-O0", "-DLFDSIM_FEW_SPECIALISATIONS", "-o", unoptimised.name], cwd=command["directory"], check=True)
             kernels.append(unoptimised.name)
         for kernel in kernels:
             checked += 1

@@ -14,28 +14,28 @@ namespace {
 /// (docs/gpu.md).
 constexpr int least_blocks = 6;
 
-template <optics::Way through, bool sobol>
+template <optics::Facts facts, bool sobol>
 __global__ void __launch_bounds__(threads, least_blocks)
     point_kernel(const __grid_constant__ wide::Frame frame, std::int64_t items) {
     const std::int64_t i = std::int64_t(blockIdx.x) * threads + threadIdx.x;
-    if (i < items) wide::point_item<through, sobol>(frame, i);
+    if (i < items) wide::point_item<facts, sobol>(frame, i);
 }
 
 }  // namespace
 
 template <bool sobol>
 void PointKernels<sobol>::start(const wide::Frame& frame, std::int64_t items, cudaStream_t stream) {
-    optics::with_way(frame.scene, [&]<optics::Way way>() {
-        point_kernel<way, sobol><<<thread_blocks(items), threads, 0, stream>>>(frame, items);
+    optics::with_facts(frame.scene, [&]<optics::Facts facts>() {
+        point_kernel<facts, sobol><<<thread_blocks(items), threads, 0, stream>>>(frame, items);
     });
 }
 
 template <bool sobol>
 cudaError_t PointKernels<sobol>::raise_to_local_bytes(std::size_t& most) {
     cudaError_t result = cudaSuccess;
-    optics::for_all_ways([&]<optics::Way way>() {
+    optics::for_all_specialisations([&]<optics::Facts facts>() {
         cudaFuncAttributes attributes;
-        const cudaError_t asked = cudaFuncGetAttributes(&attributes, point_kernel<way, sobol>);
+        const cudaError_t asked = cudaFuncGetAttributes(&attributes, point_kernel<facts, sobol>);
         if (asked == cudaSuccess)
             most = std::max(most, attributes.localSizeBytes);
         else

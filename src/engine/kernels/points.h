@@ -11,20 +11,20 @@ namespace {
 
 constexpr std::uint32_t block_samples = 256;  // samples summed in one go (even), so that rounding does not grow with their number
 
-template <optics::Way through>
+template <optics::Facts facts>
 LFDSIM_APART optics::PanelHit<F> trace_one(const Tile& tile, const optics::PixelRays<F>& pixels,
                                            const optics::Sampler<F>& sampler) {
-    return optics::trace<through>(*tile.scene, *tile.view, pixels, sampler);
+    return optics::trace<facts>(*tile.scene, *tile.view, pixels, sampler);
 }
 
 /// The light of one pixel, for a GPU's thread: there other threads hide latency, while code that does not fit into the cache of
 /// instructions, and registers, are dear. So one loop traces all samples. The sums are those of gather(). It does not call
 /// trace_one(), which would keep the sampler out of the registers.
-template <optics::Way through, bool sobol>
+template <optics::Facts facts, bool sobol>
 LFDSIM_FN optics::Light<F> gather_one(const Tile& tile, const optics::PixelRays<F>& pixels, std::uint32_t pixel) {
     const optics::Scene<float>& scene = *tile.scene;
-    optics::Sampler<F> sampler(sobol ? Sampling::sobol : tile.sampling, optics::is_plain(through) ? 2 : tile.dimensions,
-                               tile.view->seed, pixel);
+    optics::Sampler<F> sampler(sobol ? Sampling::sobol : tile.sampling,
+                               facts.plain_light == optics::Known::yes ? 2 : tile.dimensions, tile.view->seed, pixel);
     optics::Light<F> total, block;
     for (std::uint32_t sample = 0; sample < tile.samples; sample += 2) {
         optics::Light<F> pair;
@@ -33,8 +33,8 @@ LFDSIM_FN optics::Light<F> gather_one(const Tile& tile, const optics::PixelRays<
 #pragma unroll 1
 #endif
         for (std::uint32_t k = sample; k < end; ++k) {
-            const optics::Fetch<F> fetch(optics::trace<through>(scene, *tile.view, pixels, sampler));
-            if constexpr (optics::is_plain(through))
+            const optics::Fetch<F> fetch(optics::trace<facts>(scene, *tile.view, pixels, sampler));
+            if constexpr (facts.plain_light == optics::Known::yes)
                 pair.add(tile.texels, fetch);
             else
                 pair.add(scene.emission, tile.texels, fetch);
@@ -56,9 +56,9 @@ LFDSIM_FN optics::Light<F> gather_one(const Tile& tile, const optics::PixelRays<
 /// Lanes are neighbouring pixels, and each adds its samples in order, two at a time, so that no bit depends on the packet a pixel
 /// is in. The light of two samples is fetched while the next two, traced side by side (optics/pair.h), are on their way, so that
 /// memory latency is hidden.
-template <optics::Way through>
+template <optics::Facts facts>
 LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& pixels, optics::Uint<F> pixel) {
-    if constexpr (optics::LaneTraits<F>::width == 1) return gather_one<through, false>(tile, pixels, pixel);
+    if constexpr (optics::LaneTraits<F>::width == 1) return gather_one<facts, false>(tile, pixels, pixel);
     const optics::Scene<float>& scene = *tile.scene;
     optics::Sampler<F> even(tile.sampling, tile.dimensions, tile.view->seed, pixel), odd = even;
     odd.next(*tile.directions);
@@ -69,7 +69,7 @@ LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& 
         optics::Fetch<F> first, second;  // of the last two samples
         const std::uint32_t end = tile.samples - sample < block_samples ? tile.samples : sample + block_samples;
         for (; sample + 1 < end; sample += 2) {
-            const auto hit = optics::trace<through>(scene, *tile.view, twice, optics::SamplerPair<F>{even, odd});
+            const auto hit = optics::trace<facts>(scene, *tile.view, twice, optics::SamplerPair<F>{even, odd});
             block.add(scene.emission, tile.texels, first, second);
             first = optics::Fetch<F>({hit.pixel.a, hit.weight.a, hit.lit.a});
             second = optics::Fetch<F>({hit.pixel.b, hit.weight.b, hit.lit.b});
@@ -81,7 +81,7 @@ LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& 
         block.add(scene.emission, tile.texels, first, second);
         total.add(block);
     }
-    if (tile.samples % 2 == 1) total.add(scene.emission, tile.texels, optics::Fetch<F>(trace_one<through>(tile, pixels, even)));
+    if (tile.samples % 2 == 1) total.add(scene.emission, tile.texels, optics::Fetch<F>(trace_one<facts>(tile, pixels, even)));
     return total;
 }
 

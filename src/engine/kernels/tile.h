@@ -30,7 +30,7 @@ using F = float;
 namespace lfdsim {
 namespace {
 
-template <optics::Way through>
+template <optics::Facts facts>
 void render_points(const Tile& tile) {
     using Block = optics::Block<F>;
     std::uint32_t lane[Block::lanes];  // number of the lane's pixel in the frame, minus that of the block's first
@@ -39,7 +39,7 @@ void render_points(const Tile& tile) {
         for (std::int32_t x = tile.x0 / Block::width * Block::width; x < tile.x1; x += Block::width) {
             const auto pixel =
                 optics::load<F>(lane) + optics::Uint<F>(std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x));
-            const optics::Light<F> light = gather<through>(tile, optics::pixel_rays<F>(*tile.view, x, y), pixel);
+            const optics::Light<F> light = gather<facts>(tile, optics::pixel_rays<F>(*tile.view, x, y), pixel);
             for (int k = 0; k < Block::lanes; ++k) {
                 const std::int32_t column = x + k % Block::width, row = y + k / Block::width;
                 if (column < tile.x0 || column >= tile.x1 || row < tile.y0 || row >= tile.y1) continue;
@@ -55,7 +55,7 @@ void render_points(const Tile& tile) {
 void LFDSIM_KERNEL(const Tile& tile) {
     if (tile.strata > 0 && tile.lens_by_lens) return render_lens_by_lens(tile);
     if (tile.strata > 0) return render_filtered(tile);
-    optics::with_way(*tile.scene, [&]<optics::Way through>() { render_points<through>(tile); });
+    optics::with_facts(*tile.scene, [&]<optics::Facts facts>() { render_points<facts>(tile); });
 }
 
 }  // namespace lfdsim

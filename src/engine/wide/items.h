@@ -4,7 +4,6 @@
 #ifndef LFDSIM_LANES
 #define LFDSIM_LANES 1
 #endif
-#define LFDSIM_PLAIN_WAYS  // worth their code there (optics/trace.h)
 #include "engine/wide/frame.h"
 #include "optics/lane.h"
 
@@ -53,7 +52,7 @@ LFDSIM_FN float* output(const Frame& frame, std::uint32_t square, std::int32_t x
 
 /// Item i: all samples of a pixel. There are fewer than 2^32 items (render.cpp); a GPU divides 64-bit numbers by a hundred
 /// instructions.
-template <optics::Way through, bool sobol>
+template <optics::Facts facts, bool sobol>
 LFDSIM_FN void point_item(const Frame& frame, std::int64_t i) {
     Tile tile = frame.tile;
     tile.scene = &frame.scene;
@@ -66,7 +65,7 @@ LFDSIM_FN void point_item(const Frame& frame, std::int64_t i) {
     float* const out = output(frame, square, x, y);
     if (!out) return;
     const std::uint32_t number = std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x);
-    const optics::Light<F> light = gather_one<through, sobol>(tile, optics::pixel_rays<F>(*tile.view, x, y), number);
+    const optics::Light<F> light = gather_one<facts, sobol>(tile, optics::pixel_rays<F>(*tile.view, x, y), number);
     for (int c = 0; c < 3; ++c) out[c] = light(0, c) / float(tile.samples);
 }
 

@@ -1,0 +1,127 @@
+// What the tracer knows of a display while it is compiled. Floor 1.
+//
+// The tracer is written once, for any display. A copy of it for displays of which something is known asks less: the one for the
+// 2019 paper's lens has no Newton iteration, no stop and no layers. `Specialisations` lists the copies, and a display takes the
+// first whose facts hold. All copies have the same bits, so a row more or less changes speed and size alone.
+#pragma once
+#include "optics/config.h"
+#include "optics/scene.h"
+
+namespace lfdsim::optics {
+
+/// One fact does not hold, holds, or is not known: then the display is asked.
+enum class Known : std::int8_t { no, yes, ask };
+
+/// A partly known display.
+struct Facts {
+    Known ideal = Known::ask;         // thin lenses, or pinholes
+    Known lit_between = Known::ask;   // light passes the array between its lenses, through glass
+    Known misaligned = Known::ask;    // the array has assembly errors
+    Known plano_convex = Known::ask;  // a spherical cap over a plane, without a stop: the 2019 paper's lens
+    Known strips = Known::ask;        // lenses as strips
+    Known staggered = Known::ask;     // every other row is shifted: hexagons and bricks
+    Known on_air = Known::ask;        // the lenses stand in air over a bare panel
+    Known plain_light = Known::ask;   // has_plain_light()
+    Known schlick = Known::ask;       // Fresnel's equations by Schlick's approximation
+    Known meshed = Known::no;         // triangles stand for the surfaces (src/meshed); no display says so itself
+
+    bool operator==(const Facts&) const = default;
+    /// These facts and one more, which holds.
+    consteval Facts with(Known Facts::*fact) const {
+        Facts facts = *this;
+        facts.*fact = Known::yes;
+        return facts;
+    }
+};
+
+inline namespace LFDSIM_ISA {
+
+/// A fact, as it is known or as the display answers.
+template <Known known>
+LFDSIM_FN constexpr bool holds(bool asked) {
+    return known == Known::ask ? asked : known == Known::yes;
+}
+
+/// Whether light is what it is on most displays and cameras: a pinhole camera through pixels' centres, a box diffuser above the
+/// lenses, pixels that shine all over and in all directions alike, round lenses along the panel's axes.
+template <class S>
+LFDSIM_FN bool has_plain_light(const Scene<S>& scene) {
+    return !scene.box_filter && !scene.thin_lens && scene.has_diffuser && scene.start_above != S(0) && !scene.rotated &&
+           scene.diffuser_profile == Profile::box && scene.emission_exponent == S(0) && scene.emission.whole &&
+           scene.aperture == Aperture::circle;
+}
+
+template <class S>
+LFDSIM_FN bool is_plano_convex(const Scene<S>& scene) {
+    return !scene.thin && scene.surface_count == 2 && scene.surface[0].shape == Shape::sphere &&
+           scene.surface[1].shape == Shape::plane && !scene.has_stop && !scene.dimple;
+}
+
+template <class S>
+LFDSIM_FN bool is_lit_between(const Scene<S>& scene) {
+    return !scene.thin && scene.surround != Surround::opaque;
+}
+
+/// Whether all that is known holds for a display.
+template <Facts facts, class S>
+LFDSIM_FN bool hold(const Scene<S>& scene) {
+    const auto agrees = [](Known known, bool answer) { return known == Known::ask || answer == (known == Known::yes); };
+    return agrees(facts.ideal, scene.thin) && agrees(facts.lit_between, is_lit_between(scene)) &&
+           agrees(facts.misaligned, scene.placement.given) && agrees(facts.plano_convex, is_plano_convex(scene)) &&
+           agrees(facts.strips, scene.lattice.strips) && agrees(facts.staggered, scene.lattice.staggered) &&
+           agrees(facts.on_air, !scene.glued && scene.layer_count == 0) && agrees(facts.plain_light, has_plain_light(scene)) &&
+           agrees(facts.schlick, scene.fresnel == Fresnel::schlick);
+}
+
+/// The copies of the tracer, best first. LFDSIM_FEW_SPECIALISATIONS leaves the general ones, and a CPU gains nothing from plain
+/// light (LFDSIM_PLAIN_LIGHT): on a GPU code that is left out makes room in the cache of instructions.
+struct Specialisations {
+    using enum Known;
+    static constexpr Facts paper{
+        .ideal = no, .lit_between = no, .misaligned = no, .plano_convex = yes, .strips = no, .staggered = no, .on_air = yes};
+    static constexpr Facts opaque{.ideal = no, .lit_between = no, .misaligned = no, .strips = no, .staggered = no, .on_air = yes};
+    static constexpr Facts ideal{.ideal = yes, .lit_between = no, .misaligned = no, .strips = no, .staggered = no, .on_air = yes};
+    static constexpr Facts lit_between{.ideal = no, .lit_between = yes, .misaligned = no};
+    static constexpr Facts misaligned{.misaligned = yes};
+    static constexpr Facts meshed{
+        .ideal = no, .lit_between = no, .misaligned = no, .strips = no, .staggered = no, .on_air = yes, .meshed = yes};
+    static constexpr Facts others{.lit_between = no, .misaligned = no};
+
+    static constexpr Facts paper_plain = paper.with(&Facts::plain_light), paper_plain_schlick = paper_plain.with(&Facts::schlick);
+    static constexpr Facts paper_strips = paper.with(&Facts::strips), paper_staggered = paper.with(&Facts::staggered);
+    static constexpr Facts misaligned_paper = paper.with(&Facts::misaligned), misaligned_opaque = opaque.with(&Facts::misaligned);
+
+    // clang-format off
+    static constexpr Facts row[] = {
+#ifdef LFDSIM_PLAIN_LIGHT
+        paper_plain_schlick, paper_plain,
+#endif
+#ifndef LFDSIM_FEW_SPECIALISATIONS
+        paper, paper_strips, paper_staggered, opaque, ideal, misaligned_paper, misaligned_opaque,
+#endif
+        lit_between, misaligned, others};
+    // clang-format on
+    static constexpr int count = sizeof row / sizeof row[0];
+};
+
+/// do_it.operator()<facts>() with what is known of a display: the first row that holds.
+template <int row = 0, class S, class Do>
+LFDSIM_FN decltype(auto) with_facts(const Scene<S>& scene, const Do& do_it) {
+    constexpr Facts facts = Specialisations::row[row];
+    if constexpr (row + 1 == Specialisations::count) {
+        return do_it.template operator()<facts>();
+    } else {
+        if (hold<facts>(scene)) return do_it.template operator()<facts>();
+        return with_facts<row + 1>(scene, do_it);
+    }
+}
+
+/// do_it.operator()<facts>() for all rows, one after the other.
+template <int row = 0, class Do>
+inline void for_all_specialisations(const Do& do_it) {
+    do_it.template operator()<Specialisations::row[row]>();
+    if constexpr (row + 1 < Specialisations::count) for_all_specialisations<row + 1>(do_it);
+}
+
+}  // namespace LFDSIM_ISA
+}  // namespace lfdsim::optics
