@@ -145,10 +145,11 @@ double between_angles(std::vector<double> distance) {
     return distance.empty() ? 0 : 2 * std::sqrt(squares) / double(distance.size());
 }
 
-/// Colours change in steps where light passes from one subpixel to the next: what other angles find belongs to the error.
+/// Colours change in steps where light passes from one subpixel to the next: what other angles find, beyond their own error,
+/// belongs to the error.
 void widen(Estimate& figure, const Estimate& found) {
     if (std::isfinite(figure.value) && std::isfinite(found.value))
-        figure.error = std::max(figure.error, std::abs(found.value - figure.value));
+        figure.error = std::max(figure.error, std::abs(found.value - figure.value) - found.error);
 }
 
 void add_colour_over_angle(const ColouredWhite& white, const Subject& s, double distance, Parts& parts, Result& result) {
