@@ -5,7 +5,7 @@
 //
 // Prints JSON, medians: the shares are measured on one thread, the depth sweeps (three at most) on all.
 #include "content/content.h"
-#include "files/display_file.h"
+#include "files/description/display_file.h"
 
 #include <dlfcn.h>
 #include <embree3/rtcore.h>

@@ -5,10 +5,10 @@
 
 #include <vector>
 
-#include "cli/bench_cases.h"
+#include "cli/bench/bench_cases.h"
 #include "engine/render.h"
-#include "optics/elementary.h"
-#include "optics/simd.h"
+#include "simd/elementary.h"
+#include "simd/simd.h"
 
 namespace lfdsim {
 namespace {

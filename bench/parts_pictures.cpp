@@ -2,12 +2,12 @@
 // all processors.
 #include <benchmark/benchmark.h>
 
-#include "cli/bench_cases.h"
-#include "cli/temporary_folder.h"
+#include "cli/bench/bench_cases.h"
+#include "cli/output/temporary_folder.h"
 #include "content/content.h"
-#include "image/compare.h"
-#include "image/encoding.h"
-#include "image/image_file.h"
+#include "image/compare/compare.h"
+#include "image/formats/encoding.h"
+#include "image/formats/image_file.h"
 
 namespace lfdsim {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "files/agf.h"
+#include "files/lenses/agf.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
     using namespace lfdsim;

@@ -1,7 +1,7 @@
 // Any bytes given as a display's calibration: refused with an InputError, or a display that reads back as it was written. Anything
 // else is a crash.
-#include "files/calibration.h"
-#include "files/display_file.h"
+#include "files/calibration/calibration.h"
+#include "files/description/display_file.h"
 
 #include <cstdlib>
 

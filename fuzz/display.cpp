@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "files/display_file.h"
-#include "model/geometry.h"
+#include "files/description/display_file.h"
+#include "geometry/geometry.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
     using namespace lfdsim;

@@ -1,7 +1,7 @@
 // What both formats of lens design programs have to stand.
 #pragma once
-#include "files/display_file.h"
-#include "files/import_lens.h"
+#include "files/description/display_file.h"
+#include "files/lenses/import_lens.h"
 
 #include <cstdlib>
 

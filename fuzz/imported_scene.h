@@ -1,6 +1,6 @@
 // What the loaders of the model reader have to stand.
 #pragma once
-#include "content/reader/not_shown.h"
+#include "content/reader/limits/not_shown.h"
 
 #include <assimp/scene.h>
 

@@ -1,10 +1,10 @@
 // Any bytes given as a table of lens errors: refused with an InputError, or lenses that the array has, each once, with finite
 // numbers. Anything else is a crash.
-#include "files/lens_table.h"
+#include "files/lenses/lens_table.h"
 
 #include "file_of_bytes.h"
-#include "files/display_file.h"
-#include "model/geometry.h"
+#include "files/description/display_file.h"
+#include "geometry/geometry.h"
 
 #include <cmath>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // Any bytes given as a glTF file: refused in words, or a scene whose faces name vertices that are there. Anything else is a crash.
-#include "content/reader/gltf_loader.h"
+#include "content/reader/gltf/gltf_loader.h"
 #include "imported_scene.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {

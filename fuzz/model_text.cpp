@@ -1,5 +1,5 @@
 // Any bytes given as a text that is edited before Assimp reads it, or as a .mtl file: anything but an answer is a crash.
-#include "content/reader/edited_text.h"
+#include "content/reader/limits/edited_text.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
     using namespace lfdsim::reader;

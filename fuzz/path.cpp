@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "files/path_file.h"
+#include "files/description/path_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
     using namespace lfdsim;

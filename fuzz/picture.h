@@ -1,7 +1,7 @@
 // What the readers of pictures have to stand.
 #pragma once
 #include "file_of_bytes.h"
-#include "image/image_file.h"
+#include "image/formats/image_file.h"
 
 #include <algorithm>
 #include <cmath>

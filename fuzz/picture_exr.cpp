@@ -1,5 +1,5 @@
 // Any bytes given as an EXR picture: refused with an InputError, or a picture. Anything else is a crash.
-#include "image/formats.h"
+#include "image/formats/formats.h"
 #include "picture.h"
 
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "files/display_file.h"
-#include "view/messages.h"
+#include "files/description/display_file.h"
+#include "view/server/messages.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // Any bytes sent to the viewer as a request: an answer that says no, unless they name the server and know the token. Anything else
 // is a crash.
-#include "view/http.h"
+#include "view/server/http.h"
 
 #include <boost/beast/http/parser.hpp>
 #include <cstdlib>

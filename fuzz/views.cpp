@@ -2,7 +2,7 @@
 // quilt, n a quilt's name), beside pictures that are there: refused with an InputError, or a grid whose parts fit and that is
 // placed with finite lengths before a display, or refused there. Anything else is a crash.
 #include "file_of_bytes.h"
-#include "files/views_source.h"
+#include "files/views/views_source.h"
 
 #include <cmath>
 #include <cstdlib>

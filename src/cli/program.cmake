@@ -1,5 +1,5 @@
 # The program lfdsim: one file per command.
-file(GLOB cli_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/*.cpp)
+file(GLOB_RECURSE cli_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/*.cpp)
 add_executable(lfdsim ${cli_sources})
 target_link_libraries(lfdsim PRIVATE lfdsim_view lfdsim_peers lfdsim_report lfdsim_meshed lfdsim_files CLI11::CLI11 fmt::fmt
   spdlog::spdlog nlohmann_json::nlohmann_json TBB::tbb)
@@ -19,6 +19,6 @@ foreach(kernel scalar baseline avx2 avx512)
   endif()
   list(APPEND build_facts "LFDSIM_FLAGS_${name}=\"${of_kernel}\"")
 endforeach()
-set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/machine.cpp PROPERTIES COMPILE_DEFINITIONS "${build_facts}")
-set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/doctor.cpp PROPERTIES COMPILE_DEFINITIONS
+set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/program/machine.cpp PROPERTIES COMPILE_DEFINITIONS "${build_facts}")
+set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/commands/doctor.cpp PROPERTIES COMPILE_DEFINITIONS
   "LFDSIM_EMBREE=\"${embree_VERSION}\";LFDSIM_ASSIMP=\"${assimp_VERSION}\";LFDSIM_OPENEXR=\"${OpenEXR_VERSION}\";LFDSIM_TOMLPLUSPLUS=\"${tomlplusplus_VERSION}\"")

@@ -1,11 +1,11 @@
 // What the panel shows: scenes, elemental images, test patterns, reference photographs. Floor 2.
 #pragma once
-#include "image/compare.h"
+#include "base/input_error.h"
+#include "base/job.h"
+#include "display/display.h"
+#include "geometry/geometry.h"
+#include "image/compare/compare.h"
 #include "image/image.h"
-#include "model/display.h"
-#include "model/error.h"
-#include "model/geometry.h"
-#include "model/job.h"
 
 #include <cstdint>
 #include <filesystem>

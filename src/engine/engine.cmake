@@ -1,9 +1,8 @@
 # The engine: its floor with the CPU's kernels (kernels.cmake) and, where they are compiled, the GPU's (gpu.cmake).
-lfdsim_floor(engine
-  HEADERS summed_panel.h render.h screen.h
+lfdsim_library(engine ROOMS engine engine/devices engine/estimator engine/scene engine/views engine/wide
+  HEADERS engine/estimator/summed_panel.h engine/render.h engine/views/screen.h
   LINK PUBLIC lfdsim_model lfdsim_image PRIVATE TBB::tbb fmt::fmt)
 set(here ${CMAKE_CURRENT_LIST_DIR})
-target_sources(lfdsim_engine PRIVATE ${here}/wide/render.cpp ${here}/wide/likeness.cpp)
 
 foreach(kernel IN LISTS LFDSIM_KERNELS)
   string(TOUPPER ${kernel} upper)

@@ -1,14 +1,14 @@
 #include "engine/render.h"
 
-#include "engine/choice.h"
-#include "engine/devices.h"
-#include "engine/even_parts.h"
-#include "engine/gpu.h"
-#include "engine/refine.h"
-#include "engine/scene.h"
-#include "engine/tracer.h"
-#include "engine/work.h"
-#include "model/colour.h"
+#include "display/colour.h"
+#include "engine/devices/devices.h"
+#include "engine/devices/gpu.h"
+#include "engine/estimator/choice.h"
+#include "engine/estimator/gaussian_parts.h"
+#include "engine/estimator/refine.h"
+#include "engine/scene/scene.h"
+#include "engine/scene/tracer.h"
+#include "engine/scene/work.h"
 
 #include <tbb/blocked_range2d.h>
 #include <tbb/global_control.h>

@@ -1,12 +1,12 @@
 // The picture that an eye or camera sees of a display. Floor 2: threads, kernels, tiles over the optics.
 #pragma once
-#include "engine/summed_panel.h"
-#include "image/compare.h"
+#include "base/job.h"
+#include "display/display.h"
+#include "engine/estimator/summed_panel.h"
+#include "geometry/geometry.h"
+#include "image/compare/compare.h"
 #include "image/image.h"
 #include "image/texels.h"
-#include "model/display.h"
-#include "model/geometry.h"
-#include "model/job.h"
 
 #include <cstdint>
 #include <optional>

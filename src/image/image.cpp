@@ -1,6 +1,6 @@
 #include "image/image.h"
 
-#include "image/huge_pages.h"
+#include "image/formats/huge_pages.h"
 
 namespace lfdsim {
 

@@ -1,8 +1,8 @@
 #include "image/texels.h"
 
-#include "image/encoder.h"
-#include "image/encoding.h"
-#include "image/huge_pages.h"
+#include "image/formats/encoder.h"
+#include "image/formats/encoding.h"
+#include "image/formats/huge_pages.h"
 
 #include <sys/mman.h>
 #include <tbb/parallel_for.h>

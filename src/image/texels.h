@@ -1,7 +1,7 @@
 // The panel image as the renderer reads it. Floor 0.
 #pragma once
+#include "display/display.h"
 #include "image/image.h"
-#include "model/display.h"
 
 #include <cstddef>
 #include <cstdint>

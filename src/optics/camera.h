@@ -4,11 +4,11 @@
 // the lens array). The tracer starts there, with coordinates relative to the axis of a lens near that point, so that single
 // precision is enough.
 #pragma once
-#include "optics/elementary.h"
 #include "optics/lens_array.h"
 #include "optics/panel.h"
 #include "optics/sampler.h"
 #include "optics/scene.h"
+#include "simd/elementary.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 

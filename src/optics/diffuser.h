@@ -1,8 +1,8 @@
 // The diffuser: a thin plane that turns a ray by two random angles, without loss. Floor 1.
 #pragma once
-#include "optics/elementary.h"
 #include "optics/scene.h"
 #include "optics/surface.h"
+#include "simd/elementary.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 

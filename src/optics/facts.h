@@ -4,8 +4,8 @@
 // 2019 paper's lens has no Newton iteration, no stop and no layers. `Specialisations` lists the copies, and a display takes the
 // first whose facts hold. All copies have the same bits, so a row more or less changes speed and size alone.
 #pragma once
-#include "optics/config.h"
 #include "optics/scene.h"
+#include "simd/config.h"
 
 namespace lfdsim::optics {
 

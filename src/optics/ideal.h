@@ -1,6 +1,6 @@
 // The ideal thin lens of paraxial theory, without aberrations and losses, and the pinhole, which is one without power. Floor 1.
 #pragma once
-#include "optics/sequential.h"
+#include "optics/opaque_surround.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 

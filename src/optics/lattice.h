@@ -5,8 +5,8 @@
 // sees a number much larger than a lens. Where rows are staggered, the base lens is in an even row, so that a row is odd in both
 // numberings or in neither.
 #pragma once
-#include "model/lattice.h"
-#include "optics/lane.h"
+#include "geometry/lattice.h"
+#include "simd/lane.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 

@@ -3,10 +3,10 @@
 // Positions are in the frame of the array (turned with it), relative to the axis of a base lens near the rays of a packet; cells
 // are counted from that lens.
 #pragma once
-#include "optics/lane.h"
 #include "optics/lattice.h"
 #include "optics/scene.h"
 #include "optics/surface.h"
+#include "simd/lane.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 

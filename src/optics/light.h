@@ -3,8 +3,8 @@
 // Radiance is linear light, 1 = a white panel pixel. A texel is four adjacent floats (R, G, B, 0), 16-byte aligned, so that one
 // load fetches it whole.
 #pragma once
-#include "optics/pair.h"
 #include "optics/panel.h"
+#include "simd/pair.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 

@@ -1,8 +1,8 @@
 // The panel: which pixel a ray reaches. Floor 1.
 #pragma once
-#include "optics/lane.h"
 #include "optics/lens_array.h"
 #include "optics/scene.h"
+#include "simd/lane.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 

@@ -2,12 +2,12 @@
 // and ready for another device. Floor 1.
 //
 // z is in mm from the panel. Surfaces are in the order in which backward rays meet them, from the viewer's side.
-// Filled by engine/scene.cpp from a Display and its Geometry.
+// Filled by engine/scene/scene.cpp from a Display and its Geometry.
 #pragma once
 #include <cstdint>
 
-#include "model/kinds.h"
-#include "model/lattice.h"
+#include "display/enums.h"
+#include "geometry/lattice.h"
 
 namespace lfdsim::optics {
 
@@ -52,7 +52,7 @@ struct SubpixelPart {
     std::int32_t cell[2];      // pixels
     S per_cell[2];             // 1 / cell
     std::int32_t pixel[2];     // whose light it shows, from the cell's first
-    std::int32_t plane;        // the number of the picture of those pixels of all cells (engine/summed_panel.h)
+    std::int32_t plane;        // the number of the picture of those pixels of all cells (engine/estimator/summed_panel.h)
     S from[2], to[2], per[2];  // per: 1 / (to - from)
     S share;                   // of the channel's light
 };
@@ -72,7 +72,7 @@ struct PlacedLens {
     S turn[4];   // cosine and sine of its turn about x', and then of that about y'
 };
 
-/// An array with errors (optics/placed.h).
+/// An array with errors (optics/misaligned.h).
 template <class S>
 struct Placement {
     bool given;                   // else none of the rest means anything
@@ -167,7 +167,7 @@ struct SummedImage {
 };
 
 /// What the filtered estimator reads of a panel: the panel itself, then the further planes of its subpixels
-/// (engine/summed_panel.h).
+/// (engine/estimator/summed_panel.h).
 struct PanelLight {
     const SummedImage* plane;
     bool whole;  // all of each pixel shines in its own colour: as `emission` says, which else has the parts

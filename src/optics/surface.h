@@ -1,7 +1,7 @@
 // Refracting surfaces: where a ray meets one, the normal there, and the share of light transmitted (Fresnel). Floor 1.
 #pragma once
-#include "optics/lane.h"
 #include "optics/scene.h"
+#include "simd/lane.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
@@ -30,7 +30,7 @@ struct Hit {
     Mask<F> ok;
 };
 
-// A surface is a SurfaceData, or one whose curvature differs from lane to lane (placed.h).
+// A surface is a SurfaceData, or one whose curvature differs from lane to lane (misaligned.h).
 
 /// Sag z and slope at s2 = x^2 + y^2 of the sheet that contains the vertex; `real`: it extends so far. d = 2 dz/d(s^2), so that the
 /// normal is along (-x d, -y d, 1).

@@ -1,12 +1,12 @@
 // The main idea on one page: a backward ray goes from the camera through the diffuser and the lens array to a panel pixel. Floor 1.
 #pragma once
 #include "optics/camera.h"
+#include "optics/clear_surround.h"
 #include "optics/diffuser.h"
-#include "optics/glass.h"
 #include "optics/ideal.h"
-#include "optics/placed.h"
-#include "optics/placed_plate.h"
-#include "optics/sequential.h"
+#include "optics/misaligned.h"
+#include "optics/misaligned_plate.h"
+#include "optics/opaque_surround.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 

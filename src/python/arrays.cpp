@@ -1,7 +1,7 @@
 #include "python/arrays.h"
 
-#include "image/encoding.h"
-#include "model/error.h"
+#include "base/input_error.h"
+#include "image/formats/encoding.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

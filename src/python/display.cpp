@@ -1,11 +1,11 @@
-#include "files/display_file.h"
+#include "files/description/display_file.h"
 
-#include "files/nearest.h"
-#include "model/keys.h"
+#include "display/keys.h"
+#include "files/description/nearest.h"
 #include "python/parts.h"
 #include "python/work.h"
-#include "report/check.h"
-#include "report/side_view.h"
+#include "report/drawings/side_view.h"
+#include "report/folder/check.h"
 
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>

@@ -1,7 +1,7 @@
-#include "engine/threads.h"
-#include "model/printable.h"
+#include "base/printable.h"
+#include "engine/devices/threads.h"
 #include "python/parts.h"
-#include "report/folder_lock.h"
+#include "report/folder/folder_lock.h"
 
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>

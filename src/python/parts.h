@@ -1,6 +1,6 @@
 // The parts of the module lfdsim._core, each in a file of its own. Floor 5.
 #pragma once
-#include "model/error.h"
+#include "base/input_error.h"
 
 #include <nanobind/nanobind.h>
 

@@ -1,6 +1,6 @@
 // Long work, called from Python. Floor 5.
 #pragma once
-#include "model/job.h"
+#include "base/job.h"
 
 #include <nanobind/nanobind.h>
 

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "checks/advice.h"
 #include "lenses.h"
-#include "model/advice.h"
 
 namespace lfdsim {
 namespace {

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <random>
 
-#include "analysis/eye_rays.h"
-#include "analysis/uniformity.h"
-#include "model/advice.h"
-#include "model/bands.h"
-#include "model/numbers.h"
+#include "analysis/core/eye_rays.h"
+#include "analysis/uniformity/uniformity.h"
+#include "base/constants.h"
+#include "checks/advice.h"
+#include "geometry/dark_bands.h"
 
 namespace lfdsim {
 namespace {

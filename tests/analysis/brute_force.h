@@ -1,7 +1,7 @@
 // Light through opaque arrays of plano-convex lenses, flat towards the panel, ray by ray, forwards and backwards: written anew from
 // Snell's and Fresnel's laws, with random numbers of its own. It shares nothing with the program but the description.
 #pragma once
-#include "model/geometry.h"
+#include "geometry/geometry.h"
 
 #include <array>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Calibrated content, against the tracer: what an eye sees through lenses that stand by themselves is what was made for it.
-#include "analysis/eye_rays.h"
-#include "content/pickup.h"
-#include "model/numbers.h"
+#include "analysis/core/eye_rays.h"
+#include "base/constants.h"
+#include "content/pickup/pickup.h"
 
 #include <gtest/gtest.h>
 

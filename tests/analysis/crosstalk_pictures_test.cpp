@@ -1,8 +1,8 @@
 // Crosstalk against pictures: views' pixels, or subpixels, are white as a whole, and the renderer shows them to the eye in the
 // middle of a view.
-#include "analysis/crosstalk.h"
-#include "model/numbers.h"
-#include "model/subpixels.h"
+#include "analysis/crosstalk/crosstalk.h"
+#include "base/constants.h"
+#include "geometry/subpixels.h"
 #include "optics/lattice.h"
 
 #include <fmt/format.h>

@@ -1,11 +1,11 @@
 // Crosstalk against closed forms: boxes convolved.
-#include "analysis/crosstalk.h"
+#include "analysis/crosstalk/crosstalk.h"
 
 #include <gtest/gtest.h>
 
 #include "../engine/pictures.h"
-#include "analysis/meant_light.h"
-#include "analysis/slope_spread.h"
+#include "analysis/crosstalk/intended_light.h"
+#include "analysis/crosstalk/slope_spread.h"
 
 namespace lfdsim {
 namespace {

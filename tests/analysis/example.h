@@ -1,7 +1,7 @@
 // A small display for the tests of the measures.
 #pragma once
-#include "model/display.h"
-#include "model/numbers.h"
+#include "base/constants.h"
+#include "display/display.h"
 
 #include <cmath>
 

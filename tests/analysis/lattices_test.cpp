@@ -1,7 +1,7 @@
 // Measures on hexagons and strips against closed forms.
-#include "analysis/crosstalk.h"
-#include "analysis/own_lens.h"
-#include "model/numbers.h"
+#include "analysis/crosstalk/crosstalk.h"
+#include "analysis/fov/elemental_fov.h"
+#include "base/constants.h"
 
 #include <gtest/gtest.h>
 

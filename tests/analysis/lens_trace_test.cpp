@@ -1,9 +1,9 @@
 // Rays forward through one lens, against the backward tracer, closed forms and widths from another program.
-#include "analysis/bundle.h"
+#include "analysis/spots/ray_fan.h"
 
-#include "engine/scene.h"
+#include "base/constants.h"
+#include "engine/scene/scene.h"
 #include "lenses.h"
-#include "model/numbers.h"
 #include "optics/trace.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Displays with one kind of lens each, for the tests of what single lenses do.
 #pragma once
-#include "files/display_file.h"
-#include "model/geometry.h"
+#include "files/description/display_file.h"
+#include "geometry/geometry.h"
 
 #include <string>
 #include <utility>

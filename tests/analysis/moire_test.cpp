@@ -1,12 +1,12 @@
 // The pattern of lenses and pixels: theory against published numbers, and what single rays find against theory.
 #include <gtest/gtest.h>
 
-#include "analysis/eye_filter.h"
-#include "analysis/fourier.h"
-#include "analysis/measure.h"
-#include "analysis/moire_theory.h"
-#include "analysis/white_lines.h"
-#include "model/numbers.h"
+#include "analysis/core/measure.h"
+#include "analysis/moire/eye_filter.h"
+#include "analysis/moire/moire_theory.h"
+#include "analysis/moire/white_lines.h"
+#include "analysis/resolution/fourier.h"
+#include "base/constants.h"
 
 namespace lfdsim {
 namespace {

@@ -1,9 +1,9 @@
 // Resolution of each channel, with subpixels and under glass that disperses, against lines of sight written down anew from
 // docs/model.md.
-#include "analysis/channel_pixels.h"
-#include "analysis/mtf.h"
-#include "analysis/mtf_curves.h"
-#include "model/numbers.h"
+#include "analysis/core/channel_pixels.h"
+#include "analysis/resolution/mtf.h"
+#include "analysis/resolution/mtf_curves.h"
+#include "base/constants.h"
 #include "optics/scene.h"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 // Resolution across ideal strips, slanted and straight, against lines of sight written down anew from docs/model.md; of hexagons
 // against theory.
-#include "analysis/mtf.h"
-#include "analysis/mtf_curves.h"
-#include "analysis/mtf_theory.h"
-#include "model/numbers.h"
+#include "analysis/resolution/mtf.h"
+#include "analysis/resolution/mtf_curves.h"
+#include "analysis/resolution/mtf_theory.h"
+#include "base/constants.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
-#include "analysis/mtf.h"
-#include "analysis/line_spread.h"
-#include "analysis/mtf_curves.h"
-#include "analysis/mtf_resolution.h"
-#include "model/first_order.h"
-#include "model/numbers.h"
+#include "analysis/resolution/mtf.h"
+#include "analysis/resolution/line_spread.h"
+#include "analysis/resolution/mtf_curves.h"
+#include "analysis/resolution/mtf_resolution.h"
+#include "base/constants.h"
+#include "checks/first_order.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // Measures that are pictures: they show what they say.
 #include <gtest/gtest.h>
 
-#include "analysis/components.h"
-#include "analysis/directions.h"
+#include "analysis/pictures/components.h"
+#include "analysis/pictures/directions.h"
 #include "example.h"
 
 #include <cmath>

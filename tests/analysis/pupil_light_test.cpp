@@ -6,11 +6,11 @@
 #include <cmath>
 #include <random>
 
-#include "analysis/aperture_wave.h"
-#include "analysis/luminance_theory.h"
-#include "analysis/uniformity.h"
-#include "model/numbers.h"
-#include "model/screen.h"
+#include "analysis/spots/aperture_wave.h"
+#include "analysis/uniformity/luminance_theory.h"
+#include "analysis/uniformity/uniformity.h"
+#include "base/constants.h"
+#include "geometry/screen.h"
 
 namespace lfdsim {
 namespace {

@@ -1,4 +1,4 @@
-#include "analysis/rules.h"
+#include "analysis/fov/thresholds.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>

@@ -1,9 +1,9 @@
 // An array that reaches over the panel: measures are of the screen that there is, on every lattice.
-#include "model/screen.h"
+#include "geometry/screen.h"
 
-#include "analysis/uniformity.h"
-#include "analysis/views.h"
-#include "analysis/zone.h"
+#include "analysis/pictures/views.h"
+#include "analysis/uniformity/uniformity.h"
+#include "analysis/zone/zone.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Depths that are sharp, on either side of the lenses: against the equations of the spot, at depths on both sides of every end.
-#include "model/sharp_range.h"
+#include "geometry/sharp_range.h"
 
-#include "analysis/rules.h"
-#include "analysis/spot_depth.h"
+#include "analysis/fov/thresholds.h"
+#include "analysis/spots/spot_depth.h"
+#include "base/constants.h"
 #include "lenses.h"
-#include "model/numbers.h"
 
 #include <gtest/gtest.h>
 #include <random>

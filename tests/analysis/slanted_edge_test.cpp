@@ -1,5 +1,5 @@
-#include "analysis/slanted_edge.h"
-#include "model/numbers.h"
+#include "analysis/resolution/slanted_edge.h"
+#include "base/constants.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

@@ -1,8 +1,8 @@
 // Depths of field by spot size and by diffraction, against paraxial theory, closed forms and a brute-force search.
-#include "analysis/spot_depth.h"
+#include "analysis/spots/spot_depth.h"
 
+#include "base/constants.h"
 #include "lenses.h"
-#include "model/numbers.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

@@ -1,9 +1,9 @@
 // The measure `spot`, against closed forms and the nodal pick-up.
-#include "analysis/spot.h"
+#include "analysis/spots/spot.h"
 
-#include "content/pickup.h"
+#include "content/pickup/pickup.h"
+#include "geometry/pupil.h"
 #include "lenses.h"
-#include "model/pupil.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

@@ -1,8 +1,8 @@
 // Colour over a white screen and over angle: ideal lenses and pinholes over stripes, where the colour seen through each has a
 // closed form, and glass that disperses, by Snell's law.
-#include "analysis/uniformity_colour.h"
-#include "analysis/uniformity.h"
-#include "model/numbers.h"
+#include "analysis/uniformity/uniformity_colour.h"
+#include "analysis/uniformity/uniformity.h"
+#include "base/constants.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "../engine/pictures.h"
-#include "analysis/efficiency.h"
-#include "analysis/luminance_theory.h"
-#include "analysis/uniformity.h"
+#include "analysis/uniformity/efficiency.h"
+#include "analysis/uniformity/luminance_theory.h"
+#include "analysis/uniformity/uniformity.h"
 #include "brute_force.h"
 
 #include <atomic>

@@ -1,10 +1,10 @@
 // What tracing says of displays that cannot do what they are meant for: right figures, and silence on good ones.
-#include "analysis/verdicts.h"
+#include "analysis/core/verdicts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "analysis/quick_look.h"
+#include "analysis/core/quick_look.h"
 #include "example.h"
 #include "lenses.h"
 

@@ -1,8 +1,8 @@
-#include "analysis/views.h"
+#include "analysis/pictures/views.h"
 
-#include "analysis/dof.h"
-#include "analysis/dof_depths.h"
-#include "analysis/fov.h"
+#include "analysis/fov/fov.h"
+#include "analysis/resolution/dof.h"
+#include "analysis/resolution/dof_depths.h"
 #include "example.h"
 
 #include <gtest/gtest.h>

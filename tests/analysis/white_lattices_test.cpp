@@ -1,11 +1,11 @@
 // Theory of a white screen on hexagons, bricks and strips, under layers, turned: against lines of sight through displays drawn at
 // random.
-#include "analysis/eye_rays.h"
-#include "analysis/luminance_theory.h"
-#include "analysis/uniformity.h"
-#include "model/advice.h"
-#include "model/bands.h"
-#include "model/numbers.h"
+#include "analysis/core/eye_rays.h"
+#include "analysis/uniformity/luminance_theory.h"
+#include "analysis/uniformity/uniformity.h"
+#include "base/constants.h"
+#include "checks/advice.h"
+#include "geometry/dark_bands.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

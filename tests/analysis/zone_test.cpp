@@ -1,5 +1,5 @@
 // Lines of sight against closed forms of the ideal lens, and the viewing zone against theory and a count by hand.
-#include "analysis/zone.h"
+#include "analysis/zone/zone.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // A scene moved along z against scenes made where it goes.
-#include "image/image_file.h"
+#include "image/formats/image_file.h"
 #include "small_world.h"
 
 namespace {

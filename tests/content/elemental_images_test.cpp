@@ -1,5 +1,5 @@
 // Elemental images of patches whose places are known.
-#include "content/pickup.h"
+#include "content/pickup/pickup.h"
 #include "small_world.h"
 
 #include <atomic>

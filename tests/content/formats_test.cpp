@@ -1,6 +1,6 @@
 // PLY, and what OBJ and other texts hold beside plain meshes.
-#include "image/encoding.h"
-#include "image/image_file.h"
+#include "image/formats/encoding.h"
+#include "image/formats/image_file.h"
 #include "refused.h"
 #include "small_world.h"
 

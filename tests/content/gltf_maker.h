@@ -1,8 +1,8 @@
 // glTF files written on the spot, and what their pictures show.
 #pragma once
-#include "image/encoding.h"
-#include "image/image_file.h"
-#include "model/vec.h"
+#include "base/vec.h"
+#include "image/formats/encoding.h"
+#include "image/formats/image_file.h"
 #include "small_world.h"
 
 #include <cmath>

@@ -1,9 +1,9 @@
 // One lens's table of where its light goes, against direct tracing, Snell's law written out, and the display's symmetries.
-#include "content/lens_mapping.h"
-#include "content/pickup.h"
-#include "engine/lens_trace.h"
-#include "model/glass.h"
-#include "model/numbers.h"
+#include "content/pickup/lens_mapping.h"
+#include "base/constants.h"
+#include "content/pickup/pickup.h"
+#include "display/glass.h"
+#include "engine/views/lens_trace.h"
 #include "small_world.h"
 
 #include <random>

@@ -1,10 +1,10 @@
 // Light along rays from grids of views whose pictures have a closed form.
-#include "content/light_field.h"
+#include "content/pictures/light_field.h"
 
-#include "content/field_picture.h"
-#include "content/pickup.h"
-#include "content/view_order.h"
-#include "model/numbers.h"
+#include "base/constants.h"
+#include "content/pickup/pickup.h"
+#include "content/pictures/field_picture.h"
+#include "content/pictures/view_order.h"
 #include "small_world.h"
 
 #include <cmath>

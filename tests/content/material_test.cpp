@@ -1,6 +1,6 @@
 // Colours and textures, as the picture shows them.
-#include "image/encoding.h"
-#include "image/image_file.h"
+#include "image/formats/encoding.h"
+#include "image/formats/image_file.h"
 #include "small_world.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // Content for arrays as they were built: lines through the nodal points of lenses that stand by themselves.
-#include "content/moved_lenses.h"
-#include "content/pickup.h"
-#include "model/numbers.h"
+#include "content/pickup/moved_lenses.h"
+#include "base/constants.h"
+#include "content/pickup/pickup.h"
 #include "small_world.h"
 
 #include <random>

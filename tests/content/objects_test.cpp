@@ -1,8 +1,8 @@
 // Scenes of several objects and images: where they stand, what hides what, and their light, against closed forms.
-#include "content/scene.h"
-#include "image/encoding.h"
-#include "image/image_file.h"
-#include "model/vec.h"
+#include "base/vec.h"
+#include "content/pictures/scene.h"
+#include "image/formats/encoding.h"
+#include "image/formats/image_file.h"
 #include "small_world.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // Test patterns, pixel by pixel where a closed form says what they are.
-#include "image/encoding.h"
+#include "image/formats/encoding.h"
 #include "small_world.h"
 
 namespace {

@@ -1,6 +1,6 @@
 // The nodal pick-up against its closed forms.
-#include "content/pickup.h"
-#include "model/numbers.h"
+#include "content/pickup/pickup.h"
+#include "base/constants.h"
 #include "small_world.h"
 
 #include <map>

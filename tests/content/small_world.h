@@ -2,8 +2,8 @@
 #pragma once
 #include "../sanitizers.h"
 #include "content/content.h"
-#include "model/display.h"
-#include "model/geometry.h"
+#include "display/display.h"
+#include "geometry/geometry.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The built-in model: closed, within its box, normals outwards.
-#include "content/model.h"
+#include "content/models/model.h"
 #include "small_world.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Elemental images made for the real lens.
-#include "content/lens_mapping.h"
-#include "content/pickup.h"
+#include "content/pickup/lens_mapping.h"
+#include "content/pickup/pickup.h"
 #include "small_world.h"
 
 namespace {

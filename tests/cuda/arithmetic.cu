@@ -1,9 +1,9 @@
-// On a GPU: are inverse(), root() and quotient() of optics/lane.h what IEEE 754 says, for numbers as rays have them? All
+// On a GPU: are inverse(), root() and quotient() of simd/lane.h what IEEE 754 says, for numbers as rays have them? All
 // floats from 1e-30 to 1e30 for the first two; for the third 2^36 pairs from 2^-30 to 2^30, each also with a numerator whose
 // quotient lies next to the middle between two floats.
 //
 //     nvcc -std=c++20 -arch=native --fmad=false -DLFDSIM_ISA=cuda -Isrc tests/cuda/arithmetic.cu -o arithmetic && ./arithmetic
-#include "optics/lane.h"
+#include "simd/lane.h"
 
 #include <cstdio>
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "../optics/example.h"
-#include "files/display_file.h"
+#include "files/description/display_file.h"
 
 namespace lfdsim {
 namespace {

@@ -1,9 +1,9 @@
 // Displays whose glass disperses: each channel is the picture of a display with that wavelength's index, in green's place.
-#include "model/colour.h"
+#include "display/colour.h"
 
 #include <gtest/gtest.h>
 
-#include "model/keys.h"
+#include "display/keys.h"
 #include "pictures.h"
 
 namespace lfdsim {

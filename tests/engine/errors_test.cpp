@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "model/lens_errors.h"
+#include "geometry/lens_misalignment.h"
 #include "pictures.h"
 
 namespace lfdsim {

@@ -4,8 +4,8 @@
 #include <atomic>
 #include <string_view>
 
-#include "engine/even_parts.h"
-#include "files/display_file.h"
+#include "engine/estimator/gaussian_parts.h"
+#include "files/description/display_file.h"
 #include "pictures.h"
 
 namespace lfdsim {

@@ -6,7 +6,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "engine/scene.h"
+#include "engine/scene/scene.h"
 #include "pictures.h"
 
 namespace lfdsim {

@@ -2,8 +2,8 @@
 // fault. Aimed beside the edges of holes rays are lost, and more of them the nearer to the edges many strata bring them.
 #include <gtest/gtest.h>
 
-#include "files/display_file.h"
-#include "image/compare.h"
+#include "files/description/display_file.h"
+#include "image/compare/compare.h"
 #include "pictures.h"
 
 namespace lfdsim {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "engine/scene.h"
-#include "files/display_file.h"
-#include "model/subpixels.h"
+#include "engine/scene/scene.h"
+#include "files/description/display_file.h"
+#include "geometry/subpixels.h"
 #include "pictures.h"
 
 namespace lfdsim {

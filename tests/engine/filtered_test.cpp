@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "engine/scene.h"
-#include "model/subpixels.h"
+#include "engine/scene/scene.h"
+#include "geometry/subpixels.h"
 #include "pictures.h"
 
 namespace lfdsim {
@@ -111,7 +111,7 @@ TEST(FilteredEstimator, CutsThePixelsAreaWhereADiffuserSpreadsLess) {
 }
 
 // Of the whole picture by the widest kernel; every kernel gives its parts. The hashes keep the limits of its shortcuts where they
-// are (optics/filtered_limits.h): tests/limits/mutate.py shows which of them each limit changes.
+// are (engine/estimator/limits.h): tests/limits/mutate.py shows which of them each limit changes.
 constexpr std::uint64_t kept_bits[] = {
     0x6e80c9f951f44185, 0xab96577891e8d233, 0xc140888d58238065, 0xea4c95b509323263, 0xd1917d1ad46ada13, 0xc8628eefc035b558,
     0x5c40c78ca935f176, 0x90bd33961fed343c, 0x0aa088b2fdd31b92, 0x5a19c78b710c1613, 0xf6bac3c454cdd45d, 0xee4fe5ea14315fe8,

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "model/subpixels.h"
+#include "geometry/subpixels.h"
 #include "pictures.h"
 
 namespace lfdsim {

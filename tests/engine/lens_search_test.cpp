@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "../optics/example.h"
-#include "model/keys.h"
-#include "model/prescription.h"
+#include "display/keys.h"
+#include "geometry/prescription.h"
 
 namespace lfdsim {
 namespace {

@@ -1,9 +1,9 @@
-#include "engine/memory.h"
-#include "engine/threads.h"
+#include "engine/devices/memory.h"
+#include "engine/devices/threads.h"
 
 #include <gmock/gmock.h>
 
-#include "model/error.h"
+#include "base/input_error.h"
 
 namespace lfdsim {
 namespace {

@@ -1,6 +1,6 @@
-#include "engine/scene.h"
-#include "model/geometry.h"
-#include "optics/placed.h"
+#include "engine/scene/scene.h"
+#include "geometry/geometry.h"
+#include "optics/misaligned.h"
 #include "pictures.h"
 
 #include <gtest/gtest.h>

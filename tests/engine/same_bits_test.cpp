@@ -3,8 +3,8 @@
 
 #include <cstring>
 
-#include "files/display_file.h"
-#include "model/subpixels.h"
+#include "files/description/display_file.h"
+#include "geometry/subpixels.h"
 #include "pictures.h"
 
 namespace lfdsim {

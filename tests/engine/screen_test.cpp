@@ -1,10 +1,10 @@
-#include "engine/screen.h"
+#include "engine/views/screen.h"
 
 #include <gtest/gtest.h>
 #include <cmath>
 
 #include "../optics/example.h"
-#include "engine/scene.h"
+#include "engine/scene/scene.h"
 #include "optics/camera.h"
 
 namespace lfdsim {

@@ -1,6 +1,6 @@
 // Subpixels in pictures: single rays against a search over the described rectangles, means over boxes against the area of those
 // rectangles.
-#include "model/subpixels.h"
+#include "geometry/subpixels.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <map>
 
 #include "../model/panels.h"
-#include "engine/scene.h"
-#include "model/keys.h"
-#include "optics/spread.h"
+#include "display/keys.h"
+#include "engine/estimator/panel_covariance.h"
+#include "engine/scene/scene.h"
 #include "pictures.h"
 
 namespace lfdsim {

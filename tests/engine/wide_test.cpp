@@ -9,13 +9,13 @@
 #include <thread>
 
 #include "../sanitizers.h"
-#include "engine/ahead.h"
-#include "engine/compare_view.h"
-#include "engine/even_parts.h"
-#include "engine/gpu.h"
+#include "engine/devices/gpu.h"
+#include "engine/estimator/gaussian_parts.h"
+#include "engine/scene/work.h"
+#include "engine/views/compare_view.h"
+#include "engine/views/pipelined.h"
 #include "engine/wide/likeness.h"
 #include "engine/wide/render.h"
-#include "engine/work.h"
 #include "host_queue.h"
 #include "optics/trace.h"
 #include "pictures.h"

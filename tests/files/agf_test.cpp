@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "files/agf.h"
+#include "files/lenses/agf.h"
 
 namespace lfdsim {
 namespace {

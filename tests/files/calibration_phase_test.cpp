@@ -6,8 +6,8 @@
 #include <random>
 
 #include "calibrations.h"
-#include "content/pickup.h"
-#include "model/subpixels.h"
+#include "content/pickup/pickup.h"
+#include "geometry/subpixels.h"
 
 namespace lfdsim {
 namespace {

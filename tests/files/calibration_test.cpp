@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "calibrations.h"
-#include "files/display_file.h"
-#include "model/subpixels.h"
+#include "files/description/display_file.h"
+#include "geometry/subpixels.h"
 
 namespace lfdsim {
 namespace {

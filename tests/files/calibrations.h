@@ -1,7 +1,7 @@
 // Calibrations as their files have them, for tests.
 #pragma once
-#include "files/calibration.h"
-#include "model/geometry.h"
+#include "files/calibration/calibration.h"
+#include "geometry/geometry.h"
 
 #include <nlohmann/json.hpp>
 #include <string>

@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
-#include "files/display_file.h"
-#include "model/geometry.h"
-#include "model/numbers.h"
+#include "base/constants.h"
+#include "files/description/display_file.h"
+#include "geometry/geometry.h"
 
 namespace lfdsim {
 namespace {

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "files/display_file.h"
-#include "files/write_first_order.h"
+#include "files/description/display_file.h"
+#include "files/description/write_first_order.h"
 
 namespace lfdsim {
 namespace {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "files/display_file.h"
+#include "files/description/display_file.h"
 
 namespace lfdsim {
 namespace {

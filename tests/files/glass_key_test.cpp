@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "display/colour.h"
 #include "example.h"
-#include "files/display_file.h"
-#include "model/colour.h"
-#include "model/geometry.h"
+#include "files/description/display_file.h"
+#include "geometry/geometry.h"
 
 namespace lfdsim {
 namespace {

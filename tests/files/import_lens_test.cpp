@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "files/display_file.h"
-#include "files/import_lens.h"
-#include "model/colour.h"
-#include "model/prescription.h"
+#include "display/colour.h"
+#include "files/description/display_file.h"
+#include "files/lenses/import_lens.h"
+#include "geometry/prescription.h"
 #include "published_lenses.h"
 
 namespace lfdsim {

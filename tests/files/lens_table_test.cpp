@@ -1,9 +1,9 @@
 // Errors of single lenses: what is drawn, and tables of them.
-#include "files/lens_table.h"
+#include "files/lenses/lens_table.h"
 
-#include "files/display_file.h"
-#include "model/geometry.h"
-#include "model/lens_errors.h"
+#include "files/description/display_file.h"
+#include "geometry/geometry.h"
+#include "geometry/lens_misalignment.h"
 
 #include <gtest/gtest.h>
 

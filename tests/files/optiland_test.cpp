@@ -7,7 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "files/drawn_lens.h"
+#include "files/lenses/drawn_lens.h"
 
 namespace lfdsim {
 namespace {

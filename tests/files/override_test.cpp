@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "example.h"
-#include "files/display_file.h"
-#include "model/geometry.h"
+#include "files/description/display_file.h"
+#include "geometry/geometry.h"
 
 namespace lfdsim {
 namespace {

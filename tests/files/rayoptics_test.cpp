@@ -5,7 +5,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "files/drawn_lens.h"
+#include "files/lenses/drawn_lens.h"
 
 namespace lfdsim {
 namespace {

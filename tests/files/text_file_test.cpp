@@ -1,5 +1,5 @@
 // Files that are no descriptions, and texts that a parser should not see.
-#include "files/text_file.h"
+#include "files/description/text_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "files/display_file.h"
+#include "files/description/display_file.h"
 
 namespace lfdsim {
 namespace {

@@ -1,7 +1,7 @@
 // Grids of views: which picture is of which camera, in the forms that there are, and what is refused.
-#include "files/views_source.h"
+#include "files/views/views_source.h"
 
-#include "model/numbers.h"
+#include "base/constants.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

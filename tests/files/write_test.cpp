@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "files/display_file.h"
-#include "model/geometry.h"
-#include "model/keys.h"
+#include "display/keys.h"
+#include "files/description/display_file.h"
+#include "geometry/geometry.h"
 
 namespace lfdsim {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "files/drawn_lens.h"
+#include "files/lenses/drawn_lens.h"
 #include "published_lenses.h"
 
 namespace lfdsim {

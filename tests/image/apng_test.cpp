@@ -1,13 +1,13 @@
 // Animated PNG, read back by Pillow and, as a still picture, by our own reader.
-#include "image/apng.h"
+#include "image/formats/apng.h"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 
 #include "helpers.h"
-#include "image/encoding.h"
-#include "image/png_memory.h"
+#include "image/formats/encoding.h"
+#include "image/formats/png_memory.h"
 #include "image/scaled.h"
 
 namespace lfdsim {

@@ -1,7 +1,7 @@
-#include "image/compare.h"
+#include "image/compare/compare.h"
 
 #include "helpers.h"
-#include "image/encoding.h"
+#include "image/formats/encoding.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

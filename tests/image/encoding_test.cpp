@@ -1,4 +1,4 @@
-#include "image/encoding.h"
+#include "image/formats/encoding.h"
 
 #include "helpers.h"
 

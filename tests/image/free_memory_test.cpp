@@ -1,4 +1,4 @@
-#include "image/free_memory.h"
+#include "base/free_memory.h"
 
 #include <gmock/gmock.h>
 #include <fstream>

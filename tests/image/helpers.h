@@ -1,6 +1,6 @@
 // What the tests of images share.
 #pragma once
-#include "image/image_file.h"
+#include "image/formats/image_file.h"
 
 #include <unistd.h>
 #include <cstdint>

@@ -1,6 +1,6 @@
-#include "image/likeness.h"
+#include "image/compare/likeness.h"
 
-#include "image/ssim.h"
+#include "image/compare/ssim.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

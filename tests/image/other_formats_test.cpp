@@ -1,8 +1,8 @@
 // EXR, NPY and JPEG.
 #include "helpers.h"
-#include "image/above_white.h"
-#include "image/encoding.h"
-#include "image/jpeg_memory.h"
+#include "image/compare/above_white.h"
+#include "image/formats/encoding.h"
+#include "image/formats/jpeg_memory.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>

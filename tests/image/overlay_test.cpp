@@ -1,7 +1,7 @@
-#include "image/overlay.h"
+#include "image/overlay/overlay.h"
 
 #include "helpers.h"
-#include "image/blur.h"
+#include "image/compare/blur.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "foreign_png.h"
 #include "helpers.h"
-#include "image/encoding.h"
+#include "image/formats/encoding.h"
 
 #include <gtest/gtest.h>
 

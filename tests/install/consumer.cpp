@@ -1,7 +1,7 @@
 // A white panel seen through lenses without losses is exactly white: radiance does not change along a ray.
 #include "content/content.h"
 #include "engine/render.h"
-#include "files/display_file.h"
+#include "files/description/display_file.h"
 
 #include <iostream>
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Which tests notice that a limit of the estimators or of the choice between them (src/optics/filtered_limits.h) is another one?
+"""Which tests notice that a limit of the estimators or of the choice between them (src/engine/estimator/limits.h) is another one?
 
 Changes one limit after the other, compiles the scalar kernel and the engine with it, and runs the tests that keep the bits of
 pictures. Prints a line for each limit; exit code 1 if one went unnoticed. Takes about a minute for each; the sources stay as they are.
@@ -16,7 +16,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-HEADER = "optics/filtered_limits.h"
+HEADER = "engine/estimator/limits.h"
 TESTS = ["FilteredEstimator.KeepsItsBits*", "FilteredExtremes.LightStaysLight", "*HasTheSameBitsEverywhere*", "*OfEveryLatticeAndCamera*", "Choice.KeepsItsBits"]
 
 
@@ -41,7 +41,7 @@ class Engine:
         for entry in json.loads((build / "compile_commands.json").read_text()):
             source = pathlib.Path(entry["file"])
             text = source.read_text() if "Unity" in source.parts else str(source)
-            if source.name == "scalar.cpp" or any(f"src/engine/{name}.cpp" in text for name in ("scene", "choice")):
+            if source.name == "scalar.cpp" or any(f"src/engine/{name}.cpp" in text for name in ("scene/scene", "estimator/choice")):
                 self.compile[source.name + ".o"] = entry
         lines = subprocess.run(["ninja", "-C", build, "-t", "commands", "engine_tests"], capture_output=True, text=True, check=True)
         self.link = next(line for line in reversed(lines.stdout.splitlines()) if "-o engine_tests" in line)

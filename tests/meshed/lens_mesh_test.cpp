@@ -7,10 +7,10 @@
 #include <map>
 
 #include "../optics/example.h"
-#include "files/display_file.h"
-#include "meshed/lens_mesh.h"
-#include "model/numbers.h"
-#include "model/vec.h"
+#include "base/constants.h"
+#include "base/vec.h"
+#include "files/description/display_file.h"
+#include "interchange/meshed/lens_mesh.h"
 
 namespace lfdsim {
 namespace {

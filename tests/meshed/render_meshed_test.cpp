@@ -5,11 +5,11 @@
 #include <cstdio>
 
 #include "../engine/pictures.h"
-#include "files/display_file.h"
-#include "meshed/mesh_surfaces.h"
-#include "meshed/render_meshed.h"
-#include "model/lattice.h"
-#include "model/lens_errors.h"
+#include "files/description/display_file.h"
+#include "geometry/lattice.h"
+#include "geometry/lens_misalignment.h"
+#include "interchange/meshed/mesh_surfaces.h"
+#include "interchange/meshed/render_meshed.h"
 
 namespace lfdsim {
 namespace {

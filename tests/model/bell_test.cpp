@@ -1,5 +1,5 @@
 // A gaussian diffuser as a sum of boxes.
-#include "model/bell.h"
+#include "geometry/gaussian_boxes.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "display/colour.h"
 #include "example.h"
-#include "model/colour.h"
-#include "model/geometry.h"
+#include "geometry/geometry.h"
 
 namespace lfdsim {
 namespace {

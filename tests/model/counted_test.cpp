@@ -1,4 +1,4 @@
-#include "model/counted.h"
+#include "base/counted.h"
 
 #include <gtest/gtest.h>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // A valid display for tests to change: plain spherical lenses with every length told by hand.
 #pragma once
-#include "model/display.h"
+#include "display/display.h"
 
 namespace lfdsim {
 

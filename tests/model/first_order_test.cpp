@@ -1,5 +1,5 @@
 // A first design, taken backwards through the theory, gives what was asked for.
-#include "model/first_order.h"
+#include "checks/first_order.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 
 #include <cmath>
 
-#include "model/error.h"
-#include "model/geometry.h"
+#include "base/input_error.h"
+#include "geometry/geometry.h"
 
 namespace lfdsim {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "model/glass.h"
+#include "display/glass.h"
 #include "published_glasses.h"
 
 namespace lfdsim {

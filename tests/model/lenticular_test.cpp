@@ -1,5 +1,5 @@
 // Designs of lenticular sheets give back, by the theory of check, what was asked for.
-#include "model/lenticular.h"
+#include "checks/lenticular.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "model/error.h"
-#include "model/first_order.h"
-#include "model/numbers.h"
+#include "base/constants.h"
+#include "base/input_error.h"
+#include "checks/first_order.h"
 
 namespace lfdsim {
 namespace {

@@ -1,6 +1,6 @@
 // Panels with subpixels for tests.
 #pragma once
-#include "model/display.h"
+#include "display/display.h"
 
 namespace lfdsim {
 

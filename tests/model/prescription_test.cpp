@@ -1,5 +1,5 @@
 // Sag and first-order optics against closed forms.
-#include "model/prescription.h"
+#include "geometry/prescription.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -1,5 +1,5 @@
 // Text that a terminal or a page would obey is escaped, all other text is left as it is.
-#include "model/printable.h"
+#include "base/printable.h"
 
 #include <gtest/gtest.h>
 #include <string>

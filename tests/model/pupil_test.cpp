@@ -1,5 +1,5 @@
 // Pupils of lenses with stops before, inside and behind them: against matrices of paraxial optics, and by hand.
-#include "model/pupil.h"
+#include "geometry/pupil.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <random>
 
 #include "example.h"
-#include "model/bands.h"
-#include "model/geometry.h"
-#include "model/prescription.h"
+#include "geometry/dark_bands.h"
+#include "geometry/geometry.h"
+#include "geometry/prescription.h"
 
 namespace lfdsim {
 namespace {

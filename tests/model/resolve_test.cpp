@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "example.h"
-#include "model/geometry.h"
+#include "geometry/geometry.h"
 
 namespace lfdsim {
 namespace {

@@ -1,5 +1,5 @@
 // Subpixels: where each colour shines, how bright, and for what place its content is made.
-#include "model/subpixels.h"
+#include "geometry/subpixels.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,11 +3,11 @@
 
 #include <cmath>
 
+#include "base/constants.h"
 #include "example.h"
-#include "model/geometry.h"
-#include "model/numbers.h"
-#include "model/screen.h"
-#include "model/sharp_range.h"
+#include "geometry/geometry.h"
+#include "geometry/screen.h"
+#include "geometry/sharp_range.h"
 
 namespace lfdsim {
 namespace {

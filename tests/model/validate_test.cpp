@@ -8,10 +8,10 @@
 #include <memory>
 #include <utility>
 
+#include "base/constants.h"
+#include "display/keys.h"
 #include "example.h"
-#include "model/geometry.h"
-#include "model/keys.h"
-#include "model/numbers.h"
+#include "geometry/geometry.h"
 #include "panels.h"
 
 namespace lfdsim {

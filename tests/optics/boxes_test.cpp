@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/summed_panel.h"
+#include "engine/estimator/box_means.h"
+#include "engine/estimator/summed_panel.h"
 #include "example.h"
-#include "optics/boxes.h"
 
 namespace lfdsim::optics {
 namespace {

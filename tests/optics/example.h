@@ -5,9 +5,9 @@
 #include <random>
 #include <vector>
 
-#include "engine/scene.h"
-#include "model/geometry.h"
-#include "model/numbers.h"
+#include "base/constants.h"
+#include "engine/scene/scene.h"
+#include "geometry/geometry.h"
 #include "optics/trace.h"
 
 namespace lfdsim {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "example.h"
-#include "files/display_file.h"
+#include "files/description/display_file.h"
 
 namespace lfdsim::optics {
 namespace {

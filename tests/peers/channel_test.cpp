@@ -1,6 +1,6 @@
 // Scenes of one channel, of displays whose glass disperses.
-#include "files/display_file.h"
-#include "peers/peers.h"
+#include "files/description/display_file.h"
+#include "interchange/peers/peers.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Scenes of arrays with errors: what is refused, where lenses stand, what lies level.
 #include "examples.h"
-#include "model/lens_errors.h"
+#include "geometry/lens_misalignment.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,7 +1,7 @@
 // Displays that are exported in tests, and what is said of them.
 #pragma once
-#include "files/display_file.h"
-#include "peers/peers.h"
+#include "files/description/display_file.h"
+#include "interchange/peers/peers.h"
 
 #include <string>
 #include <vector>

@@ -1,11 +1,11 @@
 // Panels with subpixels, as other renderers show them: lfdsim's own picture of the finer panel is that of the display.
-#include "peers/fine_panel.h"
+#include "interchange/peers/fine_panel.h"
 
 #include <gtest/gtest.h>
 
 #include "../engine/pictures.h"
-#include "model/keys.h"
-#include "model/subpixels.h"
+#include "display/keys.h"
+#include "geometry/subpixels.h"
 
 namespace lfdsim {
 namespace {

@@ -1,10 +1,10 @@
 // Scenes for other renderers as text and triangles: sizes, places, names from strangers, what is refused.
-#include "engine/scene.h"
+#include "engine/scene/scene.h"
 #include "examples.h"
-#include "files/display_file.h"
-#include "peers/cell.h"
-#include "peers/peers.h"
-#include "peers/ply.h"
+#include "files/description/display_file.h"
+#include "interchange/peers/cell.h"
+#include "interchange/peers/peers.h"
+#include "interchange/peers/ply.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Figures that `lfdsim check` derives for its reader, against closed forms.
-#include "report/check.h"
+#include "report/folder/check.h"
 
 #include <gtest/gtest.h>
 
-#include "model/subpixels.h"
+#include "geometry/subpixels.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // The cells from the front: their corners against the lattice's own figures.
-#include "report/front_view.h"
-#include "model/numbers.h"
+#include "report/drawings/front_view.h"
+#include "base/constants.h"
 
 #include <gtest/gtest.h>
 

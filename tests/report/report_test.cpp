@@ -1,5 +1,5 @@
 // The folder of results and the report of it: what is shown, what is missing, and that nothing of it comes from elsewhere.
-#include "report/report.h"
+#include "report/pages/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,9 +13,9 @@
 
 #include "../image/helpers.h"
 #include "../optics/example.h"
-#include "model/numbers.h"
-#include "report/run_settings.h"
-#include "report/side_view.h"
+#include "base/constants.h"
+#include "report/drawings/side_view.h"
+#include "report/folder/run_settings.h"
 
 namespace lfdsim {
 namespace {

@@ -1,5 +1,5 @@
 // Two displays beside one another: what differs, by how much, and whether that is more than the stated errors.
-#include "report/side_by_side.h"
+#include "report/pages/side_by_side.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 
 #include "../image/helpers.h"
 #include "../optics/example.h"
-#include "model/numbers.h"
+#include "base/constants.h"
 
 namespace lfdsim {
 namespace {

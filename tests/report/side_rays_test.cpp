@@ -1,10 +1,10 @@
 // The rays of the drawings against the tracer, and each against its way back.
-#include "report/side_rays.h"
+#include "report/drawings/side_rays.h"
 
 #include <gtest/gtest.h>
 
-#include "engine/scene.h"
-#include "files/display_file.h"
+#include "engine/scene/scene.h"
+#include "files/description/display_file.h"
 #include "optics/trace.h"
 
 namespace lfdsim {

@@ -1,5 +1,5 @@
 // Plots and maps as SVG: axes, what is drawn of bad and empty data, and that any text gives valid XML.
-#include "report/svg.h"
+#include "report/plots/svg.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 #include <regex>
 
 #include "../image/helpers.h"
-#include "model/numbers.h"
-#include "report/base64.h"
-#include "report/svg_axes.h"
+#include "base/constants.h"
+#include "report/pages/base64.h"
+#include "report/plots/svg_axes.h"
 
 namespace lfdsim {
 namespace {

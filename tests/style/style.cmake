@@ -4,7 +4,7 @@ foreach(check layering lengths format)
 endforeach()
 add_test(NAME style.layering_sees_upward_include COMMAND ${CMAKE_CURRENT_LIST_DIR}/layering.sh ${CMAKE_CURRENT_LIST_DIR}/upward)
 set_tests_properties(style.layering_sees_upward_include PROPERTIES
-  PASS_REGULAR_EXPRESSION "bad.h:2: model .floor 0. includes engine .floor 2.")
+  PASS_REGULAR_EXPRESSION "bad.h:2: base .floor 0. includes engine .floor 2.")
 
 # Sanitizers add weak symbols of their own.
 if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")

@@ -1,4 +1,4 @@
-#include "view/access.h"
+#include "view/server/access.h"
 
 #include <gtest/gtest.h>
 

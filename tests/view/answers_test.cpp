@@ -1,4 +1,4 @@
-#include "view/answers.h"
+#include "view/answers/answers.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "content/content.h"
-#include "files/display_file.h"
+#include "files/description/display_file.h"
 #include "folder.h"
-#include "report/svg_drawing.h"
-#include "view/messages.h"
+#include "report/plots/svg_drawing.h"
+#include "view/server/messages.h"
 
 namespace lfdsim::view {
 namespace {

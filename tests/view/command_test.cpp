@@ -1,4 +1,4 @@
-#include "view/command.h"
+#include "view/answers/command.h"
 
 #include <gmock/gmock.h>
 #include <fstream>
@@ -6,8 +6,8 @@
 #include "content/content.h"
 #include "engine/render.h"
 #include "folder.h"
-#include "image/encoder.h"
-#include "image/image_file.h"
+#include "image/formats/encoder.h"
+#include "image/formats/image_file.h"
 
 namespace lfdsim::view {
 namespace {

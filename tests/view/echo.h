@@ -1,7 +1,7 @@
 // A visitor for tests: answers what it is told to.
 #pragma once
-#include "model/error.h"
-#include "view/server.h"
+#include "base/input_error.h"
+#include "view/server/server.h"
 
 #include <atomic>
 #include <chrono>

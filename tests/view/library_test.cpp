@@ -1,4 +1,4 @@
-#include "view/library.h"
+#include "view/answers/library.h"
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>
@@ -6,10 +6,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "files/display_file.h"
-#include "image/image_file.h"
-#include "model/keys.h"
-#include "view/hidden_paths.h"
+#include "display/keys.h"
+#include "files/description/display_file.h"
+#include "image/formats/image_file.h"
+#include "view/answers/hidden_paths.h"
 
 namespace lfdsim::view {
 namespace {

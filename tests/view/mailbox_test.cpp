@@ -1,4 +1,4 @@
-#include "view/mailbox.h"
+#include "view/server/mailbox.h"
 
 #include <gtest/gtest.h>
 

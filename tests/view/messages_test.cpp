@@ -1,10 +1,10 @@
-#include "view/messages.h"
+#include "view/server/messages.h"
 
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "model/error.h"
+#include "base/input_error.h"
 
 namespace lfdsim::view {
 namespace {

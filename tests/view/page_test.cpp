@@ -1,5 +1,5 @@
 // The page as it is built into the program.
-#include "view/page.h"
+#include "view/server/page.h"
 
 #include <gtest/gtest.h>
 #include <regex>

@@ -1,4 +1,4 @@
-#include "view/painter.h"
+#include "view/painting/painter.h"
 
 #include <gmock/gmock.h>
 #include <atomic>
@@ -8,10 +8,10 @@
 #include <thread>
 
 #include "../sanitizers.h"
-#include "analysis/views.h"
+#include "analysis/pictures/views.h"
 #include "engine/render.h"
-#include "view/likeness.h"
-#include "view/seen.h"
+#include "view/answers/likeness.h"
+#include "view/painting/eye_displays.h"
 #include "visit.h"
 
 namespace lfdsim::view {

@@ -1,12 +1,12 @@
-#include "view/panels.h"
+#include "view/painting/panels.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <algorithm>
 #include <set>
 
-#include "content/memory.h"
-#include "model/keys.h"
+#include "content/models/memory.h"
+#include "display/keys.h"
 #include "optics/scene.h"
 #include "visit.h"
 

@@ -1,12 +1,12 @@
-#include "view/probe.h"
+#include "view/answers/probe.h"
 
 #include <gmock/gmock.h>
 #include <cmath>
 #include <numbers>
 
-#include "analysis/eye_rays.h"
+#include "analysis/core/eye_rays.h"
 #include "engine/render.h"
-#include "files/display_file.h"
+#include "files/description/display_file.h"
 #include "folder.h"
 
 namespace lfdsim::view {

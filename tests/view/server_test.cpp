@@ -1,4 +1,4 @@
-#include "view/server.h"
+#include "view/server/server.h"
 
 #include "echo.h"
 

@@ -1,11 +1,11 @@
 // A visitor for the tests of the painter: a small display in a folder of its own, and an outbox that keeps what it is given.
 #pragma once
-#include "files/display_file.h"
-#include "image/encoding.h"
-#include "image/image_file.h"
-#include "view/outbox.h"
-#include "view/painter.h"
-#include "view/panels.h"
+#include "files/description/display_file.h"
+#include "image/formats/encoding.h"
+#include "image/formats/image_file.h"
+#include "view/painting/painter.h"
+#include "view/painting/panels.h"
+#include "view/server/outbox.h"
 
 #include "../image/helpers.h"
 

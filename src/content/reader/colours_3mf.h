@@ -1,6 +1,6 @@
 // What Assimp 5.2 passes over in 3MF files.
 #pragma once
-#include "content/reader/not_shown.h"
+#include "content/reader/limits/not_shown.h"
 
 #include <filesystem>
 

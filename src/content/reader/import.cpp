@@ -1,19 +1,19 @@
 #include "content/reader/import.h"
 
+#include "base/counted.h"
 #include "content/reader/axes.h"
 #include "content/reader/colours_3mf.h"
-#include "content/reader/edited_text.h"
-#include "content/reader/folder.h"
-#include "content/reader/gltf_loader.h"
+#include "content/reader/gltf/gltf_loader.h"
+#include "content/reader/limits/edited_text.h"
+#include "content/reader/limits/folder.h"
+#include "content/reader/limits/not_shown.h"
+#include "content/reader/limits/refusal.h"
+#include "content/reader/limits/warnings.h"
 #include "content/reader/move_to_origin.h"
-#include "content/reader/not_shown.h"
-#include "content/reader/ply_loader.h"
-#include "content/reader/refusal.h"
+#include "content/reader/ply/ply_loader.h"
 #include "content/reader/repairs.h"
 #include "content/reader/textures.h"
-#include "content/reader/warnings.h"
-#include "image/encoding.h"
-#include "model/counted.h"
+#include "image/formats/encoding.h"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/importerdesc.h>

@@ -1,6 +1,6 @@
 // Reads a model file by Assimp and converts it.
 #pragma once
-#include "content/model.h"
+#include "content/models/model.h"
 
 #include <filesystem>
 #include <string>

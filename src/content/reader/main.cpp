@@ -1,11 +1,11 @@
 // lfdsim-model-reader model|picture FILE BYTES SECONDS UP: reads a model, or a picture as one, and writes it to standard output in
 // the form of transfer.h.
 // A process of its own, with limits, since loaders of old formats have memory faults that a hostile file can reach.
+#include "base/large_stack.h"
+#include "content/models/transfer.h"
 #include "content/reader/import.h"
-#include "content/reader/limits.h"
+#include "content/reader/limits/limits.h"
 #include "content/reader/picture.h"
-#include "content/transfer.h"
-#include "image/own_stack.h"
 
 #include <unistd.h>
 #include <cstdio>

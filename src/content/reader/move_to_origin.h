@@ -1,6 +1,6 @@
 // Scenes as Assimp has loaded them, in floats, far from their origins.
 #pragma once
-#include "content/reader/not_shown.h"
+#include "content/reader/limits/not_shown.h"
 
 #include <assimp/scene.h>
 

@@ -1,6 +1,6 @@
 // Pictures as models.
 #pragma once
-#include "content/model.h"
+#include "content/models/model.h"
 
 #include <filesystem>
 

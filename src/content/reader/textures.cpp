@@ -1,6 +1,6 @@
 #include "content/reader/textures.h"
 
-#include "content/reader/limits.h"
+#include "content/reader/limits/limits.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,7 +1,7 @@
 // Texture files and embedded textures, decoded.
 #pragma once
-#include "content/model.h"
-#include "content/reader/folder.h"
+#include "content/models/model.h"
+#include "content/reader/limits/folder.h"
 
 #include <assimp/scene.h>
 

@@ -1,16 +1,16 @@
 // The filtered estimator on the CPU: blocks of pixels that share the rays of bundles.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
-#include "engine/kernel.h"
+#include "engine/devices/kernel.h"
+#include "engine/estimator/limits.h"
+#include "engine/estimator/panel_light.h"
+#include "engine/estimator/shared_footprint.h"
+#include "engine/estimator/strata.h"
 #include "engine/kernels/filtered_axis.h"
 #include "engine/kernels/filtered_bundles.h"
 #include "engine/kernels/lens_by_lens.h"
-#include "optics/bundle.h"
 #include "optics/camera.h"
-#include "optics/filtered_limits.h"
 #include "optics/light.h"
-#include "optics/panel_light.h"
-#include "optics/strata.h"
 
 #include <cstddef>
 

@@ -1,11 +1,11 @@
 // The filtered estimator: how a block of pixels cuts the diffuser's angles along one axis.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
-#include "engine/kernel.h"
+#include "engine/devices/kernel.h"
+#include "engine/estimator/limits.h"
+#include "engine/estimator/strata.h"
 #include "optics/diffuser.h"
-#include "optics/filtered_limits.h"
 #include "optics/lattice.h"
-#include "optics/strata.h"
 
 namespace lfdsim {
 

@@ -1,15 +1,15 @@
-// The filtered estimator: makes the bundles of a block (optics/bundle.h), one or two for each stratum.
+// The filtered estimator: makes the bundles of a block (engine/estimator/shared_footprint.h), one or two for each stratum.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 //
 // A stratum is a cell of the grid into which cut_axis() cuts the diffuser's two angles; what it spans is also a rectangle in the
 // plane of the lenses' holes, in mm. Its probes go from where the ray of the block's middle meets the diffuser through points of
 // that rectangle. A hole is the clear opening of a lens, or of a stop in front of it, round or the whole cell.
 #pragma once
-#include "engine/kernel.h"
+#include "engine/devices/kernel.h"
+#include "engine/estimator/limits.h"
+#include "engine/estimator/probes.h"
+#include "engine/estimator/shared_footprint.h"
 #include "engine/kernels/filtered_axis.h"
-#include "optics/bundle.h"
-#include "optics/filtered_limits.h"
-#include "optics/probes.h"
 
 namespace lfdsim {
 

@@ -14,10 +14,10 @@
 // Lanes are pixels. A group of 4 x 4 pixels shares the list of lenses and the derivatives of a lens's rays, which are traced at the
 // group's middle; all else is decided for each pixel, so that no bit depends on the packet that it is in.
 #pragma once
+#include "engine/estimator/limits.h"
+#include "engine/estimator/panel_covariance.h"
+#include "engine/estimator/panel_light.h"
 #include "engine/kernels/seen_lenses.h"
-#include "optics/filtered_limits.h"
-#include "optics/panel_light.h"
-#include "optics/spread.h"
 
 namespace lfdsim {
 

@@ -1,9 +1,9 @@
 // The estimator `lens_by_lens`: where the domain's rays cross the plane of the holes, and what of the domain lies in a lens.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
-#include "engine/kernel.h"
+#include "engine/devices/kernel.h"
+#include "engine/estimator/outline.h"
 #include "engine/kernels/filtered_axis.h"
-#include "optics/outline.h"
 #include "optics/trace.h"
 
 namespace lfdsim {

@@ -1,7 +1,7 @@
 // The estimator `point`: all samples of a packet of pixels.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
-#include "engine/kernel.h"
+#include "engine/devices/kernel.h"
 #include "optics/light.h"
 #include "optics/trace.h"
 
@@ -54,7 +54,7 @@ LFDSIM_FN optics::Light<F> gather_one(const Tile& tile, const optics::PixelRays<
 }
 
 /// Lanes are neighbouring pixels, and each adds its samples in order, two at a time, so that no bit depends on the packet a pixel
-/// is in. The light of two samples is fetched while the next two, traced side by side (optics/pair.h), are on their way, so that
+/// is in. The light of two samples is fetched while the next two, traced side by side (simd/pair.h), are on their way, so that
 /// memory latency is hidden.
 template <optics::Facts facts>
 LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& pixels, optics::Uint<F> pixel) {

@@ -1,9 +1,9 @@
 // The estimator `lens_by_lens`: the lenses that a group of 4 x 4 pixels sees, and how the ends of their rays move.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
+#include "engine/estimator/limits.h"
 #include "engine/kernels/lens_domain.h"
 #include "optics/camera.h"
-#include "optics/filtered_limits.h"
 
 namespace lfdsim {
 

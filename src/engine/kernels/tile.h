@@ -1,10 +1,10 @@
 // The kernel's source, compiled once for each instruction set (kernels.cmake): LFDSIM_ISA names it, LFDSIM_LANES is its width.
 // Floor 2. No header with templates of the standard library: a copy compiled for AVX-512 must never be linked into another kernel.
-#include "engine/kernel.h"
+#include "engine/devices/kernel.h"
 #if LFDSIM_LANES > 1
-#include "optics/simd.h"
+#include "simd/simd.h"
 #else
-#include "optics/lane.h"
+#include "simd/lane.h"
 #endif
 
 namespace lfdsim {

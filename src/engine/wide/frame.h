@@ -1,6 +1,6 @@
 // A picture's work for a wide machine, such as a GPU: thousands of equal items, one for each thread. Plain data. Floor 2.
 #pragma once
-#include "engine/kernel.h"
+#include "engine/devices/kernel.h"
 #include "optics/scene.h"
 
 #include <cstdint>

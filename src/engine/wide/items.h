@@ -5,7 +5,7 @@
 #define LFDSIM_LANES 1
 #endif
 #include "engine/wide/frame.h"
-#include "optics/lane.h"
+#include "simd/lane.h"
 
 namespace lfdsim {
 namespace {

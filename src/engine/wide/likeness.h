@@ -1,8 +1,8 @@
 // Compares a view in a wide machine's memory with a photograph there, with the same bits as on the CPU. Floor 2.
 #pragma once
 #include "engine/wide/queue.h"
+#include "image/compare/likeness.h"
 #include "image/image.h"
-#include "image/likeness.h"
 
 namespace lfdsim::wide {
 
@@ -17,8 +17,8 @@ struct Photograph {
     Buffer<float> code, light;  // of sRGB codes, of light; height x width each
 };
 
-/// Compares a view with a photograph as image/likeness.h does. To be made before the view is rendered: it waits for all earlier
-/// work. Both functions throw DeviceError.
+/// Compares a view with a photograph as image/compare/likeness.h does. To be made before the view is rendered: it waits for all
+/// earlier work. Both functions throw DeviceError.
 class Comparison {
   public:
     Comparison(Queue&, const Photograph&, const Region& screen, const Region& content);

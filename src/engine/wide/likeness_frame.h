@@ -1,7 +1,7 @@
 // The comparison of a view with a photograph on a wide machine. Plain data. Floor 2.
 #pragma once
-#include "image/likeness.h"
-#include "image/ssim_window.h"
+#include "image/compare/likeness.h"
+#include "image/compare/ssim_window.h"
 
 #include <cstdint>
 

@@ -1,5 +1,5 @@
-// The items of each step of comparing a view with a photograph, one for each thread: what image/likeness.cpp computes, in the same
-// order. Compiled as CUDA (engine/cuda) and, to test it anywhere, for the host. Floor 2.
+// The items of each step of comparing a view with a photograph, one for each thread: what image/compare/likeness.cpp computes, in
+// the same order. Compiled as CUDA (engine/cuda) and, to test it anywhere, for the host. Floor 2.
 #pragma once
 #include "engine/wide/likeness_frame.h"
 

@@ -1,6 +1,6 @@
 #include "engine/wide/render.h"
 
-#include "engine/refine.h"
+#include "engine/estimator/refine.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // Renders a picture by points on a wide machine, with the same bits as the CPU's kernels. Floor 2.
 #pragma once
-#include "engine/kernel.h"
+#include "base/job.h"
+#include "engine/devices/kernel.h"
 #include "engine/wide/queue.h"
-#include "model/job.h"
 
 #include <optional>
 #include <vector>

@@ -1,0 +1,37 @@
+#include "analysis/core/estimate.h"
+
+#include <cmath>
+#include <limits>
+
+namespace lfdsim {
+
+Estimate jackknife(const std::function<double(int without)>& figure) {
+    constexpr double student = 2.365;  // 95 % of Student's distribution with 7 degrees of freedom
+    static_assert(independent_sets == 8);
+    Estimate result{figure(-1), std::numeric_limits<double>::quiet_NaN()};
+    Sums each;
+    double mean = 0, variance = 0;
+    for (int k = 0; k < independent_sets; ++k) mean += (each[std::size_t(k)] = figure(k)) / independent_sets;
+    for (const double x : each) variance += (x - mean) * (x - mean) * (independent_sets - 1) / independent_sets;
+    if (std::isfinite(result.value) && std::isfinite(variance)) result.error = student * std::sqrt(variance);
+    return result;
+}
+
+double total(const Sums& sums, int without) {
+    double all = 0;
+    for (int k = 0; k < independent_sets; ++k)
+        if (k != without) all += sums[std::size_t(k)];
+    return all;
+}
+
+std::uint32_t set_number(std::int64_t seed, int n) {
+    const std::uint64_t mixed = std::uint64_t(seed) * 0x9e3779b97f4a7c15u;  // 0 for seed 0; else spread over all numbers
+    return std::uint32_t(mixed >> 32) + std::uint32_t(n);
+}
+
+void add_figure(Json& json, const std::string& name, const Estimate& estimate) {
+    json[name] = number_json(estimate.value);
+    json[name + "_error"] = number_json(estimate.error);
+}
+
+}  // namespace lfdsim

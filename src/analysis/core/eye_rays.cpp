@@ -1,0 +1,175 @@
+#include "analysis/core/eye_rays.h"
+
+#include "base/constants.h"
+#include "base/vec.h"
+#include "engine/scene/scene.h"
+#include "optics/sampler.h"
+#include "optics/trace.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+namespace {
+
+optics::PanelPoint<double> trace(const optics::Scene<double>& scene, const optics::Extent<double>& extent,
+                                 const optics::Ray<double>& ray, double raised) {
+    const optics::PanelBase<double> base{0, 0, 0, 0,
+                                         raised};  // the point is then relative to where the base lens's axis meets the panel
+    return optics::trace_any<double>(scene, extent, base, ray, true);
+}
+
+/// Whether a line in a glass surround meets a lens, and the first that it meets. In `clear` all glass is lenses; in `plate` what is
+/// not flat. In the array's axes, from the base lens's, z from the panel.
+bool first_lens(const optics::Scene<double>& scene, const optics::Extent<double>& extent, const optics::Ray<double>& ray,
+                optics::Cell<double>& cell) {
+    optics::GlassRays<double> rays{ray.at, ray.to, {0, 0}, false, false};
+    double weight = 1;
+    for (int surfaces = 0; surfaces < 4; ++surfaces) {  // a sheet's two faces, and as many reflections
+        optics::Crossing<double> next{1e30, {0, 0, 1}, {0, 0}, false};
+        const bool clear = scene.surround == Surround::clear;
+        if (clear)
+            optics::next_in_clear(scene, extent, rays, true, next);
+        else
+            optics::next_in_plate(scene, extent, rays, true, next);
+        if (!next.found) return false;
+        if (clear || std::hypot(next.normal.x, next.normal.y) > 0) {
+            cell = next.cell;
+            return true;
+        }
+        optics::cross(scene, next, true, rays, weight);
+    }
+    return false;
+}
+
+}  // namespace
+
+std::vector<Choice> even_choices(int count, std::uint32_t set) {
+    optics::Sampler<double> sampler(Sampling::sobol, optics::sampler_dimensions, 0, set);
+    std::vector<Choice> choices;
+    choices.reserve(std::size_t(count));
+    for (int n = 0; n < count; ++n) {
+        choices.push_back({sampler(0), sampler(1), sampler(2), sampler(3), sampler(4), sampler(5)});
+        sampler.next(sobol_directions());
+    }
+    return choices;
+}
+
+EyeRays::EyeRays(const Display& d, const Geometry& g)
+    : scene_(make_scene<double>(d, g)),
+      vertex_plane_(g.vertex_plane_mm),
+      start_z_(make_view(d, g).start_z),
+      panel_behind_(g),
+      stop_first_(scene_.has_stop && !scene_.placement.given && g.stop_z_mm >= g.top_z_mm - 1e-9),
+      base_(optics::base_cell(g.lattice, {std::floor(g.lattice.count[0] / 2), std::floor(g.lattice.count[1] / 2)})) {}
+
+Vec3d EyeRays::point(double x, double y) const {
+    const Place at = optics::in_display(scene_.lattice, Place{x, y});
+    return {at.x, at.y, vertex_plane_};
+}
+
+Sight EyeRays::look(const Vec3d& eye, const Choice& choice) const {
+    const Vec3d at = aim(eye, choice);
+    if (!panel_behind_.meets(eye, at[0], at[1])) return {.on_screen = false};
+    return look_through(eye, at, choice[2], choice[3]);
+}
+
+Vec3d EyeRays::aim(const Vec3d& eye, const Choice& choice) const {
+    const Lattice<double>& lattice = scene_.lattice;
+    const auto number = [&](std::size_t k) {
+        return std::min(std::floor((0.5 + 0.5 * choice[4 + k]) * lattice.count[k]), lattice.count[k] - 1);
+    };
+    const Place axis = optics::axis_in_array(lattice, optics::Cell<double>{number(0), number(1)});
+    Place moved{0, 0};
+    if (scene_.has_diffuser) {  // how far the diffuser shifts the line through the lens's axis
+        const Vec3d centre = point(axis.x, axis.y), to = normalised(minus(centre, eye));
+        const optics::Vec3<double> turned =
+            optics::scatter(scene_, optics::Vec3<double>{to[0], to[1], to[2]}, choice[2], choice[3]);
+        const double down = vertex_plane_ - start_z_;
+        if (turned.z < -1e-3)
+            moved = optics::to_array(lattice, down * (turned.x / turned.z - to[0] / to[2]),
+                                     down * (turned.y / turned.z - to[1] / to[2]));
+        if (lattice.strips) moved.y = 0;
+    }
+    const auto in_cell = [&](std::size_t k, double by) {
+        const double place = 0.5 * choice[k] - by / lattice.pitch[k];
+        return lattice.pitch[k] * (place - std::floor(place + 0.5));
+    };
+    Place place{in_cell(0, moved.x), in_cell(1, moved.y)};
+    if (lattice
+            .hexagonal) {  // such rectangles cover the plane as the hexagons do: what is outside of this one belongs to a neighbour
+        const Place centre = optics::axis_of(lattice, optics::cell_at(lattice, place.x, place.y));
+        place = {place.x - centre.x, place.y - centre.y};
+    }
+    return point(axis.x + place.x, axis.y + place.y);
+}
+
+Sight EyeRays::look_through(const Vec3d& eye, const Vec3d& at, double a, double b) const {
+    return look_along(at, normalised(minus(at, eye)), a, b);
+}
+
+int EyeRays::more_for(const Vec3d& eye) const {
+    int through = 0, more = 1;
+    constexpr int tried = 4096;
+    for (const Choice& choice : even_choices(tried)) through += look(eye, choice).through;
+    while (more < 8 && 2 * more * through < tried) more *= 2;
+    return more;
+}
+
+Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) const {
+    // Where the line crosses the first plane, in the array's frame
+    const double up = (start_z_ - at[2]) / to[2];
+    const Lattice<double>& lattice = scene_.lattice;
+    const auto [x0, y0] = optics::to_array(lattice, at[0] + up * to[0] - lattice.offset[0], at[1] + up * to[1] - lattice.offset[1]);
+    Place base_axis = optics::axis_in_array(lattice, base_);
+    double raised = 0;  // of the base lens, where the array is not parallel to the panel
+    if (scene_.placement.wedged) {
+        const auto vertex = optics::wedged<double>(scene_.placement, false, {base_axis.x, base_axis.y, 0});
+        base_axis = {vertex.x, vertex.y};
+        raised = vertex.z;
+    }
+    optics::Ray<double> ray{{x0 - base_axis.x, y0 - base_axis.y, 0}, {to[0], to[1], to[2]}};
+    if (scene_.has_diffuser) ray.to = optics::scatter(scene_, ray.to, a, b);
+    if (!(ray.to.z < 0)) return {};
+    const optics::Extent<double> extent{-base_.i, lattice.count[0] - 1 - base_.i, -base_.j, lattice.count[1] - 1 - base_.j};
+    // The point where the line would reach a height, from the base lens in the array's frame
+    const auto come_down_to = [&](double z) {
+        const double fall = (z - start_z_) / ray.to.z;
+        const auto [dx, dy] = optics::to_array(lattice, fall * ray.to.x, fall * ray.to.y);
+        return std::array{ray.at.x + dx, ray.at.y + dy};
+    };
+    if (stop_first_) {  // most lines end there
+        const auto [x, y] = come_down_to(scene_.stop_z);
+        if (!optics::passes_stop(scene_, extent, x, y)) return {};
+    }
+    const optics::PanelPoint<double> end = trace(scene_, extent, ray, raised);
+    if (!end.alive || !(end.weight > 0)) return {};
+
+    const Vec3d base = point(base_axis.x, base_axis.y);
+    const double x = base[0] + end.column / scene_.pixels_per_mm, y = base[1] - end.row / scene_.pixels_per_mm;
+    const bool beside =
+        std::abs(x) * scene_.pixels_per_mm > 0.5 * scene_.columns || std::abs(y) * scene_.pixels_per_mm > 0.5 * scene_.rows;
+    optics::Cell<double> cell = end.cell;
+    bool by_lens = true;
+    if (!scene_.thin && scene_.surround != Surround::opaque) {  // rays may change cells: their lens is the first that they meet
+        const auto [leaves_x, leaves_y] = come_down_to(vertex_plane_);
+        cell = optics::cell_at(lattice, leaves_x, leaves_y);
+        const auto [to_x, to_y] = optics::to_array(lattice, ray.to.x, ray.to.y);
+        by_lens = first_lens(scene_, extent, {{ray.at.x, ray.at.y, start_z_}, {to_x, to_y, ray.to.z}}, cell);
+    }
+    const Place from_base = optics::axis_of(lattice, cell);
+    return {true, beside ? 0 : end.weight, true, by_lens, x, y, point(base_axis.x + from_base.x, base_axis.y + from_base.y)};
+}
+
+double checked_viewing_distance_mm(const Subject& s) {
+    const double distance = s.viewing_distance_mm(), nearest = nearest_eye_mm(s.geometry());
+    if (!(distance > nearest))
+        throw InputError("--viewing-distance-mm",
+                         fmt::format("{:.6g} mm from the panel is inside the display, whose lenses and diffuser "
+                                     "reach to {:.6g} mm; give a greater distance",
+                                     distance, nearest));
+    return distance;
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,27 @@
+#include "analysis/core/parallel.h"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#include <algorithm>
+
+namespace lfdsim {
+
+void Parts::run(int n, const std::function<void(int)>& part) {
+    tbb::task_arena arena(threads_ > 0 ? threads_ : tbb::task_arena::automatic);
+    arena.execute([&] {
+        tbb::parallel_for(0, n, [&](int k) {
+            if (job_.cancelled()) return;
+            part(k);
+            const std::int64_t done = ++done_;  // each number once, so that what is reported adds up to all steps
+            job_.advance(steps_ * done / count_ - steps_ * (done - 1) / count_);
+        });
+    });
+    if (job_.cancelled()) throw Stopped{};
+}
+
+std::int64_t pictures_worth(const Subject& s, std::int64_t rays) {
+    const std::array<std::int64_t, 2>& size = s.display().camera.resolution;
+    return std::max<std::int64_t>(1, 4 * rays / (size[0] * size[1]));  // a ray alone takes as long as some four pixels
+}
+
+}  // namespace lfdsim

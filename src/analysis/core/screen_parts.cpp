@@ -1,0 +1,55 @@
+#include "analysis/core/screen_parts.h"
+
+#include "optics/lattice.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+
+ScreenParts::ScreenParts(const Display& d, const Geometry& g, int most_along)
+    : lattice_(g.lattice), panel_behind_(g), lenses_(lens_count(d.panel, d.array)) {
+    if (lattice_.strips) lenses_[1] = std::max(std::llround(lattice_.pitch[1] / lattice_.pitch[0]), 1LL);
+    together_ = (std::max(lenses_[0], lenses_[1]) + most_along - 1) / most_along;
+    for (std::size_t k = 0; k < 2; ++k) count_[k] = int(std::max<std::int64_t>(lenses_[k] / together_, 1));
+}
+
+LensBlock ScreenParts::block(int part) const {
+    const std::array<std::int64_t, 2> at{part % count_[0], count_[1] - 1 - part / count_[0]};
+    LensBlock block{};
+    for (std::size_t k = 0; k < 2; ++k) {
+        block.first[k] = at[k] * lenses_[k] / count_[k];
+        block.end[k] = (at[k] + 1) * lenses_[k] / count_[k];
+    }
+    return block;
+}
+
+LensBlock ScreenParts::middle() const {
+    LensBlock block{};
+    for (std::size_t k = 0; k < 2; ++k) {
+        const std::int64_t together = std::min(together_, lenses_[k]);
+        block.first[k] = (lenses_[k] - together) / 2;
+        block.end[k] = block.first[k] + together;
+    }
+    return block;
+}
+
+Choice ScreenParts::within(const LensBlock& block, Choice choice) const {
+    for (std::size_t k = 0; k < 2; ++k) {
+        const double first = double(block.first[k]), end = double(block.end[k]);
+        double& number = choice[k == 1 && lattice_.strips ? 1 : 4 + k];  // the place along a strip, which is one lens
+        number = 2 * (first + (0.5 + 0.5 * number) * (end - first)) / double(lenses_[k]) - 1;
+    }
+    return choice;
+}
+
+bool ScreenParts::is_inner(const LensBlock& block, const Vec3d& eye) const {
+    constexpr double inner = 0.8 + 1e-9;
+    std::array<double, 2> share{};  // of the way from the array's middle to its border
+    for (std::size_t k = 0; k < 2; ++k) share[k] = double(block.first[k] + block.end[k]) / double(lenses_[k]) - 1;
+    const auto at = optics::in_display(lattice_, optics::Place<double>{0.5 * lattice_.count[0] * lattice_.pitch[0] * share[0],
+                                                                       0.5 * lattice_.count[1] * lattice_.pitch[1] * share[1]});
+    return std::max(std::abs(share[0]), std::abs(share[1])) <= inner && panel_behind_.meets(eye, at.x, at.y, inner);
+}
+
+}  // namespace lfdsim

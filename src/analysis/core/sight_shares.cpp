@@ -1,0 +1,69 @@
+#include "analysis/zone/zone.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+// docs/model.md, "Viewing zone".
+namespace lfdsim {
+namespace {
+
+/// Whether the middle of the elemental image of the lens that the line passes lies on the panel; of a strip, whose image has a
+/// middle line, the point of that beside the end of the line.
+bool image_on_panel(const Pickup& pickup, const Panel& panel, const Sight& s) {
+    double x = s.lens[0] * pickup.scale, y = s.lens[1] * pickup.scale;
+    const Lattice<double>& lattice = pickup.lattice();
+    if (lattice.strips) {
+        const auto along = optics::to_display(lattice, 0., optics::to_array(lattice, s.x - x, s.y - y).y);
+        x += along.x;
+        y += along.y;
+    }
+    const double half = 0.5 * panel.pixel_pitch_mm;
+    return std::abs(x) <= half * double(panel.pixels[0]) && std::abs(y) <= half * double(panel.pixels[1]);
+}
+
+}  // namespace
+
+SightShares sight_shares(const EyeRays& rays, const Pickup& pickup, const Display& d, const Vec3d& eye,
+                         std::span<const Choice> choices) {
+    const double pixel = d.panel.pixel_pitch_mm;
+    std::int64_t aimed = 0, through = 0, dark = 0, wrong = 0;
+    std::map<std::pair<long, long>, std::int64_t> towards;  // lines by the way from their lens to their pixel's, columns and rows
+    for (const Choice& choice : choices) {
+        const Sight s = rays.look(eye, choice);
+        if (!s.on_screen) continue;
+        ++aimed;
+        if (!s.through) {
+            ++dark;
+            continue;
+        }
+        if (!s.by_lens) continue;
+        if (!image_on_panel(pickup, d.panel, s)) {
+            dark += !(s.light > 0);
+            continue;
+        }
+        ++through;
+        const double column = std::floor(s.x / pixel + 0.5 * double(d.panel.pixels[0])),
+                     row = std::floor(0.5 * double(d.panel.pixels[1]) - s.y / pixel);
+        const NodalLine owner = pickup.line(pickup.x_mm(column), pickup.y_mm(row));
+        if (s.light > 0 && owner.owned) {
+            const Lattice<double>& lattice = pickup.lattice();
+            const auto off = optics::to_array(lattice, owner.x - s.lens[0], owner.y - s.lens[1]);
+            const std::pair way{std::lround(2 * off.x / lattice.pitch[0]),
+                                std::lround(optics::across(lattice, off.y) / lattice.pitch[1])};
+            wrong += way != std::pair{0L, 0L};
+            ++towards[way];
+        } else {
+            ++wrong;
+            ++dark;
+        }
+    }
+    if (through == 0) return {std::nan(""), std::nan(""), 1};
+    std::int64_t most = 0;
+    for (const auto& [way, lines] : towards) most = std::max(most, lines);
+    const double all = double(through);
+    return {double(wrong) / all, 1 - double(most) / all, double(dark) / double(aimed)};
+}
+
+}  // namespace lfdsim

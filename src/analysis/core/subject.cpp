@@ -1,0 +1,73 @@
+#include "analysis/core/subject.h"
+
+#include "analysis/pictures/views.h"
+#include "engine/render.h"
+
+#include <cmath>
+
+namespace lfdsim {
+
+Subject::Subject(Display display, std::optional<ContentScene> scene, AnalysisOptions options)
+    : display_(std::move(display)),
+      geometry_(resolve(display_)),
+      theory_(lfdsim::theory(display_, geometry_)),
+      scene_(std::move(scene)),
+      options_(std::move(options)) {}
+
+RenderOptions Subject::rendering() const {
+    RenderOptions how;
+    how.threads = threads();
+    how.device = options_.device;
+    return how;
+}
+
+double Subject::viewing_distance_mm() const { return options_.viewing_distance_mm.value_or(eye_distance_mm(display_)); }
+
+const ContentScene& Subject::scene() const {
+    if (!scene_) throw InputError("--model", "there is nothing to show; give a mesh file or built-in:spheres");
+    return *scene_;
+}
+
+ShownPanel::ShownPanel(Texels texels, int threads) : texels_(std::move(texels)), summed_(texels_, threads) {}
+
+std::unique_ptr<ShownPanel> elemental_panel(const Display& display, const Geometry& geometry, const ContentScene& scene,
+                                            int threads, const Job& job) {
+    Quiet quiet(job);
+    const Picture picture = elemental_images(display, geometry, scene, threads, quiet);
+    if (!picture.complete) throw Stopped{};
+    return std::make_unique<ShownPanel>(shown_texels(picture.image, display.panel.encoding), threads);
+}
+
+const SummedPanel& Subject::panel(const Job& job) {
+    if (!shown_) shown_ = elemental_panel(display_, geometry_, scene(), threads(), job);
+    return shown_->summed();
+}
+
+double Subject::white_field(const Job& job) {
+    if (white_field_) return *white_field_;
+    Texels white(display_.panel.pixels[0], display_.panel.pixels[1]);
+    for (std::int64_t row = 0; row < white.rows(); ++row)
+        for (std::int64_t k = 0; k < white.columns(); ++k)
+            for (int c = 0; c < 3; ++c) white.row(row)[4 * k + c] = 1;
+    const ShownPanel panel(std::move(white), threads());
+    const Display seen = seen_from(display_, 0, 0);
+    const Region screen = seen_screen(seen, geometry_);
+    const Rect box = screen_box(screen);
+    Quiet quiet(job);
+    RenderOptions how = rendering();
+    how.crop = box;
+    const Rendering r = render(seen, geometry_, panel.summed(), how, quiet);
+    if (!r.complete) throw Stopped{};
+    double sum = 0;
+    const Region part = screen.shifted(-box.x0, -box.y0);
+    for (std::size_t k = 0; k < part.rows.size(); ++k)
+        for (int x = part.rows[k].from; x < part.rows[k].to; ++x)
+            for (int c = 0; c < 3; ++c) sum += r.image.at(x, part.top + int(k))[c];
+    const double mean = sum / (3 * double(screen.pixels()));
+    if (!(mean > 0))
+        throw InputError("camera", "sees no light of a white panel from straight in front of it, so that nothing can be compared");
+    white_field_ = mean;
+    return mean;
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,294 @@
+#include "analysis/core/verdicts.h"
+
+#include "analysis/core/quick_look.h"
+#include "analysis/crosstalk/intended_panel.h"
+#include "base/constants.h"
+#include "content/pickup/shown_points.h"
+#include "geometry/dark_bands.h"
+#include "geometry/sharp_range.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace lfdsim {
+namespace {
+
+constexpr double most_seen_share = 0.5;    // of an elemental image at once: beyond it no place shows one view alone
+constexpr double most_mixed_percent = 50;  // between the eyes: a third of the light
+constexpr double most_aberrated_percent = 15, most_more_percent = 10;  // of which aberration brings so much
+constexpr double most_blur_pixels = 1.5;
+constexpr double most_on_borders = 0.1;         // of the panel's light, pixels whose centres lie on borders of elemental images
+constexpr double most_visible_contrast = 0.05;  // of colours, after the eye's filter
+
+/// Three digits, without an exponent.
+std::string digits(double x) { return std::abs(x) < 1000 ? fmt::format("{:.3g}", x) : fmt::format("{:.0f}", x); }
+
+/// "12 mm in front of the lenses", or "at infinity".
+std::string place(double z) {
+    return std::isinf(z) ? "at infinity"
+                         : fmt::format("{} mm {} the lenses", digits(std::abs(z)), z < 0 ? "behind" : "in front of");
+}
+
+double share_on_borders(const Display& d, const Geometry& g) { return MeantPanel(d, g, d.content.sampling).share_on_borders(); }
+
+bool valid(const Display& d) { return validate(d).empty(); }
+
+bool is_stripes(SubpixelLayout layout) { return layout == SubpixelLayout::rgb_stripe || layout == SubpixelLayout::bgr_stripe; }
+
+/// The radius of a stop, and the light that it leaves.
+struct Stop {
+    double radius_mm, light_share;
+};
+
+/// The widest stop with which a display is good, down to a fifth of the aperture.
+template <class Good>
+std::optional<Stop> widest_stop(const Geometry& g, Good good) {
+    const double all = 0.5 * widest_aperture_mm(g);
+    double least = 0.2 * all, most = all;
+    if (!good(least)) return {};
+    for (int halved = 0; halved < 6; ++halved) {
+        const double middle = 0.5 * (least + most);
+        (good(middle) ? least : most) = middle;
+    }
+    const double share = least / all;
+    return Stop{least, g.lattice.strips ? share : share * share};
+}
+
+std::optional<Stop> stop_against_blur(const Display& d, const Geometry& g) {
+    return widest_stop(g, [&](double radius) {
+        const std::optional<LensBlur> b = blur(d, g, radius);
+        return b && b->pixels <= 1;
+    });
+}
+
+std::optional<Stop> stop_against_mixing(Display d, const Geometry& g) {
+    return widest_stop(g, [&](double radius) {
+        d.lens.stop_radius_mm = radius;
+        if (!valid(d)) return false;
+        const std::optional<TracedAndTheory> mixed = between_eyes_percent(d, resolve(d));
+        return mixed && mixed->traced <= most_aberrated_percent;
+    });
+}
+
+std::string stop_remedy(const Display& d, const std::optional<Stop>& stop) {
+    const std::string asphere =
+        d.lens.type() == LensType::plano_convex ? "a lens with an aspheric surface (lens.type = \"surfaces\")" : "other surfaces";
+    if (!stop) return fmt::format("Use weaker or smaller lenses, or {}", asphere);
+    return fmt::format(
+        "Use {}, or a stop of {:.3g} mm radius (--set lens.stop_radius_mm={:.3g}), which leaves {:.0f} % of the light", asphere,
+        stop->radius_mm, stop->radius_mm, 100 * stop->light_share);
+}
+
+/// How to focus lenses on the panel: another lens, or another gap where that is possible.
+std::string focus_remedy(Display d, const Geometry& g) {
+    std::string remedy = fmt::format("Lenses of a focal length of {:.4g} mm, the gap, would be focused on the panel", g.gap_mm);
+    const double stronger = g.gap_mm / g.focal_length_mm;
+    if (d.lens.type() == LensType::plano_convex && stronger > 0)
+        remedy += fmt::format(": with this glass a radius of {0:.4g} mm (lens.sphere_radius_mm = {0:.4g})",
+                              d.lens.as<PlanoConvex>().sphere_radius_mm * stronger);
+    if (d.lens.type() == LensType::ideal) remedy += fmt::format(" (--set lens.focal_length_mm={:.4g})", g.gap_mm);
+    d.array.base_z_mm.reset();
+    d.array.gap_mm = g.focal_length_mm;
+    if (g.focal_length_mm > 0 && !g.glued && valid(d))
+        remedy += fmt::format(", as would these at a gap of {0:.4g} mm (--set array.gap_mm={0:.4g})", g.focal_length_mm);
+    return remedy;
+}
+
+std::string separation_remedy(const Display& d, const Geometry& g, const Theory& t, const SeenAtOnce& seen) {
+    const double most = most_seen_share * seen.image_mm;
+    if (d.lens.type() == LensType::pinhole && seen.through_apertures_mm > most) {
+        const double e = 1 + g.gap_mm / (eye_distance_mm(d) - g.rear_principal_mm), view = std::min(d.panel.pixel_pitch_mm, most);
+        return fmt::format(
+            "The holes are too wide. Through holes of {0:.3g} mm radius (--set lens.aperture_radius_mm={0:.3g}) it would see one "
+            "panel pixel",
+            0.5 * view / e);
+    }
+    if (seen.through_apertures_mm > most)
+        return fmt::format("They are focused {} (focal length {:.4g} mm, gap {:.4g} mm), not on the panel. {}",
+                           place(t.central_depth_mm), g.focal_length_mm, g.gap_mm, focus_remedy(d, g));
+    if (d.diffuser && seen.width_mm.theory > most) {
+        const double of_diffuser = seen.width_mm.theory - seen.through_apertures_mm,
+                     scale = std::clamp((0.9 * most - seen.through_apertures_mm) / of_diffuser, 0.05, 1.);
+        return fmt::format(
+            "The diffuser mixes them ({:.4g} x {:.4g} degrees); use a weaker one (--set "
+            "'diffuser.angle_deg=[{:.3g}, {:.3g}]')",
+            d.diffuser->angle_deg[0], d.diffuser->angle_deg[1], scale * d.diffuser->angle_deg[0], scale * d.diffuser->angle_deg[1]);
+    }
+    return "The lenses' aberration is the cause. " + stop_remedy(d, stop_against_blur(d, g));
+}
+
+/// Whether views separate at all.
+std::optional<std::string> on_separation(const Display& d, const Geometry& g, const Theory& t, const SeenAtOnce& seen) {
+    if (!(seen.width_mm.traced > most_seen_share * seen.image_mm)) return {};
+    const bool differ = std::abs(seen.width_mm.traced - seen.width_mm.theory) > 0.05 * seen.image_mm;
+    return fmt::format(
+        "views do not separate: one eye sees {} of the {:.3g} mm under each lens at once{}. {}",
+        seen.width_mm.theory < seen.image_mm ? fmt::format("{:.3g}", seen.width_mm.theory) : "all", seen.image_mm,
+        differ ? fmt::format(" by paraxial theory, {:.3g} mm with the lenses' aberration", seen.width_mm.traced) : "",
+        separation_remedy(d, g, t, seen));
+}
+
+/// Whether a viewer's eyes see different views.
+std::optional<std::string> on_eyes(const Display& d, const Geometry& g, const SeenAtOnce& seen) {
+    const std::optional<TracedAndTheory> mixed = between_eyes_percent(d, g);
+    if (!mixed) return {};
+    const double more = mixed->traced - mixed->theory;
+    const std::string eyes =
+        fmt::format("two eyes {:g} mm apart, {:.4g} mm from the panel,", usual_eyes_apart_mm, eye_distance_mm(d));
+    if (mixed->traced > most_aberrated_percent && more > most_more_percent)
+        return fmt::format(
+            "the lenses' aberration mixes what {} should see: crosstalk is {:.3g} %, and {:.2g} % in theory without aberration. {}",
+            eyes, mixed->traced, mixed->theory, stop_remedy(d, stop_against_mixing(d, g)));
+    const double wide = seen.width_mm.traced / g.gap_mm * (eye_distance_mm(d) - g.rear_principal_mm);
+    if (!(mixed->traced > most_mixed_percent && wide > usual_eyes_apart_mm)) return {};
+    return fmt::format(
+        "{} see nearly the same: crosstalk is {:.3g} %, as each lens spreads what one eye should see over {} mm there. Views "
+        "would part from {} mm on, or with lenses and a diffuser "
+        "that spread light by {:.2g} of that",
+        eyes, mixed->traced, digits(wide), digits(eye_distance_mm(d) * usual_eyes_apart_mm / wide), usual_eyes_apart_mm / wide);
+}
+
+/// Whether the lenses are as sharp as theory without aberration has them.
+std::optional<std::string> on_blur(const Display& d, const Geometry& g, const Theory& t) {
+    const std::optional<LensBlur> b = blur(d, g);
+    if (!b || !(b->pixels > most_blur_pixels)) return {};
+    const double eye = eye_distance_mm(d);
+    const double L = std::abs(t.central_depth_mm) > 1000 * eye ? infinity : t.central_depth_mm;  // lenses focused on the panel
+    const auto wide = [&](double pixels) {
+        const double slope = pixels * d.panel.pixel_pitch_mm / g.gap_mm;
+        return std::isinf(L) ? fmt::format("{:.3g} degrees", std::atan(slope) / degree)
+                             : fmt::format("{} mm", digits(slope * std::abs(L)));
+    };
+    const auto in_words = [&](const SharpRange& range, const char* are) {
+        const bool none = range.behind.empty() && range.in_front.empty();
+        return fmt::format("{}{} {}", none ? "" : "depths ", depths_in_words(g, range, eye), are);
+    };
+    const std::string sharp =
+        std::isnan(b->sharp.near_per_mm)
+            ? fmt::format("no depth is sharp (the spot comes nearest to a pixel's image {})", place(depth_mm(b->sharp.best_per_mm)))
+            : in_words(range_of_inverse(g, b->sharp.near_per_mm, b->sharp.far_per_mm, eye), "are sharp");
+    return fmt::format(
+        "spherical aberration blurs the lenses: in the central depth plane, {}, a point of the panel becomes a spot {} wide, most "
+        "of its "
+        "light {}, where the image of a pixel is {}: {}; without aberration {}. {}",
+        place(L), wide(b->full_pixels), wide(b->pixels), wide(1), sharp, in_words(sharp_by_pixel(g, t, eye), "would be"),
+        stop_remedy(d, stop_against_blur(d, g)));
+}
+
+/// What makes the colours run together, tried one by one: colours along the strips, strips that lean, a diffuser.
+std::string mixing_remedy(const Display& d, const Theory& t, const ColourWave& wave) {
+    const auto helps = [](const Display& changed) {
+        if (!valid(changed)) return false;
+        const std::optional<ColourWave> left = colour_wave(changed, resolve(changed));
+        return !left || left->visible < most_visible_contrast;
+    };
+    if (is_strips(d.array) && is_stripes(d.panel.subpixels)) {
+        Display turned = d;
+        turned.panel.subpixels = SubpixelLayout::rgb_rows;
+        if (helps(turned))
+            return "A panel whose colours follow each other along the strips shows none (--set 'panel.subpixels=\"rgb_rows\"')";
+    }
+    if (is_strips(d.array) && t.along[0].views > 2.5)  // two views part along upright columns
+        for (const double share : {1 / 6., 1 / 3.}) {
+            Display leaning = d;
+            leaning.array.slant_deg = std::atan(share) / degree;
+            if (helps(leaning)) return fmt::format("Let the strips lean (--set array.slant_deg={:.4g})", *leaning.array.slant_deg);
+        }
+    // No more than a quarter of the field of view, or views mix as well; and no dark bands in place of coloured ones.
+    const double near = 0.5 * d.array.pitch_mm.least(), most = 0.25 * t.along[0].fov_deg;
+    const auto bands = [](const Display& of) {
+        const auto [across, up] = band_contrast(of, resolve(of));
+        return std::isnan(up) ? across : std::max(across, up);
+    };
+    const double most_bands = std::max(visible_band_contrast, bands(d));
+    for (const double distance : {d.diffuser ? d.diffuser->distance_mm : near, near})
+        for (const double periods : {1., 1.5, 2.}) {
+            Display diffused = d;
+            diffused.diffuser = d.diffuser.value_or(Diffuser{});
+            diffused.diffuser->distance_mm = distance;
+            std::array<double, 2>& angle = diffused.diffuser->angle_deg;
+            for (const std::size_t k : {0u, 1u})
+                if (const double per_degree = std::abs(wave.turned_per_degree[k]); per_degree > 1e-3)
+                    angle[k] = std::max(angle[k], periods / per_degree);
+            if (std::max(angle[0], angle[1]) <= most && helps(diffused) && !(bands(diffused) > most_bands))
+                return fmt::format(
+                    "A diffuser of {0:.3g} x {1:.3g} degrees {2:.3g} mm in front of the lenses mixes them (--set "
+                    "diffuser.distance_mm={2:.3g} 'diffuser.angle_deg=[{0:.3g}, {1:.3g}]')",
+                    angle[0], angle[1], distance);
+        }
+    return "Use smaller pixels, or lenses and gap of which an eye sees more of the panel at once";
+}
+
+/// Moved by half a pixel, or with a row or column more, pixels stand beside the borders.
+std::string border_remedy(const Display& d) {
+    const auto helps = [](const Display& changed) {
+        return valid(changed) && share_on_borders(changed, resolve(changed)) < most_on_borders;
+    };
+    std::string remedy;
+    const double half = 0.5 * d.panel.pixel_pitch_mm;
+    for (const auto [x, y] : {std::array{half, 0.}, {0., half}, {half, half}, {0.5 * half, 0.}, {0.5 * half, 0.5 * half}}) {
+        Display moved = d;
+        moved.array.offset_mm[0] += x;
+        moved.array.offset_mm[1] += y;
+        if (!helps(moved)) continue;
+        remedy = fmt::format("Move the array by a part of a pixel (--set 'array.offset_mm=[{:.6g}, {:.6g}]')",
+                             moved.array.offset_mm[0], moved.array.offset_mm[1]);
+        break;
+    }
+    for (const auto [columns, rows] : {std::array{1, 0}, {0, 1}, {1, 1}}) {
+        Display larger = d;
+        larger.panel.pixels[0] += columns;
+        larger.panel.pixels[1] += rows;
+        if (!helps(larger)) continue;
+        remedy += fmt::format("{} a panel of {} x {} pixels (--set 'panel.pixels=[{}, {}]')", remedy.empty() ? "Use" : ", or use",
+                              larger.panel.pixels[0], larger.panel.pixels[1], larger.panel.pixels[0], larger.panel.pixels[1]);
+        break;
+    }
+    return remedy.empty() ? "Move the array (array.offset_mm), or use another pitch (array.pitch_mm)" : remedy;
+}
+
+/// Whether it is clear which lens shows which pixel.
+std::optional<std::string> on_borders(const Display& d, const Geometry& g) {
+    const double share = share_on_borders(d, g);
+    if (!(share >= most_on_borders)) return {};
+    return fmt::format(
+        "the centres of {:.0f} % of the {} lie on the border of two lenses' elemental images: both lenses show half of such a one, "
+        "and rounding decides for which of them its content is made, and so which eye is meant to see it. {}",
+        100 * share, made_by_channel(d) ? "subpixels" : "pixels", border_remedy(d));
+}
+
+/// Whether a white screen is white.
+std::optional<std::string> on_colours(const Display& d, const Geometry& g, const Theory& t) {
+    const std::optional<ColourWave> wave = colour_wave(d, g);
+    if (!wave || !(wave->visible > most_visible_contrast)) return {};
+    const std::string seen = std::isinf(wave->period_mm) ? "has one tint, which changes as the eye moves"
+                                                         : fmt::format("has coloured bands {} mm wide, {:.2g} to a degree",
+                                                                       digits(wave->period_mm), wave->cycles_per_degree);
+    return fmt::format(
+        "the lenses show the panel's red, green and blue apart: a white screen {} (red or blue against luminance: contrast "
+        "{:.2f}). {}",
+        seen, wave->contrast, mixing_remedy(d, t, *wave));
+}
+
+}  // namespace
+
+std::vector<std::string> verdicts(const Display& d, const Geometry& g, const Theory& t) {
+    std::vector<std::string> all;
+    const auto add = [&](std::optional<std::string> verdict) {
+        if (verdict) all.push_back(std::move(*verdict));
+        return verdict.has_value();
+    };
+    add(on_borders(d, g));
+    const std::optional<SeenAtOnce> seen = seen_at_once(d, g);
+    const bool mixed = seen && add(on_separation(d, g, t, *seen));
+    if (!mixed) {  // else the rest follows from that
+        if (seen) add(on_eyes(d, g, *seen));
+        add(on_blur(d, g, t));
+    }
+    add(on_colours(d, g, t));
+    return all;
+}
+
+}  // namespace lfdsim

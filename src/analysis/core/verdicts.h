@@ -1,0 +1,15 @@
+// What tracing says of a valid display that cannot do what it is meant for. docs/model.md, "Advice". Floor 3.
+#pragma once
+#include "display/display.h"
+#include "geometry/geometry.h"
+
+#include <string>
+#include <vector>
+
+namespace lfdsim {
+
+/// One text for each, with figures, cause and remedy: views that do not separate, lenses that blur, colours that stay apart. Within
+/// milliseconds.
+std::vector<std::string> verdicts(const Display&, const Geometry&, const Theory&);
+
+}  // namespace lfdsim

@@ -1,0 +1,228 @@
+#include "analysis/crosstalk/crosstalk.h"
+
+#include "analysis/crosstalk/crosstalk_eyes.h"
+#include "analysis/crosstalk/slope_spread.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+// What one eye sees of neighbouring views. docs/model.md, "Crosstalk".
+namespace lfdsim {
+namespace crosstalk {
+namespace {
+
+constexpr const char* definitions[][2] = {
+    {"woods_percent",
+     "Woods 2012: 100 (leak - black) / (signal - black). Signal: the view that is meant is white, all others black; leak: the "
+     "other way round."},
+    {"iec_62629_22_1_percent",
+     "IEC 62629-22-1: 100 times the sum over all other views i of (L_i - L_black), over L_meant - L_black; each view is white "
+     "alone in turn."},
+    {"idms_percent",
+     "IDMS (SID), chapter 17: 100 (L_KW - L_KK) / (L_WK - L_KK), first letter the view that is meant, second the others; W white, "
+     "K "
+     "black."}};
+
+/// Crosstalk where the middle of the screen is looked at, and by theory.
+struct Middle {
+    Crosstalk measured, theory;
+};
+
+/// Of several views; undefined where there are none.
+struct ViewsCrosstalk {
+    std::vector<double> view{0};               // their middles, in steps
+    std::vector<Crosstalk> all{{}}, next{{}};  // of all other views together, and of one neighbour, their mean
+    Crosstalk worst;
+    std::size_t innermost = 0, worst_at = 0;
+    Middle middle, middle_of_other;
+
+    /// The one at a share of all, from the least to the worst. NaN, where there is no light, counts as the worst.
+    std::size_t ranked(double share) const {
+        std::vector<std::size_t> order(all.size());
+        std::iota(order.begin(), order.end(), std::size_t(0));
+        const auto rank = [&](std::size_t n) { return std::isnan(all[n].percent.value) ? infinity : all[n].percent.value; };
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+        return order[std::size_t(share * double(order.size() - 1))];
+    }
+};
+
+/// The worst of many noisy figures is too great by chance. It says where to look, and other lines of sight how much is there; what
+/// it exceeds those by is part of the error, as another may be the worst.
+Crosstalk measured_anew(const Eyes& eyes, double view, const Crosstalk& chosen) {
+    const MeantLight light = eyes.light(eyes.at(view * eyes.view_mm(), Eyes::Lines::anew), eyes.shown);
+    Crosstalk anew = crosstalk_of(light, eyes.of_view(light, view));
+    anew.percent.error += std::max(chosen.percent.value - anew.percent.value, 0.);
+    return anew;
+}
+
+Middle at_middle_view(const Eyes& eyes, const MeantPanel& panel, const MeantLight& light, const MetPlaces& theory) {
+    const double view = eyes.views.innermost();
+    const MeantLight by_theory = eyes.theory_light(theory, panel);
+    return {crosstalk_of(light, eyes.of_view(light, view)), crosstalk_of(by_theory, eyes.of_view(by_theory, view))};
+}
+
+/// The eye in the middle of each whole view in turn, most_views of them at most, evenly; the innermost one the finest.
+ViewsCrosstalk look_at_views(Eyes& eyes) {
+    ViewsCrosstalk views;
+    views.view = eyes.views.middles(most_views);
+    views.all.resize(views.view.size());
+    views.next.resize(views.view.size());
+    views.innermost = std::size_t(std::find(views.view.begin(), views.view.end(), eyes.views.innermost()) - views.view.begin());
+    eyes.parts.run(most_views, [&](int part) {
+        const auto n = std::size_t(part);
+        if (n >= views.view.size()) return;
+        const double k = views.view[n];
+        const MetPlaces met = eyes.at(k * eyes.view_mm(), n == views.innermost ? Eyes::Lines::fine : Eyes::Lines::curve);
+        const MeantLight light = eyes.light(met, eyes.shown);
+        const Leak found = eyes.of_view(light, k);
+        const LightPart below = eyes.view(light, k - 1), above = eyes.view(light, k + 1);
+        LightPart neighbours{{}, 0.5 * (below.open + above.open)};
+        for (std::size_t m = 0; m < neighbours.light.size(); ++m) neighbours.light[m] = 0.5 * (below.light[m] + above.light[m]);
+        views.all[n] = crosstalk_of(light, found);
+        views.next[n] = crosstalk_of(neighbours, found.signal, light.missed());
+        if (n != views.innermost) return;
+        const MetPlaces theory = eyes.theory_at(k * eyes.view_mm(), Eyes::Lines::fine);
+        views.middle = at_middle_view(eyes, eyes.shown, light, theory);
+        if (eyes.other) views.middle_of_other = at_middle_view(eyes, *eyes.other, eyes.light(met, *eyes.other), theory);
+    });
+    views.worst_at = views.ranked(1);
+    views.worst = views.all[views.worst_at];
+    eyes.parts.run(1, [&](int) {
+        if (views.view.size() > 1) views.worst = measured_anew(eyes, views.view[views.worst_at], views.worst);
+    });
+    return views;
+}
+
+constexpr const char* no_view = "a view is a strip one panel pixel wide, and elemental images are narrower than a pixel";
+constexpr const char* no_light = "no light that is meant for any lens reaches an eye in front of the screen's middle";
+
+void add_middle(const Eyes& eyes, const ViewsCrosstalk& views, ContentSampling sampling, Result& result) {
+    Json& json = result.figures["between_views"];
+    for (const auto& [name, formula] : definitions) add_figure(json, name, views.middle.measured.percent);
+    json["theory_percent"] = number_json(views.middle.theory.percent.value);
+    if (eyes.other) {
+        Json other = {{"sampling", name_of(*eyes.other_sampling)}};
+        add_figure(other, "woods_percent", views.middle_of_other.measured.percent);
+        other["theory_percent"] = number_json(views.middle_of_other.theory.percent.value);
+        json["other_sampling"] = std::move(other);
+    }
+    const auto add = [&](const std::string& what, const Middle& found) {
+        result.findings.push_back({what,
+                                   "%",
+                                   {found.measured.percent.value},
+                                   {found.theory.percent.value},
+                                   found.measured.left_to_rounding
+                                       ? left_to_rounding
+                                       : "all other views together, over the one that is meant; the panel's black is 0",
+                                   {found.measured.percent.error}});
+    };
+    const std::string of = eyes.other ? fmt::format("; {}", made_for(sampling)) : "";
+    add("Crosstalk between views, the innermost one: Woods, IEC 62629-22-1 and IDMS alike" + of, views.middle);
+    if (eyes.other) add(fmt::format("The same; {}", made_for(*eyes.other_sampling)), views.middle_of_other);
+}
+
+void between_views(const Subject& s, Eyes& eyes, Result& result) {
+    Json& json = result.figures["between_views"];
+    json["view_step_mm"] = eyes.view_mm();
+    json["view_step_deg"] = s.theory(0).view_step_deg;
+    json["whole_views"] = eyes.views.count();
+    json["innermost_view"] = eyes.views.innermost();
+    const ViewsCrosstalk views = eyes.views.count() > 0 ? look_at_views(eyes) : ViewsCrosstalk();
+    add_middle(eyes, views, s.display().content.sampling, result);
+    add_figure(json, "next_view_alone_percent", views.next[views.innermost].percent);
+    const Crosstalk& median = views.all[views.ranked(0.5)];
+    add_figure(json, "median_view_percent", median.percent);
+    json["worst_view"] = views.view[views.worst_at];
+    add_figure(json, "worst_view_percent", views.worst.percent);
+    if (eyes.views.count() == 0)
+        result.note("between_views", no_view);
+    else if (views.middle.measured.left_to_rounding)
+        result.note("between_views", left_to_rounding);
+    else if (std::isnan(views.middle.measured.percent.value))
+        result.note("between_views", no_light);
+    const auto tell = [&](const std::string& name, const Crosstalk& found) {
+        if (found.left_to_rounding) result.note("between_views." + name, left_to_rounding);
+    };
+    tell("theory_percent", views.middle.theory);
+    tell("other_sampling.woods_percent", views.middle_of_other.measured);
+    tell("other_sampling.theory_percent", views.middle_of_other.theory);
+    tell("next_view_alone_percent", views.next[views.innermost]);
+    tell("median_view_percent", median);
+    tell("worst_view_percent", views.worst);
+    std::vector<double> all, next;
+    for (const Crosstalk& c : views.all) all.push_back(c.percent.value);
+    for (const Crosstalk& c : views.next) next.push_back(c.percent.value);
+    result.tables.push_back(
+        {"crosstalk_views", {{"view", views.view}, {"crosstalk_percent", all}, {"next_view_crosstalk_percent", next}}});
+}
+
+/// The eye moving past the innermost views. `spread`: how many views it gathers at once.
+void curves_of_views(Eyes& eyes, double spread, Result& result) {
+    constexpr int shown = 2;
+    const double reach = shown + 1 + std::min(spread, 100.);  // in views
+    std::vector<double> places, theory(places_of_curves);
+    for (int n = 0; n < places_of_curves; ++n) places.push_back(eyes.view_mm() * reach * (2. * n / (places_of_curves - 1) - 1));
+    const double first = eyes.views.innermost() > 0 ? eyes.views.innermost() - shown : -shown;
+    std::vector<std::vector<double>> shares(eyes.views.innermost() > 0 ? 2 * shown : 2 * shown + 1,
+                                            std::vector<double>(places.size()));
+    const auto share = [&](const MeantLight& light, double view) {
+        return total(eyes.view(light, view).light) / total(light.all().light);
+    };
+    eyes.parts.run(places_of_curves, [&](int part) {
+        const auto n = std::size_t(part);
+        const MeantLight light = eyes.light(eyes.at(places[n]), eyes.shown);
+        for (std::size_t k = 0; k < shares.size(); ++k) shares[k][n] = share(light, first + double(k));
+        theory[n] = share(eyes.theory_light(eyes.theory_at(places[n], Eyes::Lines::curve), eyes.shown), eyes.views.innermost());
+    });
+    Plot plot{"crosstalk_views", "Views that an eye sees", "eye's place x, mm", "share of the light", {}};
+    DataTable table{"crosstalk_curves", {{"x_mm", places}}};
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+        plot.series.push_back({fmt::format("view {:+g}", first + double(k)), places, shares[k]});
+        table.columns.push_back({fmt::format("view_{:+g}_share", first + double(k)), shares[k]});
+    }
+    table.columns.push_back({fmt::format("view_{:+g}_theory_share", eyes.views.innermost()), theory});
+    plot.series.push_back({fmt::format("view {:+g}, theory", eyes.views.innermost()), places, std::move(theory)});
+    result.plots.push_back(std::move(plot));
+    result.tables.push_back(std::move(table));
+}
+
+}  // namespace
+}  // namespace crosstalk
+
+std::int64_t crosstalk_steps(const Subject& s) {
+    using namespace crosstalk;
+    return pictures_worth(
+        s, std::int64_t(most_views + places_of_curves + 2 * heads + 2 * limits * halvings) * 2 * lines_a_set * independent_sets);
+}
+
+Result measure_crosstalk(Subject& s, Job& job) {
+    using namespace crosstalk;
+    Eyes eyes(s, job);
+    Result result;
+    for (const auto& [name, formula] : definitions) result.figures["definitions"][name] = formula;
+    result.figures["viewing_distance_mm"] = s.viewing_distance_mm();
+    result.figures["eye_distance_mm"] = s.options().eye_distance_mm;
+    result.figures["content_sampling"] = name_of(eyes.other ? s.display().content.sampling : ContentSampling::pixel);
+    const double spread = SlopeSpread(s, eyes.eye_mm).width() / eyes.views.step_slope();
+    between_views(s, eyes, result);
+    curves_of_views(eyes, spread, result);
+    between_eyes(s, eyes, result);
+    result.remarks.push_back(
+        "Crosstalk is 100 (leak - black) / (signal - black) by Woods 2012, and with the panel's black at 0 and light that adds, by "
+        "IEC 62629-22-1 and by IDMS too; luminance is averaged over the screen. A view is a strip of every elemental image one "
+        "panel pixel wide. It lights up those pixels, or subpixels where content is made for each, whose centres lie in it, and "
+        "these as a whole. Only whole views count; the leak is the light of all other views. For two eyes, left and right of the "
+        "middle of every elemental image are meant for the eyes on either side of a head in front of the screen's middle. Views "
+        "lie side by side along the panel's rows, as the eyes do, also where lenses are turned or strips lean.");
+    result.remarks.push_back(fmt::format(
+        "Paraxially an eye gathers {:.3g} views at once: lens apertures and the diffuser mix neighbouring views wherever the "
+        "central depth plane is not at the eye. That is how a light field display shows depth, and what a display of two views "
+        "must avoid. Theory leaves out aberration.",
+        spread));
+    return result;
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,213 @@
+#include "analysis/crosstalk/crosstalk_eyes.h"
+#include "analysis/fov/thresholds.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+// Crosstalk between the eyes. docs/model.md, "Crosstalk".
+namespace lfdsim::crosstalk {
+namespace {
+
+constexpr double tolerable_percent = 10;  // of the head's range
+
+/// Crosstalk of the left (0) and the right eye (1) of one head.
+using BothEyes = std::array<Crosstalk, 2>;
+
+/// Between the eyes of heads at several places.
+struct Heads {
+    double apart;
+    std::vector<double> places;
+    std::vector<BothEyes> found;
+    BothEyes of_other;  // in the middle, with the other sampling
+    Crosstalk theory = {}, theory_of_other = {};
+
+    std::size_t middle() const { return places.size() / 2; }
+};
+
+double eye_of_head(double head, std::size_t side, double apart) { return head + (double(side) - 0.5) * apart; }
+
+BothEyes look_with_both(const Eyes& eyes, double head, double apart) {
+    BothEyes found;
+    for (const std::size_t side : {0u, 1u}) {
+        const MeantLight light = eyes.light(eyes.at(eye_of_head(head, side, apart)), eyes.shown);
+        found[side] = crosstalk_of(light, Eyes::of_side(light, side));
+    }
+    return found;
+}
+
+/// Theory of a head in the middle: both eyes together.
+Crosstalk theory_of_eyes(const Eyes& eyes, const std::array<MetPlaces, 2>& met, const MeantPanel& panel) {
+    Leak both;
+    const auto add = [](LightPart& sum, const LightPart& part) {
+        for (std::size_t k = 0; k < sum.light.size(); ++k) sum.light[k] += part.light[k];
+        sum.open += part.open;
+    };
+    for (const std::size_t side : {0u, 1u}) {
+        const Leak found = Eyes::of_side(eyes.theory_light(met[side], panel), side);
+        add(both.signal, found.signal);
+        add(both.leak, found.leak);
+    }
+    return crosstalk_of(both.leak, both.signal, 0);
+}
+
+Heads look_with_heads(Eyes& eyes, double apart) {
+    Heads all{apart, {}, std::vector<BothEyes>(heads), {}};
+    for (int n = 0; n < heads; ++n) all.places.push_back(1.5 * apart * (2. * n / (heads - 1) - 1));
+    eyes.parts.run(heads, [&](int part) {
+        const auto n = std::size_t(part);
+        if (n != all.middle()) {
+            all.found[n] = look_with_both(eyes, all.places[n], apart);
+            return;
+        }
+        for (const std::size_t side : {0u, 1u}) {
+            const MetPlaces met = eyes.at(eye_of_head(0, side, apart), Eyes::Lines::fine);
+            const auto of = [&](const MeantPanel& panel) {
+                const MeantLight light = eyes.light(met, panel);
+                return crosstalk_of(light, Eyes::of_side(light, side));
+            };
+            all.found[n][side] = of(eyes.shown);
+            if (eyes.other) all.of_other[side] = of(*eyes.other);
+        }
+        const std::array theory{eyes.theory_at(eye_of_head(0, 0, apart), Eyes::Lines::fine),
+                                eyes.theory_at(eye_of_head(0, 1, apart), Eyes::Lines::fine)};
+        all.theory = theory_of_eyes(eyes, theory, eyes.shown);
+        if (eyes.other) all.theory_of_other = theory_of_eyes(eyes, theory, *eyes.other);
+    });
+    return all;
+}
+
+/// Of the eye that sees worse. No light counts as the worst.
+Crosstalk worse(const BothEyes& both) {
+    const auto rank = [](const Crosstalk& c) { return std::isnan(c.percent.value) ? infinity : c.percent.value; };
+    return rank(both[0]) > rank(both[1]) ? both[0] : both[1];
+}
+
+/// How far the head may go to one side, -1 or 1: at the first place that is too bad the last step is halved again and again. With
+/// `errors` times its error added to each figure.
+Limit head_limit(const Eyes& eyes, const Heads& all, int side, double errors) {
+    const auto allowed = [&](const BothEyes& both) {
+        const Crosstalk found = worse(both);
+        if (found.left_to_rounding) return errors < 0;
+        const Estimate& e = found.percent;
+        return e.value + errors * (std::isfinite(e.error) ? e.error : 0) <= tolerable_percent;  // not where it is NaN
+    };
+    Limit found;
+    std::size_t n = all.middle();
+    if (!allowed(all.found[n])) {
+        const bool rounding = worse(all.found[n]).left_to_rounding;
+        found.missing = rounding ? left_to_rounding : "the rule does not hold even in the middle";
+        return found;
+    }
+    const std::size_t last = side < 0 ? 0 : all.places.size() - 1;
+    while (n != last && allowed(all.found[n + std::size_t(side)])) n += std::size_t(side);
+    if (n == last) {
+        found.missing = fmt::format("the rule still holds at {:.4g}, where the search ended", all.places[n]);
+        return found;
+    }
+    double good = all.places[n], bad = all.places[n + std::size_t(side)];
+    for (int k = 0; k < halvings; ++k) {
+        const double between = 0.5 * (good + bad);
+        (allowed(look_with_both(eyes, between, all.apart)) ? good : bad) = between;
+    }
+    return {0.5 * (good + bad), 0.5 * std::abs(bad - good), {}};
+}
+
+/// Where both eyes have at most what is tolerable; the error is as far as the limits move with the figures' errors.
+Interval head_range(Eyes& eyes, const Heads& all) {
+    std::array<Limit, limits> found;
+    eyes.parts.run(limits, [&](int n) { found[std::size_t(n)] = head_limit(eyes, all, n < 3 ? -1 : 1, n % 3 - 1); });
+    std::array<Limit, 2> ends;
+    for (const std::size_t side : {0u, 1u}) {
+        const Limit &early = found[3 * side + 2], &late = found[3 * side];
+        Limit& end = ends[side] = found[3 * side + 1];
+        if (!std::isfinite(end.at)) continue;
+        const double nearest = std::isfinite(early.at) ? early.at : 0, farthest = std::isfinite(late.at) ? late.at
+                                                                                  : side == 0            ? all.places.front()
+                                                                                                         : all.places.back();
+        end.error += std::max(std::abs(nearest - end.at), std::abs(farthest - end.at));
+    }
+    return known({ends[0], ends[1]}, 0);
+}
+
+/// The eyes are not both in the one viewing zone, so that crosstalk between them is undefined.
+void tell_apart(const Subject& s, Eyes& eyes, double zone_mm, Result& result) {
+    eyes.parts.run(heads + limits, [](int) {});
+    Json& json = result.figures["between_eyes"];
+    for (const char* name : {"left_eye_percent", "left_eye_percent_error", "right_eye_percent", "right_eye_percent_error",
+                             "theory_percent", "head_within_10_percent_mm"})
+        json[name] = Json();
+    const std::string why = fmt::format(
+        "the viewing zone is {:.4g} mm wide at the eyes' distance, and the eyes are {:.4g} mm apart: each eye would need "
+        "its own display",
+        zone_mm, s.options().eye_distance_mm);
+    result.note("between_eyes", why);
+    result.findings.push_back({"Crosstalk between the eyes", "%", {std::numeric_limits<double>::quiet_NaN()}, {}, why});
+}
+
+void add_eyes(const Eyes& eyes, const Heads& all, ContentSampling sampling, Result& result) {
+    Json& json = result.figures["between_eyes"];
+    Json other;
+    if (eyes.other) other["sampling"] = name_of(*eyes.other_sampling);
+    for (const std::size_t side : {0u, 1u}) {
+        const std::string name = side == 0 ? "left" : "right";
+        const auto add = [&](Json& to, const std::string& of, const Crosstalk& found, const Crosstalk& theory) {
+            add_figure(to, name + "_eye_percent", found.percent);
+            result.findings.push_back({fmt::format("Crosstalk between the eyes, {} eye, head in the middle{}", name, of),
+                                       "%",
+                                       {found.percent.value},
+                                       {theory.percent.value},
+                                       found.left_to_rounding
+                                           ? left_to_rounding
+                                           : "what is meant for the other side of the head, over what is meant for its own",
+                                       {found.percent.error}});
+        };
+        const Crosstalk& middle = all.found[all.middle()][side];
+        add(json, eyes.other ? fmt::format("; {}", made_for(sampling)) : "", middle, all.theory);
+        if (eyes.other) add(other, fmt::format("; {}", made_for(*eyes.other_sampling)), all.of_other[side], all.theory_of_other);
+        if (std::isnan(middle.percent.value))
+            result.note("between_eyes." + name + "_eye_percent",
+                        middle.left_to_rounding ? left_to_rounding : "no light reaches the eye");
+        if (all.of_other[side].left_to_rounding)
+            result.note("between_eyes.other_sampling." + name + "_eye_percent", left_to_rounding);
+    }
+    json["theory_percent"] = number_json(all.theory.percent.value);
+    if (all.theory.left_to_rounding) result.note("between_eyes.theory_percent", left_to_rounding);
+    if (!eyes.other) return;
+    if (all.theory_of_other.left_to_rounding) result.note("between_eyes.other_sampling.theory_percent", left_to_rounding);
+    other["theory_percent"] = number_json(all.theory_of_other.percent.value);
+    json["other_sampling"] = std::move(other);
+}
+
+}  // namespace
+
+void between_eyes(const Subject& s, Eyes& eyes, Result& result) {
+    const double apart = s.options().eye_distance_mm, zone_mm = eyes.eye_mm * image_along_row_mm(s) / s.geometry().gap_mm;
+    if (apart > zone_mm) return tell_apart(s, eyes, zone_mm, result);
+    const Heads all = look_with_heads(eyes, apart);
+    add_eyes(eyes, all, s.display().content.sampling, result);
+    Plot plot{"crosstalk_eyes", "Crosstalk between the two eyes", "head's place x, mm", "leak / signal, %", {}};
+    DataTable table{"crosstalk_eyes", {{"head_mm", all.places}}};
+    for (const std::size_t side : {0u, 1u}) {
+        const std::string name = side == 0 ? "left" : "right";
+        std::vector<double> percents;
+        for (const BothEyes& both : all.found) percents.push_back(both[side].percent.value);
+        Series drawn{name + " eye", all.places, percents};
+        for (double& y : drawn.y)
+            if (!(y <= 100)) y = std::numeric_limits<double>::quiet_NaN();
+        plot.series.push_back(std::move(drawn));
+        table.columns.push_back({name + "_eye_crosstalk_percent", std::move(percents)});
+    }
+    const Interval range = head_range(eyes, all);
+    plot.marks.push_back({"10 %", tolerable_percent, false});
+    if (const double theory = all.theory.percent.value; theory <= 100)
+        plot.marks.push_back({"theory, head in the middle", theory, false});
+    add_limits(result, result.figures["between_eyes"], "between_eyes.", "head_within_10_percent_mm", range);
+    result.findings.push_back(finding("Head's places where both eyes have at most 10 % crosstalk", "mm", range, {},
+                                      "the panel's picture stays; searched to 1.5 eye distances"));
+    result.plots.push_back(std::move(plot));
+    result.tables.push_back(std::move(table));
+}
+
+}  // namespace lfdsim::crosstalk

@@ -1,0 +1,54 @@
+// The light that an eye gathers, by the viewers that it is meant for. Floor 3.
+#pragma once
+#include "analysis/core/met_places.h"
+#include "analysis/crosstalk/intended_panel.h"
+
+#include <array>
+#include <limits>
+#include <vector>
+
+namespace lfdsim {
+
+/// Some of the light that an eye gathers.
+struct LightPart {
+    Sums light{};
+    double open =
+        0;  // it may be so much more or less: light of points on the border of elemental images, whose lens rounding chooses
+};
+
+/// In per cent. Where rounding decides on more than half of it, and on more than 1 %, it is NaN.
+struct Crosstalk {
+    Estimate percent;
+    bool left_to_rounding = false;
+};
+/// 100 leak / signal: infinite where there is leak alone, NaN where there is no light. `missed`: the share of the light that may be
+/// missed by chance. The error covers both lenses that light on the border of elemental images may belong to.
+Crosstalk crosstalk_of(const LightPart& leak, const LightPart& signal, double missed);
+
+/// The light that one eye gathers of a white panel, by the slopes that what shines there is meant for.
+class MeantLight {
+  public:
+    /// Of what the eye's lines meet; for each path what its channels count.
+    MeantLight(const MetPlaces&, const std::vector<ChannelWeights>&, const MeantPanel&);
+    /// Of the slopes from low to high. Light exactly at either end counts half, and so does light on the border of elemental images
+    /// of which one only has it there.
+    LightPart between(double low, double high) const;
+    LightPart all() const { return between(-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()); }
+    /// The weight of three lines of sight, as so many may be missed by chance, over all light.
+    double missed() const { return 3 * brightest_ / total(all().light); }
+
+  private:
+    struct Ray {
+        double slope;
+        float light;  // sums of floats in double are exact, so that mirrored displays have the same sums
+    };
+    struct BorderRay {
+        MeantPanel::Slopes slopes;
+        float light;
+    };
+    std::array<std::vector<Ray>, independent_sets> rays_;
+    std::array<std::vector<BorderRay>, independent_sets> on_borders_;
+    double brightest_ = 0;
+};
+
+}  // namespace lfdsim

@@ -1,0 +1,45 @@
+#include "analysis/crosstalk/intended_theory.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+namespace {
+
+/// A place in the clear aperture of a lens, from the array's middle in its own axes; nothing for what is in the box about it only.
+std::optional<optics::Place<double>> in_aperture(const Geometry& g, const ApertureShape& shape, const Choice& c) {
+    const Lattice<double>& l = g.lattice;
+    const auto number = [&](std::size_t k) { return std::min(std::floor((0.5 + 0.5 * c[4 + k]) * l.count[k]), l.count[k] - 1); };
+    const auto axis = optics::axis_in_array(l, optics::Cell<double>{number(0), number(1)});
+    const double height = shape.form == ApertureShape::Form::slit ? g.array_height_mm : shape.extent_mm(1);
+    const double x = 0.5 * shape.extent_mm(0) * c[0], y = 0.5 * height * c[1];
+    if (!shape.holds(x, y)) return {};
+    return optics::Place<double>{axis.x + x, axis.y + y};
+}
+
+}  // namespace
+
+MeantTheory::MeantTheory(const Subject& s, double distance_mm)
+    : subject_(s), distance_mm_(distance_mm), aperture_(aperture_shape(s.display(), s.geometry())) {}
+
+MetPlaces MeantTheory::look(double x_mm, const LineSets& sets) const {
+    const Geometry& g = subject_.geometry();
+    const ParaxialLines lines(subject_.display(), g, {x_mm, 0, distance_mm_});
+    const PanelBehind panel(g);
+    return {sets, 1, [&](const Choice& c, std::size_t) -> std::optional<MetPlaces::Met> {
+                const auto place = in_aperture(g, aperture_, c);
+                if (!place) return {};
+                const auto lands = optics::in_display(g.lattice, *place);
+                const auto aim = lines.aim_at(lands.x, lands.y, c[2], c[3]);
+                if (!aim) return {};
+                const auto aimed = optics::to_array(g.lattice, aim->x - g.lattice.offset[0], aim->y - g.lattice.offset[1]);
+                if (std::abs(aimed.x) > 0.5 * g.array_width_mm || std::abs(aimed.y) > 0.5 * g.array_height_mm) return {};
+                if (!panel.meets({x_mm, 0, distance_mm_}, aim->x, aim->y)) return {};
+                const auto line = lines.look(aim->x, aim->y, c[2], c[3]);
+                if (!line || !line->through || !lines.on_panel(line->seen)) return {};
+                const auto seen = optics::in_display(g.lattice, line->seen);
+                return MetPlaces::Met{seen.x, seen.y, 1};
+            }};
+}
+
+}  // namespace lfdsim

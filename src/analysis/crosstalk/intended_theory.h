@@ -1,0 +1,25 @@
+// For which viewers the light is meant that an eye gathers, by theory: thin lenses without aberration. Floor 3.
+#pragma once
+#include "analysis/core/met_places.h"
+#include "analysis/core/subject.h"
+#include "analysis/crosstalk/paraxial_lines.h"
+
+namespace lfdsim {
+
+/// Lines of sight through paraxial lenses, which meet the same pixels as those of the display itself; all colours as green. Sums
+/// over 2^17 of them are good to 0.002 of the light.
+class MeantTheory {
+  public:
+    /// The eye's distance from the panel, mm.
+    MeantTheory(const Subject&, double distance_mm);
+
+    /// What an eye at x meets.
+    MetPlaces look(double x_mm, const LineSets&) const;
+
+  private:
+    const Subject& subject_;
+    double distance_mm_;
+    ApertureShape aperture_;
+};
+
+}  // namespace lfdsim

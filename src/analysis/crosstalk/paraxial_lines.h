@@ -1,0 +1,54 @@
+// Lines of sight through paraxial lenses, one by one: what theory sums where the sums have no closed form. Floor 3.
+#pragma once
+#include "analysis/core/eye_rays.h"
+#include "analysis/spots/aperture_wave.h"
+
+#include <optional>
+
+namespace lfdsim {
+
+/// A line that the diffuser has turned and that comes down to a lens. Places in the array's own axes from its middle, mm.
+struct ParaxialLine {
+    optics::Place<double> axis;   // of the lens; of strips on x' alone
+    optics::Place<double> at;     // in the plane of H'
+    optics::Place<double> slope;  // dx/dz and dy/dz as it comes down there
+    optics::Place<double> seen;   // on the panel
+    bool through;                 // it meets the clear aperture; else `seen` has no meaning
+};
+
+/// The lenses have no thickness: lines bend by q/f in the plane of H', q from the axis (docs/model.md, "Moire" and "Crosstalk").
+/// Strips bend what runs across them; along them there are plane plates, whose thickness counts over its index. Below thin lenses
+/// the layers bend lines by Snell's law itself.
+class ParaxialLines {
+  public:
+    /// An eye in front of the display and its diffuser, mm.
+    ParaxialLines(const Display&, const Geometry&, const Vec3d& eye);
+
+    /// For the line that aims at (x, y), mm in the display's frame, turned by the diffuser's angles for the numbers a and b, -1 to
+    /// 1. Nothing: it comes down beside all lenses,
+    /// or not at all.
+    std::optional<ParaxialLine> look(double x, double y, double a, double b) const;
+
+    /// Where a line aims that comes down to the lenses at (x, y), but for how little the diffuser's shift changes on that way.
+    std::optional<optics::Place<double>> aim_at(double x, double y, double a, double b) const;
+
+    /// Whether the panel reaches there; a place as `seen`.
+    bool on_panel(const optics::Place<double>&) const;
+
+  private:
+    struct Slopes {
+        std::array<double, 2> before, turned;  // by the diffuser: dx/dz, dy/dz
+    };
+    std::optional<Slopes> slopes(double x, double y, double a, double b) const;
+    double angle(double number, std::size_t axis) const;  // of the diffuser, radians
+    /// How far aside, per slope, lines go below the lenses, along the array's x and y.
+    optics::Place<double> reach_mm(double slope_squared) const;
+
+    const Display& display_;
+    const Geometry& geometry_;
+    Vec3d eye_;
+    ApertureShape aperture_;
+    double above_ = 0, power_per_mm_ = 0;  // the diffuser's height above H'; 1/f
+};
+
+}  // namespace lfdsim

@@ -1,0 +1,73 @@
+// From a curve of SSIM to an interval: the published rules, and the edge of the field of view. Floor 3.
+//
+// Curves are given at rising places, and read as straight lines between them. An interval is the connected one about a centre.
+#pragma once
+#include "analysis/core/result.h"
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace lfdsim {
+
+/// Where an interval ends. NaN: nowhere, or nowhere that is known, and `missing` says why.
+struct Limit {
+    double at = std::numeric_limits<double>::quiet_NaN();
+    double error = std::numeric_limits<double>::quiet_NaN();  // from the curve's noise and half the step between its places
+    std::string missing = {};
+    // Of one that was not found: as far as the rule is known to hold, the end of the search or an end that is too uncertain.
+    double holds_to = std::numeric_limits<double>::quiet_NaN();
+    bool searched_out = false;  // the rule holds as far as was searched
+
+    double place() const { return missing.empty() ? at : holds_to; }
+};
+
+struct Interval {
+    Limit low, high;
+    bool empty = false;  // the rule does not hold at the centre itself: there are no limits
+};
+
+/// Takes away each end whose error reaches back to the centre that it was sought from: an error as large as the figure leaves none.
+Interval known(Interval, double centre);
+
+struct Curve {
+    std::vector<double> at;     // rising, at least two
+    std::vector<double> value;  // of the same length
+    double error = 0;           // standard deviation of each value
+};
+
+/// Where the curve is `least` or more.
+Interval where_at_least(const Curve&, double centre, double least);
+
+/// Where it rises or falls by `most` or less per unit. Slopes count in the middle between two places.
+Interval where_steady(const Curve&, double centre, double most);
+
+/// Where a curve is expected to fall, from other sources than itself: low to the left and high to the right of the centre; and how
+/// far on either side of that place the fall extends.
+struct Falls {
+    double low, high, reach;
+};
+
+/// On each side the one sustained fall that contains the expected place: the curve crosses the middle between its medians inside
+/// and outside of the fall once, and stays on either side of it. The medians are of the places between one and three reaches (of
+/// two steps at least) from the expected one. None where the medians differ by less than 0.02 or five standard deviations, where
+/// the curve crosses more than once, or where it ends before. The error contains the noise, half a step, the limit's distance from
+/// the expected place, which depends on no content, and half of the amount by which both limits lie to one side of those.
+Interval where_it_falls(const Curve&, const Falls&);
+
+/// The part of an interval above 0, or below it: its other end is 0 where it reaches across. Empty, with that reason, where it does
+/// not reach that side; an end nearer to 0 than its error is none.
+Interval on_side_of_zero(Interval, bool above, const std::string& nothing_there);
+
+/// [low, high] with null where there is none.
+Json limits_json(const Interval&);
+/// For Finding::measured.
+std::vector<double> bounds(const Interval&);
+/// If a limit is missing, the reason replaces the remark.
+Finding finding(const std::string& what, const std::string& unit, const Interval&, std::vector<double> theory,
+                const std::string& remark);
+
+/// Writes figures[name] and figures[name + "_error"], and notes under path + name why a limit is missing.
+void add_limits(Result&, Json& figures, const std::string& path, const std::string& name, const Interval&);
+
+}  // namespace lfdsim

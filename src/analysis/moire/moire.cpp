@@ -1,0 +1,199 @@
+#include "analysis/moire/moire.h"
+
+#include "analysis/core/channel_pixels.h"
+#include "analysis/moire/eye_filter.h"
+#include "base/constants.h"
+#include "geometry/subpixels.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+// docs/model.md, "Moire".
+namespace lfdsim {
+namespace {
+
+constexpr int map_side = 64, map_lines = 256;  // squares along each axis, and lines in each
+
+/// The luminance, mixture 0, of the screen's middle as it is seen, over some periods. Takes map_side parts.
+ColourMap moire_map(const WhiteSeen& screen, const Vec3d& eye, double side, Parts& parts) {
+    const std::vector<Choice> choices = even_choices(map_lines);
+    std::vector<double> values(std::size_t(map_side) * map_side);
+    const double square = side / map_side;
+    parts.run(map_side, [&](int row) {
+        std::vector<WhiteLight> light;
+        for (int column = 0; column < map_side; ++column) {
+            double sum = 0;
+            for (const Choice& c : choices) {
+                screen.look(eye, (column + 0.5 + 0.5 * c[0]) * square - side / 2, side / 2 - (row + 0.5 + 0.5 * c[1]) * square,
+                            c[2], c[3], light);
+                sum += light[0].seen;
+            }
+            values[std::size_t(row) * map_side + std::size_t(column)] = sum / map_lines;
+        }
+    });
+    const double greatest = std::ranges::max(values);
+    return {"moire",
+            fmt::format("A white screen, seen on axis, averaged over squares of {:.3g} mm", square),
+            "x, mm",
+            "y, mm",
+            "of the panel's",
+            -side / 2,
+            side / 2,
+            -side / 2,
+            side / 2,
+            map_side,
+            map_side,
+            std::move(values),
+            0,
+            greatest > 0 ? greatest : 1};
+}
+
+/// What is found, or what theory says, under the names of the figures.
+struct Wave {
+    Estimate period_mm, direction_deg, seen, contrast;
+};
+
+/// Of the luminance, or of the channel "r", "g" or "b" within it.
+struct WaveNames {
+    std::string channel;
+    Json& in(Json& figures, const std::string& whose) const { return channel.empty() ? figures[whose] : figures[whose][channel]; }
+    std::string path(const std::string& whose) const { return channel.empty() ? whose : whose + "." + channel; }
+};
+
+void add_wave(Result& result, const std::string& whose, const WaveNames& names, const Wave& wave, bool with_errors,
+              const std::string& missing) {
+    Json& json = names.in(result.figures, whose);
+    const auto add = [&](const std::string& figure, const Estimate& e) {
+        with_errors ? add_figure(json, figure, e) : void(json[figure] = number_json(e.value));
+        if (std::isnan(e.value)) result.note(names.path(whose) + "." + figure, missing);
+    };
+    add("period_mm", wave.period_mm);
+    add("direction_deg", wave.direction_deg);
+    add("contrast", wave.seen);
+    add("contrast_unfiltered", wave.contrast);
+}
+
+void add_findings(Result& result, const Wave& found, const Wave& theory, const std::string& missing) {
+    const auto add = [&](const std::string& what, const std::string& unit, Estimate Wave::*of, const std::string& remark) {
+        result.findings.push_back({what,
+                                   unit,
+                                   {(found.*of).value},
+                                   {(theory.*of).value},
+                                   std::isnan((found.*of).value) ? missing : remark,
+                                   {(found.*of).error}});
+    };
+    add("Moire of a white screen: period", "mm", &Wave::period_mm,
+        "in the vertex plane, of the strongest component after the eye's filter");
+    add("Moire of a white screen: direction", "deg", &Wave::direction_deg,
+        "of the wave vector, counter-clockwise from the right; 180 is 0");
+    add("Moire of a white screen: contrast to the eye", "", &Wave::seen,
+        "Michelson's, times contrast sensitivity over its greatest (Mannos and Sakrison 1974)");
+    add("Moire of a white screen: contrast before the eye", "", &Wave::contrast,
+        "theory: of lenses without aberrations; others blur the pixels");
+}
+
+Wave theory_wave(const std::optional<Beat>& beat) {
+    if (!beat) return {{nan, 0}, {nan, 0}, {0, 0}, {0, 0}};
+    return {{period_mm(beat->frequency), 0}, {direction_deg(beat->frequency), 0}, {beat->seen, 0}, {beat->contrast, 0}};
+}
+
+/// The pattern in the luminance or in one channel.
+struct Pattern {
+    Wave found{{nan, nan}, {nan, nan}, {0, 0}, {0, 0}};
+    MoireSearch search;
+    std::string missing;  // why there is no period
+};
+
+Pattern pattern_of(const WhiteLines& lines, const HarmonicLines& harmonics, const std::optional<Beat>& theory,
+                   double mm_per_degree) {
+    Pattern pattern;
+    pattern.search = find_moire(lines, harmonics, theory, mm_per_degree);
+    if (const std::optional<MeasuredBeat>& m = pattern.search.strongest) {
+        pattern.found = {m->period_mm, m->direction_deg, m->seen, m->contrast};
+        return pattern;
+    }
+    pattern.found.seen.error = pattern.found.contrast.error = pattern.search.least;
+    pattern.missing = fmt::format(
+        "no wave with 3 periods or more in the middle of the screen, {:.3g} x {:.3g} mm, has more than the contrast {:.2g}, which "
+        "the "
+        "noise of the lines of sight allows to see",
+        lines.window().width_mm(), lines.window().height_mm(), pattern.search.least);
+    return pattern;
+}
+
+/// Waves that are about as strong, and what cannot be measured.
+void remark_on(const Pattern& pattern, const std::optional<Beat>& theory, double side, Result& result) {
+    Json& others = result.figures["as_strong"] = Json::array();
+    for (const MeasuredBeat& m : pattern.search.as_strong) {
+        Json& json = others.emplace_back(Json::object());
+        add_figure(json, "period_mm", m.period_mm);
+        add_figure(json, "direction_deg", m.direction_deg);
+        add_figure(json, "contrast", m.seen);
+        result.remarks.push_back(fmt::format("Within the errors a wave of {:.4g} mm at {:.4g} degrees may be as strong: {:.3g}.",
+                                             m.period_mm.value, m.direction_deg.value, m.seen.value));
+    }
+    if (theory && 3 * period_mm(theory->frequency) > side)
+        result.remarks.push_back(
+            "Theory's wave is too long to be measured: less than three of its periods are in the part of the screen that is looked "
+            "at.");
+}
+
+/// Luminance, and the channels if they differ.
+std::vector<ChannelWeights> mixtures(const Display& d) {
+    if (!has_colours(d)) return {luminance_weights};
+    return {luminance_weights, only(0), only(1), only(2)};
+}
+
+}  // namespace
+
+std::int64_t moire_steps(const Subject& s) { return pictures_worth(s, shines_all_over(s.display().panel) ? 1 : 9'000'000); }
+
+Result measure_moire(Subject& s, Job& job) {
+    const double distance = checked_viewing_distance_mm(s);
+    const Display& d = s.display();
+    Result result;
+    result.figures["viewing_distance_mm"] = distance;
+    result.remarks.push_back(
+        "A grey screen has the same pattern: all of its pixels shine alike, so period, direction and contrast are those of white.");
+    if (shines_all_over(d.panel)) {
+        const std::string none = "the panel has no pixel structure: it has no subpixels, and panel.aperture_ratio is 1";
+        const Wave found = Pattern().found, theory = theory_wave({});
+        add_wave(result, "white", {}, found, true, none);
+        add_wave(result, "theory", {}, theory, false, none);
+        add_findings(result, found, theory, none);
+        job.advance(moire_steps(s));
+        return result;
+    }
+    const Vec3d eye{0, 0, distance};
+    const Window window = middle_of_screen(d, s.geometry(), distance);
+    result.figures["window_mm"] = {window.width_mm(), window.height_mm()};
+    Parts parts(job, s.threads(), window.rows + LineEnds::rows + map_side, moire_steps(s));
+    const std::vector<ChannelWeights> weights = mixtures(d);
+    const WhiteSeen screen(d, s.geometry(), weights);
+    const std::vector<WhiteLines> lines = WhiteLines::of(screen, d.render.seed, eye, window, parts);
+    const LineEnds ends(screen, d.render.seed, eye, window, parts);
+    for (std::size_t mixture = 0; mixture < weights.size(); ++mixture) {
+        if (!(lines[mixture].mean() > 0)) throw InputError("camera", "sees no light of a white panel from straight in front of it");
+        const bool all = mixture == 0;
+        const std::size_t channel = mixture - 1;
+        const WaveNames names{all ? "" : std::string(1, "rgb"[channel])};
+        const Geometry geometry = all ? s.geometry() : resolve(d, d.panel.wavelengths_nm[channel]);
+        const std::optional<Beat> theory = MoireTheory(d, geometry, distance, weights[mixture]).strongest();
+        const Pattern pattern = pattern_of(lines[mixture], HarmonicLines(ends, screen, mixture), theory,
+                                           mm_per_degree(distance - s.geometry().vertex_plane_mm));
+        add_wave(result, "white", names, pattern.found, true, pattern.missing);
+        add_wave(result, "theory", names, theory_wave(theory), false,
+                 fmt::format("all beats are finer than {:g} cycles per degree, which eyes do not resolve, or next to nothing",
+                             eye_limit_cycles_per_degree));
+        if (!all) continue;
+        double side = std::min(window.width_mm(), window.height_mm());
+        remark_on(pattern, theory, side, result);
+        add_findings(result, pattern.found, theory_wave(theory), pattern.missing);
+        if (pattern.search.strongest) side = std::min(side, 6 * pattern.found.period_mm.value);
+        result.maps.push_back(moire_map(screen, eye, side, parts));
+    }
+    return result;
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,209 @@
+#include "analysis/resolution/dof.h"
+
+#include "analysis/fov/thresholds.h"
+#include "analysis/pictures/views.h"
+#include "analysis/resolution/dof_depths.h"
+#include "analysis/spots/spot_depth.h"
+#include "base/constants.h"
+#include "geometry/sharp_range.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+// SSIM between the simulated view and a photograph of the scene, against the scene's depth; beside it the depths of field by spot
+// size and diffraction. docs/model.md, "Depth of field".
+namespace lfdsim {
+namespace {
+
+constexpr double least_depth_ssim = 0.85, most_slope_per_mm = 0.02 / 10;  // the 2019 paper's, which counts in centimetres
+
+/// SSIM of screen and of content along one run.
+struct DepthCurves {
+    Curve screen, content;
+};
+
+/// The noise is measured at one place.
+DepthCurves measure(Subject& s, const std::vector<double>& depths, double white, Job& job) {
+    DepthCurves curves{{depths, {}}, {depths, {}}};
+    std::size_t noisy = 0;  // where the description puts the scene, or nearest to that
+    const auto away = [&](std::size_t k) { return std::abs(depths[k] - s.geometry().content_depth_mm); };
+    for (std::size_t k = 1; k < depths.size(); ++k)
+        if (away(k) < away(noisy)) noisy = k;
+    for (std::size_t k = 0; k < depths.size(); ++k) {
+        const ContentScene scene = s.scene().at_depth(depths[k]);
+        const auto panel = elemental_panel(s.display(), s.geometry(), scene, s.threads(), job);
+        const ExpectedView expected = expected_view(s.display(), s.geometry(), scene, s.threads(), job);
+        const Likeness l = likeness(expected, s.display(), s.geometry(), panel->summed(), white, s.rendering(), job);
+        curves.screen.value.push_back(l.screen);
+        curves.content.value.push_back(l.content);
+        job.advance(2);
+        if (k != noisy) continue;
+        const Likeness error = likeness_error(l, expected, s.display(), s.geometry(), panel->summed(), white, s.rendering(), job);
+        curves.screen.error = error.screen;
+        curves.content.error = error.content;
+        job.advance(4);
+    }
+    return curves;
+}
+
+/// Adds, to limits beyond the run's ends, why it ends there.
+Interval explained(Interval i, const DepthRun& run) {
+    if (i.low.searched_out) i.low.missing += ": " + run.why_low;
+    if (i.high.searched_out) i.high.missing += ": " + run.why_high;
+    return i;
+}
+
+/// Where both hold: of each end the one nearer to the middle.
+Interval narrower(const Interval& a, const Interval& b) {
+    if (a.empty || b.empty) return a.empty ? a : b;
+    const auto inner = [](const Limit& l, const Limit& m, bool low) { return (l.place() > m.place()) == low ? l : m; };
+    return {inner(a.low, b.low, true), inner(a.high, b.high, false)};
+}
+
+/// The published rules, each as the connected interval about the depth that is most alike; and both together, on either side of the
+/// lenses. Returns where both hold, for a plot: ends that are uncertain or beyond the search as far as they are known.
+PlotBar add_rules(Result& result, const std::string& region, const Curve& curve, const DepthRun& run) {
+    const bool content = region == "content";
+    const double most_alike = curve.at[std::size_t(std::ranges::max_element(curve.value) - curve.value.begin())];
+    const Interval by_ssim = explained(where_at_least(curve, most_alike, least_depth_ssim), run),
+                   steady = explained(where_steady(curve, most_alike, most_slope_per_mm), run);
+    Json json{{"most_alike_mm", most_alike}, {"ssim_error", curve.error}, {"region", region}};
+    const std::string path = content ? "" : "screen.";
+    add_limits(result, json, path, "ssim_rule_mm", by_ssim);
+    add_limits(result, json, path, "gradient_rule_mm", steady);
+    if (!content) {
+        result.figures["screen"] = std::move(json);
+        return {};
+    }
+    result.figures.update(json);
+    const Interval both = narrower(by_ssim, steady);
+    Json& spans = result.figures["by_likeness"];
+    PlotBar bar{"by likeness", {}};
+    for (const bool in_front : {false, true}) {
+        const std::string name = in_front ? "in_front_mm" : "behind_mm";
+        const Interval side = on_side_of_zero(both, in_front, "no depth on this side of the lenses keeps the rule");
+        spans[name] = side.empty ? Json() : limits_json(side);
+        spans[name + "_error"] = side.empty ? Json() : numbers_json({side.low.error, side.high.error});
+        const Finding line =
+            finding(fmt::format("Depth of field by likeness, {} the lenses", in_front ? "in front of" : "behind"), "mm", side, {},
+                    "the published rule: SSIM of the content is 0.85 or more and changes by 0.02 a centimetre or less");
+        if (!side.low.missing.empty() || !side.high.missing.empty()) result.note("by_likeness." + name, line.remark);
+        result.findings.push_back(line);
+        const auto end = [](const Limit& l, double beyond) { return l.searched_out ? beyond : l.place(); };
+        if (!side.empty) bar.spans.push_back({end(side.low, -infinity), end(side.high, infinity)});
+    }
+    return bar;
+}
+
+/// The resolution that the lenses' pitch and the panel's pixels allow at each depth, as the eye sees it.
+void add_resolution(const Subject& s, Result& result, const std::vector<double>& depths) {
+    const Geometry& g = s.geometry();
+    const double eye = eye_distance_mm(s.display());
+    const auto by_lens = [&](double z) { return lens_limit_per_mm(g, s.theory(), z, eye); };
+    const auto by_pixel = [&](double z) { return pixel_limit_per_mm(s.display(), g, z); };
+    DataTable table{
+        "dof_resolution",
+        {{"depth_mm", depths}, {"lens_per_mm", {}}, {"pixel_per_mm", {}}, {"lens_per_degree", {}}, {"pixel_per_degree", {}}}};
+    for (const double z : depths) {
+        const double lens = by_lens(z), pixel = by_pixel(z);
+        const double row[] = {lens, pixel, cycles_per_degree(g, lens, z, eye), cycles_per_degree(g, pixel, z, eye)};
+        for (std::size_t k = 0; k < 4; ++k) table.columns[k + 1].values.push_back(row[k]);
+    }
+    Plot plot{"dof_resolution", "Finest detail by theory", "depth in front of the lenses, mm", "cycles per degree", {}};
+    std::vector<double> pixel = table.columns[4].values;
+    const double most = 4 * std::ranges::max(table.columns[3].values);
+    for (double& x : pixel)
+        if (!(x <= most)) x = nan;  // near the lenses it grows without end
+    plot.series = {{"of the lens pitch", depths, table.columns[3].values}, {"of the panel's pixels", depths, std::move(pixel)}};
+    Json& json = result.figures["resolution"];
+    json["at_the_lenses_per_mm"] = number_json(by_lens(0));
+    json["at_the_lenses_per_degree"] = number_json(cycles_per_degree(g, by_lens(0), 0, eye));
+    const double z = g.content_depth_mm, at_content = std::min(by_lens(z), by_pixel(z));
+    json["at_the_content_per_mm"] = number_json(at_content);
+    json["at_the_content_per_degree"] = number_json(cycles_per_degree(g, at_content, z, eye));
+    result.findings.push_back({"Resolution where the content stands: limit of lenses and pixels",
+                               "cycles per degree",
+                               {},
+                               {cycles_per_degree(g, at_content, z, eye)},
+                               fmt::format("{:.4g} cycles per mm, {:.4g} mm in front of the lenses", at_content, z)});
+    result.tables.push_back(std::move(table));
+    result.plots.push_back(std::move(plot));
+}
+
+void add_likeness(Subject& s, Result& result, Plot& plot, const DepthRun& run, Job& job) {
+    const std::vector<double>& depths = run.depths_mm;
+    if (depths.size() < 3) {
+        const std::string why = fmt::format(
+            "none of the depths that theory calls sharp can be seen from {:.4g} mm: they are among the lenses, at the eye or too "
+            "far "
+            "behind; --depths-mm chooses others",
+            eye_distance_mm(s.display()));
+        for (const char* name : {"ssim_rule_mm", "gradient_rule_mm", "most_alike_mm", "by_likeness"}) {
+            result.figures[name] = Json();
+            result.note(name, why);
+        }
+        result.remarks.push_back("Likeness was not measured: " + why + ".");
+        return;
+    }
+    const double white = s.white_field(job);
+    const DepthCurves curves = measure(s, depths, white, job);
+    plot.bars.push_back(add_rules(result, "content", curves.content, run));
+    add_rules(result, "screen", curves.screen, run);
+    result.tables.push_back({"dof", {{"depth_mm", depths}, {"ssim", curves.screen.value}, {"content_ssim", curves.content.value}}});
+    plot.series = {{"content", depths, curves.content.value}, {"whole screen", depths, curves.screen.value}};
+    result.figures["searched_mm"] = {depths.front(), depths.back()};
+}
+
+/// An interval's two pieces, for a plot.
+std::vector<std::array<double, 2>> spans_of(const Json& range) {
+    std::vector<std::array<double, 2>> spans;
+    for (const char* side : {"behind_mm", "in_front_mm"}) {
+        const Json& ends = range.at(side);
+        if (ends.is_null() || ends[0].is_null() || ends[1].is_null()) continue;
+        spans.push_back({ends[0].is_number() ? ends[0].get<double>() : -infinity, ends[1].get<double>()});
+    }
+    return spans;
+}
+
+}  // namespace
+
+std::int64_t dof_steps(const Subject& s) { return 2 * std::int64_t(dof_depths(s).depths_mm.size()) + 4; }
+
+Result measure_dof(Subject& s, Job& job) {
+    const std::vector<double>& asked = s.options().depths_mm;
+    for (const double z : asked) refuse_depth_in_lenses(s.geometry(), z, "--depths-mm");
+    if (!asked.empty() && asked.size() < 3) throw InputError("--depths-mm", "the depth of field needs three depths or more");
+    Result result;
+    const Geometry& g = s.geometry();
+    add_spot_depths(s, result);
+    result.figures["central_depth_mm"] = number_json(s.theory().central_depth_mm + g.rear_principal_mm - g.vertex_plane_mm);
+    Plot plot{"dof",
+              "Likeness of the simulated view to the scene",
+              "depth of the scene in front of the lenses, mm",
+              "SSIM",
+              {},
+              {{"0.85", least_depth_ssim, false}}};
+    for (const auto& [key, label] : {std::pair{"by_lens", "sharp by the lens"}, {"by_pixel", "sharp by the pixel"}})
+        plot.bars.push_back({label, spans_of(result.figures.at(key))});
+    const DepthRun run = dof_depths(s);
+    add_likeness(s, result, plot, run, job);
+    const double central = s.theory().central_depth_mm + g.rear_principal_mm - g.vertex_plane_mm;
+    if (!plot.series.empty() && central > run.depths_mm.front() && central < run.depths_mm.back())
+        plot.marks.push_back({"central depth plane", central});
+    if (!plot.series.empty()) {
+        result.plots.push_back(std::move(plot));
+        add_resolution(s, result, run.depths_mm);
+    }
+    result.remarks.push_back(
+        "Three questions have three answers. By the lens: where a point's image is no wider than the lenses stand apart; it "
+        "contains "
+        "the lenses, and what is shown there is as fine as they are. By the pixel: where the lens blurs less than the panel's "
+        "pixels "
+        "are wide; at the lenses these have no width, so that no lens is that sharp there. By likeness: where pictures of the "
+        "content "
+        "look like it. Depths behind the lenses are negative; in front of them all end at the viewer.");
+    return result;
+}
+
+}  // namespace lfdsim

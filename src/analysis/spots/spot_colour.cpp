@@ -1,0 +1,133 @@
+#include "analysis/spots/spot_colour.h"
+
+#include "analysis/core/estimate.h"
+#include "base/constants.h"
+#include "display/colour.h"
+
+#include <fmt/format.h>
+#include <array>
+#include <cmath>
+
+// docs/model.md, "Colour of one lens".
+namespace lfdsim {
+namespace {
+
+/// Across: each grid meets the rims elsewhere, which tells the centroids' error.
+constexpr std::array colour_rays{193, 181, 173, 163};
+constexpr int drawn_rays = 14;
+constexpr const char* channel_names[] = {"r", "g", "b"};
+constexpr const char* colour_names[] = {"red", "green", "blue"};
+
+/// A lens at a channel's wavelength.
+struct Coloured {
+    Geometry geometry;
+    LensTrace lens;
+    double lower;  // its rear principal plane below green's, mm
+
+    Coloured(const Subject& s, std::size_t channel)
+        : geometry(resolve(s.display(), s.display().panel.wavelengths_nm[channel])),
+          lens(s.display(), geometry),
+          lower(s.geometry().rear_principal_mm - geometry.rear_principal_mm) {}
+
+    /// Rays whose depths count from green's rear principal plane.
+    Bundle light(Point panel, int across) const {
+        Bundle found = bundle(lens, panel, across);
+        for (LensRay& ray : found.rays) {
+            ray.x += ray.mx * lower;
+            ray.y += ray.my * lower;
+        }
+        return found;
+    }
+};
+
+/// L of a colour, from green's rear principal plane.
+double central_depth_mm(const Subject& s, const Coloured& c) { return theory(s.display(), c.geometry).central_depth_mm - c.lower; }
+
+/// The spots of a field in all colours at green's central depth plane.
+Plot colour_diagram(const SpotField& field, const std::array<Bundle, 3>& light, double depth, double from_vertex) {
+    Plot plot{fmt::format("spot_colour_{}", field.name),
+              fmt::format("Colours of the spot, {}, {:.4g} mm in front of the lenses", field.title, depth + from_vertex),
+              "mm",
+              "mm",
+              {},
+              {},
+              true};
+    for (std::size_t c = 0; c < 3; ++c) {
+        Series spot{colour_names[c], {}, {}, true, c};
+        for (const LensRay& ray : light[c].rays) {
+            spot.x.push_back(ray.x + ray.mx * depth);
+            spot.y.push_back(ray.y + ray.my * depth);
+        }
+        plot.series.push_back(std::move(spot));
+    }
+    return plot;
+}
+
+}  // namespace
+
+void tell_colours(const Subject& s, const std::vector<SpotField>& fields, Result& result) {
+    if (!disperses(s.display())) return;
+    const double from_vertex = s.geometry().rear_principal_mm - s.geometry().vertex_plane_mm;
+    const std::array<Coloured, 3> at{Coloured(s, 0), Coloured(s, 1), Coloured(s, 2)};
+    Json& json = result.figures["colour"];
+    for (std::size_t c = 0; c < 3; ++c)
+        json[channel_names[c]] = {{"wavelength_nm", s.display().panel.wavelengths_nm[c]},
+                                  {"focal_length_mm", number_json(at[c].geometry.focal_length_mm)},
+                                  {"central_depth_mm", number_json(central_depth_mm(s, at[c]) + from_vertex)}};
+    const double axial = central_depth_mm(s, at[0]) - central_depth_mm(s, at[2]);
+    json["axial_mm"] = number_json(axial);
+    result.findings.push_back({"Axial colour: central depth plane of red beyond that of blue",
+                               "mm",
+                               {axial},
+                               {},
+                               "paraxial, with each colour's own focal length and gap"});
+
+    // Where L is infinite: at a depth that the other figures are told at.
+    const double L = s.theory().central_depth_mm, depth = std::isinf(L) ? spot_depths_mm(s.theory())[2] : L;
+    DataTable table{"spot_colour",
+                    {{"panel_x_mm", {}}, {"panel_y_mm", {}}, {"channel", {}}, {"x_mm", {}}, {"y_mm", {}}, {"rms_radius_mm", {}}}};
+    Json& lateral = json["lateral"] = Json::array();
+    for (const SpotField& field : fields) {
+        std::array<Bundle, 3> shown;
+        std::array<std::array<Centroid, colour_rays.size()>, 3> middle{};
+        bool through = true;
+        for (std::size_t c = 0; c < 3; ++c) {
+            shown[c] = at[c].light(field.panel, drawn_rays);
+            for (std::size_t grid = 0; grid < colour_rays.size(); ++grid) {
+                const Bundle light = at[c].light(field.panel, colour_rays[grid]);
+                through = through && !light.rays.empty();
+                middle[c][grid] = light.rays.empty() ? Centroid{nan, nan, nan} : centroid_at(light, depth);
+            }
+            const Centroid& finest = middle[c].front();
+            const double row[] = {field.panel[0], field.panel[1], double(c), finest.x, finest.y, finest.rms};
+            for (std::size_t k = 0; k < 6; ++k) table.columns[k].values.push_back(row[k]);
+        }
+        const auto from_green = [&](std::size_t c) {
+            std::array<double, colour_rays.size()> found;
+            for (std::size_t grid = 0; grid < found.size(); ++grid) {
+                const Centroid &here = middle[c][grid], &green = middle[1][grid];
+                const double mm = std::hypot(here.x - green.x, here.y - green.y);
+                found[grid] = mm < 1e-9 ? 0 : mm;  // within double precision
+            }
+            return estimate(found);
+        };
+        const Estimate red = from_green(0), blue = from_green(2);
+        Json& row_json = lateral.emplace_back(Json{{"field", field.name}});
+        add_figure(row_json, "red_mm", red);
+        add_figure(row_json, "blue_mm", blue);
+        if (!through) {
+            result.note(fmt::format("colour.lateral.{}", lateral.size() - 1), "no light of this panel point gets through the lens");
+            continue;
+        }
+        result.findings.push_back({fmt::format("Lateral colour, {}: red and blue from green", field.title),
+                                   "mm",
+                                   {red.value, blue.value},
+                                   {},
+                                   fmt::format("centroids of spots {:.4g} mm in front of the lenses", depth + from_vertex),
+                                   {red.error, blue.error}});
+        result.plots.push_back(colour_diagram(field, shown, depth, from_vertex));
+    }
+    result.tables.push_back(std::move(table));
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,263 @@
+#include "analysis/spots/spot_depth.h"
+
+#include "base/constants.h"
+#include "geometry/lens_misalignment.h"
+#include "geometry/sharp_range.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+// docs/model.md, "Depth of field by spot size".
+namespace lfdsim {
+namespace {
+
+constexpr double most_per_mm = 1e6;  // a nanometre in front of the lens
+constexpr int depth_fan_rays = 1001;
+constexpr double farthest_mm = 1e7;
+
+/// Where a predicate that changes once, from false at `out` to true at `in`, changes.
+template <class Predicate>
+double change(double out, double in, Predicate holds) {
+    for (int halved = 0; halved < 120; ++halved) {
+        const double middle = 0.5 * (out + in);
+        (holds(middle) ? in : out) = middle;
+    }
+    return in;
+}
+
+/// Every third ray from `first` on, with the rims.
+std::vector<Line> thinned(const std::vector<Line>& fan, std::size_t first) {
+    std::vector<Line> third;
+    for (std::size_t k = first; k < fan.size(); k += 3) third.push_back(fan[k]);
+    if (!fan.empty()) third.insert(third.end(), {fan.front(), fan.back()});
+    return third;
+}
+
+/// A fan, and the three thirds of it.
+struct Fan {
+    explicit Fan(const std::vector<Line>& fan) : all(fan), thirds{thinned(fan, 0), thinned(fan, 1), thinned(fan, 2)} {}
+    /// Each ray turned by the diffuser.
+    Fan diffused_at(double z, double angle) const {
+        Fan turned(*this);
+        for (std::vector<Line>* lines : {&turned.all, &turned.thirds[0], &turned.thirds[1], &turned.thirds[2]})
+            *lines = diffused(*lines, z, angle);
+        return turned;
+    }
+    std::vector<Line> all;
+    std::array<std::vector<Line>, 3> thirds;
+};
+
+/// The errors of the ends by the finite number of rays. An end is set by the outermost ray, which lies d <= h/2 beside the true
+/// one, h the step between rays, and misses it by k d^2, k the curvature. The third whose nearest ray is the next but one misses by
+/// k (h + d)^2: it differs from all rays together by k (h^2 + 2 h d), at least eight times as much.
+std::array<double, 2> errors(const SharpDepths& all, const Fan& fan, double pixel_slope, double airy_slope) {
+    constexpr double margin = 0.25;  // twice an eighth
+    std::array<double, 2> most{1e-9 * std::abs(all.near_per_mm), 1e-9 * std::abs(all.far_per_mm)};
+    for (const std::vector<Line>& third : fan.thirds) {
+        const SharpDepths other = where_sharp(third, pixel_slope, airy_slope);
+        most[0] = std::max(most[0], margin * std::abs(all.near_per_mm - other.near_per_mm));
+        most[1] = std::max(most[1], margin * std::abs(all.far_per_mm - other.far_per_mm));
+    }
+    return most;
+}
+
+/// Writes spans of depths: figures under `key`, and a line of the table for each side of the lenses.
+class Teller {
+  public:
+    Teller(const Subject& s, Result& result)
+        : geometry_(s.geometry()),
+          eye_mm_(eye_distance_mm(s.display())),
+          pixel_slope_(s.display().panel.pixel_pitch_mm / s.geometry().gap_mm),
+          result_(result) {}
+
+    /// `low` and `high` are errors of what is measured; none: it is theory's alone.
+    struct Measured {
+        SharpRange range, least, most;  // the same with its errors for and against it
+        std::string missing;            // why there is none at all
+    };
+
+    void tell(const std::string& key, const std::string& what, const std::optional<Measured>& found, const SharpRange& theory,
+              const std::string& remark) {
+        Json& json = result_.figures[key];
+        for (const bool in_front : {false, true}) {
+            const std::string side = in_front ? "in_front_mm" : "behind_mm";
+            const DepthSpan of_theory = in_front ? theory.in_front : theory.behind;
+            Finding finding{fmt::format("Depth of field {}, {} the lenses", what, in_front ? "in front of" : "behind"),
+                            "mm",
+                            {},
+                            pair(of_theory),
+                            remark};
+            if (found) {
+                const auto part = [&](const SharpRange& r) { return in_front ? r.in_front : r.behind; };
+                const DepthSpan span = part(found->range), least = part(found->least), most = part(found->most);
+                finding.measured = {span.low, span.high};
+                finding.error = {error(span.low, least.low, most.low), error(span.high, least.high, most.high)};
+                std::string why;
+                if (span.empty()) why = !found->missing.empty() ? found->missing : "no depth on this side of the lenses is sharp";
+                for (std::size_t k = 0; k < 2; ++k)
+                    if (finding.error[k] > std::abs(finding.measured[k])) {
+                        why = fmt::format("an end at {:.4g} mm has an error of {:.2g} mm, more than itself", finding.measured[k],
+                                          finding.error[k]);
+                        finding.measured[k] = finding.error[k] = nan;
+                    }
+                json[side] = span.empty() ? Json() : numbers_json(finding.measured);
+                json[side + "_error"] = span.empty() ? Json() : numbers_json(finding.error);
+                if (!why.empty()) {
+                    result_.note(key + "." + side, why);
+                    finding.remark = why;
+                }
+            }
+            json["theory_" + side] = of_theory.empty() ? Json() : numbers_json({of_theory.low, of_theory.high});
+            if (of_theory.empty()) result_.note(key + ".theory_" + side, "no depth on this side of the lenses is sharp by theory");
+            if (!finding.measured.empty() || !finding.theory.empty()) result_.findings.push_back(std::move(finding));
+        }
+    }
+
+    /// By the pixel, and the same as ends in 1/z.
+    void by_pixel(const std::string& key, const std::string& diopters, const std::string& what, const Fan& fan, double airy_slope,
+                  const SharpRange& theory, const std::string& remark) {
+        const SharpDepths depths = where_sharp(fan.all, pixel_slope_, airy_slope);
+        Measured found;
+        if (std::isnan(depths.near_per_mm)) {
+            result_.figures[diopters] = Json();
+            found.missing = fan.all.empty()
+                                ? "no light of the panel's point on the axis gets through the lens"
+                                : fmt::format(
+                                      "the spot is nowhere as narrow as a panel pixel's image; it comes nearest to that {} mm "
+                                      "in front of the lenses, where it is {:.4g} pixel images wide",
+                                      text_mm(depths.best_per_mm), depths.least_width / pixel_slope_);
+            result_.note(diopters, found.missing);
+            found.range = found.least = found.most = range_of_inverse(geometry_, nan, nan, eye_mm_);
+        } else {
+            const std::array<double, 2> error = errors(depths, fan, pixel_slope_, airy_slope);
+            const auto range = [&](double by) {
+                return range_of_inverse(geometry_, depths.near_per_mm + by * error[0], depths.far_per_mm - by * error[1], eye_mm_);
+            };
+            found = {range(0), range(-1), range(1), {}};
+            result_.figures[diopters] = numbers_json({1000 * depths.near_per_mm, 1000 * depths.far_per_mm});
+            result_.figures[diopters + "_error"] = numbers_json({1000 * error[0], 1000 * error[1]});
+        }
+        tell(key, what, found, theory, remark);
+    }
+
+    /// By the lens: the depths z where the fan is no wider than the pitch, or than where it leaves the lens.
+    void by_lens(const Fan& fan, double pitch_mm, const SharpRange& theory) {
+        Measured found;
+        if (fan.all.empty()) {
+            found.missing = "no light of the panel's point on the axis gets through the lens";
+            found.range = found.least = found.most = range_between(geometry_, nan, nan, eye_mm_);
+        } else {
+            const std::array<double, 2> all = where_narrow(fan.all, pitch_mm);
+            std::array<double, 2> error{};
+            for (std::size_t k = 0; k < 2; ++k)
+                if (std::isfinite(all[k])) error[k] = 1e-9 * std::abs(all[k]);
+            for (const std::vector<Line>& third : fan.thirds) {
+                const std::array<double, 2> other = where_narrow(third, pitch_mm);
+                for (std::size_t k = 0; k < 2; ++k)
+                    if (std::isfinite(all[k])) error[k] = std::max(error[k], 0.25 * std::abs(all[k] - other[k]));  // as in errors()
+            }
+            const auto range = [&](double by) {
+                return range_between(geometry_, all[0] - by * error[0], all[1] + by * error[1], eye_mm_);
+            };
+            found = {range(0), range(-1), range(1), {}};
+        }
+        tell("by_lens", "by the lens", found, theory,
+             "where the spot is no wider than the lens pitch: there the lenses' pitch limits what is seen");
+    }
+    double pixel_slope() const { return pixel_slope_; }
+
+  private:
+    static std::vector<double> pair(const DepthSpan& span) {
+        return span.empty() ? std::vector<double>{} : std::vector{span.low, span.high};
+    }
+    /// Of an end, from where its interval's least and greatest have it; an end at the lenses or at the viewer has none.
+    static double error(double at, double least, double most) {
+        if (std::isinf(at) || std::isnan(at)) return std::isnan(at) ? nan : 0;
+        double error = 0;
+        for (const double other : {least, most}) error = std::max(error, std::isnan(other) ? std::abs(at) : std::abs(at - other));
+        return error;
+    }
+    std::string text_mm(double per_mm) const {
+        const double z = depth_mm(per_mm) + geometry_.rear_principal_mm - geometry_.vertex_plane_mm;
+        return std::isinf(z) ? "infinitely many" : fmt::format("{:.4g}", z);
+    }
+
+    const Geometry& geometry_;
+    double eye_mm_, pixel_slope_;
+    Result& result_;
+};
+
+}  // namespace
+
+SharpDepths where_sharp(const std::vector<Line>& fan, double pixel_slope, double airy_slope) {
+    if (fan.empty()) return {nan, nan, nan, nan};
+    // A ray at + slope z, over its depth: at/z + slope, a line over 1/z too. The width of a fan is therefore convex there, and
+    // within the limit in one interval about its minimum.
+    std::vector<Line> over_depth;
+    for (const Line& l : fan) over_depth.push_back({l.slope, l.at});
+    const auto width = [&](double per_mm) { return std::hypot(width_at(over_depth, per_mm).mm, airy_slope); };
+    const auto rises = [&](double per_mm) { return width_at(over_depth, per_mm).per_mm > 0; };
+    const auto sharp = [&](double per_mm) { return width(per_mm) <= pixel_slope; };
+    const double best = rises(-most_per_mm) ? -most_per_mm : change(-most_per_mm, most_per_mm, rises);
+    if (!sharp(best)) return {nan, nan, best, width(best)};
+    return {sharp(most_per_mm) ? most_per_mm : change(most_per_mm, best, sharp),
+            sharp(-most_per_mm) ? -most_per_mm : change(-most_per_mm, best, sharp), best, width(best)};
+}
+
+std::array<double, 2> where_narrow(const std::vector<Line>& fan, double width_mm) {
+    // The width is a convex function of z, so that it is within the limit in one interval, which contains 0.
+    const double limit = std::max(width_mm, width_at(fan, 0).mm) * (1 + 1e-12);
+    const auto narrow = [&](double z) { return width_at(fan, z).mm <= limit; };
+    std::array<double, 2> ends{};
+    for (const int side : {-1, 1}) {
+        double in = 0, out = side * 1e-3;
+        while (narrow(out) && std::abs(out) < farthest_mm) in = out, out *= 2;
+        ends[side < 0 ? 0 : 1] = narrow(out) ? side * infinity : change(out, in, narrow);
+    }
+    return ends;
+}
+
+std::array<double, 2> quarter_wave_per_mm(double L, double D, double wavelength_mm) {
+    const double most = 2 * wavelength_mm / (D * D);
+    return {1 / L + most, 1 / L - most};
+}
+
+SharpDepths add_spot_depths(const Subject& s, Result& result) {
+    const Theory& t = s.theory();
+    const Geometry& g = s.geometry();
+    const double D = widest_aperture_mm(g), wavelength_mm = s.options().wavelength_nm * 1e-6;
+    const bool along_x = D == g.clear_aperture_mm[0];  // of the widest fan
+    const Fans both = fans(LensTrace(s.display(), g), {0, 0}, depth_fan_rays);
+    const Fan fan(along_x ? both.meridional : both.sagittal);
+    const std::size_t axis = along_x ? 0 : 1;
+    const double eye = eye_distance_mm(s.display());
+    const SharpRange by_pixel = sharp_by_pixel(g, t, eye);
+    Teller tell(s, result);
+    const SharpDepths traced = where_sharp(fan.all, tell.pixel_slope());
+    tell.by_lens(fan, s.display().array.pitch_mm[axis] * pitch_scale(s.display().errors), sharp_by_lens(s.display(), g, t, eye));
+    tell.by_pixel("by_pixel", "spot_diopters", "by the pixel", fan, 0, by_pixel,
+                  "where the spot of the panel's point on the axis, traced, is no wider than a pixel's image; theory is paraxial: "
+                  "where they differ the lens's aberrations are the cause");
+    result.figures["spot_best_mm"] = number_json(depth_mm(traced.best_per_mm) + g.rear_principal_mm - g.vertex_plane_mm);
+    result.figures["spot_least_pixel_images"] = number_json(traced.least_width / tell.pixel_slope());
+    if (fan.all.empty())
+        for (const char* name : {"spot_best_mm", "spot_least_pixel_images"}) result.note(name, "no light gets through the lens");
+    if (s.display().diffuser) {
+        const double z = *g.diffuser_z_mm - g.rear_principal_mm,
+                     angle = diffuser_angle(s.display(), along_x ? Point{1, 0} : Point{0, 1});
+        tell.by_pixel("by_pixel_with_diffuser", "spot_with_diffuser_diopters", "by the pixel, with the diffuser's widening",
+                      fan.diffused_at(z, angle), 0, by_pixel, "the diffuser widens a spot by its angle times the distance from it");
+    }
+    tell.by_pixel("by_pixel_with_diffraction", "spot_with_diffraction_diopters",
+                  fmt::format("by the pixel, with the Airy disk at {} nm", s.options().wavelength_nm), fan,
+                  2.44 * wavelength_mm / D, by_pixel, "2.44 wavelength z / D, added in quadrature");
+    const auto [near, far] = quarter_wave_per_mm(t.central_depth_mm, D, wavelength_mm);
+    result.figures["diffraction_quarter_wave_diopters"] = numbers_json({1000 * near, 1000 * far});
+    tell.tell("by_quarter_wave", "by a quarter of a wave, of a perfect lens", {}, range_of_inverse(g, near, far, eye),
+              "where defocus begins to show beside diffraction; pixels coarser than the Airy disk allow more");
+    return traced;
+}
+
+}  // namespace lfdsim

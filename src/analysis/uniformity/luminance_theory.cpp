@@ -1,0 +1,157 @@
+#include "analysis/uniformity/luminance_theory.h"
+
+#include "analysis/crosstalk/paraxial_lines.h"
+#include "base/constants.h"
+#include "engine/scene/scene.h"
+#include "geometry/lens_misalignment.h"
+#include "geometry/screen.h"
+#include "optics/layers.h"
+#include "optics/lens.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace lfdsim {
+namespace {
+
+/// Of all surfaces at normal incidence: the lens's, and those of the layers that no lens is glued on.
+double transmission(const Display& d, const Geometry& g) {
+    if (d.render.fresnel == Fresnel::none) return 1;
+    double t = 1;
+    const auto cross = [&](double below, double above) { t *= 4 * below * above / ((below + above) * (below + above)); };
+    for (const PlacedSurface& s : g.surfaces) cross(s.index_below, s.index_above);
+    const std::vector<PlacedLayer>& layers = g.layers;
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+        const bool top = k + 1 == layers.size();
+        if (!(top && g.glued)) cross(layers[k].index, top ? 1 : layers[k + 1].index);
+    }
+    return t;
+}
+
+/// What a line of sight sees that comes down beside the lens, over the panel's luminance.
+double beside(const Display& d, const Geometry& g) {
+    if (d.lens.is_thin() || d.array.surround == Surround::opaque || d.lens.stop_radius_mm) return 0;
+    return d.array.surround == Surround::plate ? transmission(d, g) : 1;
+}
+
+/// One glass lens as it is: lines bend at its own surfaces by Snell's law, and Fresnel's equations take their share. What other
+/// lenses hide of it, and light that goes on through walls, is left out.
+class RealLens {
+  public:
+    RealLens(const Display& d, const Geometry& g)
+        : scene_(make_scene<double>(without_errors(d), g)), rear_principal_mm_(g.rear_principal_mm) {}
+
+    struct Seen {
+        optics::Place<double> place;  // on the panel, from the array's middle in its axes
+        double weight;                // 0: the line ends on its way
+    };
+    Seen look(const ParaxialLine& line) const {
+        const Lattice<double>& l = scene_.lattice;
+        const double length = std::sqrt(1 + line.slope.x * line.slope.x + line.slope.y * line.slope.y),
+                     down = scene_.surface[0].z - rear_principal_mm_;
+        const optics::Vec3<double> to{-line.slope.x / length, -line.slope.y / length, -1 / length};
+        optics::Place<double> axis = line.axis;
+        optics::Ray<double> entering{};
+        optics::Hit<double> hit{};
+        // A line may meet the surface of the lens beside the one over which it passes the plane of H'.
+        constexpr int steps = 4;
+        for (int step = 0; step < steps; ++step) {
+            entering = {{line.at.x + down * line.slope.x - axis.x, line.at.y + down * line.slope.y - (l.strips ? 0 : axis.y), 0},
+                        to};
+            hit = optics::meet<optics::Facts{}>(scene_, 0, entering);
+            const optics::Cell<double> lens = optics::lens_at(l, hit.at.x + axis.x, hit.at.y + axis.y);
+            if (!optics::holds(l, lens)) return {{}, 0};
+            const optics::Place<double> next = optics::axis_in_array(l, lens);
+            if (next.x == axis.x && next.y == axis.y) break;
+            axis = next;
+        }
+        optics::Passage<double> way{entering, {0, 0}, 1, true};
+        optics::pass_lens<optics::Facts{}>(scene_, Rules{{scene_}}, entering, hit, way);
+        if (!way.alive) return {{}, 0};
+        const double z = scene_.surface[scene_.surface_count - 1].z;
+        const auto end = optics::down_to_panel(scene_, {way.ray.at.x, way.ray.at.y, way.ray.at.z + z}, scene_.glued, way.ray.to,
+                                               way.weight, way.alive);
+        return {{axis.x + end.x, (l.strips ? 0 : axis.y) + end.y}, way.alive ? way.weight : 0};
+    }
+
+  private:
+    /// Of pass_lens(): apertures, and the borders of its cell.
+    struct Rules : optics::Alone<double> {
+        bool within(double x, double y, bool ok) const {
+            return ok && (scene.aperture == Aperture::circle || optics::in_cell(scene.lattice, x, y));
+        }
+        void meets(int, const optics::Ray<double>&, const optics::Hit<double>& hit, double from_z, double z,
+                   optics::Passage<double>& way) const {
+            way.alive = way.alive && within(hit.at.x, hit.at.y, hit.ok) && z <= from_z;
+        }
+        void leaves(const optics::Passage<double>&) const {}
+        bool passes_back(double x, double y) const {
+            const double r = scene.surface[scene.surface_count - 1].semi_aperture, up = optics::across(scene.lattice, y);
+            return within(x, y, x * x + up * up <= r * r);
+        }
+        bool over(bool alive) const { return !alive; }
+    };
+
+    optics::Scene<double> scene_;
+    double rear_principal_mm_;
+};
+
+/// Means over lines of sight that aim at the screen in the vertex plane: evenly chosen lenses, places in their cells and angles of
+/// the diffuser.
+struct Means {
+    double paraxial;  // lenses without aberration
+    double real;      // lenses as they are; of thin ones the same
+};
+Means seen_means(const Display& d, const Geometry& g, double eye_mm) {
+    const int count = d.lens.is_thin() ? 1 << 19 : 1 << 18;
+    const ParaxialLines lines(d, g, {0, 0, eye_mm});
+    std::optional<RealLens> lens;
+    if (!d.lens.is_thin()) lens.emplace(d, g);
+    const Lattice<double>& l = g.lattice;
+    const double through = transmission(d, g), past = beside(d, g);
+    const double on_to_principal = (eye_mm - g.rear_principal_mm) / (eye_mm - g.vertex_plane_mm);  // from where lines aim
+    const PanelBehind panel(g);
+    Means seen{0, 0};
+    double all = 0;
+    const auto number = [&](double choice, std::size_t k) {
+        return std::min(std::floor((0.5 + 0.5 * choice) * l.count[k]), l.count[k] - 1);
+    };
+    for (const Choice& c : even_choices(count)) {
+        const auto axis = optics::axis_in_array(l, optics::Cell<double>{number(c[4], 0), number(c[5], 1)});
+        optics::Place<double> in{l.half_pitch[0] * c[0], 0.5 * l.pitch[1] * c[1]};
+        if (l.hexagonal) {  // the corners of this box belong to a neighbour's cell: the same place in the hexagon
+            const auto centre = optics::axis_of(l, optics::cell_at(l, in.x, in.y));
+            in = {in.x - centre.x, in.y - centre.y};
+        }
+        const auto aimed = optics::in_display(l, optics::Place<double>{axis.x + in.x, axis.y + in.y});
+        if (!panel.meets({0, 0, eye_mm}, aimed.x, aimed.y)) continue;
+        ++all;
+        const auto line = lines.look(on_to_principal * aimed.x, on_to_principal * aimed.y, c[2], c[3]);
+        if (!line) continue;
+        const double by_theory = lines.on_panel(line->seen) ? line->through ? through : past : 0;
+        seen.paraxial += by_theory;
+        if (!lens || (!line->through && past > 0)) {
+            seen.real += by_theory;
+        } else {
+            const RealLens::Seen found = lens->look(*line);
+            if (found.weight > 0 && lines.on_panel(found.place)) seen.real += found.weight;
+        }
+    }
+    return all > 0 ? Means{seen.paraxial / all, seen.real / all} : Means{nan, nan};
+}
+
+}  // namespace
+
+TheoryFigure luminance_over_panel(const Display& d, const Geometry& g, double eye_mm) {
+    if (d.panel.emission_exponent != 0) return {nan, "theory holds for a panel that is equally bright from all directions"};
+    const Means seen = seen_means(d, g, eye_mm);
+    // Light that is lost to one lens may find another way between lenses of glass.
+    constexpr double alike = 0.003;
+    if (d.array.surround != Surround::opaque && std::abs(seen.real - seen.paraxial) > alike * seen.paraxial)
+        return {nan,
+                "the lenses are so steep that part of the light leaves them by their walls, for which there is no simple theory"};
+    return {seen.real, ""};
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,273 @@
+#include "analysis/uniformity/uniformity_colour.h"
+
+#include "base/constants.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+// docs/model.md, "Uniformity and efficiency".
+namespace lfdsim {
+namespace {
+
+constexpr int most_colour_parts_along = 48;
+constexpr std::int64_t colour_lines_of_screen = std::int64_t(1) << 23;
+constexpr int colour_lines_of_angle = 1 << 13, most_colour_angles = 257;
+constexpr std::array shifts{0.19, 0.43, 0.71};  // of angles between those, in steps, each with ...
+constexpr int fewer_lines = 4;                  // ... a quarter of their lines
+
+/// Lines of sight of each set in each part.
+int colour_lines_a_set(const ScreenParts& screen) {
+    const std::int64_t each = colour_lines_of_screen / (screen.count() * independent_sets);
+    return int(std::bit_floor(std::uint64_t(std::clamp<std::int64_t>(each, 64, 2048))));
+}
+
+/// Light of a block of lenses by all sets, and the share of it that is on the screen.
+struct BlockLight {
+    ColourSums light{};
+    double on_screen = 0;
+};
+
+/// The sets' choices are those from `first_set` on.
+BlockLight light_of_block(const ColouredWhite& white, const Subject& s, const Vec3d& eye, const ScreenParts& screen,
+                          const LensBlock& block, int lines, int first_set) {
+    BlockLight block_light;
+    for (int set = 0; set < independent_sets; ++set) {
+        const ColouredWhite::Seen seen =
+            white.look(eye, screen, block, even_choices(lines, set_number(s.display().render.seed, first_set + set)));
+        for (std::size_t c = 0; c < 3; ++c) block_light.light[c][std::size_t(set)] = seen.light[c];
+        block_light.on_screen += seen.on_screen / independent_sets;
+    }
+    return block_light;
+}
+
+/// Of the parts that are on the screen; the others have no colour, and are not dark.
+ColourSpread spread_on_screen(const std::vector<BlockLight>& parts, const std::vector<double>& lenses) {
+    std::vector<ColourSums> light;
+    std::vector<double> weights;
+    std::vector<std::size_t> number;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (parts[k].on_screen < least_on_screen) continue;
+        light.push_back(parts[k].light);
+        weights.push_back(lenses[k] * parts[k].on_screen);
+        number.push_back(k);
+    }
+    ColourSpread spread = colour_spread(light, weights);
+    std::vector<Chromaticity> colours(parts.size(), Chromaticity{nan, nan});
+    std::vector<double> distances(parts.size(), nan);
+    for (std::size_t n = 0; n < number.size(); ++n) {
+        colours[number[n]] = spread.parts[n];
+        distances[number[n]] = spread.distance[n];
+    }
+    spread.parts = std::move(colours);
+    spread.distance = std::move(distances);
+    return spread;
+}
+
+/// Eyes' angles within the field of view, eight for each view where that is not too many.
+std::vector<double> eyes_deg(const Subject& s) {
+    const AxisTheory& t = s.theory(0);
+    const double half = std::min(80., 0.5 * (is_strips(s.display().array) ? s.theory().fov_horizontal_deg : t.fov_deg));
+    const int each_side = std::clamp(int(std::ceil(4 * t.views)), 16, most_colour_angles / 2);
+    std::vector<double> angles;
+    for (int k = -each_side; k <= each_side; ++k) angles.push_back(half * k / each_side);
+    return angles;
+}
+
+void add_spread(Json& json, const std::string& prefix, const ColourSpread& spread) {
+    add_figure(json, prefix + "delta_uv_largest", spread.largest);
+    add_figure(json, prefix + "delta_uv_mean", spread.mean);
+}
+
+constexpr const char* definition = "distance in u', v' (CIE 1976) from the colour of all this light together; 0.004 is just seen";
+
+void add_spread_findings(const std::string& of, const ColourSpread& spread, Result& result) {
+    result.findings.push_back({fmt::format("Colour of white {}: largest difference", of),
+                               "",
+                               {spread.largest.value},
+                               {},
+                               definition,
+                               {spread.largest.error}});
+    result.findings.push_back(
+        {fmt::format("Colour of white {}: mean difference", of), "", {spread.mean.value}, {}, definition, {spread.mean.error}});
+}
+
+void add_colour_of_screen(const ColouredWhite& white, const Subject& s, double distance, Parts& parts, Result& result) {
+    const Vec3d eye{0, 0, distance};
+    const ScreenParts screen(s.display(), s.geometry(), most_colour_parts_along);
+    const int lines = colour_lines_a_set(screen) * white.more_for(eye);
+    std::vector<BlockLight> light(std::size_t(screen.count()));
+    std::vector<double> lenses;
+    for (int k = 0; k < screen.count(); ++k) lenses.push_back(screen.block(k).lenses());
+    parts.run(screen.count(), [&](int part) {
+        light[std::size_t(part)] = light_of_block(white, s, eye, screen, screen.block(part), lines, independent_sets * part);
+    });
+    const ColourSpread spread = spread_on_screen(light, lenses);
+    const Geometry& g = s.geometry();
+    Json& json = result.figures["colour"];
+    add_spread(json, "screen_", spread);
+    json["screen_uv"] = numbers_json({spread.together[0], spread.together[1]});
+    json["part_mm"] = {g.array_width_mm / screen.columns(), g.array_height_mm / screen.rows()};
+    json["dark_parts"] = spread.dark;
+    if (std::isnan(spread.together[0]))
+        for (const char* name : {"screen_delta_uv_largest", "screen_delta_uv_mean"})
+            result.note(std::string("colour.") + name, "no light of the screen is seen on axis");
+    add_spread_findings("over the screen, on axis", spread, result);
+    result.maps.push_back({"uniformity_colour", "Difference of colour over a white screen, seen on axis", "x along the array, mm",
+                           "y, mm", "distance in u', v'", -g.array_width_mm / 2, g.array_width_mm / 2, -g.array_height_mm / 2,
+                           g.array_height_mm / 2, screen.columns(), screen.rows(), spread.distance, 0,
+                           std::max(0.004, spread.largest.value + spread.largest.error)});
+    DataTable table{"uniformity_colour", {{"column", {}}, {"row", {}}, {"u_prime", {}}, {"v_prime", {}}, {"delta_uv", {}}}};
+    for (int k = 0; k < screen.count(); ++k) {
+        const Chromaticity& uv = spread.parts[std::size_t(k)];
+        const double row[] = {double(k % screen.columns()), double(k / screen.columns()), uv[0], uv[1],
+                              spread.distance[std::size_t(k)]};
+        for (std::size_t i = 0; i < 5; ++i) table.columns[i].values.push_back(row[i]);
+    }
+    result.tables.push_back(std::move(table));
+}
+
+/// Angles between others, by a share of their step.
+std::vector<double> between(const std::vector<double>& angles, double shift) {
+    std::vector<double> shifted;
+    for (std::size_t k = 0; k + 1 < angles.size(); ++k) shifted.push_back(angles[k] + shift * (angles[k + 1] - angles[k]));
+    return shifted;
+}
+
+/// By how much the mean over a few angles may miss that over all: each step of the distance lies anywhere between two of them,
+/// which is a standard deviation of 1/sqrt(12) of an interval; twice that. Dark angles have no distance; steps lead over them.
+double between_angles(std::vector<double> distance) {
+    std::erase_if(distance, [](double d) { return !std::isfinite(d); });
+    double squares = 0;
+    for (std::size_t k = 0; k + 1 < distance.size(); ++k) squares += std::pow(distance[k + 1] - distance[k], 2) / 12;
+    return distance.empty() ? 0 : 2 * std::sqrt(squares) / double(distance.size());
+}
+
+/// Colours change in steps where light passes from one subpixel to the next: what other angles find, beyond their own error,
+/// belongs to the error.
+void widen(Estimate& figure, const Estimate& found) {
+    if (std::isfinite(figure.value) && std::isfinite(found.value))
+        figure.error = std::max(figure.error, std::abs(found.value - figure.value) - found.error);
+}
+
+void add_colour_over_angle(const ColouredWhite& white, const Subject& s, double distance, Parts& parts, Result& result) {
+    const std::vector<double> angles = eyes_deg(s);
+    const ScreenParts screen(s.display(), s.geometry(), most_colour_parts_along);
+    const LensBlock middle = screen.middle();
+    const int lines = colour_lines_of_angle / independent_sets * white.more_for({0, 0, distance});
+    const double nearest = nearest_eye_mm(s.geometry());
+    Plot plot{"uniformity_colour_angle",
+              "Difference of colour of the middle of a white screen",
+              "viewing angle, degrees",
+              "distance in u', v'",
+              {}};
+    DataTable table{"uniformity_colour_angle", {{"angle_deg", angles}}};
+    for (const int axis : {0, 1}) {
+        const std::string name = axis == 0 ? "horizontal" : "vertical";
+        const auto seen_from = [&](const std::vector<double>& from_deg, int lines_a_set) {
+            std::vector<ColourSums> light(from_deg.size());
+            parts.run(int(from_deg.size()), [&](int k) {
+                const double angle = from_deg[std::size_t(k)] * degree, across = distance * std::sin(angle);
+                const Vec3d eye{axis == 0 ? across : 0, axis == 0 ? 0 : across, distance * std::cos(angle)};
+                if (eye[2] > nearest) light[std::size_t(k)] = light_of_block(white, s, eye, screen, middle, lines_a_set, 0).light;
+            });
+            return colour_spread(light, std::vector(from_deg.size(), 1.));
+        };
+        ColourSpread spread = seen_from(angles, lines);
+        for (const double shift : shifts) {
+            const ColourSpread other = seen_from(between(angles, shift), lines / fewer_lines);
+            widen(spread.largest, other.largest);
+            widen(spread.mean, other.mean);
+        }
+        spread.mean.error = std::hypot(spread.mean.error, between_angles(spread.distance));
+        Json& json = result.figures["colour"];
+        add_spread(json, name + "_", spread);
+        if (spread.dark == int(angles.size()))
+            for (const char* what : {"_delta_uv_largest", "_delta_uv_mean"})
+                result.note("colour." + name + what, "no light of the screen's middle is seen");
+        add_spread_findings(fmt::format("over {} angles to {:.3g} degrees", name, angles.back()), spread, result);
+        plot.series.push_back({name, angles, spread.distance});
+        table.columns.push_back({name + "_delta_uv", spread.distance});
+        for (const std::size_t i : {std::size_t(0), std::size_t(1)}) {
+            Column& column = table.columns.emplace_back(Column{name + (i == 0 ? "_u_prime" : "_v_prime"), {}});
+            for (const Chromaticity& uv : spread.parts) column.values.push_back(uv[i]);
+        }
+    }
+    plot.marks.push_back({"0.004, just seen", 0.004, false});
+    result.figures["colour"]["angle_deg"] = {angles.front(), angles.back()};
+    result.plots.push_back(std::move(plot));
+    result.tables.push_back(std::move(table));
+}
+
+}  // namespace
+
+ColouredWhite::ColouredWhite(const Subject& s)
+    : panel_(s.display().panel),
+      pixels_{ChannelPixels(s.display(), 0), ChannelPixels(s.display(), 1), ChannelPixels(s.display(), 2)} {
+    const Display& d = s.display();
+    if (!disperses(d)) {
+        paths_.push_back({EyeRays(d, s.geometry()), {1, 1, 1}});
+        return;
+    }
+    for (std::size_t c = 0; c < 3; ++c)
+        for (const auto& [geometry, weight] : light_paths(d, s.geometry(), c)) {
+            Path& path = paths_.emplace_back(Path{EyeRays(d, geometry), {}});
+            path.weight[c] = weight;
+        }
+}
+
+ColouredWhite::Seen ColouredWhite::look(const Vec3d& eye, const ScreenParts& screen, const LensBlock& block,
+                                        std::span<const Choice> choices) const {
+    std::array<double, 3> sum{};
+    double lines = 0;
+    for (const Choice& choice : choices) {
+        const Choice within = screen.within(block, choice);
+        bool on_screen = true;  // the same for all paths
+        for (const auto& [rays, weight] : paths_) {
+            const Sight sight = rays.look(eye, within);
+            on_screen = sight.on_screen;
+            if (!on_screen) break;
+            if (!(sight.light > 0)) continue;
+            const ChannelPixels::Place place{sight.x / panel_.pixel_pitch_mm + 0.5 * double(panel_.pixels[0]),
+                                             0.5 * double(panel_.pixels[1]) - sight.y / panel_.pixel_pitch_mm};
+            for (std::size_t c = 0; c < 3; ++c) {
+                if (weight[c] == 0) continue;
+                if (const auto shining = pixels_[c].at(place)) sum[c] += weight[c] * sight.light * shining->brightness;
+            }
+        }
+        lines += on_screen;
+    }
+    if (lines > 0)
+        for (double& light : sum) light /= lines;
+    return {sum, lines / double(choices.size())};
+}
+
+ColourWork colour_work(const Subject& s) {
+    if (!has_colours(s.display())) return {0, 0};
+    const ScreenParts screen(s.display(), s.geometry(), most_colour_parts_along);
+    const int angles = 2 * int(eyes_deg(s).size()), others = 2 * int(shifts.size()) * (angles / 2 - 1);
+    const std::int64_t paths = disperses(s.display()) ? 3 * s.display().render.wavelength_samples : 1;
+    return {screen.count() + angles + others,
+            paths * (std::int64_t(colour_lines_a_set(screen)) * independent_sets * screen.count() +
+                     (std::int64_t(angles) + others / fewer_lines) * colour_lines_of_angle)};
+}
+
+void tell_colour_uniformity(const Subject& s, double distance, Parts& parts, Result& result) {
+    if (!has_colours(s.display())) {
+        Json& json = result.figures["colour"];
+        for (const char* of : {"screen_", "horizontal_", "vertical_"}) {
+            add_figure(json, std::string(of) + "delta_uv_largest", {0, 0});
+            add_figure(json, std::string(of) + "delta_uv_mean", {0, 0});
+        }
+        result.remarks.push_back(
+            "Colour is exactly even: without subpixels and dispersion red, green and blue take the same paths to the same places.");
+        return;
+    }
+    const ColouredWhite white(s);
+    add_colour_of_screen(white, s, distance, parts, result);
+    add_colour_over_angle(white, s, distance, parts, result);
+}
+
+}  // namespace lfdsim

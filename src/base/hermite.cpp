@@ -1,0 +1,62 @@
+#include "base/hermite.h"
+
+#include "display/enums.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace lfdsim {
+namespace {
+
+/// The zero of the polynomial of degree K between two places where its signs differ, to the last bit.
+double zero_between(std::size_t K, double low, double high) {
+    const bool rises = hermite(K, high)[K] > 0;
+    while (true) {
+        const double middle = (low + high) / 2;
+        if (middle <= low || middle >= high) return middle;
+        ((hermite(K, middle)[K] > 0) == rises ? high : low) = middle;
+    }
+}
+
+using Zeros = std::array<std::vector<double>, max_wavelength_samples + 1>;
+
+/// By degree. Between two zeros is one of the next lower degree, and none is beyond sqrt(2 K + 1).
+Zeros all_zeros() {
+    Zeros all;
+    for (std::size_t degree = 1; degree < all.size(); ++degree) {
+        const std::vector<double>& zeros = all[degree - 1];
+        std::vector<double> next(degree, 0);
+        for (std::size_t i = degree / 2 + degree % 2; i < degree; ++i) {  // the positive ones
+            const double above = i < zeros.size() ? zeros[i] : std::sqrt(2. * double(degree) + 1);
+            next[i] = zero_between(degree, std::max(zeros[i - 1], 0.), above);
+            next[degree - 1 - i] = -next[i];
+        }
+        all[degree] = std::move(next);
+    }
+    return all;
+}
+
+}  // namespace
+
+std::vector<double> hermite(std::size_t K, double x) {
+    std::vector<double> h(K + 1, 1);
+    if (K > 0) h[1] = std::numbers::sqrt2 * x;
+    for (std::size_t k = 1; k < K; ++k)
+        h[k + 1] = (x * std::numbers::sqrt2 * h[k] - std::sqrt(double(k)) * h[k - 1]) / std::sqrt(double(k + 1));
+    return h;
+}
+
+const std::vector<double>& hermite_zeros(std::size_t degree) {
+    static const Zeros zeros = all_zeros();
+    return zeros.at(degree);
+}
+
+double hermite_weight(std::size_t degree, double zero) {
+    double squares = 0;  // the weight is the inverse of their sum (Christoffel)
+    for (const double h : hermite(degree - 1, zero)) squares += h * h;
+    return 1 / squares;
+}
+
+}  // namespace lfdsim

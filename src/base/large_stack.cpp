@@ -1,0 +1,52 @@
+#include "base/large_stack.h"
+
+#include <fmt/format.h>
+
+#include <pthread.h>
+#include <sys/resource.h>
+#include <csignal>
+#include <stdexcept>
+
+namespace lfdsim {
+namespace {
+
+constexpr rlim_t enough_bytes = 1 << 20;  // every kernel is tested on as much
+constexpr std::size_t own_bytes = 4 << 20;
+
+struct Work {
+    const std::function<int()>& run;
+    int result = 0;
+};
+
+}  // namespace
+
+int on_enough_stack(const std::function<int()>& work) {
+    rlimit stack{};
+    if (getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur == RLIM_INFINITY || stack.rlim_cur >= enough_bytes) return work();
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, own_bytes);
+    pthread_setattr_default_np(&attributes);
+    Work all{work};
+    pthread_t thread{};
+    const auto start = [](void* to) -> void* {
+        Work& w = *static_cast<Work*>(to);
+        w.result = w.run();
+        return nullptr;
+    };
+    const int error = pthread_create(&thread, &attributes, start, &all);
+    pthread_attr_destroy(&attributes);
+    if (error != 0)
+        throw std::runtime_error(
+            fmt::format("the stack is limited to {} kB (ulimit -s), which is too little, and no thread with more can be started; "
+                        "raise that limit to 1024",
+                        stack.rlim_cur >> 10));
+    // Signals are for the thread that works, whose waiting they end.
+    sigset_t every;
+    sigfillset(&every);
+    pthread_sigmask(SIG_BLOCK, &every, nullptr);
+    pthread_join(thread, nullptr);
+    return all.result;
+}
+
+}  // namespace lfdsim

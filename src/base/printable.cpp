@@ -1,0 +1,99 @@
+#include "base/printable.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cstdint>
+
+namespace lfdsim {
+namespace {
+
+constexpr std::size_t longest_message = 900, kept_head = 500, kept_tail = 300;  // bytes
+
+struct CodeRange {
+    char32_t first, last;
+};
+
+// Unicode's categories Cc (controls), Cf (formats: directions, joiners, tags) and Zl, Zp (separators), and the blanks among letters
+// that have no width or no mark of their own (fillers, selectors).
+constexpr CodeRange unseen[] = {{0x0000, 0x001f},   {0x007f, 0x009f},   {0x00ad, 0x00ad},   {0x034f, 0x034f},   {0x0600, 0x0605},
+                                {0x061c, 0x061c},   {0x06dd, 0x06dd},   {0x070f, 0x070f},   {0x0890, 0x0891},   {0x08e2, 0x08e2},
+                                {0x115f, 0x1160},   {0x17b4, 0x17b5},   {0x180b, 0x180f},   {0x200b, 0x200f},   {0x2028, 0x202e},
+                                {0x2060, 0x206f},   {0x3164, 0x3164},   {0xfe00, 0xfe0f},   {0xfeff, 0xfeff},   {0xffa0, 0xffa0},
+                                {0xfff0, 0xfffb},   {0xfffe, 0xffff},   {0x110bd, 0x110bd}, {0x110cd, 0x110cd}, {0x13430, 0x1343f},
+                                {0x1bca0, 0x1bca3}, {0x1d173, 0x1d17a}, {0xe0000, 0xe0fff}};
+
+bool is_unseen(char32_t c) {
+    if (c >= 0x20 && c < 0x7f) return false;
+    return std::any_of(std::begin(unseen), std::end(unseen), [&](const CodeRange& r) { return r.first <= c && c <= r.last; });
+}
+
+struct Character {
+    char32_t code;
+    std::size_t bytes;  // 0: what stands there is not UTF-8
+};
+
+// The first character of a text that is not empty (RFC 3629: shortest forms, no surrogates, up to U+10FFFF).
+Character first_of(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned char lead = byte(0);
+    if (lead < 0x80) return {lead, 1};
+    const std::size_t bytes = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+    constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+    if (lead < 0xc2 || lead > 0xf4 || text.size() < bytes) return {lead, 0};
+    char32_t code = lead & (0x7fu >> bytes);
+    for (std::size_t i = 1; i < bytes; ++i) {
+        if ((byte(i) & 0xc0) != 0x80) return {lead, 0};
+        code = code << 6 | (byte(i) & 0x3f);
+    }
+    const bool surrogate = code >= 0xd800 && code < 0xe000;
+    return code < least[bytes] || code > 0x10ffff || surrogate ? Character{lead, 0} : Character{code, bytes};
+}
+
+std::string escape(char32_t c) {
+    if (c < 0x10000) return fmt::format("\\u{:04x}", std::uint32_t(c));
+    return fmt::format("\\u{:04x}\\u{:04x}", 0xd800 + (std::uint32_t(c - 0x10000) >> 10), 0xdc00 + (std::uint32_t(c) & 0x3ff));
+}
+
+std::string harmless(std::string_view text, std::string_view allowed) {
+    std::string all;
+    all.reserve(text.size());
+    while (!text.empty()) {
+        const auto [code, bytes] = first_of(text);
+        if (bytes == 0)
+            all += fmt::format("\\x{:02x}", std::uint32_t(code));
+        else if (is_unseen(code) && (bytes > 1 || allowed.find(text[0]) == allowed.npos))
+            all += escape(code);
+        else
+            all += text.substr(0, bytes);
+        text.remove_prefix(std::max<std::size_t>(bytes, 1));
+    }
+    return all;
+}
+
+// The start of a character at or before a place.
+std::size_t boundary(std::string_view text, std::size_t at) {
+    while (at > 0 && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80) --at;
+    return at;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) { return harmless(text, {}); }
+
+std::string printable_lines(std::string_view text) { return harmless(text, "\n\t"); }
+
+bool is_printable(std::string_view text) { return printable(text) == text; }
+
+std::string shortened(std::string_view word) {
+    constexpr std::size_t longest = 40;
+    if (word.size() <= longest) return printable(word);
+    return printable(word.substr(0, boundary(word, longest))) + "...";
+}
+
+std::string bounded(std::string_view message) {
+    if (message.size() <= longest_message) return std::string(message);
+    const std::size_t head = boundary(message, kept_head), tail = boundary(message, message.size() - kept_tail);
+    return fmt::format("{} [... {} bytes ...] {}", message.substr(0, head), tail - head, message.substr(tail));
+}
+
+}  // namespace lfdsim

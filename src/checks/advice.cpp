@@ -1,0 +1,61 @@
+#include "checks/advice.h"
+
+#include "checks/advice_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+
+std::vector<std::string> advice(const Display& d, const Geometry& g, const Theory& t,
+                                const std::optional<Vec3d>& model_half_size_mm) {
+    Advised advised{d, g, t, model_half_size_mm};
+    advise_on_lenses(advised);
+    advise_on_layout(advised);
+    advise_on_diffuser(advised);
+    advise_on_eye(advised);
+    advise_on_scene(advised);
+    return std::move(advised.sentences);
+}
+
+void advise_on_lenses(Advised& a) {
+    const Display& d = a.display;
+    const Geometry& g = a.geometry;
+    const Theory& t = a.theory;
+
+    // With ten times the gap the image of the panel is a virtual one a tenth farther than the panel itself, and hardly larger.
+    const bool pinhole = d.lens.type() == LensType::pinhole;
+    if (!pinhole && !(std::abs(g.focal_length_mm) < 10 * g.gap_mm))
+        a.say(
+            "the lenses have hardly any power (focal length {:.5g} mm, the panel {:.5g} mm behind them): the panel itself is "
+            "seen through them, and no views. Use glass of an index well above 1 (--set lens.index=1.4918), or surfaces that are "
+            "more curved",
+            g.focal_length_mm, g.gap_mm);
+    // Beyond a hundred panel heights an image plane is practically at infinity: intended where the scene is far away too, and under
+    // strips, which are focused on the panel so that an eye sees one view through each.
+    else if (!pinhole && !is_strips(d.array) && !(std::abs(t.central_depth_mm) < 100 * g.panel_height_mm) &&
+             !is_sharp(t, g.content_depth_mm + g.vertex_plane_mm - g.rear_principal_mm))
+        a.say("the gap is about the focal length ({:.6g} and {:.6g} mm): the central depth plane is at infinity", g.gap_mm,
+              g.focal_length_mm);
+    if (g.focal_length_mm < 0) a.say("the lens is a diverging one: it has no real image of the panel at any gap");
+
+    const bool strips = is_strips(d.array);
+    const std::size_t few = strips || t.along[0].views <= t.along[1].views ? 0 : 1;
+    // Lens k begins k N pixels from the first; a fraction of a pixel in N shifts the views of the last lens against those of the
+    // first.
+    const auto drift = [&](std::size_t k) {
+        return std::abs(t.along[k].views - std::round(t.along[k].views)) * g.lattice.count[k];
+    };
+    const std::size_t drifts = strips || drift(0) >= drift(1) ? 0 : 1;
+    if (t.along[few].views < (strips ? 1.9 : 2))  // a little less than two pixels of a barrier's two views are behind a slit
+        a.say(
+            "the lenses are {} ({:.4g} of {:.4g} mm): they can show only one view. Use wider lenses (--set array.pitch_mm), or a "
+            "panel of finer pixels (--set panel.pixel_pitch_mm)",
+            t.along[few].views < 1 ? "smaller than a panel pixel" : "less than two panel pixels wide", d.array.pitch_mm[few],
+            d.panel.pixel_pitch_mm);
+    else if (drift(drifts) > 0.5 && !strips)  // which lean so that their views are not whole numbers
+        a.say("a lens covers {:.4f} panel pixels, not a whole number: across the array this adds up to {:.2g} pixels",
+              t.along[drifts].views, drift(drifts));
+}
+
+}  // namespace lfdsim

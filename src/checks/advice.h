@@ -1,0 +1,17 @@
+// Advice on valid displays that may not be what was meant. Floor 0.
+#pragma once
+#include "display/display.h"
+#include "geometry/geometry.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lfdsim {
+
+/// One text for each doubt about a display, with its remedy. The display must be valid. `model_half_size_mm`: half the extents of
+/// the posed model, where it has been read; without them its width and depth are not checked.
+std::vector<std::string> advice(const Display&, const Geometry&, const Theory&,
+                                const std::optional<Vec3d>& model_half_size_mm = std::nullopt);
+
+}  // namespace lfdsim

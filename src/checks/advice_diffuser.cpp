@@ -1,0 +1,93 @@
+#include "base/constants.h"
+#include "checks/advice_parts.h"
+#include "geometry/dark_bands.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+namespace {
+
+constexpr double strongest_deg = 30;  // beyond it views of any usual field of view mix
+
+/// The best distance for a diffuser yet to be added: on the central depth plane, if that is at most halfway to the eye.
+double best_distance_mm(const Geometry& g, const Theory& t, const Pitch& pitch, double eye_mm) {
+    const double central = g.rear_principal_mm + t.central_depth_mm - g.vertex_plane_mm;
+    return central > g.top_z_mm - g.vertex_plane_mm && central < eye_mm / 2 ? central : std::min(20 * pitch.least(), eye_mm / 2);
+}
+
+/// Whether the pupil's defocus does what a diffuser would: a point of the lenses' plane blurs to a disk of diameter A |1 - E/F|.
+/// Of the finest dots a disk three pitches wide leaves bands of contrast 0.08, twice the fourth lobe of 2 J1(x)/x.
+bool joined_by_pupil(const Display& d, const Geometry& g, double eye) {
+    return d.camera.pupil_diameter_mm.value_or(0) * std::abs(1 - eye / g.focus_distance_mm) >=
+           3 * std::max(d.array.pitch_mm[0], d.array.pitch_mm[1]);
+}
+
+/// "0.8 degrees" or, where the axes differ, "0.8 x 0.6 degrees"; four digits.
+std::string degrees_text(const std::array<double, 2>& deg) {
+    return deg[0] == deg[1] ? fmt::format("{:.4g} degrees", deg[0]) : fmt::format("{:.4g} x {:.4g} degrees", deg[0], deg[1]);
+}
+
+std::string option_text(const std::array<double, 2>& deg) {
+    return fmt::format("--set 'diffuser.angle_deg=[{:.4g}, {:.4g}]'", deg[0], deg[1]);
+}
+
+}  // namespace
+
+void advise_on_diffuser(Advised& a) {
+    const Display& d = a.display;
+    const Geometry& g = a.geometry;
+    const bool strips = is_strips(d.array);
+    if (strips && d.lens.type() == LensType::pinhole) return;  // a barrier is meant to be dark between its slits
+    const Pitch& p = d.array.pitch_mm;
+    const double eye = eye_distance_mm(d) - g.vertex_plane_mm, best_distance = best_distance_mm(g, a.theory, p, eye);
+    const std::array<double, 2> joining = joining_spread_mm(g);
+    const std::size_t main = joining[0] > 0 ? 0 : 1;  // strips need one angle alone
+    std::array<double, 2> best_deg, height, angle;
+    for (const std::size_t k : {0u, 1u}) {
+        const std::size_t axis = strips ? 0 : k;
+        const double given = d.diffuser ? d.diffuser->angle_deg[k] : 0;  // stays, where it does not matter
+        const auto closing = [&](double above) { return joining[k] > 0 ? gap_closing_angle_deg(joining[k], above) : given; };
+        best_deg[k] = closing(g.vertex_plane_mm + best_distance - aperture_plane_mm(d, g, axis));
+        height[k] = g.diffuser_z_mm.value_or(0) - aperture_plane_mm(d, g, axis);
+        angle[k] = closing(height[k]);
+    }
+    const std::string best = fmt::format("{0} {1:.5g} mm in front of the lenses (--set diffuser.distance_mm={1:.5g} {2})",
+                                         degrees_text(best_deg), best_distance, option_text(best_deg));
+    const auto [across, up] = band_contrast(d, g);
+    const bool bands = (strips ? across : std::max(across, up)) > visible_band_contrast;
+    const std::string seen =
+        strips ? fmt::format("dark bands between the lenses (Michelson contrast {:.2f} across the strips)", across)
+               : fmt::format("dark bands between the lenses (Michelson contrast {:.2f} across, {:.2f} upwards)", across, up);
+    if (bands && !d.diffuser && !joined_by_pupil(d, g, eye))
+        a.say("{}: the lenses do not fill their cells, and no diffuser joins them. Add one of {}", seen, best);
+    if (!d.diffuser) return;
+
+    // Along strips there are no views to mix.
+    const bool too_near = (strips ? angle[main] : std::max(angle[0], angle[1])) > strongest_deg;
+    const auto [wide, high] = d.diffuser->angle_deg;
+    const double strong = strips ? d.diffuser->angle_deg[main] : std::max(wide, high);
+    if (bands) {
+        const auto spread = [&](std::size_t k) {
+            return 2 * height[k] * std::tan(d.diffuser->angle_deg[k] * degree / 2) / joining[k];
+        };
+        const double distance = d.diffuser->distance_mm + height[main] * (1 / spread(main) - 1);  // where this diffuser joins them
+        std::string remedy =
+            too_near ? "Use " + best : fmt::format("At its distance use {} ({})", degrees_text(angle), option_text(angle));
+        if ((strips || (joining[0] == joining[1] && wide == high)) && distance > g.top_z_mm - g.vertex_plane_mm &&
+            distance < eye / 2)
+            remedy += fmt::format(", or keep its angle at a distance of {0:.5g} mm (--set diffuser.distance_mm={0:.5g})", distance);
+        const std::string spreads =
+            strips ? fmt::format("{:.3g} lens pitches along the panel's {}; 1", spread(main), main == 0 ? "rows" : "columns")
+                   : fmt::format("{:.3g} x {:.3g} lens pitches; 1 x 1", spread(0), spread(1));
+        a.say("{}: the diffuser spreads lines of sight over {} would join the lenses. {}", seen, spreads, remedy);
+    }
+    if (strong > strongest_deg)
+        a.say(
+            "the diffuser ({:.4g} x {:.4g} degrees) is stronger than {:g} degrees: it mixes views far apart in a field of view of "
+            "{:.4g} degrees. {:.4g} degrees join the lenses{}",
+            wide, high, strongest_deg, a.theory.along[0].fov_elemental_deg, angle[main],
+            too_near ? ", fewer do from farther in front of them (--set diffuser.distance_mm)" : "");
+}
+
+}  // namespace lfdsim

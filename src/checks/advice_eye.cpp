@@ -1,0 +1,53 @@
+#include "base/constants.h"
+#include "checks/advice_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+
+void advise_on_eye(Advised& a) {
+    const Display& d = a.display;
+    const Geometry& g = a.geometry;
+    const double eye = eye_distance_mm(d), made_for = d.content.viewing_distance_mm, nearest = nearest_eye_mm(g);
+    if (!(eye > nearest))
+        a.say(
+            "the camera, {:.5g} mm from the panel, stands inside the display, whose lenses and diffuser reach to {:.5g} mm: "
+            "move it farther away (--set 'camera.position_mm=[0, 0, {:.5g}]')",
+            eye, nearest, 20 * nearest);
+    if (!(made_for > nearest))
+        a.say(
+            "content.viewing_distance_mm = {:.5g} puts the eye that the elemental images are made for inside the display, whose "
+            "lenses and diffuser reach to {:.5g} mm. The usual value is the camera's distance (--set "
+            "content.viewing_distance_mm={:.5g})",
+            made_for, nearest, eye);
+    if (!(eye > nearest && made_for > nearest)) return;
+
+    // Beyond the elemental image's edge a lens shows that of its neighbour: the picture repeats.
+    const auto [x, y, z] = d.camera.position_mm;
+    const auto half_fov = [&](std::size_t k) { return a.theory.along[k].fov_elemental_deg / 2; };
+    const double off_axis[] = {std::atan(std::abs(x) / z) / degree, std::atan(std::abs(y) / z) / degree};
+    const std::size_t far = off_axis[0] / half_fov(0) >= off_axis[1] / half_fov(1) ? 0 : 1;
+    if (off_axis[far] > half_fov(far))
+        a.say(
+            "the camera stands {:.1f} degrees off axis, outside the field of view of +-{:.1f} degrees: it sees neighbouring images",
+            off_axis[far], half_fov(far));
+
+    Display matched = d;
+    matched.content.viewing_distance_mm = eye;
+    const Theory with_it = theory(matched, g);
+    const auto zone_of = [](const Theory& t, std::size_t k) { return t.along[k].viewing_zone_deg; };
+    const std::size_t worse = zone_of(a.theory, 1) * zone_of(with_it, 0) < zone_of(a.theory, 0) * zone_of(with_it, 1) ? 1 : 0;
+    const double zone = zone_of(a.theory, worse), best = zone_of(with_it, worse);
+    if (zone < 0.8 * best)
+        a.say(
+            "the elemental images are made for an eye {} (content.viewing_distance_mm = {:.5g}), but the camera stands "
+            "{:.5g} mm from the panel: {}; images made for that distance would be right within +-{:.1f} degrees "
+            "(--set content.viewing_distance_mm={:.5g})",
+            std::isinf(made_for) ? "at infinity" : fmt::format("{:.5g} mm from the panel", made_for), made_for, eye,
+            zone > 0 ? fmt::format("from there the whole screen is right only within +-{:.1f} degrees", zone / 2)
+                     : "from there the whole screen is right at no angle",
+            best / 2, eye);
+}
+
+}  // namespace lfdsim

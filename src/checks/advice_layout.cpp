@@ -1,0 +1,73 @@
+#include "base/constants.h"
+#include "checks/advice_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+namespace {
+
+/// Share of the lenses whose elemental images have their centres beside the panel: at least half of such an image is missing. In
+/// large arrays 256 evenly spread rows and columns are counted.
+double share_beside_panel(const Geometry& g, const LensArray& array, double elemental_over_lens_pitch) {
+    const double turn = array.turn_deg() * degree, cos = std::cos(turn), sin = std::sin(turn);
+    const auto columns = std::int64_t(std::min(g.lattice.count[0], 256.)), rows = std::int64_t(std::min(g.lattice.count[1], 256.));
+    std::int64_t beside = 0;
+    for (std::int64_t j = 0; j < rows; ++j)
+        for (std::int64_t i = 0; i < columns; ++i) {
+            const double u = ((double(i) + 0.5) / double(columns) - 0.5) * g.array_width_mm,
+                         v = ((double(j) + 0.5) / double(rows) - 0.5) * g.array_height_mm;
+            const double x = elemental_over_lens_pitch * (cos * u - sin * v + array.offset_mm[0]),
+                         y = elemental_over_lens_pitch * (sin * u + cos * v + array.offset_mm[1]);
+            beside += std::abs(x) > g.panel_width_mm / 2 || std::abs(y) > g.panel_height_mm / 2;
+        }
+    return double(beside) / double(columns * rows);
+}
+
+}  // namespace
+
+void advise_on_layout(Advised& a) {
+    const Display& d = a.display;
+    const Geometry& g = a.geometry;
+    if (!(d.content.viewing_distance_mm > g.rear_principal_mm)) return;  // there are no such elemental images
+    if (!d.array.count || is_strips(d.array)) return;                    // what covers the panel reaches beyond it
+    const double scale = a.theory.along[0].elemental_pitch_mm / d.array.pitch_mm[0];
+    LensArray straight = d.array;
+    straight.offset_mm = {};
+    straight.rotation_deg = 0;
+    straight.slant_deg.reset();
+    const double beside = share_beside_panel(g, d.array, scale), beside_straight = share_beside_panel(g, straight, scale);
+    if (beside > beside_straight + 0.005)
+        a.say(
+            "the array is moved by {:.5g}, {:.5g} mm and turned by {:.5g} degrees: the elemental images of {:.3g} % of its lenses "
+            "lie beside the panel, and those lenses stay dark. Reduce both (--set 'array.offset_mm=[0, 0]' "
+            "--set array.rotation_deg=0)",
+            d.array.offset_mm[0], d.array.offset_mm[1], d.array.rotation_deg, 100 * beside);
+
+    const double pixel = d.panel.pixel_pitch_mm;
+    if (g.array_width_mm > g.panel_width_mm + pixel || g.array_height_mm > g.panel_height_mm + pixel) {
+        a.say(
+            "the lens array ({:.5g} x {:.5g} mm) is larger than the panel ({:.5g} x {:.5g} mm): its outer lenses have dark or "
+            "missing images",
+            g.array_width_mm, g.array_height_mm, g.panel_width_mm, g.panel_height_mm);
+    } else if (beside_straight > 0.02) {
+        const auto fitting = [&](double size, std::size_t k) {
+            return std::clamp<std::int64_t>(std::int64_t(size / a.theory.along[k].elemental_pitch_mm), 1,
+                                            std::int64_t(g.lattice.count[k]));
+        };
+        a.say(
+            "the elemental images for a viewer at {:.5g} mm are {:.4f} times as wide as the lenses, {:.5g} x {:.5g} mm together, "
+            "wider than the panel ({:.5g} x {:.5g} mm): {:.3g} % of the lenses have theirs beside it. Use fewer lenses "
+            "(--set 'array.count=[{}, {}]') or a greater content.viewing_distance_mm",
+            d.content.viewing_distance_mm, scale, scale * g.array_width_mm, scale * g.array_height_mm, g.panel_width_mm,
+            g.panel_height_mm, 100 * beside_straight, fitting(g.panel_width_mm, 0), fitting(g.panel_height_mm, 1));
+    }
+    const auto unused = [&](double array_mm, double panel_mm, std::size_t k) {  // more than a tenth, and room for another lens
+        return panel_mm - scale * array_mm > std::max(0.1 * panel_mm, a.theory.along[k].elemental_pitch_mm);
+    };
+    if (unused(g.array_width_mm, g.panel_width_mm, 0) || unused(g.array_height_mm, g.panel_height_mm, 1))
+        a.say("the lens array ({:.5g} x {:.5g} mm) leaves more than a tenth of the panel ({:.5g} x {:.5g} mm) unused",
+              g.array_width_mm, g.array_height_mm, g.panel_width_mm, g.panel_height_mm);
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,174 @@
+// Errors of the array that cannot be: parts would collide, or the rays of such a display are not defined. docs/model.md, "Errors".
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "checks/findings.h"
+#include "display/colour.h"
+#include "geometry/lens_misalignment.h"
+#include "geometry/prescription.h"
+
+namespace lfdsim {
+namespace {
+
+class ErrorsCheck {
+  public:
+    ErrorsCheck(const Display& d, Findings& f) : d_(d), e_(d.errors), g_(resolve_unchecked(without_errors(d))), findings_(f) {}
+
+    void check() {
+        if (d_.array.surround == Surround::clear) refuse_all("surround = \"clear\" has no sheet that holds its lenses", true);
+        if (g_.glued) refuse_all("the lens is glued on", false);
+        if (d_.array.surround == Surround::plate)
+            refuse_each("tilt_sd_deg", e_.tilt_sd_deg != 0, "tilts", has(&LensErrorBounds::tilt_deg),
+                        "a moulded plate's lenses are parts of one sheet, which do not turn");
+        if (d_.array.surround == Surround::plate && is_irregular(e_) && hollow())
+            findings_.add("errors", "{}",
+                          "move or curve lenses that are hollow in a moulded plate, of which they are no parts; leave them out");
+        if (d_.content.made_for == MadeFor::built && is_strips(d_.array) && is_wedged(e_))
+            findings_.add("content.made_for", "{}",
+                          "is \"built\", but elemental images cannot know of strips' wedge; take \"description\"");
+        if (d_.lens.type() == LensType::pinhole)
+            refuse_each("curvature_sd", e_.curvature_sd != 0, "curvatures", has(&LensErrorBounds::curvature),
+                        "a pinhole has no curvature");
+        if (lenses_differ(e_)) check_lenses();
+        check_heights();
+    }
+
+  private:
+    /// Those that a lens without freedom to move, or a tracer that knows no such motion, cannot have; a glued one may still move
+    /// sideways and be turned.
+    void refuse_all(std::string_view why, bool sideways) {
+        const std::string what = fmt::format("is given, but {}; leave it out", why);
+        const auto one = [&](const char* key, bool given) { refuse(key, given, what); };
+        one("gap_mm", e_.gap_mm != 0);
+        one("wedge_deg", e_.wedge_deg[0] != 0 || e_.wedge_deg[1] != 0);
+        one("bow_mm", e_.bow_mm != 0);
+        one("height_sd_mm", e_.height_sd_mm != 0);
+        one("tilt_sd_deg", e_.tilt_sd_deg != 0);
+        const bool lifts = has(&LensErrorBounds::height_mm) || has(&LensErrorBounds::tilt_deg);
+        one("table", sideways ? e_.given != nullptr : lifts);
+        if (!sideways) return;
+        one("shift_mm", e_.shift_mm[0] != 0 || e_.shift_mm[1] != 0);
+        one("rotation_deg", e_.rotation_deg != 0);
+        one("pitch_ppm", e_.pitch_ppm != 0);
+        one("decenter_sd_mm", e_.decenter_sd_mm != 0);
+        one("curvature_sd", e_.curvature_sd != 0);
+    }
+    /// What lenses cannot have is refused where it is drawn, and where the table gives it.
+    void refuse_each(const char* key, bool drawn, const char* column, bool in_table, std::string_view why) {
+        refuse(key, drawn, fmt::format("is given, but {}; leave it out", why));
+        refuse("table", in_table, fmt::format("gives {}, but {}; make them 0", column, why));
+    }
+    void refuse(const char* key, bool given, std::string_view what) {
+        const std::string path = fmt::format("errors.{}", key);
+        if (given && findings_.sound(path)) findings_.add(path, "{}", what);
+    }
+
+    /// Whether a face of the lens lies lower than its rim somewhere, seen from outside.
+    bool hollow() const {
+        const auto rim = [](const PlacedSurface& s) {
+            return sag_mm(s.curvature_per_mm, s.conic, s.even_asphere, s.semi_aperture_mm);
+        };
+        return sag_range_mm(g_.surfaces.back())[0] < rim(g_.surfaces.back()) - rounding_mm ||
+               sag_range_mm(g_.surfaces.front())[1] > rim(g_.surfaces.front()) + rounding_mm;
+    }
+
+    /// Whether the table gives any.
+    template <class Member>
+    bool has(Member member) const {
+        Errors table;
+        table.given = e_.given;
+        const LensErrorBounds b = bounds(d_.array, table);
+        return std::ranges::any_of(b.*member, [](double x) { return x != 0; });
+    }
+    /// The key to blame for what standard deviation and table come to.
+    const char* of(const char* key, double sd) const { return sd != 0 || !e_.given ? key : "errors.table"; }
+
+    void check_lenses() {
+        const double lenses = g_.lattice.count[0] * g_.lattice.count[1];
+        if (lenses > most_different_lenses)
+            findings_.add("errors", "the {:.0f} lenses of the array would differ from each other; at most {:.0f} may", lenses,
+                          most_different_lenses);
+        const LensErrorBounds b = bounds(d_.array, e_);
+        const double clearance = d_.array.aperture == Aperture::cell ? 0 : 2 * (inner_radius_mm(d_.array) - g_.glass_radius_mm);
+        const double aside = std::max(b.aside_mm[0], b.aside_mm[1]),
+                     most = std::max(clearance / 2, 0.05 * d_.array.pitch_mm.least());
+        if (aside > most + rounding_mm)
+            findings_.add(of("errors.decenter_sd_mm", e_.decenter_sd_mm),
+                          "lenses move by up to {:.6g} mm (three standard deviations and the table); at most {:.6g} mm, the "
+                          "greater of half the "
+                          "clearance and a twentieth of the pitch, as rays are traced to the lenses about their place alone: a "
+                          "decenter_sd_mm of up to {:.4g} without a table",
+                          aside, most, std::floor(1e4 * most / 3 + 1e-9) / 1e4);
+        if (std::max(b.tilt_deg[0], b.tilt_deg[1]) > 30)
+            findings_.add(of("errors.tilt_sd_deg", e_.tilt_sd_deg), "lenses turn by up to {:.6g} degrees; at most 30",
+                          std::max(b.tilt_deg[0], b.tilt_deg[1]));
+        for (const double e : b.curvature)
+            if (const std::string wrong = curved(e); e != 0 && !wrong.empty()) {
+                findings_.add(of("errors.curvature_sd", e_.curvature_sd),
+                              "a lens's curvatures are up to {:.6g} of what they should be: {}", 1 + e, wrong);
+                break;
+            }
+    }
+
+    /// What is wrong with a lens of 1 + e times the curvatures, if anything.
+    std::string curved(double e) const {
+        if (e <= -0.9) return "less than a tenth";
+        if (d_.lens.is_thin()) return {};
+        std::vector<PlacedSurface> surfaces = g_.surfaces;
+        for (PlacedSurface& s : surfaces) {
+            s.curvature_per_mm *= 1 + e;
+            const auto [low, high] = sag_range_mm(s);
+            if (!std::isfinite(low) || !std::isfinite(high)) return "its surface would not reach the rim";
+        }
+        return {};
+    }
+
+    /// Lowest and highest z that the lenses reach, which must lie between the layers and what stands in front of them.
+    void check_heights() {
+        const LensErrorBounds b = bounds(d_.array, e_);
+        const double tilt = std::max(b.tilt_deg[0], b.tilt_deg[1]) * degree,
+                     // of a rim; a lens below its vertex by t swings aside, not down
+            swing = g_.glass_radius_mm * std::sin(tilt),
+                     wedge = (std::abs(std::sin(e_.wedge_deg[0] * degree)) * g_.array_height_mm +
+                              std::abs(std::sin(e_.wedge_deg[1] * degree)) * g_.array_width_mm) /
+                             2;
+        const double down = e_.gap_mm + b.height_mm[0] + std::min(e_.bow_mm, 0.) - swing - wedge,
+                     up = e_.gap_mm + b.height_mm[1] + std::max(e_.bow_mm, 0.) + swing + wedge;
+        const double into = g_.layers_top_mm - (g_.base_z_mm + down), top = g_.top_z_mm + up;
+        if (!g_.glued && !(into <= rounding_mm) && down < 0)
+            findings_.add(culprit(),
+                          "moves lenses by up to {:.6g} mm towards the panel, {:.6g} mm into the {}; less, or a larger gap", -down,
+                          into, d_.panel.layers.empty() ? "panel" : "panel's layers");
+        else if (up > 0 && g_.diffuser_z_mm && !(*g_.diffuser_z_mm > top))
+            findings_.add(culprit(), "moves lenses by up to {:.6g} mm towards the viewer, into the diffuser at {:.6g} mm", up,
+                          *g_.diffuser_z_mm);
+        else if (up > 0 && !(d_.camera.position_mm[2] > top && d_.content.viewing_distance_mm > top))
+            findings_.add(culprit(), "moves lenses by up to {:.6g} mm towards the viewer, as far as the camera or the viewer", up);
+    }
+    /// What moves lenses up or down.
+    const char* culprit() const {
+        return e_.gap_mm != 0                                 ? "errors.gap_mm"
+               : e_.wedge_deg[0] != 0 || e_.wedge_deg[1] != 0 ? "errors.wedge_deg"
+               : e_.bow_mm != 0                               ? "errors.bow_mm"
+               : e_.height_sd_mm != 0                         ? "errors.height_sd_mm"
+               : e_.tilt_sd_deg != 0                          ? "errors.tilt_sd_deg"
+                                                              : "errors.table";
+    }
+
+    const Display& d_;
+    const Errors& e_;
+    const Geometry g_;
+    Findings& findings_;
+};
+
+}  // namespace
+
+void validate_errors(const Display& d, Findings& findings) {
+    if (!has_errors(d.errors)) return;
+    for (const char* needed : {"lens.", "array.", "errors.", "panel.", "diffuser.", "camera.", "content."})
+        if (!findings.sound(needed)) return;
+    ErrorsCheck(d, findings).check();
+}
+
+}  // namespace lfdsim

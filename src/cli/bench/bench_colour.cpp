@@ -1,0 +1,118 @@
+#include "cli/bench/bench.h"
+#include "cli/bench/bench_cases.h"
+#include "display/colour.h"
+#include "engine/render.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+// Group "colour": a picture of light at three wavelengths against that of one, and of a panel with subpixels against whole pixels.
+// Their results are looked at, too: a fast picture that is wrong is no figure.
+namespace lfdsim::cli {
+namespace {
+
+/// A display and the same with colour; and how far its picture is from what it has to be.
+struct Pair {
+    const char* name;
+    void (*plain)(Display&);
+    void (*colour)(Display&);
+    const char* error_name;
+    double (*error)(const Display& plain, const Display& colour, const Rect&, Bench&);
+};
+
+Image picture_of(const Display& d, const Texels& panel, const Rect& crop, Bench& bench) {
+    return render(d, resolve(d), panel, {bench.settings.threads, bench.settings.kernel, crop}, bench.job()).image;
+}
+
+/// The greatest difference of a channel from its picture through glass of constant indices, those of its wavelength.
+double bands_error(const Display&, const Display& colour, const Rect& crop, Bench& bench) {
+    const Texels panel = noise_panel(colour);
+    const Image all = picture_of(colour, panel, crop, bench);
+    float greatest = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const Image one = picture_of(at_wavelength(colour, colour.panel.wavelengths_nm[c]), panel, crop, bench);
+        for (std::size_t i = c; i < all.rgb.size(); i += 3) greatest = std::max(greatest, std::abs(all.rgb[i] - one.rgb[i]));
+    }
+    return double(greatest);
+}
+
+/// Of a white panel: the mean light of the picture over that with whole pixels, less 1.
+double white_error(const Display& plain, const Display& colour, const Rect& crop, Bench& bench) {
+    const auto light = [&](const Display& d) {
+        Texels white(d.panel.pixels[0], d.panel.pixels[1]);
+        std::fill_n(white.data(), white.columns() * white.rows() * 4, 1.0f);
+        double sum = 0;
+        for (const float one : picture_of(d, white, crop, bench).rgb) sum += double(one);
+        return sum;
+    };
+    return light(colour) / light(plain) - 1;
+}
+
+constexpr Pair pairs[] = {
+    {"asphere, three bands over one", make_asphere,
+     [](Display& d) {
+         make_asphere(d);
+         Surface& flat = d.lens.as<SurfaceLens>().surfaces[0];
+         flat.index.reset();
+         flat.glass = Glass{"", Formula::nd_vd, {1.49, 57.4}};
+     },
+     "greatest difference from constant indices", bands_error},
+    {"strips, stripes over whole pixels", make_strips,
+     [](Display& d) {
+         make_strips(d);
+         d.panel.subpixels = SubpixelLayout::rgb_stripe;
+         d.panel.aperture_ratio = 0.65;
+     },
+     "white's mean, less 1", white_error},
+};
+
+constexpr Duty estimators_of_colour[] = {{"points", [](Display& d) { d.render.estimator = Estimator::point; }},
+                                         {"filtered", [](Display& d) {
+                                              d.render.estimator = Estimator::filtered;
+                                              d.render.samples = 4;
+                                          }}};
+
+void compare(const Pair& pair, const Duty& estimator, Bench& bench) {
+    Display displays[2] = {bench_display(), bench_display()};
+    pair.plain(displays[0]);
+    pair.colour(displays[1]);
+    for (Display& d : displays) estimator.change(d);
+    const Rect crop = band(displays[0], bench.settings.quick ? 16 : 216);
+    const double error = pair.error(displays[0], displays[1], crop, bench);
+    const Texels texels = noise_panel(displays[0]);
+    const SummedPanel panel(texels, bench.settings.threads);
+    for (const Display& d : displays) panel.planes(panel_reading(d));  // made before anything is timed
+    std::vector<Case> cases;
+    for (const Display& d : displays)
+        cases.push_back(
+            {pair.name, [&, geometry = resolve(d)](Job& job) {
+                 const Rendering r = render(d, geometry, panel, {bench.settings.threads, bench.settings.kernel, crop}, job);
+                 return Run{r.seconds, double(r.samples)};
+             }});
+    const std::vector<Measured> times = bench.measure("colour", cases);
+    if (times.size() < 2) return;  // after a signal
+    const double ratio = times[1].median() / times[0].median(),
+                 processor_ratio = times[1].processor_median() / times[0].processor_median();
+    bench.row("colour",
+              {{"name", pair.name},
+               {"estimator", estimator.name},
+               {"seconds", spread(times[1])},
+               {"plain_seconds", spread(times[0])},
+               {"ratio", ratio},
+               {"processor_ratio", processor_ratio},
+               {"error", {{"of", pair.error_name}, {"value", error}}}},
+              fmt::format("{:<34} {:<9} {:8.4f} s over {:8.4f} s: {:6.3f}, by processor time {:6.3f}; {} {:.2g}", pair.name,
+                          estimator.name, times[1].median(), times[0].median(), ratio, processor_ratio, pair.error_name, error));
+}
+
+}  // namespace
+
+void bench_colour(Bench& bench) {
+    bench.heading("Colour: time of a picture over that of the same without, the middle rows of 3840 x 2160");
+    for (const Pair& pair : pairs)
+        for (const Duty& estimator : estimators_of_colour)
+            if (!bench.cancelled()) compare(pair, estimator, bench);
+}
+
+}  // namespace lfdsim::cli

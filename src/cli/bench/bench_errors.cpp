@@ -1,0 +1,94 @@
+#include "cli/bench/bench.h"
+#include "cli/bench/bench_cases.h"
+#include "engine/render.h"
+#include "geometry/lens_misalignment.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+// Group "errors": point samples of arrays whose lenses stand by themselves against those of the same arrays without errors, and
+// whether lenses by themselves that stand where they should give the same picture.
+namespace lfdsim::cli {
+namespace {
+
+constexpr Duty arrays[] = {
+    {"plano-convex", [](Display&) {}},
+    {"asphere", make_asphere},
+    {"hexagons",
+     [](Display& d) {
+         d.array.lattice = LatticeKind::hexagon;
+         d.array.count.reset();
+     }},
+    {"strips", make_strips},
+    {"plano-convex, plate", [](Display& d) { d.array.surround = Surround::plate; }},
+};
+
+constexpr Duty errors[] = {
+    {"decentres", [](Display& d) { d.errors.decenter_sd_mm = 0.01; }},
+    {"decentres, heights, curvatures",
+     [](Display& d) {
+         d.errors.decenter_sd_mm = d.errors.height_sd_mm = 0.01;
+         d.errors.curvature_sd = 0.003;
+     }},
+    {"decentres, heights, curvatures, tilts",
+     [](Display& d) {
+         d.errors.decenter_sd_mm = d.errors.height_sd_mm = 0.01;
+         d.errors.curvature_sd = 0.003;
+         d.errors.tilt_sd_deg = 0.2;
+     }},
+};
+
+void compare(const Duty& array, const Texels& panel, Bench& bench) {
+    Display plain = bench_display();
+    array.change(plain);
+    const RenderOptions options{bench.settings.threads, bench.settings.kernel, band(plain, bench.settings.quick ? 16 : 108)};
+    std::vector<Case> cases;
+    const auto add = [&](const char* name, const Display& d) {
+        cases.push_back({name, [&panel, options, d, geometry = resolve(d)](Job& job) {
+                             const Rendering r = render(d, geometry, panel, options, job);
+                             return Run{r.seconds, double(r.samples)};
+                         }});
+    };
+    add("none", plain);
+    for (const Duty& kind : errors) {
+        Display wrong = plain;
+        kind.change(wrong);
+        if (plain.array.surround == Surround::opaque || wrong.errors.tilt_sd_deg == 0)
+            add(kind.name, wrong);  // no cap of a plate turns
+    }
+    Display nothing = plain;
+    nothing.errors.given = std::make_shared<const std::vector<GivenLensError>>();
+    const auto picture = [&](const Display& d) { return render(d, resolve(d), panel, options, bench.job()).image.rgb; };
+    const std::vector<float> wanted = picture(plain), got = picture(nothing);
+    float difference = 0;
+    for (std::size_t i = 0; i < wanted.size(); ++i) difference = std::max(difference, std::abs(got[i] - wanted[i]));
+
+    const std::vector<Measured> times = bench.measure("errors", cases);
+    for (std::size_t k = 1; k < times.size(); ++k) {
+        const double ratio = times[k].median() / times[0].median(),
+                     processor_ratio = times[k].processor_median() / times[0].processor_median();
+        bench.row("errors",
+                  {{"name", array.name},
+                   {"errors", times[k].name},
+                   {"seconds", spread(times[k])},
+                   {"plain_seconds", spread(times[0])},
+                   {"ratio", ratio},
+                   {"processor_ratio", processor_ratio},
+                   {"greatest_difference_of_none", difference}},
+                  fmt::format("{:<20} {:<38} {:8.4f} s over {:8.4f} s: {:6.3f}, by processor time {:6.3f}; none: differs by {:.1g}",
+                              array.name, times[k].name, times[k].median(), times[0].median(), ratio, processor_ratio, difference));
+    }
+}
+
+}  // namespace
+
+void bench_errors(Bench& bench) {
+    bench.heading("Errors of single lenses: time of points over that of the same array without, the middle rows of 3840 x 2160");
+    const Texels panel = noise_panel(bench_display());
+    for (const Duty& array : arrays)
+        if (!bench.cancelled()) compare(array, panel, bench);
+}
+
+}  // namespace lfdsim::cli

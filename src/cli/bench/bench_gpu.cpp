@@ -1,0 +1,98 @@
+#include "cli/bench/bench.h"
+#include "cli/bench/bench_cases.h"
+#include "engine/devices/gpu.h"
+#include "engine/render.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+// Group "gpu": the whole picture of the paper's size by the first GPU; its own seconds, and those with transfers. The panel is
+// there before, as when a camera moves.
+namespace lfdsim::cli {
+namespace {
+
+struct Wanted {
+    const char* name;
+    Estimator estimator;
+    int samples;  // 0: no diffuser, one ray tells all
+};
+constexpr Wanted wanted[] = {
+    {"point, 100 samples", Estimator::point, 100},     {"point, 16 samples", Estimator::point, 16},
+    {"filtered, 1 sample", Estimator::filtered, 1},    {"filtered, 4 samples", Estimator::filtered, 4},
+    {"filtered, 16 samples", Estimator::filtered, 16}, {"no diffuser", Estimator::point, 0},
+};
+
+Display display_of(const Wanted& w) {
+    Display d = bench_display();
+    d.render.estimator = w.estimator;
+    d.render.samples = std::max(w.samples, 1);
+    if (w.samples == 0) d.diffuser.reset();
+    return d;
+}
+
+RenderOptions on_gpu(std::optional<Rect> crop = {}) {
+    RenderOptions options;
+    options.device = "cuda";
+    options.crop = crop;
+    return options;
+}
+
+// Root mean square of what two pictures differ by, linear light.
+double rmse(const Image& a, const Image& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.rgb.size(); ++i) sum += (double(a.rgb[i]) - b.rgb[i]) * (double(a.rgb[i]) - b.rgb[i]);
+    return std::sqrt(sum / double(a.rgb.size()));
+}
+
+}  // namespace
+
+void bench_gpu(Bench& bench) {
+    bench.heading("GPU: plano-convex lenses, opaque, Schlick, diffuser, 3840 x 2160; its own clock, and with transfers");
+    const cuda::Found& found = found_gpus();
+    if (!found.missing.empty()) return bench.not_measured("gpu", "all", found.missing);
+    const Texels panel = noise_panel(bench_display());
+    const SummedPanel summed(panel, bench.settings.threads);
+    std::vector<std::vector<double>> own(std::size(wanted));
+    std::vector<Case> cases;
+    for (std::size_t k = 0; k < std::size(wanted); ++k) {
+        const Display d = display_of(wanted[k]);
+        cases.push_back({wanted[k].name, [&, k, d, geometry = resolve(d)](Job& job) {
+                             const Rendering r = render(d, geometry, summed, on_gpu(), job);
+                             if (!job.cancelled()) own[k].push_back(r.gpu_seconds);
+                             return Run{r.seconds, double(r.samples)};
+                         }});
+    }
+    // The first picture waits for the panel and for memory.
+    Job quiet;
+    for (const Case& c : cases) c.run(quiet);
+    for (auto& seconds : own) seconds.clear();
+    const std::vector<Measured> all = bench.measure("gpu", cases);
+    if (bench.cancelled()) return;
+    // Errors, in the middle rows: those of the same picture by the CPU, whose bits it has.
+    const auto rows = [&](const Wanted& w) {
+        const Display d = display_of(w);
+        return render(d, resolve(d), summed, on_gpu(band(d, 64)), bench.job()).image;
+    };
+    const Image truth = rows({"", Estimator::point, 16384});
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        if (all[k].seconds.empty() || own[k].empty()) continue;
+        std::sort(own[k].begin(), own[k].end());
+        const double median = own[k][own[k].size() / 2];
+        const bool sampled = wanted[k].samples > 0;
+        const double error = sampled ? rmse(rows(wanted[k]), truth) : 0;
+        bench.row("gpu",
+                  {{"name", all[k].name},
+                   {"gpu", found.gpus.front().name},
+                   {"gpu_seconds", {{"median", median}, {"least", own[k].front()}, {"most", own[k].back()}}},
+                   {"gsamples_per_s", all[k].count / median * 1e-9},
+                   {"seconds", spread(all[k])},
+                   {"rmse", sampled ? Json(error) : Json()}},
+                  fmt::format("{:<24} {:8.3f} ms on the GPU, {:8.3f} ms with transfers, {:8.2f} billion samples/s{}", all[k].name,
+                              median * 1e3, all[k].median() * 1e3, all[k].count / median * 1e-9,
+                              sampled ? fmt::format(", RMSE {:.5f}", error) : ""));
+    }
+}
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,362 @@
+#include "analysis/core/measure.h"
+#include "analysis/pictures/views.h"
+#include "base/printable.h"
+#include "cli/options/display_options.h"
+#include "cli/options/panel_source.h"
+#include "cli/options/variants.h"
+#include "cli/options/work_options.h"
+#include "cli/output/findings_text.h"
+#include "cli/output/output.h"
+#include "cli/program/arguments.h"
+#include "cli/program/commands.h"
+#include "cli/program/input_files.h"
+#include "cli/program/interrupt.h"
+#include "engine/devices/memory.h"
+#include "files/description/display_file.h"
+#include "files/description/shell.h"
+#include "image/formats/file.h"
+#include "report/folder/folder.h"
+#include "report/folder/folder_lock.h"
+#include "report/folder/run_settings.h"
+#include "report/pages/report.h"
+#include "report/pages/side_by_side.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <filesystem>
+
+// lfdsim analyze: measures a display. What is finished stays, whatever happens to the rest.
+namespace lfdsim::cli {
+namespace {
+
+struct AnalyzeArguments {
+    explicit AnalyzeArguments(Command command)
+        : measures_option(command.add_option("MEASURE", measures, "One or more, separated by commas; default, or all: all of them")
+                              .type_name("")
+                              .required()),
+          display(command, {content_options, camera_options, sample_options}, false),
+          model(command),
+          device(command),
+          work(command) {
+        command
+            .add_option("OTHER.toml", others,
+                        "More displays: each is measured in its own folder and shown side by side with the first")
+            .type_name("");
+        command
+            .add_option("--compare", compare,
+                        "Measures the display once for each value of a key, side by side: array.gap_mm=3.2,3.3; pickup stands for "
+                        "content.pickup=nodal,traced")
+            .type_name("KEY=VALUE,VALUE");
+        command.add_option("-o,--output", output, "Folder for the results and report.html; created if missing")
+            .type_name("DIR REQUIRED");  // told with what else is wrong
+        command.add_flag("--resume", resume, "Skip what an earlier run with the same settings has finished there");
+        command.add_flag("--replace", replace,
+                         "Remove what an earlier run with other settings has left there, and write over files of other origin");
+        command.add_option("--angles-deg", angles, "Views of the field of view; default: 61 or more, beyond the expected edges")
+            .type_name("FROM,TO,STEP");
+        command
+            .add_option("--depths-mm", depths,
+                        "Depths of the model for the depth of field; default: 31 over what theory calls sharp, through 0")
+            .type_name("FROM,TO,STEP");
+        command.add_option("--viewing-distance-mm", viewing_distance, "Distance of the eyes from the panel; default the camera's")
+            .type_name("D");
+        command.add_option("--eye-distance-mm", eye_distance, "Distance between the two eyes; default 65").type_name("E");
+        command.add_option("--wavelength-nm", wavelength, "Wavelength for diffraction; default 550").type_name("W");
+    }
+    std::string measures;
+    Option measures_option;
+    DisplayOptions display;
+    ModelOption model;
+    DeviceOption device;
+    WorkOptions work;
+    std::vector<std::string> others;
+    std::string compare, output, angles, depths, viewing_distance, eye_distance, wavelength;
+    bool resume = false, replace = false;
+};
+
+/// "-30,30,1": rising, both ends within low .. high, at most 10000 steps.
+std::vector<double> steps(const char* option, const std::string& text, double low, double high, const char* example) {
+    if (text.empty()) return {};
+    const std::vector<double> v = numbers(option, text, example, "FROM,TO,STEP");
+    if (!(v[0] < v[1] && v[2] > 0 && (v[1] - v[0]) / v[2] <= 10000 && v[0] >= low && v[1] <= high))
+        throw InputError(option,
+                         fmt::format("is {}; give FROM,TO,STEP with {} <= FROM < TO <= {} and a STEP above 0 that makes at most "
+                                     "10000 of them",
+                                     text, low, high));
+    std::vector<double> all;
+    for (int k = 0; v[0] + k * v[2] <= v[1] + 1e-9 * v[2]; ++k) all.push_back(v[0] + k * v[2]);
+    return all;
+}
+
+double positive(const char* option, const std::string& text, double most) {
+    const double x = number(option, text);
+    if (!(x > 0 && x <= most)) throw InputError(option, fmt::format("is {}; allowed is more than 0, up to {}", text, most));
+    return x;
+}
+
+std::vector<const Measure*> chosen(const std::string& names) {
+    std::vector<const Measure*> result;
+    if (names == "all") {
+        for (const Measure& m : measures()) result.push_back(&m);
+        return result;
+    }
+    for (std::size_t start = 0; start <= names.size();) {
+        const std::size_t end = std::min(names.find(',', start), names.size());
+        const Measure& m = measure_named(names.substr(start, end - start));
+        if (std::find(result.begin(), result.end(), &m) == result.end()) result.push_back(&m);
+        start = end + 1;
+    }
+    return result;
+}
+
+/// Throws InputError if a file of the folder, by its ending one that measures may write, is one that the command reads.
+void refuse_inputs_in(const std::filesystem::path& folder) {
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+        for (const char* ending : {".json", ".csv", ".svg", ".png", ".html"})
+            if (entry.path().extension() == ending) refuse_input(entry.path());
+}
+
+/// What is finished is kept and reported, whatever becomes of the rest.
+struct Analysis {
+    Subject& subject;
+    const ResultFolder& folder;
+    ReportAbout about;
+    std::vector<Problem> problems = {};
+
+    void measure(bool resume, const std::string& progress_style) {
+        std::vector<const Measure*> left;
+        std::int64_t steps = 0;
+        for (const Measure* m : about.wanted) {
+            if (resume && folder.has(*m)) continue;
+            left.push_back(m);
+            steps += m->steps(subject);
+        }
+        Progress progress(progress_style);
+        if (!left.empty()) progress.stage("analyzing", steps);
+        try {
+            for (const Measure* m : left) one(*m, progress);
+        } catch (const Stopped&) {
+            about.interrupted = true;
+        } catch (...) {
+            report();
+            throw;
+        }
+        progress.end();
+        report();
+    }
+
+  private:
+    void one(const Measure& m, Progress& progress) {
+        try {
+            const auto start = std::chrono::steady_clock::now();
+            if (auto problem = refusal(m, subject.display())) throw InputError(std::vector{std::move(*problem)});
+            const Result result = m.run(subject, progress);
+            folder.write(m, result, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        } catch (const InputError& e) {  // it does not suit this display or these options: others may
+            about.failed.emplace_back(&m, e.what());
+            problems.insert(problems.end(), e.problems.begin(), e.problems.end());
+        }
+    }
+    void report() {
+        if (about.interrupted || has_results(folder))
+            folder.write_text(ResultFolder::report_name, report_html(subject, folder, about));
+    }
+};
+
+bool names_measures(const std::string& word) {
+    if (word == "all") return true;
+    try {
+        measure_named(word.substr(0, word.find(',')));
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+std::string file_name(const std::string& path) { return std::filesystem::path(path).stem(); }
+
+/// What is asked for. Where the first word is a description, MEASURE was left out.
+struct Request {
+    std::vector<const Measure*> wanted;
+    std::vector<std::string> paths;
+    std::vector<Display> displays;
+    AnalysisOptions options;
+};
+
+Request request_of(const AnalyzeArguments& args) {
+    Request request;
+    Faults faults;
+    std::string names = args.measures;
+    request.paths = args.others;
+    request.paths.insert(request.paths.begin(), args.display.path());
+    std::error_code none;
+    if (!names_measures(names) && (names.ends_with(".toml") || std::filesystem::is_regular_file(names, none))) {
+        if (names_measures(args.display.path()) && !std::filesystem::exists(args.display.path(), none))
+            throw InputError(args.display.path(), fmt::format("is a measure, and these come first: lfdsim analyze {} {} ...",
+                                                              args.display.path(), shell_file(names)));
+        if (args.display.path().empty()) request.paths.clear();
+        request.paths.insert(request.paths.begin(), names);
+        names = "all";
+    }
+    faults.of([&] { request.wanted = chosen(names); });
+    std::vector<Variant> variants{{}};
+    faults.of([&] {
+        if (!args.compare.empty()) variants = variants_of(args.compare);
+        if (!args.compare.empty() && request.paths.size() > 1)
+            throw InputError("--compare", "compares one display with itself; name one description");
+    });
+    if (variants.size() > 1 && request.paths.size() == 1) request.paths.resize(variants.size(), request.paths.front());
+    for (std::size_t n = 0; n < request.paths.size(); ++n)
+        faults.of([&] {
+            const Variant& variant = variants[n % variants.size()];
+            Display& display = request.displays.emplace_back(args.display.read(request.paths[n], variant.setting));
+            if (!variant.name.empty())
+                display.name =
+                    fmt::format("{}-{}", display.name.empty() ? file_name(request.paths[n]) : display.name, variant.name);
+            require_panel_memory(display);
+            args.model.apply(display);
+        });
+    faults.of([&] { args.work.check(); });
+    faults.of([&] { args.device.apply(); });
+    AnalysisOptions& options = request.options;
+    faults.of([&] { options.angles_deg = steps("--angles-deg", args.angles, -80, 80, "-30,30,1"); });
+    faults.of([&] { options.depths_mm = steps("--depths-mm", args.depths, -1e6, 1e6, "10,300,10"); });
+    faults.of([&] {
+        if (!args.viewing_distance.empty())
+            options.viewing_distance_mm = positive("--viewing-distance-mm", args.viewing_distance, 1e6);
+        if (!args.eye_distance.empty()) options.eye_distance_mm = positive("--eye-distance-mm", args.eye_distance, 1000);
+        if (!args.wavelength.empty()) options.wavelength_nm = positive("--wavelength-nm", args.wavelength, 1e5);
+    });
+    if (args.output.empty()) faults.of([] { throw InputError("--output", "is required: give a folder for the results"); });
+    faults.report();
+    options.threads = args.work.threads();
+    return request;
+}
+
+/// What has become of one display.
+struct Outcome {
+    ResultFolder folder;
+    Json found = Json::object();
+    bool interrupted;
+    std::vector<Problem> problems;
+};
+
+Outcome measure(const AnalyzeArguments& args, const Request& request, const Display& display, const std::filesystem::path& place) {
+    const std::vector<const Measure*>& wanted = request.wanted;
+    const AnalysisOptions& options = request.options;
+    std::optional<ContentScene> scene;
+    if (std::any_of(wanted.begin(), wanted.end(), [](const Measure* m) { return m->needs_scene; })) {
+        const Geometry geometry = resolve(display);
+        if (display.content.depth_mm) refuse_depth_in_lenses(geometry, *display.content.depth_mm, "content.depth_mm");
+        scene = load_scene(display, geometry);
+    }
+    Subject subject(display, std::move(scene), options);
+    const std::string description = write_display(display);
+    refuse_inputs_in(place);
+    const FolderLock lock(place);
+    const ResultFolder folder(place, run_settings(subject, LFDSIM_VERSION));
+    folder.keep_apart(wanted, args.resume, args.replace);
+    Analysis run{subject, folder, {command_line(), description, wanted}};
+    run.measure(args.resume, args.work.progress());
+    Outcome outcome{folder, Json::object(), run.about.interrupted, run.problems};
+    for (const Measure* m : wanted)
+        if (folder.has(*m)) outcome.found[std::string(m->name)] = folder.read(*m);
+    return outcome;
+}
+
+/// Names of folders, one for each display: its own or its file's, of letters that every file system takes.
+std::vector<std::string> folder_names(const Request& request) {
+    std::vector<std::string> all;
+    for (std::size_t n = 0; n < request.displays.size(); ++n) {
+        std::string name = request.displays[n].name;
+        if (name.empty()) name = file_name(request.paths[n]);
+        for (char& c : name)
+            if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_' && c != '.') c = '_';
+        name = name.substr(0, 100);
+        if (name.starts_with('.')) name[0] = '_';
+        std::string unique = name;
+        for (int k = 2; std::find(all.begin(), all.end(), unique) != all.end(); ++k) unique = fmt::format("{}-{}", name, k);
+        all.push_back(unique);
+    }
+    return all;
+}
+
+/// Each display in a folder of its own, then all of them in one report. What is finished is kept and reported here, too.
+void side_by_side(const AnalyzeArguments& args, const Request& request) {
+    const std::filesystem::path place = args.output;
+    refuse_inputs_in(place);
+    const FolderLock lock(place);
+    ResultFolder::keep_report_apart(place, args.replace);
+    for (const Measure& m : measures())
+        if (std::filesystem::exists(place / (std::string(m.name) + ".json")))
+            throw InputError("--output", fmt::format("{} holds the results of one display; give another folder", args.output));
+    const std::vector<std::string> names = folder_names(request);
+    std::vector<MeasuredDisplay> measured;
+    std::vector<Problem> problems;
+    Json found = Json::object();
+    const HeedSignals heed;  // between two displays, too, the report comes before the end
+    bool interrupted = false;
+    for (std::size_t n = 0; n < names.size() && !interrupted; ++n) {
+        Outcome outcome = measure(args, request, request.displays[n], place / names[n]);
+        interrupted = outcome.interrupted;
+        for (const Problem& p : outcome.problems) problems.push_back({names[n] + ": " + p.where, p.what});
+        found[names[n]] = std::move(outcome.found);
+        measured.push_back({names[n], request.displays[n], std::move(outcome.folder)});
+    }
+    Json all = differences(measured);
+    std::string missing = interrupted ? "The run was interrupted; the same command with --resume continues it." : "";
+    for (const Problem& p : problems) missing += fmt::format("{}{}: {}.", missing.empty() ? "" : " ", p.where, p.what);
+    detail::OutputFile file(place / ResultFolder::report_name);
+    const std::string html = side_by_side_html(measured, all, command_line(), missing);
+    file.write(html.data(), html.size());
+    file.commit();
+    if (interrupted) {
+        spdlog::warn("interrupted; {} holds what is finished; the same command with --resume continues it", args.output);
+        throw Interrupted{};
+    }
+    if (!problems.empty()) throw InputError(problems);
+    if (args.work.json()) {
+        all["results"] = found;
+        return print_json(all);
+    }
+    print(fmt::format("{}\n{}: the report; of each display separately: {}\n", table_of_differences(all),
+                      printable((place / ResultFolder::report_name).string()), fmt::join(names, ", ")));
+}
+
+void run(const AnalyzeArguments& args) {
+    const Request request = request_of(args);
+    if (request.displays.size() > 1) return side_by_side(args, request);
+    const Outcome outcome = measure(args, request, request.displays.front(), args.output);
+    if (outcome.interrupted) {
+        spdlog::warn("interrupted; {} holds {} of {} measures; the same command with --resume continues it", args.output,
+                     outcome.found.size(), request.wanted.size());
+        throw Interrupted{};
+    }
+    if (!outcome.problems.empty()) throw InputError(outcome.problems);
+    if (args.work.json()) return print_json(request.wanted.size() == 1 ? outcome.found.front() : outcome.found);
+    std::string text;
+    for (const Json& measured : outcome.found) text += table_of(measured);
+    print(fmt::format("{}\n{}: the report; the figures are in the same folder\n", text,
+                      printable((outcome.folder.path() / ResultFolder::report_name).string())));
+}
+
+}  // namespace
+
+void add_analyze(Command program) {
+    Command command = program.add_subcommand("analyze", "Measures a display: field of view, depth of field and more");
+    const auto args = std::make_shared<AnalyzeArguments>(command);
+    std::string list = "Measures:\n";
+    for (const Measure& m : measures()) list += fmt::format("  {:<12} {}\n", m.name, m.says);
+    command.footer(list +
+                   "Examples:\n  lfdsim analyze all display.toml --model monkey.blend -o report\n"
+                   "  lfdsim analyze fov,dof display.toml --model monkey.blend --size 960x540 -o quick --json\n"
+                   "  lfdsim analyze fov,mtf flat.toml curved.toml -o both\n"
+                   "  lfdsim analyze fov display.toml --compare pickup -o pickups");
+    command.callback([args] { run(*args); });
+}
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,133 @@
+#include "report/folder/check.h"
+#include "base/printable.h"
+#include "cli/options/display_options.h"
+#include "cli/output/output.h"
+#include "cli/program/commands.h"
+#include "report/folder/colours.h"
+#include "report/folder/description.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <cmath>
+
+// lfdsim check: what is wrong with a display, what follows from its description, and what that says, key by key.
+namespace lfdsim::cli {
+namespace {
+
+struct CheckArguments {
+    explicit CheckArguments(Command command) : display(command, {camera_options, sample_options, content_options}) {
+        command.add_flag("--json", json, "Print results as JSON, with all keys");
+        command.add_flag("--all", all, "Print all keys, those with their defaults too");
+    }
+    DisplayOptions display;
+    bool json = false, all = false;
+};
+
+std::string text_of(const Json& value) {
+    if (value.is_string()) return printable(value.get<std::string>());
+    if (value.is_number_float()) return fmt::format("{:.10g}", value.get<double>());
+    if (!value.is_array()) return value.dump();
+    std::string text;
+    for (const Json& element : value) text += (text.empty() ? "" : ", ") + text_of(element);
+    return text;
+}
+
+std::string table_of(const Setting& s) {
+    const bool absent = s.value.is_null() || s.value == "" || s.value == Json::array();
+    std::string text = absent ? "-" : text_of(s.value);
+    if (!absent && !unit_of(s.key).empty()) text += " " + unit_of(s.key);
+    std::string note = s.is_default ? "default" : "";
+    if (absent && !s.absent.empty()) note += ": " + s.absent;
+    return fmt::format("  {:<22} {:<32}{}", s.key, text, note);
+}
+
+// Seven digits: more than any length is made to, fewer than double arithmetic carries.
+std::string number_text(double x) {
+    return std::isfinite(x) ? fmt::format("{:.7g}", x) : std::isnan(x) ? "none" : x > 0 ? "infinite" : "-infinite";
+}
+
+std::string table_of(const Figure& f) {
+    std::vector<std::string> numbers;
+    const bool interval = f.kind == Figure::Kind::interval;
+    for (const double x : f.values) numbers.push_back(interval && std::isfinite(x) ? fmt::format("{:.4g}", x) : number_text(x));
+    if (interval && std::isnan(f.values[0])) numbers.resize(1);
+    std::string value = fmt::format("{}", fmt::join(numbers, interval ? " to " : " x "));
+    const auto number = [&](double x) { return std::isfinite(x) || (interval && !std::isnan(x)); };
+    if (std::ranges::all_of(f.values, number)) value += " " + unit_of(f.name);
+    return fmt::format("  {:<28} {:<22} {}", f.name, value, f.meaning);
+}
+
+// Trailing blanks of the columns are cut.
+void add_line(std::string& text, std::string line) {
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+}
+
+/// A line for each figure, a column for each channel.
+std::string table_of(const std::vector<ChannelTheory>& colours) {
+    std::string text = "\nTheory by colour, where glass disperses; all things stand where green light has them\n";
+    const auto row = [&](const std::string& name, const char* meaning, const auto& value) {
+        std::string line = fmt::format("  {:<28}", name);
+        for (const ChannelTheory& c : colours) line += fmt::format(" {:<12}", value(c));
+        add_line(text, line + " " + meaning);
+    };
+    const auto figure = [&](const char* name, const char* meaning, double ChannelTheory::*member) {
+        row(name, meaning, [&](const ChannelTheory& c) { return number_text(c.*member); });
+    };
+    row("", "", [](const ChannelTheory& c) { return c.name; });
+    figure("wavelength_nm", "at which the channel shines", &ChannelTheory::wavelength_nm);
+    for (std::size_t k = 0; k < colours.front().indices.size(); ++k)
+        row(colours.front().indices[k].first, "n, index of the glass",
+            [&](const ChannelTheory& c) { return number_text(c.indices[k].second); });
+    figure("focal_length_mm", "f", &ChannelTheory::focal_length_mm);
+    figure("gap_mm", "g", &ChannelTheory::gap_mm);
+    figure("central_depth_mm", "L", &ChannelTheory::central_depth_mm);
+    return text;
+}
+
+void run(const CheckArguments& args) {
+    const Display display = args.display.read();
+    const Geometry geometry = resolve(display);
+    const Theory paraxial = theory(display, geometry);
+    if (args.json) return print_json(check_json(display));
+    const std::vector<Setting> keys = settings(display);
+    const std::vector<ChannelTheory> colours = theory_by_colour(display);
+    const std::vector<std::string> warnings = worth_knowing(display, geometry, paraxial);
+
+    // What is wrong comes first, then what follows from the description, and last what it says.
+    std::string text = printable(args.display.path()) + " is valid", table;
+    text += warnings.empty() ? "; views, sharpness, colours, eye and scene leave nothing to say.\n" : ", but worth knowing:\n";
+    for (const std::string& warning : warnings) text += "  - " + warning + "\n";
+    text += "\nPlaces and sizes (z from the panel)\n";
+    for (const Figure& f : figures(display, geometry)) add_line(text, table_of(f));
+    text += "\nParaxial theory (depths from the lenses, negative behind them)\n";
+    for (const Figure& f : figures(display, geometry, paraxial))
+        if (f.kind != Figure::Kind::for_scripts) add_line(text, table_of(f));
+    if (!colours.empty()) text += table_of(colours);
+    const std::vector<Figure> largest = largest_errors(display, geometry);
+    if (!largest.empty()) text += "\nLargest errors of single lenses\n";
+    for (const Figure& f : largest) add_line(text, table_of(f));
+    text += args.all ? "\nKeys\n" : "\nKeys that differ from their defaults (--all: every key)\n";
+    for (const Setting& s : keys) {
+        if (s.is_default && !args.all) continue;
+        if (!s.table.empty() && s.table != table) add_line(text, fmt::format("[{}]", s.table));
+        table = s.table;
+        add_line(text, table_of(s));
+    }
+    print(text);
+}
+
+}  // namespace
+
+void add_check(Command program) {
+    Command command = program.add_subcommand(
+        "check",
+        "Validates a description; prints what is wrong with it and its remedies, the derived lengths, the paraxial theory, and "
+        "its keys");
+    const auto args = std::make_shared<CheckArguments>(command);
+    command.footer("Example:\n  lfdsim check display.toml --set array.gap_mm=17");
+    command.callback([args] { run(*args); });
+}
+
+}  // namespace lfdsim::cli

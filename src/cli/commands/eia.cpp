@@ -1,0 +1,101 @@
+#include "base/counted.h"
+#include "cli/options/display_options.h"
+#include "cli/options/grid_options.h"
+#include "cli/options/made_for.h"
+#include "cli/options/panel_source.h"
+#include "cli/options/work_options.h"
+#include "cli/output/mapping_export.h"
+#include "cli/program/arguments.h"
+#include "cli/program/commands.h"
+#include "cli/program/effects.h"
+#include "engine/devices/memory.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+// lfdsim eia: elemental images or a test pattern, in a file that the panel can be fed with: code values by the panel's encoding.
+namespace lfdsim::cli {
+namespace {
+
+struct EiaArguments {
+    explicit EiaArguments(Command of)
+        : command(of),
+          display(command, {content_options}),
+          model(command),
+          pattern(command),
+          views(command),
+          output(command, ".png with the panel's encoding, or linear .exr .npy"),
+          mapping(command),
+          work(command) {}
+    Command command;
+    DisplayOptions display;
+    ModelOption model;
+    PatternOption pattern;
+    ViewsOption views;
+    OutputOptions output;
+    MappingOption mapping;
+    WorkOptions work;
+};
+
+void run(EiaArguments& args) {
+    Faults faults;
+    Display display;
+    PatternOptions pattern_options;
+    faults.of([&] {
+        display = args.display.read();
+        const auto [columns, rows] = display.panel.pixels;
+        require_memory("panel.pixels", fmt::format("an image of the panel's {} x {} pixels", columns, rows),
+                       picture_bytes(columns, rows));
+    });
+    faults.of([&] { pattern_options = args.pattern.read(); });
+    faults.of([&] { args.model.apply(display); });
+    faults.of([&] { args.views.check(); });
+    faults.of([&] { args.work.check(); });
+    faults.of([&] { args.output.check(); });
+    faults.of([&] { args.mapping.check(args.output.path()); });
+    faults.of([&] { check_effects(args.command); });
+    faults.report();
+
+    const Geometry geometry = resolve(display);
+    Picture picture;
+    std::string of_views;
+    Json more = Json::object();
+    Progress progress(args.work.progress());
+    if (args.views.given()) {
+        ViewsOption::Made made = args.views.make(display, geometry, args.work.threads(), progress);
+        picture = std::move(made.field.picture);
+        of_views = std::move(made.text);
+        more["views"] = std::move(made.json);
+    } else if (args.pattern.given()) {
+        picture.image = pattern(args.pattern.name(), display, geometry, pattern_options);
+    } else {
+        const ContentScene scene = load_scene(display, geometry);
+        picture = elemental_images(display, geometry, scene, args.work.threads(), progress);
+    }
+    if (args.mapping.given()) args.mapping.write(display, geometry, args.work.threads());
+    if (picture.dark > 0) {
+        more["dark"] = picture.dark;
+        spdlog::warn("the light of {} never leaves its lens: black is shown there",
+                     counted(picture.dark, display.panel.subpixels == SubpixelLayout::none ? "pixel" : "subpixel"));
+    }
+    Metadata about{{"seconds", fmt::format("{:.3f}", picture.seconds)}};
+    if (args.pattern.given()) about[pattern_mark] = args.pattern.name();
+    args.output.write(picture.image, display.panel.encoding, display, std::move(about), picture.complete, progress);
+    print_made(Made{args.output.path(), picture.image.width, picture.image.height, "rays", picture.rays, picture.seconds},
+               args.work.json(), of_views, more);
+}
+
+}  // namespace
+
+void add_eia(Command program) {
+    Command command =
+        program.add_subcommand("eia", "Makes the panel's picture: the elemental images of a model or of views, or a test pattern");
+    const auto args = std::make_shared<EiaArguments>(command);
+    command.footer(
+        "Examples:\n  lfdsim eia display.toml --model monkey.blend --height-mm 120 -o eia.png\n"
+        "  lfdsim eia display.toml --views lego --baseline-mm 12 --focus-depth-mm 0 -o eia.png\n"
+        "  lfdsim eia display.toml --pattern checkerboard --cell-pixels 8 -o eia.png");
+    command.callback([args] { run(*args); });
+}
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,72 @@
+#include "cli/options/display_options.h"
+#include "cli/options/panel_source.h"
+#include "cli/options/work_options.h"
+#include "cli/program/arguments.h"
+#include "cli/program/commands.h"
+
+#include <fmt/format.h>
+
+// lfdsim photo: the model itself before the same camera, with the same shading; what a view of the display is measured against.
+namespace lfdsim::cli {
+namespace {
+
+struct PhotoArguments {
+    explicit PhotoArguments(Command command)
+        : display(command, {content_options, camera_options, point_options}),
+          model(command),
+          crop(command),
+          output(command, ".png (sRGB), or linear .exr .npy"),
+          work(command) {}
+    DisplayOptions display;
+    ModelOption model;
+    CropOption crop;
+    OutputOptions output;
+    WorkOptions work;
+};
+
+// A pinhole that looks through pixel centres casts one ray a pixel.
+void refuse_idle_samples(const PhotoArguments& args, const Camera& camera) {
+    if (camera.pupil_diameter_mm || camera.pixel_filter == PixelFilter::box) return;
+    for (const KeyOption& option : point_options)
+        if (args.display.given(option.option))
+            throw InputError(option.option,
+                             "has no effect on a pinhole that looks through pixel centres; give the camera a pupil (--set "
+                             "camera.pupil_diameter_mm=4) or a pixel filter (--set camera.pixel_filter=box)");
+}
+
+void run(const PhotoArguments& args) {
+    Faults faults;
+    Display display;
+    std::optional<Rect> crop;
+    faults.of([&] {
+        display = args.display.read();
+        crop = args.crop.read(display.camera, 0);
+        refuse_idle_samples(args, display.camera);
+    });
+    faults.of([&] { args.model.apply(display); });
+    faults.of([&] { args.work.check(); });
+    faults.of([&] { args.output.check(); });
+    faults.report();
+
+    const Geometry geometry = resolve(display);
+    const ContentScene scene = load_scene(display, geometry);
+    Progress progress(args.work.progress());
+    const Picture picture = reference_photograph(display, geometry, scene, args.work.threads(), crop, progress);
+    args.output.write(picture.image, Encoding::srgb, display, {{"seconds", fmt::format("{:.3f}", picture.seconds)}},
+                      picture.complete, progress);
+    print_made(Made{args.output.path(), picture.image.width, picture.image.height, "rays", picture.rays, picture.seconds},
+               args.work.json());
+}
+
+}  // namespace
+
+void add_photo(Command program) {
+    Command command = program.add_subcommand("photo", "Makes the reference photograph: the model itself, seen by the same camera");
+    const auto args = std::make_shared<PhotoArguments>(command);
+    command.footer(
+        "Example:\n  lfdsim photo display.toml --model monkey.blend --camera-mm 518,0,1932 -o photo.png\n"
+        "  lfdsim photo display.toml --set camera.pupil_diameter_mm=20 camera.focus_distance_mm=1800 -o blurred.png");
+    command.callback([args] { run(*args); });
+}
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,171 @@
+#include "engine/render.h"
+
+#include "base/counted.h"
+#include "cli/commands/render_path.h"
+#include "cli/options/display_options.h"
+#include "cli/options/exposure.h"
+#include "cli/options/lens_mesh_options.h"
+#include "cli/options/panel_source.h"
+#include "cli/options/shown_panel.h"
+#include "cli/options/work_options.h"
+#include "cli/output/rendered.h"
+#include "cli/program/arguments.h"
+#include "cli/program/commands.h"
+#include "cli/program/effects.h"
+#include "display/keys.h"
+#include "engine/devices/devices.h"
+#include "engine/devices/memory.h"
+#include "engine/scene/scene.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <chrono>
+
+// lfdsim render: panel image in, camera picture out. All that can be wrong with the command line is told before work begins.
+namespace lfdsim::cli {
+namespace {
+
+struct RenderArguments {
+    explicit RenderArguments(Command of)
+        : command(of),
+          display(command, {camera_options, sample_options, content_options}),
+          panel_image(command),
+          model(command),
+          pattern(command),
+          crop(command),
+          output(command, ".png (sRGB), or linear .exr .npy (float32, H x W x 3); with --path a folder, created if missing"),
+          path(command),
+          lens_mesh(command),
+          exposure(command),
+          device(command),
+          work(command) {
+        command
+            .add_option("--kernel", kernel, "Instruction set; default: environment variable LFDSIM_KERNEL, else the best there is")
+            .type_name("scalar|baseline|avx2|avx512");
+        command
+            .add_option("--target-error", target_error,
+                        "Add samples until the estimated error of each 4 x 4 pixels is below E, in linear light; an .exr then has "
+                        "a layer \"error\"")
+            .type_name("E");
+    }
+    Command command;
+    DisplayOptions display;
+    PanelImageOption panel_image;
+    ModelOption model;
+    PatternOption pattern;
+    CropOption crop;
+    OutputOptions output;
+    PathOptions path;
+    LensMeshOptions lens_mesh;
+    ExposureOption exposure;
+    DeviceOption device;
+    WorkOptions work;
+    std::string kernel, target_error;
+};
+
+void render_frames(const RenderArguments& args, const Display& display, const CameraPath& path, const RenderOptions& options,
+                   const std::function<PanelLight()>& light, Progress& progress) {
+    const Json shown = shown_stamp(args.panel_image, args.pattern, display);
+    PanelLight panel;
+    const auto texels = [&]() -> const Texels& {
+        panel = light();
+        return panel.texels;
+    };
+    PathMade made = render_path({args.path, args.output, path, display, options, shown.dump()}, texels, progress);
+    const auto [columns, rows] = display.camera.resolution;
+    made.more.update({{"frames", made.frames}, {"rendered", made.rendered}});
+    made.more.update(panel.made);
+    print_made(Made{args.output.path(), options.crop ? options.crop->x1 - options.crop->x0 : int(columns),
+                    options.crop ? options.crop->y1 - options.crop->y0 : int(rows), "samples", made.samples, made.seconds},
+               args.work.json(),
+               fmt::format("{}{}; {}, {} of them made before", made.how.empty() ? "" : ", ", made.how,
+                           counted(made.frames, "frame"), made.frames - made.rendered),
+               made.more);
+}
+
+void run(const RenderArguments& args) {
+    Faults faults;
+    Display display;
+    PatternOptions pattern_options;
+    std::optional<Rect> crop;
+    faults.of([&] {
+        display = args.display.read();
+        crop = args.crop.read(display.camera, texel_bytes(display));
+        if (!args.panel_image.given()) require_panel_memory(display);
+        if (args.command.given("--sampling") && !args.lens_mesh.given() && estimator_of(display) != Estimator::point)
+            throw InputError("--sampling", "applies to points only; add --estimator point");
+    });
+    faults.of([&] { args.panel_image.check(); });
+    faults.of([&] { pattern_options = args.pattern.read(); });
+    faults.of([&] {
+        choose_kernel(args.kernel);
+        args.device.apply();
+    });
+    std::optional<double> target;
+    faults.of([&] {
+        if (args.target_error.empty()) return;
+        target = number("--target-error", args.target_error);
+        if (*target <= 0) throw InputError("--target-error", fmt::format("is {}, allowed is more than 0", args.target_error));
+    });
+    faults.of([&] { args.model.apply(display); });
+    faults.of([&] { args.work.check(); });
+    std::optional<CameraPath> path;
+    faults.of([&] { args.path.check(args.output); });
+    if (args.path.given())
+        faults.of([&] { path = args.path.read(); });
+    else
+        faults.of([&] { args.output.check(); });
+    faults.of([&] { args.lens_mesh.check(); });
+    faults.of([&] { args.exposure.check(); });
+    faults.of([&] { check_effects(args.command); });
+    faults.report();
+    if (path) args.path.check(*path, display);
+
+    const Geometry geometry = resolve(display);
+    Progress progress(args.work.progress());
+    const std::optional<MeshedLens> lens = args.lens_mesh.lens(display, geometry);
+    const auto light = [&] {
+        return shown_panel(args.panel_image, args.pattern, display, geometry, pattern_options, args.work.threads(), progress);
+    };
+    const RenderOptions options{args.work.threads(), args.kernel, crop, target};
+    if (path) return render_frames(args, display, *path, options, light, progress);
+    const PanelLight panel = light();
+    Rendering r = lens ? render_meshed(display, geometry, panel.texels, *lens, options, progress)
+                       : render(display, geometry, panel.texels, options, progress);
+    const std::optional<double> exposure = args.exposure.factor(display, geometry, options, progress);
+    if (exposure) ExposureOption::apply(*exposure, r);
+    Rendered facts = rendered(r, target, keeps_layers(args.output.path()));
+    if (exposure) {
+        facts.about["exposure"] = fmt::format("{}", *exposure);
+        facts.more["exposure"] = *exposure;
+    }
+    if (lens) {
+        facts.about["lens_mesh"] = args.lens_mesh.text(*lens);
+        facts.more["lens_mesh"] = args.lens_mesh.json(*lens);
+    }
+    if (facts.pixels_above_target > 0)
+        spdlog::warn("{} did not reach the target error with the maximum number of samples",
+                     counted(facts.pixels_above_target, "pixel"));
+    args.output.write(r.image, Encoding::srgb, display, std::move(facts.about), r.complete, progress, std::move(facts.layers));
+
+    facts.more.update(panel.made);
+    print_made(Made{args.output.path(), r.image.width, r.image.height, "samples", r.samples, r.seconds}, args.work.json(),
+               ", " + how_made(r) + (lens ? "; " + args.lens_mesh.text(*lens) : ""), facts.more);
+}
+
+}  // namespace
+
+void add_render(Command program) {
+    Command command = program.add_subcommand("render", "Renders what a camera sees of the display");
+    const auto args = std::make_shared<RenderArguments>(command);
+    command.footer(
+        "Examples:\n  lfdsim render display.toml --panel-image eia.png --camera-mm -300,0,1800 -o view.png\n"
+        "  lfdsim render display.toml --panel-image eia.png --target-error 0.005 -o view.exr\n"
+        "  lfdsim render display.toml --panel-image eia.png --set panel.subpixels=rgb_stripe --exposure auto -o stripes.png\n"
+        "  lfdsim render display.toml --panel-image eia.png --path walk.json -o walk\n"
+        "  lfdsim render display.toml --panel-image eia.png --lens-mesh 3386 --lens-normals smooth -o meshed.png\n"
+        "  lfdsim render display.toml --model monkey.blend --set array.pitch_mm=8 lens.aperture_radius_mm=4 -o view.exr");
+    command.callback([args] { run(*args); });
+}
+
+}  // namespace lfdsim::cli

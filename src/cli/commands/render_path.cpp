@@ -1,0 +1,168 @@
+#include "cli/commands/render_path.h"
+
+#include "base/counted.h"
+#include "cli/output/numbered_pictures.h"
+#include "cli/output/rendered.h"
+#include "cli/program/arguments.h"
+#include "cli/program/input_files.h"
+#include "cli/program/interrupt.h"
+#include "display/keys.h"
+#include "engine/scene/scene.h"
+#include "engine/views/pipelined.h"
+#include "files/description/display_file.h"
+#include "geometry/geometry.h"
+#include "report/folder/folder_lock.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace lfdsim::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Hands over the pixels of one frame; the stage is that of all.
+class Frame : public Job {
+  public:
+    explicit Frame(Job& whole) : whole_(whole) {}
+    void advance(std::int64_t units) override { whole_.advance(units); }
+    bool cancelled() const override { return whole_.cancelled(); }
+
+  private:
+    Job& whole_;
+};
+
+Display at_frame(const CameraPath& path, std::int64_t frame, Display display) {
+    display.camera = path.camera(frame, display.camera);
+    return display;
+}
+
+bool named_as_frame(const fs::path& file) {
+    const std::string name = file.stem(), kind = file.extension();
+    const bool number = name.size() >= 4 && name.find_first_not_of("0123456789") == name.npos;
+    return number && (kind == ".png" || kind == ".exr" || kind == ".npy");
+}
+
+}  // namespace
+
+PathOptions::PathOptions(Command command)
+    : option_(command.add_option("--path", path_, "Camera path (docs/path.md): a picture for each of its frames, in the folder -o")
+                  .type_name("FILE")) {
+    command.add_option("--frames-as", kind_, "File type of the frames; default png").type_name("png|exr|npy");
+    command.add_flag("--resume", resume_, "Skip frames that the same command has already made there from the same files");
+    command.add_flag("--replace", replace_, "Remove frames there that were made by another command or from other files");
+}
+
+void PathOptions::check(const OutputOptions& output) const {
+    Faults faults;
+    if (given()) {
+        faults.of([&] { word("--frames-as", kind_, {"png", "exr", "npy"}); });
+        faults.of([&] { output.check_bits("frame." + kind_); });
+        faults.of([&] {
+            std::error_code error;
+            if (output.path().empty()) throw InputError("--output", "the name is empty; give a folder for the frames");
+            if (fs::exists(output.path(), error) && !fs::is_directory(output.path(), error))
+                throw InputError(output.path(), "is not a folder; give one for the frames of --path");
+        });
+        if (resume_ && kind_ == "npy")
+            faults.of([] { throw InputError("--resume", "a .npy does not record how it was made; use png or exr"); });
+    }
+    faults.report();
+}
+
+CameraPath PathOptions::read() const {
+    if (path_.empty()) throw InputError("--path", "the name is empty; give a camera path");
+    remember_input("the camera path", path_);
+    return read_path(path_);
+}
+
+void PathOptions::check(const CameraPath& path, const Display& display) const {
+    const auto judge = [&](const Camera& camera, const std::string& place) {
+        Display there = display;
+        there.camera = camera;
+        std::vector<Problem> problems = validate(there);
+        for (Problem& p : problems) p.where = fmt::format("{}: {}: {}", path_, place, p.where);
+        if (!problems.empty()) throw InputError(std::move(problems));
+    };
+    for (std::size_t i = 0; i < path.poses.size(); ++i) {
+        Camera camera = display.camera;
+        camera.position_mm = path.poses[i].position_mm;
+        camera.target_mm = path.poses[i].target_mm.value_or(camera.target_mm);
+        judge(camera, fmt::format("poses[{}]", i));
+    }
+    for (std::int64_t k = 0; k < path.frames(); ++k)  // between two good poses a camera may look along its own "up"
+        judge(path.camera(k, display.camera), fmt::format("frame {} at {:.6g} s", k, path.time_s(k)));
+}
+
+fs::path PathOptions::file(const OutputOptions& output, std::int64_t frame, std::int64_t frames) const {
+    const std::size_t digits = std::max<std::size_t>(4, fmt::formatted_size("{}", frames - 1));
+    return fs::path(output.path()) / fmt::format("{:0{}}.{}", frame, digits, kind_);
+}
+
+PathMade render_path(const PathWork& w, const std::function<const Texels&()>& panel, Progress& progress) {
+    PathMade made;
+    made.frames = w.path.frames();
+    const FolderLock lock(w.output.path());
+    check_output(w.options.file(w.output, 0, made.frames));
+    for (std::int64_t k = 0; k < made.frames; ++k) refuse_input(w.options.file(w.output, k, made.frames));
+    const NumberedPictures frames{w.output.path(),
+                                  made.frames,
+                                  [&](std::int64_t k) { return w.options.file(w.output, k, made.frames).filename().string(); },
+                                  [&](std::int64_t k) { return write_display(at_frame(w.path, k, w.display)); },
+                                  w.shown,
+                                  named_as_frame,
+                                  "frame",
+                                  w.options.resume(),
+                                  w.options.replace()};
+    frames.keep_apart();
+    const std::vector<std::int64_t> left = frames.left();
+    if (left.empty()) return made;
+    const SummedPanel summed(panel(), w.rendering.threads);
+    const auto [columns, rows] = w.display.camera.resolution;
+    const std::optional<Rect>& crop = w.rendering.crop;
+    progress.stage("rendering",
+                   std::int64_t(left.size()) * (crop ? std::int64_t(crop->x1 - crop->x0) * (crop->y1 - crop->y0) : columns * rows));
+    std::size_t above_target = 0;
+    double largest_error = 0;
+    Frame frame(progress);
+    const auto make = [&](std::size_t i) {
+        const Display display = at_frame(w.path, left[i], w.display);
+        return render(display, resolve(display), summed, w.rendering, frame);
+    };
+    const auto keep = [&](std::size_t i, Rendering r) {
+        if (!r.complete) return false;
+        const fs::path file = w.options.file(w.output, left[i], made.frames);
+        Rendered facts = rendered(r, w.rendering.target_error, keeps_layers(file));
+        facts.about["shown"] = w.shown;
+        w.output.save(file, r.image, Encoding::srgb, at_frame(w.path, left[i], w.display), std::move(facts.about),
+                      std::move(facts.layers));
+        ++made.rendered;
+        made.samples += r.samples;
+        made.seconds += r.seconds;
+        above_target += facts.pixels_above_target;
+        if (r.measured_error.value_or(0) >= largest_error) {  // that frame tells of all
+            largest_error = r.measured_error.value_or(0);
+            made.how = how_made(r);
+            made.more = how_made_json(r);
+            if (r.measured_error) made.more["frame"] = left[i];
+        }
+        return true;
+    };
+    make_ahead(left.size(), renders_on_gpu(w.rendering), make, keep);
+    progress.end();
+    if (above_target > 0)
+        spdlog::warn("{} did not reach the target error with the maximum number of samples", counted(above_target, "pixel"));
+    if (w.rendering.target_error) made.more["pixels_above_target"] = above_target;
+    if (made.rendered < std::int64_t(left.size())) {
+        spdlog::warn("interrupted; {} holds {} of {}{}", w.output.path(), made.frames - std::int64_t(left.size()) + made.rendered,
+                     counted(made.frames, "frame"),
+                     keeps_metadata(w.options.file(w.output, 0, 1)) ? "; the same command with --resume continues it" : "");
+        throw Interrupted{};
+    }
+    return made;
+}
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,72 @@
+#include "cli/program/commands.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+// lfdsim study and lfdsim tolerance: commands of the Python package, in whose process this one goes on.
+namespace lfdsim::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The Python that the module was built for, if it is still there; else that of the PATH.
+std::string interpreter() {
+#ifdef LFDSIM_PYTHON_INTERPRETER
+    if (access(LFDSIM_PYTHON_INTERPRETER, X_OK) == 0) return LFDSIM_PYTHON_INTERPRETER;
+#endif
+    return "python3";
+}
+
+// In a build the package lies beside the program; else it is one that Python has.
+void show_package() {
+    std::error_code error;
+    const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path() / "python";
+    if (error || !fs::exists(folder / "lfdsim" / "__init__.py", error)) return;
+    const char* others = std::getenv("PYTHONPATH");
+    setenv("PYTHONPATH", (others && *others ? folder.string() + ":" + others : folder.string()).c_str(), 1);
+}
+
+// Modules are not searched for where the user stands: a random.py there is none of Python's.
+constexpr const char* script = R"python(import sys
+sys.path = [folder for folder in sys.path if folder]
+try:
+    from lfdsim.study.__main__ import main
+except ModuleNotFoundError as error:
+    print(f"lfdsim: error: studies are run by lfdsim's Python package, and {sys.executable} has no {error.name}; "
+          "in lfdsim's repository: pip install '.[study]' (docs/studies.md)", file=sys.stderr)
+    sys.exit(1)
+sys.exit(main(sys.argv[1:])))python";
+
+void run(const Command& command) {
+    show_package();
+    const std::string python = interpreter();
+    std::vector<std::string> words = command.words();
+    if (command.name() != "study") words.insert(words.begin(), command.name());
+    std::vector<const char*> argv{python.c_str(), "-c", script};
+    for (const std::string& word : words) argv.push_back(word.c_str());
+    argv.push_back(nullptr);
+    execvp(python.c_str(), const_cast<char**>(argv.data()));
+    throw std::runtime_error(fmt::format("{}: {}; studies are run by lfdsim's Python package (docs/studies.md)", python,
+                                         std::generic_category().message(errno)));
+}
+
+}  // namespace
+
+void add_study(Command program) {
+    for (const auto& [name, description] :
+         {std::pair("study", "Measures thousands of variants of a display, here or on a cluster (Python package)"),
+          std::pair("tolerance", "Draws a display's errors: percentiles of what is measured, and a budget (Python package)")}) {
+        Command command = program.add_subcommand(name, description);
+        command.take_all_words();
+        command.callback([command] { run(command); });
+    }
+}
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,369 @@
+#include "cli/options/display_options.h"
+#include "cli/options/grid_options.h"
+#include "cli/options/panel_source.h"
+#include "cli/options/shown_panel.h"
+#include "cli/options/work_options.h"
+#include "cli/output/companion.h"
+#include "cli/output/rendered.h"
+#include "cli/output/views_folder.h"
+#include "cli/program/arguments.h"
+#include "cli/program/commands.h"
+#include "cli/program/effects.h"
+#include "cli/program/input_files.h"
+#include "cli/program/interrupt.h"
+#include "display/keys.h"
+#include "engine/devices/memory.h"
+#include "engine/views/grid_view.h"
+#include "files/description/display_file.h"
+#include "image/formats/file.h"
+#include "report/folder/folder_lock.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+
+// lfdsim views: the grid of views, or the quilt, that the content or the simulated display shows.
+namespace lfdsim::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t content_rays = 4;  // of a pixel, where nothing else is asked for
+constexpr std::int64_t default_columns = 480;
+
+struct ViewsArguments {
+    explicit ViewsArguments(Command of)
+        : command(of),
+          display(command, {sample_options, content_options}),
+          panel_image(command),
+          model(command),
+          pattern(command),
+          grid(command),
+          output(command, "a quilt, NAME_qs8x6a0.75 with .png .exr .npy; or a folder for a grid of views, created if missing"),
+          device(command),
+          work(command) {
+        command.add_flag("--resume", resume, "Skip views in the folder that the same command has already made from the same files");
+        command.add_flag("--replace", replace,
+                         "Remove views there that another command has made, or write over the .toml beside a quilt");
+        command.add_option("--of", of_what, "Views of the content itself, or of what the simulated display shows")
+            .type_name("content|display")
+            .capture_default_str();
+        command.add_option("--grid", count, "Columns and rows of views in a folder; default 9x9, of strips 9x1").type_name("CxR");
+        command.add_option("--view-size", size, "Pixels of a view; default 480 wide").type_name("WxH");
+        command.add_option("--views-as", kind, "Files in the folder").type_name("png|exr|npy").capture_default_str();
+        command.add_flag("--depth", depth, "Write a depth map for each view of the content, too");
+    }
+    Command command;
+    DisplayOptions display;
+    PanelImageOption panel_image;
+    ModelOption model;
+    PatternOption pattern;
+    GridOptions grid;
+    OutputOptions output;
+    DeviceOption device;
+    WorkOptions work;
+    std::string of_what = "content", count, size, kind = "png";
+    bool depth = false, resume = false, replace = false;
+};
+
+/// Where the views go, and how many there are.
+struct Target {
+    bool quilt = false;
+    QuiltName name{};  // of a quilt
+    int columns = 9, rows = 9;
+    int width = 0, height = 0;  // of a view, pixels
+    std::string how;            // the cameras of a view cone stand
+};
+
+/// One stage for all views.
+class OneOfMany : public Job {
+  public:
+    explicit OneOfMany(Job& whole) : whole_(whole) {}
+    bool cancelled() const override { return whole_.cancelled(); }
+
+  private:
+    Job& whole_;
+};
+
+Target target_of(const ViewsArguments& args, const Display& display) {
+    Target target;
+    const fs::path path = args.output.path();
+    const std::string kind = path.extension();
+    target.quilt = kind == ".png" || kind == ".exr" || kind == ".npy";
+    Faults faults;
+    faults.of([&] { word("--views-as", args.kind, {"png", "exr", "npy"}); });
+    if (target.quilt) {
+        faults.of([&] {
+            const std::optional<QuiltName> name = quilt_name(path);
+            if (!name)
+                throw InputError(path.string(), fmt::format("a quilt's name says what is in it: columns, rows and the aspect of a "
+                                                            "view, as in {}_qs8x6a0.75{}; or give a folder",
+                                                            path.stem().string(), kind));
+            target.name = *name;
+            target.columns = name->columns * name->rows;
+            target.rows = 1;
+        });
+        for (const auto& [option, given] :
+             {std::pair("--grid", !args.count.empty()), {"--depth", args.depth}, {"--resume", args.resume}})
+            if (given) faults.of([o = option] { throw InputError(o, "is for views in a folder; a quilt's name says its own"); });
+        faults.of([&] { check_output(path); });
+        faults.of([&] { args.output.check_bits(path); });
+    } else {
+        faults.of([&] {
+            if (quilt_name(path) || kind == ".jpg" || kind == ".jpeg" || kind == ".tif" || kind == ".tiff")
+                throw InputError(path.string(), "a quilt's name ends in .png, .exr or .npy; give one of these, or a folder");
+        });
+        if (is_strips(display.array)) target.rows = 1;
+        if (!args.count.empty())
+            faults.of([&] {
+                const auto [columns, rows] = size("--grid", args.count);
+                if (columns > most_views_a_side || rows > most_views_a_side || columns * rows > most_views)
+                    throw InputError("--grid", fmt::format("is {}; allowed are {} along each side and {} in all", args.count,
+                                                           most_views_a_side, most_views));
+                target.columns = int(columns);
+                target.rows = int(rows);
+            });
+        faults.of([&] { args.output.check_bits("view." + args.kind); });
+        faults.of([&] {
+            if (path.empty()) throw InputError("--output", "the name is empty; give a folder for the views, or a quilt's name");
+            detail::check_folder(path);
+            if (args.resume && args.kind == "npy")
+                throw InputError("--resume", "a .npy does not record how it was made; use png or exr");
+        });
+    }
+    faults.report();
+    return target;
+}
+
+/// The grid that is asked for: a view cone as wide as the lenses' field of view, seen from the viewing distance.
+ViewGrid grid_of(const ViewsWish& wish, Target& target, const ViewsArguments& args, const Display& display,
+                 const Geometry& geometry) {
+    double aspect = geometry.panel_width_mm / geometry.panel_height_mm;
+    if (target.quilt) aspect = target.name.aspect;
+    if (!args.size.empty()) {
+        const auto [width, height] = size("--view-size", args.size);
+        if (!target.quilt) aspect = double(width) / double(height);
+        if (double(width) * double(height) >= two_to_31 || std::max(width, height) > 1 << 20)
+            throw InputError("--view-size", fmt::format("is {}; allowed is up to {} along each side and a product below 2^31",
+                                                        args.size, 1 << 20));
+        target.width = int(width);
+        target.height = int(height);
+    } else {
+        target.width = int(default_columns);
+        target.height = std::max(1, int(std::lround(default_columns / aspect)));
+    }
+    const std::int64_t columns = std::int64_t(target.width) * (target.quilt ? target.name.columns : 1),
+                       rows = std::int64_t(target.height) * (target.quilt ? target.name.rows : 1);
+    if (double(columns) * double(rows) >= two_to_31)
+        throw InputError("--view-size",
+                         fmt::format("makes a quilt of {} x {} pixels; allowed is a product below 2^31", columns, rows));
+    require_picture_memory(columns, rows, args.of_what == "display" ? texel_bytes(display) : 0);
+
+    ViewsSource all;  // views that are to be made are placed as those that are read
+    all.name = "the grid";
+    if (target.quilt) all.form = ViewsForm::quilt;
+    all.columns = target.columns;
+    all.rows = target.rows;
+    if (target.columns > 1 || target.rows > 1) {
+        const Theory of_display = theory(display, geometry);
+        const double strips_deg = of_display.fov_horizontal_deg, lenses_deg = of_display.along[0].fov_deg;
+        const double fov = display.content.view_cone_deg.value_or(is_strips(display.array) ? strips_deg : lenses_deg);
+        if (std::isfinite(fov) && fov > 0 && fov < 170) all.cone_deg = fov;
+    }
+    if (!wish.baseline_mm && (wish.cone_deg || all.cone_deg))
+        target.how =
+            fmt::format("view_cone_deg = {:.8g}, cone = \"{}\"", wish.cone_deg ? *wish.cone_deg : *all.cone_deg,
+                        cone_camera_words[std::size_t(wish.cone.value_or(target.quilt ? ConeCameras::ends : ConeCameras::bins))]);
+    std::vector<std::string> notes;
+    const ViewsPlace place = views_place(display, geometry);
+    const ViewGrid grid = placed(all, wish, place, aspect, notes);
+    // From the edge of the zone an eye sees the views of two neighbouring lenses.
+    const double outermost = grid.camera(grid.columns - 1, 0)[0];
+    if (args.of_what == "display" && grid.columns > 1 && outermost > 0.499 * place.zone_width_mm)
+        spdlog::warn(
+            "the outermost cameras stand {:.4g} mm aside, at the edge of the zone of {:.4g} mm or beyond it, where the display's "
+            "views "
+            "flip; --cone bins puts them half a step further in, --view-cone-deg chooses another angle",
+            outermost, place.zone_width_mm);
+    return grid;
+}
+
+/// Makes the views one after the other.
+class Maker {
+  public:
+    Maker(const ViewsArguments& args, const Display& display, const Geometry& geometry, const ViewGrid& grid, const Target& target)
+        : args_(args), display_(display), geometry_(geometry), grid_(grid), target_(target) {
+        if (of_display())
+            for (int row = 0; row < grid.rows; ++row)
+                for (int column = 0; column < grid.columns; ++column)
+                    grid_camera(display, geometry, grid, column, row, target.width, target.height);
+    }
+    bool of_display() const { return args_.of_what == "display"; }
+
+    /// Throws InputError, and Interrupted.
+    void prepare(const PatternOptions& pattern_options, Progress& progress) {
+        if (!of_display()) {
+            scene_.emplace(load_scene(display_, geometry_));
+            return;
+        }
+        light_ =
+            shown_panel(args_.panel_image, args_.pattern, display_, geometry_, pattern_options, args_.work.threads(), progress);
+        panel_.emplace(light_.texels, args_.work.threads());
+    }
+    Picture view(int column, int row, Job& job) {
+        if (scene_) return scene_view(*scene_, geometry_, grid_, column, row, making(), job);
+        RenderOptions options;
+        options.threads = args_.work.threads();
+        Rendering r = grid_view(grid_camera(display_, geometry_, grid_, column, row, target_.width, target_.height), *panel_,
+                                target_.width, target_.height, options, job);
+        return {std::move(r.image), r.complete, r.samples, 0, r.seconds};
+    }
+    Picture depth(int column, int row, Job& job) const {
+        return scene_view_depth(*scene_, geometry_, grid_, column, row, making(), job);
+    }
+    const Json& more() const { return light_.made; }
+
+  private:
+    ViewMaking making() const {
+        return {target_.width, target_.height, display_.render.samples.value_or(content_rays), args_.work.threads()};
+    }
+    const ViewsArguments& args_;
+    const Display& display_;
+    const Geometry& geometry_;
+    const ViewGrid& grid_;
+    const Target& target_;
+    std::optional<ContentScene> scene_;
+    PanelLight light_;
+    std::optional<SummedPanel> panel_;
+};
+
+void write_text(const fs::path& path, std::string_view text) {
+    guard_output(path);
+    detail::OutputFile file(path);
+    file.write(text.data(), text.size());
+    file.commit();
+}
+
+Picture& add(Picture& all, const Picture& one) {
+    all.rays += one.rays;
+    all.seconds += one.seconds;
+    return all;
+}
+
+fs::path beside_quilt(const ViewsArguments& args) { return fs::path(args.output.path()).replace_extension(".toml"); }
+
+/// The quilt and, beside it, NAME.toml: its geometry.
+Picture make_quilt(Maker& maker, const ViewsArguments& args, const Display& display, const ViewGrid& grid, const Target& target,
+                   Progress& progress) {
+    Picture all{Image(target.width * target.name.columns, target.height * target.name.rows)};
+    progress.stage("views", grid.columns);
+    OneOfMany one(progress);
+    for (int n = 0; n < grid.columns; ++n) {
+        const Picture view = maker.view(n, 0, one);
+        if (!view.complete) end_interrupted("");
+        const int left = n % target.name.columns * target.width,
+                  top = (target.name.rows - 1 - n / target.name.columns) * target.height;
+        for (int y = 0; y < target.height; ++y)
+            std::copy_n(view.image.at(0, y), std::size_t(target.width) * 3, all.image.at(left, top + y));
+        add(all, view);
+        progress.advance(1);
+    }
+    args.output.write(all.image, Encoding::srgb, display, {{"seconds", fmt::format("{:.3f}", all.seconds)}}, true, progress);
+    write_text(beside_quilt(args), views_toml(grid, "", "", target.how));
+    return all;
+}
+
+/// view_0000.png ..., a depth map with each, and views.toml.
+Picture make_folder(Maker& maker, const ViewsArguments& args, const Display& display, const ViewGrid& grid, const Target& target,
+                    const ViewsFolder& folder, Progress& progress) {
+    const FolderLock lock(args.output.path());
+    folder.check();
+    const NumberedPictures& pictures = folder.pictures();
+    const std::vector<std::int64_t> left = pictures.left();
+    Picture all;
+    all.image.width = target.width;
+    all.image.height = target.height;
+    const auto views = std::int64_t(grid.views()), of_each = pictures.count / views;
+    progress.stage("views", views);
+    OneOfMany one(progress);
+    auto next = left.begin();
+    for (std::int64_t view = 0; view < views; ++view, progress.advance(1))
+        for (; next != left.end() && *next / of_each == view; ++next) {
+            const int column = int(view % grid.columns), row = int(view / grid.columns);
+            const bool is_view = *next % of_each == 0;
+            const Picture made = is_view ? maker.view(column, row, one) : maker.depth(column, row, one);
+            if (!made.complete) folder.stop();
+            args.output.save(pictures.file(*next), made.image, is_view ? Encoding::srgb : Encoding::linear, display,
+                             {{"shown", pictures.shown}});
+            if (is_view) add(all, made);
+        }
+    progress.end();
+    write_text(folder.toml_file(), folder.toml());
+    return all;
+}
+
+void run(const ViewsArguments& args) {
+    Faults faults;
+    Display display;
+    PatternOptions pattern_options;
+    ViewsWish wish;
+    Target target;
+    faults.of([&] { display = args.display.read(); });
+    faults.of([&] { args.panel_image.check(); });
+    faults.of([&] { pattern_options = args.pattern.read(); });
+    faults.of([&] { wish = args.grid.read(); });
+    faults.of([&] { word("--of", args.of_what, {"content", "display"}); });
+    faults.of([&] { args.model.apply(display); });
+    faults.of([&] { args.device.apply(); });
+    faults.of([&] { args.work.check(); });
+    faults.of([&] { check_effects(args.command); });
+    faults.of([&] {
+        if (args.of_what == "content" && (args.panel_image.given() || args.pattern.given()))
+            throw InputError(args.pattern.given() ? "--pattern" : "--panel-image", "is what the display shows; add --of display");
+        for (const char* option : {"--estimator", "--seed", "--sampling", "--device", "--pickup"})
+            if (args.of_what == "content" && args.command.given(option))
+                throw InputError(option, "is for what the display shows; add --of display");
+        if (args.of_what == "display" && args.depth)
+            throw InputError("--depth", "is of the content alone; what a display shows has no depth");
+    });
+    faults.of([&] { target = target_of(args, display); });
+    faults.report();
+
+    const Geometry geometry = resolve(display);
+    const ViewGrid grid = grid_of(wish, target, args, display, geometry);
+    if (args.of_what == "display" && !args.panel_image.given()) require_panel_memory(display);
+    Maker maker(args, display, geometry, grid, target);
+    const ViewsFolder folder(args.output.path(), args.kind, args.depth, grid, target.how, write_display(display),
+                             shown_stamp(args.panel_image, args.pattern, display).dump(), args.resume, args.replace);
+    if (target.quilt)
+        check_companion(beside_quilt(args), holds(beside_quilt(args), views_toml(grid, "", "", target.how)), args.replace);
+    else
+        folder.check();
+    Progress progress(args.work.progress());
+    maker.prepare(pattern_options, progress);
+    const Picture made = target.quilt ? make_quilt(maker, args, display, grid, target, progress)
+                                      : make_folder(maker, args, display, grid, target, folder, progress);
+    Json more{{"of", args.of_what}, {"views", grid_json(grid)}};
+    more.update(maker.more());
+    print_made(Made{args.output.path(), made.image.width, made.image.height, maker.of_display() ? "samples" : "rays", made.rays,
+                    made.seconds},
+               args.work.json(), "; " + grid_text(grid), more);
+}
+
+}  // namespace
+
+void add_views(Command program) {
+    Command command = program.add_subcommand(
+        "views", "Writes a grid of views or a quilt: of the content, or of what the simulated display shows");
+    const auto args = std::make_shared<ViewsArguments>(command);
+    command.footer(
+        "Examples:\n  lfdsim views display.toml --model monkey.blend --grid 9x9 -o monkey\n"
+        "  lfdsim views display.toml --view-cone-deg 40 --view-size 420x560 -o monkey_qs8x6a0.75.png\n"
+        "  lfdsim views display.toml --of display --panel-image eia.png --grid 5x1 -o shown\n"
+        "Views of the content have --samples rays a pixel, 4 if neither that nor render.samples is given.");
+    command.callback([args] { run(*args); });
+}
+
+}  // namespace lfdsim::cli

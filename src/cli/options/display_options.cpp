@@ -1,0 +1,150 @@
+#include "cli/options/display_options.h"
+
+#include "cli/program/arguments.h"
+#include "cli/program/input_files.h"
+#include "display/keys.h"
+#include "files/description/display_file.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <limits>
+
+namespace lfdsim::cli {
+namespace {
+
+constexpr KeyOption camera[] = {
+    {"--camera-mm", "camera.position_mm", Form::point, "X,Y,Z",
+     "Camera; the panel's centre is the origin, +x right, +y up, +z to the viewer"},
+    {"--target-mm", "camera.target_mm", Form::point, "X,Y,Z", "What the camera looks at"},
+    {"--frame-width-mm", "camera.frame_width_mm", Form::number, "W", "Width of the frame in the plane through the target",
+     "camera.fov_deg"},
+    {"--size", "camera.resolution", Form::size, "WxH", "Pixels of the frame"},
+};
+constexpr KeyOption sample[] = {
+    {"--estimator", "render.estimator", Form::word, "filtered|point|lens_by_lens",
+     "Averages of the panel over footprints where they agree with points, or brute force: one panel pixel per sample; "
+     "lens_by_lens: averages whether they agree or not"},
+    {"--samples", "render.samples", Form::count, "N",
+     "Samples per pixel, where a diffuser, pixel filter or pupil spreads the light"},
+    {"--seed", "render.seed", Form::count, "S", "Seed of the samples"},
+    {"--sampling", "render.sampling", Form::word, "sobol|random", "Low-discrepancy or plain random points"},
+};
+constexpr KeyOption content[] = {
+    {"--depth-mm", "content.depth_mm", Form::number, "Z", "Depth of the model's centre in front of the lenses' vertex plane"},
+    {"--height-mm", "content.height_mm", Form::number, "H", "Height of the model"},
+    {"--tilt-deg", "content.tilt_deg", Form::number, "B",
+     "Tilt of the model about the horizontal axis, before the yaw; positive raises the front"},
+    {"--yaw-deg", "content.yaw_deg", Form::number, "A", "Rotation of the model, counter-clockwise seen from above"},
+    {"--pickup", "content.pickup", Form::word, "nodal|traced|integrated",
+     "Elemental images for a perfect lens, for where the real lens sends each pixel's light, or the mean of all that light"},
+};
+
+// Within the key's own range.
+std::string count_text(const KeyOption& option, const std::string& text) {
+    constexpr auto most = std::numeric_limits<std::int64_t>::max();
+    const Range& range = key_at(option.key)->key.range;
+    return fmt::format("{}", whole_number(option.option, text, std::int64_t(range.low),
+                                          range.high < double(most) ? std::int64_t(range.high) : most));
+}
+
+// The option's value in TOML syntax.
+std::string toml_value(const KeyOption& option, const std::string& text) {
+    switch (option.form) {
+        case Form::number:
+            return fmt::format("{}", number(option.option, text));
+        case Form::point:
+            return fmt::format("[{}]", fmt::join(numbers(option.option, text, "0,-300,1800", "X,Y,Z"), ", "));
+        case Form::size:
+            return fmt::format("[{}]", fmt::join(size(option.option, text), ", "));
+        case Form::count:
+            return count_text(option, text);
+        case Form::word:
+            break;
+    }
+    std::vector<std::string> words;
+    for (std::string_view rest = option.value; !rest.empty();) {
+        const std::size_t end = std::min(rest.find('|'), rest.size());
+        words.emplace_back(rest.substr(0, end));
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    return fmt::format("\"{}\"", word(option.option, text, words));
+}
+
+}  // namespace
+
+const std::span<const KeyOption> camera_options = camera;
+const std::span<const KeyOption> sample_options = sample;
+const std::span<const KeyOption> point_options = std::span(sample).subspan(1);
+const std::span<const KeyOption> content_options = content;
+
+DisplayOptions::DisplayOptions(Command command, bool required) {
+    Option path = command.add_option("DISPLAY.toml", path_, "Description of the display").type_name("");
+    if (required) path.required();
+    command
+        .add_option("--set", settings_,
+                    "Overrides a key of the description, value in TOML syntax: array.pitch_mm=8; none removes a key or table: "
+                    "diffuser=none")
+        .type_name("KEY=VALUE")
+        .allow_extra_args(false);
+}
+
+DisplayOptions::DisplayOptions(Command command, std::initializer_list<std::span<const KeyOption>> groups, bool required)
+    : DisplayOptions(command, required) {
+    for (const auto group : groups)
+        for (const KeyOption& option : group)
+            options_.emplace_back(&option, command.add_option(option.option, option.help).type_name(option.value));
+}
+
+bool DisplayOptions::given(std::string_view option) const {
+    return std::any_of(options_.begin(), options_.end(),
+                       [&](const auto& each) { return each.first->option == option && each.second.count() > 0; });
+}
+
+// Options become overrides of the description, so that one validation judges file, --set and options together.
+std::pair<std::vector<std::string>, std::map<std::string, std::string>> DisplayOptions::all_overrides(Faults& faults) const {
+    std::vector<std::string> overrides = settings_;
+    std::map<std::string, std::string> written;
+    for (const auto& [option, on_line] : options_) {
+        if (on_line.count() == 0) continue;
+        if (option->replaces) overrides.push_back(fmt::format("{}=none", option->replaces));
+        faults.of([&, o = option, text = on_line.results().front()] {
+            overrides.push_back(fmt::format("{}={}", o->key, toml_value(*o, text)));
+            written["--set " + overrides.back()] = fmt::format("{} {}", o->option, text);
+        });
+    }
+    return {std::move(overrides), std::move(written)};
+}
+
+std::vector<std::string> DisplayOptions::overrides() const {
+    Faults faults;
+    std::vector<std::string> all = all_overrides(faults).first;
+    faults.report();
+    return all;
+}
+
+Display DisplayOptions::read(const std::string& path, const std::string& compared) const {
+    if (path.empty()) throw InputError("DISPLAY.toml", "the name is empty; give the description of a display");
+    remember_input("the description", path);
+    Faults faults;
+    auto [overrides, written] = all_overrides(faults);
+    if (!compared.empty()) {
+        overrides.push_back(compared);
+        written["--set " + compared] = fmt::format("--compare {}", compared);
+    }
+    Display display;
+    faults.of([&, &set = overrides, &places = written] {
+        try {
+            display = read_display(path, set);
+            for (const std::string& file : display.glass_catalogues) remember_input("a glass catalogue", file);
+            if (!display.errors.table.empty()) remember_input("the table of errors", display.errors.table);
+        } catch (InputError& e) {
+            for (Problem& p : e.problems)
+                if (const auto option = places.find(p.where); option != places.end()) p.where = option->second;
+            throw InputError(std::move(e.problems));
+        }
+    });
+    faults.report();
+    return display;
+}
+
+}  // namespace lfdsim::cli

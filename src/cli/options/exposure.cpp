@@ -1,0 +1,66 @@
+#include "cli/options/exposure.h"
+
+#include "cli/program/arguments.h"
+#include "engine/views/screen.h"
+#include "image/compare/region.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+namespace lfdsim::cli {
+namespace {
+
+/// Of the pixels that show the screen, in all colours.
+double mean_light(const Image& image, const Region& screen) {
+    double sum = 0;
+    for (std::size_t k = 0; k < screen.rows.size(); ++k)
+        for (int x = screen.rows[k].from; x < screen.rows[k].to; ++x) {
+            const float* const light = image.at(x, screen.top + int(k));
+            sum += double(light[0]) + double(light[1]) + double(light[2]);
+        }
+    return sum / (3 * double(screen.pixels()));
+}
+
+}  // namespace
+
+ExposureOption::ExposureOption(Command command) {
+    command
+        .add_option("--exposure", text_,
+                    "Multiplies the picture's light by E; auto: so that a white panel is 1 in the mean over the screen")
+        .type_name("E|auto");
+}
+
+void ExposureOption::check() const {
+    if (text_.empty() || text_ == "auto") return;
+    const bool may_be_number = text_.find_first_not_of("0123456789.+-eE") == std::string::npos;
+    if (!may_be_number) throw InputError("--exposure", fmt::format("is \"{}\"; give a number such as 0.5, or auto", text_));
+    if (!(number("--exposure", text_) > 0))
+        throw InputError("--exposure", fmt::format("is {}, allowed is more than 0, or auto", text_));
+}
+
+std::optional<double> ExposureOption::factor(const Display& display, const Geometry& geometry, RenderOptions options,
+                                             Job& job) const {
+    if (text_.empty()) return {};
+    if (text_ != "auto") return number("--exposure", text_);
+    const auto [columns, rows] = display.panel.pixels;
+    Texels white(columns, rows);
+    std::fill_n(white.data(), columns * rows * 4, 1.f);
+    options.target_error.reset();
+    const Rendering r = render(display, geometry, white, options, job);
+    const Rect crop = options.crop.value_or(Rect{0, 0, r.image.width, r.image.height});
+    Region screen = Region::of({0, 0, r.image.width, r.image.height});
+    if (const auto seen = screen_region(display, geometry))
+        screen = seen->intersected(Region::of(crop)).shifted(-crop.x0, -crop.y0);
+    const double mean = screen.pixels() > 0 ? mean_light(r.image, screen) : 0;
+    if (!(mean > 0))
+        throw InputError("--exposure", "is auto, but this picture would show no light of a white panel; give a number");
+    return 1 / mean;
+}
+
+void ExposureOption::apply(double factor, Rendering& r) {
+    for (std::vector<float>* light : {&r.image.rgb, &r.error.rgb})
+        for (float& x : *light) x *= float(factor);
+    if (r.measured_error) *r.measured_error *= factor;
+}
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,28 @@
+// The option --exposure: how bright a picture is written. Floor 5.
+#pragma once
+#include "cli/program/command.h"
+#include "engine/render.h"
+
+#include <optional>
+#include <string>
+
+namespace lfdsim::cli {
+
+class ExposureOption {
+  public:
+    explicit ExposureOption(Command);
+
+    /// Throws InputError for anything but a positive number or "auto".
+    void check() const;
+
+    /// By what the picture of such options is multiplied; nothing without the option. "auto" renders a white panel, and makes its
+    /// mean over the screen 1. Throws InputError where the picture shows no light of the screen.
+    std::optional<double> factor(const Display&, const Geometry&, RenderOptions, Job&) const;
+
+    static void apply(double factor, Rendering&);
+
+  private:
+    std::string text_;
+};
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,151 @@
+#include "cli/options/grid_options.h"
+
+#include "base/constants.h"
+#include "cli/program/arguments.h"
+#include "cli/program/input_files.h"
+#include "display/keys.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim::cli {
+
+GridOptions::GridOptions(Command command) {
+    command.add_option("--focus-width-mm", width_, "Width of the views' focus, the rectangle without parallax").type_name("W");
+    command.add_option("--focus-depth-mm", depth_, "Its depth in front of the lenses' vertex plane").type_name("Z");
+    command.add_option("--camera-distance-mm", distance_, "From the views' cameras to their focus").type_name("D");
+    command.add_option("--baseline-mm", baseline_, "From camera to camera: along x and y, or the same along both")
+        .type_name("B|BX,BY");
+    command.add_option("--view-cone-deg", cone_, "Angle over which the cameras of a row stand, at equal angles").type_name("A");
+    command
+        .add_option(
+            "--cone", cameras_,
+            "How n cameras divide that angle A: the first and last at its ends, camera i at (i/(n-1) - 1/2) A, as the makers of "
+            "quilts write (default of quilts); or each in the middle of one of n equal parts, at ((i + 1/2)/n - 1/2) A")
+        .type_name("ends|bins");
+}
+
+ViewsWish GridOptions::read() const {
+    ViewsWish wish;
+    Faults faults;
+    const auto value = [&](const char* option, const std::string& text, const Range& range, std::optional<double>& to) {
+        if (text.empty()) return;
+        faults.of([&] {
+            to = number(option, text);
+            if (!range.contains(*to)) throw InputError(option, fmt::format("is {}, allowed is {}", text, range.text()));
+        });
+    };
+    value("--focus-width-mm", width_, positive_length, wish.width_mm);
+    value("--focus-depth-mm", depth_, any_length, wish.depth_mm);
+    value("--camera-distance-mm", distance_, positive_length, wish.distance_mm);
+    value("--view-cone-deg", cone_, Range{0, 170, true}, wish.cone_deg);
+    if (!cameras_.empty())
+        faults.of([&] {
+            wish.cone = word("--cone", cameras_, {"ends", "bins"}) == "ends" ? ConeCameras::ends : ConeCameras::bins;
+        });
+    if (!baseline_.empty())
+        faults.of([&] {
+            const bool both = baseline_.find(',') != baseline_.npos;
+            const std::vector<double> xy = numbers("--baseline-mm", baseline_, both ? "12,8" : "12", "B or BX,BY");
+            for (const double step : xy)
+                if (!positive_length.contains(step))
+                    throw InputError("--baseline-mm", fmt::format("is {}, allowed is {}", step, positive_length.text()));
+            wish.baseline_mm = {xy.front(), xy.back()};
+        });
+    if (wish.baseline_mm && wish.cone_deg)
+        faults.of([] { throw InputError("--baseline-mm, --view-cone-deg", "both say where the cameras stand; give one of them"); });
+    faults.report();
+    return wish;
+}
+
+ViewsPlace views_place(const Display& display, const Geometry& geometry) {
+    ViewsPlace place{geometry.panel_width_mm,
+                     geometry.panel_height_mm,
+                     geometry.vertex_plane_mm,
+                     geometry.content_depth_mm,
+                     display.content.viewing_distance_mm,
+                     display.content.view_cone_deg};
+    place.lens_mm = display.array.pitch_mm[0] / geometry.lattice.cos_turn;
+    // A point s along the panel's rows from the middle of its elemental image is seen at -s D/g, D from the principal plane.
+    const double away = place.viewing_distance_mm - geometry.rear_principal_mm;
+    place.zone_width_mm =
+        away * theory(display, geometry).along[0].elemental_pitch_mm / (geometry.gap_mm * geometry.lattice.cos_turn);
+    return place;
+}
+
+std::string grid_text(const ViewGrid& grid) {
+    const auto &first = grid.camera_mm.front(), &last = grid.camera_mm.back();
+    return fmt::format(
+        "{} x {} views over {:.4g} x {:.4g} mm, {:.4g} mm from their focus of {:.4g} x {:.4g} mm at a depth of {:.4g} mm",
+        grid.columns, grid.rows, last[0] - first[0], first[1] - last[1], grid.distance_mm, grid.width_mm, grid.height_mm,
+        grid.depth_mm);
+}
+
+Json grid_json(const ViewGrid& grid) {
+    const auto &first = grid.camera_mm.front(), &last = grid.camera_mm.back();
+    return {{"columns", grid.columns},
+            {"rows", grid.rows},
+            {"cameras_width_mm", last[0] - first[0]},
+            {"cameras_height_mm", first[1] - last[1]},
+            {"camera_distance_mm", grid.distance_mm},
+            {"focus_width_mm", grid.width_mm},
+            {"focus_height_mm", grid.height_mm},
+            {"focus_depth_mm", grid.depth_mm}};
+}
+
+ViewsOption::ViewsOption(Command command)
+    : option_(
+          command
+              .add_option("--views", path_,
+                          "Views to show in place of a model: a folder with views.toml, HCI 4D or Stanford archive pictures, or "
+                          "a quilt NAME_qs8x6a0.75.png")
+              .type_name("FOLDER|FILE")),
+      grid_(command) {
+    command.add_flag("--flip-views", flip_, "Reverse the order of the views: makes pseudoscopic ones orthoscopic");
+}
+
+void ViewsOption::check() {
+    if (!given()) return;
+    if (path_.empty()) throw InputError("--views", "the name is empty; give a folder of views or a quilt");
+    wish_ = grid_.read();
+    source_ = find_views(path_);
+    if (flip_) flip(source_);
+    for (const auto* const files : {&source_.pictures, &source_.depths, &source_.read})
+        for (const std::filesystem::path& file : *files)
+            if (!file.empty()) remember_input("a file of the views", file);
+}
+
+ViewsOption::Made ViewsOption::make(const Display& display, const Geometry& geometry, int threads, Progress& progress) const {
+    std::optional<ReadViews> views = read_views(source_, wish_, views_place(display, geometry), progress);
+    progress.end();
+    if (!views) end_interrupted("");
+    for (const std::string& note : views->notes) spdlog::warn("{}: {}", source_.name, note);
+    if (views->doubt.against_depth)
+        spdlog::warn("{}: what its depth map calls near moves from view to view as if far: the views are pseudoscopic{}",
+                     source_.name, flip_ ? "; leave out --flip-views" : "; --flip-views reverses them");
+    else if (views->doubt.axes_disagree)
+        spdlog::warn("{}: what is near from column to column is far from row to row: rows or columns are in reversed order",
+                     source_.name);
+    const ViewGrid& grid = views->field.grid();
+    Made made{elemental_images(display, geometry, views->field, threads, progress), "", grid_json(grid)};
+    const double rays = double(std::max<std::int64_t>(made.field.picture.rays, 1));
+    made.json.update({{"form", std::string(name_of(source_.form))},
+                      {"view_width", views->width},
+                      {"view_height", views->height},
+                      {"by_depth", views->field.by_depth()},
+                      {"flipped", source_.flipped},
+                      {"beside_cameras", made.field.beside_cameras},
+                      {"beside_focus", made.field.beside_focus}});
+    made.text = fmt::format("; {}{}", grid_text(grid), views->field.by_depth() ? ", by depth" : "");
+    if (made.field.beside_cameras > 0)
+        made.text +=
+            fmt::format("; {:.1f} % of the rays pass beside the cameras: black", 100 * double(made.field.beside_cameras) / rays);
+    if (made.field.beside_focus > 0)
+        made.text += fmt::format("; {:.1f} % beside the views' edges: black", 100 * double(made.field.beside_focus) / rays);
+    return made;
+}
+
+}  // namespace lfdsim::cli

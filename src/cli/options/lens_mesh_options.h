@@ -1,0 +1,32 @@
+// lfdsim render --lens-mesh: lenses of triangles in place of true surfaces. Floor 5.
+#pragma once
+#include "cli/output/output.h"
+#include "cli/program/command.h"
+#include "interchange/meshed/render_meshed.h"
+
+#include <optional>
+#include <string>
+
+namespace lfdsim::cli {
+
+/// --lens-mesh, --lens-normals.
+class LensMeshOptions {
+  public:
+    explicit LensMeshOptions(Command command);
+    bool given() const { return option_.count() > 0; }
+    /// Throws InputError with all that is wrong.
+    void check() const;
+    /// The display's lens in triangles, if it is asked for. Throws InputError if it cannot be made.
+    std::optional<MeshedLens> lens(const Display&, const Geometry&) const;
+    /// What it is, as a rendering says of itself.
+    std::string text(const MeshedLens&) const;
+    Json json(const MeshedLens&) const;
+
+  private:
+    std::int64_t triangles() const;
+
+    std::string triangles_, normals_ = "flat";
+    Option option_;
+};
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,25 @@
+#include "cli/options/shown_panel.h"
+
+#include "report/folder/run_settings.h"
+
+namespace lfdsim::cli {
+
+PanelLight shown_panel(const PanelImageOption& image, const PatternOption& shape, const Display& display, const Geometry& geometry,
+                       const PatternOptions& pattern_options, int threads, Progress& progress) {
+    if (image.given()) {
+        PanelImageOption::Read panel = image.read(display, progress);
+        return {std::move(panel.texels), {{"panel_image", {{"incomplete", panel.incomplete}}}}};
+    }
+    if (shape.given()) return {shown_texels(pattern(shape.name(), display, geometry, pattern_options), display.panel.encoding)};
+    const Picture picture = elemental_images(display, geometry, load_scene(display, geometry), threads, progress);
+    progress.end();
+    if (!picture.complete) end_interrupted("");
+    return {shown_texels(picture.image, display.panel.encoding),
+            {{"elemental_images", {{"rays", picture.rays}, {"seconds", picture.seconds}}}}};
+}
+
+Json shown_stamp(const PanelImageOption& image, const PatternOption& shape, const Display& display) {
+    return image.given() ? stamp(image.path()) : shape.given() ? stamp("") : content_stamp(display);
+}
+
+}  // namespace lfdsim::cli

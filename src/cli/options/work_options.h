@@ -1,0 +1,65 @@
+// The options of every command that makes a picture, and what it tells when it is done. Floor 5.
+#pragma once
+#include "cli/output/output.h"
+#include "cli/program/command.h"
+#include "cli/program/progress.h"
+#include "display/display.h"
+#include "image/compare/compare.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace lfdsim::cli {
+
+/// --threads, --progress, --json.
+class WorkOptions {
+  public:
+    explicit WorkOptions(Command command);
+    /// Throws InputError with all that is wrong. To be called before the others.
+    void check() const;
+    int threads() const;  // 0: all
+    const std::string& progress() const { return progress_; }
+    bool json() const { return json_; }
+
+  private:
+    std::string threads_, progress_ = "auto";
+    bool json_ = false;
+};
+
+/// --crop.
+class CropOption {
+  public:
+    explicit CropOption(Command command);
+    /// The part of the camera's frame that is wanted. Throws InputError if it is not in the frame, or if its picture, beside
+    /// the panel image's bytes, is more than memory holds.
+    std::optional<Rect> read(const Camera&, double panel_bytes) const;
+
+  private:
+    std::string text_;
+};
+
+/// --device.
+class DeviceOption {
+  public:
+    explicit DeviceOption(Command command);
+    /// Makes it the device of all renderings that name none. Throws InputError that says what is missing.
+    void apply() const;
+
+  private:
+    std::string device_;
+};
+
+/// What a command has made.
+struct Made {
+    std::string path;
+    int width, height;
+    const char* unit;  // what was traced: "rays", "samples"
+    std::int64_t count;
+    double seconds;
+};
+
+/// Prints it as one line, with `more` behind it, or as JSON with the keys of `more` behind it.
+void print_made(const Made&, bool json, const std::string& more_text = {}, const Json& more = Json::object());
+
+}  // namespace lfdsim::cli

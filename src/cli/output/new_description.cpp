@@ -1,0 +1,55 @@
+#include "cli/output/new_description.h"
+
+#include "cli/output/output.h"
+#include "cli/program/interrupt.h"
+#include "files/description/display_file.h"
+#include "files/description/shell.h"
+#include "image/formats/file.h"
+
+#include <fmt/format.h>
+#include <filesystem>
+
+namespace lfdsim::cli {
+
+NewDescription::NewDescription(Command command) {
+    command.add_option("-o,--output", path_, "Description to write: .toml").type_name("FILE").required();
+    command.add_flag("--force", force_, "Replace an existing file");
+}
+
+void NewDescription::check() const {
+    if (path_.empty()) throw InputError("--output", "the name is empty; give the file to write");
+    const std::filesystem::path path = path_;
+    guard_output(path);
+    detail::check_replaceable(path);
+    if (path.extension() != ".toml") throw InputError("--output", fmt::format("{}: a description's name ends in .toml", path_));
+    std::error_code error;
+    if (!force_ && std::filesystem::exists(std::filesystem::symlink_status(path, error)))
+        throw InputError("--output", fmt::format("{} already exists; --force replaces it", path_));
+}
+
+std::string NewDescription::made_by() {
+    std::string line;
+    for (const std::string& word : command_words()) {
+        // A path, or an option's value after its "=".
+        const std::size_t equals = word.starts_with("--") ? word.find('=') : word.npos,
+                          start = equals == word.npos ? 0 : equals + 1;
+        const std::filesystem::path value = word.substr(start);
+        const bool shortened = line.empty() || value.is_absolute();
+        line += (line.empty() ? "" : " ") + shell_word(shortened ? word.substr(0, start) + value.filename().string() : word);
+    }
+    return line;
+}
+
+void NewDescription::write(const std::string& text) const {
+    try {
+        parse_display(text, path_, {}, std::filesystem::path(path_).parent_path());
+    } catch (const InputError& error) {  // what else is in the text has been checked
+        throw InputError("--output", fmt::format("the description could not be read ({}); is a file's name not UTF-8?",
+                                                 error.problems.front().what));
+    }
+    detail::OutputFile file(path_);
+    file.write(text.data(), text.size());
+    file.commit();
+}
+
+}  // namespace lfdsim::cli

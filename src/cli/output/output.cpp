@@ -1,0 +1,112 @@
+#include "cli/output/output.h"
+
+#include "base/printable.h"
+#include "cli/program/arguments.h"
+#include "cli/program/input_files.h"
+#include "cli/program/interrupt.h"
+#include "files/description/display_file.h"
+#include "files/description/shell.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace lfdsim::cli {
+
+// The kernel keeps the words as they were given.
+std::vector<std::string> command_words() {
+    std::ifstream file("/proc/self/cmdline", std::ios::binary);
+    const std::string all{std::istreambuf_iterator<char>(file), {}};
+    std::vector<std::string> words;
+    for (std::size_t start = 0; start < all.size(); start += words.back().size() + 1) words.emplace_back(all.c_str() + start);
+    return words;
+}
+
+std::string command_line() {
+    std::string line;
+    for (const std::string& word : command_words()) line += (line.empty() ? "" : " ") + shell_word(word);
+    return line;
+}
+
+void print(std::string_view words) {
+    const std::string harmless = printable_lines(words);
+    std::string_view text = harmless;
+    while (!text.empty()) {
+        const ssize_t written = ::write(STDOUT_FILENO, text.data(), text.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0)
+            throw std::runtime_error(fmt::format("standard output: cannot be written: {}", std::generic_category().message(errno)));
+        text.remove_prefix(std::size_t(written));
+    }
+}
+
+void print_json(const Json& json) { print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"); }
+
+void check_input(const std::string& argument, const std::string& path) {
+    if (path.empty()) throw InputError(argument, "the name is empty; give the file to read");
+    remember_input(argument, path);
+}
+
+void check_output(const std::string& path, const std::string& option) {
+    if (path.empty()) throw InputError(option, "the name is empty; give the file to write");
+    guard_output(path);
+    check_writable(path);
+}
+
+OutputOptions::OutputOptions(Command command, const std::string& kinds) {
+    command.add_option("-o,--output", path_, "Picture to write: " + kinds).type_name("FILE").required();
+    command.add_option("--bits", bits_, "Bits per channel of a .png; default 8").type_name("8|16");
+}
+
+int OutputOptions::bits() const { return bits_ == "16" ? 16 : 8; }
+
+void OutputOptions::check() const {
+    Faults faults;
+    faults.of([&] { check_output(path_); });
+    faults.of([&] { check_bits(path_); });
+    faults.report();
+}
+
+void OutputOptions::check_bits(const std::filesystem::path& name) const {
+    if (bits_.empty()) return;
+    Faults faults;
+    faults.of([&] { word("--bits", bits_, {"8", "16"}); });
+    if (const std::string kind = name.extension(); kind == ".exr" || kind == ".npy")
+        faults.of([&] { throw InputError("--bits", fmt::format("is only for .png; {} holds 32-bit floats", kind)); });
+    faults.report();
+}
+
+void OutputOptions::write(const Image& image, Encoding encoding, const Display& display, Metadata about, bool complete,
+                          Progress& progress, std::vector<ImageLayer> layers) const {
+    progress.end();
+    if (!complete) about[incomplete_mark] = "true";
+    save(path_, image, encoding, display, std::move(about), std::move(layers), &progress);
+    progress.end();
+    if (!complete) end_interrupted(path_);
+}
+
+void OutputOptions::save(const std::filesystem::path& path, const Image& image, Encoding encoding, const Display& display,
+                         Metadata about, std::vector<ImageLayer> layers, Job* job) const {
+    guard_output(path);
+    about["Software"] = software;
+    about["command"] = command_line();
+    about["display"] = write_display(display);
+    write_image(path, image, {bits(), encoding, std::move(about), std::move(layers)}, job);
+}
+
+void end_interrupted(const std::string& saved) {
+    if (saved.empty())
+        spdlog::warn("interrupted; nothing was complete, so nothing was written");
+    else
+        spdlog::warn(
+            "interrupted; {} holds what was complete, the rest is black{}", saved,
+            keeps_metadata(saved) ? ", and is marked incomplete" : "; a file of this kind cannot say that it is incomplete");
+    throw Interrupted{};
+}
+
+}  // namespace lfdsim::cli

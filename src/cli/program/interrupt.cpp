@@ -1,0 +1,54 @@
+#include "cli/program/interrupt.h"
+
+#include "cli/program/input_files.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <atomic>
+#include <csignal>
+#include <string>
+
+namespace lfdsim::cli {
+namespace {
+
+// Read by the handler: lock-free, and the text is complete before the pointer to it is set.
+std::atomic<int> signals{0}, heeded{0};
+std::atomic<const char*> partial_file{nullptr};
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<const char*>::is_always_lock_free);
+
+// Only calls that are safe in a signal handler.
+extern "C" void on_signal(int) {
+    if (signals.fetch_add(1) == 0 && heeded > 0) return;
+    if (const char* file = partial_file) unlink(file);
+    _exit(interrupted_exit);
+}
+
+}  // namespace
+
+void catch_signals() {
+    struct sigaction action {};
+    action.sa_handler = on_signal;
+    sigemptyset(&action.sa_mask);
+    action.sa_flags = SA_RESTART;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    if (std::signal(SIGHUP, SIG_IGN) != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup had it ignored: so it stays
+    // A closed pipe and a file beyond `ulimit -f` are errors of writing, told like any other.
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void guard_output(const std::filesystem::path& path) {
+    refuse_input(path);
+    static std::string text;
+    partial_file = nullptr;
+    text = fmt::format("{}.partial-{}", path.string(), getpid());  // the name that write_image() uses
+    partial_file = text.c_str();
+}
+
+HeedSignals::HeedSignals() { ++heeded; }
+HeedSignals::~HeedSignals() { --heeded; }
+
+bool interrupted() { return signals > 0; }
+
+}  // namespace lfdsim::cli

@@ -1,0 +1,49 @@
+// Primitives of glTF meshes, as triangles in the scene's coordinates.
+#pragma once
+#include "content/reader/gltf/gltf_draco.h"
+#include "content/reader/gltf/gltf_materials.h"
+#include "content/reader/gltf/gltf_nodes.h"
+
+#include <memory>
+
+namespace lfdsim::reader {
+
+/// A mesh without places, and these, in double precision.
+struct Piece {
+    std::unique_ptr<aiMesh> mesh;
+    std::vector<Place> places;
+};
+
+/// How the vertices of a node's mesh come to the scene: each by its joints where there are any, else all by each of `instances`.
+struct Posing {
+    std::vector<Matrix> instances, joints;
+    std::vector<double> morph_weights;
+};
+
+class GltfMeshes {
+  public:
+    GltfMeshes(GltfFile& file, NotShown& not_shown) : file_(file), not_shown_(not_shown), materials_(file) {}
+
+    void add(const Item& mesh, const Posing&);
+
+    std::vector<Piece> pieces;
+    GltfMaterials& materials() { return materials_; }
+    std::size_t points() const { return points_; }  // that were passed over
+
+  private:
+    struct Primitive;
+    struct Vertices;
+    void add_primitive(const Item& primitive, const Posing&);
+    std::optional<Numbers> numbers(const Primitive&, const std::string& attribute);
+    std::optional<Numbers> posed(const Primitive&, const char* attribute, const Posing&, std::size_t least, std::size_t most);
+    std::vector<std::uint32_t> triangles(const Primitive&, std::size_t mode, std::size_t vertices);
+    std::vector<Matrix> joint_matrices(const Primitive&, const Posing&, std::size_t vertices);
+    void place(const Vertices&, const std::vector<Matrix>& at);
+
+    GltfFile& file_;
+    NotShown& not_shown_;
+    GltfMaterials materials_;
+    std::size_t points_ = 0, vertices_ = 0;
+};
+
+}  // namespace lfdsim::reader

@@ -1,0 +1,168 @@
+#include "content/reader/limits/edited_text.h"
+
+#include "content/reader/places.h"
+
+#include <strings.h>
+#include <charconv>
+#include <cstring>
+
+namespace lfdsim::reader {
+namespace {
+
+std::string_view next_line(std::string_view& text) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    return line;
+}
+
+std::string_view next_word(std::string_view& line) {
+    line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
+    const std::string_view word = line.substr(0, line.find_first_of(" \t\r"));
+    line.remove_prefix(word.size());
+    return word;
+}
+
+std::optional<double> next_number(std::string_view& line) {
+    std::string_view word = next_word(line);
+    if (word.starts_with('+')) word.remove_prefix(1);
+    double x = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), x);
+    return error == std::errc() && end == word.data() + word.size() ? std::optional(x) : std::nullopt;
+}
+
+/// Says of one line after the other whether its first word's rest, or all of it, begins with a position.
+class Positions {
+  public:
+    explicit Positions(std::string_view ending) : off_(ending == ".off"), key_(ending == ".obj" ? "v" : "vertex") {}
+
+    /// What follows before the position, if there is one.
+    std::optional<std::string_view> before(std::string_view line) {
+        std::string_view rest = line;
+        const std::string_view word = next_word(rest);
+        if (!off_) return word == key_ ? std::optional(line.substr(0, line.size() - rest.size())) : std::nullopt;
+        if (word.empty() || word.starts_with('#')) return {};
+        if (left_ > 0) return --left_, line.substr(0, 0);
+        if (known_) return {};
+        if (!word.ends_with("OFF")) rest = line;
+        if (const auto count = next_number(rest)) {
+            known_ = true;
+            left_ = *count > 0 && *count < 9e15 ? std::size_t(*count) : 0;
+        }
+        return {};
+    }
+
+  private:
+    bool off_, known_ = false;
+    std::string_view key_;
+    std::size_t left_ = 0;  // positions of an OFF file to come
+};
+
+/// A line's position, and what follows it.
+struct Found {
+    Place place;
+    std::string_view rest;
+};
+std::optional<Found> position(std::string_view text) {
+    Found found;
+    for (unsigned k = 0; k < 3; ++k) {
+        const auto x = next_number(text);
+        if (!x) return {};
+        found.place[k] = *x;
+    }
+    found.rest = text;
+    return found;
+}
+
+// Whether a position has a fourth number, which divides it, or goes on in another line.
+bool is_unusual(std::string_view rest) {
+    int count = 0;
+    while (next_number(rest)) ++count;
+    return count == 1 || rest.ends_with('\\');
+}
+
+}  // namespace
+
+std::optional<std::string> nearer_the_origin(std::string_view text, std::string_view ending) {
+    Middle middle;
+    std::string_view rest = text;
+    for (Positions positions(ending); !rest.empty();) {
+        const std::string_view line = next_line(rest);
+        const auto before = positions.before(line);
+        if (!before) continue;
+        const auto found = position(line.substr(before->size()));
+        if (!found || (ending == ".obj" && is_unusual(found->rest))) return {};
+        middle.add(found->place);
+    }
+    const Place offset = middle.offset();
+    if (offset == Place()) return {};
+    std::string out;
+    out.reserve(text.size());
+    rest = text;
+    for (Positions positions(ending); !rest.empty();) {
+        const std::string_view line = next_line(rest);
+        const auto before = positions.before(line);
+        const auto found = before ? position(line.substr(before->size())) : std::nullopt;
+        if (!found) {
+            out.append(line) += '\n';
+            continue;
+        }
+        out += *before;
+        for (unsigned k = 0; k < 3; ++k) {
+            char digits[64];
+            const auto end =
+                std::to_chars(digits, digits + sizeof digits, float(found->place[k] - offset[k]), std::chars_format::fixed);
+            out.append(" ").append(digits, end.ec == std::errc() ? end.ptr : digits);
+        }
+        out.append(found->rest) += '\n';
+    }
+    return out;
+}
+
+std::string without_texture_options(std::string_view text, std::map<std::string, Tiling>& tilings, NotShown& not_shown) {
+    const auto is = [](std::string_view word, const char* key) {
+        return word.size() == std::strlen(key) && strncasecmp(word.data(), key, word.size()) == 0;
+    };
+    std::string out, material;
+    while (!text.empty()) {
+        const std::string_view line = next_line(text);
+        std::string_view rest = line;
+        const std::string_view key = next_word(rest);
+        if (is(key, "newmtl")) {
+            const std::size_t first = rest.find_first_not_of(" \t\r"), last = rest.find_last_not_of(" \t\r");
+            material = first == std::string_view::npos ? "" : rest.substr(first, last + 1 - first);
+        }
+        if (!is(key, "map_Kd")) {
+            out.append(line) += '\n';
+            continue;
+        }
+        out.append(key);
+        for (std::string_view after = rest; next_word(after).starts_with('-') && !after.empty(); after = rest) {
+            const std::string option(next_word(rest));
+            if (option == "-s" || option == "-o" || option == "-t") {
+                Tiling& tiling = tilings[material];
+                std::array<double, 2>& to = option == "-s" ? tiling.scale : tiling.offset;
+                std::string_view numbers = rest;
+                for (std::size_t k = 0; k < 3; ++k) {  // the third is of textures in space
+                    const auto x = next_number(numbers);
+                    if (!x || numbers.find_first_not_of(" \t\r") == std::string_view::npos) break;
+                    if (k < 2 && option != "-t") to[k] = *x;
+                    rest = numbers;
+                }
+                if (option == "-t") not_shown.add("turbulent textures");
+                continue;
+            }
+            const std::size_t arguments = option == "-mm" ? 2 : 1;
+            std::string all = " " + option;
+            for (std::size_t k = 0; k < arguments; ++k) all.append(" ").append(next_word(rest));
+            if (option == "-clamp")
+                out += all;
+            else if (option == "-mm" || option == "-boost" || option == "-imfchan")
+                not_shown.add("options " + option + " of textures");
+        }
+        out.append(rest) += '\n';
+    }
+    return out;
+}
+
+}  // namespace lfdsim::reader

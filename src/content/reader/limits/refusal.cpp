@@ -1,0 +1,48 @@
+#include "content/reader/limits/refusal.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+
+namespace lfdsim::reader {
+namespace {
+
+/// What is wrong with a binary STL file that is not as long as its number of triangles says: Assimp then takes it for text.
+std::optional<std::string> wrong_length(const std::filesystem::path& file) {
+    std::string ending = file.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    if (ending != ".stl") return {};
+    std::ifstream stream(file, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    constexpr std::size_t head = 84, triangle = 50;
+    if (bytes.size() < head || bytes.find('\0') == bytes.npos) return {};
+    std::uint32_t count = 0;
+    std::memcpy(&count, &bytes[head - sizeof count], sizeof count);
+    const std::size_t wanted = head + triangle * std::size_t(count);
+    if (wanted == bytes.size()) return {};
+    return "is damaged: it names " + std::to_string(count) + " triangles, for which it must have " + std::to_string(wanted) +
+           " bytes; it has " + std::to_string(bytes.size());
+}
+
+}  // namespace
+
+std::string refusal(const std::string& says, const std::filesystem::path& file) {
+    if (says.starts_with("No output meshes")) return wrong_length(file).value_or("has no triangles: nothing to show");
+    if (says.find("Failed to open file") != says.npos) return "is damaged, or not of the format that its name says";
+    return says;
+}
+
+std::optional<std::string> plain_warning(const std::string& says) {
+    constexpr std::string_view no_materials = "OBJ: Unable to locate material file ";
+    if (says.starts_with("OBJ: Unable to locate fallback material file")) return {};
+    if (says.starts_with(no_materials))
+        return "material file \"" + says.substr(no_materials.size()) +
+               "\" not found in the model's folder: shown without its colours and textures";
+    return says;
+}
+
+}  // namespace lfdsim::reader

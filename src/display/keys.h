@@ -1,0 +1,239 @@
+// Every key of a display description: its name, range, meaning and the field it fills. Floor 0.
+//
+// One table serves all: validate() takes the ranges from it, the TOML reader and writer the names and types, docs/format.md the
+// words. A key's type is that of its field, its default the one of a fresh struct, its unit the end of its name.
+#pragma once
+#include "display/display.h"
+
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+
+namespace lfdsim {
+
+/// An interval of numbers. NaN is in none, infinity only where `high` is infinite.
+struct Range {
+    double low, high;
+    bool low_open = false, high_open = false;
+    bool contains(double x) const { return (low_open ? x > low : x >= low) && (high_open ? x < high : x <= high); }
+    std::string text() const;  // "0 <= x < 180" with "x" left out: "0 or more, below 180"
+};
+
+// Nothing in a display is thinner than a nanometre or longer than a kilometre, so no length overflows any sum or product here.
+inline constexpr double shortest_mm = 1e-6, longest_mm = 1e6;
+inline constexpr Range no_range{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+inline constexpr Range any_length{-longest_mm, longest_mm}, positive_length{shortest_mm, longest_mm}, length_or_zero{0, longest_mm};
+inline constexpr double two_to_31 = 2147483648.0,
+                        two_to_63 = 9223372036854775808.0;  // what the largest 64-bit integer, 2^63 - 1, rounds to
+
+/// One of all the types of a value, Of<V> being a pointer to it or to a member.
+template <template <class> class Of>
+using ValuesOf =
+    std::variant<Of<double>, Of<std::optional<double>>, Of<std::int64_t>, Of<std::optional<std::int64_t>>, Of<std::string>,
+                 Of<std::array<double, 2>>, Of<Vec3d>, Of<std::array<std::int64_t, 2>>, Of<std::array<double, 4>>,
+                 Of<std::optional<std::array<std::int64_t, 2>>>, Of<std::vector<double>>, Of<Pitch>, Of<Encoding>,
+                 Of<std::optional<Vec3d>>, Of<std::optional<Glass>>, Of<std::vector<std::string>>, Of<SubpixelLayout>, Of<Channel>,
+                 Of<LensKind>, Of<Facing>, Of<Surround>, Of<LatticeKind>, Of<Aperture>, Of<Profile>, Of<PixelFilter>,
+                 Of<ContentSampling>, Of<MadeFor>, Of<PickupKind>, Of<Shading>, Of<Estimator>, Of<Sampling>, Of<Fresnel>>;
+
+/// What a key fills. Only Display, Panel, SurfaceLens and Content contain tables: one that is always there, one that may be absent,
+/// or a list; the keys of a kind stand beside its word.
+template <class T>
+struct MemberOf {
+    template <class V>
+    using Of = V T::*;
+    using Type = ValuesOf<Of>;
+};
+template <>
+struct MemberOf<Display> {
+    using Type = std::variant<std::string Display::*, std::vector<std::string> Display::*, Panel Display::*, Lens Display::*,
+                              LensArray Display::*, Errors Display::*, std::optional<Diffuser> Display::*, Camera Display::*,
+                              Content Display::*, Render Display::*>;
+};
+template <>
+struct MemberOf<Panel> {
+    using Type = std::variant<std::array<std::int64_t, 2> Panel::*, double Panel::*, Vec3d Panel::*, std::optional<Vec3d> Panel::*,
+                              Encoding Panel::*, SubpixelLayout Panel::*, std::optional<std::array<std::int64_t, 2>> Panel::*,
+                              std::vector<Layer> Panel::*, std::vector<Subpixel> Panel::*>;
+};
+template <>
+struct MemberOf<SurfaceLens> {
+    using Type = std::variant<std::vector<Surface> SurfaceLens::*>;
+};
+template <>
+struct MemberOf<Content> {
+    using Type = std::variant<std::string Content::*, double Content::*, std::int64_t Content::*, std::optional<double> Content::*,
+                              ContentSampling Content::*, MadeFor Content::*, PickupKind Content::*, Light Content::*,
+                              std::vector<SceneObject> Content::*>;
+};
+
+/// What a text in a description is. A text that nothing is said of counts as a file's name, which visitors of the viewer may not
+/// set.
+enum class TextOf { file, label };
+
+template <class T>
+struct Key {
+    std::string_view name;
+    typename MemberOf<T>::Type member;
+    Range range;  // of a number or of each in an array; unused for words and tables
+    bool required;
+    std::string_view doc;
+    std::string_view absent = {};  // what holds without the key, where the field's own default does not say it
+    TextOf text = TextOf::file;    // unused for what is no text
+};
+
+template <class T>
+struct Table {
+    std::string_view name;  // its last part; of a kind: its word
+    std::string_view doc;
+    std::span<const Key<T>> keys;
+};
+
+/// The table of a struct that has one.
+template <class T>
+const Table<T>& table_of();
+// clang-format off
+template <> const Table<Display>& table_of<Display>();
+template <> const Table<Panel>& table_of<Panel>();
+template <> const Table<Layer>& table_of<Layer>();
+template <> const Table<Subpixel>& table_of<Subpixel>();
+template <> const Table<Lens>& table_of<Lens>();
+template <> const Table<PlanoConvex>& table_of<PlanoConvex>();
+template <> const Table<SurfaceLens>& table_of<SurfaceLens>();
+template <> const Table<IdealLens>& table_of<IdealLens>();
+template <> const Table<Pinhole>& table_of<Pinhole>();
+template <> const Table<Surface>& table_of<Surface>();
+template <> const Table<LensArray>& table_of<LensArray>();
+template <> const Table<Errors>& table_of<Errors>();
+template <> const Table<Diffuser>& table_of<Diffuser>();
+template <> const Table<Camera>& table_of<Camera>();
+template <> const Table<Content>& table_of<Content>();
+template <> const Table<Light>& table_of<Light>();
+template <> const Table<SceneObject>& table_of<SceneObject>();
+template <> const Table<Render>& table_of<Render>();
+// clang-format on
+
+template <class T, class... Structs>
+inline constexpr bool is_one_of = (std::is_same_v<T, Structs> || ...);
+template <class T>
+inline constexpr bool has_table = is_one_of<T, Display, Panel, Layer, Subpixel, Lens, PlanoConvex, SurfaceLens, IdealLens, Pinhole,
+                                            Surface, LensArray, Errors, Diffuser, Camera, Content, Light, SceneObject, Render>;
+
+/// How a field of a struct is a table within it.
+enum class PartKind { value, table, optional, list, kinds };
+
+template <class T>
+struct Part {
+    using Struct = T;
+    static constexpr PartKind is = has_table<T> ? PartKind::table : PartKind::value;
+};
+template <class T>
+struct Part<std::optional<T>> {
+    using Struct = T;
+    static constexpr PartKind is = has_table<T> ? PartKind::optional : PartKind::value;
+};
+template <class T>
+struct Part<std::vector<T>> {
+    using Struct = T;
+    static constexpr PartKind is = has_table<T> ? PartKind::list : PartKind::value;
+};
+template <class... Kinds>
+struct Part<std::variant<Kinds...>> {
+    static constexpr PartKind is = PartKind::kinds;
+};
+template <class Field>
+inline constexpr PartKind part_kind = Part<std::remove_cvref_t<Field>>::is;
+
+/// Structs that have tables or a kind within them. All others have values only; to know that saves half a minute of compilation.
+template <class T>
+inline constexpr bool has_parts = is_one_of<T, Display, Panel, Lens, SurfaceLens, Content>;
+
+/// The table part of a dotted path: "lens.surface.0" of "lens.surface.0.conic", "" of "name".
+inline std::string_view table_of_path(std::string_view path) {
+    const std::size_t point = path.rfind('.');
+    return point == path.npos ? std::string_view() : path.substr(0, point);
+}
+
+/// A key's entry in its table, whatever struct it belongs to.
+struct KeyInfo {
+    std::string_view name;
+    Range range;
+    bool required;
+    std::string_view doc, absent;
+    bool names_file;
+};
+
+template <class V>
+using PointerTo = V*;
+template <class V>
+using PointerToConst = const V*;
+using ValueRef = ValuesOf<PointerTo>;
+using ConstValueRef = ValuesOf<PointerToConst>;
+
+/// Calls visit for each value of a display, in the order of a description, with its path ("lens.surface.0.conic"), its key, and the
+/// value that a fresh struct has. Tables and fields that a display lacks are not visited. A kind is visited as the value of its
+/// word, then its own keys.
+void visit_all(const Display&,
+               const std::function<void(const std::string& path, const KeyInfo&, ConstValueRef, ConstValueRef fresh)>& visit);
+/// The same; `visit` may change values, except a kind, whose keys follow.
+void visit_all(Display&, const std::function<void(const std::string& path, const KeyInfo&, ValueRef)>& visit);
+
+/// A table that a description may have, and its keys that are values, each with that of a fresh struct.
+struct FormatTable {
+    std::string path;  // of a kind that of the table in which its keys stand; of a list without numbers: "lens.surface"
+    std::string_view name, doc;
+    PartKind is;
+    struct Value {
+        KeyInfo key;
+        ConstValueRef fresh;
+    };
+    std::vector<Value> values;
+};
+/// All of them, of every kind, in the order of a description; the first is the top level, "".
+const std::vector<FormatTable>& format_tables();
+
+/// The key at a dotted path ("lens.surface.0.conic"), of any kind, with a fresh value; null if there is none.
+const FormatTable::Value* key_at(std::string_view path);
+
+/// Calls visit for each file that a display names, with the dotted path of its key ("content.object.0.image",
+/// "glass_catalogues.1").
+void visit_files(Display&, const std::function<void(const std::string& path, std::string& file)>& visit);
+
+/// Whether what is set at a dotted path, in whatever form, could change which files a description names: at a key that names one,
+/// at a table or list that has such a key, or at an element of one.
+bool decides_a_file(std::string_view path);
+
+/// Words of an enumeration in the order of its values, and of kinds.
+template <class E>
+std::span<const std::string_view> words();
+
+template <class E>
+std::string_view word(const E& value) {
+    if constexpr (std::is_enum_v<E>)
+        return words<E>()[std::size_t(value)];
+    else
+        return words<E>()[value.index()];
+}
+
+/// Whether a field is written as one of a set of words.
+template <class Field>
+inline constexpr bool has_words = std::is_enum_v<Field> || part_kind<Field> == PartKind::kinds;
+
+/// The value that words<E>()[index] names; of kinds a fresh one.
+template <class E>
+void set_word(E& value, std::size_t index) {
+    if constexpr (std::is_enum_v<E>) {
+        value = E(index);
+    } else {
+        [&]<class... Kinds>(std::variant<Kinds...>& kind) {
+            std::size_t k = 0;
+            ((k++ == index ? void(kind = Kinds{}) : void()), ...);
+        }(value);
+    }
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,36 @@
+// The table of kernels: which are compiled in, which this machine can run, which one to use. Floor 2.
+#pragma once
+#include "engine/devices/kernel.h"
+#include "engine/render.h"
+
+#include <optional>
+#include <string>
+
+namespace lfdsim {
+
+struct KernelEntry {
+    const char* name;
+    int lanes;
+    bool (*available)();
+    Kernel run;
+};
+
+/// The kernel named by `wanted`, else by the environment variable LFDSIM_KERNEL, else the best this machine can run. Throws
+/// InputError, which lists those available, for an unknown name or one that this machine cannot run.
+const KernelEntry& choose_kernel(const std::string& wanted);
+
+/// A GPU, or the CPU. `insists`: the user named a GPU, so an error is reported rather than the CPU used.
+struct ChosenDevice {
+    std::optional<int> gpu;
+    bool insists = false;
+};
+
+/// The device named by `wanted` (RenderOptions::device). auto is the first GPU that works, but the CPU where the user asks for one
+/// of its kernels. Throws InputError, which says what is missing, where there is no such GPU.
+ChosenDevice choose_device(const std::string& wanted, const std::string& kernel);
+
+/// Sets the device of renderings that name none; until then it is that of the environment variable LFDSIM_DEVICE, else auto. Throws
+/// InputError as choose_device. To be called before work begins.
+void set_default_device(const std::string&);
+
+}  // namespace lfdsim

@@ -1,0 +1,56 @@
+// Rendering on the GPUs that this process uses. Floor 2.
+#pragma once
+#include "base/job.h"
+#include "engine/cuda/cuda.h"
+#include "engine/devices/devices.h"
+#include "engine/devices/kernel.h"
+#include "engine/estimator/summed_panel.h"
+#include "engine/scene/work.h"
+#include "engine/views/compare_view.h"
+#include "engine/wide/likeness.h"
+#include "engine/wide/render.h"
+
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lfdsim {
+
+/// The result of the first cuda::find(), which takes a while.
+const cuda::Found& found_gpus();
+
+/// Why the CPU has done a GPU's work in this process so far: the first reason for each GPU, with its name. Empty: it has not.
+std::vector<std::string> gpus_given_up();
+
+struct GpuRun {
+    std::string name;
+    double seconds;  // by the GPU's clock
+    Done done;
+};
+
+/// Renders a display whose estimator is `point` on the chosen GPU; the panel stays there as long as the `SummedPanel` exists, where
+/// one is given. Returns nothing if the GPU failed or the picture does not fit, and the CPU is to render it. If the user insists on
+/// the GPU: throws InputError where it does not fit, DeviceError where the GPU failed. May be called by several threads.
+std::optional<GpuRun> render_on_gpu(const ChosenDevice&, const SummedPanel* summed, const std::vector<optics::SummedImage>&, Work&,
+                                    Job&);
+
+/// The same, but the picture is compared on the GPU and not transferred. The work's picture is not touched; it has no target error.
+struct GpuComparison {
+    GpuRun run;
+    Likeness likeness;  // where the run is complete
+};
+std::optional<GpuComparison> compare_on_gpu(const ChosenDevice&, const SummedPanel&, const std::vector<optics::SummedImage>&,
+                                            const Expected&, float gain, const Work&, Job&);
+
+/// Copies of something on GPUs, by number.
+template <class Copy>
+struct GpuCopies {
+    std::mutex mutex;
+    std::map<int, Copy> copies;
+};
+class GpuPanels : public GpuCopies<wide::DevicePanel> {};
+class GpuPhotographs : public GpuCopies<wide::Photograph> {};
+
+}  // namespace lfdsim

@@ -1,0 +1,64 @@
+#include "engine/devices/threads.h"
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <pthread.h>
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <semaphore>
+#include <thread>
+#include <vector>
+
+namespace lfdsim {
+namespace {
+
+constexpr std::size_t stack_bytes = 4 << 20;  // of a worker of TBB
+constexpr int spare = 3;                      // for a picture made ahead, writers of files, and the process that reads a model
+
+std::ptrdiff_t tasks() {
+    std::error_code error;
+    return std::distance(std::filesystem::directory_iterator("/proc/self/task", error), {});
+}
+
+/// A thread that was joined still counts for a moment, in which another one would be refused.
+void wait_for_release(std::ptrdiff_t before) {
+    using namespace std::chrono_literals;
+    for (int k = 0; k < 100 && tasks() > before; ++k) std::this_thread::sleep_for(1ms);
+    std::this_thread::sleep_for(2ms);  // groups of processes are told a little later
+}
+
+}  // namespace
+
+int threads_to_be_had(int wanted) {
+    std::binary_semaphore end(0);
+    const auto wait = [](void* until) -> void* {
+        auto& semaphore = *static_cast<std::binary_semaphore*>(until);
+        semaphore.acquire();
+        semaphore.release();
+        return nullptr;
+    };
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, stack_bytes);
+    const std::ptrdiff_t before = tasks();
+    std::vector<pthread_t> threads(std::size_t(std::max(wanted, 0)));
+    std::size_t had = 0;
+    while (had < threads.size() && pthread_create(&threads[had], &attributes, wait, &end) == 0) ++had;
+    end.release();
+    for (std::size_t k = 0; k < had; ++k) pthread_join(threads[k], nullptr);
+    pthread_attr_destroy(&attributes);
+    if (had < threads.size()) wait_for_release(before);
+    return int(had);
+}
+
+void use_only_threads_to_be_had() {
+    const int wanted = tbb::info::default_concurrency() - 1 + spare, had = threads_to_be_had(wanted);
+    if (had >= wanted) return;
+    // For as long as the process lives: when a limit ends, TBB starts threads.
+    static_cast<void>(
+        new tbb::global_control(tbb::global_control::max_allowed_parallelism, std::size_t(1 + std::max(had - spare, 0))));
+}
+
+}  // namespace lfdsim

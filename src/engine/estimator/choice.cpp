@@ -1,0 +1,242 @@
+#include "engine/estimator/choice.h"
+
+#include "engine/estimator/limits.h"
+#include "engine/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+
+namespace {
+
+using Limits = FilteredLimits;
+
+/// A number that looks random (a bijective hash with good avalanche).
+std::uint32_t scrambled(std::uint32_t a) {
+    a = (a ^ a >> 16) * 0x7feb352du;
+    a = (a ^ a >> 15) * 0x846ca68bu;
+    return a ^ a >> 16;
+}
+
+/// Squares of 4 x 4 pixels, one at a random place in each cell of a grid: lenses that are seen at an even pitch would otherwise be
+/// met at the same part each time.
+std::vector<Rect> places_in(const Rect& region, int an_axis) {
+    std::vector<Rect> places;
+    const auto start = [&](std::int64_t low, std::int64_t high, int k, std::uint32_t number) {
+        const std::int64_t from = low + (high - low) * k / an_axis, size = low + (high - low) * (k + 1) / an_axis - from;
+        return int((from + Limits::place_side * (number % std::max<std::int64_t>(size / Limits::place_side, 1))) /
+                   Limits::place_side * Limits::place_side);
+    };
+    for (int j = 0; j < an_axis; ++j)
+        for (int i = 0; i < an_axis; ++i) {
+            const std::uint32_t number =
+                scrambled((std::uint32_t(region.y0) * 8191 + std::uint32_t(region.x0)) * 1024 + std::uint32_t(j * an_axis + i));
+            const int x = start(region.x0, region.x1, i, number & 0xffff), y = start(region.y0, region.y1, j, number >> 16);
+            places.push_back({x, y, std::min(x + Limits::place_side, region.x1), std::min(y + Limits::place_side, region.y1)});
+        }
+    return places;
+}
+
+std::size_t colours_of(const Rect& r) { return std::size_t(r.x1 - r.x0) * std::size_t(r.y1 - r.y0) * 3; }
+
+/// The light of places, one after the other.
+std::vector<float> light_at(Kernel kernel, Tile tile, const std::vector<Rect>& places) {
+    std::vector<float> light;
+    for (const Rect& at : places) {
+        light.resize(light.size() + colours_of(at));
+        tile.crop_x = tile.x0 = at.x0;
+        tile.crop_y = tile.y0 = at.y0;
+        tile.x1 = at.x1;
+        tile.y1 = at.y1;
+        tile.crop_width = at.x1 - at.x0;
+        tile.out = light.data() + light.size() - colours_of(at);
+        kernel(tile);
+    }
+    return light;
+}
+
+/// The square of the error of two independent pictures.
+double spread2_of(const std::vector<float>& a, const std::vector<float>& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) sum += 0.5 * (a[k] - b[k]) * (a[k] - b[k]);
+    return sum / double(a.size());
+}
+
+/// What two independent pictures by points, a and b, tell of filtered light f at a region's places. The mean of a product of two
+/// independent estimates of an error is the error's square, without what either estimate adds by chance.
+struct Agreement {
+    // Each with the standard deviation of the estimate.
+    double square = 0, square_noise = 0;   // of a pixel's error: mean of (f - a) (f - b)
+    double local2 = 0, local_noise = 0;    // square of the error of the mean over a neighbourhood: mean of products of two places
+    double region2 = 0, region_noise = 0;  // the same over the region
+
+    Agreement(const std::vector<float>& f, const std::vector<float>& a, const std::vector<float>& b,
+              const std::vector<Rect>& places) {
+        constexpr double all = Limits::places_an_axis * Limits::places_an_axis, pairs = all * (all - 1);
+        double error[Limits::places_an_axis][Limits::places_an_axis], sum = 0, squares = 0, fourth = 0;
+        std::size_t k = 0;
+        for (std::size_t n = 0; n < places.size(); ++n) {
+            double here = 0, product = 0;
+            for (const std::size_t end = k + colours_of(places[n]); k < end; ++k) {
+                const double to_a = f[k] - a[k], to_b = f[k] - b[k];
+                product += to_a * to_b / double(colours_of(places[n]));
+                here += 0.5 * (to_a + to_b) / double(colours_of(places[n]));
+            }
+            error[n / Limits::places_an_axis][n % Limits::places_an_axis] = here;
+            sum += here;
+            squares += here * here;
+            square += product / all;
+            fourth += product * product / all;
+        }
+        square_noise = std::sqrt(std::max(fourth - square * square, 0.0) / (all - 1));
+        region2 = (sum * sum - squares) / pairs;
+        region_noise = squares / all * std::sqrt(2 / pairs);
+
+        constexpr int hoods = Limits::places_an_axis / Limits::together;  // along an axis
+        constexpr double each = Limits::together * Limits::together, local_pairs = hoods * hoods * each * (each - 1);
+        for (int n = 0; n < hoods * hoods; ++n) {
+            double total = 0, own = 0;
+            for (int q = 0; q < Limits::together * Limits::together; ++q) {
+                const double of =
+                    error[n / hoods * Limits::together + q / Limits::together][n % hoods * Limits::together + q % Limits::together];
+                total += of;
+                own += of * of;
+            }
+            local2 += (total * total - own) / local_pairs;
+        }
+        local_noise = squares / all * std::sqrt(2 / local_pairs);
+    }
+
+    double rms() const { return std::sqrt(std::max(square, 0.0) + square_noise); }
+    /// Is a pixel's error below what is allowed, and the mean's? Where neither answer is true, more points tell.
+    bool right(double allowed, double mean) const {
+        return rms() <= allowed && local2 <= mean * mean && local_noise <= 3 * mean * mean &&
+               region2 <= 0.5 * mean * mean + region_noise;
+    }
+    bool wrong(double allowed, double mean) const {
+        return square > allowed * allowed + 2 * square_noise || local2 > mean * mean + 3 * local_noise ||
+               region2 > 0.5 * mean * mean + 3 * region_noise;
+    }
+};
+
+}  // namespace
+
+Choice::Choice(const Display& display, const Geometry& geometry, const std::vector<optics::SummedImage>& panel,
+               const RenderOptions& options)
+    : points_(by_points(display), geometry, panel, options) {
+    points_.result.estimator = Estimator::filtered;
+    for (const EvenPart& part : even_parts(display)) filtered_.emplace_back(part, geometry, panel, options);
+    strata_ = {filtered_.front().work.tile.strata};
+    if (display.render.samples) given_ = std::uint32_t(*display.render.samples);
+    // Parts of a bell have what number of strata they have.
+    if (options.target_error && filtered_.size() == 1) strata_ = {2, 4, 8};
+}
+
+Choice::Light Choice::filtered_at(Kernel kernel, const std::vector<Rect>& places, int strata) const {
+    Light sum;
+    for (const Part& part : filtered_) {
+        Tile tile = part.work.tile;
+        tile.strata = filtered_.size() == 1 ? strata : tile.strata;
+        const Light light = light_at(kernel, tile, places);
+        sum.resize(light.size());
+        for (std::size_t k = 0; k < light.size(); ++k) sum[k] += part.weight * light[k];
+    }
+    return sum;
+}
+
+Choice::Light Choice::points_at(Kernel kernel, const std::vector<Rect>& places, std::uint32_t points, int repetition) const {
+    optics::View view = points_.view;
+    view.seed += std::uint64_t(repetition) * 0x9e3779b97f4a7c15u;  // the golden ratio, far from seeds that users count up
+    Tile tile = points_.tile;
+    tile.view = &view;
+    tile.samples = points;
+    return light_at(kernel, tile, places);
+}
+
+void Choice::look(Kernel kernel) {
+    const std::vector<Rect> places = places_in({0, 0, points_.view.width, points_.view.height}, Limits::frame_places_an_axis);
+    const Light a = points_at(kernel, places, Limits::first_points, 3), b = points_at(kernel, places, Limits::first_points, 4);
+    double squares = 0;  // a dark background does not count
+    for (std::size_t k = 0; k < a.size(); ++k) squares += double(a[k]) * b[k];
+    light_ = std::max(std::sqrt(squares / double(a.size())), Limits::least_light);
+}
+
+RegionChoice Choice::choose(Kernel kernel, int column, int row) const {
+    const int x0 = column * region_side, y0 = row * region_side;
+    const std::vector<Rect> places =
+        places_in({x0, y0, std::min(x0 + region_side, points_.view.width), std::min(y0 + region_side, points_.view.height)},
+                  Limits::places_an_axis);
+    std::vector<Light> filtered;
+    for (const int strata : strata_) filtered.push_back(filtered_at(kernel, places, strata));
+
+    const double target = points_.target_error.value_or(0);
+    RegionChoice choice;
+    std::size_t candidate = 0;
+    double spread = 0, rms = target > 0 ? target : Limits::rms_allowed * light_,
+           mean = std::max(Limits::mean_allowed * light_, Limits::mean_of_target * target);
+    std::uint32_t points = Limits::first_points;
+    const auto error_of = [&](std::uint32_t wanted) { return spread * std::pow(double(wanted) / points, Limits::falls_as); };
+    for (;; points *= 4) {
+        const Light a = points_at(kernel, places, points, 1), b = points_at(kernel, places, points, 2);
+        choice.samples += std::int64_t(2 * points * (a.size() / 3));
+        spread = std::sqrt(spread2_of(a, b));
+        if (given_ && target == 0) rms = mean = error_of(*given_);  // the better of two
+        if (!given_ && target == 0 && points == Limits::first_points) rms = std::max(rms, Limits::of_36_points * spread);
+        for (; candidate < filtered.size(); ++candidate) {
+            const Agreement of(filtered[candidate], a, b, places);
+            if (of.right(rms, mean)) {
+                choice.strata = strata_[candidate];
+                choice.error = of.rms();
+                return choice;
+            }
+            if (!of.wrong(rms, mean)) break;
+        }
+        const bool enough = given_ || target > 0 || spread <= (points < 36 ? Limits::rms_allowed : Limits::points_rms) * light_;
+        if (points == Limits::last_points || (candidate == filtered.size() && enough)) break;
+    }
+    if (target > 0) return choice;
+    choice.points = given_.value_or(points);
+    if (!given_)
+        while (error_of(choice.points) > Limits::points_rms * light_ && choice.points < Limits::most_chosen_points)
+            choice.points *= 2;
+    choice.error = error_of(choice.points);
+    return choice;
+}
+
+std::int64_t Choice::render(Kernel kernel, const RegionChoice& choice, const Tile& of) const {
+    const std::int64_t pixels = std::int64_t(of.x1 - of.x0) * (of.y1 - of.y0);
+    std::int64_t samples = 0;
+    const auto run = [&](const Work& work, int strata, std::uint32_t points) {
+        Tile tile = work.tile;
+        tile.out = of.out;
+        tile.x0 = of.x0;
+        tile.y0 = of.y0;
+        tile.x1 = of.x1;
+        tile.y1 = of.y1;
+        tile.strata = strata;
+        tile.samples = points;
+        kernel(tile);
+        samples += pixels * (strata > 0 ? strata * strata : std::int64_t(points));
+    };
+    if (choice.strata == 0) {
+        run(points_, 0, choice.points);
+    } else if (filtered_.size() == 1) {
+        run(filtered_.front().work, choice.strata, 0);
+    } else {
+        const std::size_t width = std::size_t(of.x1 - of.x0) * 3;
+        Light sum(std::size_t(pixels) * 3);
+        const auto row = [&](std::int32_t y) {
+            return of.out + (std::int64_t(y - of.crop_y) * of.crop_width + of.x0 - of.crop_x) * 3;
+        };
+        for (const Part& part : filtered_) {
+            run(part.work, part.work.tile.strata, 0);
+            for (std::int32_t y = of.y0; y < of.y1; ++y)
+                for (std::size_t k = 0; k < width; ++k) sum[std::size_t(y - of.y0) * width + k] += part.weight * row(y)[k];
+        }
+        for (std::int32_t y = of.y0; y < of.y1; ++y) std::copy_n(sum.data() + std::size_t(y - of.y0) * width, width, row(y));
+    }
+    return samples;
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,65 @@
+// Which estimator renders which part of a picture: measured against points, not decided by the kind of display. Floor 2.
+//
+// Filtered light is many times cheaper than points of the same error where lenses bend rays smoothly and pixels shine all over.
+// Where they do not, it may be wrong, and the same for every seed. So a region of the frame is rendered by filtered light only
+// where that agrees with points at places spread over the region; elsewhere by as many points as a small error takes.
+// docs/model.md, "What a default picture is made of".
+#pragma once
+#include "engine/estimator/gaussian_parts.h"
+#include "engine/scene/work.h"
+
+#include <list>
+#include <optional>
+#include <vector>
+
+namespace lfdsim {
+
+/// How one region is rendered.
+struct RegionChoice {
+    int strata = 0;            // an axis, of filtered light; 0: by points
+    std::uint32_t points = 0;  // a pixel; 0: as many as the target error takes
+    double error = 0;          // root mean square over pixels and colours, linear light, as measured at the region's places
+    std::int64_t samples = 0;  // taken to measure
+};
+
+/// A display's picture by filtered light and by points, and what each region of its frame takes.
+class Choice {
+  public:
+    static constexpr int region_side = 256;  // pixels of the frame
+
+    /// Throws what Work throws.
+    Choice(const Display&, const Geometry&, const std::vector<optics::SummedImage>& panel, const RenderOptions&);
+
+    /// The picture by points; its result is the whole picture's.
+    Work& work() { return points_; }
+    const Work& work() const { return points_; }
+
+    /// Measures the light of the whole frame, which errors are judged by. Comes before choose().
+    void look(Kernel);
+    /// The region's choice, which depends neither on the crop nor on what is chosen elsewhere.
+    RegionChoice choose(Kernel, int column, int row) const;
+    /// Renders a tile that lies in a region by anything but a target error; returns the samples taken.
+    std::int64_t render(Kernel, const RegionChoice&, const Tile&) const;
+
+  private:
+    using Light = std::vector<float>;  // three numbers a pixel
+
+    Light filtered_at(Kernel, const std::vector<Rect>& places, int strata) const;
+    Light points_at(Kernel, const std::vector<Rect>& places, std::uint32_t points, int repetition) const;
+
+    /// A display whose pictures add up to that by filtered light: one box of the diffuser's bell.
+    struct Part {
+        Part(const EvenPart& of, const Geometry& geometry, const std::vector<optics::SummedImage>& panel,
+             const RenderOptions& options)
+            : work(of.display, geometry, panel, options), weight(of.weight) {}
+        Work work;
+        float weight;
+    };
+    Work points_;
+    std::list<Part> filtered_;
+    std::vector<int> strata_;             // an axis, of filtered light, the fewest first
+    std::optional<std::uint32_t> given_;  // points a pixel, where the description has a number of samples
+    double light_ = 0;                    // of the frame, root mean square
+};
+
+}  // namespace lfdsim

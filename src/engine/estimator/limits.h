@@ -1,0 +1,90 @@
+// The limits of the filtered and of the lens-by-lens estimator's shortcuts, and of the choice between them and points. Floor 1.
+// docs/design.md, "The filtered estimator", explains blocks, strata and bundles.
+#pragma once
+#include <cstdint>
+
+namespace lfdsim {
+
+/// The pixels of a block share the rays of a bundle as long as the result holds for all of them. Where a limit is exceeded, smaller
+/// blocks are tried, and the smallest are rendered lens by lens. Wider limits share more.
+struct FilteredLimits {
+    // A display (engine/scene/scene.cpp). Picture pixels that a diffused ray spans along each axis at least.
+    static constexpr double least_span = 4;
+    // A diffuser is weak where rays span less than this along both axes, in picture pixels and in lens pitches.
+    static constexpr double weak_span = 20, weak = 0.5;
+    // Panel pixels by which a ray moves from one picture pixel to the next at most.
+    static constexpr double leaping = 1;
+    // How wide a block of 16 x 16 pixels may be, as a share of the lens pitch or of what a diffused ray spans, whichever is less.
+    // In this order: for a fine picture; for many strata; for a rough picture; otherwise.
+    static constexpr double block_finest = 0.05, block_fine = 0.2, block_rough = 0.95, block_usual = 0.7;
+    // The same for blocks of 8 x 8 pixels, twice the above at most.
+    static constexpr double half_block_rough = 0.8, half_block_usual = 0.4;
+
+    // A block (engine/estimator/shared_footprint.h). Lens pitches: how far the fourth ray of a block may be from where the other
+    // three predict it.
+    static constexpr double bend = 1e-3;
+    // Cosine: how steeply a ray must still go down after the diffuser's largest turn (relative to the cosine before it).
+    static constexpr double steepest = 0.2;
+    // Share of the light: by how much strata may misjudge it in taking the diffuser's two turns as independent; with few strata,
+    // and with many, which are used where little noise is allowed.
+    static constexpr double misjudged = 0.05, misjudged_fine = 0.002;
+
+    // A stratum (kernels/filtered_axis.h). Half pitches from a lens's axis up to which it counts as that lens's alone.
+    static constexpr double straddling = 1.02;
+
+    // A bundle (engine/estimator/shared_footprint.h, kernels/filtered_bundles.h). Panel pixels: a wider footprint is the mean over
+    // boxes around its probes, not one box.
+    static constexpr double soft = 1;
+    // Panel pixels, where they do not shine all over: of narrower boxes the light changes from pixel to pixel of the picture, and
+    // is not interpolated.
+    static constexpr double masked = 4;
+    // How far the fourth ray may be from where the other three predict it: panel pixels, plus a share of the footprint's width.
+    static constexpr double least_uneven = 0.02, uneven = 0.05;
+    // Share of the footprint's width, plus `least_uneven`: one that moves less over the block is treated as still.
+    static constexpr double still = 0.1;
+    // Panel pixels: a wider footprint is treated as still even where its rays move unevenly.
+    static constexpr double smeared = 16;
+    // Share of an outermost stratum: where pixels see less of it, its footprint is not narrowed to what they see.
+    static constexpr double part_seen = 0.25;
+    // Least weight of a probe, even for a pixel that sees nothing of its part, so that there is a mean for all pixels.
+    static constexpr double least_seen = 1e-3;
+    // A footprint is traced in one part along each axis, and one more for each of so many panel pixels, up to most_parts.
+    static constexpr double pixels_a_part = 24;
+    static constexpr int most_parts = 2;
+    // Picture pixels between the points at which light is computed, and interpolated in between: for a block with few strata
+    // (places), and for one soft bundle (nodes).
+    static constexpr int place_step = 4, node_step = 8;
+
+    // Lens by lens (kernels/lens_by_lens.h, seen_lenses.h). Share of a cell by which a lens's part of the domain may be wider than
+    // a number of cells without one more.
+    static constexpr double cell_to_spare = 0.3;
+    // How much the spread counts that is widest among the numbers that outlines do not cut: a box serves it.
+    static constexpr double boxed_spread = 0.3;
+    // Share of the sides of a box, and panel pixels: a parallelogram that leans farther is read as boxes side by side, so many at
+    // most.
+    static constexpr double leaning = 0.25;
+    static constexpr int most_boxes = 8;
+    // Share of the widest spread's box: what else spreads light moves it by less than this, and is left out.
+    static constexpr double aside = 0.04;
+    // Share of the sides of a box: where pixels do not shine all over, light that spreads farther than this along a leaning line is
+    // read along it, in at most so many pieces.
+    static constexpr double upright = 0.125;
+    static constexpr int most_pieces = 8;
+
+    // The choice between filtered light and points (engine/estimator/choice.cpp). Errors are allowed as shares of the frame's light
+    // (root mean square; a darker frame than `least_light` is judged as one of this light) or of the target error: of the mean over
+    // a neighbourhood of pixels, and of a pixel, by filtered light and by points. By points so that the mean over 500 pixels is
+    // right to 0.002.
+    static constexpr double least_light = 0.05, mean_allowed = 0.003, mean_of_target = 0.3, rms_allowed = 0.01, points_rms = 0.04;
+    // A pixel of filtered light may be as wrong as one of 36 Sobol points: the error of these over that of 16.
+    static constexpr double of_36_points = 0.5;
+    // The power of the number of points by which their error falls, at least.
+    static constexpr double falls_as = -0.62;
+    // Points a pixel at a region's places: the first, four times as many in each step, and the last. The most that are chosen.
+    static constexpr std::uint32_t first_points = 16, last_points = 256, most_chosen_points = 4096;
+    // Pixels along a place's side: as many as share a list of lenses. Places along a region's side, along a neighbourhood's, and
+    // along the frame's.
+    static constexpr int place_side = 4, places_an_axis = 12, together = 3, frame_places_an_axis = 16;
+};
+
+}  // namespace lfdsim

@@ -1,0 +1,177 @@
+// The mean light of the panel over what a ray spreads there: by the two numbers of the domain that outlines cut, and by others.
+// Floor 1.
+#pragma once
+#include "engine/estimator/limits.h"
+#include "engine/estimator/panel_light.h"
+
+namespace lfdsim::optics::inline LFDSIM_ISA {
+
+/// How far light spreads on the panel: twelve times the variances of column and row, and their covariance. Those of an upright box
+/// are its width and its height squared, and 0.
+template <class F>
+struct PanelSpread {
+    F wide2, high2, lean2;
+
+    /// Adds what spreads evenly over so many columns and rows at once.
+    LFDSIM_FN void add(F columns, F rows) {
+        wide2 = wide2 + columns * columns;
+        high2 = high2 + rows * rows;
+        lean2 = lean2 + columns * rows;
+    }
+};
+
+/// Light that two spreads move along one axis, each evenly and so far: what of it lies between 0 and a place.
+template <class F>
+struct TwoSpreads {
+    F one, other;  // neither much less than the other
+
+    /// The share of all: odd in the place.
+    LFDSIM_FN F share(F place) const {
+        using S = Scalar<F>;
+        const F half = F(S(0.5)), longer = max(one, other), at = abs(place), rest = max(half * (one + other) - at, F(0));
+        const F some = select(at > half * abs(one - other), half - quotient(half * rest * rest, one * other), quotient(at, longer));
+        return select(place < F(0), -some, some);
+    }
+    /// That share times how far the first spread has moved it on the mean, less the same of 0: even in the place.
+    LFDSIM_FN F moved(F place) const { return moved(one, other, place); }
+    LFDSIM_FN F moved_by_other(F place) const { return moved(other, one, place); }
+
+  private:
+    LFDSIM_FN static F moved(F by, F more, F place) {
+        using S = Scalar<F>;
+        const F half = F(S(0.5)), even = half * abs(by - more), at = min(abs(place), half * (by + more)), in = min(at, even);
+        const F inner = select(by > more, quotient(half * in * in, by), F(0)), from = in - half * more, to = at - half * more;
+        // Of the first spread what lies beyond `to` has moved light there.
+        const F third = F(S(1.0 / 3)), end2 = F(S(0.25)) * by * by;
+        const F outer = (to - from) * (end2 - third * (to * to + to * from + from * from));
+        return inner + quotient(half * outer, by * more);
+    }
+};
+
+/// Leaning lines of the panel: light that two spreads move, each evenly over `along` pixels along an axis, and by `slope` pixels
+/// across for each of them; and both over `across` as well.
+template <class F>
+struct LeaningLines {
+    struct Line {
+        F along, slope;
+    };
+    F place[2];  // column, row of the middle, from a base
+    Line one, other;
+    F across, weight;
+};
+
+/// Pieces of such lines along `axis`, 0 for columns and 1 for rows: one for each cell of a part of the panel, from where the part
+/// begins to shine there to where it ends. So far it shines evenly, and that the piece leans only widens it. Of long lines a piece
+/// is several cells.
+template <int axis, class F>
+class Pieces {
+    using S = Scalar<F>;
+
+  public:
+    LFDSIM_FN explicit Pieces(const LeaningLines<F>& of)
+        : line(of),
+          one2(of.one.along * of.one.along),
+          other2(of.other.along * of.other.along),
+          least(max(F(S(1.0 / 64)) * max(of.one.along, of.other.along), F(S(1e-6)))),
+          spreads{max(of.one.along, least), max(of.other.along, least)} {}
+
+    /// The n-th; false: no lane has one.
+    LFDSIM_FN bool make(const SubpixelPart<S>& part, const PanelBase<S>& base, int n) {
+        const F zero = F(0), one = F(1), half = F(S(0.5));
+        const std::uint32_t number = axis == 0 ? base.column : base.row;
+        along = PlaneSide<F>(part, axis, number, line.place[axis], spreads.one + spreads.other);
+        const F pixels = F(S(part.cell[axis])), all = along.middle, start = all - half * along.width,
+                end = all + half * along.width, first = floor(start),
+                step = max(one, F(0) - floor((first - end) * F(S(1.0 / FilteredLimits::most_pieces)))),
+                from = first + F(S(n)) * step;
+        if (none((line.weight > zero) && (from < end))) return false;
+        const F low = max(from, start), high = min(from + step, end), last_cell = F(0) - floor(F(0) - high) - one;
+        const F lit = max(low, floor(low) + F(part.from[axis])), dark = max(min(high, last_cell + F(part.to[axis])), lit);
+        const F a = (lit - all) * pixels, b = (dark - all) * pixels;  // panel pixels from the middle
+        share = max(spreads.share(b) - spreads.share(a), zero);
+        const F by_one = line.one.slope, by_other = line.other.slope;
+        middle = line.place[1 - axis] + quotient(by_one * (spreads.moved(b) - spreads.moved(a)) +
+                                                     by_other * (spreads.moved_by_other(b) - spreads.moved_by_other(a)),
+                                                 max(share, F(S(1e-6))));
+        // Twelve times the variances of what lies in the piece: along it, and of how far each spread has moved that.
+        const F reach = half * sqrt(one2 + other2), length = max(min(b, reach) - max(a, -reach), zero), in2 = length * length,
+                moved2 = min(one2, in2 + other2), moved_by_other2 = min(other2, in2 + one2);
+        aside = sqrt(max((by_one - by_other) * (by_one * moved2 - by_other * moved_by_other2) + by_one * by_other * in2, zero));
+        along.middle = half * (lit + dark);
+        along.width = dark - lit;
+        along.squeeze(part, axis);
+        return true;
+    }
+
+    PlaneSide<F> along;
+    F share, middle, aside;  // of the light; across, and how far it spreads there besides line.across
+
+  private:
+    const LeaningLines<F>& line;
+    const F one2, other2, least;
+    const TwoSpreads<F> spreads;
+};
+
+/// The mean over leaning lines of a panel with subpixels.
+template <int axis, class F>
+LFDSIM_LARGE void add_lines(const PanelLight& panel, const PanelBase<Scalar<F>>& base, const LeaningLines<F>& line,
+                            Light<F>& light) {
+    using S = Scalar<F>;
+    constexpr int other = 1 - axis;
+    const Emission<S>& emission = *panel.emission;
+    const std::uint32_t number = axis == 0 ? base.row : base.column;
+    Pieces<axis, F> piece(line);
+    bool found = true;
+    for (int n = 0; n < FilteredLimits::most_pieces && found; ++n) {
+        found = false;
+        bool made = false;
+        for (int k = 0; k < emission.count; ++k) {
+            const SubpixelPart<S>& part = emission.part[k];
+            if (k == 0 || !alike(part, emission.part[k - 1], axis)) made = piece.make(part, base, n);
+            if (!made) continue;
+            found = true;
+            PlaneSide<F> side[2] = {piece.along, piece.along};
+            side[other] =
+                PlaneSide<F>(part, other, number, piece.middle, sqrt(line.across * line.across + piece.aside * piece.aside));
+            side[other].squeeze(part, other, line.across, piece.aside);
+            add_part(panel, base, part, side, line.weight * piece.share, light);
+        }
+    }
+}
+
+/// Adds the light that spreads so far about a place by `square` and by `others`, `weight` times its mean, of a panel whose pixels
+/// do not shine all over. The gaps between them tell a leaning line from an upright box of the same variances, and two spreads from
+/// one: light is read along the line, or gaps take their exact share of two upright spreads. docs/model.md, "Black matrix and
+/// subpixels".
+template <class F>
+LFDSIM_FN void add_spread(const PanelLight& panel, const PanelBase<Scalar<F>>& base, F column, F row, const PanelSpread<F>& square,
+                          const PanelSpread<F>& others, F weight, Light<F>& light) {
+    using S = Scalar<F>;
+    const F zero = F(0), tiny = F(S(1e-6)), least = F(S(1.0 / 64)), upright = F(S(FilteredLimits::upright));
+    const Boxes<F> all{column, row, sqrt(square.wide2 + others.wide2), sqrt(square.high2 + others.high2), weight};
+    const F wider = upright * max(all.wide, least), higher = upright * max(all.high, least);
+    const Mask<F> down = !(all.wide > all.high), leans = upright * (abs(square.lean2) + abs(others.lean2)) > wider * higher;
+    const auto add_leaning = [&]<int axis>(Mask<F> some) {
+        if (none(some)) return;
+        F across2 = zero;  // what does not lean
+        const auto line_of = [&](const PanelSpread<F>& spread) {
+            const F along = sqrt(axis == 0 ? spread.wide2 : spread.high2), lean = quotient(spread.lean2, max(along, tiny));
+            across2 = across2 + max((axis == 0 ? spread.high2 : spread.wide2) - lean * lean, zero);
+            return typename LeaningLines<F>::Line{along, quotient(lean, max(along, tiny))};
+        };
+        LeaningLines<F> lines{{column, row}, line_of(square), line_of(others), zero, select(some, weight, zero)};
+        lines.across = sqrt(across2);
+        add_lines<axis>(panel, base, lines, light);
+    };
+    add_leaning.template operator()<0>(leans && !down);
+    add_leaning.template operator()<1>(leans && down);
+    if (!any(!leans)) return;
+    const F one[2] = {sqrt(square.wide2), sqrt(square.high2)}, other[2] = {sqrt(others.wide2), sqrt(others.high2)};
+    Boxes<F> box = all;
+    box.weight = select(leans, zero, weight);
+    add_subpixels(panel, base, box, light, [&](PlaneSide<F>& side, const SubpixelPart<S>& part, int axis) {
+        side.squeeze(part, axis, one[axis], other[axis]);
+    });
+}
+
+}  // namespace lfdsim::optics::inline LFDSIM_ISA

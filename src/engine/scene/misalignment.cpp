@@ -1,0 +1,150 @@
+#include "engine/scene/misalignment.h"
+
+#include "base/constants.h"
+#include "engine/devices/memory.h"
+#include "geometry/lens_misalignment.h"
+#include "geometry/prescription.h"
+#include "optics/lattice.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+namespace {
+
+/// What the lenses come to together.
+struct Extremes {
+    double aside = 0, low = 0, high = 0, tilt = 0, curvature[2] = {1, 1};
+
+    void add(const LensError& e) {
+        aside = std::max(aside, std::hypot(e.aside_mm[0], e.aside_mm[1]));
+        low = std::min(low, e.height_mm);
+        high = std::max(high, e.height_mm);
+        tilt = std::max(tilt, (std::abs(e.tilt_deg[0]) + std::abs(e.tilt_deg[1])) * degree);
+        curvature[0] = std::min(curvature[0], 1 + e.curvature);
+        curvature[1] = std::max(curvature[1], 1 + e.curvature);
+    }
+};
+
+template <class S>
+optics::PlacedLens<S> placed(const LensError& e) {
+    const double x = e.tilt_deg[0] * degree, y = e.tilt_deg[1] * degree;
+    return {{S(e.aside_mm[0]), S(e.aside_mm[1]), S(e.height_mm), S(1 + e.curvature)},
+            {S(std::cos(x)), S(std::sin(x)), S(std::cos(y)), S(std::sin(y))}};
+}
+
+/// Lowest and highest sag of a surface, whatever the lens's curvature is.
+std::array<double, 2> sags(const PlacedSurface& surface, const Extremes& all) {
+    std::array<double, 2> range{0, 0};
+    if (surface.form == SurfaceForm::thin) return range;
+    for (const double factor : all.curvature) {
+        PlacedSurface s = surface;
+        s.curvature_per_mm *= factor;
+        const auto [low, high] = sag_range_mm(s);
+        range = {std::min(range[0], low), std::max(range[1], high)};
+    }
+    return range;
+}
+
+/// z of the highest rim of lenses that are so much more curved, from the vertex plane.
+double highest_rim_mm(const Geometry& g, double factor) {
+    double rim = -infinity;
+    for (const PlacedSurface& s : g.surfaces)
+        rim = std::max(rim, s.z_mm + sag_mm(factor * s.curvature_per_mm, s.conic, s.even_asphere, s.semi_aperture_mm));
+    return rim - g.vertex_plane_mm;
+}
+
+}  // namespace
+
+std::vector<LensError> lenses_as_built(const Display& d, const Lattice<double>& lattice) {
+    // The list, and the lenses that the tracer reads.
+    const double count = double(lattice.count[0]) * double(lattice.count[1]), bytes = count * (2 * sizeof(LensError));
+    constexpr double small_bytes = 1 << 20;
+    if (bytes > small_bytes)
+        require_memory("array.count", fmt::format("[errors] of {:.0f} lenses, each with its own,", count), bytes);
+    std::vector<LensError> all = lens_errors(d, lattice);
+    if (d.errors.bow_mm == 0) return all;
+    const auto columns = std::size_t(lattice.count[0]);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const auto axis = optics::axis_in_array(lattice, optics::Cell<double>{double(k % columns), double(k / columns)});
+        all[k].height_mm += raised_mm(d.errors, lattice, axis.x, axis.y);
+    }
+    return all;
+}
+
+// Rz^-1 Ry Rx Rz: x' of the turned frame is at the array's turn from the panel's x axis, about which the wedge is.
+void wedge_of(const Errors& e, const Geometry& g, double (&wedge)[3][3]) {
+    const double cx = std::cos(e.wedge_deg[0] * degree), sx = std::sin(e.wedge_deg[0] * degree),
+                 cy = std::cos(e.wedge_deg[1] * degree), sy = std::sin(e.wedge_deg[1] * degree);
+    const double about[3][3] = {{cy, sy * sx, sy * cx}, {0, cx, -sx}, {-sy, cy * sx, cy * cx}};
+    const double c = g.lattice.cos_turn, s = g.lattice.sin_turn;
+    const double turn[3][3] = {{c, -s, 0}, {s, c, 0}, {0, 0, 1}};
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column) {
+            wedge[row][column] = 0;
+            for (int k = 0; k < 3; ++k)
+                for (int l = 0; l < 3; ++l) wedge[row][column] += turn[k][row] * about[k][l] * turn[l][column];
+        }
+}
+
+template <class S>
+void place_lenses(const Display& d, const Geometry& g, DisplayScene<S>& scene) {
+    optics::Placement<S>& placement = scene.placement;
+    placement.wedged = is_wedged(d.errors);
+    placement.given = is_irregular(d.errors);
+    if (!placement.given) return;
+
+    Extremes all;
+    if (lenses_differ(d.errors)) {
+        const std::vector<LensError> errors = lenses_as_built(d, g.lattice);
+        auto lenses = std::make_shared<std::vector<optics::PlacedLens<S>>>();
+        lenses->reserve(errors.size());
+        for (const LensError& e : errors) {
+            all.add(e);
+            lenses->push_back(placed<S>(e));
+        }
+        placement.lens = lenses->data();
+        scene.lenses = std::move(lenses);
+    }
+    placement.tilted = all.tilt != 0;
+    placement.curved = all.curvature[0] != 1 || all.curvature[1] != 1;
+    placement.lowest = S(all.low);
+    placement.highest = S(all.high);
+    placement.vertex_z = S(g.vertex_plane_mm);
+    double wedge[3][3];
+    wedge_of(d.errors, g, wedge);
+    for (int k = 0; k < 9; ++k) placement.wedge[k / 3][k % 3] = S(wedge[k / 3][k % 3]);
+
+    if (placement.curved && !scene.thin)
+        for (int k = 0; k < scene.surface_count; ++k) {
+            const auto [lowest, highest] = sags(g.surfaces[g.surfaces.size() - 1 - std::size_t(k)], all);
+            scene.surface[k].low = S(lowest);
+            scene.surface[k].high = S(highest);
+        }
+    const PlacedSurface& first = g.surfaces.back();
+    const auto [low, high] = sags(first, all);
+    const double entrance = first.z_mm - g.vertex_plane_mm;
+    double top = entrance + high, bottom = entrance + low;
+    if (scene.dimple) {  // the entrance is the rim
+        const auto [lowest, highest] = std::minmax({highest_rim_mm(g, all.curvature[0]), highest_rim_mm(g, all.curvature[1])});
+        top = std::max(top, highest);
+        bottom = lowest;
+    }
+    // Turned about its vertex a lens swings aside by what it reaches below that, and up and down by what it reaches aside.
+    const double swing = std::sin(all.tilt) * std::max(std::abs(top), std::abs(bottom)),
+                 sway = std::sin(all.tilt) * first.semi_aperture_mm;
+    constexpr double rounding = 1e-4;  // mm, of single precision near a lens
+    const double aside = all.aside + swing + rounding;
+    const bool round = d.array.aperture == Aperture::circle;
+    placement.reach = S(aside + (round ? first.semi_aperture_mm - std::min(g.lattice.half_pitch[0], g.lattice.half_pitch[1]) : 0));
+    placement.radius =
+        S(aside + (round ? first.semi_aperture_mm : outer_radius_mm(d.array) * (g.lattice.pitch[0] / d.array.pitch_mm[0])));
+    placement.search_top = S(top + all.high + sway + rounding);
+    placement.search_bottom = S(bottom + all.low - sway - rounding);
+}
+
+template void place_lenses<float>(const Display&, const Geometry&, DisplayScene<float>&);
+template void place_lenses<double>(const Display&, const Geometry&, DisplayScene<double>&);
+
+}  // namespace lfdsim

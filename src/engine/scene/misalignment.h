@@ -1,0 +1,17 @@
+// The errors of an array as the tracer needs them. Floor 2.
+#pragma once
+#include "engine/scene/scene.h"
+
+namespace lfdsim {
+
+/// Its turn Ry(wedge y) Rx(wedge x), between the array's own frame and that turned about z alone; the identity of an array without.
+void wedge_of(const Errors&, const Geometry&, double (&wedge)[3][3]);
+
+/// Errors of all lenses, drawn and given, with the bow in their heights: row by row from the lower left.
+std::vector<LensError> lenses_as_built(const Display&, const Lattice<double>&);
+
+/// Fills the scene's placement, if the array has a wedge or its lenses differ.
+template <class S>
+void place_lenses(const Display&, const Geometry&, DisplayScene<S>&);
+
+}  // namespace lfdsim

@@ -1,0 +1,19 @@
+// A picture rendered by the caller's own kernel. Floor 2.
+#pragma once
+#include "engine/devices/kernel.h"
+#include "engine/render.h"
+
+namespace lfdsim {
+
+/// A kernel and the scene that it is given with each tile. The scene may be a base class of a larger one that the kernel expects.
+struct Tracer {
+    const char* name;
+    Kernel run;
+    const optics::Scene<float>& scene;
+};
+
+/// As render(), with this kernel in place of those of the table. Throws InputError.
+Rendering render_with(const Tracer&, const Display&, const Geometry&, const std::vector<optics::SummedImage>&, const RenderOptions&,
+                      Job&);
+
+}  // namespace lfdsim

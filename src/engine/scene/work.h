@@ -1,0 +1,28 @@
+// A picture's work, prepared for any device. Floor 2.
+#pragma once
+#include "engine/devices/kernel.h"
+#include "engine/render.h"
+#include "engine/scene/scene.h"
+
+#include <optional>
+#include <vector>
+
+namespace lfdsim {
+
+/// Throws InputError for a bad crop, target error, number of samples or panel size.
+struct Work {
+    Work(const Display&, const Geometry&, const std::vector<optics::SummedImage>& panel, const RenderOptions&);
+    Work(const Work&) = delete;
+    Work& operator=(const Work&) = delete;
+
+    /// Makes black pictures of the crop's size, to which the tile is then rendered.
+    void make_pictures(bool with_error);
+
+    Rendering result;  // estimator; pictures once they are made
+    DisplayScene<float> scene;
+    optics::View view;
+    Tile tile;                           // the whole crop
+    std::optional<double> target_error;  // where there is something to sample
+};
+
+}  // namespace lfdsim

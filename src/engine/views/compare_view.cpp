@@ -1,0 +1,50 @@
+#include "engine/views/compare_view.h"
+
+#include "base/input_error.h"
+#include "display/colour.h"
+#include "engine/devices/gpu.h"
+#include "engine/scene/scene.h"
+#include "engine/scene/work.h"
+
+#include <fmt/format.h>
+#include <chrono>
+#include <stdexcept>
+
+namespace lfdsim {
+
+Expected::Expected(Image photograph, Region on_screen, Region on_content)
+    : screen(std::move(on_screen)),
+      content(std::move(on_content)),
+      photograph_(std::move(photograph)),
+      on_gpus_(std::make_shared<GpuPhotographs>()) {}
+
+ComparedView compare_view(const Display& display, const Geometry& geometry, const SummedPanel& panel, const Expected& expected,
+                          float gain, const RenderOptions& options, Job& job) {
+    if (options.target_error) throw std::invalid_argument("views are compared without a target error");
+    const auto start = std::chrono::steady_clock::now();
+    const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+    const std::vector<optics::SummedImage>& planes = panel.planes(panel_reading(display));
+    const Work work(by_points(display), geometry, planes, options);
+    const Image& photograph = expected.photograph();
+    const int width = work.tile.x1 - work.tile.x0, height = work.tile.y1 - work.tile.y0;
+    if (photograph.width != width || photograph.height != height)
+        throw InputError("", fmt::format("the photograph is {} x {} pixels, the view {} x {}; only equal sizes can be compared",
+                                         photograph.width, photograph.height, width, height));
+    const ChosenDevice device = choose_device(options.device, options.kernel);
+    RenderOptions on_cpu = options;
+    Display shown = display;
+    if (device.gpu && !disperses(display) && estimator_of(display) != Estimator::lens_by_lens) {
+        if (const auto done = compare_on_gpu(device, panel, planes, expected, gain, work, job))
+            return {done->likeness, done->run.done.complete, seconds(), done->run.seconds};
+        on_cpu.device = "cpu";  // with the same bits
+        shown = by_points(display);
+    }
+    Rendering view = render(shown, geometry, panel, on_cpu, job);
+    ComparedView result;
+    result.complete = view.complete;
+    if (view.complete) result.likeness = likeness(std::move(view.image), gain, photograph, expected.screen, expected.content);
+    result.seconds = seconds();
+    return result;
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,267 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "base/printable.h"
+#include "display/keys.h"
+#include "files/calibration/calibration.h"
+#include "files/description/nearest.h"
+#include "files/lenses/lens_json.h"
+
+// visual.json of Looking Glass displays: numbers by name, plain or as {"value": x}; newer ones with subpixelCells. The first letter
+// of a key may be small or capital.
+namespace lfdsim {
+namespace {
+
+constexpr std::string_view own_keys[] = {"pitch", "slope", "DPI", "screenW", "screenH", "viewCone"};
+constexpr Range pitch_range{1, 1e4}, center_range{-1e6, 1e6}, dpi_range{1, 1e5}, screen_range{1, 1e5}, cone_range{1, 170},
+    place_range{-1, 1};
+constexpr double flattest = 0.1, steepest = 1e6;  // slopes: lenses are turned by 84 degrees at most
+constexpr std::size_t most_cells = 16;
+constexpr std::size_t enough_keys = 3;  // of its own ones, to tell a calibration among other things
+constexpr int deepest_nesting = 8;      // of things inside of others
+constexpr std::size_t most_found = 10;
+
+/// A member by its key, or else by one with another first letter: "cellPatternMode" for "CellPatternMode". `found_as`: its own key.
+const LensJson& named(const LensJson& json, const std::string& key, std::string& found_as) {
+    found_as = key;
+    if (const LensJson& exact = member(json, key); !exact.is_null()) return exact;
+    const auto other = [](char c) {
+        return c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+    };
+    std::string turned = key;
+    turned[0] = other(turned[0]);
+    const LensJson& found = member(json, turned);
+    if (!found.is_null()) found_as = turned;
+    return found;
+}
+const LensJson& named(const LensJson& json, const std::string& key) {
+    std::string found_as;
+    return named(json, key, found_as);
+}
+
+std::size_t own_keys_of(const LensJson& json) {
+    return std::size_t(std::count_if(std::begin(own_keys), std::end(own_keys),
+                                     [&](std::string_view key) { return !named(json, std::string(key)).is_null(); }));
+}
+
+/// Number, word or flag under a key; null where something larger stands.
+const LensJson& plain(const LensJson& json, const std::string& key) {
+    static const LensJson nothing;
+    const LensJson& found = named(json, key);
+    const LensJson& value = found.is_object() ? member(found, "value") : found;
+    return value.is_structured() ? nothing : value;
+}
+
+/// The text may nest deeply: nothing of it is copied or compared as a whole.
+struct Found {
+    std::string place;
+    std::shared_ptr<const LensJson> text;  // in which it stands
+    const LensJson* json;
+
+    bool same_unit(const LensJson& other) const {
+        constexpr const char* keys[] = {"serial", "pitch", "slope", "center", "DPI", "screenW", "screenH", "viewCone"};
+        return std::all_of(std::begin(keys), std::end(keys),
+                           [&](const char* key) { return plain(*json, key) == plain(other, key); });
+    }
+};
+
+/// All calibrations within: in objects, lists, and texts that are JSON themselves.
+void find_within(const std::shared_ptr<const LensJson>& text, const LensJson& json, const std::string& place, int depth,
+                 std::vector<Found>& found) {
+    if (depth > deepest_nesting || found.size() >= most_found) return;
+    if (own_keys_of(json) >= enough_keys) {
+        const auto same = [&](const Found& other) { return other.same_unit(json); };
+        if (std::none_of(found.begin(), found.end(), same)) found.push_back({place, text, &json});
+        return;
+    }
+    if (json.is_string()) {
+        const auto& word = json.get_ref<const std::string&>();
+        if (word.find('{') == word.npos) return;
+        const auto inside =
+            std::make_shared<const LensJson>(LensJson::parse(word, nullptr, false));  // nothing, where it is no JSON
+        if (inside->is_structured()) find_within(inside, *inside, place, depth + 1, found);
+    }
+    if (json.is_object())
+        for (const auto& [key, content] : json.items())
+            find_within(text, content, place.empty() ? shortened(key) : place + "." + shortened(key), depth + 1, found);
+    if (json.is_array())
+        for (std::size_t i = 0; i < json.size(); ++i) find_within(text, json[i], fmt::format("{}[{}]", place, i), depth + 1, found);
+}
+
+/// The calibrations that a file means: itself where it has but one key of them, so that those that are missing are named.
+std::vector<Found> calibrations_in(std::string_view text, std::string_view name) {
+    const auto json = std::make_shared<const LensJson>(parse_lens_json(text, name));
+    std::vector<Found> found;
+    find_within(json, *json, "", 0, found);
+    if (found.empty() && (own_keys_of(*json) > 0)) found.push_back({"", json, json.get()});
+    return found;
+}
+
+class CalibrationReader : JsonReader {
+  public:
+    explicit CalibrationReader(std::string_view file) : JsonReader(file) {}
+
+    Calibration read(const LensJson& json) {
+        all = &json;
+        c.pitch_per_inch = required("pitch", pitch_range);
+        const LensJson& slope = value("slope");
+        c.slope = in_range(slope, "slope", {-steepest, steepest});
+        if (slope.is_number() && std::abs(c.slope) < flattest)
+            refuse("slope", "is {}; its size must be at least {}", c.slope, flattest);
+        c.center = required("center", center_range);
+        c.dpi = required("DPI", dpi_range);
+        c.pixels = {whole("screenW", screen_range), whole("screenH", screen_range)};
+        if (!value("viewCone").is_null()) c.view_cone_deg = required("viewCone", cone_range);
+        c.flip_image_x = flag("flipImageX");
+        c.flip_subpixels = flag("flipSubp");
+        read_cells();
+        read_names();
+        report();
+        return std::move(c);
+    }
+
+  private:
+    /// What stands under a key, without the object around it. Null: nothing does.
+    const LensJson& value(const std::string& key) {
+        std::string found_as;
+        const LensJson& found = named(*all, key, found_as);
+        known.insert(found_as);
+        return found.is_object() ? member(found, "value") : found;
+    }
+
+    double required(const std::string& key, const Range& range) { return in_range(value(key), key, range); }
+
+    double in_range(const LensJson& json, const std::string& place, const Range& range) {
+        if (json.is_null()) {
+            refuse(place, "is missing; a calibration has it, {}", range.text());
+            return 0;
+        }
+        const double x = number(json, place);
+        if (json.is_number() && !range.contains(x)) refuse(place, "is {}; allowed is {}", x, range.text());
+        return x;
+    }
+
+    std::int64_t whole(const std::string& key, const Range& range) {
+        const double x = required(key, range);
+        if (!range.contains(x)) return std::int64_t(range.low);
+        if (x != std::floor(x)) refuse(key, "is {}; a number of pixels is whole", x);
+        return std::int64_t(x);
+    }
+
+    bool flag(const std::string& key, bool absent = false) {
+        const LensJson& json = value(key);
+        if (json.is_null()) return absent;
+        if (json.is_boolean()) return json.get<bool>();
+        return in_range(json, key, {0, 1}) >= 0.5;
+    }
+
+    void read_cells() {
+        const LensJson& cells = value("subpixelCells");
+        const LensJson& mode = value("CellPatternMode");
+        const bool has_mode = !mode.is_null();
+        const std::int64_t pattern = has_mode ? whole("CellPatternMode", {0, double(std::size(cell_patterns) - 1)}) : 0;
+        if (cells.is_null() || (cells.is_array() && cells.empty())) {
+            if (pattern > 0)
+                refuse("CellPatternMode", "is {}, but there are no subpixelCells; give {}, or mode 0", pattern,
+                       cell_patterns[pattern].cells);
+            return;
+        }
+        if (!cells.is_array() || cells.size() > most_cells)
+            return refuse("subpixelCells", "is no list of 1 to {} cells", most_cells);
+        const std::size_t needed = std::size_t(cell_patterns[pattern].cells);
+        if (!has_mode && cells.size() > 1)
+            refuse("CellPatternMode", "is missing, and there are {} subpixelCells; give the mode, 0 to {}", cells.size(),
+                   std::size(cell_patterns) - 1);
+        if (cells.size() < needed)
+            return refuse("subpixelCells", "has {}, but CellPatternMode {} repeats {}; give as many, or another mode", cells.size(),
+                          pattern, needed);
+        for (std::size_t k = 0; k < needed; ++k) c.cells.push_back(read_cell(cells[k], fmt::format("subpixelCells[{}]", k)));
+        c.cell_pattern = int(pattern);
+        if (cells.size() > needed)
+            c.notes.push_back(fmt::format("Only the first {} of {} subpixelCells are in use, by CellPatternMode {}.", needed,
+                                          cells.size(), pattern));
+    }
+
+    CellPlaces read_cell(const LensJson& json, const std::string& place) {
+        CellPlaces places{};
+        constexpr const char* keys[3][2] = {{"ROffsetX", "ROffsetY"}, {"GOffsetX", "GOffsetY"}, {"BOffsetX", "BOffsetY"}};
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            for (std::size_t k = 0; k < 2; ++k) {
+                const char* key = keys[channel][k];
+                const LensJson& found = named(json, key);
+                places[channel][k] =
+                    in_range(found.is_object() ? member(found, "value") : found, fmt::format("{}.{}", place, key), place_range);
+            }
+        return places;
+    }
+
+    // What is said and what is not read.
+    void read_names() {
+        const LensJson& serial = value("serial");
+        if (serial.is_string()) c.serial = shortened(serial.get<std::string>());
+        const LensJson& version = value("configVersion");
+        if (!version.is_null() && version != "1.0" && version != "3.0")
+            c.notes.push_back(fmt::format("configVersion is {}, not 1.0 or 3.0; read like these.", word_of(version)));
+        if (!flag("invView", true))
+            c.notes.push_back("invView is 0: views are numbered from right to left. Where the lenses stand does not depend on it.");
+        if (flag("flipImageY"))
+            c.notes.push_back(
+                "flipImageY is not read: where the lenses stand does not depend on it; turn the content over instead.");
+        std::vector<std::string> others;
+        for (const auto& [key, content] : all->items()) {
+            const LensJson& of = content.is_object() ? member(content, "value") : content;
+            if (!known.contains(key) && of != 0 && others.size() < 10) others.push_back(shortened(key));
+        }
+        if (!others.empty()) c.notes.push_back(fmt::format("Not read: {}.", fmt::join(others, ", ")));
+    }
+
+    const LensJson* all = nullptr;
+    Calibration c;
+    std::set<std::string, std::less<>> known;  // keys
+};
+
+}  // namespace
+
+int cell_of(int pattern, std::int64_t column, std::int64_t row_from_bottom) {
+    const std::int64_t x = column, y = row_from_bottom;
+    switch (pattern) {
+        case 1:
+            return int((x + y) % 2);
+        case 2:
+            return int(x % 2);
+        case 3:
+            return int((y + 2 * (x % 2)) % 4);
+        case 4:
+            return int(y % 2);
+        default:
+            return 0;
+    }
+}
+
+bool is_calibration(std::string_view text, std::string_view name) { return !calibrations_in(text, name).empty(); }
+
+Calibration parse_calibration(std::string_view text, std::string_view name) {
+    const std::vector<Found> found = calibrations_in(text, name);
+    if (found.empty())
+        throw InputError(std::string(name),
+                         "is no calibration: nothing in it has values such as pitch, slope, center, DPI, screenW and screenH");
+    if (found.size() > 1) {
+        std::vector<std::string> places;
+        for (const Found& each : found) {
+            const LensJson& serial = plain(*each.json, "serial");
+            places.push_back(serial.is_string() ? fmt::format("{} ({})", each.place, word_of(serial)) : each.place);
+        }
+        throw InputError(std::string(name),
+                         fmt::format("holds {} calibrations: {}; save the one of the display in a file of its own", found.size(),
+                                     fmt::join(places, ", ")));
+    }
+    const auto& [place, owner, json] = found.front();
+    Calibration made = CalibrationReader(place.empty() ? std::string(name) : fmt::format("{}: {}", name, place)).read(*json);
+    made.place = place;
+    if (!place.empty()) made.notes.insert(made.notes.begin(), fmt::format("The calibration stands under {} in the file.", place));
+    return made;
+}
+
+}  // namespace lfdsim

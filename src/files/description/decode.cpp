@@ -1,0 +1,75 @@
+#include "files/description/decode.h"
+
+#include <cstdint>
+
+namespace lfdsim {
+namespace {
+
+void append(std::string& text, std::uint32_t c) {
+    if (c < 0x80) {
+        text += char(c);
+    } else if (c < 0x800) {
+        text += {char(0xc0 | c >> 6), char(0x80 | (c & 0x3f))};
+    } else if (c < 0x10000) {
+        text += {char(0xe0 | c >> 12), char(0x80 | (c >> 6 & 0x3f)), char(0x80 | (c & 0x3f))};
+    } else {
+        text += {char(0xf0 | c >> 18), char(0x80 | (c >> 12 & 0x3f)), char(0x80 | (c >> 6 & 0x3f)), char(0x80 | (c & 0x3f))};
+    }
+}
+
+/// Of a sequence that begins with this byte; 0: none does.
+std::size_t utf8_length(unsigned char first) {
+    if (first < 0x80) return 1;
+    if (first >= 0xc2 && first < 0xe0) return 2;
+    if (first >= 0xe0 && first < 0xf0) return 3;
+    return first >= 0xf0 && first < 0xf5 ? 4 : 0;
+}
+
+/// Overlong forms, surrogates and what is beyond Unicode are not UTF-8.
+bool is_utf8(std::string_view bytes) {
+    const auto at = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+    for (std::size_t i = 0; i < bytes.size();) {
+        const std::size_t length = utf8_length(at(i));
+        if (length == 0 || bytes.size() - i < length) return false;
+        for (std::size_t k = 1; k < length; ++k)
+            if ((at(i + k) & 0xc0) != 0x80) return false;
+        if ((at(i) == 0xe0 && at(i + 1) < 0xa0) || (at(i) == 0xed && at(i + 1) >= 0xa0) || (at(i) == 0xf0 && at(i + 1) < 0x90) ||
+            (at(i) == 0xf4 && at(i + 1) >= 0x90))
+            return false;
+        i += length;
+    }
+    return true;
+}
+
+std::string from_utf16(std::string_view bytes, bool big_endian) {
+    const auto unit = [&](std::size_t i) {
+        const auto a = static_cast<unsigned char>(bytes[i]), b = static_cast<unsigned char>(bytes[i + 1]);
+        return std::uint32_t(big_endian ? a << 8 | b : b << 8 | a);
+    };
+    std::string text;
+    for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
+        std::uint32_t c = unit(i);
+        if (c >= 0xd800 && c < 0xe000) {
+            const std::uint32_t low = c < 0xdc00 && i + 3 < bytes.size() ? unit(i + 2) : 0;
+            const bool pair = low >= 0xdc00 && low < 0xe000;
+            c = pair ? 0x10000 + ((c - 0xd800) << 10) + (low - 0xdc00) : 0xfffd;
+            if (pair) i += 2;
+        }
+        append(text, c);
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string to_utf8(std::string_view bytes) {
+    if (bytes.starts_with("\xff\xfe")) return from_utf16(bytes.substr(2), false);
+    if (bytes.starts_with("\xfe\xff")) return from_utf16(bytes.substr(2), true);
+    if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+    if (is_utf8(bytes)) return std::string(bytes);
+    std::string text;
+    for (const char c : bytes) append(text, static_cast<unsigned char>(c));
+    return text;
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,32 @@
+// Display descriptions (TOML) in and out. Floor 2.
+#pragma once
+#include "base/input_error.h"
+#include "display/display.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lfdsim {
+
+/// Reads and validates a description. `overrides` are "dotted.key=value" with the value in TOML syntax, applied before validation.
+/// Throws InputError with every problem found, each as file:line:column (or --set key) with what was given and what is allowed;
+/// an unknown key names the nearest known one. Files that it names (content.model, those of content.object, glass_catalogues)
+/// become relative to the working directory; glasses are looked up. With overrides a model keeps the depth that it has by default
+/// in the description as written, unless they set content.depth_mm.
+Display read_display(const std::filesystem::path&, const std::vector<std::string>& overrides = {});
+
+/// The same from text; `name` stands for the file in messages, and files that the text names are relative to `folder`. Limits:
+/// 1 MiB of text, 16 levels.
+Display parse_display(std::string_view text, std::string_view name, const std::vector<std::string>& overrides = {},
+                      const std::filesystem::path& folder = {});
+
+/// A description that reads back as the same display, wherever it lies: every key written, and glasses of catalogues by their
+/// coefficients, so that glass_catalogues is left out.
+std::string write_display(const Display&);
+
+/// Every key: name, type, unit, range, default, meaning; docs/format.md is generated from it.
+std::string format_reference_markdown();
+
+}  // namespace lfdsim

@@ -1,0 +1,137 @@
+#include "files/description/override_hint.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "display/keys.h"
+
+namespace lfdsim {
+namespace {
+
+enum class Form { number, list, other };
+
+template <class Value>
+constexpr Form form = has_words<Value>              ? Form::other
+                      : std::is_arithmetic_v<Value> ? Form::number
+                                                    : Form::list;
+template <class T>
+constexpr Form form<std::optional<T>> = form<T>;
+template <>
+constexpr Form form<Pitch> = Form::number;
+template <>
+constexpr Form form<std::string> = Form::other;
+template <>
+constexpr Form form<std::vector<std::string>> = Form::other;
+template <>
+constexpr Form form<Glass> = Form::other;
+
+Form form_of(std::string_view path) {
+    const FormatTable::Value* found = key_at(path);
+    return found ? std::visit([]<class Value>(const Value*) { return form<Value>; }, found->fresh) : Form::other;
+}
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+    while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+    return text;
+}
+
+/// A decimal as people write it (".6", "6.", "+007"), in TOML's form; the rest of the text goes to `rest`.
+std::optional<std::string> decimal(std::string_view text, std::string_view& rest) {
+    const bool plus = text.starts_with('+');
+    if (plus) text.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || !std::isfinite(value) || (plus && text.starts_with('-'))) return {};
+    rest = text.substr(std::size_t(end - text.data()));
+    return fmt::format("{}", value);
+}
+
+/// The unit in a key's name: "mm", "deg"; empty: the key has none.
+std::string_view unit_of_key(std::string_view path) {
+    if (path.ends_with("_per_mm")) return "1/mm";
+    if (path.ends_with("_mm")) return "mm";
+    if (path.ends_with("_nm")) return "nm";
+    return path.ends_with("_deg") ? "deg" : "";
+}
+
+std::string with_unit(std::string_view path, const std::string& number, std::string_view given) {
+    const std::string_view unit = unit_of_key(path);
+    if (unit.empty()) return fmt::format("the value is a number alone; write {}", number);
+    const bool same = given == unit || (unit == "deg" && (given == "degrees" || given == "\u00b0"));
+    return fmt::format("numbers carry no unit, {} is in {}; write {}", path, unit, same ? number : "the number in it");
+}
+
+/// The numbers of "1,5" or "11, 6", if it is decimals separated by commas.
+std::optional<std::vector<std::string>> decimals(std::string_view text) {
+    std::vector<std::string> all;
+    for (std::size_t start = 0;;) {
+        const std::size_t comma = std::min(text.find(',', start), text.size());
+        std::string_view rest;
+        const auto one = decimal(trimmed(text.substr(start, comma - start)), rest);
+        if (!one || !rest.empty()) return {};
+        all.push_back(*one);
+        if (comma == text.size()) return all;
+        start = comma + 1;
+    }
+}
+
+/// ".6", "6.", "007": not what the parser refuses for another reason, such as too many digits.
+bool half_written(std::string_view number) {
+    if (number.starts_with('+') || number.starts_with('-')) number.remove_prefix(1);
+    const std::size_t point = number.find('.');
+    const bool digit_after = point + 1 < number.size() && std::isdigit(static_cast<unsigned char>(number[point + 1]));
+    return (point != number.npos && (point == 0 || !digit_after)) ||
+           (number.size() > 1 && number[0] == '0' && std::isdigit(static_cast<unsigned char>(number[1])));
+}
+
+std::string number_hint(std::string_view path, std::string_view value) {
+    if (value.starts_with('"') || value.starts_with('\'')) {
+        const std::string_view inside = trimmed(value.substr(1));
+        std::string_view rest;
+        if (const auto number = decimal(inside, rest); number && rest.empty())
+            return "numbers stand without quotes; write " + *number;
+    }
+    std::string_view rest;
+    if (const auto number = decimal(value, rest)) {
+        const std::string_view unit = trimmed(rest);
+        if (unit.empty())
+            return half_written(value) ? "numbers have digits on both sides of a point and no leading zeros; write " + *number : "";
+        if ((unit[0] == 'e' || unit[0] == 'E') && unit.find_first_not_of("+-", 1) == unit.npos)
+            return fmt::format("the exponent is missing; write a number such as {}e3", *number);
+        const std::size_t comma = value.find(',');
+        if (unit[0] == ',' && unit.size() > 1 && unit.find_first_not_of("0123456789", 1) == unit.npos)
+            return fmt::format("the decimal sign is a point; write {}.{}", value.substr(0, comma), value.substr(comma + 1));
+        if (std::isalpha(static_cast<unsigned char>(unit[0])) || unit[0] == '%' || static_cast<unsigned char>(unit[0]) >= 0x80)
+            return with_unit(path, *number, unit);
+    }
+    return "give a number such as 12.5 or 1e3";
+}
+
+std::string list_hint(std::string_view value) {
+    if (const auto all = decimals(value)) return fmt::format("a list stands in brackets; write [{}]", fmt::join(*all, ", "));
+    return "";
+}
+
+}  // namespace
+
+std::string override_hint(std::string_view path, std::string_view value) {
+    value = trimmed(value);
+    if (value.empty()) return "";
+    switch (form_of(path)) {
+        case Form::number:
+            return number_hint(path, value);
+        case Form::list:
+            return list_hint(value);
+        case Form::other:
+            break;
+    }
+    return "";
+}
+
+}  // namespace lfdsim

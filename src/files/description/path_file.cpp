@@ -1,0 +1,148 @@
+#include "files/description/path_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "base/printable.h"
+#include "files/description/nearest.h"
+#include "files/description/text_file.h"
+
+namespace lfdsim {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double most_frames_per_second = 1000;
+constexpr std::size_t most_problems = 20;  // of a file whose every pose is wrong
+
+/// Reads values and collects their faults.
+class PathReader {
+  public:
+    explicit PathReader(std::string_view name) : name_(name) {}
+
+    template <class... Values>
+    void refuse(const std::string& place, fmt::format_string<Values...> what, Values&&... values) {
+        problems_.push_back({fmt::format("{}: {}", name_, place), fmt::format(what, std::forward<Values>(values)...)});
+        if (problems_.size() >= most_problems) report();
+    }
+    void report() const {
+        if (!problems_.empty()) throw InputError(problems_);
+    }
+
+    /// Whether it is an object of these keys; the first `required` of them must be there.
+    bool object(const Json& json, const std::string& place, std::span<const std::string_view> keys, std::size_t required) {
+        if (!json.is_object()) {
+            refuse(place, "is {}; give an object with {}", json.type_name(), fmt::join(keys, ", "));
+            return false;
+        }
+        bool complete = true;
+        for (const std::string_view key : keys.first(required))
+            if (!json.contains(key)) {
+                refuse(place, "{} is missing", key);
+                complete = false;
+            }
+        for (const auto& [key, value] : json.items())
+            if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+                const std::string_view near = nearest(key, keys);
+                refuse(place, "unknown key \"{}\"{}", shortened(key), near.empty() ? "" : fmt::format("; did you mean {}?", near));
+            }
+        return complete;
+    }
+    double number(const Json& json, const std::string& place) {
+        if (json.is_number()) return json.get<double>();  // the parser refuses infinite ones
+        refuse(place, "is {}; give a number", json.type_name());
+        return 0;
+    }
+    Vec3d point(const Json& json, const std::string& place) {
+        Vec3d xyz{};
+        if (!json.is_array() || json.size() != 3)
+            refuse(place, "give three numbers: x, y, z in mm");
+        else
+            for (std::size_t i = 0; i < 3; ++i) xyz[i] = number(json[i], fmt::format("{}[{}]", place, i));
+        return xyz;
+    }
+
+  private:
+    std::string name_;
+    std::vector<Problem> problems_;
+};
+
+constexpr std::string_view path_keys[] = {"schema", "frames_per_second", "poses"};
+constexpr std::string_view pose_keys[] = {"time_s", "position_mm", "target_mm"};
+
+// Times come from clocks and rounded decimals: a pose a millionth of a frame before a frame's time still ends in that frame.
+double frame_steps(const CameraPath& path) { return path.poses.back().time_s * path.frames_per_second + 1e-6; }
+
+Vec3d between(const Vec3d& a, const Vec3d& b, double share) {
+    Vec3d p{};
+    for (std::size_t i = 0; i < 3; ++i) p[i] = a[i] + (b[i] - a[i]) * share;
+    return p;
+}
+
+}  // namespace
+
+std::int64_t CameraPath::frames() const { return std::int64_t(frame_steps(*this)) + 1; }
+
+double CameraPath::time_s(std::int64_t frame) const { return std::min(double(frame) / frames_per_second, poses.back().time_s); }
+
+Camera CameraPath::camera(std::int64_t frame, Camera described) const {
+    const double time = time_s(frame);
+    const auto after = std::upper_bound(poses.begin(), poses.end(), time,
+                                        [](double seconds, const CameraPose& pose) { return seconds < pose.time_s; });
+    const CameraPose &a = *(after - 1), &b = after == poses.end() ? a : *after;  // the first pose is at 0: there is one before
+    const double share = b.time_s > a.time_s ? (time - a.time_s) / (b.time_s - a.time_s) : 0;
+    described.position_mm = between(a.position_mm, b.position_mm, share);
+    if (a.target_mm || b.target_mm)
+        described.target_mm = between(a.target_mm.value_or(described.target_mm), b.target_mm.value_or(described.target_mm), share);
+    return described;
+}
+
+CameraPath read_path(const std::filesystem::path& path) { return parse_path(read_text(path, "a camera path"), path.string()); }
+
+CameraPath parse_path(std::string_view text, std::string_view name) {
+    if (text.size() > largest_text_bytes)
+        throw InputError(std::string(name), fmt::format("has {} bytes, allowed are {}", text.size(), largest_text_bytes));
+    Json json;
+    try {
+        json = Json::parse(text);
+    } catch (const Json::exception& error) {
+        const std::string says = error.what();  // "[json.exception.parse_error.101] parse error at line 1, column 1: ..."
+        const std::size_t begin = says.find("] ") + 2, end = std::min(says.find("; last read"), begin + 160);
+        throw InputError(std::string(name), "is not a camera path in JSON: " + says.substr(begin, end - begin));
+    }
+    PathReader reader(name);
+    CameraPath path;
+    if (!reader.object(json, "the file", path_keys, 3)) reader.report();
+    if (json["schema"] != 1) reader.refuse("schema", "only 1 is known");
+    path.frames_per_second = reader.number(json["frames_per_second"], "frames_per_second");
+    if (!(path.frames_per_second > 0 && path.frames_per_second <= most_frames_per_second))
+        reader.refuse("frames_per_second", "is {}; allowed is more than 0, up to {}", path.frames_per_second,
+                      most_frames_per_second);
+    const Json& poses = json["poses"];
+    if (!poses.is_array() || poses.empty()) reader.refuse("poses", "give a list of one pose or more");
+    for (std::size_t i = 0; poses.is_array() && i < poses.size(); ++i) {
+        const std::string place = fmt::format("poses[{}]", i);
+        CameraPose pose;
+        if (!reader.object(poses[i], place, pose_keys, 2)) continue;
+        pose.time_s = reader.number(poses[i]["time_s"], place + ".time_s");
+        pose.position_mm = reader.point(poses[i]["position_mm"], place + ".position_mm");
+        if (poses[i].contains("target_mm")) pose.target_mm = reader.point(poses[i]["target_mm"], place + ".target_mm");
+        if (path.poses.empty() && pose.time_s != 0)
+            reader.refuse(place + ".time_s", "is {}; the first pose is at 0", pose.time_s);
+        else if (!path.poses.empty() && !(pose.time_s > path.poses.back().time_s))
+            reader.refuse(place + ".time_s", "is {}, not later than the pose before, at {}", pose.time_s, path.poses.back().time_s);
+        path.poses.push_back(pose);
+    }
+    reader.report();
+    if (!(frame_steps(path) < double(most_path_frames)))
+        reader.refuse("poses", "last {} s, which is more than the {} frames allowed", path.poses.back().time_s, most_path_frames);
+    reader.report();
+    return path;
+}
+
+}  // namespace lfdsim

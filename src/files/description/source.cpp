@@ -1,0 +1,194 @@
+#include "files/description/source.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <optional>
+
+#include "display/keys.h"
+#include "files/description/override_hint.h"
+#include "files/description/text_file.h"
+#include "files/description/values.h"
+
+namespace lfdsim {
+namespace {
+
+// The parts of a dotted path. No key of a description has a dot in it, so an override cannot name one.
+std::vector<std::string_view> split(std::string_view path) {
+    std::vector<std::string_view> parts;
+    for (std::size_t start = 0;;) {
+        const std::size_t dot = path.find('.', start);
+        parts.push_back(path.substr(start, dot - start));
+        if (dot == path.npos) return parts;
+        start = dot + 1;
+    }
+}
+
+// The index that a part of a path means in a list; none beyond its end, as an override changes elements and adds none.
+std::optional<std::size_t> element(std::string_view part, const toml::array& array) {
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
+    if (error != std::errc{} || end != part.data() + part.size() || index >= array.size()) return std::nullopt;
+    return index;
+}
+
+// No key is a number: in a table it means an element of a list that there is not.
+bool is_number(std::string_view part) { return !part.empty() && part.find_first_not_of("0123456789") == part.npos; }
+
+InputError no_element(std::string_view part) {
+    return {"", fmt::format("there is no element {} to change; they count from 0, and new ones come with the whole list, key=[...]",
+                            part)};
+}
+
+template <class Node>  // toml::node or const toml::node
+Node* child(Node& node, std::string_view part) {
+    if (auto* table = node.as_table()) return table->get(part);
+    if (auto* array = node.as_array())
+        if (const auto index = element(part, *array)) return array->get(*index);
+    return nullptr;
+}
+
+// The value of an override as a tree of its own, under the key "value".
+toml::table parse_value(std::string_view path, std::string_view value) {
+    // Unquoted words save the user a second pair of quotes against the shell. The parser checks that they are UTF-8.
+    if ((takes_word(path) || (takes_glass(path) && !value.starts_with('{'))) && !value.starts_with('"') && !value.starts_with('\''))
+        return toml::parse("value = " + toml_text(std::string(value)));
+    const std::string text = fmt::format("value = {}", value);
+    check_text(text, "");  // nesting, as in a file
+    toml::table holder = toml::parse(text);
+    if (holder.size() != 1 || value.find('\n') != value.npos) throw InputError("", "is more than one value");
+    return holder;
+}
+
+// For a line that the parser refused: what to write in place of its value, where that is known; else the parser's words.
+std::string hint_in(std::string_view text, std::size_t line, std::string_view says) {
+    std::string table;
+    for (std::size_t n = 1; n <= line && !text.empty(); ++n) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        std::string_view one = text.substr(0, text.find_first_of("\r\n"));
+        text.remove_prefix(std::min(end + 1, text.size()));
+        one.remove_prefix(std::min(one.find_first_not_of(" \t"), one.size()));
+        const std::size_t brackets = one.find_first_not_of('[');
+        if (one.starts_with('[') && brackets <= 2)  // the first of a list stands for all
+            table = std::string(one.substr(brackets, one.find(']') - brackets)) + (brackets == 2 ? ".0." : ".");
+        const std::size_t equals = one.find('=');
+        if (n < line || equals == one.npos) continue;
+        std::string_view value = one.substr(equals + 1);
+        if (value.find_first_of("\"'") == value.npos) value = value.substr(0, value.find('#'));
+        std::string_view key = one.substr(0, equals);
+        key = key.substr(0, key.find_last_not_of(" \t") + 1);
+        if (const std::string hint = override_hint(table + std::string(key), value); !hint.empty())
+            return fmt::format("{}: {}", key, hint);
+    }
+    return std::string(says);
+}
+
+}  // namespace
+
+bool takes_glass(std::string_view path) {
+    const FormatTable::Value* found = key_at(path);
+    return found && std::holds_alternative<const std::optional<Glass>*>(found->fresh);
+}
+
+bool takes_word(std::string_view path) {
+    const FormatTable::Value* found = key_at(path);
+    return found && std::visit([]<class V>(const V*) { return has_words<V> || std::is_same_v<V, std::string>; }, found->fresh);
+}
+
+Source::Source(std::string_view text, std::string_view name, const std::vector<std::string>& overrides) : name_(name) {
+    try {
+        root_ = toml::parse(text, name);
+    } catch (const toml::parse_error& error) {
+        throw InputError(at(error.source()).text, hint_in(text, error.source().begin.line, error.description()));
+    }
+    std::vector<Problem> problems;
+    for (const std::string& text_of_one : overrides) {
+        try {
+            apply(text_of_one);
+        } catch (const toml::parse_error& error) {
+            const std::size_t equals = text_of_one.find('=');  // there is one: a value was parsed
+            const std::string hint = override_hint(text_of_one.substr(0, equals), text_of_one.substr(equals + 1));
+            problems.push_back(
+                {"--set " + text_of_one, "the value is not TOML: " + (hint.empty() ? std::string(error.description()) : hint)});
+        } catch (const InputError& error) {
+            problems.push_back({"--set " + text_of_one, error.problems.front().what});
+        }
+    }
+    if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+void Source::apply(const std::string& override_text) {
+    const std::size_t equals = override_text.find('=');
+    const std::string_view path = std::string_view(override_text).substr(0, equals);
+    if (equals == std::string::npos || path.empty()) throw InputError("", "is not of the form key=value, such as array.pitch_mm=8");
+    const std::string_view value = std::string_view(override_text).substr(equals + 1);
+    const std::vector<std::string_view> parts = split(path);
+    if (parts.size() > 4) throw InputError("", fmt::format("the key has {} parts, allowed are 4", parts.size()));
+
+    // Missing tables on the way are created; values are not replaced by tables.
+    toml::node* node = &root_;
+    const bool removes = value == "none" && !takes_word(path);
+    for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+        toml::node* next = child(*node, parts[i]);
+        if (!next && removes) {
+            set_[std::string(path)] = override_text;
+            return;
+        }
+        if (!next && node->is_table() && !is_number(parts[i]))
+            next = &node->as_table()->insert(parts[i], toml::table{}).first->second;
+        if (!next) throw no_element(parts[i]);
+        if (!next->is_table() && !next->is_array()) throw InputError("", fmt::format("{} is a value, and has no parts", parts[i]));
+        node = next;
+    }
+    if (removes) {
+        if (toml::table* table = node->as_table())
+            table->erase(parts.back());
+        else
+            throw InputError("", "an element of a list cannot be removed");
+        set_[std::string(path)] = override_text;
+        return;
+    }
+    toml::table holder = parse_value(path, value);
+    holder.get("value")->visit([&](auto& given) {
+        if (toml::table* table = node->as_table(); table && !is_number(parts.back()))
+            table->insert_or_assign(parts.back(), std::move(given));
+        else if (const auto index = table ? std::nullopt : element(parts.back(), *node->as_array()))
+            node->as_array()->replace(node->as_array()->cbegin() + std::ptrdiff_t(*index), std::move(given));
+        else
+            throw no_element(parts.back());
+    });
+    set_[std::string(path)] = override_text;
+}
+
+Place Source::at(const toml::source_region& region) const {
+    return {fmt::format("{}:{}:{}", name_, region.begin.line, region.begin.column), region.begin.line, region.begin.column};
+}
+
+Place Source::place(std::string_view path) const {
+    // Down the path as far as it exists. An override of any part of it also set everything below.
+    const toml::node* node = &root_;
+    std::string inside;
+    for (const std::string_view part : split(path)) {
+        const toml::node* next = child(*node, part);
+        if (!next) break;
+        inside += inside.empty() ? "" : ".";
+        inside += part;
+        if (const auto set = set_.find(inside); set != set_.end()) return {"--set " + set->second};
+        node = next;
+    }
+    if (node->source().begin.line) return at(node->source());
+    // a table that is not in the file was created by an override of something in it
+    for (const auto& [key, text] : set_)
+        if (key.starts_with(inside + ".")) return {"--set " + text};
+    return {name_};
+}
+
+Place Source::place(const toml::key& key, std::string_view path) const {
+    // Keys within a table that an override gave have places in the override's text, not in the file.
+    for (std::size_t dot = path.find('.');; dot = path.find('.', dot + 1)) {
+        if (is_set(path.substr(0, dot))) return place(path);
+        if (dot == path.npos) return key.source().begin.line ? at(key.source()) : place(path);
+    }
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,218 @@
+#include "files/description/values.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <array>
+
+#include "base/counted.h"
+#include "base/printable.h"
+#include "files/description/nearest.h"
+
+namespace lfdsim {
+namespace {
+
+std::string wrong_type(const toml::node& node, std::string_view wanted) {
+    return fmt::format("is {}; give {}", kind_of(node), wanted);
+}
+
+/// A formula of a glass: its key in a table, and how many numbers it takes.
+struct GlassForm {
+    std::string_view key;
+    Formula formula;
+    std::string_view wanted;
+};
+constexpr std::size_t most_coefficients = 64, longest_name = 64;
+constexpr GlassForm glass_forms[] = {
+    {"sellmeier", Formula::sellmeier, "pairs B, C, as a list of 6 numbers"},
+    {"cauchy", Formula::cauchy, "a list of 3 numbers"},
+    {"conrady", Formula::conrady, "a list of 3 numbers"},
+    {"herzberger", Formula::herzberger, "a list of 6 numbers"},
+    {"resonances", Formula::resonances, "a number and pairs B, C, as a list of 5 numbers"},
+    {"sellmeier_2", Formula::sellmeier_2, "a list of 5 numbers"},
+    {"handbook_1", Formula::handbook_1, "a list of 4 numbers"},
+    {"handbook_2", Formula::handbook_2, "a list of 4 numbers"},
+    {"power_series", Formula::power_series, "pairs of a coefficient and a power, as a list of 12 numbers"},
+};
+
+}  // namespace
+
+std::string_view kind_of(const toml::node& node) {
+    // TOML's own words (floating_point, boolean) mean little to an optics designer
+    switch (node.type()) {
+        case toml::node_type::table:
+            return "a table";
+        case toml::node_type::array:
+            return node.is_array_of_tables() ? "a list of tables" : "a list";
+        case toml::node_type::string:
+            return "a string";
+        case toml::node_type::integer:
+            return "an integer";
+        case toml::node_type::floating_point:
+            return "a number with a fraction";
+        case toml::node_type::boolean:
+            return "true or false";
+        default:
+            return "a date or time";
+    }
+}
+
+std::string read_value(const toml::node& node, double& value) {
+    if (!node.is_number()) return wrong_type(node, "a number");
+    value = *node.value<double>();
+    return {};
+}
+
+std::string read_value(const toml::node& node, std::int64_t& value) {
+    // 3840.0 is refused too: a count with a fraction is probably a mistake
+    if (!node.is_integer()) return wrong_type(node, "an integer");
+    value = node.as_integer()->get();
+    return {};
+}
+
+std::string read_value(const toml::node& node, std::string& value) {
+    if (!node.is_string()) return wrong_type(node, "a string");
+    value = node.as_string()->get();
+    return {};
+}
+
+std::string read_value(const toml::node& node, std::vector<double>& values) {
+    const toml::array* array = node.as_array();
+    if (!array) return wrong_type(node, "a list of numbers");
+    values.assign(array->size(), 0);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (std::string fault = read_value((*array)[i], values[i]); !fault.empty()) return fmt::format("element {} {}", i, fault);
+    return {};
+}
+
+std::string read_value(const toml::node& node, std::vector<std::string>& values) {
+    const toml::array* array = node.as_array();
+    if (!array) return wrong_type(node, "a list of strings");
+    values.assign(array->size(), "");
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (std::string fault = read_value((*array)[i], values[i]); !fault.empty()) return fmt::format("element {} {}", i, fault);
+    return {};
+}
+
+std::string read_value(const toml::node& node, Glass& glass) {
+    constexpr const char* forms =
+        "{ sellmeier = [B1, C1, B2, C2, B3, C3] }, { cauchy = [A, B, C] }, { nd = 1.4918, vd = 57.4 } or another formula of "
+        "docs/format.md";
+    glass = {};
+    if (node.is_string()) {
+        glass.name = node.as_string()->get();
+        return glass.name.empty() ? "is empty; give the name of a glass" : "";
+    }
+    const toml::table* table = node.as_table();
+    if (!table) return wrong_type(node, fmt::format("the name of a glass, {}", forms));
+    const auto read = [&](const char* key, auto& to) {
+        const toml::node* value = table->get(key);
+        const std::string fault = value ? read_value(*value, to) : "is missing";
+        return fault.empty() ? fault : fmt::format("{} {}", key, fault);
+    };
+    const auto has = [&](std::string_view key) { return table->contains(key); };
+    std::size_t formulas = has("nd") || has("vd");
+    for (const auto& entry : *table) {
+        const std::string_view key = entry.first.str();
+        const auto of_key = [&](const GlassForm& form) { return form.key == key; };
+        formulas += std::ranges::any_of(glass_forms, of_key);
+        if (std::ranges::none_of(std::array{"nd", "vd", "name", "range_nm"}, [&](auto* k) { return key == k; }) &&
+            std::ranges::none_of(glass_forms, of_key))
+            return fmt::format("has the unknown key {}; give {}", shortened(key), forms);
+    }
+    if (formulas != 1)
+        return fmt::format("{}; give {}",
+                           table->empty()  ? "is an empty table"
+                           : formulas == 0 ? "has no formula"
+                                           : "has more than one formula",
+                           forms);
+    std::string fault;
+    if (has("name") && (fault = read("name", glass.name)).empty() && glass.name.size() > longest_name)
+        fault = fmt::format("name has {} bytes, allowed are {}", glass.name.size(), longest_name);
+    if (fault.empty() && has("range_nm") && (fault = read("range_nm", glass.range_nm)).empty() &&
+        !(0 < glass.range_nm[0] && glass.range_nm[0] < glass.range_nm[1]))
+        fault = "range_nm is not two wavelengths, the shorter first";
+    if (!fault.empty()) return fault;
+    if (has("nd") || has("vd")) {
+        glass.formula = Formula::nd_vd;
+        glass.coefficients.assign(2, 0);
+        fault = read("nd", glass.coefficients[0]);
+        return fault.empty() ? read("vd", glass.coefficients[1]) : fault;
+    }
+    const GlassForm& form = *std::ranges::find_if(glass_forms, [&](const GlassForm& f) { return has(f.key); });
+    glass.formula = form.formula;
+    fault = read(form.key.data(), glass.coefficients);
+    const std::size_t count = glass.coefficients.size();
+    if (fault.empty() && (!takes(form.formula, count) || count > most_coefficients))
+        fault = fmt::format("{} has {}; give {}", form.key, counted(count, "element"), form.wanted);
+    return fault;
+}
+
+std::string read_value(const toml::node& node, Pitch& value) {
+    if (const toml::array* both = node.as_array(); both && both->size() == 2) {
+        std::array<double, 2> two{};
+        std::string fault = read_value(node, two);
+        value = {two[0], two[1]};
+        return fault;
+    }
+    if (!node.is_number()) return wrong_type(node, "a number, or a list of 2 numbers");
+    value = *node.value<double>();
+    return {};
+}
+
+std::string read_word(const toml::node& node, std::span<const std::string_view> words, std::size_t& index) {
+    if (!node.is_string()) return wrong_type(node, fmt::format("one of \"{}\"", fmt::join(words, "\", \"")));
+    const std::string& given = node.as_string()->get();
+    for (index = 0; index < words.size(); ++index)
+        if (words[index] == given) return {};
+    const std::string_view meant = nearest(given, words);
+    return fmt::format("is \"{}\", allowed are \"{}\"{}", shortened(given), fmt::join(words, "\", \""),
+                       meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant));
+}
+
+// The shortest decimal that reads back as the same bits. TOML has inf and nan; a whole number comes out as an integer, which
+// is accepted for a number.
+std::string toml_text(double value) { return fmt::format("{}", value); }
+std::string toml_text(std::int64_t value) { return fmt::format("{}", value); }
+
+std::string toml_text(const Pitch& value) {
+    return value.is_one() ? toml_text(value[0]) : toml_text(static_cast<const std::array<double, 2>&>(value));
+}
+
+std::string toml_text(const std::vector<std::string>& values) {
+    std::string text = "[";
+    for (const std::string& value : values) text += (text.size() > 1 ? ", " : "") + toml_text(value);
+    return text + "]";
+}
+
+// By name where that says all: of a glass that ships, and of one not looked up yet.
+std::string toml_text(const Glass& glass) {
+    const ShippedGlass* shipped = shipped_glass(glass.name);
+    if (glass.formula == Formula::unknown || (shipped && shipped->glass == glass)) return toml_text(glass.name);
+    const std::vector<double>& c = glass.coefficients;
+    std::string text = glass.name.empty() ? "{ " : fmt::format("{{ name = {}, ", toml_text(glass.name));
+    if (glass.formula == Formula::nd_vd) {
+        text += fmt::format("nd = {}, vd = {}", toml_text(c[0]), toml_text(c[1]));
+    } else {
+        const auto& form = *std::ranges::find(glass_forms, glass.formula, &GlassForm::formula);
+        text += fmt::format("{} = {}", form.key, toml_text(c));
+    }
+    if (glass.range_nm != Glass().range_nm) text += fmt::format(", range_nm = {}", toml_text(glass.range_nm));
+    return text + " }";
+}
+
+// A basic string. TOML allows any UTF-8 in it but quotes, backslashes and control characters.
+std::string toml_text(const std::string& value) {
+    std::string text = "\"";
+    for (const char c : value) {
+        if (c == '"' || c == '\\')
+            text += '\\', text += c;
+        else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+            text += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+        else
+            text += c;
+    }
+    return text + '"';
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,206 @@
+#include "files/lenses/agf.h"
+
+#include "base/printable.h"
+#include "files/description/decode.h"
+#include "files/description/nearest.h"
+#include "files/description/text_file.h"
+
+#include <fmt/format.h>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace lfdsim {
+namespace {
+
+constexpr double nd_tolerance = 1e-4;  // printed values are rounded, some to four digits
+constexpr std::size_t most_agf_problems = 20, longest_glass_name = 64;
+
+std::vector<std::string_view> words_of(std::string_view line) {
+    constexpr std::string_view blanks = " \t";
+    std::vector<std::string_view> words;
+    for (std::size_t end = 0;;) {
+        const std::size_t begin = line.find_first_not_of(blanks, end);
+        if (begin == line.npos) return words;
+        end = std::min(line.find_first_of(blanks, begin), line.size());
+        words.push_back(line.substr(begin, end - begin));
+    }
+}
+
+std::optional<double> number(std::string_view word) {
+    if (word.starts_with('+')) word.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) return {};
+    return value;
+}
+
+/// A glass as its lines give it.
+struct Entry {
+    std::string name;
+    std::size_t line = 0;  // of its name
+    int formula = 0;
+    double nd = 0;                 // as printed; 1 or less: not given
+    std::vector<double> c;         // of CD; those that are missing are zero
+    std::vector<double> range_um;  // of LD
+};
+
+std::vector<double> with_powers(const std::vector<double>& c, std::initializer_list<double> powers) {
+    std::vector<double> pairs;
+    for (std::size_t k = 0; k < powers.size(); ++k) pairs.insert(pairs.end(), {c[k], powers.begin()[k]});
+    return pairs;
+}
+
+/// AGF's formula number and its coefficients in the forms of Glass; unknown for numbers that the format does not have.
+void set_formula(const Entry& e, Glass& glass) {
+    const auto first = [&](Formula formula, std::size_t count) {
+        glass.formula = formula;
+        glass.coefficients.assign(e.c.begin(), e.c.begin() + std::ptrdiff_t(count));
+    };
+    const auto powers = [&](std::initializer_list<double> all) {
+        glass.formula = Formula::power_series;
+        glass.coefficients = with_powers(e.c, all);
+    };
+    switch (e.formula) {
+        case 1:
+            return powers({0, 2, -2, -4, -6, -8});
+        case 2:
+            return first(Formula::sellmeier, 6);
+        case 3:
+            return first(Formula::herzberger, 6);
+        case 4:
+            return first(Formula::sellmeier_2, 5);
+        case 5:
+            return first(Formula::conrady, 3);
+        case 6:
+            return first(Formula::sellmeier, 8);
+        case 7:
+            return first(Formula::handbook_1, 4);
+        case 8:
+            return first(Formula::handbook_2, 4);
+        case 9:
+            return first(Formula::resonances, 5);
+        case 10:
+            return powers({0, 2, -2, -4, -6, -8, -10, -12});
+        case 11:
+            return first(Formula::sellmeier, 10);
+        case 12:
+            return powers({0, 2, -2, -4, -6, -8, 4, 6});
+        case 13:
+            return powers({0, 2, 4, -2, -4, -6, -8, -10, -12});
+        default:
+            return;
+    }
+}
+
+class AgfReader {
+  public:
+    explicit AgfReader(std::string_view name) { read_.file = name; }
+
+    GlassCatalogue read(std::string_view text) {
+        for (std::size_t start = 0; start < text.size() && problems_.size() < most_agf_problems;) {
+            const std::size_t end = std::min(text.find_first_of("\r\n", start), text.size());
+            read_line(text.substr(start, end - start));
+            ++line_;
+            start = end + (text.substr(end, 2) == "\r\n" ? 2 : 1);
+        }
+        finish();
+        if (problems_.empty() && !names_) add_problem("", "has no line NM with a glass; an AGF catalogue does");
+        if (!problems_.empty()) throw InputError(std::move(problems_));
+        return std::move(read_);
+    }
+
+  private:
+    std::string place(std::size_t line) const { return fmt::format("{}:{}", read_.file, line); }
+    void add_problem(std::string_view key, const std::string& what) {
+        problems_.push_back(key.empty() ? Problem{read_.file, what} : Problem{place(line_), fmt::format("{}: {}", key, what)});
+    }
+    /// Of the glass whose lines have ended.
+    void doubt(const std::string& glass, const std::string& what) {
+        read_.doubts.push_back({glass, {place(entry_.line), fmt::format("{}{}", shortened(glass), what)}});
+    }
+
+    void read_line(std::string_view line) {
+        const std::vector<std::string_view> words = words_of(line);
+        if (words.empty()) return;
+        if (words[0] == "NM") return begin(words);
+        if (words[0] == "CD" || words[0] == "LD") {
+            if (!names_) return add_problem(words[0], "stands before the first glass, whose line begins with NM");
+            (words[0] == "CD" ? entry_.c : entry_.range_um) = numbers(words);
+        }
+    }
+
+    /// All but the first word.
+    std::vector<double> numbers(const std::vector<std::string_view>& words) {
+        std::vector<double> all;
+        for (std::size_t k = 1; k < words.size(); ++k) {
+            const auto value = number(words[k]);
+            if (!value) {
+                add_problem(words[0], fmt::format("\"{}\" is not a number", shortened(words[k])));
+                break;
+            }
+            all.push_back(*value);
+        }
+        return all;
+    }
+
+    void begin(const std::vector<std::string_view>& words) {
+        finish();
+        entry_ = {};
+        entry_.line = line_;
+        if (++names_ > most_glasses) return add_problem("NM", fmt::format("is more than the {} glasses allowed", most_glasses));
+        if (words.size() < 3) return add_problem("NM", "needs a name and the number of a formula");
+        if (words[1].size() > longest_glass_name)
+            return add_problem("NM",
+                               fmt::format("\"{}\" is longer than the {} bytes allowed", shortened(words[1]), longest_glass_name));
+        entry_.name = words[1];
+        const auto formula = number(words[2]);  // some write 2.0
+        if (!formula) return add_problem("NM", fmt::format("\"{}\" is not the number of a formula", shortened(words[2])));
+        if (*formula >= 1 && *formula <= 13 && *formula == std::floor(*formula)) entry_.formula = int(*formula);
+        if (words.size() > 4) entry_.nd = number(words[4]).value_or(0);
+    }
+
+    /// The glass whose lines have ended.
+    void finish() {
+        if (entry_.name.empty() || !problems_.empty()) return;
+        Glass glass;
+        glass.name = std::move(entry_.name);
+        const auto leave_out = [&](const char* why) { doubt(glass.name, fmt::format(" is left out: {}", why)); };
+        if (entry_.formula == 0) return leave_out("the format has formulas 1 to 13");
+        if (entry_.c.empty()) return leave_out("it has no line CD with coefficients");
+        entry_.c.resize(std::max<std::size_t>(entry_.c.size(), 10), 0);
+        set_formula(entry_, glass);
+        if (entry_.range_um.size() < 2 || !(0 < entry_.range_um[0] && entry_.range_um[0] < entry_.range_um[1]))
+            return leave_out("it has no line LD with two wavelengths");
+        glass.range_nm = {1000 * entry_.range_um[0], 1000 * entry_.range_um[1]};
+        const double middle_nm = (glass.range_nm[0] + glass.range_nm[1]) / 2;
+        if (!(index_of(glass, middle_nm) > 0 && std::isfinite(index_of(glass, middle_nm))))
+            return leave_out("its coefficients give no index");
+        if (const double nd = index_of(glass, d_line_nm);
+            entry_.nd > 1 && glass.covers(d_line_nm) && !(std::abs(nd - entry_.nd) <= nd_tolerance))
+            doubt(glass.name, fmt::format(": n_d is {:.6g} by its coefficients, {:.6g} by its line NM", nd, entry_.nd));
+        read_.glasses.push_back(std::move(glass));
+    }
+
+    GlassCatalogue read_;
+    std::vector<Problem> problems_;
+    Entry entry_;
+    std::size_t line_ = 1, names_ = 0;
+};
+
+}  // namespace
+
+GlassCatalogue parse_agf(std::string_view bytes, std::string_view name) {
+    if (bytes.size() > largest_agf_bytes)
+        throw InputError(std::string(name),
+                         fmt::format("has {} bytes, allowed are {}; is this a glass catalogue?", bytes.size(), largest_agf_bytes));
+    const std::string text = to_utf8(bytes);
+    if (text.find('\0') != text.npos) throw InputError(std::string(name), "is a binary file, not a glass catalogue in AGF");
+    return AgfReader(name).read(text);
+}
+
+GlassCatalogue read_agf(const std::filesystem::path& path) {
+    return parse_agf(read_text(path, "a glass catalogue", largest_agf_bytes), path.string());
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,328 @@
+#include "files/lenses/import_lens.h"
+
+#include "base/constants.h"
+#include "base/counted.h"
+#include "base/printable.h"
+#include "checks/first_order.h"
+#include "display/colour.h"
+#include "display/keys.h"
+#include "files/description/nearest.h"
+#include "files/lenses/drawn_beam.h"
+#include "geometry/geometry.h"
+#include "geometry/lattice.h"
+#include "geometry/prescription.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+namespace lfdsim {
+namespace {
+
+/// A medium as a description has it; neither: air.
+struct LensMedium {
+    std::optional<double> index;
+    std::optional<Glass> glass;
+    bool operator==(const LensMedium&) const = default;
+};
+
+/// Further away than this, mm, an object is as good as at infinity; programs write such numbers for it.
+constexpr double infinite_mm = 1e9;
+
+/// Without the noise of the last digits that scaling leaves.
+double tidy(double x) {
+    const std::string text = fmt::format("{:.14g}", x);
+    std::from_chars(text.data(), text.data() + text.size(), x);
+    return x;
+}
+
+class LensImport {
+  public:
+    LensImport(DrawnLens l, const ImportRequest& r) : lens(std::move(l)), request(r), notes(lens.notes) {}
+
+    Imported import() {
+        double& object = lens.surfaces.front().distance_mm;
+        if (std::abs(object) >= infinite_mm) object = infinity;
+        scale(lens, request.scale);
+        if (request.scale != 1) notes.push_back(fmt::format("All lengths of the lens are {:g} of the file's.", request.scale));
+        find_media();
+        if (kept_surfaces()) give_apertures();
+        report();
+        Imported made;
+        made.what = "A lens from a lens design program, and a display for it";
+        made.display.name = lens.title;
+        made.display.lens.kind = surface_lens(made.surfaces);
+        report();
+        furnish(made.display);
+        judge(made.display, "");
+        warn(made.display);
+        for (const GlassCatalogue& c : request.catalogues)
+            if (std::any_of(media.begin(), media.end(), [&](const LensMedium& m) { return is_in(c, m); }))
+                made.catalogues.push_back(c.file);
+        made.notes = std::move(notes);
+        return made;
+    }
+
+  private:
+    template <class... Values>
+    void refuse(const std::string& where, fmt::format_string<Values...> what, Values&&... values) {
+        problems.push_back({where, fmt::format(what, std::forward<Values>(values)...)});
+    }
+    void report() const {
+        if (!problems.empty()) throw InputError(problems);
+    }
+
+    static bool is_in(const GlassCatalogue& catalogue, const LensMedium& medium) {
+        return medium.glass && !medium.glass->name.empty() &&
+               std::find(catalogue.glasses.begin(), catalogue.glasses.end(), *medium.glass) != catalogue.glasses.end();
+    }
+
+    void find_media() {
+        for (const DrawnSurface& s : lens.surfaces) media.push_back(medium_of(s));
+        const double nm = lens.beam.wavelength_nm.value_or(d_line_nm);
+        for (const LensMedium& m : media) indices.push_back(index_at(m.index, m.glass, nm));
+        for (const std::size_t i : {std::size_t(0), lens.surfaces.size() - 2})
+            if (media[i] != LensMedium())
+                refuse(lens.surfaces[i].place, "has no air behind it; {} must stand in air", i == 0 ? "the object" : "the image");
+        for (const GlassChoice& choice : request.glasses)
+            if (taken.contains(choice.name))
+                notes.push_back(fmt::format("By --glass, not the file's own: {}.", choice.name));
+            else
+                refuse("--glass", "the lens has no glass {}", shortened(choice.name));
+        if (std::any_of(media.begin(), media.end(), [](const LensMedium& m) { return m.glass.has_value(); }))
+            notes.push_back(fmt::format("The lens is drawn for light of {:.4g} nm{}; lengths here hold for green light.", nm,
+                                        lens.beam.wavelength_nm ? "" : ", as far as is known"));
+    }
+
+    LensMedium medium_of(const DrawnSurface& s) {
+        const DrawnMedium& drawn = s.medium;
+        if (drawn.is_air()) return {};
+        if (drawn.glass.empty() && drawn.vd) return {{}, Glass{"", Formula::nd_vd, {drawn.nd, *drawn.vd}}};
+        if (drawn.glass.empty()) return {drawn.nd, {}};
+        if (same_name(drawn.glass, "air") || same_name(drawn.glass, "vacuum")) return {};
+        const auto choice = std::find_if(request.glasses.begin(), request.glasses.end(),
+                                         [&](const GlassChoice& c) { return same_name(c.name, drawn.glass); });
+        if (choice != request.glasses.end()) {
+            taken.insert(choice->name);
+            return {choice->index, choice->glass};
+        }
+        if (const Glass* found = find_glass(drawn.glass, request.catalogues)) return {{}, *found};
+        if (unknown.insert(drawn.glass).second)
+            refuse(s.place, "{} (or --glass {}=OTHER, or --glass {}=ND,VD, or its maker's catalogue by --catalogue FILE.agf)",
+                   unknown_glass(drawn.glass, request.catalogues), shortened(drawn.glass), shortened(drawn.glass));
+        return {1.5, {}};
+    }
+
+    // Surfaces that bend or stop light, by their number. Others are planes for reference, which only take up space. False: none is.
+    bool kept_surfaces() {
+        std::vector<std::string> left_out;
+        for (std::size_t i = 1; i + 1 < lens.surfaces.size(); ++i) {
+            const DrawnSurface& s = lens.surfaces[i];
+            if (media[i] != media[i - 1] || s.is_stop || s.is_hole)
+                kept.push_back(i);
+            else
+                left_out.push_back(fmt::to_string(i));
+        }
+        if (!left_out.empty())
+            notes.push_back(fmt::format("Left out, as they neither bend nor stop light: surfaces {}.", fmt::join(left_out, ", ")));
+        const bool bends = std::any_of(media.begin(), media.end(), [](const LensMedium& m) { return m != LensMedium(); });
+        if (!bends)
+            refuse(lens.surfaces.front().place, "is followed by no glass at all: there is no lens");
+        else if (kept.size() > max_surfaces)
+            refuse(lens.surfaces[kept[max_surfaces]].place, "is one too many: the lens has {} surfaces, allowed are {}",
+                   kept.size(), max_surfaces);
+        if (const double curvature = lens.surfaces.back().curvature_per_mm; curvature != 0)
+            notes.push_back(
+                fmt::format("The file's image is curved, with a radius of {:.6g} mm; the panel is flat.", 1 / curvature));
+        return bends && kept.size() <= max_surfaces;
+    }
+
+    void give_apertures() {
+        std::vector<std::string> without;
+        for (const std::size_t i : kept)
+            if (!lens.surfaces[i].semi_aperture_mm) without.push_back(fmt::to_string(i));
+        notes.push_back("Beyond its semi-aperture each surface absorbs; a lens design program may let such light pass.");
+        if (without.empty()) {
+            if (request.semi_aperture_mm)
+                notes.push_back("--semi-aperture-mm has no effect: the file has semi-apertures of all surfaces.");
+            return;
+        }
+        if (request.semi_aperture_mm) {
+            for (const std::size_t i : kept)
+                if (std::optional<double>& semi = lens.surfaces[i].semi_aperture_mm; !semi) semi = request.semi_aperture_mm;
+            notes.push_back(fmt::format("The file has no semi-apertures of surfaces {}: {} mm by --semi-aperture-mm.",
+                                        fmt::join(without, ", "), *request.semi_aperture_mm));
+        } else if (by_beam = fill_apertures(lens, indices); by_beam) {
+            notes.push_back(
+                fmt::format("The file has no semi-apertures of surfaces {}: they are as wide as its beam needs, by paraxial rays.",
+                            fmt::join(without, ", ")));
+        } else {
+            refuse(lens.surfaces[kept.front()].place,
+                   "no semi-aperture is given for surfaces {}, nor a beam from which they follow; give --semi-aperture-mm",
+                   fmt::join(without, ", "));
+        }
+    }
+
+    double between(std::size_t from,
+                   std::size_t to) const {  // along the axis; a surface is as far from the next one as all media are
+        double sum = 0;
+        for (std::size_t i = from; i < to; ++i) sum += lens.surfaces[i].distance_mm;
+        return sum;
+    }
+
+    // The lens from the panel's side to the viewer's. Light is drawn from the object to the image, which is where the panel stands,
+    // so the file's order and its axis are turned round, unless the lens is flipped.
+    SurfaceLens surface_lens(std::vector<std::string>& places) {
+        SurfaceLens made;
+        for (std::size_t k = 0; k < kept.size(); ++k) {
+            const std::size_t at = request.flip ? k : kept.size() - 1 - k, i = kept[at];
+            const DrawnSurface& s = lens.surfaces[i];
+            const double sign = request.flip ? 1 : -1;
+            Surface& surface = made.surfaces.emplace_back();
+            surface.curvature_per_mm = s.curvature_per_mm == 0 ? 0 : tidy(sign * s.curvature_per_mm);
+            surface.conic = s.conic;
+            for (const double a : s.even_asphere) surface.even_asphere.push_back(a == 0 ? 0 : tidy(sign * a));
+            surface.semi_aperture_mm = tidy(*s.semi_aperture_mm);
+            places.push_back(s.place + (s.is_stop ? ", the stop" : ""));
+            if (k + 1 == kept.size()) continue;
+            // the space to the next surface here is the one behind this surface in the file, or behind that one
+            const std::size_t behind = request.flip ? i : kept[at - 1], next = request.flip ? kept[at + 1] : i;
+            surface.index = media[behind].index;
+            surface.glass = media[behind].glass;
+            surface.distance_mm = tidy(between(behind, next));
+            if (!(surface.distance_mm >= 0 && surface.distance_mm <= longest_mm))
+                refuse(lens.surfaces[behind].place, "the next surface stands {} mm behind it, allowed is {}", surface.distance_mm,
+                       length_or_zero.text());
+        }
+        return made;
+    }
+
+    // The panel, the array, the eye and what stands between them.
+    void furnish(Display& d) {
+        d.panel.pixels = request.pixels;
+        d.panel.pixel_pitch_mm =
+            to_nanometre(25.4 * request.panel_inch / std::hypot(double(request.pixels[0]), double(request.pixels[1])));
+        double widest = 0;
+        for (const Surface& s : d.lens.as<SurfaceLens>().surfaces) widest = std::max(widest, s.semi_aperture_mm);
+        d.array.pitch_mm = request.pitch_mm.value_or(2 * widest);
+        d.array.gap_mm = longest_mm;  // until the lens is known to be one
+        judge(d, "lens.");
+        d.array.gap_mm = gap(d);
+        d.camera.position_mm = {0, 0, request.distance_mm};
+        d.camera.resolution = {1280, 720};
+        d.content.model = "built-in:spheres";
+        d.content.viewing_distance_mm = request.distance_mm;
+        notes.push_back(fmt::format("Assumed: a panel of {:g} inches with {} x {} pixels, an eye at {:g} mm{}.", request.panel_inch,
+                                    request.pixels[0], request.pixels[1], request.distance_mm,
+                                    request.pitch_mm ? "" : ", a pitch as wide as the lens"));
+        const Geometry g = resolve_unchecked(d);
+        const double room = request.distance_mm - g.vertex_plane_mm, depth = theory(d, g).central_depth_mm;
+        if (request.distance_mm < nearest_sight_mm) {
+            d.camera.pupil_diameter_mm = pupil_mm;
+            d.camera.focus_distance_mm = depth < 0 && depth > -longest_mm ? rounded(room - depth) : 1000;
+            notes.push_back("The eye is too near to see the lenses sharply: it has a pupil, and there is no diffuser.");
+            return;
+        }
+        Diffuser& diffuser = d.diffuser.emplace();
+        diffuser.distance_mm = rounded(std::min(std::abs(depth), room / 4));
+        diffuser.angle_deg.fill(rounded(2 * std::atan(d.array.pitch_mm[0] / (2 * diffuser.distance_mm)) / degree));
+        notes.push_back(
+            "A diffuser closes the dark gaps between the lenses: on the central depth plane, at most a quarter of the way to the "
+            "eye.");
+    }
+
+    // From the panel to the lens's principal plane, in the green light that decides lengths here.
+    double gap(const Display& d) {
+        const Cardinal c = cardinal_points(prescription(d.lens, d.array, d.panel.wavelengths_nm[green_channel]));
+        const bool diverges = c.focal_length_mm < 0;
+        if (diverges)
+            notes.insert(
+                notes.begin(),
+                fmt::format("The lens diverges (focal length {:.6g} mm): at no gap does it make a real image of the panel.",
+                            c.focal_length_mm));
+        if (request.gap_mm) return *request.gap_mm;
+        const std::size_t last = lens.surfaces.size() - 1;
+        const double to_image = between(kept.back(), last), to_object = between(0, kept.front());
+        if (const double distance = request.flip ? to_object : to_image; std::isfinite(distance)) {
+            if (const double gap_mm = distance + c.front_principal_mm; diverges && !(gap_mm > 0)) {
+                refuse("--gap-mm",
+                       "the lens diverges (focal length {:.6g} mm): the file's {} is a virtual one, where no panel can stand; give "
+                       "the gap, or a "
+                       "lens that converges",
+                       c.focal_length_mm, request.flip ? "object" : "image");
+                report();
+            }
+            notes.push_back(fmt::format("The panel stands where the file's {} is, {:.6g} mm from the nearest surface.",
+                                        request.flip ? "object" : "image", distance));
+            return tidy(distance + c.front_principal_mm);
+        }
+        if (!(c.focal_length_mm > 0 && c.focal_length_mm <= longest_mm)) {
+            refuse("--gap-mm",
+                   "the file's {} is at infinity, and a lens of focal length {:.6g} mm{} has no focus there; give the gap",
+                   request.flip ? "object" : "image", c.focal_length_mm, diverges ? ", which diverges," : "");
+            report();
+        }
+        notes.push_back(fmt::format("The file's {} is at infinity: the panel stands in the lens's focal plane.",
+                                    request.flip ? "object" : "image"));
+        return c.focal_length_mm;  // to the last bit, so that the lens collimates
+    }
+
+    // Of a key of a surface, "lens.surface.2.index". The space behind it here is behind the other surface in the file.
+    const std::string& place_of(std::string_view key) const {
+        std::size_t k = 0;
+        const std::string_view number = key.substr(std::string_view("lens.surface.").size());
+        std::from_chars(number.data(), number.data() + number.size(), k);
+        const bool of_space = key.ends_with("index") || key.ends_with("glass") || key.ends_with("distance_mm");
+        const std::size_t at = request.flip ? k : kept.size() - 1 - k;
+        return lens.surfaces[kept[of_space && !request.flip && at > 0 ? at - 1 : at]].place;
+    }
+
+    void warn(const Display& d) {
+        const Geometry g = resolve_unchecked(d);
+        const std::int64_t across = std::min(g.lattice.count[0], g.lattice.count[1]);
+        if (across < fewest_lenses)
+            notes.push_back(fmt::format("The panel's shorter side has room for {} of {:.4g} mm; --scale makes them smaller.",
+                                        counted(across, "lens", "lenses"), d.array.pitch_mm[0]));
+        else if (const double views = d.array.pitch_mm[0] / d.panel.pixel_pitch_mm; views < fewest_views)
+            notes.push_back(
+                fmt::format("Only {:.3g} pixels lie behind a lens; --scale makes lenses larger, --pixels pixels smaller.", views));
+    }
+
+    // What the description's checks find, at the file's place or the option that set it.
+    void judge(const Display& d, std::string_view table) {
+        for (Problem& p : validate(d)) {
+            if (!p.where.starts_with(table)) continue;
+            if (p.where.starts_with("lens.surface.")) {
+                p.where = fmt::format("{}: {}", place_of(p.where), p.where);
+                if (by_beam && p.where.ends_with("_mm"))
+                    p.what += "; the semi-aperture is that of the file's beam, --semi-aperture-mm gives another";
+            } else if (p.where.starts_with("array.")) {
+                p.what += "; --gap-mm, --pitch-mm and --scale change that";
+            } else if (p.where.starts_with("camera.") || p.where.starts_with("diffuser.")) {
+                p.what += "; --distance-mm and --scale change that";
+            }
+            problems.push_back(std::move(p));
+        }
+        report();
+    }
+
+    DrawnLens lens;
+    const ImportRequest& request;
+    std::vector<std::string> notes;
+    std::vector<LensMedium> media;  // behind each surface of the file
+    std::vector<double> indices;    // of them
+    std::vector<std::size_t> kept;  // the file's numbers of the lens's surfaces
+    bool by_beam = false;           // semi-apertures follow from the file's beam
+    std::set<std::string> unknown;  // glasses that no catalogue has
+    std::set<std::string> taken;    // and those that the user replaces
+    std::vector<Problem> problems;
+};
+
+}  // namespace
+
+Imported import_lens(DrawnLens lens, const ImportRequest& request) { return LensImport(std::move(lens), request).import(); }
+
+}  // namespace lfdsim

@@ -1,0 +1,85 @@
+#include "files/lenses/lens_json.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/printable.h"
+#include "files/description/nearest.h"
+#include "files/description/text_file.h"
+
+namespace lfdsim {
+namespace {
+
+// Words of the same length, so that places in messages stay right.
+constexpr std::pair<std::string_view, std::string_view> bare_words[] = {
+    {"-Infinity", "\"-Infin.\""}, {"Infinity", "\"Infin.\""}, {"NaN", "\"N\""}};
+
+std::string without_bare_words(std::string text) {
+    bool inside = false;  // a string
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (inside && text[i] == '\\')
+            ++i;
+        else if (text[i] == '"')
+            inside = !inside;
+        else if (!inside)
+            for (const auto& [word, replacement] : bare_words)
+                if (text.compare(i, word.size(), word) == 0) {
+                    text.replace(i, word.size(), replacement);
+                    i += word.size() - 1;
+                    break;
+                }
+    }
+    return text;
+}
+
+}  // namespace
+
+LensJson parse_lens_json(std::string_view text, std::string_view name) {
+    if (text.size() > largest_text_bytes)
+        throw InputError(std::string(name), fmt::format("has {} bytes, allowed are {}", text.size(), largest_text_bytes));
+    try {
+        return LensJson::parse(without_bare_words(std::string(text)));
+    } catch (const LensJson::exception& error) {
+        const std::string says = error.what();  // "[json.exception.parse_error.101] parse error at line 1, column 1: ..."
+        const std::size_t begin = says.find("] ") + 2, end = std::min(says.find("; last read"), begin + 160);
+        throw InputError(std::string(name), "is no JSON: " + says.substr(begin, end - begin));
+    }
+}
+
+const LensJson& member(const LensJson& json, std::string_view key) {
+    static const LensJson nothing;
+    if (!json.is_object()) return nothing;
+    const auto found = json.find(key);
+    return found == json.end() ? nothing : *found;
+}
+
+bool is_true(const LensJson& json) { return json.is_boolean() && json.get<bool>(); }
+
+std::string word_of(const LensJson& json) {
+    return shortened(json.is_string() ? json.get<std::string>() : json.is_structured() ? json.type_name() : json.dump());
+}
+
+double JsonReader::number(const LensJson& json, const std::string& place, bool may_be_infinite) {
+    if (json.is_number()) return json.get<double>();  // the parser refuses infinite ones
+    if (may_be_infinite && json == "Infin.") return std::numeric_limits<double>::infinity();
+    if (may_be_infinite && json == "-Infin.") return -std::numeric_limits<double>::infinity();
+    refuse(place, "{}", json.is_null() ? "is missing" : (json == "N" ? "NaN" : word_of(json)) + " is not a finite number");
+    return 0;
+}
+
+const LensJson& JsonReader::list(const LensJson& json, const std::string& place, std::size_t least) const {
+    constexpr std::size_t most = 1000;
+    if (json.is_array() && json.size() >= least && json.size() <= most) return json;
+    throw InputError(name, fmt::format("{} is no list of {} to {}: is this a saved lens?", place, least, most));
+}
+
+void JsonReader::report() const {
+    if (!problems.empty()) throw InputError(problems);
+}
+
+DrawnLens LensJsonReader::done() {
+    report();
+    return std::move(lens);
+}
+
+}  // namespace lfdsim

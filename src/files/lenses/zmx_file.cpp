@@ -1,0 +1,309 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "base/counted.h"
+#include "base/printable.h"
+#include "files/description/decode.h"
+#include "files/description/nearest.h"
+#include "files/lenses/drawn_lens.h"
+
+// Zemax's .zmx: a line is a keyword and its values. "SURF n" begins a surface, whose lines are indented.
+namespace lfdsim {
+namespace {
+
+constexpr std::size_t most_problems_of_zmx = 20, most_surfaces_of_zmx = 1000;
+
+// Nothing here needs them: names and notes, how the program draws, analyses and optimises, and which values it solved for.
+constexpr std::string_view harmless[] = {
+    "NAME", "NOTE", "AUTH", "COMM", "LANG", "PFIL", "VERS", "ENVD", "GFAC", "GCAT", "RAIM", "PUSH", "SDMA", "ROPD", "PICB",
+    "FWGN", "FWGT", "VANN", "VDXN", "VDYN", "VCXN", "VCYN", "ZVAN", "ZVDX", "ZVDY", "ZVCX", "ZVCY", "POLS", "GLRS", "GSTD",
+    "NSCD", "COFN", "OPDX", "TRAC", "SURF", "FIMP", "HIDE", "MIRR", "SLAB", "POPS", "VDSZ", "PPAR", "VPAR", "PZUP", "CPUP",
+    "MEMA", "OEMA", "MAZH", "XDAT", "HYPR", "OMMA", "WWGN", "WWGT", "TOL",  "MOFF", "RCMF", "BLNK", "FLOA", "EERA", "IWDP",
+    "LUID", "SSID", "STUD", "FRAM", "DBDT", "SDIA", "CHIP", "UNDO", "CWGT", "WAVN", "XFLD", "YFLD"};
+
+// An aperture that is no circle about the axis.
+constexpr std::string_view other_apertures[] = {"SQAP", "SQOB", "ELAP", "ELOB", "OBSC", "SPID", "UDAD", "UDAP", "UDOB", "USAP"};
+
+struct ZmxSurface {
+    DrawnSurface drawn;
+    std::size_t line = 0;
+    std::string type = "STANDARD";
+    bool has_curvature = false, has_distance = false;
+    std::array<double, 8> parameters{};  // PARM 1 .. 8
+};
+
+class ZmxReader {
+  public:
+    ZmxReader(std::string_view all, std::string_view file) : text(all), name(file) {}
+
+    DrawnLens read() {
+        for (std::size_t start = 0; start < text.size(); ++line) {
+            const std::size_t end = std::min(text.find_first_of("\r\n", start), text.size());
+            read_line(text.substr(start, end - start));
+            start = end + (text.substr(end, 2) == "\r\n" ? 2 : 1);
+        }
+        finish();
+        if (!problems.empty()) throw InputError(std::move(problems));
+        return std::move(lens);
+    }
+
+  private:
+    template <class... Values>
+    void refuse(std::size_t at, fmt::format_string<Values...> what, Values&&... values) {
+        problems.push_back({fmt::format("{}:{}", name, at), fmt::format(what, std::forward<Values>(values)...)});
+        if (problems.size() >= most_problems_of_zmx) throw InputError(std::move(problems));
+    }
+    std::string here() const { return surfaces.empty() ? std::string() : fmt::format("surface {}: ", surfaces.size() - 1); }
+
+    void read_line(std::string_view content) {
+        words.clear();
+        for (std::size_t start = 0; (start = content.find_first_not_of(" \t", start)) != content.npos;) {
+            const std::size_t end = std::min(content.find_first_of(" \t", start), content.size());
+            words.push_back(content.substr(start, end - start));
+            start = end;
+        }
+        if (words.empty()) return;
+        const std::string_view key = words[0];
+        in_surface = key == "SURF" || (in_surface && (content[0] == ' ' || content[0] == '\t'));
+        if (key == "SURF") return begin_surface();
+        const bool of_surface =
+            std::any_of(std::begin(surface_words), std::end(surface_words), [&](const Word& word) { return word.key == key; });
+        if (of_surface && surfaces.empty()) return refuse(line, "{} stands before the first SURF", key);
+        for (const Word& word : of_surface ? std::span<const Word>(surface_words) : std::span<const Word>(system_words))
+            if (word.key == key) return (this->*word.read)();
+        if (std::ranges::find(other_apertures, key) != std::end(other_apertures))
+            return refuse(line, "{}{} is an aperture that is no circle about the axis; only those can be imported", here(), key);
+        // Behind the surfaces stand the words of the merit function and the tolerances, which are many.
+        if ((surfaces.empty() || in_surface) && std::ranges::find(harmless, key) == std::end(harmless) && unread.size() < 20)
+            unread.push_back(fmt::format("{} (line {})", shortened(key), line));
+    }
+
+    void begin_surface() {
+        std::size_t number = 0;
+        const std::string_view given = words.size() > 1 ? words[1] : "";
+        const auto [end, error] = std::from_chars(given.data(), given.data() + given.size(), number);
+        if (error != std::errc() || end != given.data() + given.size() || number != surfaces.size()) {
+            refuse(line, "SURF {}, where surface {} should begin; a part of the file is missing", shortened(given),
+                   surfaces.size());
+            throw InputError(std::move(problems));
+        }
+        if (surfaces.size() >= most_surfaces_of_zmx) {
+            refuse(line, "has more than {} surfaces", most_surfaces_of_zmx);
+            throw InputError(std::move(problems));
+        }
+        surfaces.emplace_back().line = line;
+        surfaces.back().drawn.place = fmt::format("{}:{}: surface {}", name, line, number);
+    }
+
+    // The number at a place of the line; 0 if there is none that is finite, which is then refused. A decimal comma is one of
+    // Zemax's own in some languages.
+    double number(std::size_t i) {
+        std::string given(i < words.size() ? words[i] : "");
+        std::ranges::replace(given, ',', '.');
+        const char* start = given.data() + (given.starts_with('+') ? 1 : 0);
+        double value = 0;
+        const auto [end, error] = std::from_chars(start, given.data() + given.size(), value);
+        if (error == std::errc() && end == given.data() + given.size() && std::isfinite(value)) return value;
+        refuse(line, "{}{} {}", here(), words[0],
+               given.empty() ? fmt::format("has {} of its values; the line is cut", i - 1)
+                             : fmt::format("\"{}\" is not a finite number", shortened(given)));
+        return 0;
+    }
+    bool has_number(std::size_t i) const { return i < words.size(); }
+
+    ZmxSurface& surface() { return surfaces.back(); }
+
+    void read_type() {
+        if (words.size() > 1) surface().type = words[1];
+    }
+    void read_curvature() {
+        surface().drawn.curvature_per_mm = number(1);
+        surface().has_curvature = true;
+    }
+    void read_distance() {
+        surface().has_distance = true;
+        const bool infinite = words.size() > 1 && words[1] == "INFINITY";
+        surface().drawn.distance_mm = infinite ? std::numeric_limits<double>::infinity() : number(1);
+    }
+    void read_conic() { surface().drawn.conic = number(1); }
+    void read_parameter() {
+        const double i = number(1), value = number(2);
+        if (i >= 1 && i <= 8 && i == std::floor(i))
+            surface().parameters[std::size_t(i) - 1] = value;
+        else if (value != 0 && surface().type == "EVENASPH")
+            refuse(line, "{}PARM {} is no coefficient; PARM 1 to 8 are", here(), shortened(words[1]));
+    }
+    void read_stop() { surface().drawn.is_stop = true; }
+    // What surfaces of the same size are drawn with; 0 where nothing determines it.
+    void read_diameter() { limit(number(1)); }
+    void read_aperture() {
+        if (number(1) != 0)
+            refuse(line, "{}{} has a dark middle; only whole circles can be imported", here(), words[0]);
+        else if (const double radius = number(2); radius > 0)
+            limit(radius), surface().drawn.is_hole = true;
+    }
+    void limit(double semi_aperture) {
+        std::optional<double>& semi = surface().drawn.semi_aperture_mm;
+        if (semi_aperture > 0) semi = std::min(semi.value_or(semi_aperture), semi_aperture);
+    }
+
+    // "GLAS name kind from n_d V_d": of a catalogue's glass the numbers are mostly fillers, 1.5 and 40. Kind 1 is a glass of these
+    // numbers; 2 is that of another surface, with a name if that has one; 4 is a glass with an offset.
+    void read_glass() {
+        const std::string_view glass = words.size() > 1 ? words[1] : "";
+        const std::string_view kind = words.size() > 2 ? words[2] : "0";
+        const bool nameless = glass.empty() || glass.starts_with("___");
+        DrawnMedium& medium = surface().drawn.medium;
+        if (glass == "MIRROR") return refuse(line, "{}is a mirror; only lenses can be imported", here());
+        if (kind == "4") return refuse(line, "{}glass {} has an offset, which is not supported", here(), shortened(glass));
+        if (kind != "1" && !(kind == "2" && nameless)) {
+            if (nameless) return refuse(line, "{}GLAS names no glass", here());
+            medium.glass = glass;
+            return;
+        }
+        medium.nd = number(4);
+        if (const double vd = has_number(5) ? number(5) : 0; vd != 0) medium.vd = vd;
+    }
+    void read_shift() {
+        for (std::size_t i = words[0] == "OBDC" ? 1 : 2; i < words.size(); ++i)
+            if (number(i) != 0)
+                return refuse(line, "{}{} shifts or tilts it; only lenses about one axis can be imported", here(), words[0]);
+    }
+    void read_coating() { coated.push_back(surfaces.size() - 1); }
+
+    void read_mode() {
+        if (words.size() > 1 && words[1] != "SEQ")
+            refuse(line, "MODE {}: only sequential lenses can be imported", shortened(words[1]));
+    }
+    void read_unit() {
+        const std::string_view unit = words.size() > 1 ? words[1] : "";
+        if (unit == "MM")
+            unit_mm = 1;
+        else if (unit == "CM")
+            unit_mm = 10;
+        else if (unit == "IN" || unit == "INCH")
+            unit_mm = 25.4;
+        else if (unit == "METER" || unit == "M")
+            unit_mm = 1000;
+        else
+            refuse(line, "UNIT {} is unknown; known are MM, CM, IN and METER", shortened(unit));
+    }
+    void read_configurations() {
+        if (const double count = number(1); count > 1)
+            refuse(line, "MNUM {}: has {} configurations, of which only one can be imported; save it alone", count, count);
+    }
+    void read_pupil() { lens.beam.entrance_pupil_mm = number(1); }
+    void read_f_number() { lens.beam.f_number = number(1); }
+    void read_field_type() { field_is_angle = words.size() > 1 && words[1] == "0"; }
+    void read_fields() {
+        for (std::size_t i = 1; i < words.size(); ++i) field = std::max(field, std::abs(number(i)));
+    }
+    void read_wavelength() {
+        const double i = number(1), wavelength_um = number(2);
+        if (i >= 1 && i <= 24) wavelengths_um[std::size_t(i) - 1] = wavelength_um;
+    }
+    void read_primary() {
+        const double i = number(1);
+        if (i >= 1 && i <= 24) primary = std::size_t(i) - 1;
+    }
+    void read_title() {
+        for (std::size_t i = 1; i < words.size(); ++i) lens.title += (i > 1 ? " " : "") + std::string(words[i]);
+    }
+
+    struct Word {
+        std::string_view key;
+        void (ZmxReader::*read)();
+    };
+    static constexpr Word surface_words[] = {
+        {"TYPE", &ZmxReader::read_type},     {"CURV", &ZmxReader::read_curvature}, {"DISZ", &ZmxReader::read_distance},
+        {"CONI", &ZmxReader::read_conic},    {"PARM", &ZmxReader::read_parameter}, {"STOP", &ZmxReader::read_stop},
+        {"DIAM", &ZmxReader::read_diameter}, {"CLAP", &ZmxReader::read_aperture},  {"FLAP", &ZmxReader::read_aperture},
+        {"GLAS", &ZmxReader::read_glass},    {"OBDC", &ZmxReader::read_shift},     {"SCBD", &ZmxReader::read_shift},
+        {"COAT", &ZmxReader::read_coating},
+    };
+    static constexpr Word system_words[] = {
+        {"MODE", &ZmxReader::read_mode},    {"UNIT", &ZmxReader::read_unit},     {"MNUM", &ZmxReader::read_configurations},
+        {"ENPD", &ZmxReader::read_pupil},   {"FNUM", &ZmxReader::read_f_number}, {"FTYP", &ZmxReader::read_field_type},
+        {"XFLN", &ZmxReader::read_fields},  {"YFLN", &ZmxReader::read_fields},   {"WAVM", &ZmxReader::read_wavelength},
+        {"PWAV", &ZmxReader::read_primary}, {"NAME", &ZmxReader::read_title},
+    };
+
+    void finish() {
+        if (surfaces.empty()) {
+            refuse(1, "is no lens in Zemax's format: no line begins with SURF");
+            return;
+        }
+        // A file that Zemax wrote goes on behind its surfaces; one that ends within them, and within a line, is cut.
+        const bool cut_line = in_surface && !text.ends_with('\n') && !text.ends_with('\r');
+        if (cut_line && text.starts_with("VERS")) refuse(line - 1, "ends in the middle of this line; the file is cut");
+        for (ZmxSurface& s : surfaces) finish_surface(s, &s - surfaces.data());
+        if (const ZmxSurface& last = surfaces.back(); last.has_distance && last.drawn.distance_mm != 0)
+            refuse(last.line, "ends with surface {}, which is not the image: another one follows at DISZ {}; the file is cut",
+                   surfaces.size() - 1, last.drawn.distance_mm);
+        else if (surfaces.size() < 3)
+            refuse(last.line, "has {}; a lens stands between an object and an image", counted(surfaces.size(), "surface"));
+        if (unit_mm == 0) lens.notes.push_back("The file names no unit of length; taken as mm.");
+        if (cut_line && !text.starts_with("VERS"))
+            lens.notes.push_back("The file's last line has no end; if it was cut there, something may be missing.");
+        if (!coated.empty())
+            lens.notes.push_back(
+                fmt::format("The coatings of surfaces {} are not read: all glass is bare.", fmt::join(coated, ", ")));
+        if (!unread.empty())
+            lens.notes.push_back(fmt::format("Words that are unknown and were not read: {}.", fmt::join(unread, ", ")));
+        if (field_is_angle) lens.beam.field_deg = field;
+        if (wavelengths_um[primary] > 0) lens.beam.wavelength_nm = wavelengths_um[primary] * 1000;
+        for (ZmxSurface& s : surfaces) lens.surfaces.push_back(std::move(s.drawn));
+        if (unit_mm != 0 && unit_mm != 1) scale(lens, unit_mm);
+    }
+
+    void finish_surface(ZmxSurface& s, std::ptrdiff_t number) {
+        if (s.type != "STANDARD" && s.type != "EVENASPH")
+            return refuse(s.line, "surface {} is of type {}, which cannot be imported; STANDARD and EVENASPH can", number,
+                          shortened(s.type));
+        if (!s.has_curvature || !s.has_distance)
+            return refuse(s.line, "surface {} has no {}; the file is cut, or a part of it is missing", number,
+                          s.has_curvature ? "DISZ" : "CURV");
+        if (s.type == "STANDARD") return;
+        s.drawn.even_asphere.assign(s.parameters.begin() + 1, s.parameters.end());
+        while (!s.drawn.even_asphere.empty() && s.drawn.even_asphere.back() == 0) s.drawn.even_asphere.pop_back();
+        if (!fold_r2(s.drawn, s.parameters[0]))
+            refuse(s.line, "surface {} has PARM 1 = {}, a term in r^2 beside a conic of constant {}, which no surface here has",
+                   number, s.parameters[0], s.drawn.conic);
+    }
+
+    std::string_view text;
+    std::string name;
+    std::size_t line = 1;
+    bool in_surface = false;              // the line belongs to one
+    std::vector<std::string_view> words;  // of the line
+    std::vector<ZmxSurface> surfaces;
+    double unit_mm = 0;  // 0: not given
+    std::array<double, 24> wavelengths_um{};
+    std::size_t primary = 0;
+    bool field_is_angle = false;
+    double field = 0;  // the largest, in degrees if it is an angle
+    std::vector<std::size_t> coated;
+    std::vector<std::string> unread;
+    DrawnLens lens;
+    std::vector<Problem> problems;
+};
+
+// UTF-16 without its mark, told by the zero byte of its first letter, gets one.
+std::string marked(std::string_view bytes) {
+    const bool little = bytes.size() > 1 && bytes[0] != 0 && bytes[1] == 0,
+               big = bytes.size() > 1 && bytes[0] == 0 && bytes[1] != 0;
+    return (little ? "\xff\xfe" : big ? "\xfe\xff" : "") + std::string(bytes);
+}
+
+}  // namespace
+
+DrawnLens parse_zmx(std::string_view bytes, std::string_view name) { return ZmxReader(to_utf8(marked(bytes)), name).read(); }
+
+}  // namespace lfdsim

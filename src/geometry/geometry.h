@@ -1,0 +1,144 @@
+// What follows from a display description: the positions of all parts, and paraxial theory. Floor 0.
+#pragma once
+#include "base/input_error.h"
+#include "display/display.h"
+#include "geometry/lattice.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace lfdsim {
+
+/// How a surface bends rays: as a glass surface of revolution about the lens's axis, or as the plane of an ideal thin lens.
+enum class SurfaceForm { revolution, thin };
+
+/// A surface in place. z is that of its vertex on the axis; the sag s(r) adds to it. A thin lens has no sag, and air on both sides.
+struct PlacedSurface {
+    double z_mm;
+    double curvature_per_mm;
+    double conic;
+    std::vector<double> even_asphere;
+    double semi_aperture_mm;
+    double index_below, index_above;  // media on the panel's and on the viewer's side
+    SurfaceForm form = SurfaceForm::revolution;
+    double focal_length_mm = 0;  // of a thin lens
+};
+
+/// A plate on the panel.
+struct PlacedLayer {
+    double thickness_mm, index;
+};
+
+/// A lens's pupil as an eye far away on its axis sees it, by paraxial optics: of the images of all apertures through the surfaces
+/// in front of them, the narrowest. A ray parallel to the axis at the height 1 passes an aperture of radius r at the height h: its
+/// image has the radius r / |h|.
+struct Pupil {
+    double radius_mm;               // of the round one: of surfaces and of the stop
+    std::optional<double> inner_z;  // where that image is, from the panel, if it is not of what light meets first
+    double cells;                   // the pupil's part of a cell that the lens fills, 1 or less: 1 over the greatest |h|
+};
+
+/// A valid display resolved to lengths on the z axis, with the errors of its array as a whole but for wedge and bow. All z in mm
+/// from the panel.
+struct Geometry {
+    Lattice<double> lattice;              // where the lenses stand
+    double turn_deg;                      // of the array's frame against the display's, counter-clockwise to the viewer
+    std::vector<PlacedSurface> surfaces;  // panel side first; at least one
+    std::vector<PlacedLayer> layers;      // on the panel, from it upwards
+    double layers_top_mm;                 // T, of the layers
+    bool glued;                           // the lens's flat panel-side face lies on them, or on the panel, without air
+    double base_z_mm;                     // lowest z of a lens, rims and sags included
+    double top_z_mm;                      // highest z of a lens, rims and sags included
+    double entrance_z_mm;                 // vertex of the surface that an eye's rays meet first
+    double reduced_vertex_plane_mm;       // of the media on a lens's axis from the panel up to there: sum of thickness / index
+    double vertex_plane_mm;               // viewer-side vertex plane: highest z of a lens on its axis
+    double front_principal_mm;            // panel-side principal (= nodal) point
+    double rear_principal_mm;             // viewer-side one
+    double gap_mm;                        // g, panel to front_principal, layers counted by thickness / index
+    double focal_length_mm;               // f, paraxial; infinite for an afocal lens
+    double glass_radius_mm;  // plano_convex: r of the cap in glass (a lens that fills its cell: at least to the corners); else semi
+                             // aperture
+    Pupil pupil;             // of a lens
+    std::array<double, 2> clear_aperture_mm;  // D, the pupil's width along the array's own x and y
+    double stop_z_mm;                         // plane of the curved vertex (last vertex for surfaces, lens for ideal)
+    std::optional<double> diffuser_z_mm;
+    double panel_width_mm, panel_height_mm;
+    double array_width_mm, array_height_mm;   // of the box about all cells, in the array's frame
+    double frame_width_mm;                    // of the camera, resolved from frame_width_mm | fov_deg | default
+    double focus_distance_mm;                 // of the camera
+    double content_depth_mm;                  // of the model's centre; of objects midway between the nearest and the furthest
+    std::optional<double> content_height_mm;  // absent: as high as the objects make it
+};
+
+/// Midway between the nearest and the furthest object's middle, from the viewer-side vertex plane as they; of one or more.
+double middle_z_mm(const std::vector<SceneObject>&);
+
+/// Along one of the array's own axes, p its pitch there.
+struct AxisTheory {
+    double fov_deg;                     // 2 atan(p / 2g)
+    double fov_exact_deg;               // of the ray from p'/2 to the axis at the principal point, by Snell; NaN for glass lenses
+    double fov_elemental_deg;           // 2 atan(p' / 2g), p' the elemental images' pitch: what is seen through their whole width
+    double views;                       // N = p / a, of strips along a row of the panel p / (a cos(slant))
+    double view_step_deg;               // FOV / N
+    double viewing_zone_parallel_deg;   // whole screen, elemental-image pitch p
+    double viewing_zone_deg;            // whole screen, elemental images for the description's viewing distance, seen by the eye
+    double eyebox_mm;                   // width of the region from which an eye sees the middle lens's own image: E p' / g
+    double elemental_pitch_mm;          // p' = p (1 + g / (D - z_r))
+    double lens_sampling_limit_per_mm;  // 1 / 2p
+    double gap_closing_diffuser_deg;    // 2 atan(p / 2L), as published: of a diffuser at L
+    double gap_closing_here_deg;        // 2 atan(p / 2d), d the diffuser's own height above the apertures (bands.h)
+};
+
+/// Paraxial theory, docs/model.md section "Theory". Infinite where a figure has no finite value, NaN where it is undefined.
+struct Theory {
+    std::array<AxisTheory, 2> along;  // the array's own x and y; of strips, which do nothing along y, that is NaN
+    double fov_horizontal_deg;        // of strips along the panel's rows, 2 atan(p / (2 g cos(slant))); NaN for others
+    // Of pinholes, which have no image plane, all but the gap is NaN.
+    double focal_length_mm;
+    double gap_mm;
+    double central_depth_mm;   // L, from the rear principal plane; negative: virtual
+    double pixel_image_mm;     // P_I = a |L| / g
+    double depth_of_field_mm;  // 2 |L| P_I / D, as published; D the lens's wider clear aperture, here and below
+    // Depths z from the rear principal plane at which a lens's spot is no wider than a panel pixel's image, D |1 - z/L| <= a |z|/g:
+    // |1/z - 1/L| <= a/(g D). One interval of 1/z, whatever L; where it contains 0, infinity is sharp.
+    double depth_near_per_mm;         // 1/L + a/(g D)
+    double depth_far_per_mm;          // 1/L - a/(g D)
+    double pixel_image_limit_per_mm;  // 1 / 2 P_I
+};
+
+/// All problems of a description, each with its TOML key ("lens.index") as `where`. Empty: valid.
+std::vector<Problem> validate(const Display&);
+
+/// Resolves a valid description, in the light of the green channel. Throws InputError with validate()'s problems otherwise.
+Geometry resolve(const Display&);
+/// The geometry for which elemental images are made: that of the display without its errors, but for content.made_for = "built".
+Geometry meant_geometry(const Display&, const Geometry& built);
+/// The same things in the same places in light of another wavelength: indices, focal length, principal points, gap and reduced
+/// lengths are those of that light.
+Geometry resolve(const Display&, double wavelength_nm);
+
+Theory theory(const Display&, const Geometry&);
+
+/// Whether a stop lies in the entrance plane: light then passes it before it meets the lens.
+bool stop_at_entrance(const Display&, const Geometry&);
+
+/// D along a lens's wider axis.
+double widest_aperture_mm(const Geometry&);
+
+/// The eye's distance from the panel that theory and measures assume: the camera's from the panel's centre.
+double eye_distance_mm(const Display&);
+
+/// The depth whose inverse is given, mm from the rear principal plane towards the viewer; infinite for 0.
+double depth_mm(double per_mm);
+
+/// Whether theory calls a depth sharp, z from the rear principal plane.
+bool is_sharp(const Theory&, double z_mm);
+
+/// Sag z - z_vertex in mm of a surface at distance s from its axis: c s^2/(1 + sqrt(1 - (1+k) c^2 s^2)) + a4 s^4 + ...
+double sag_mm(double curvature, double conic, const std::vector<double>& even_asphere, double s);
+
+/// An eye must be farther from the panel than this, mm: in front of the diffuser, the lenses and their principal plane.
+double nearest_eye_mm(const Geometry&);
+
+}  // namespace lfdsim

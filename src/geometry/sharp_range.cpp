@@ -1,0 +1,88 @@
+#include "geometry/sharp_range.h"
+
+#include "base/constants.h"
+#include "checks/depth_words.h"
+#include "geometry/lens_misalignment.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+// docs/model.md, "Depth of field".
+namespace lfdsim {
+namespace {
+
+constexpr DepthSpan no_depths{nan, nan};
+constexpr double rounding_mm = 1e-6;  // of an end at the lenses
+
+/// z from `low` to `high`, all on one side of the principal plane, cut at the lenses and at the viewer.
+DepthSpan cut(const Geometry& g, double low, double high, bool in_front, double eye_mm) {
+    const double from_vertex = g.rear_principal_mm - g.vertex_plane_mm, viewer = eye_mm - g.vertex_plane_mm;
+    const DepthSpan span{in_front ? std::max(low + from_vertex, 0.) : low + from_vertex,
+                         in_front ? std::min(high + from_vertex, viewer) : std::min(high + from_vertex, 0.)};
+    return span.empty() || (in_front && span.low >= viewer) ? no_depths : span;
+}
+
+}  // namespace
+
+SharpRange range_of_inverse(const Geometry& g, double near, double far, double eye_mm) {
+    SharpRange range{no_depths, no_depths};
+    if (!(far <= near)) return range;
+    if (near > 0) range.in_front = cut(g, 1 / near, far > 0 ? 1 / far : infinity, true, eye_mm);
+    if (far < 0) range.behind = cut(g, near < 0 ? 1 / near : -infinity, 1 / far, false, eye_mm);
+    return range;
+}
+
+SharpRange range_between(const Geometry& g, double low, double high, double eye_mm) {
+    SharpRange range{no_depths, no_depths};
+    const double from_vertex = g.rear_principal_mm - g.vertex_plane_mm;
+    if (high + from_vertex >= 0) range.in_front = cut(g, low, high, true, eye_mm);
+    if (low + from_vertex < -rounding_mm) range.behind = cut(g, low, high, false, eye_mm);
+    return range;
+}
+
+SharpRange sharp_by_pixel(const Geometry& g, const Theory& t, double eye_mm) {
+    return range_of_inverse(g, t.depth_near_per_mm, t.depth_far_per_mm, eye_mm);
+}
+
+SharpRange sharp_by_lens(const Display& d, const Geometry& g, const Theory& t, double eye_mm) {
+    const std::size_t axis = g.clear_aperture_mm[1] > g.clear_aperture_mm[0] && !g.lattice.strips ? 1 : 0;
+    const double L = t.central_depth_mm,
+                 pitches = std::max(d.array.pitch_mm[axis] * pitch_scale(d.errors) / g.clear_aperture_mm[axis], 1.);
+    if (std::isnan(L)) return {no_depths, no_depths};
+    if (std::isinf(L)) return range_between(g, -infinity, infinity, eye_mm);
+    const double one = L * (1 - pitches), other = L * (1 + pitches);  // |1 - z/L| = p/D
+    return range_between(g, std::min(one, other), std::max(one, other), eye_mm);
+}
+
+std::string depths_in_words(const Geometry& g, const SharpRange& range, double eye_mm) {
+    const DepthSpan &behind = range.behind, &front = range.in_front;
+    const bool to_viewer = front.high >= eye_mm - g.vertex_plane_mm;
+    const std::string before = to_viewer ? "the viewer" : depth_in_words(front.high);
+    if (!behind.empty() && !front.empty() && behind.high == 0 && front.low == 0)
+        return fmt::format("from {} to {}", std::isinf(behind.low) ? "infinity behind the lenses" : depth_in_words(behind.low),
+                           before);
+    std::string words;
+    if (!behind.empty())
+        words = std::isinf(behind.low) ? fmt::format("from {} to infinity", depth_in_words(behind.high))
+                                       : fmt::format("from {} to {}", length_in_words(-behind.high), depth_in_words(behind.low));
+    if (!front.empty())
+        words += fmt::format("{}from {} to {}", words.empty() ? "" : " and ",
+                             to_viewer ? depth_in_words(front.low) : length_in_words(front.low), before);
+    return words.empty() ? "no depth as far as the viewer" : words;
+}
+
+double lens_limit_per_mm(const Geometry& g, const Theory& t, double depth, double eye_mm) {
+    const double to_eye = eye_mm - g.vertex_plane_mm;
+    return t.along[0].lens_sampling_limit_per_mm * to_eye / (to_eye - depth);
+}
+
+double pixel_limit_per_mm(const Display& d, const Geometry& g, double depth) {
+    return g.gap_mm / (2 * d.panel.pixel_pitch_mm * std::abs(depth + g.vertex_plane_mm - g.rear_principal_mm));
+}
+
+double cycles_per_degree(const Geometry& g, double per_mm, double depth, double eye_mm) {
+    return per_mm * (eye_mm - g.vertex_plane_mm - depth) * degree;
+}
+
+}  // namespace lfdsim

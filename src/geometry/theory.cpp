@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/constants.h"
+#include "base/vec.h"
+#include "geometry/dark_bands.h"
+#include "geometry/geometry.h"
+#include "geometry/layers.h"
+#include "geometry/lens_misalignment.h"
+#include "geometry/screen.h"
+
+namespace lfdsim {
+
+namespace {
+
+/// The angle between the two lines to the axis at the principal point from the ends of a width on the panel, by Snell's law through
+/// layers and air, whose place on the panel grows with its sine in air.
+double exact_angle_deg(const Geometry& g, double width_mm) {
+    const auto half_width = [&](double sine) {
+        const double slope = sine / std::sqrt(1 - sine * sine);
+        return slope * reach_below_thin_lens_mm(g, slope * slope);
+    };
+    double low = 0, high = 1;
+    while (true) {
+        const double middle = (low + high) / 2;
+        if (middle <= low || middle >= high) break;
+        (half_width(middle) < width_mm / 2 ? low : high) = middle;
+    }
+    return 2 * std::asin(high) / degree;  // 180 where the whole half space does not reach so far
+}
+
+AxisTheory theory_along(const Display& d, const Geometry& g, double L, std::size_t axis) {
+    if (is_strips(d.array) && axis == 1) return {nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
+    const double a = d.panel.pixel_pitch_mm, p = d.array.pitch_mm[axis] * pitch_scale(d.errors), gap = g.gap_mm;
+    AxisTheory t{};
+    t.fov_deg = 2 * std::atan(p / (2 * gap)) / degree;
+    t.views = is_strips(d.array) ? p / (a * g.lattice.cos_turn) : p / a;
+    t.view_step_deg = t.fov_deg / t.views;
+
+    // Seen from X = E tan(theta), the lens at x shows the panel at g (x - X)/E from its axis; its elemental image is centred at
+    // e x, with e = g/D' for the distance it was made for, and p (1 + e) wide. All of m lenses show their own image while |X/E|
+    // stays below p (1 + e)/2g - (m - 1) p/2 |1/E - e/g|.
+    const double made_for = d.content.viewing_distance_mm - g.rear_principal_mm, eye = eye_distance_mm(d) - g.rear_principal_mm;
+    t.elemental_pitch_mm = p * (1 + gap / made_for);
+    t.fov_elemental_deg = 2 * std::atan(t.elemental_pitch_mm / (2 * gap)) / degree;
+    t.fov_exact_deg = d.lens.is_thin() ? exact_angle_deg(g, t.elemental_pitch_mm) : nan;
+    const bool before = eye > 0;  // else the camera stands inside the display or behind it
+    t.eyebox_mm = before ? eye * t.elemental_pitch_mm / gap : std::nan("");
+    const auto zone_deg = [&](double e) {
+        if (!before) return std::nan("");
+        const double m = lenses_across(g, axis), slope = p * (1 + e) / (2 * gap) - (m - 1) * p / 2 * std::abs(1 / eye - e / gap);
+        return 2 * std::atan(std::max(slope, 0.0)) / degree;
+    };
+    t.viewing_zone_parallel_deg = zone_deg(0);
+    t.viewing_zone_deg = zone_deg(gap / made_for);
+    t.lens_sampling_limit_per_mm = 1 / (2 * p);
+    t.gap_closing_diffuser_deg = gap_closing_angle_deg(p, std::abs(L));
+    t.gap_closing_here_deg =
+        g.diffuser_z_mm ? gap_closing_angle_deg(p, *g.diffuser_z_mm - aperture_plane_mm(d, g, axis)) : std::nan("");
+    return t;
+}
+
+}  // namespace
+
+// First-order formulas of integral imaging; docs/model.md, "Theory". Symbols as there.
+Theory theory(const Display& d, const Geometry& g) {
+    const double a = d.panel.pixel_pitch_mm, D = widest_aperture_mm(g), gap = g.gap_mm, f = g.focal_length_mm;
+    const bool pinhole = d.lens.type() == LensType::pinhole;
+    const double inverse_L = pinhole ? nan : gap == f ? 0 : 1 / f - 1 / gap, L = inverse_L == 0 ? infinity : 1 / inverse_L;
+
+    Theory t{};
+    t.fov_horizontal_deg =
+        is_strips(d.array) ? 2 * std::atan(d.array.pitch_mm[0] * pitch_scale(d.errors) / (2 * gap * g.lattice.cos_turn)) / degree
+                           : nan;
+    t.focal_length_mm = pinhole ? nan : f;
+    t.gap_mm = gap;
+    t.central_depth_mm = L;
+    t.pixel_image_mm = a * std::abs(L) / gap;
+    t.pixel_image_limit_per_mm = 1 / (2 * t.pixel_image_mm);
+    t.depth_of_field_mm = 2 * std::abs(L) * t.pixel_image_mm / D;
+    const double half_depth_per_mm = a / (gap * D);
+    t.depth_near_per_mm = inverse_L + half_depth_per_mm;
+    t.depth_far_per_mm = inverse_L - half_depth_per_mm;
+    for (const std::size_t axis : {0u, 1u}) t.along[axis] = theory_along(d, g, L, axis);
+    return t;
+}
+
+double reach_below_thin_lens_mm(const Geometry& g, double slope_squared) {
+    double reach = g.front_principal_mm - g.layers_top_mm;
+    for (const auto& [thickness, n] : g.layers) reach += thickness / std::sqrt(n * n + (n * n - 1) * slope_squared);
+    return reach;
+}
+
+double eye_distance_mm(const Display& d) { return std::sqrt(dot(d.camera.position_mm, d.camera.position_mm)); }
+
+double depth_mm(double per_mm) { return per_mm == 0 ? std::numeric_limits<double>::infinity() : 1 / per_mm; }
+
+bool is_sharp(const Theory& t, double z_mm) { return t.depth_far_per_mm <= 1 / z_mm && 1 / z_mm <= t.depth_near_per_mm; }
+
+}  // namespace lfdsim

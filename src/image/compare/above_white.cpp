@@ -1,0 +1,35 @@
+#include "image/compare/above_white.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+namespace {
+
+constexpr float rounding = 1e-3f;      // above 1 that light may be by the arithmetic that made it
+constexpr float most_of_picture = 16;  // four stripes' worth of a quarter's aperture
+
+}  // namespace
+
+std::string above_white(const float* light, std::int64_t pixels, int stride, LightOf of) {
+    float greatest = 0;
+    for (std::int64_t i = 0; i < pixels; ++i, light += stride) greatest = std::max({greatest, light[0], light[1], light[2]});
+    if (!(greatest > 1 + rounding)) return {};
+    light -= pixels * stride;
+    bool whole = true;
+    for (std::int64_t i = 0; i < pixels && whole; ++i, light += stride)
+        for (int c = 0; c < 3; ++c) whole = whole && light[c] == std::floor(light[c]);
+    const bool codes = whole || greatest > most_of_picture;
+    if (of == LightOf::picture && !codes) return {};
+    const std::string bits = greatest > 255 ? "16" : "8";
+    return fmt::format(
+        "holds light of up to {:.6g}, and white is 1{}{}", greatest,
+        of == LightOf::panel ? fmt::format(": it is shown {:.4g} times as bright as a panel can shine", greatest) : "",
+        codes ? fmt::format("; if these are codes of {} bits, save them as such (.png, or .npy of uint{}) and they are decoded",
+                            bits, bits)
+              : "; divide it by its greatest value, or give codes");
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,119 @@
+#include "image/formats/encoding.h"
+#include "image/formats/formats.h"
+
+#include <fmt/format.h>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include <jpeglib.h>  // wants cstdio before it
+
+namespace lfdsim::detail {
+namespace {
+
+constexpr int max_scans = 100;  // a progressive picture has about ten; thousands are an attack by slowness
+
+/// libjpeg's hooks. They throw in place of longjmp: every x86-64 library carries the tables that unwinding needs.
+struct Hooks {
+    jpeg_error_mgr error;
+    jpeg_progress_mgr progress;
+    const InputFile* file;
+};
+
+const InputFile& file_of(j_common_ptr common) { return *static_cast<Hooks*>(common->client_data)->file; }
+
+[[noreturn]] void on_error(j_common_ptr common) {
+    char text[JMSG_LENGTH_MAX];
+    common->err->format_message(common, text);
+    file_of(common).refuse(fmt::format("is damaged or not a JPEG file: {}", text));
+}
+
+// Warnings (level -1) mean lost data: libjpeg would fill the rest with gray.
+void on_message(j_common_ptr common, int level) {
+    if (level < 0) on_error(common);
+}
+
+void on_progress(j_common_ptr common) {
+    if (reinterpret_cast<j_decompress_ptr>(common)->input_scan_number > max_scans)
+        file_of(common).refuse(fmt::format("has more than {} scans; save it again as a baseline JPEG", max_scans));
+}
+
+struct JpegReader {
+    jpeg_decompress_struct jpeg{};
+    Hooks hooks{};
+
+    explicit JpegReader(const InputFile& file, bool with_exif = false) {
+        jpeg.err = jpeg_std_error(&hooks.error);
+        hooks.error.error_exit = on_error;
+        hooks.error.emit_message = on_message;
+        hooks.progress.progress_monitor = on_progress;
+        hooks.file = &file;
+        jpeg.client_data = &hooks;
+        jpeg_create_decompress(&jpeg);
+        jpeg.progress = &hooks.progress;
+        jpeg_stdio_src(&jpeg, file.stream());
+        if (with_exif) jpeg_save_markers(&jpeg, JPEG_APP0 + 1, 0xffff);
+    }
+    ~JpegReader() { jpeg_destroy_decompress(&jpeg); }
+    JpegReader(const JpegReader&) = delete;
+    JpegReader& operator=(const JpegReader&) = delete;
+};
+
+/// Tag 0x0112 of an APP1 marker "Exif" (CIPA DC-008: the first directory of a TIFF file); 0: there is none.
+int exif_orientation(std::span<const unsigned char> marker) {
+    constexpr char name[] = "Exif\0";  // and a zero byte more
+    if (marker.size() < sizeof name + 8 || std::memcmp(marker.data(), name, sizeof name) != 0) return 0;
+    const std::span<const unsigned char> tiff = marker.subspan(sizeof name);
+    const bool little = tiff[0] == 'I';
+    const auto number = [&](std::size_t at, std::size_t bytes) {
+        std::size_t value = 0;
+        for (std::size_t k = 0; k < bytes; ++k) value = value << 8 | tiff[little ? at + bytes - 1 - k : at + k];
+        return value;
+    };
+    const std::size_t directory = number(4, 4);
+    if (directory > tiff.size() - 2) return 0;
+    for (std::size_t k = 0; k < number(directory, 2); ++k) {
+        const std::size_t entry = directory + 2 + 12 * k;
+        if (entry + 12 > tiff.size()) return 0;
+        if (number(entry, 2) == 0x0112) return int(number(entry + 8, 2));
+    }
+    return 0;
+}
+
+}  // namespace
+
+int read_jpeg_orientation(const InputFile& file) {
+    JpegReader reader(file, true);
+    jpeg_read_header(&reader.jpeg, TRUE);
+    for (const jpeg_marker_struct* marker = reader.jpeg.marker_list; marker; marker = marker->next)
+        if (const int orientation = exif_orientation({marker->data, marker->data_length}); orientation >= 1 && orientation <= 8)
+            return orientation;
+    return 1;
+}
+
+void read_jpeg(const InputFile& file, Encoding encoding, const Allocate& allocate) {
+    JpegReader reader(file);
+    jpeg_decompress_struct& jpeg = reader.jpeg;
+    jpeg_read_header(&jpeg, TRUE);
+    // At best one bit codes a block of 8 x 8 samples, each of which covers 4 x 4 pixels.
+    file.check_size(jpeg.image_width, jpeg.image_height, 8 * 64 * 16);
+    if (jpeg.num_components != 1 && jpeg.num_components != 3)
+        file.refuse(fmt::format("has {} colour components; gray or RGB is needed", jpeg.num_components));
+    jpeg.out_color_space = JCS_RGB;
+    // Before libjpeg allocates: a progressive picture takes memory for all its coefficients.
+    const Pixels pixels = allocate(jpeg.image_width, jpeg.image_height);
+    jpeg_start_decompress(&jpeg);
+
+    const std::vector<float>& table = decode_table(encoding, 8);
+    std::vector<JSAMPLE> codes(std::size_t(pixels.columns) * 3);
+    while (jpeg.output_scanline < jpeg.output_height) {
+        const std::int64_t r = jpeg.output_scanline;
+        JSAMPROW row = codes.data();
+        jpeg_read_scanlines(&jpeg, &row, 1);
+        decode_row(codes.data(), table, pixels.columns, pixels.stride, pixels.row(r));
+        pixels.job->advance(1);
+    }
+    jpeg_finish_decompress(&jpeg);
+}
+
+}  // namespace lfdsim::detail

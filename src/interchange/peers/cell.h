@@ -1,0 +1,49 @@
+// An array of lenses as triangles: the parts that are repeated in each cell, and those that exist once. Floor 2.
+#pragma once
+#include "display/display.h"
+#include "geometry/geometry.h"
+#include "interchange/meshed/cell_sides.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lfdsim::peers {
+
+/// Triangles of one material. A black one absorbs; a glass one refracts between the medium on the front, from which its triangles
+/// appear counter-clockwise, and the one on the back. z is measured from Geometry::base_z_mm.
+struct Patch {
+    std::string name;  // letters, digits and dashes
+    bool black;
+    double index_front = 1, index_back = 1;
+    std::vector<float> vertices_mm, normals;  // normals towards the front
+    std::vector<std::uint32_t> triangles;
+    bool of_lens = true;  // false: a layer's, at which total reflection is black
+
+    std::size_t count() const { return triangles.size() / 3; }
+};
+
+struct MeshedArray {
+    std::vector<Patch> cell;   // about the axis of each lens
+    std::vector<Patch> sheet;  // about the middle of the array, in its frame
+    std::size_t lens_triangles;
+};
+
+/// Throws InputError as mesh_lens() does.
+MeshedArray mesh_array(const Display&, const Geometry&, std::int64_t triangles);
+
+/// Black rings around the lenses: at this height everything farther than the radius from a lens's axis absorbs (0: outside its
+/// cell).
+struct Ring {
+    double z_mm, radius_mm;
+};
+/// Those of the black part between lenses, highest first, none unless the surround is opaque; and the one of the stop.
+std::vector<Ring> black_rings(const Display&, const Geometry&);
+std::vector<Ring> stop_rings(const Display&, const Geometry&);
+
+/// Height of a surface at the rim of its aperture.
+double rim_z(const PlacedSurface&);
+bool is_plane(const PlacedSurface&);
+
+}  // namespace lfdsim::peers

@@ -1,0 +1,27 @@
+// A panel with subpixels as one of finer whole pixels, which every renderer can show. Floor 2.
+#pragma once
+#include "display/display.h"
+#include "image/texels.h"
+
+#include <string>
+#include <vector>
+
+namespace lfdsim {
+
+/// A display with `times` x `times` pixels in place of each, without subpixels and black matrix. Its panel image is darker, so that
+/// the brightest subpixels are not above 1.
+struct FinePanel {
+    Display display;
+    int times = 1;
+    double light = 1;                     // its panel's light over that of the display
+    std::vector<std::string> deviations;  // in words
+};
+
+/// As many pixels as show all borders of subpixels, up to 12 along each axis; then borders are rounded. Throws InputError for a
+/// panel that would have too many.
+FinePanel fine_panel(const Display&);
+
+/// The fine panel's image of a panel image. Throws std::bad_alloc.
+Texels fine_image(const FinePanel&, const Panel& panel, const Texels& shown);
+
+}  // namespace lfdsim

@@ -1,0 +1,59 @@
+// A display as a scene for another renderer, for an independent check of lfdsim's pictures. Floor 2.
+//
+// Same camera, same pixel centres, nearest panel pixels, linear light. What the other program cannot express is either refused or
+// listed as a deviation, also in the scene's own comments.
+#pragma once
+#include "display/display.h"
+#include "geometry/geometry.h"
+#include "image/texels.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lfdsim {
+
+enum class Peer { pov, cycles, mitsuba };
+enum class MeshNormals { flat, smooth };
+
+struct PeerOptions {
+    std::optional<std::int64_t> triangles;  // of a lens; absent: true surfaces for pov, default_triangles for the others
+    MeshNormals normals = MeshNormals::flat;
+    std::optional<int> channel;  // 0, 1, 2: a scene of that channel's light alone; absent: of all three
+};
+
+/// As many as the lens of the 2019 paper has.
+inline constexpr std::int64_t default_triangles = 3386;
+/// A scene of POV-Ray holds its triangles as text.
+inline constexpr std::int64_t most_pov_triangles = 1'000'000;
+
+struct PeerFile {
+    std::string name, bytes;
+};
+
+struct PeerScene {
+    std::vector<PeerFile> files;  // the scene first
+    std::string panel_file;       // the panel image's name in the scene: .png, 16-bit codes linear in light, or .exr
+    Display shown;                // the display that the scene shows: the given one with its deviations and panel_file's encoding
+    std::string command;          // shell words that render it in its folder, to `picture`
+    std::string picture;
+    std::vector<std::string> deviations;
+};
+
+std::string_view name_of(Peer);  // of the program
+
+/// Everything in a display that cannot be expressed for that program, each with the key and the remedy. Empty: all can be.
+std::vector<Problem> not_expressed(Peer, const Display&, const Geometry&, const PeerOptions&);
+
+/// Throws InputError with the problems of not_expressed().
+PeerScene peer_scene(Peer, const Display&, const Geometry&, const PeerOptions&);
+
+/// The panel's light as a scene of such a channel has it: the others are black.
+Texels light_of_channel(Texels, std::optional<int> channel);
+
+/// A further deviation of a scene, if its panel file cannot hold this light.
+std::optional<std::string> panel_deviation(const PeerScene&, const Texels&);
+
+}  // namespace lfdsim

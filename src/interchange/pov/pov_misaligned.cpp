@@ -1,0 +1,166 @@
+#include "interchange/pov/pov_misaligned.h"
+
+#include "interchange/peers/cell.h"
+#include "interchange/pov/pov_lens_pose.h"
+#include "interchange/pov/pov_limits.h"
+#include "interchange/pov/pov_matter.h"
+#include "interchange/pov/pov_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+// A ray that has entered a lens knows that lens alone, and one that has left it knows no lens any more; but what POV-Ray's shapes
+// do cannot depend on where a ray has been. So they do what is right for every ray that can come to them:
+// - a lens's faces refract from above and are black from below, where only totally reflected light comes. The medium behind each is
+//   that of the perfect lens: for light that is in that medium already a neighbour's face does nothing;
+// - its wall is black from inside and not there from outside, where other lenses' light passes it;
+// - what no lens covers is a black sheet at a height at which all lenses have walls, so that light that enters any lens is above it
+//   and light that leaves any is below it. It follows the bow in steps;
+// - a black sleeve on the outside of a wall reaches from the sheet to the lens's rim, where a lens stands out of its neighbours.
+// What they do is wrong only where lenses overlap, for light that enters one of them within the other's walls.
+namespace lfdsim::peers {
+namespace {
+
+class Placed {
+  public:
+    Placed(const Display& d, const Geometry& g)
+        : d_(d), g_(g), stands_(d, g), walls_(*stands_.walls()), gap_mm_(pov_gap_pitches * d.array.pitch_mm.least()) {}
+
+    std::string all() const {
+        std::string text = "#declare Through = texture { pigment { rgbt 1 } finish { ambient 0 diffuse 0 } }\n";
+        if (!d_.lens.is_thin()) text += "#declare Lens = " + faces(g_.surfaces) + " }\n";
+        for (std::size_t k = 0; k < stands_.count(); ++k) {
+            text += fmt::format("#declare Column{} = {}\n", k, stands_.placed(k, stands_.column(radius(), 0)));
+            if (!d_.lens.is_thin()) text += fmt::format("#declare Body{} = {}\n", k, body(k));
+        }
+        for (std::size_t k = 0; k < stands_.count(); ++k) {
+            if (!d_.lens.is_thin()) {
+                add(text, lens(k));
+                add(text, wall(k));
+                add(text, sleeve(k));
+            }
+            add(text, sheet(k));
+        }
+        return text + stands_.stops();
+    }
+
+  private:
+    // An object without its closing brace, in the array's frame.
+    static void add(std::string& text, const std::string& object) {
+        if (!object.empty()) text += object + " transform { Place } no_reflection }\n";
+    }
+
+    // Lenses that differ in place and turn alone are copies of one.
+    std::string lens(std::size_t k) const {
+        const std::string shape = stands_.error(k).curvature == 0 ? "object { Lens" : faces(stands_.surfaces(k));
+        return shape + " " + stands_.frame(k);
+    }
+
+    // Without the closing brace.
+    std::string faces(const std::vector<PlacedSurface>& surfaces) const {
+        std::string parts;
+        for (const PlacedSurface& s : surfaces) {
+            if (g_.glued && g_.layers.empty() && s.z_mm == g_.surfaces.front().z_mm) continue;  // the panel itself lies there
+            parts += fmt::format("  {} texture {{ {} }} interior_texture {{ {} }} interior {{ ior {} }} }}\n",
+                                 pov_skin(s, d_.array, stands_.cell()), pov_faces_up(s) ? "Clear" : "Black",
+                                 pov_faces_up(s) ? "Black" : "Clear", text(s.index_below));
+        }
+        return "union {\n" + parts + " ";
+    }
+
+    // Heights of the lowest rim and the highest, and the widest radius, in the lens's own frame.
+    struct Rims {
+        double low = INFINITY, high = -INFINITY, radius = 0;
+    };
+    static Rims rims(const std::vector<PlacedSurface>& surfaces) {
+        Rims of;
+        for (const PlacedSurface& s : surfaces) {
+            of.low = std::min(of.low, rim_z(s));
+            of.high = std::max(of.high, rim_z(s));
+            of.radius = std::max(of.radius, s.semi_aperture_mm);
+        }
+        return of;
+    }
+
+    bool filled() const { return d_.array.aperture == Aperture::cell; }
+    double reach() const { return stands_.cell().widest_half() + 2 * gap_mm_; }
+
+    // What is below the lens's rim or, where cells are filled, below its glass; and what is above it.
+    std::string below_top(const std::vector<PlacedSurface>& surfaces) const {
+        const std::string rim = fmt::format("plane {{ z, {} }}", text(rims(surfaces).high));
+        if (!filled()) return rim;
+        return "union { " + rim + " " + pov_space(surfaces.back(), stands_.cell(), false, reach(), stands_.low(), stands_.high()) +
+               " }";
+    }
+    std::string above_bottom(const std::vector<PlacedSurface>& surfaces) const {
+        const std::string rim = fmt::format("plane {{ -z, {} }}", text(-rims(surfaces).low));
+        if (!filled()) return rim;
+        return "union { " + rim + " " + pov_space(surfaces.front(), stands_.cell(), true, reach(), stands_.low(), stands_.high()) +
+               " }";
+    }
+
+    // All within a lens's walls, in the array's frame.
+    std::string body(std::size_t k) const {
+        const std::vector<PlacedSurface> surfaces = stands_.surfaces(k);
+        return stands_.placed(k, fmt::format("intersection {{ {} {} {} }}", stands_.column(rims(surfaces).radius, 0),
+                                             below_top(surfaces), above_bottom(surfaces)));
+    }
+
+    double radius() const { return d_.lens.is_thin() ? g_.surfaces.front().semi_aperture_mm : rims(g_.surfaces).radius; }
+
+    // Of lenses that fill their cells walls would lie in each other's planes: each is a little inside its own cell.
+    std::string wall(std::size_t k) const {
+        const std::vector<PlacedSurface> surfaces = stands_.surfaces(k);
+        const std::string sides =
+            fmt::format("object {{ object {{ {} clipped_by {{ {} {} }} }} {}", stands_.column(radius(), filled() ? -gap_mm_ : 0),
+                        below_top(surfaces), above_bottom(surfaces), stands_.frame(k));
+        const std::string seen = "texture { Through } interior_texture { Black }";
+        std::string others, beside;
+        for (const std::size_t m : stands_.near(k)) {
+            others += fmt::format(" object {{ Body{} }}", m);
+            beside += fmt::format(" object {{ Body{} inverse }}", m);
+        }
+        if (others.empty()) return sides + " " + seen;
+        // Within a neighbour it is met in glass.
+        return fmt::format("union {{ {} clipped_by {{{} }} {} }}\n  {} clipped_by {{ union {{{} }} }} {} interior {{ ior {} }} }}",
+                           sides, beside, seen, sides, others, seen, text(g_.surfaces.back().index_below));
+    }
+
+    std::string sleeve(std::size_t k) const {
+        const std::vector<PlacedSurface> surfaces = stands_.surfaces(k);
+        const std::string outer =
+            stands_.placed(k, fmt::format("intersection {{ {} {} }}", stands_.column(radius(), gap_mm_), below_top(surfaces)));
+        std::string others;
+        for (const std::size_t m : stands_.near(k)) others += fmt::format(" object {{ Body{} }}", m);
+        return fmt::format("difference {{ intersection {{ {} plane {{ -z, {} }} }} object {{ Column{} }}{} {}", outer,
+                           text(-middle(k)), k, others, black());
+    }
+
+    // Of the heights that walls share.
+    double middle(std::size_t k) const { return (walls_[0] + walls_[1]) / 2 + stands_.raised(k); }
+
+    // Within a quarter of the walls' height from their middle, to overlap with the neighbours' where a bow makes steps; if they
+    // have no height, flat.
+    std::string sheet(std::size_t k) const {
+        std::vector<std::string> columns{fmt::format("Column{}", k)};
+        for (const std::size_t m : stands_.near(k)) columns.push_back(fmt::format("Column{}", m));
+        const double quarter = (walls_[1] - walls_[0]) / 4;
+        if (quarter < gap_mm_) return stands_.flat(k, std::max(middle(k), gap_mm_), columns) + black();
+        std::string holes;
+        for (const std::string& column : columns) holes += " object { " + column + " }";
+        return fmt::format("difference {{ {}{} {}", stands_.tile_box(k, middle(k) - quarter, middle(k) + quarter), holes, black());
+    }
+
+    const Display& d_;
+    const Geometry& g_;
+    const PovStands stands_;
+    const std::array<double, 2> walls_;
+    const double gap_mm_;
+};
+
+}  // namespace
+
+std::string pov_placed(const Display& display, const Geometry& geometry) { return Placed(display, geometry).all(); }
+
+}  // namespace lfdsim::peers

@@ -1,0 +1,25 @@
+// What follows from a description: for scripts, and what is worth knowing of it. Floor 4.
+#pragma once
+#include "analysis/core/result.h"
+#include "display/display.h"
+#include "geometry/geometry.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lfdsim {
+
+/// What is wrong with a display, the worst first: what tracing says of it (analysis/core/verdicts.h), advice (checks/advice.h).
+std::vector<std::string> verdicts_and_advice(const Display&, const Geometry&, const Theory&,
+                                             const std::optional<Vec3d>& model_half_size_mm = std::nullopt);
+
+/// The same with what only its content's files say (their size, or that they cannot be read), and doubts of its glasses.
+std::vector<std::string> worth_knowing(const Display&, const Geometry&, const Theory&);
+
+/// Every key, every length, the theory, why figures are undefined, and what is worth knowing: what `lfdsim check --json` prints.
+/// Names in it are fixed: scripts use them. Throws InputError for a display that is not valid. Without the warnings, for which rays
+/// are traced and content is read, it takes microseconds.
+Json check_json(const Display&, bool warnings = true);
+
+}  // namespace lfdsim

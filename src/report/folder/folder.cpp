@@ -1,0 +1,227 @@
+#include "report/folder/folder.h"
+
+#include "base/printable.h"
+#include "image/formats/apng.h"
+#include "image/formats/file.h"
+#include "image/formats/image_file.h"
+#include "image/scaled.h"
+#include "report/plots/svg.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+namespace lfdsim {
+namespace fs = std::filesystem;
+namespace {
+
+std::string csv(const DataTable& table) {
+    std::string text;
+    for (const Column& c : table.columns) text += (text.empty() ? "" : ",") + c.name;
+    text += "\n";
+    const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().values.size();
+    for (std::size_t r = 0; r < rows; ++r) {
+        for (std::size_t c = 0; c < table.columns.size(); ++c) {
+            const double value = table.columns[c].values[r];
+            text += (c > 0 ? "," : "") + (std::isfinite(value) ? fmt::format("{:.9g}", value) : std::string());
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+/// A report contains animations unchanged, so they are limited here: this many pixels, over all frames, take some megabytes.
+void write_small(const fs::path& path, const Animation& animation) {
+    constexpr double most_pixels = 8e6, most_columns = 960;
+    if (animation.frames.empty()) throw std::invalid_argument("an animation without frames");
+    const Image& first = animation.frames.front();
+    const double pixels = double(animation.frames.size()) * first.width * first.height;
+    const double share = std::min({1., most_columns / first.width, std::sqrt(most_pixels / pixels)});
+    std::vector<Image> frames;
+    for (const Image& frame : animation.frames) frames.push_back(reduced(frame, std::max(1, int(share * first.width))));
+    write_animation(path, frames, animation.seconds_per_frame);
+}
+
+/// Whether a measure may write a file of that name: NAME.json, NAME_curve.csv, NAME-white.png.
+bool named_as_of(const Measure& measure, const fs::path& file) {
+    const std::string name = file.filename(), kind = file.extension();
+    const std::size_t end = measure.name.size();
+    return name.starts_with(measure.name) && name.size() > end &&
+           std::string_view("._-").find(name[end]) != std::string_view::npos &&
+           (kind == ".json" || kind == ".csv" || kind == ".svg" || kind == ".png");
+}
+
+InputError foreign(const fs::path& path) {
+    return {path.string(), "is no result of lfdsim and would be written over; give another folder, or --replace"};
+}
+
+// The same document where names in it hold what a terminal would obey.
+std::string dump(const Json& json) { return printable_lines(json.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n"; }
+
+}  // namespace
+
+ResultFolder::ResultFolder(fs::path path, Json settings) : path_(std::move(path)), settings_(std::move(settings)) {
+    std::error_code error;
+    if (path_.empty()) throw InputError("--output", "the name is empty; give a folder");
+    fs::create_directories(path_, error);
+    if (!fs::is_directory(path_)) throw InputError(path_.string(), "is not a folder and cannot be made one");
+    detail::check_replaceable(path_ / report_name);
+}
+
+Json ResultFolder::read(const Measure& measure) const {
+    const fs::path path = path_ / (std::string(measure.name) + ".json");
+    std::ifstream file(path, std::ios::binary);
+    try {
+        return Json::parse(file);
+    } catch (const Json::exception& e) {
+        throw InputError(path.string(), fmt::format("is not the result of a measure: {}", e.what()));
+    }
+}
+
+bool ResultFolder::has(const Measure& measure) const {
+    if (settings_of(measure) != settings_) return false;
+    try {
+        const Json json = read(measure);
+        for (const Json& file : json.at("report").at("files")) {
+            const fs::path name = file.get<std::string>();
+            if (name != name.filename() || !fs::is_regular_file(path_ / name)) return false;
+        }
+        return true;
+    } catch (const std::exception&) {
+        return false;  // cut off or changed by hand: it is measured again
+    }
+}
+
+/// Null: there is no result of this measure.
+Json ResultFolder::settings_of(const Measure& measure) const {
+    if (!fs::is_regular_file(path_ / (std::string(measure.name) + ".json"))) return {};
+    try {
+        const Json json = read(measure);
+        return json.is_object() ? json.value("settings", Json()) : Json();
+    } catch (const std::exception&) {
+        return {};
+    }
+}
+
+std::vector<std::string> ResultFolder::others() const {
+    std::vector<std::string> all;
+    for (const Measure& m : measures()) {
+        const Json theirs = settings_of(m);
+        if (!theirs.is_object() || theirs == settings_) continue;
+        std::vector<std::string> keys;
+        for (const auto& [key, value] : settings_.items())
+            if (theirs.value(key, Json()) != value) keys.push_back(key);
+        all.push_back(fmt::format("{} ({})", m.name, fmt::join(keys, ", ")));
+    }
+    return all;
+}
+
+void ResultFolder::remove_others() const {
+    bool any = false;
+    for (const Measure& m : measures()) {
+        const Json theirs = settings_of(m);
+        if (!theirs.is_object() || theirs == settings_) continue;
+        any = true;
+        std::vector<std::string> names{std::string(m.name) + ".json"};  // first: a measure without it is incomplete
+        try {
+            const Json json = read(m);
+            for (const Json& file : json.at("report").at("files")) names.push_back(file.get<std::string>());
+        } catch (const std::exception&) {  // changed by hand: its other files are not known
+        }
+        for (const fs::path name : names)
+            if (std::error_code error; name == name.filename() && fs::is_regular_file(fs::symlink_status(path_ / name, error)))
+                fs::remove(path_ / name, error);
+    }
+    if (std::error_code error; any) fs::remove(path_ / report_name, error);
+}
+
+// Whether a file of the folder, named as those of the measure are, is of a result of its.
+bool ResultFolder::wrote(const Measure& measure, const fs::path& name) const {
+    try {
+        const Json json = read(measure), files = json.at("report").at("files");
+        return name == std::string(measure.name) + ".json" || std::find(files.begin(), files.end(), name.string()) != files.end();
+    } catch (const std::exception&) {
+        return false;
+    }
+}
+
+void ResultFolder::keep_report_apart(const fs::path& folder, bool replace) {
+    const fs::path path = folder / report_name;
+    std::error_code none;
+    if (replace || !fs::exists(fs::symlink_status(path, none))) return;
+    std::ifstream file(path, std::ios::binary);
+    std::string head(1024, '\0');
+    file.read(head.data(), std::streamsize(head.size()));
+    if (head.find(report_mark) == head.npos) throw foreign(path);
+}
+
+void ResultFolder::keep_apart(std::span<const Measure* const> wanted, bool resume, bool replace) const {
+    if (replace) return remove_others();
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(path_, none)) {
+        const fs::path name = entry.path().filename();
+        for (const Measure* m : wanted)
+            if (named_as_of(*m, name) && !wrote(*m, name) && !(resume && name.extension() != ".json")) throw foreign(entry.path());
+    }
+    if (const std::vector<std::string> there = others(); !there.empty())
+        throw InputError(path_.string(),
+                         fmt::format("holds results of other settings: {}; give another folder, or --replace to remove them",
+                                     fmt::join(there, ", ")));
+    keep_report_apart(path_, replace);
+}
+
+Json ResultFolder::write(const Measure& measure, const Result& result, double seconds) const {
+    Json files = Json::array(), plots = Json::array(), maps = plots, pictures = plots, animations = plots;
+    const auto keep = [&](Json& list, const std::string& name, const char* key, const std::string& text) {
+        files.push_back(name);
+        list.push_back({{"file", name}, {key, text}});
+    };
+    for (const DataTable& table : result.tables) {
+        write_text(table.name + ".csv", csv(table));
+        files.push_back(table.name + ".csv");
+    }
+    for (const Plot& plot : result.plots) {
+        write_text(plot.name + ".svg", svg(plot));
+        keep(plots, plot.name + ".svg", "title", plot.title);
+    }
+    for (const ColourMap& map : result.maps) {
+        write_text(map.name + ".svg", svg(map));
+        keep(maps, map.name + ".svg", "title", map.title);
+    }
+    for (const NamedPicture& picture : result.pictures) {
+        const std::string name = picture.name + ".png";
+        write_image(path_ / name, picture.image, {8, Encoding::srgb, {{"Software", "lfdsim"}, {"Description", picture.caption}}});
+        keep(pictures, name, "caption", picture.caption);
+    }
+    for (const Animation& animation : result.animations) {
+        write_small(path_ / (animation.name + ".png"), animation);
+        keep(animations, animation.name + ".png", "caption", animation.caption);
+    }
+    Json findings = Json::array();
+    for (const Finding& f : result.findings)
+        findings.push_back({{"what", f.what},
+                            {"unit", f.unit},
+                            {"measured", numbers_json(f.measured)},
+                            {"error", numbers_json(f.error)},
+                            {"theory", numbers_json(f.theory)},
+                            {"remark", f.remark}});
+    Json json = result.figures;
+    json["notes"] = result.notes;
+    json["report"] = {{"measure", measure.name},   {"title", measure.title},   {"says", measure.says},
+                      {"source", measure.source},  {"seconds", seconds},       {"findings", findings},
+                      {"remarks", result.remarks}, {"plots", plots},           {"maps", maps},
+                      {"pictures", pictures},      {"animations", animations}, {"files", files}};
+    json["settings"] = settings_;
+    write_text(std::string(measure.name) + ".json", dump(json));
+    return json;
+}
+
+void ResultFolder::write_text(const std::string& name, const std::string& text) const {
+    detail::OutputFile file(path_ / name);
+    file.write(text.data(), text.size());
+    file.commit();
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,25 @@
+#include "engine/scene/misalignment.h"
+#include "geometry/lens_misalignment.h"
+#include "report/folder/description.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+
+std::vector<Figure> largest_errors(const Display& d, const Geometry& g) {
+    if (!lenses_differ(d.errors)) return {};
+    double aside = 0, height = 0, tilt = 0, curvature = 0;
+    for (const LensError& e : lenses_as_built(d, g.lattice)) {
+        aside = std::max(aside, std::hypot(e.aside_mm[0], e.aside_mm[1]));
+        height = std::max(height, std::abs(e.height_mm));
+        tilt = std::max(tilt, std::hypot(e.tilt_deg[0], e.tilt_deg[1]));
+        curvature = std::max(curvature, std::abs(e.curvature));
+    }
+    return {{"largest_decenter_mm", {aside}, "of a lens's axis from its place in the lattice"},
+            {"largest_height_mm", {height}, "of a lens's vertex over or under the others' plane, bow included"},
+            {"largest_tilt_deg", {tilt}, "of a lens's axis"},
+            {"largest_curvature_error", {curvature}, "of a lens's curvatures, as a share of them"}};
+}
+
+}  // namespace lfdsim

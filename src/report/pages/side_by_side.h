@@ -1,0 +1,30 @@
+// A comparison of displays that were measured in the same way. Floor 4.
+#pragma once
+#include "display/display.h"
+#include "report/folder/folder.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lfdsim {
+
+/// A display and the folder of its results: a subfolder, with its name, of the folder that holds the comparison.
+struct MeasuredDisplay {
+    std::string name;
+    Display display;
+    ResultFolder folder;
+};
+
+/// The differences as plain data: {"displays": [names], "settings": [{"key", "values"}], "findings": [{"measure", "what", "unit",
+/// "measured", "error", "difference", "more_than_errors"}]}. "settings" holds the keys of the description whose values are not all
+/// the same. "measured" and "error" hold a list for each display, null where it has no such figure; "difference" is that of each
+/// display from the first; "more_than_errors" is whether it exceeds the sum of both errors, null where an error is not stated.
+Json differences(std::span<const MeasuredDisplay>);
+
+/// The same as a page, with plots and pictures of the same measure next to each other; like report_html() a single file, except for
+/// links to the reports in the subfolders. `missing`: a sentence on what could not be measured; empty: nothing is missing.
+std::string side_by_side_html(std::span<const MeasuredDisplay>, const Json& differences, const std::string& command,
+                              const std::string& missing);
+
+}  // namespace lfdsim

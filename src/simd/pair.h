@@ -1,0 +1,117 @@
+// Pair<H>: two numbers H side by side, which the tracer uses for two samples of the same pixels. Floor 1.
+//
+// A sample is one long chain of dependent operations. Two independent chains hide each other's latency, and share what their pixels
+// have in common (docs/performance.md).
+#pragma once
+#include "simd/lane.h"
+
+namespace lfdsim::optics::inline LFDSIM_ISA {
+
+template <class M>
+struct PairMask {
+    M a, b;
+    friend LFDSIM_FN PairMask operator&&(PairMask x, PairMask y) { return {x.a && y.a, x.b && y.b}; }
+    friend LFDSIM_FN PairMask operator||(PairMask x, PairMask y) { return {x.a || y.a, x.b || y.b}; }
+    friend LFDSIM_FN PairMask operator!(PairMask x) { return {!x.a, !x.b}; }
+};
+
+template <class U>
+struct PairUint {  // wraps
+    U a, b;
+    PairUint() = default;
+    LFDSIM_FN PairUint(U x, U y) : a(x), b(y) {}
+    LFDSIM_FN PairUint(std::uint32_t x) : a(x), b(x) {}
+    friend LFDSIM_FN PairUint operator+(PairUint x, PairUint y) { return {x.a + y.a, x.b + y.b}; }
+    friend LFDSIM_FN PairUint operator-(PairUint x, PairUint y) { return {x.a - y.a, x.b - y.b}; }
+    friend LFDSIM_FN PairUint operator*(PairUint x, PairUint y) { return {x.a * y.a, x.b * y.b}; }
+    friend LFDSIM_FN PairUint operator^(PairUint x, PairUint y) { return {x.a ^ y.a, x.b ^ y.b}; }
+    friend LFDSIM_FN PairUint operator&(PairUint x, PairUint y) { return {x.a & y.a, x.b & y.b}; }
+    friend LFDSIM_FN PairUint operator|(PairUint x, PairUint y) { return {x.a | y.a, x.b | y.b}; }
+    friend LFDSIM_FN PairUint operator>>(PairUint x, int s) { return {x.a >> s, x.b >> s}; }
+    friend LFDSIM_FN PairUint operator<<(PairUint x, int s) { return {x.a << s, x.b << s}; }
+};
+
+template <class H>
+struct Pair {
+    H a, b;
+    Pair() = default;
+    LFDSIM_FN Pair(H x, H y) : a(x), b(y) {}
+    LFDSIM_FN Pair(float x) : a(x), b(x) {}
+    friend LFDSIM_FN Pair operator+(Pair x, Pair y) { return {x.a + y.a, x.b + y.b}; }
+    friend LFDSIM_FN Pair operator-(Pair x, Pair y) { return {x.a - y.a, x.b - y.b}; }
+    friend LFDSIM_FN Pair operator*(Pair x, Pair y) { return {x.a * y.a, x.b * y.b}; }
+    friend LFDSIM_FN Pair operator/(Pair x, Pair y) { return {x.a / y.a, x.b / y.b}; }
+    friend LFDSIM_FN Pair operator-(Pair x) { return {-x.a, -x.b}; }
+    friend LFDSIM_FN PairMask<Mask<H>> operator<(Pair x, Pair y) { return {x.a < y.a, x.b < y.b}; }
+    friend LFDSIM_FN PairMask<Mask<H>> operator<=(Pair x, Pair y) { return {x.a <= y.a, x.b <= y.b}; }
+    friend LFDSIM_FN PairMask<Mask<H>> operator>(Pair x, Pair y) { return {x.a > y.a, x.b > y.b}; }
+    friend LFDSIM_FN PairMask<Mask<H>> operator>=(Pair x, Pair y) { return {x.a >= y.a, x.b >= y.b}; }
+    friend LFDSIM_FN PairMask<Mask<H>> operator==(Pair x, Pair y) { return {x.a == y.a, x.b == y.b}; }
+};
+
+template <class H>
+struct LaneTraits<Pair<H>> {
+    using Scalar = optics::Scalar<H>;
+    using Mask = PairMask<optics::Mask<H>>;
+    using Uint = PairUint<optics::Uint<H>>;
+    static constexpr int width = 2 * LaneTraits<H>::width;
+    static LFDSIM_FN Pair<H> from_int(Uint x) { return {optics::from_int<H>(x.a), optics::from_int<H>(x.b)}; }
+    static LFDSIM_FN Pair<H> bits_float(Uint x) { return {optics::bits_float<H>(x.a), optics::bits_float<H>(x.b)}; }
+    template <class T, class S>
+    static LFDSIM_FN T load(const S* from) {
+        return {optics::load<H>(from), optics::load<H>(from + width / 2)};
+    }
+    static LFDSIM_FN void load_rows(const Scalar* from, const std::uint32_t* row, Pair<H> (&to)[4]) {
+        H a[4], b[4];
+        optics::load_rows<H>(from, row, a);
+        optics::load_rows<H>(from, row + width / 2, b);
+        for (int k = 0; k < 4; ++k) to[k] = {a[k], b[k]};
+    }
+};
+
+template <class M>
+LFDSIM_FN bool any(PairMask<M> m) {
+    return any(m.a || m.b);
+}
+template <class U>
+LFDSIM_FN auto operator<(PairUint<U> x, PairUint<U> y) -> PairMask<decltype(x.a < y.a)> {
+    return {x.a < y.a, x.b < y.b};
+}
+template <class M, class H>
+LFDSIM_FN Pair<H> select(PairMask<M> m, Pair<H> x, Pair<H> y) {
+    return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)};
+}
+template <class M, class U>
+LFDSIM_FN PairUint<U> select(PairMask<M> m, PairUint<U> x, PairUint<U> y) {
+    return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)};
+}
+template <class H>
+LFDSIM_FN Pair<H> sqrt(Pair<H> x) {
+    return {sqrt(x.a), sqrt(x.b)};
+}
+template <class H>
+LFDSIM_FN Pair<H> floor(Pair<H> x) {
+    return {floor(x.a), floor(x.b)};
+}
+template <class H>
+LFDSIM_FN Pair<H> abs(Pair<H> x) {
+    return {abs(x.a), abs(x.b)};
+}
+template <class H>
+LFDSIM_FN Pair<H> min(Pair<H> x, Pair<H> y) {
+    return {min(x.a, y.a), min(x.b, y.b)};
+}
+template <class H>
+LFDSIM_FN Pair<H> max(Pair<H> x, Pair<H> y) {
+    return {max(x.a, y.a), max(x.b, y.b)};
+}
+template <class H>
+LFDSIM_FN PairUint<Uint<H>> to_int(Pair<H> x) {
+    return {to_int(x.a), to_int(x.b)};
+}
+template <class H>
+LFDSIM_FN PairUint<Uint<H>> float_bits(Pair<H> x) {
+    return {float_bits(x.a), float_bits(x.b)};
+}
+
+}  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -1,0 +1,54 @@
+#include "view/answers/command.h"
+
+#include "content/content.h"
+#include "files/description/shell.h"
+
+#include <vector>
+
+namespace lfdsim::view {
+namespace {
+
+/// The option for what the panel shows, "--model monkey.blend". Empty: the description's model.
+std::string shown_option(const Library& library, const Shown& shown) {
+    const Start& start = library.start();
+    switch (shown.kind) {
+        case Shown::Kind::model:
+            return " --model " + (shown.name == built_in_spheres
+                                      ? shown.name
+                                      : shell_file(library.file(shown.name, Library::Kind::model).string()));
+        case Shown::Kind::panel_image:
+            return " --panel-image " + shell_file(library.file(shown.name, Library::Kind::picture).string());
+        case Shown::Kind::pattern:
+            return " --pattern " + shell_word(shown.name);
+        case Shown::Kind::start:
+            break;
+    }
+    if (!start.pattern.empty()) return " --pattern " + shell_word(start.pattern);
+    if (!start.panel_image.empty()) return " --panel-image " + shell_file(start.panel_image.string());
+    return start.model.empty() ? "" : " --model " + shell_file(start.model);
+}
+
+std::string words_of(const Library::Description& description) {
+    std::string text = shell_file(description.file.string());
+    for (const std::string& one : description.set) text += " --set " + shell_word(one);
+    return text;
+}
+
+}  // namespace
+
+std::string command(const Library& library, const Wanted& wanted) {
+    std::string text, shown = shown_option(library, wanted.shown);
+    if (wanted.shown.hold && !shown.starts_with(" --panel-image")) {
+        Wanted described = wanted;
+        described.set.clear();
+        text = "lfdsim eia " + words_of(library.description(described)) + shown + " -o eia.png && ";
+        shown = " --panel-image eia.png";
+    }
+    const auto render = [&](int eye, const char* picture) {
+        return "lfdsim render " + words_of(library.description(wanted, eye)) + shown + " -o " + picture;
+    };
+    if (wanted.layout == Layout::one) return text + render(0, "view.png");
+    return text + render(-1, "left.png") + " && " + render(1, "right.png");
+}
+
+}  // namespace lfdsim::view

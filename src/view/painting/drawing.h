@@ -1,0 +1,67 @@
+// Renders and encodes the pictures of one state. Floor 5. For one visitor, on one thread.
+#pragma once
+#include "view/answers/likeness.h"
+#include "view/painting/eye_displays.h"
+#include "view/painting/frame.h"
+#include "view/painting/pace.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lfdsim::view {
+
+class Drawing {
+  public:
+    Drawing(const Library& library, Panels& panels, int threads) : library_(library), panels_(panels), threads_(threads) {}
+
+    struct Frame {
+        std::string lane, bytes;
+    };
+    /// Frames that belong together: all of one state and quality.
+    using Frames = std::vector<Frame>;
+
+    /// Begins another state. Throws InputError. With two eyes, what is shown beside them (`beside`) is for the left one.
+    void begin(const Wanted&);
+    /// Why what `beside` asks for is not possible; empty: it is.
+    std::string beside_problem() const;
+
+    /// The best size and quality that take about 22 ms; the panel's light is a stand-in, made in about 12 ms, unless the true one
+    /// is already made. All three throw InputError and Stopped.
+    Frames coarse(Job&);
+    /// Whether final() would keep the page waiting and fine() shows more than coarse() did.
+    bool wants_fine() const;
+    /// Full size, one sample, the true panel.
+    Frames fine(Job&);
+    /// The same picture as lfdsim render.
+    Frames final(Job&);
+    /// The final picture as an OpenEXR file; two eyes' pictures are the file's picture and its layer "right".
+    Frame exr(std::int64_t id, Job&);
+
+  private:
+    struct Lit {
+        Seen seen;
+        std::shared_ptr<const ShownPanel> light;
+    };
+    Lit true_light(const Seen&, Job&);
+    Lit quick_light(const Seen&, Job&);
+    Frames pictures(const std::vector<Lit>&, Quality, double scale, Job&);
+    void beside(const Lit&, const Display&, const Geometry&, FrameHeader, Image& view, Frames&, FrameHeader& of_view, Job&);
+    double coarse_cost(const Seen&, double scale) const;
+    double final_cost() const;
+
+    const Library& library_;
+    Panels& panels_;
+    const int threads_;
+    Wanted wanted_;
+    MemoryBudget::Claim pictures_;
+    std::vector<Seen> eyes_;
+    bool coarse_is_full_ = false;  // the last coarse picture of this state has its full size and the true panel
+    Pace coarse_pace_{1}, final_pace_{1}, panel_pace_{1};
+    int coarse_scale_ = 0, coarse_panel_ = 0;  // the last choices
+    PanelKey stand_in_key_;
+    std::shared_ptr<const ShownPanel> stand_in_;  // the last one: reused while only the eye moves
+    WhiteField quick_white_, white_;
+};
+
+}  // namespace lfdsim::view
