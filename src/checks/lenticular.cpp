@@ -30,9 +30,9 @@ std::optional<CylinderSheet> cylinder_sheet(double pitch_mm, double gap_mm, doub
 namespace {
 
 constexpr double usual_fov_deg = 30, one_in_three_deg = 18.434949;
-constexpr Range inch_range{0.1, 2000}, distance_range{5, 1e5}, fov_range{1, 120}, views_range{2, 1000},
-    lenticular_slant_range{-60, 60}, pitch_range{1e-3, 1e4}, sheet_range{1e-3, 1e4}, eyes_range{1, 1000},
-    pixel_range{fewest_views * fewest_lenses, 1e5};
+constexpr Range inch_range{0.1, 2000}, distance_range{5, 1e5}, lenticular_fov_range{1, 120}, lenticular_views_range{2, 1000},
+    lenticular_slant_range{-60, 60}, lenticular_pitch_range{1e-3, 1e4}, sheet_range{1e-3, 1e4}, eyes_range{1, 1000},
+    lenticular_pixel_range{fewest_views * fewest_lenses, 1e5};
 
 class Design {
   public:
@@ -62,11 +62,11 @@ class Design {
         value("--panel-inch", r_.panel_inch, inch_range);
         value("--distance-mm", r_.distance_mm, distance_range);
         for (const std::int64_t n : r_.pixels)
-            if (all.empty() || all.back().where != "--pixels") value("--pixels", double(n), pixel_range);
-        value("--views", r_.views, views_range);
-        value("--pitch-mm", r_.pitch_mm, pitch_range);
+            if (all.empty() || all.back().where != "--pixels") value("--pixels", double(n), lenticular_pixel_range);
+        value("--views", r_.views, lenticular_views_range);
+        value("--pitch-mm", r_.pitch_mm, lenticular_pitch_range);
         value("--slant-deg", r_.slant_deg, lenticular_slant_range);
-        value("--fov-deg", r_.fov_deg, fov_range);
+        value("--fov-deg", r_.fov_deg, lenticular_fov_range);
         value("--sheet-mm", r_.sheet_mm, sheet_range);
         value("--eye-distance-mm", r_.eyes_mm, eyes_range);
         if (r_.views && r_.pitch_mm) all.push_back({"--views, --pitch-mm", "both decide the lenses' pitch; give one of them"});
@@ -104,7 +104,7 @@ class Design {
         const double D = r_.distance_mm, zone = 2 * D * (r_.sheet_mm ? 0.25 : slope());
         const double wanted = std::ceil(2 * zone / usual_eyes_mm), most = std::floor(D * lens_arc_minutes * degree / 60 / a_);
         made_.views_rule = wanted <= most ? ViewsRule::eyes : ViewsRule::lenses;
-        r_.views = std::clamp(std::min(wanted, most), 3., views_range.high);
+        r_.views = std::clamp(std::min(wanted, most), 3., lenticular_views_range.high);
     }
 
     /// g, E and the pitch of the elemental images along the rows, which the field of view, the sheet or the eyes decide.
@@ -140,7 +140,7 @@ class Design {
         made_.views = r_.views ? *r_.views : elemental_ / a_;
         made_.view_step_mm = a_ * eye_ / gap_;
         made_.fov_deg = 2 * std::atan(elemental_ / (2 * gap_)) / degree;
-        if (made_.views < views_range.low * 0.999)
+        if (made_.views < lenticular_views_range.low * 0.999)
             throw InputError("--pitch-mm",
                              fmt::format("is {:g}, {:.3g} of the panel's pixels along a row; at least 2, which is {:.4g} mm",
                                          pitch_, made_.views, 2 * a_ * cos_));

@@ -102,11 +102,19 @@ struct Specialisations {
         lit_between, misaligned, others};
     // clang-format on
     static constexpr int count = sizeof row / sizeof row[0];
+
+    /// The number of a row, for CUDA, whose kernels take no arguments of class type.
+    template <Facts facts>
+    static constexpr int number_of() {
+        int number = 0;
+        while (!(row[number] == facts)) ++number;
+        return number;
+    }
 };
 
 /// do_it.operator()<facts>() with what is known of a display: the first row that holds.
 template <int row = 0, class S, class Do>
-LFDSIM_FN decltype(auto) with_facts(const Scene<S>& scene, const Do& do_it) {
+inline auto with_facts(const Scene<S>& scene, const Do& do_it) -> decltype(do_it.template operator()<Specialisations::row[row]>()) {
     constexpr Facts facts = Specialisations::row[row];
     if constexpr (row + 1 == Specialisations::count) {
         return do_it.template operator()<facts>();

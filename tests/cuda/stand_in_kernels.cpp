@@ -37,8 +37,8 @@ void work_off(std::int64_t items, Item item) {
 }
 
 /// Does what a GPU does when the kernel of this mangled name is launched: adds to the stream item<...>() of engine/wide/, with the
-/// template arguments that the name contains (the way through the array, the sampler; the step of a comparison), for all items that
-/// the grid covers. A launch that the queue (engine/cuda/) must not make ends the program.
+/// template arguments that the name contains (the row of optics::Specialisations, the sampler; the step of a comparison), for all
+/// items that the grid covers. A launch that the queue (engine/cuda/) must not make ends the program.
 void launch(const std::string& name, const Configuration& c, void** arguments) {
     // A grid that is too small leaves items undone.
     const std::int64_t items = std::min(*static_cast<std::int64_t*>(arguments[1]), std::int64_t(c.grid.x) * c.block.x);
@@ -52,11 +52,11 @@ void launch(const std::string& name, const Configuration& c, void** arguments) {
             for (std::size_t k = 1; k < found.size(); ++k) all.push_back(std::stoi(found[k]));
         return all;
     };
-    if (const auto n = numbers("point_kernelI.*?WayE(\\d+)ELb(\\d)E"); !n.empty()) {
+    if (const auto n = numbers("point_kernelILi(\\d+)ELb(\\d)E"); !n.empty()) {
         const wide::Frame frame = *static_cast<wide::Frame*>(arguments[0]);
         stream_of(c.stream)->add([=] {
             const HostKernel kernel = host_kernel(frame);
-            if (kernel.way != n[0] || kernel.sobol != (n[1] != 0))
+            if (kernel.row != n[0] || kernel.sobol != (n[1] != 0))
                 misused("another kernel was launched than the frame asks for: " + name);
             work_off(items, [&](std::int64_t i) { kernel.item(frame, i); });
         });

@@ -7,7 +7,8 @@
 lfdsim::HostKernel lfdsim::host_kernel(const wide::Frame& frame) {
     return optics::with_facts(frame.scene, [&]<optics::Facts facts>() {
         const auto of = [&]<bool sobol>() {
-            return HostKernel{facts, sobol, [](const wide::Frame& f, std::int64_t i) { wide::point_item<facts, sobol>(f, i); }};
+            return HostKernel{facts, optics::Specialisations::number_of<facts>(), sobol,
+                              [](const wide::Frame& f, std::int64_t i) { wide::point_item<facts, sobol>(f, i); }};
         };
         return frame.tile.sampling == Sampling::sobol ? of.template operator()<true>() : of.template operator()<false>();
     });

@@ -10,8 +10,9 @@ namespace lfdsim {
 
 /// The kernel of a frame.
 struct HostKernel {
-    optics::Facts facts;
-    bool sobol;  // the template argument of wide::point_item
+    optics::Facts facts;  // of the tracer's specialisation
+    int row;              // of optics::Specialisations there
+    bool sobol;           // the template argument of wide::point_item
     void (*item)(const wide::Frame&, std::int64_t i);
 };
 

@@ -14,11 +14,11 @@ namespace {
 /// (docs/gpu.md).
 constexpr int least_blocks = 6;
 
-template <optics::Facts facts, bool sobol>
+template <int row, bool sobol>
 __global__ void __launch_bounds__(threads, least_blocks)
     point_kernel(const __grid_constant__ wide::Frame frame, std::int64_t items) {
     const std::int64_t i = std::int64_t(blockIdx.x) * threads + threadIdx.x;
-    if (i < items) wide::point_item<facts, sobol>(frame, i);
+    if (i < items) wide::point_item<optics::Specialisations::row[row], sobol>(frame, i);
 }
 
 }  // namespace
@@ -26,7 +26,8 @@ __global__ void __launch_bounds__(threads, least_blocks)
 template <bool sobol>
 void PointKernels<sobol>::start(const wide::Frame& frame, std::int64_t items, cudaStream_t stream) {
     optics::with_facts(frame.scene, [&]<optics::Facts facts>() {
-        point_kernel<facts, sobol><<<thread_blocks(items), threads, 0, stream>>>(frame, items);
+        point_kernel<optics::Specialisations::number_of<facts>(), sobol>
+            <<<thread_blocks(items), threads, 0, stream>>>(frame, items);
     });
 }
 
@@ -35,7 +36,8 @@ cudaError_t PointKernels<sobol>::raise_to_local_bytes(std::size_t& most) {
     cudaError_t result = cudaSuccess;
     optics::for_all_specialisations([&]<optics::Facts facts>() {
         cudaFuncAttributes attributes;
-        const cudaError_t asked = cudaFuncGetAttributes(&attributes, point_kernel<facts, sobol>);
+        const cudaError_t asked =
+            cudaFuncGetAttributes(&attributes, point_kernel<optics::Specialisations::number_of<facts>(), sobol>);
         if (asked == cudaSuccess)
             most = std::max(most, attributes.localSizeBytes);
         else
