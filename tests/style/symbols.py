@@ -18,10 +18,10 @@ import tempfile
 
 
 def foreign(kernel, isa):
-    """Weak symbols of an object outside the namespace. DW.ref.* is data of exception tables, the same on every instruction set."""
+    """Weak symbols of an object outside the namespace. Data is the same on every instruction set: DW.ref.* of exception tables, template arguments."""
     names = subprocess.run(["nm", "-C", kernel], capture_output=True, text=True, check=True).stdout
     weak = re.findall(r"^[0-9a-f ]{16} [WVu] (.*)", names, re.MULTILINE)
-    return [name for name in weak if f"::{isa}::" not in name and not name.startswith("DW.ref.")]
+    return [name for name in weak if f"::{isa}::" not in name and not name.startswith(("DW.ref.", "template parameter object"))]
 
 
 def contracted(kernel):
