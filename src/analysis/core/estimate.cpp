@@ -29,9 +29,4 @@ std::uint32_t set_number(std::int64_t seed, int n) {
     return std::uint32_t(mixed >> 32) + std::uint32_t(n);
 }
 
-void add_figure(Json& json, const std::string& name, const Estimate& estimate) {
-    json[name] = number_json(estimate.value);
-    json[name + "_error"] = number_json(estimate.error);
-}
-
 }  // namespace lfdsim

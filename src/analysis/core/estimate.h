@@ -1,7 +1,5 @@
 // Figures found with independent random numbers, and the errors to state. Floor 3.
 #pragma once
-#include "analysis/core/result.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +7,6 @@
 #include <functional>
 #include <limits>
 #include <span>
-#include <string>
 
 namespace lfdsim {
 
@@ -42,8 +39,5 @@ double total(const Sums&, int without = -1);
 
 /// The number of the n-th set of random numbers, different for each render.seed.
 std::uint32_t set_number(std::int64_t seed, int n);
-
-/// Writes json[name] and json[name + "_error"].
-void add_figure(Json& json, const std::string& name, const Estimate&);
 
 }  // namespace lfdsim

@@ -1,5 +1,8 @@
 // What a measure finds: figures, curves, pictures. Floor 3: plain data.
+//
+// A measure states each figure once, by Result::add(): scripts' number, error and reason, and the report's line follow from it.
 #pragma once
+#include "analysis/core/estimate.h"
 #include "geometry/lattice.h"
 #include "image/image.h"
 
@@ -7,8 +10,11 @@
 
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lfdsim {
@@ -31,6 +37,34 @@ inline Json axes_json(const LensArray& array, double along_x, double along_y) {
     return differs_by_axis(array) ? numbers_json({along_x, along_y}) : number_json(along_x);
 }
 
+/// A number, or an interval of two, as it is measured or by theory.
+struct FigureValue {
+    std::vector<double> numbers;      // empty: there is none. NaN: it is undefined or was not found, and `missing` says why
+    std::vector<double> errors = {};  // of each; empty: none is stated
+    std::string missing = {};
+
+    FigureValue() = default;
+    FigureValue(double without_error, std::string why_missing = {}) : numbers{without_error}, missing(std::move(why_missing)) {}
+    FigureValue(std::vector<double> all, std::vector<double> error = {}, std::string why_missing = {})
+        : numbers(std::move(all)), errors(std::move(error)), missing(std::move(why_missing)) {}
+    /// `why_missing` is kept where the estimate is NaN.
+    FigureValue(const Estimate& e, const std::string& why_missing = {})
+        : FigureValue(std::vector{e.value}, std::vector{e.error}, std::isnan(e.value) ? why_missing : std::string()) {}
+    FigureValue(const Estimate& low, const Estimate& high, std::string why_missing = {})
+        : FigureValue(std::vector{low.value, high.value}, std::vector{low.error, high.error}, std::move(why_missing)) {}
+};
+
+/// Writes object[name] and, of a value with errors, object[name + "_error"].
+void write_value(Json& object, const std::string& name, const FigureValue&);
+
+/// What the report's table says of a figure.
+struct FigureLine {
+    std::string label, unit = {};
+    FigureValue theory = {};
+    std::string theory_path = {};  // of theory's value for scripts; empty: it is not in this place, or has another form
+    std::string remark = {};       // unless the figure or its theory is missing: the line then says why
+};
+
 /// A line of the report's table: a figure as measured, and what theory says. Each is one number or an interval of two; empty: there
 /// is none. NaN: it is undefined or was not found, and the remark says why.
 struct Finding {
@@ -48,6 +82,11 @@ struct Column {
 struct DataTable {
     std::string name;  // of the file: NAME.csv
     std::vector<Column> columns;
+
+    static DataTable of_rows(std::string name, const std::vector<std::string>& columns);
+    /// One value for each column.
+    void add_row(std::span<const double>);
+    void add_row(std::initializer_list<double> row) { add_row(std::span(row.begin(), row.size())); }
 };
 
 /// Curves over one axis. NaN breaks a curve.
@@ -75,6 +114,15 @@ struct Plot {
     std::vector<PlotMark> marks = {};
     bool equal_axes = false;  // a spot diagram: the same scale along both
     std::vector<PlotBar> bars = {};
+};
+
+/// Curves over one axis for the report and for scripts: each is a line of the plot and a column of the table.
+struct Curves {
+    Plot plot;
+    DataTable table;  // of the plot's name; its first column is the axis
+
+    Curves(const std::string& name, std::string title, std::string x_label, std::string y_label, Column x);
+    void add(std::string label, std::string column, std::vector<double> y);
 };
 
 /// Numbers over a plane, row 0 at the top (the greatest y), as a picture in false colours with a scale. NaN: no value.
@@ -105,6 +153,13 @@ struct Result {
     Json figures = Json::object();
     Json notes = Json::object();  // why a figure is null: {"PATH.OF.NAME": "..."}
     void note(const std::string& path, const std::string& why) { notes[path] = why; }
+    /// A figure for scripts under a path as "screen.uniformity_percent", with a note where it is missing; and its line of the
+    /// table.
+    void add(const std::string& path, const FigureValue&);
+    void add(const std::string& path, const FigureValue&, const FigureLine&);
+    /// A line alone, of a figure that scripts find in other units or at another place.
+    void add_line(const FigureValue&, const FigureLine&);
+    void add(Curves);
     std::vector<Finding> findings;
     std::vector<std::string> remarks;  // sentences: what bounds a figure, where it differs from theory and why
     std::vector<DataTable> tables;

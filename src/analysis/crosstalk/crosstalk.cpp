@@ -101,11 +101,11 @@ constexpr const char* no_light = "no light that is meant for any lens reaches an
 
 void add_middle(const Eyes& eyes, const ViewsCrosstalk& views, ContentSampling sampling, Result& result) {
     Json& json = result.figures["between_views"];
-    for (const auto& [name, formula] : definitions) add_figure(json, name, views.middle.measured.percent);
+    for (const auto& [name, formula] : definitions) write_value(json, name, views.middle.measured.percent);
     json["theory_percent"] = number_json(views.middle.theory.percent.value);
     if (eyes.other) {
         Json other = {{"sampling", name_of(*eyes.other_sampling)}};
-        add_figure(other, "woods_percent", views.middle_of_other.measured.percent);
+        write_value(other, "woods_percent", views.middle_of_other.measured.percent);
         other["theory_percent"] = number_json(views.middle_of_other.theory.percent.value);
         json["other_sampling"] = std::move(other);
     }
@@ -132,11 +132,11 @@ void between_views(const Subject& s, Eyes& eyes, Result& result) {
     json["innermost_view"] = eyes.views.innermost();
     const ViewsCrosstalk views = eyes.views.count() > 0 ? look_at_views(eyes) : ViewsCrosstalk();
     add_middle(eyes, views, s.display().content.sampling, result);
-    add_figure(json, "next_view_alone_percent", views.next[views.innermost].percent);
+    write_value(json, "next_view_alone_percent", views.next[views.innermost].percent);
     const Crosstalk& median = views.all[views.ranked(0.5)];
-    add_figure(json, "median_view_percent", median.percent);
+    write_value(json, "median_view_percent", median.percent);
     json["worst_view"] = views.view[views.worst_at];
-    add_figure(json, "worst_view_percent", views.worst.percent);
+    write_value(json, "worst_view_percent", views.worst.percent);
     if (eyes.views.count() == 0)
         result.note("between_views", no_view);
     else if (views.middle.measured.left_to_rounding)

@@ -153,7 +153,7 @@ void add_eyes(const Eyes& eyes, const Heads& all, ContentSampling sampling, Resu
     for (const std::size_t side : {0u, 1u}) {
         const std::string name = side == 0 ? "left" : "right";
         const auto add = [&](Json& to, const std::string& of, const Crosstalk& found, const Crosstalk& theory) {
-            add_figure(to, name + "_eye_percent", found.percent);
+            write_value(to, name + "_eye_percent", found.percent);
             result.findings.push_back({fmt::format("Crosstalk between the eyes, {} eye, head in the middle{}", name, of),
                                        "%",
                                        {found.percent.value},

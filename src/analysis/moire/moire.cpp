@@ -65,7 +65,7 @@ void add_wave(Result& result, const std::string& whose, const WaveNames& names, 
               const std::string& missing) {
     Json& json = names.in(result.figures, whose);
     const auto add = [&](const std::string& figure, const Estimate& e) {
-        with_errors ? add_figure(json, figure, e) : void(json[figure] = number_json(e.value));
+        with_errors ? write_value(json, figure, e) : void(json[figure] = number_json(e.value));
         if (std::isnan(e.value)) result.note(names.path(whose) + "." + figure, missing);
     };
     add("period_mm", wave.period_mm);
@@ -127,9 +127,9 @@ void remark_on(const Pattern& pattern, const std::optional<Beat>& theory, double
     Json& others = result.figures["as_strong"] = Json::array();
     for (const MeasuredBeat& m : pattern.search.as_strong) {
         Json& json = others.emplace_back(Json::object());
-        add_figure(json, "period_mm", m.period_mm);
-        add_figure(json, "direction_deg", m.direction_deg);
-        add_figure(json, "contrast", m.seen);
+        write_value(json, "period_mm", m.period_mm);
+        write_value(json, "direction_deg", m.direction_deg);
+        write_value(json, "contrast", m.seen);
         result.remarks.push_back(fmt::format("Within the errors a wave of {:.4g} mm at {:.4g} degrees may be as strong: {:.3g}.",
                                              m.period_mm.value, m.direction_deg.value, m.seen.value));
     }

@@ -1,6 +1,7 @@
 // The pattern that the lens lattice makes with the panel's pixels: period, direction and contrast. Floor 3.
 #pragma once
 #include "analysis/core/estimate.h"
+#include "analysis/core/result.h"
 #include "analysis/moire/harmonic_lines.h"
 
 #include <optional>

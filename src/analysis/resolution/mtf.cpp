@@ -36,7 +36,7 @@ void add_channels(Json& json, const std::string& name, double scale, const Figur
 Json to_json(const MtfCurves& m, const Resolution& r) {
     Json json{{"depth_mm", m.depth_mm}, {"angle_deg", m.angle_deg}, {"direction", m.direction.name}};
     for (const auto& [unit, scale] : {std::pair{"_per_mm", 1.}, std::pair{"_per_deg", m.mm_per_deg}}) {
-        add_figure(json, std::string("resolution") + unit, {r.per_mm.value * scale, r.per_mm.error * scale});
+        write_value(json, std::string("resolution") + unit, Estimate{r.per_mm.value * scale, r.per_mm.error * scale});
         json[std::string("lens_sampling_limit") + unit] = number_json(r.lens_limit_per_mm * scale);
         json[std::string("pixel_image_limit") + unit] = number_json(r.pixel_limit_per_mm * scale);
         for (const auto& [name, level] : levels) {

@@ -113,8 +113,8 @@ void tell_colours(const Subject& s, const std::vector<SpotField>& fields, Result
         };
         const Estimate red = from_green(0), blue = from_green(2);
         Json& row_json = lateral.emplace_back(Json{{"field", field.name}});
-        add_figure(row_json, "red_mm", red);
-        add_figure(row_json, "blue_mm", blue);
+        write_value(row_json, "red_mm", red);
+        write_value(row_json, "blue_mm", blue);
         if (!through) {
             result.note(fmt::format("colour.lateral.{}", lateral.size() - 1), "no light of this panel point gets through the lens");
             continue;

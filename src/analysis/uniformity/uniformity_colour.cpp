@@ -76,22 +76,15 @@ std::vector<double> eyes_deg(const Subject& s) {
     return angles;
 }
 
-void add_spread(Json& json, const std::string& prefix, const ColourSpread& spread) {
-    add_figure(json, prefix + "delta_uv_largest", spread.largest);
-    add_figure(json, prefix + "delta_uv_mean", spread.mean);
-}
-
-constexpr const char* definition = "distance in u', v' (CIE 1976) from the colour of all this light together; 0.004 is just seen";
-
-void add_spread_findings(const std::string& of, const ColourSpread& spread, Result& result) {
-    result.findings.push_back({fmt::format("Colour of white {}: largest difference", of),
-                               "",
-                               {spread.largest.value},
-                               {},
-                               definition,
-                               {spread.largest.error}});
-    result.findings.push_back(
-        {fmt::format("Colour of white {}: mean difference", of), "", {spread.mean.value}, {}, definition, {spread.mean.error}});
+/// `name`: of the figures; `of`: of what. `missing` is noted where there is no light.
+void add_spread(Result& result, const std::string& name, const std::string& of, const ColourSpread& spread, const char* missing) {
+    for (const auto& [kind, difference] : {std::pair{"largest", spread.largest}, {"mean", spread.mean}}) {
+        const std::string path = fmt::format("colour.{}_delta_uv_{}", name, kind);
+        result.add(path, difference,
+                   {.label = fmt::format("Colour of white {}: {} difference", of, kind),
+                    .remark = "distance in u', v' (CIE 1976) from the colour of all this light together; 0.004 is just seen"});
+        if (std::isnan(spread.together[0])) result.note(path, missing);
+    }
 }
 
 void add_colour_of_screen(const ColouredWhite& white, const Subject& s, double distance, Parts& parts, Result& result) {
@@ -106,25 +99,19 @@ void add_colour_of_screen(const ColouredWhite& white, const Subject& s, double d
     });
     const ColourSpread spread = spread_on_screen(light, lenses);
     const Geometry& g = s.geometry();
+    add_spread(result, "screen", "over the screen, on axis", spread, "no light of the screen is seen on axis");
     Json& json = result.figures["colour"];
-    add_spread(json, "screen_", spread);
     json["screen_uv"] = numbers_json({spread.together[0], spread.together[1]});
     json["part_mm"] = {g.array_width_mm / screen.columns(), g.array_height_mm / screen.rows()};
     json["dark_parts"] = spread.dark;
-    if (std::isnan(spread.together[0]))
-        for (const char* name : {"screen_delta_uv_largest", "screen_delta_uv_mean"})
-            result.note(std::string("colour.") + name, "no light of the screen is seen on axis");
-    add_spread_findings("over the screen, on axis", spread, result);
     result.maps.push_back({"uniformity_colour", "Difference of colour over a white screen, seen on axis", "x along the array, mm",
                            "y, mm", "distance in u', v'", -g.array_width_mm / 2, g.array_width_mm / 2, -g.array_height_mm / 2,
                            g.array_height_mm / 2, screen.columns(), screen.rows(), spread.distance, 0,
                            std::max(0.004, spread.largest.value + spread.largest.error)});
-    DataTable table{"uniformity_colour", {{"column", {}}, {"row", {}}, {"u_prime", {}}, {"v_prime", {}}, {"delta_uv", {}}}};
+    DataTable table = DataTable::of_rows("uniformity_colour", {"column", "row", "u_prime", "v_prime", "delta_uv"});
     for (int k = 0; k < screen.count(); ++k) {
-        const Chromaticity& uv = spread.parts[std::size_t(k)];
-        const double row[] = {double(k % screen.columns()), double(k / screen.columns()), uv[0], uv[1],
-                              spread.distance[std::size_t(k)]};
-        for (std::size_t i = 0; i < 5; ++i) table.columns[i].values.push_back(row[i]);
+        const auto [u, v] = spread.parts[std::size_t(k)];
+        table.add_row({double(k % screen.columns()), double(k / screen.columns()), u, v, spread.distance[std::size_t(k)]});
     }
     result.tables.push_back(std::move(table));
 }
@@ -158,12 +145,8 @@ void add_colour_over_angle(const ColouredWhite& white, const Subject& s, double 
     const LensBlock middle = screen.middle();
     const int lines = colour_lines_of_angle / independent_sets * white.more_for({0, 0, distance});
     const double nearest = nearest_eye_mm(s.geometry());
-    Plot plot{"uniformity_colour_angle",
-              "Difference of colour of the middle of a white screen",
-              "viewing angle, degrees",
-              "distance in u', v'",
-              {}};
-    DataTable table{"uniformity_colour_angle", {{"angle_deg", angles}}};
+    Curves curves("uniformity_colour_angle", "Difference of colour of the middle of a white screen", "viewing angle, degrees",
+                  "distance in u', v'", {"angle_deg", angles});
     for (const int axis : {0, 1}) {
         const std::string name = axis == 0 ? "horizontal" : "vertical";
         const auto seen_from = [&](const std::vector<double>& from_deg, int lines_a_set) {
@@ -182,23 +165,17 @@ void add_colour_over_angle(const ColouredWhite& white, const Subject& s, double 
             widen(spread.mean, other.mean);
         }
         spread.mean.error = std::hypot(spread.mean.error, between_angles(spread.distance));
-        Json& json = result.figures["colour"];
-        add_spread(json, name + "_", spread);
-        if (spread.dark == int(angles.size()))
-            for (const char* what : {"_delta_uv_largest", "_delta_uv_mean"})
-                result.note("colour." + name + what, "no light of the screen's middle is seen");
-        add_spread_findings(fmt::format("over {} angles to {:.3g} degrees", name, angles.back()), spread, result);
-        plot.series.push_back({name, angles, spread.distance});
-        table.columns.push_back({name + "_delta_uv", spread.distance});
+        add_spread(result, name, fmt::format("over {} angles to {:.3g} degrees", name, angles.back()), spread,
+                   "no light of the screen's middle is seen");
+        curves.add(name, name + "_delta_uv", spread.distance);
         for (const std::size_t i : {std::size_t(0), std::size_t(1)}) {
-            Column& column = table.columns.emplace_back(Column{name + (i == 0 ? "_u_prime" : "_v_prime"), {}});
+            Column& column = curves.table.columns.emplace_back(Column{name + (i == 0 ? "_u_prime" : "_v_prime"), {}});
             for (const Chromaticity& uv : spread.parts) column.values.push_back(uv[i]);
         }
     }
-    plot.marks.push_back({"0.004, just seen", 0.004, false});
+    curves.plot.marks.push_back({"0.004, just seen", 0.004, false});
     result.figures["colour"]["angle_deg"] = {angles.front(), angles.back()};
-    result.plots.push_back(std::move(plot));
-    result.tables.push_back(std::move(table));
+    result.add(std::move(curves));
 }
 
 }  // namespace
@@ -256,11 +233,8 @@ ColourWork colour_work(const Subject& s) {
 
 void tell_colour_uniformity(const Subject& s, double distance, Parts& parts, Result& result) {
     if (!has_colours(s.display())) {
-        Json& json = result.figures["colour"];
-        for (const char* of : {"screen_", "horizontal_", "vertical_"}) {
-            add_figure(json, std::string(of) + "delta_uv_largest", {0, 0});
-            add_figure(json, std::string(of) + "delta_uv_mean", {0, 0});
-        }
+        for (const char* of : {"screen", "horizontal", "vertical"})
+            for (const char* kind : {"largest", "mean"}) result.add(fmt::format("colour.{}_delta_uv_{}", of, kind), Estimate{0, 0});
         result.remarks.push_back(
             "Colour is exactly even: without subpixels and dispersion red, green and blue take the same paths to the same places.");
         return;
