@@ -96,32 +96,23 @@ ViewsCrosstalk look_at_views(Eyes& eyes) {
     return views;
 }
 
-constexpr const char* no_view = "a view is a strip one panel pixel wide, and elemental images are narrower than a pixel";
-constexpr const char* no_light = "no light that is meant for any lens reaches an eye in front of the screen's middle";
-
 void add_middle(const Eyes& eyes, const ViewsCrosstalk& views, ContentSampling sampling, Result& result) {
-    Json& json = result.figures["between_views"];
-    for (const auto& [name, formula] : definitions) write_value(json, name, views.middle.measured.percent);
-    json["theory_percent"] = number_json(views.middle.theory.percent.value);
-    if (eyes.other) {
-        Json other = {{"sampling", name_of(*eyes.other_sampling)}};
-        write_value(other, "woods_percent", views.middle_of_other.measured.percent);
-        other["theory_percent"] = number_json(views.middle_of_other.theory.percent.value);
-        json["other_sampling"] = std::move(other);
-    }
-    const auto add = [&](const std::string& what, const Middle& found) {
-        result.findings.push_back({what,
-                                   "%",
-                                   {found.measured.percent.value},
-                                   {found.theory.percent.value},
-                                   found.measured.left_to_rounding
-                                       ? left_to_rounding
-                                       : "all other views together, over the one that is meant; the panel's black is 0",
-                                   {found.measured.percent.error}});
+    const auto line = [](const std::string& label, const Middle& found) {
+        return FigureLine{.label = label,
+                          .unit = "%",
+                          .theory = found.theory.percent.value,
+                          .remark = "all other views together, over the one that is meant; the panel's black is 0"};
     };
+    for (const auto& [name, formula] : definitions) result.add(std::string("between_views.") + name, views.middle.measured.percent);
+    result.add("between_views.theory_percent", theory_figure(views.middle.theory));
     const std::string of = eyes.other ? fmt::format("; {}", made_for(sampling)) : "";
-    add("Crosstalk between views, the innermost one: Woods, IEC 62629-22-1 and IDMS alike" + of, views.middle);
-    if (eyes.other) add(fmt::format("The same; {}", made_for(*eyes.other_sampling)), views.middle_of_other);
+    result.add_line(figure_of(views.middle.measured),
+                    line("Crosstalk between views, the innermost one: Woods, IEC 62629-22-1 and IDMS alike" + of, views.middle));
+    if (!eyes.other) return;
+    result.figures["between_views"]["other_sampling"]["sampling"] = name_of(*eyes.other_sampling);
+    result.add("between_views.other_sampling.woods_percent", figure_of(views.middle_of_other.measured),
+               line(fmt::format("The same; {}", made_for(*eyes.other_sampling)), views.middle_of_other));
+    result.add("between_views.other_sampling.theory_percent", theory_figure(views.middle_of_other.theory));
 }
 
 void between_views(const Subject& s, Eyes& eyes, Result& result) {
@@ -131,32 +122,21 @@ void between_views(const Subject& s, Eyes& eyes, Result& result) {
     json["whole_views"] = eyes.views.count();
     json["innermost_view"] = eyes.views.innermost();
     const ViewsCrosstalk views = eyes.views.count() > 0 ? look_at_views(eyes) : ViewsCrosstalk();
-    add_middle(eyes, views, s.display().content.sampling, result);
-    write_value(json, "next_view_alone_percent", views.next[views.innermost].percent);
-    const Crosstalk& median = views.all[views.ranked(0.5)];
-    write_value(json, "median_view_percent", median.percent);
-    json["worst_view"] = views.view[views.worst_at];
-    write_value(json, "worst_view_percent", views.worst.percent);
     if (eyes.views.count() == 0)
-        result.note("between_views", no_view);
+        result.note("between_views", "a view is a strip one panel pixel wide, and elemental images are narrower than a pixel");
     else if (views.middle.measured.left_to_rounding)
         result.note("between_views", left_to_rounding);
     else if (std::isnan(views.middle.measured.percent.value))
-        result.note("between_views", no_light);
-    const auto tell = [&](const std::string& name, const Crosstalk& found) {
-        if (found.left_to_rounding) result.note("between_views." + name, left_to_rounding);
-    };
-    tell("theory_percent", views.middle.theory);
-    tell("other_sampling.woods_percent", views.middle_of_other.measured);
-    tell("other_sampling.theory_percent", views.middle_of_other.theory);
-    tell("next_view_alone_percent", views.next[views.innermost]);
-    tell("median_view_percent", median);
-    tell("worst_view_percent", views.worst);
-    std::vector<double> all, next;
-    for (const Crosstalk& c : views.all) all.push_back(c.percent.value);
-    for (const Crosstalk& c : views.next) next.push_back(c.percent.value);
-    result.tables.push_back(
-        {"crosstalk_views", {{"view", views.view}, {"crosstalk_percent", all}, {"next_view_crosstalk_percent", next}}});
+        result.note("between_views", "no light that is meant for any lens reaches an eye in front of the screen's middle");
+    add_middle(eyes, views, s.display().content.sampling, result);
+    result.add("between_views.next_view_alone_percent", figure_of(views.next[views.innermost]));
+    result.add("between_views.median_view_percent", figure_of(views.all[views.ranked(0.5)]));
+    json["worst_view"] = views.view[views.worst_at];
+    result.add("between_views.worst_view_percent", figure_of(views.worst));
+    DataTable table = DataTable::of_rows("crosstalk_views", {"view", "crosstalk_percent", "next_view_crosstalk_percent"});
+    for (std::size_t n = 0; n < views.view.size(); ++n)
+        table.add_row({views.view[n], views.all[n].percent.value, views.next[n].percent.value});
+    result.tables.push_back(std::move(table));
 }
 
 /// The eye moving past the innermost views. `spread`: how many views it gathers at once.
@@ -177,16 +157,13 @@ void curves_of_views(Eyes& eyes, double spread, Result& result) {
         for (std::size_t k = 0; k < shares.size(); ++k) shares[k][n] = share(light, first + double(k));
         theory[n] = share(eyes.theory_light(eyes.theory_at(places[n], Eyes::Lines::curve), eyes.shown), eyes.views.innermost());
     });
-    Plot plot{"crosstalk_views", "Views that an eye sees", "eye's place x, mm", "share of the light", {}};
-    DataTable table{"crosstalk_curves", {{"x_mm", places}}};
-    for (std::size_t k = 0; k < shares.size(); ++k) {
-        plot.series.push_back({fmt::format("view {:+g}", first + double(k)), places, shares[k]});
-        table.columns.push_back({fmt::format("view_{:+g}_share", first + double(k)), shares[k]});
-    }
-    table.columns.push_back({fmt::format("view_{:+g}_theory_share", eyes.views.innermost()), theory});
-    plot.series.push_back({fmt::format("view {:+g}, theory", eyes.views.innermost()), places, std::move(theory)});
-    result.plots.push_back(std::move(plot));
-    result.tables.push_back(std::move(table));
+    Curves curves("crosstalk_views", "Views that an eye sees", "eye's place x, mm", "share of the light", {"x_mm", places});
+    curves.table.name = "crosstalk_curves";
+    for (std::size_t k = 0; k < shares.size(); ++k)
+        curves.add(fmt::format("view {:+g}", first + double(k)), fmt::format("view_{:+g}_share", first + double(k)), shares[k]);
+    curves.add(fmt::format("view {:+g}, theory", eyes.views.innermost()),
+               fmt::format("view_{:+g}_theory_share", eyes.views.innermost()), std::move(theory));
+    result.add(std::move(curves));
 }
 
 }  // namespace

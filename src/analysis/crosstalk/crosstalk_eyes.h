@@ -29,6 +29,11 @@ inline constexpr const char* left_to_rounding =
     "centres of pixels lie on the border of two lenses' elemental images: rounding decides which lens has them, and what is meant "
     "for which eye; lfdsim check has the remedy";
 
+inline FigureValue figure_of(const Crosstalk& found) {
+    return {std::vector{found.percent.value}, std::vector{found.percent.error}, found.left_to_rounding ? left_to_rounding : ""};
+}
+inline FigureValue theory_figure(const Crosstalk& c) { return {c.percent.value, c.left_to_rounding ? left_to_rounding : ""}; }
+
 /// Whether many lines of sight end where it is dark, or where a colour shines that is dim.
 inline bool structured(const Subject& s) { return !shines_all_over(s.display().panel); }
 

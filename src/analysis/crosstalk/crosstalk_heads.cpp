@@ -143,41 +143,32 @@ void tell_apart(const Subject& s, Eyes& eyes, double zone_mm, Result& result) {
         "its own display",
         zone_mm, s.options().eye_distance_mm);
     result.note("between_eyes", why);
-    result.findings.push_back({"Crosstalk between the eyes", "%", {std::numeric_limits<double>::quiet_NaN()}, {}, why});
+    result.add_line({nan, why}, {.label = "Crosstalk between the eyes", .unit = "%"});
 }
 
 void add_eyes(const Eyes& eyes, const Heads& all, ContentSampling sampling, Result& result) {
-    Json& json = result.figures["between_eyes"];
     Json other;
     if (eyes.other) other["sampling"] = name_of(*eyes.other_sampling);
     for (const std::size_t side : {0u, 1u}) {
-        const std::string name = side == 0 ? "left" : "right";
-        const auto add = [&](Json& to, const std::string& of, const Crosstalk& found, const Crosstalk& theory) {
-            write_value(to, name + "_eye_percent", found.percent);
-            result.findings.push_back({fmt::format("Crosstalk between the eyes, {} eye, head in the middle{}", name, of),
-                                       "%",
-                                       {found.percent.value},
-                                       {theory.percent.value},
-                                       found.left_to_rounding
-                                           ? left_to_rounding
-                                           : "what is meant for the other side of the head, over what is meant for its own",
-                                       {found.percent.error}});
+        const std::string name = side == 0 ? "left" : "right", path = "between_eyes." + name + "_eye_percent";
+        const auto line = [&](const std::string& of, const Crosstalk& theory) {
+            return FigureLine{.label = fmt::format("Crosstalk between the eyes, {} eye, head in the middle{}", name, of),
+                              .unit = "%",
+                              .theory = theory.percent.value,
+                              .remark = "what is meant for the other side of the head, over what is meant for its own"};
         };
-        const Crosstalk& middle = all.found[all.middle()][side];
-        add(json, eyes.other ? fmt::format("; {}", made_for(sampling)) : "", middle, all.theory);
-        if (eyes.other) add(other, fmt::format("; {}", made_for(*eyes.other_sampling)), all.of_other[side], all.theory_of_other);
-        if (std::isnan(middle.percent.value))
-            result.note("between_eyes." + name + "_eye_percent",
-                        middle.left_to_rounding ? left_to_rounding : "no light reaches the eye");
-        if (all.of_other[side].left_to_rounding)
-            result.note("between_eyes.other_sampling." + name + "_eye_percent", left_to_rounding);
+        const Crosstalk &middle = all.found[all.middle()][side], &of_other = all.of_other[side];
+        result.add(path, figure_of(middle), line(eyes.other ? fmt::format("; {}", made_for(sampling)) : "", all.theory));
+        if (std::isnan(middle.percent.value) && !middle.left_to_rounding) result.note(path, "no light reaches the eye");
+        if (!eyes.other) continue;
+        write_value(other, name + "_eye_percent", of_other.percent);
+        result.add_line(figure_of(of_other), line(fmt::format("; {}", made_for(*eyes.other_sampling)), all.theory_of_other));
+        if (of_other.left_to_rounding) result.note("between_eyes.other_sampling." + name + "_eye_percent", left_to_rounding);
     }
-    json["theory_percent"] = number_json(all.theory.percent.value);
-    if (all.theory.left_to_rounding) result.note("between_eyes.theory_percent", left_to_rounding);
+    result.add("between_eyes.theory_percent", theory_figure(all.theory));
     if (!eyes.other) return;
-    if (all.theory_of_other.left_to_rounding) result.note("between_eyes.other_sampling.theory_percent", left_to_rounding);
-    other["theory_percent"] = number_json(all.theory_of_other.percent.value);
-    json["other_sampling"] = std::move(other);
+    result.figures["between_eyes"]["other_sampling"] = std::move(other);
+    result.add("between_eyes.other_sampling.theory_percent", theory_figure(all.theory_of_other));
 }
 
 }  // namespace
@@ -187,27 +178,25 @@ void between_eyes(const Subject& s, Eyes& eyes, Result& result) {
     if (apart > zone_mm) return tell_apart(s, eyes, zone_mm, result);
     const Heads all = look_with_heads(eyes, apart);
     add_eyes(eyes, all, s.display().content.sampling, result);
-    Plot plot{"crosstalk_eyes", "Crosstalk between the two eyes", "head's place x, mm", "leak / signal, %", {}};
-    DataTable table{"crosstalk_eyes", {{"head_mm", all.places}}};
+    Curves curves("crosstalk_eyes", "Crosstalk between the two eyes", "head's place x, mm", "leak / signal, %",
+                  {"head_mm", all.places});
     for (const std::size_t side : {0u, 1u}) {
         const std::string name = side == 0 ? "left" : "right";
         std::vector<double> percents;
         for (const BothEyes& both : all.found) percents.push_back(both[side].percent.value);
-        Series drawn{name + " eye", all.places, percents};
-        for (double& y : drawn.y)
-            if (!(y <= 100)) y = std::numeric_limits<double>::quiet_NaN();
-        plot.series.push_back(std::move(drawn));
-        table.columns.push_back({name + "_eye_crosstalk_percent", std::move(percents)});
+        curves.add(name + " eye", name + "_eye_crosstalk_percent", std::move(percents));
+        for (double& y : curves.plot.series.back().y)
+            if (!(y <= 100)) y = nan;
     }
     const Interval range = head_range(eyes, all);
-    plot.marks.push_back({"10 %", tolerable_percent, false});
+    curves.plot.marks.push_back({"10 %", tolerable_percent, false});
     if (const double theory = all.theory.percent.value; theory <= 100)
-        plot.marks.push_back({"theory, head in the middle", theory, false});
-    add_limits(result, result.figures["between_eyes"], "between_eyes.", "head_within_10_percent_mm", range);
-    result.findings.push_back(finding("Head's places where both eyes have at most 10 % crosstalk", "mm", range, {},
-                                      "the panel's picture stays; searched to 1.5 eye distances"));
-    result.plots.push_back(std::move(plot));
-    result.tables.push_back(std::move(table));
+        curves.plot.marks.push_back({"theory, head in the middle", theory, false});
+    result.add("between_eyes.head_within_10_percent_mm", figure_of(range),
+               {.label = "Head's places where both eyes have at most 10 % crosstalk",
+                .unit = "mm",
+                .remark = "the panel's picture stays; searched to 1.5 eye distances"});
+    result.add(std::move(curves));
 }
 
 }  // namespace lfdsim::crosstalk

@@ -158,6 +158,7 @@ Interval on_side_of_zero(Interval i, bool above, const std::string& nothing_ther
     return known(i, 0);
 }
 
+FigureValue figure_of(const Interval& i) { return {bounds(i), std::vector{i.low.error, i.high.error}, why_missing(i)}; }
 Json limits_json(const Interval& i) { return numbers_json(bounds(i)); }
 std::vector<double> bounds(const Interval& i) { return {i.low.at, i.high.at}; }
 

@@ -59,6 +59,9 @@ Interval where_it_falls(const Curve&, const Falls&);
 /// not reach that side; an end nearer to 0 than its error is none.
 Interval on_side_of_zero(Interval, bool above, const std::string& nothing_there);
 
+/// As a figure of a measure, which is missing where a limit is.
+FigureValue figure_of(const Interval&);
+
 /// [low, high] with null where there is none.
 Json limits_json(const Interval&);
 /// For Finding::measured.
