@@ -191,7 +191,6 @@ void add_map(Result& result, Search& search, const std::array<double, 2>& half, 
     ColourMap mixed = wrong;
     mixed.name = "zone_mixed";
     mixed.title = "Rays that show another neighbour's image than most";
-    DataTable table{"zone_map", {{"x_mm", {}}, {"y_mm", {}}, {"wrong_share", {}}, {"mixed_share", {}}, {"dark_share", {}}}};
     const auto place = [&](int k, std::size_t axis) { return half[axis] * ((2 * k + 1.) / map_side - 1); };
     search.parts.run(map_side, [&](int row) {
         for (int column = 0; column < map_side; ++column) {
@@ -202,13 +201,10 @@ void add_map(Result& result, Search& search, const std::array<double, 2>& half, 
             dark.values[k] = shares.dark;
         }
     });
-    for (int k = 0; k < map_side * map_side; ++k) {
-        table.columns[0].values.push_back(place(k % map_side, 0));
-        table.columns[1].values.push_back(-place(k / map_side, 1));
-    }
-    table.columns[2].values = wrong.values;
-    table.columns[3].values = mixed.values;
-    table.columns[4].values = dark.values;
+    DataTable table = DataTable::of_rows("zone_map", {"x_mm", "y_mm", "wrong_share", "mixed_share", "dark_share"});
+    for (int k = 0; k < map_side * map_side; ++k)
+        table.add_row({place(k % map_side, 0), -place(k / map_side, 1), wrong.values[std::size_t(k)], mixed.values[std::size_t(k)],
+                       dark.values[std::size_t(k)]});
     result.tables.push_back(std::move(table));
     result.maps.push_back(std::move(wrong));
     result.maps.push_back(std::move(mixed));
@@ -234,24 +230,20 @@ void add_sideways(Result& result, Search& search, const Subject& s, const std::a
         for (const double mm : zone.places) angles.push_back(degrees(mm));
         const ParaxialZone zone_of = paraxial(s, axis);
         const double theory = degrees(eye * zone_of.half_slope(eye)), half_fov = degrees(eye * zone_of.half_fov);
-        Json json = Json::object();
         // A hexagon's image has a corner above its middle, where theory's pitch has none.
         const bool corner = axis == 1 && s.display().array.lattice == LatticeKind::hexagon;
-        json["theory_deg"] = corner ? Json() : Json{0 - theory, theory};
+        result.figures[name]["theory_deg"] = corner ? Json() : Json{0 - theory, theory};
         for (const std::size_t t : {0u, 1u}) {
             const Interval mm = known(zone.limits[t], 0);
             const Interval deg = mapped(mm, degrees);
-            const std::string percent = fmt::format("{:g}", 100 * thresholds[t]);
-            add_limits(result, json, name + ".", fmt::format("wrong_{}_percent_mm", percent), mm);
-            add_limits(result, json, name + ".", fmt::format("wrong_{}_percent_deg", percent), deg);
-            result.findings.push_back(finding(fmt::format("Viewing zone, {}: at most {} % of the rays wrong", name, percent), "deg",
-                                              deg,
-                                              corner   ? std::vector<double>{}
-                                              : t == 0 ? std::vector<double>{0 - theory, theory}
-                                                       : std::vector<double>{-half_fov, half_fov},
-                                              fmt::format("{:.4g} to {:.4g} mm", mm.low.at, mm.high.at)));
+            const std::string percent = fmt::format("{:g}", 100 * thresholds[t]), path = name + ".wrong_" + percent + "_percent_";
+            result.add(path + "mm", figure_of(mm));
+            result.add(path + "deg", figure_of(deg),
+                       {.label = fmt::format("Viewing zone, {}: at most {} % of the rays wrong", name, percent),
+                        .unit = "deg",
+                        .theory = corner ? FigureValue() : std::vector{t == 0 ? 0 - theory : -half_fov, t == 0 ? theory : half_fov},
+                        .remark = fmt::format("{:.4g} to {:.4g} mm", mm.low.at, mm.high.at)});
         }
-        result.figures[name] = std::move(json);
         if (axis == 0) {
             table.columns = {{"place_mm", zone.places}, {"place_deg", angles}};
             plot.marks = {{"theory, horizontal", 0 - theory}, {"theory, horizontal", theory}, {"1 %", 0.01, false}};
@@ -285,13 +277,14 @@ void add_axis(Result& result, Search& search, const Subject& s, double distance)
     const double theory_nearest = rear + theory.distance_mm(-1), theory_farthest = rear + theory.distance_mm(1);
     const std::array<Interval, 2> limits{known(mapped(zone.limits[0], from_panel), middle),
                                          known(mapped(zone.limits[1], from_panel), middle)};
-    Json json = Json::object();
-    add_limits(result, json, "distance.", "wrong_1_percent_mm", limits[0]);
-    add_limits(result, json, "distance.", "wrong_50_percent_mm", limits[1]);
-    json["theory_mm"] = numbers_json({theory_nearest, theory_farthest});
-    result.figures["distance"] = std::move(json);
-    result.findings.push_back(finding("Viewing zone along the axis: at most 1 % of the rays wrong", "mm", limits[0],
-                                      {theory_nearest, theory_farthest}, "nearest and farthest, as far as the display's front"));
+    const std::vector<double> by_theory{theory_nearest, theory_farthest};
+    result.add("distance.wrong_1_percent_mm", figure_of(limits[0]),
+               {.label = "Viewing zone along the axis: at most 1 % of the rays wrong",
+                .unit = "mm",
+                .theory = by_theory,
+                .remark = "nearest and farthest, as far as the display's front"});
+    result.add("distance.wrong_50_percent_mm", figure_of(limits[1]));
+    result.add("distance.theory_mm", by_theory);
     Series near{"on axis", {}, {}};
     for (std::size_t k = zone.places.size(); k-- > 0 && zone.places[k] <= 4 * distance;) {
         near.x.push_back(zone.places[k]);
