@@ -49,48 +49,39 @@ ColourMap moire_map(const WhiteSeen& screen, const Vec3d& eye, double side, Part
             greatest > 0 ? greatest : 1};
 }
 
-/// What is found, or what theory says, under the names of the figures.
+/// What is found, or what theory says.
 struct Wave {
     Estimate period_mm, direction_deg, seen, contrast;
 };
 
-/// Of the luminance, or of the channel "r", "g" or "b" within it.
-struct WaveNames {
-    std::string channel;
-    Json& in(Json& figures, const std::string& whose) const { return channel.empty() ? figures[whose] : figures[whose][channel]; }
-    std::string path(const std::string& whose) const { return channel.empty() ? whose : whose + "." + channel; }
+/// The figures of a wave, and their lines in the report.
+struct WaveFigure {
+    const char* name;
+    Estimate Wave::*of;
+    const char *label, *unit, *remark;
 };
+constexpr WaveFigure wave_figures[] = {
+    {"period_mm", &Wave::period_mm, "period", "mm", "in the vertex plane, of the strongest component after the eye's filter"},
+    {"direction_deg", &Wave::direction_deg, "direction", "deg", "of the wave vector, counter-clockwise from the right; 180 is 0"},
+    {"contrast", &Wave::seen, "contrast to the eye", "",
+     "Michelson's, times contrast sensitivity over its greatest (Mannos and Sakrison 1974)"},
+    {"contrast_unfiltered", &Wave::contrast, "contrast before the eye", "",
+     "theory: of lenses without aberrations; others blur the pixels"}};
 
-void add_wave(Result& result, const std::string& whose, const WaveNames& names, const Wave& wave, bool with_errors,
-              const std::string& missing) {
-    Json& json = names.in(result.figures, whose);
-    const auto add = [&](const std::string& figure, const Estimate& e) {
-        with_errors ? write_value(json, figure, e) : void(json[figure] = number_json(e.value));
-        if (std::isnan(e.value)) result.note(names.path(whose) + "." + figure, missing);
-    };
-    add("period_mm", wave.period_mm);
-    add("direction_deg", wave.direction_deg);
-    add("contrast", wave.seen);
-    add("contrast_unfiltered", wave.contrast);
+void add_wave(Result& result, const std::string& path, const Wave& wave, bool with_errors, const std::string& missing) {
+    for (const WaveFigure& f : wave_figures) {
+        FigureValue value(wave.*f.of, missing);
+        if (!with_errors) value.errors.clear();
+        result.add(path + f.name, value);
+    }
 }
 
-void add_findings(Result& result, const Wave& found, const Wave& theory, const std::string& missing) {
-    const auto add = [&](const std::string& what, const std::string& unit, Estimate Wave::*of, const std::string& remark) {
-        result.findings.push_back({what,
-                                   unit,
-                                   {(found.*of).value},
-                                   {(theory.*of).value},
-                                   std::isnan((found.*of).value) ? missing : remark,
-                                   {(found.*of).error}});
-    };
-    add("Moire of a white screen: period", "mm", &Wave::period_mm,
-        "in the vertex plane, of the strongest component after the eye's filter");
-    add("Moire of a white screen: direction", "deg", &Wave::direction_deg,
-        "of the wave vector, counter-clockwise from the right; 180 is 0");
-    add("Moire of a white screen: contrast to the eye", "", &Wave::seen,
-        "Michelson's, times contrast sensitivity over its greatest (Mannos and Sakrison 1974)");
-    add("Moire of a white screen: contrast before the eye", "", &Wave::contrast,
-        "theory: of lenses without aberrations; others blur the pixels");
+void add_lines(Result& result, const Wave& found, const Wave& theory, const std::string& missing) {
+    for (const WaveFigure& f : wave_figures)
+        result.add_line({found.*f.of, missing}, {.label = fmt::format("Moire of a white screen: {}", f.label),
+                                                 .unit = f.unit,
+                                                 .theory = (theory.*f.of).value,
+                                                 .remark = f.remark});
 }
 
 Wave theory_wave(const std::optional<Beat>& beat) {
@@ -159,9 +150,9 @@ Result measure_moire(Subject& s, Job& job) {
     if (shines_all_over(d.panel)) {
         const std::string none = "the panel has no pixel structure: it has no subpixels, and panel.aperture_ratio is 1";
         const Wave found = Pattern().found, theory = theory_wave({});
-        add_wave(result, "white", {}, found, true, none);
-        add_wave(result, "theory", {}, theory, false, none);
-        add_findings(result, found, theory, none);
+        add_wave(result, "white.", found, true, none);
+        add_wave(result, "theory.", theory, false, none);
+        add_lines(result, found, theory, none);
         job.advance(moire_steps(s));
         return result;
     }
@@ -177,19 +168,19 @@ Result measure_moire(Subject& s, Job& job) {
         if (!(lines[mixture].mean() > 0)) throw InputError("camera", "sees no light of a white panel from straight in front of it");
         const bool all = mixture == 0;
         const std::size_t channel = mixture - 1;
-        const WaveNames names{all ? "" : std::string(1, "rgb"[channel])};
+        const std::string of = all ? "." : fmt::format(".{}.", "rgb"[channel]);
         const Geometry geometry = all ? s.geometry() : resolve(d, d.panel.wavelengths_nm[channel]);
         const std::optional<Beat> theory = MoireTheory(d, geometry, distance, weights[mixture]).strongest();
         const Pattern pattern = pattern_of(lines[mixture], HarmonicLines(ends, screen, mixture), theory,
                                            mm_per_degree(distance - s.geometry().vertex_plane_mm));
-        add_wave(result, "white", names, pattern.found, true, pattern.missing);
-        add_wave(result, "theory", names, theory_wave(theory), false,
+        add_wave(result, "white" + of, pattern.found, true, pattern.missing);
+        add_wave(result, "theory" + of, theory_wave(theory), false,
                  fmt::format("all beats are finer than {:g} cycles per degree, which eyes do not resolve, or next to nothing",
                              eye_limit_cycles_per_degree));
         if (!all) continue;
         double side = std::min(window.width_mm(), window.height_mm());
         remark_on(pattern, theory, side, result);
-        add_findings(result, pattern.found, theory_wave(theory), pattern.missing);
+        add_lines(result, pattern.found, theory_wave(theory), pattern.missing);
         if (pattern.search.strongest) side = std::min(side, 6 * pattern.found.period_mm.value);
         result.maps.push_back(moire_map(screen, eye, side, parts));
     }
