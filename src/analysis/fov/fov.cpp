@@ -103,75 +103,74 @@ double fades_over_deg(const Subject& s, int axis) {
     return std::atan(0.5 * (SlopeSpread(s, eye, axis).width() + across)) / degree;
 }
 
-void add_rules(Result& result, Json& json, const std::string& path, const Curve& c, const Falls& expected) {
-    const Interval ssim = where_at_least(c, 0, least_view_ssim), gradient = where_steady(c, 0, most_slope_per_deg);
-    add_limits(result, json, path, "ssim_rule_deg", ssim);
-    add_limits(result, json, path, "gradient_rule_deg", gradient);
-    add_limits(result, json, path, "ssim_half_way_deg", where_it_falls(c, expected));
-    json["bound_by"] = {bound(ssim.low, gradient.low), bound(ssim.high, gradient.high)};
-    json["ssim_error"] = c.error;
+/// Where a curve of SSIM keeps the published rules, and where it falls half-way.
+struct Rules {
+    Interval ssim, gradient, half_way;
+    double error;  // of the curve
+
+    Rules(const Curve& c, const Falls& expected)
+        : ssim(where_at_least(c, 0, least_view_ssim)),
+          gradient(where_steady(c, 0, most_slope_per_deg)),
+          half_way(where_it_falls(c, expected)),
+          error(c.error) {}
+};
+
+void add_rules(Result& result, Json& json, const std::string& path, const Rules& rules) {
+    result.add(path + "ssim_rule_deg", figure_of(rules.ssim));
+    result.add(path + "gradient_rule_deg", figure_of(rules.gradient));
+    result.add(path + "ssim_half_way_deg", figure_of(rules.half_way));
+    json["bound_by"] = {bound(rules.ssim.low, rules.gradient.low), bound(rules.ssim.high, rules.gradient.high)};
+    json["ssim_error"] = rules.error;
 }
 
-void add_finding(Result& result, const std::string& what, const Interval& measured, std::vector<double> theory,
-                 const std::string& remark) {
-    result.findings.push_back(finding(what, "deg", measured, std::move(theory), remark));
+void add_geometry(Result& result, const std::string& name, const std::string& way, const Geometric& g, const FigureValue& theory) {
+    result.add(name + ".own_lens_deg", figure_of(interval(g.lenses)),
+               {.label = fmt::format("Field of view, {}", way),
+                .unit = "deg",
+                .theory = theory,
+                .remark = "of the light from lenses whose whole image lies on the panel, half comes from their own images"});
+    result.add(name + ".own_lens_with_diffuser_deg", figure_of(interval(g.diffused)),
+               {.label = fmt::format("Field of view, {}: with the diffuser", way),
+                .unit = "deg",
+                .theory = theory,
+                .remark = "the same light, turned by the diffuser"});
 }
 
-void add_geometry(Result& result, Json& json, const std::string& name, const std::string& way, const Geometric& g,
-                  std::vector<double> theory) {
-    add_limits(result, json, name + ".", "own_lens_deg", interval(g.lenses));
-    add_limits(result, json, name + ".", "own_lens_with_diffuser_deg", interval(g.diffused));
-    add_finding(result, fmt::format("Field of view, {}", way), interval(g.lenses), theory,
-                "of the light from lenses whose whole image lies on the panel, half comes from their own images");
-    add_finding(result, fmt::format("Field of view, {}: with the diffuser", way), interval(g.diffused), theory,
-                "the same light, turned by the diffuser");
-}
-
-void add_likeness(Result& result, Json& json, const std::string& name, const std::string& way, const AngleCurves& curves,
-                  const Geometric& g, double edge_deg, double reach_deg) {
+void add_likeness(Result& result, const std::string& name, const std::string& way, const AngleCurves& curves, const Geometric& g,
+                  double edge_deg, double reach_deg) {
+    const auto line = [&](const std::string& what, const std::string& remark) {
+        return FigureLine{.label = fmt::format("Likeness, {}: {}", way, what), .unit = "deg", .remark = remark};
+    };
     const double low = g.diffused.at[0], high = g.diffused.at[1];
     const Falls expected{std::isnan(low) ? -edge_deg : low, std::isnan(high) ? edge_deg : high, reach_deg};
-    add_limits(result, json, name + ".", "gradient_edge_deg", where_it_falls(curves.share, expected));
-    add_rules(result, json, name + ".", curves.content, expected);
-    for (const auto& [region, curve] : {std::pair{"content", &curves.content}, {"screen", &curves.screen}}) {
-        Json of_region = Json::object();
-        add_rules(result, of_region, fmt::format("{}.{}.", name, region), *curve, expected);
-        json[region] = std::move(of_region);
-    }
-
-    const auto add = [&](const std::string& what, const Interval& measured, std::vector<double> theory, const std::string& remark) {
-        add_finding(result, fmt::format("Likeness, {}: {}", way, what), measured, std::move(theory), remark);
-    };
-    add("edge", where_it_falls(curves.share, expected), {expected.low, expected.high},
-        "where the scene's share in the view falls half-way; beside it the edge by geometry");
-    add("SSIM of the content half-way down", where_it_falls(curves.content, expected), {},
-        "early by up to half the diffuser's angle: SSIM falls with the first ghost");
-    const Interval of_screen = where_at_least(curves.screen, 0, least_view_ssim);
-    add(fmt::format("SSIM of the content {} or more", least_view_ssim), where_at_least(curves.content, 0, least_view_ssim), {},
-        "the published rule, where the content is");
-    add(fmt::format("SSIM of the whole screen {} or more", least_view_ssim), of_screen, {},
-        "the same with the background, which raises it where it is black in both pictures");
-    add(fmt::format("slope of the content's SSIM of {} a degree or less", most_slope_per_deg),
-        where_steady(curves.content, 0, most_slope_per_deg), {},
-        "the published rule, which ends before the edge where steps are of a degree");
+    FigureLine edge = line("edge", "where the scene's share in the view falls half-way; beside it the edge by geometry");
+    edge.theory = std::vector{expected.low, expected.high};
+    result.add(name + ".gradient_edge_deg", figure_of(where_it_falls(curves.share, expected)), edge);
+    const Rules content(curves.content, expected), screen(curves.screen, expected);
+    Json& json = result.figures[name];
+    add_rules(result, json, name + ".", content);
+    add_rules(result, json["content"], name + ".content.", content);
+    add_rules(result, json["screen"], name + ".screen.", screen);
+    result.add_line(figure_of(content.half_way), line("SSIM of the content half-way down",
+                                                      "early by up to half the diffuser's angle: SSIM falls with the first ghost"));
+    result.add_line(figure_of(content.ssim), line(fmt::format("SSIM of the content {} or more", least_view_ssim),
+                                                  "the published rule, where the content is"));
+    result.add_line(figure_of(screen.ssim),
+                    line(fmt::format("SSIM of the whole screen {} or more", least_view_ssim),
+                         "the same with the background, which raises it where it is black in both pictures"));
+    result.add_line(figure_of(content.gradient),
+                    line(fmt::format("slope of the content's SSIM of {} a degree or less", most_slope_per_deg),
+                         "the published rule, which ends before the edge where steps are of a degree"));
     // The views that are nearest to the axis, mostly on it.
     const std::vector<double>& angles = curves.content.at;
     const auto middle = std::ranges::min_element(angles, {}, [](double a) { return std::abs(a); });
-    const std::size_t k = std::size_t(middle - angles.begin());
-    const auto figure = [&](Json& of, const Curve& c) {
-        of["middle_ssim"] = number_json(c.value[k]);
-        of["middle_ssim_error"] = number_json(c.error);
-    };
-    figure(json, curves.content);
-    figure(json["content"], curves.content);
-    figure(json["screen"], curves.screen);
-    result.findings.push_back({fmt::format("Likeness, {}: SSIM of the content at {:.3g} degrees", way, *middle),
-                               "",
-                               {curves.content.value[k]},
-                               {},
-                               fmt::format("of the whole screen {:.4g}, which a background that is black in both pictures raises",
-                                           curves.screen.value[k]),
-                               {curves.content.error}});
+    const auto at_middle = [&](const Curve& c) { return Estimate{c.value[std::size_t(middle - angles.begin())], c.error}; };
+    result.add(name + ".middle_ssim", at_middle(curves.content),
+               {.label = fmt::format("Likeness, {}: SSIM of the content at {:.3g} degrees", way, *middle),
+                .remark = fmt::format("of the whole screen {:.4g}, which a background that is black in both pictures raises",
+                                      at_middle(curves.screen).value)});
+    result.add(name + ".content.middle_ssim", at_middle(curves.content));
+    result.add(name + ".screen.middle_ssim", at_middle(curves.screen));
 }
 
 /// How much more the edges by likeness lie to one side than those by geometry.
@@ -204,16 +203,15 @@ void add_eyebox(Result& result, const Subject& s, const std::array<OwnRange, 2>&
         const std::string why = r.missing[0].empty() ? r.missing[1] : r.missing[0];
         size.push_back(r.at[1] - r.at[0]);
         error.push_back(std::hypot(r.error[0], r.error[1]));
-        result.findings.push_back(
-            {axis == 0 ? "Eyebox, width" : "Eyebox, height",
-             "mm",
-             {size.back()},
-             {theory(axis)},
-             !why.empty() ? why
-             : hexagon && axis == 1
-                 ? "theory: from corner to corner of the hexagons' images; the lenses' blur takes light from corners first"
-                 : fmt::format("where an eye {:.4g} mm from the panel sees lenses' own images", s.viewing_distance_mm()),
-             {error.back()}});
+        result.add_line({Estimate{size.back(), error.back()}, why},
+                        {.label = axis == 0 ? "Eyebox, width" : "Eyebox, height",
+                         .unit = "mm",
+                         .theory = theory(axis),
+                         .remark = hexagon && axis == 1
+                                       ? "theory: from corner to corner of the hexagons' images; the lenses' blur takes light from "
+                                         "corners first"
+                                       : fmt::format("where an eye {:.4g} mm from the panel sees lenses' own images",
+                                                     s.viewing_distance_mm())});
         if (!why.empty()) missing = why;
     }
     result.figures["eyebox_mm"] = numbers_json(size);
@@ -321,12 +319,10 @@ Result measure_fov(Subject& subject, Job& job) {
         const std::string way = is_strips(display.array) ? "across the strips" : name;  // the arc's direction
         const Geometric& edges = geometric[std::size_t(axis)];
         const AngleCurves curves = measure(subject, shown, axis, angles, job);
-        Json json = Json::object();
         // A hexagon's image has a corner above its middle, where theory's pitch has none.
         const bool corner = axis == 1 && display.array.lattice == LatticeKind::hexagon;
-        add_geometry(result, json, name, way, edges, corner ? std::vector<double>{} : std::vector{-edge[axis], edge[axis]});
-        add_likeness(result, json, name, way, curves, edges, edge[axis], fades_over_deg(subject, axis));
-        result.figures[name] = std::move(json);
+        add_geometry(result, name, way, edges, corner ? FigureValue() : std::vector{-edge[axis], edge[axis]});
+        add_likeness(result, name, way, curves, edges, edge[axis], fades_over_deg(subject, axis));
         table.columns.push_back({name + "_ssim", curves.screen.value});
         table.columns.push_back({name + "_content_ssim", curves.content.value});
         table.columns.push_back({name + "_share", curves.share.value});
