@@ -151,16 +151,17 @@ void add_likeness(Result& result, const std::string& name, const std::string& wa
     add_rules(result, json, name + ".", content);
     add_rules(result, json["content"], name + ".content.", content);
     add_rules(result, json["screen"], name + ".screen.", screen);
-    result.add_line(figure_of(content.half_way), line("SSIM of the content half-way down",
-                                                      "early by up to half the diffuser's angle: SSIM falls with the first ghost"));
-    result.add_line(figure_of(content.ssim), line(fmt::format("SSIM of the content {} or more", least_view_ssim),
-                                                  "the published rule, where the content is"));
-    result.add_line(figure_of(screen.ssim),
-                    line(fmt::format("SSIM of the whole screen {} or more", least_view_ssim),
-                         "the same with the background, which raises it where it is black in both pictures"));
-    result.add_line(figure_of(content.gradient),
-                    line(fmt::format("slope of the content's SSIM of {} a degree or less", most_slope_per_deg),
-                         "the published rule, which ends before the edge where steps are of a degree"));
+    const auto add_line = [&](const Interval& found, const std::string& what, const std::string& remark) {
+        result.add_line(figure_of(found), line(what, remark));
+    };
+    add_line(content.half_way, "SSIM of the content half-way down",
+             "early by up to half the diffuser's angle: SSIM falls with the first ghost");
+    add_line(content.ssim, fmt::format("SSIM of the content {} or more", least_view_ssim),
+             "the published rule, where the content is");
+    add_line(screen.ssim, fmt::format("SSIM of the whole screen {} or more", least_view_ssim),
+             "the same with the background, which raises it where it is black in both pictures");
+    add_line(content.gradient, fmt::format("slope of the content's SSIM of {} a degree or less", most_slope_per_deg),
+             "the published rule, which ends before the edge where steps are of a degree");
     // The views that are nearest to the axis, mostly on it.
     const std::vector<double>& angles = curves.content.at;
     const auto middle = std::ranges::min_element(angles, {}, [](double a) { return std::abs(a); });

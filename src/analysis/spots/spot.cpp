@@ -68,39 +68,31 @@ Spot spot_at(const Subject& s, const Field& f, double z) {
 /// The table of all spots, as CSV and JSON.
 void tell_spots(const Subject& s, const std::vector<Field>& fields, const std::vector<double>& depths, double from_vertex,
                 Result& result) {
-    const std::vector<std::string> names{"panel_x_mm",
-                                         "panel_y_mm",
-                                         "field_deg",
-                                         "through_share",
-                                         "depth_mm",
-                                         "rms_radius_mm",
-                                         "meridional_width_mm",
-                                         "sagittal_width_mm",
-                                         "meridional_with_diffuser_mm",
-                                         "sagittal_with_diffuser_mm"};
     DataTable table{"spot", {}};
-    for (const std::string& name : names) table.columns.push_back({name, {}});
     Json& spots = result.figures["spots"] = Json::array();
     for (const Field& f : fields) {
         const double angle = std::atan(std::hypot(f.panel[0], f.panel[1]) / s.geometry().gap_mm) / degree;
         const double share = fields.front().light.light > 0 ? f.light.light / fields.front().light.light : nan;
         for (const double z : depths) {
             const Spot spot = spot_at(s, f, z);
-            const double row[] = {f.panel[0],
-                                  f.panel[1],
-                                  angle,
-                                  share,
-                                  z + from_vertex,
-                                  spot.rms,
-                                  spot.meridional,
-                                  spot.sagittal,
-                                  spot.meridional_diffused,
-                                  spot.sagittal_diffused};
+            const std::pair<const char*, double> row[] = {{"panel_x_mm", f.panel[0]},
+                                                          {"panel_y_mm", f.panel[1]},
+                                                          {"field_deg", angle},
+                                                          {"through_share", share},
+                                                          {"depth_mm", z + from_vertex},
+                                                          {"rms_radius_mm", spot.rms},
+                                                          {"meridional_width_mm", spot.meridional},
+                                                          {"sagittal_width_mm", spot.sagittal},
+                                                          {"meridional_with_diffuser_mm", spot.meridional_diffused},
+                                                          {"sagittal_with_diffuser_mm", spot.sagittal_diffused}};
             Json json{{"field", f.name}};
-            for (std::size_t c = 0; c < names.size(); ++c) {
-                table.columns[c].values.push_back(row[c]);
-                json[names[c]] = number_json(row[c]);
+            std::vector<double> values;
+            for (const auto& [name, value] : row) {
+                if (spots.empty()) table.columns.push_back({name, {}});
+                values.push_back(value);
+                json[name] = number_json(value);
             }
+            table.add_row(values);
             if (std::isnan(spot.rms))
                 result.note(fmt::format("spots.{}", spots.size()), "no light of this panel point gets through the lens");
             spots.push_back(std::move(json));
@@ -160,10 +152,10 @@ void tell_focus(const Subject& s, const std::vector<Field>& fields, const std::v
     std::vector<double> places;
     for (int k = 0; k < focus_steps; ++k)
         places.push_back(depths.front() + (depths.back() - depths.front()) * k / (focus_steps - 1));
-    DataTable table{"spot_through_focus", {{"depth_mm", {}}}};
-    for (const double z : places) table.columns[0].values.push_back(z + from_vertex);
-    const std::vector<double> at = table.columns[0].values;
-    Plot rms{"spot_through_focus", "Spot size through focus", "depth in front of the lenses, mm", "RMS radius, mm", {}};
+    std::vector<double> at;
+    for (const double z : places) at.push_back(z + from_vertex);
+    Curves rms("spot_through_focus", "Spot size through focus", "depth in front of the lenses, mm", "RMS radius, mm",
+               {"depth_mm", at});
     Plot width{"spot_width", "Width of the spot on the axis", "depth in front of the lenses, mm", "full width, mm", {}};
     std::vector<double> theory;
     const double L = s.theory().central_depth_mm, D = light_width_mm(s.display(), s.geometry())[0];
@@ -177,20 +169,18 @@ void tell_focus(const Subject& s, const std::vector<Field>& fields, const std::v
             full.push_back(spot.meridional);
             diffused_width.push_back(spot.meridional_diffused);
         }
-        rms.series.push_back({f.title, at, radius});
-        table.columns.push_back({fmt::format("{}_rms_radius_mm", f.name), radius});
+        rms.add(f.title, fmt::format("{}_rms_radius_mm", f.name), std::move(radius));
         if (&f != &fields.front()) continue;
         width.series.push_back({"traced", at, full});
         if (s.display().diffuser) width.series.push_back({"with the diffuser", at, diffused_width});
-        table.columns.push_back({"axis_width_mm", full});
-        table.columns.push_back({"axis_width_with_diffuser_mm", diffused_width});
+        rms.table.columns.push_back({"axis_width_mm", full});
+        rms.table.columns.push_back({"axis_width_with_diffuser_mm", diffused_width});
     }
     if (std::isfinite(L)) {
-        for (Plot* plot : {&rms, &width}) plot->marks.push_back({"central depth plane", L + from_vertex});
+        for (Plot* plot : {&rms.plot, &width}) plot->marks.push_back({"central depth plane", L + from_vertex});
         width.marks.push_back({"image of a panel pixel", s.theory().pixel_image_mm, false});
     }
-    result.tables.push_back(std::move(table));
-    result.plots.push_back(std::move(rms));
+    result.add(std::move(rms));
     result.plots.push_back(std::move(width));
 }
 
@@ -206,13 +196,16 @@ void tell_distortion(const Subject& s, const Distortion& d, Result& result) {
     const double rms = open > 0 ? std::sqrt(sum / open) : nan, mm = s.theory().pixel_image_mm;
     if (open == 0) most = nan;
     const double in_mm = std::isfinite(mm) ? mm : nan;
-    const double row[] = {most, rms, most * in_mm, rms * in_mm, double(open) / double(d.pixel_images.size())};
-    const char* names[] = {"max_pixel_images", "rms_pixel_images", "max_mm", "rms_mm", "lit_share"};
     DataTable table{"spot_distortion", {}};
-    for (int c = 0; c < 5; ++c) {
-        table.columns.push_back({names[c], {row[c]}});
-        result.figures["distortion"][names[c]] = number_json(row[c]);
-    }
+    const auto add = [&](const std::string& name, double value) {
+        result.add("distortion." + name, value);
+        table.columns.push_back({name, {value}});
+    };
+    add("max_pixel_images", most);
+    add("rms_pixel_images", rms);
+    add("max_mm", most * in_mm);
+    add("rms_mm", rms * in_mm);
+    add("lit_share", double(open) / double(d.pixel_images.size()));
     if (open == 0)
         result.note("distortion", "no light of any pixel of the elemental image gets through the lens");
     else if (!std::isfinite(mm))
@@ -225,12 +218,12 @@ void tell_distortion(const Subject& s, const Distortion& d, Result& result) {
                                "y on the panel, mm", "distance from the nodal line, images of a panel pixel", -p[0] / 2, p[0] / 2,
                                -p[1] / 2, p[1] / 2, d.columns, d.rows, d.pixel_images, 0, std::max(most, 1e-3)});
     }
-    result.findings.push_back({"Distortion of the elemental image: largest",
-                               "pixel images",
-                               {most},
-                               {0},
-                               "how far a panel pixel's light lands from where the elemental images place it; theory has none"});
-    result.findings.push_back({"Distortion of the elemental image: RMS", "pixel images", {rms}, {0}, ""});
+    result.add_line(most,
+                    {.label = "Distortion of the elemental image: largest",
+                     .unit = "pixel images",
+                     .theory = 0.,
+                     .remark = "how far a panel pixel's light lands from where the elemental images place it; theory has none"});
+    result.add_line(rms, {.label = "Distortion of the elemental image: RMS", .unit = "pixel images", .theory = 0.});
 }
 
 }  // namespace
@@ -312,8 +305,8 @@ Result measure_spot(Subject& s, Job& job) {
     const std::vector<Field> fields = trace_fields(s, lens);
     if (job.cancelled()) throw Stopped{};
     job.advance(1);
-    result.figures["central_depth_mm"] = number_json(s.theory().central_depth_mm + from_vertex);
-    result.figures["pixel_image_mm"] = number_json(s.theory().pixel_image_mm);
+    result.add("central_depth_mm", s.theory().central_depth_mm + from_vertex);
+    result.add("pixel_image_mm", s.theory().pixel_image_mm);
     tell_spots(s, fields, depths, from_vertex, result);
     for (const Field& f : fields) result.plots.push_back(diagram(s, lens, f, depths, from_vertex));
     std::vector<SpotField> coloured;
@@ -326,23 +319,22 @@ Result measure_spot(Subject& s, Job& job) {
     const double L = s.theory().central_depth_mm, D = light_width_mm(s.display(), s.geometry())[0];
     for (const std::size_t k : {std::size_t(0), depths.size() / 2, depths.size() - 1}) {
         const double z = depths[k];
-        result.findings.push_back(
-            {fmt::format("Full width of the spot on the axis, {:.4g} mm in front of the lenses", z + from_vertex),
-             "mm",
-             {spot_at(s, fields.front(), z).meridional},
-             {D * std::abs(std::isinf(L) ? 1 : z / L - 1)},
-             "theory is paraxial: what differs is aberration"});
+        result.add_line(
+            spot_at(s, fields.front(), z).meridional,
+            {.label = fmt::format("Full width of the spot on the axis, {:.4g} mm in front of the lenses", z + from_vertex),
+             .unit = "mm",
+             .theory = D * std::abs(std::isinf(L) ? 1 : z / L - 1),
+             .remark = "theory is paraxial: what differs is aberration"});
     }
     const double middle = depths[depths.size() / 2];
     for (const Field& f : fields)
-        result.findings.push_back(
-            {fmt::format("RMS radius of the spot, {}, {:.4g} mm in front of the lenses", f.title, middle + from_vertex),
-             "mm",
-             {spot_at(s, f, middle).rms},
-             {},
-             is_strips(s.display().array)
-                 ? "of the light of a Lambertian panel point in the plane across the strips, about its centroid"
-                 : "of the light of a Lambertian panel point about its centroid"});
+        result.add_line(
+            spot_at(s, f, middle).rms,
+            {.label = fmt::format("RMS radius of the spot, {}, {:.4g} mm in front of the lenses", f.title, middle + from_vertex),
+             .unit = "mm",
+             .remark = is_strips(s.display().array)
+                           ? "of the light of a Lambertian panel point in the plane across the strips, about its centroid"
+                           : "of the light of a Lambertian panel point about its centroid"});
     tell_distortion(s, distortion(s.display(), s.geometry(), s.theory(), s.threads(), job), result);
     job.advance(2);
     if (fields.front().light.rays.empty())

@@ -75,17 +75,14 @@ void tell_colours(const Subject& s, const std::vector<SpotField>& fields, Result
                                   {"focal_length_mm", number_json(at[c].geometry.focal_length_mm)},
                                   {"central_depth_mm", number_json(central_depth_mm(s, at[c]) + from_vertex)}};
     const double axial = central_depth_mm(s, at[0]) - central_depth_mm(s, at[2]);
-    json["axial_mm"] = number_json(axial);
-    result.findings.push_back({"Axial colour: central depth plane of red beyond that of blue",
-                               "mm",
-                               {axial},
-                               {},
-                               "paraxial, with each colour's own focal length and gap"});
+    result.add("colour.axial_mm", axial,
+               {.label = "Axial colour: central depth plane of red beyond that of blue",
+                .unit = "mm",
+                .remark = "paraxial, with each colour's own focal length and gap"});
 
     // Where L is infinite: at a depth that the other figures are told at.
     const double L = s.theory().central_depth_mm, depth = std::isinf(L) ? spot_depths_mm(s.theory())[2] : L;
-    DataTable table{"spot_colour",
-                    {{"panel_x_mm", {}}, {"panel_y_mm", {}}, {"channel", {}}, {"x_mm", {}}, {"y_mm", {}}, {"rms_radius_mm", {}}}};
+    DataTable table = DataTable::of_rows("spot_colour", {"panel_x_mm", "panel_y_mm", "channel", "x_mm", "y_mm", "rms_radius_mm"});
     Json& lateral = json["lateral"] = Json::array();
     for (const SpotField& field : fields) {
         std::array<Bundle, 3> shown;
@@ -99,8 +96,7 @@ void tell_colours(const Subject& s, const std::vector<SpotField>& fields, Result
                 middle[c][grid] = light.rays.empty() ? Centroid{nan, nan, nan} : centroid_at(light, depth);
             }
             const Centroid& finest = middle[c].front();
-            const double row[] = {field.panel[0], field.panel[1], double(c), finest.x, finest.y, finest.rms};
-            for (std::size_t k = 0; k < 6; ++k) table.columns[k].values.push_back(row[k]);
+            table.add_row({field.panel[0], field.panel[1], double(c), finest.x, finest.y, finest.rms});
         }
         const auto from_green = [&](std::size_t c) {
             std::array<double, colour_rays.size()> found;
@@ -119,12 +115,10 @@ void tell_colours(const Subject& s, const std::vector<SpotField>& fields, Result
             result.note(fmt::format("colour.lateral.{}", lateral.size() - 1), "no light of this panel point gets through the lens");
             continue;
         }
-        result.findings.push_back({fmt::format("Lateral colour, {}: red and blue from green", field.title),
-                                   "mm",
-                                   {red.value, blue.value},
-                                   {},
-                                   fmt::format("centroids of spots {:.4g} mm in front of the lenses", depth + from_vertex),
-                                   {red.error, blue.error}});
+        result.add_line({red, blue},
+                        {.label = fmt::format("Lateral colour, {}: red and blue from green", field.title),
+                         .unit = "mm",
+                         .remark = fmt::format("centroids of spots {:.4g} mm in front of the lenses", depth + from_vertex)});
         result.plots.push_back(colour_diagram(field, shown, depth, from_vertex));
     }
     result.tables.push_back(std::move(table));
