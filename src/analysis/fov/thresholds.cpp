@@ -158,20 +158,8 @@ Interval on_side_of_zero(Interval i, bool above, const std::string& nothing_ther
     return known(i, 0);
 }
 
-FigureValue figure_of(const Interval& i) { return {bounds(i), std::vector{i.low.error, i.high.error}, why_missing(i)}; }
-Json limits_json(const Interval& i) { return numbers_json(bounds(i)); }
-std::vector<double> bounds(const Interval& i) { return {i.low.at, i.high.at}; }
-
-Finding finding(const std::string& what, const std::string& unit, const Interval& i, std::vector<double> theory,
-                const std::string& remark) {
-    const std::string why = why_missing(i);
-    return {what, unit, bounds(i), std::move(theory), why.empty() ? remark : why, {i.low.error, i.high.error}};
-}
-
-void add_limits(Result& result, Json& figures, const std::string& path, const std::string& name, const Interval& i) {
-    figures[name] = limits_json(i);
-    figures[name + "_error"] = numbers_json({i.low.error, i.high.error});
-    if (const std::string why = why_missing(i); !why.empty()) result.note(path + name, why);
+FigureValue figure_of(const Interval& i) {
+    return {std::vector{i.low.at, i.high.at}, std::vector{i.low.error, i.high.error}, why_missing(i)};
 }
 
 }  // namespace lfdsim

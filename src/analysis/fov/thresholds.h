@@ -62,15 +62,4 @@ Interval on_side_of_zero(Interval, bool above, const std::string& nothing_there)
 /// As a figure of a measure, which is missing where a limit is.
 FigureValue figure_of(const Interval&);
 
-/// [low, high] with null where there is none.
-Json limits_json(const Interval&);
-/// For Finding::measured.
-std::vector<double> bounds(const Interval&);
-/// If a limit is missing, the reason replaces the remark.
-Finding finding(const std::string& what, const std::string& unit, const Interval&, std::vector<double> theory,
-                const std::string& remark);
-
-/// Writes figures[name] and figures[name + "_error"], and notes under path + name why a limit is missing.
-void add_limits(Result&, Json& figures, const std::string& path, const std::string& name, const Interval&);
-
 }  // namespace lfdsim

@@ -68,28 +68,27 @@ PlotBar add_rules(Result& result, const std::string& region, const Curve& curve,
     const double most_alike = curve.at[std::size_t(std::ranges::max_element(curve.value) - curve.value.begin())];
     const Interval by_ssim = explained(where_at_least(curve, most_alike, least_depth_ssim), run),
                    steady = explained(where_steady(curve, most_alike, most_slope_per_mm), run);
-    Json json{{"most_alike_mm", most_alike}, {"ssim_error", curve.error}, {"region", region}};
     const std::string path = content ? "" : "screen.";
-    add_limits(result, json, path, "ssim_rule_mm", by_ssim);
-    add_limits(result, json, path, "gradient_rule_mm", steady);
-    if (!content) {
-        result.figures["screen"] = std::move(json);
-        return {};
-    }
-    result.figures.update(json);
+    Json& json = content ? result.figures : result.figures["screen"];
+    json.update({{"most_alike_mm", most_alike}, {"ssim_error", curve.error}, {"region", region}});
+    result.add(path + "ssim_rule_mm", figure_of(by_ssim));
+    result.add(path + "gradient_rule_mm", figure_of(steady));
+    if (!content) return {};
     const Interval both = narrower(by_ssim, steady);
     Json& spans = result.figures["by_likeness"];
     PlotBar bar{"by likeness", {}};
     for (const bool in_front : {false, true}) {
         const std::string name = in_front ? "in_front_mm" : "behind_mm";
         const Interval side = on_side_of_zero(both, in_front, "no depth on this side of the lenses keeps the rule");
-        spans[name] = side.empty ? Json() : limits_json(side);
-        spans[name + "_error"] = side.empty ? Json() : numbers_json({side.low.error, side.high.error});
-        const Finding line =
-            finding(fmt::format("Depth of field by likeness, {} the lenses", in_front ? "in front of" : "behind"), "mm", side, {},
-                    "the published rule: SSIM of the content is 0.85 or more and changes by 0.02 a centimetre or less");
-        if (!side.low.missing.empty() || !side.high.missing.empty()) result.note("by_likeness." + name, line.remark);
-        result.findings.push_back(line);
+        const FigureValue found = figure_of(side);
+        spans[name] = side.empty ? Json() : numbers_json(found.numbers);
+        spans[name + "_error"] = side.empty ? Json() : numbers_json(found.errors);
+        if (!found.missing.empty()) result.note("by_likeness." + name, found.missing);
+        result.add_line(found,
+                        {.label = fmt::format("Depth of field by likeness, {} the lenses", in_front ? "in front of" : "behind"),
+                         .unit = "mm",
+                         .remark = "the published rule: SSIM of the content is 0.85 or more and changes by 0.02 a centimetre "
+                                   "or less"});
         const auto end = [](const Limit& l, double beyond) { return l.searched_out ? beyond : l.place(); };
         if (!side.empty) bar.spans.push_back({end(side.low, -infinity), end(side.high, infinity)});
     }
@@ -102,13 +101,11 @@ void add_resolution(const Subject& s, Result& result, const std::vector<double>&
     const double eye = eye_distance_mm(s.display());
     const auto by_lens = [&](double z) { return lens_limit_per_mm(g, s.theory(), z, eye); };
     const auto by_pixel = [&](double z) { return pixel_limit_per_mm(s.display(), g, z); };
-    DataTable table{
-        "dof_resolution",
-        {{"depth_mm", depths}, {"lens_per_mm", {}}, {"pixel_per_mm", {}}, {"lens_per_degree", {}}, {"pixel_per_degree", {}}}};
+    DataTable table =
+        DataTable::of_rows("dof_resolution", {"depth_mm", "lens_per_mm", "pixel_per_mm", "lens_per_degree", "pixel_per_degree"});
     for (const double z : depths) {
         const double lens = by_lens(z), pixel = by_pixel(z);
-        const double row[] = {lens, pixel, cycles_per_degree(g, lens, z, eye), cycles_per_degree(g, pixel, z, eye)};
-        for (std::size_t k = 0; k < 4; ++k) table.columns[k + 1].values.push_back(row[k]);
+        table.add_row({z, lens, pixel, cycles_per_degree(g, lens, z, eye), cycles_per_degree(g, pixel, z, eye)});
     }
     Plot plot{"dof_resolution", "Finest detail by theory", "depth in front of the lenses, mm", "cycles per degree", {}};
     std::vector<double> pixel = table.columns[4].values;
@@ -116,17 +113,16 @@ void add_resolution(const Subject& s, Result& result, const std::vector<double>&
     for (double& x : pixel)
         if (!(x <= most)) x = nan;  // near the lenses it grows without end
     plot.series = {{"of the lens pitch", depths, table.columns[3].values}, {"of the panel's pixels", depths, std::move(pixel)}};
-    Json& json = result.figures["resolution"];
-    json["at_the_lenses_per_mm"] = number_json(by_lens(0));
-    json["at_the_lenses_per_degree"] = number_json(cycles_per_degree(g, by_lens(0), 0, eye));
     const double z = g.content_depth_mm, at_content = std::min(by_lens(z), by_pixel(z));
-    json["at_the_content_per_mm"] = number_json(at_content);
-    json["at_the_content_per_degree"] = number_json(cycles_per_degree(g, at_content, z, eye));
-    result.findings.push_back({"Resolution where the content stands: limit of lenses and pixels",
-                               "cycles per degree",
-                               {},
-                               {cycles_per_degree(g, at_content, z, eye)},
-                               fmt::format("{:.4g} cycles per mm, {:.4g} mm in front of the lenses", at_content, z)});
+    const FigureValue per_degree = cycles_per_degree(g, at_content, z, eye);
+    result.add("resolution.at_the_lenses_per_mm", by_lens(0));
+    result.add("resolution.at_the_lenses_per_degree", cycles_per_degree(g, by_lens(0), 0, eye));
+    result.add("resolution.at_the_content_per_mm", at_content);
+    result.add("resolution.at_the_content_per_degree", per_degree);
+    result.add_line({}, {.label = "Resolution where the content stands: limit of lenses and pixels",
+                         .unit = "cycles per degree",
+                         .theory = per_degree,
+                         .remark = fmt::format("{:.4g} cycles per mm, {:.4g} mm in front of the lenses", at_content, z)});
     result.tables.push_back(std::move(table));
     result.plots.push_back(std::move(plot));
 }
@@ -177,7 +173,8 @@ Result measure_dof(Subject& s, Job& job) {
     Result result;
     const Geometry& g = s.geometry();
     add_spot_depths(s, result);
-    result.figures["central_depth_mm"] = number_json(s.theory().central_depth_mm + g.rear_principal_mm - g.vertex_plane_mm);
+    const double central = s.theory().central_depth_mm + g.rear_principal_mm - g.vertex_plane_mm;
+    result.add("central_depth_mm", central);
     Plot plot{"dof",
               "Likeness of the simulated view to the scene",
               "depth of the scene in front of the lenses, mm",
@@ -188,7 +185,6 @@ Result measure_dof(Subject& s, Job& job) {
         plot.bars.push_back({label, spans_of(result.figures.at(key))});
     const DepthRun run = dof_depths(s);
     add_likeness(s, result, plot, run, job);
-    const double central = s.theory().central_depth_mm + g.rear_principal_mm - g.vertex_plane_mm;
     if (!plot.series.empty() && central > run.depths_mm.front() && central < run.depths_mm.back())
         plot.marks.push_back({"central depth plane", central});
     if (!plot.series.empty()) {

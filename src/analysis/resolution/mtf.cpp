@@ -114,12 +114,10 @@ void add_findings(const MtfCurves& m, const Resolution& r, Result& result) {
         if (r.per_mm.value < 0.9 * r.theory_per_mm)
             remark += "; aberrations and light through other lenses blur more than paraxial theory predicts";
     }
-    result.findings.push_back({fmt::format("Resolution at {:.4g} mm, {}", m.depth_mm, label(m.direction, m.angle_deg)),
-                               "per mm",
-                               {r.per_mm.value},
-                               {r.theory_per_mm},
-                               std::move(remark),
-                               {r.per_mm.error}});
+    result.add_line(r.per_mm, {.label = fmt::format("Resolution at {:.4g} mm, {}", m.depth_mm, label(m.direction, m.angle_deg)),
+                               .unit = "per mm",
+                               .theory = r.theory_per_mm,
+                               .remark = remark});
 }
 
 /// The plot of the curves at one depth.
@@ -163,15 +161,9 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
     Plot plot{"mtf50", "Resolution: MTF50, or the limit below it", "depth in front of the lenses, mm", "cycles per mm", {}};
     DataTable table{"mtf50", {{"depth_mm", depths}}};
     for (const Direction& direction : directions(s.display())) {
-        DataTable all_curves{std::string("mtf_") + direction.name,
-                             {{"depth_mm", {}},
-                              {"angle_deg", {}},
-                              {"frequency_per_mm", {}},
-                              {"modulation", {}},
-                              {"edge_red", {}},
-                              {"edge_green", {}},
-                              {"edge_blue", {}},
-                              {"theory", {}}}};
+        DataTable all_curves = DataTable::of_rows(
+            std::string("mtf_") + direction.name,
+            {"depth_mm", "angle_deg", "frequency_per_mm", "modulation", "edge_red", "edge_green", "edge_blue", "theory"});
         if (has_colours(s.display()))
             for (const char* kind : {"", "theory_"})
                 for (const char* colour : colour_of_channel) all_curves.columns.push_back({std::string(kind) + colour, {}});
@@ -199,7 +191,7 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
                                     m.theory[k]};
                     for (const ChannelMtf& channel : m.channels) row.push_back(value(channel.modulation));
                     for (const ChannelMtf& channel : m.channels) row.push_back(channel.theory[k]);
-                    for (std::size_t c = 0; c < row.size(); ++c) all_curves.columns[c].values.push_back(row[c]);
+                    all_curves.add_row(row);
                 }
             }
             plot.series.push_back({label(direction, angle), depths, resolved.values});
@@ -307,7 +299,7 @@ Result measure_mtf(Subject& s, Job& job) {
     result.figures["slant_deg"] = slant_deg;
     result.figures["lens_sampling_limit_per_mm"] =
         axes_json(s.display().array, s.theory(0).lens_sampling_limit_per_mm, s.theory(1).lens_sampling_limit_per_mm);
-    result.figures["pixel_image_limit_per_mm"] = number_json(s.theory().pixel_image_limit_per_mm);
+    result.add("pixel_image_limit_per_mm", s.theory().pixel_image_limit_per_mm);
     result.figures["measurements"] = Json::array();
     for (std::size_t n = 0; n < all.size(); ++n) {
         const Resolution r = resolution(s, all[n]);

@@ -75,24 +75,19 @@ void tell_mtf_of_colours(std::span<const MtfCurves* const> at_depth, Result& res
     if (!first) return;
     for (std::size_t c = 0; c < 3; ++c) {
         const Estimate mtf50 = first->below(0.5, c).found;
-        result.findings.push_back({fmt::format("MTF50 of {} at {:.4g} mm, {}, {:.3g} degrees", colour_of_channel[c],
-                                               first->depth_mm, first->direction.told, first->angle_deg),
-                                   "per mm",
-                                   {mtf50.value},
-                                   {first->theory_below(0.5, c)},
-                                   std::isnan(mtf50.value)
-                                       ? "MTF is not surely below one half as far as was measured"
-                                       : fmt::format("{:.4g} cycles per degree", mtf50.value * first->mm_per_deg),
-                                   {mtf50.error}});
+        result.add_line({mtf50, "MTF is not surely below one half as far as was measured"},
+                        {.label = fmt::format("MTF50 of {} at {:.4g} mm, {}, {:.3g} degrees", colour_of_channel[c], first->depth_mm,
+                                              first->direction.told, first->angle_deg),
+                         .unit = "per mm",
+                         .theory = first->theory_below(0.5, c),
+                         .remark = fmt::format("{:.4g} cycles per degree", mtf50.value * first->mm_per_deg)});
     }
-    const Estimate red = from_green(*last, 0), blue = from_green(*last, 2);
-    result.findings.push_back({fmt::format("Red and blue from green at {:.4g} mm, {}, {:.3g} degrees", last->depth_mm,
-                                           last->direction.told, last->angle_deg),
-                               "mm",
-                               {red.value, blue.value},
-                               {theory_from_green(*last, 0), theory_from_green(*last, 2)},
-                               "of what is shown, in the mean over the screen: the width of an edge's coloured fringe",
-                               {red.error, blue.error}});
+    result.add_line({from_green(*last, 0), from_green(*last, 2)},
+                    {.label = fmt::format("Red and blue from green at {:.4g} mm, {}, {:.3g} degrees", last->depth_mm,
+                                          last->direction.told, last->angle_deg),
+                     .unit = "mm",
+                     .theory = std::vector{theory_from_green(*last, 0), theory_from_green(*last, 2)},
+                     .remark = "of what is shown, in the mean over the screen: the width of an edge's coloured fringe"});
     result.plots.push_back(colour_plot(*first, "mtf_colour"));
     if (last != first) result.plots.push_back(colour_plot(*last, "mtf_colour_aside"));
 }

@@ -84,34 +84,32 @@ class Teller {
         for (const bool in_front : {false, true}) {
             const std::string side = in_front ? "in_front_mm" : "behind_mm";
             const DepthSpan of_theory = in_front ? theory.in_front : theory.behind;
-            Finding finding{fmt::format("Depth of field {}, {} the lenses", what, in_front ? "in front of" : "behind"),
-                            "mm",
-                            {},
-                            pair(of_theory),
-                            remark};
+            FigureValue value;
             if (found) {
                 const auto part = [&](const SharpRange& r) { return in_front ? r.in_front : r.behind; };
                 const DepthSpan span = part(found->range), least = part(found->least), most = part(found->most);
-                finding.measured = {span.low, span.high};
-                finding.error = {error(span.low, least.low, most.low), error(span.high, least.high, most.high)};
-                std::string why;
-                if (span.empty()) why = !found->missing.empty() ? found->missing : "no depth on this side of the lenses is sharp";
+                value = FigureValue(Estimate{span.low, error(span.low, least.low, most.low)},
+                                    Estimate{span.high, error(span.high, least.high, most.high)});
+                if (span.empty())
+                    value.missing = !found->missing.empty() ? found->missing : "no depth on this side of the lenses is sharp";
                 for (std::size_t k = 0; k < 2; ++k)
-                    if (finding.error[k] > std::abs(finding.measured[k])) {
-                        why = fmt::format("an end at {:.4g} mm has an error of {:.2g} mm, more than itself", finding.measured[k],
-                                          finding.error[k]);
-                        finding.measured[k] = finding.error[k] = nan;
+                    if (value.errors[k] > std::abs(value.numbers[k])) {
+                        value.missing = fmt::format("an end at {:.4g} mm has an error of {:.2g} mm, more than itself",
+                                                    value.numbers[k], value.errors[k]);
+                        value.numbers[k] = value.errors[k] = nan;
                     }
-                json[side] = span.empty() ? Json() : numbers_json(finding.measured);
-                json[side + "_error"] = span.empty() ? Json() : numbers_json(finding.error);
-                if (!why.empty()) {
-                    result_.note(key + "." + side, why);
-                    finding.remark = why;
-                }
+                json[side] = span.empty() ? Json() : numbers_json(value.numbers);
+                json[side + "_error"] = span.empty() ? Json() : numbers_json(value.errors);
+                if (!value.missing.empty()) result_.note(key + "." + side, value.missing);
             }
             json["theory_" + side] = of_theory.empty() ? Json() : numbers_json({of_theory.low, of_theory.high});
             if (of_theory.empty()) result_.note(key + ".theory_" + side, "no depth on this side of the lenses is sharp by theory");
-            if (!finding.measured.empty() || !finding.theory.empty()) result_.findings.push_back(std::move(finding));
+            if (found || !of_theory.empty())
+                result_.add_line(
+                    value, {.label = fmt::format("Depth of field {}, {} the lenses", what, in_front ? "in front of" : "behind"),
+                            .unit = "mm",
+                            .theory = of_theory.empty() ? FigureValue() : std::vector{of_theory.low, of_theory.high},
+                            .remark = remark});
         }
     }
 
@@ -136,8 +134,8 @@ class Teller {
                 return range_of_inverse(geometry_, depths.near_per_mm + by * error[0], depths.far_per_mm - by * error[1], eye_mm_);
             };
             found = {range(0), range(-1), range(1), {}};
-            result_.figures[diopters] = numbers_json({1000 * depths.near_per_mm, 1000 * depths.far_per_mm});
-            result_.figures[diopters + "_error"] = numbers_json({1000 * error[0], 1000 * error[1]});
+            result_.add(diopters, {Estimate{1000 * depths.near_per_mm, 1000 * error[0]},
+                                   Estimate{1000 * depths.far_per_mm, 1000 * error[1]}});
         }
         tell(key, what, found, theory, remark);
     }
@@ -169,9 +167,6 @@ class Teller {
     double pixel_slope() const { return pixel_slope_; }
 
   private:
-    static std::vector<double> pair(const DepthSpan& span) {
-        return span.empty() ? std::vector<double>{} : std::vector{span.low, span.high};
-    }
     /// Of an end, from where its interval's least and greatest have it; an end at the lenses or at the viewer has none.
     static double error(double at, double least, double most) {
         if (std::isinf(at) || std::isnan(at)) return std::isnan(at) ? nan : 0;
@@ -240,8 +235,8 @@ SharpDepths add_spot_depths(const Subject& s, Result& result) {
     tell.by_pixel("by_pixel", "spot_diopters", "by the pixel", fan, 0, by_pixel,
                   "where the spot of the panel's point on the axis, traced, is no wider than a pixel's image; theory is paraxial: "
                   "where they differ the lens's aberrations are the cause");
-    result.figures["spot_best_mm"] = number_json(depth_mm(traced.best_per_mm) + g.rear_principal_mm - g.vertex_plane_mm);
-    result.figures["spot_least_pixel_images"] = number_json(traced.least_width / tell.pixel_slope());
+    result.add("spot_best_mm", depth_mm(traced.best_per_mm) + g.rear_principal_mm - g.vertex_plane_mm);
+    result.add("spot_least_pixel_images", traced.least_width / tell.pixel_slope());
     if (fan.all.empty())
         for (const char* name : {"spot_best_mm", "spot_least_pixel_images"}) result.note(name, "no light gets through the lens");
     if (s.display().diffuser) {
@@ -254,7 +249,7 @@ SharpDepths add_spot_depths(const Subject& s, Result& result) {
                   fmt::format("by the pixel, with the Airy disk at {} nm", s.options().wavelength_nm), fan,
                   2.44 * wavelength_mm / D, by_pixel, "2.44 wavelength z / D, added in quadrature");
     const auto [near, far] = quarter_wave_per_mm(t.central_depth_mm, D, wavelength_mm);
-    result.figures["diffraction_quarter_wave_diopters"] = numbers_json({1000 * near, 1000 * far});
+    result.add("diffraction_quarter_wave_diopters", std::vector{1000 * near, 1000 * far});
     tell.tell("by_quarter_wave", "by a quarter of a wave, of a perfect lens", {}, range_of_inverse(g, near, far, eye),
               "where defocus begins to show beside diffraction; pixels coarser than the Airy disk allow more");
     return traced;
