@@ -120,7 +120,7 @@ std::shared_ptr<Measured> analyze(const Display& display, const std::string& nam
         if (auto problem = refusal(measure, display)) throw InputError(std::vector{std::move(*problem)});
         require_panel_memory(display);
         std::optional<ContentScene> scene;
-        if (measure.needs_scene) {
+        if (measure.needs.scene) {
             const Geometry geometry = resolve(display);
             if (display.content.depth_mm) refuse_depth_in_lenses(geometry, *display.content.depth_mm, "content.depth_mm");
             scene = scene_of(display, geometry, made->notes, job);

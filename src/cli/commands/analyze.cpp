@@ -249,7 +249,7 @@ Outcome measure(const AnalyzeArguments& args, const Request& request, const Disp
     const std::vector<const Measure*>& wanted = request.wanted;
     const AnalysisOptions& options = request.options;
     std::optional<ContentScene> scene;
-    if (std::any_of(wanted.begin(), wanted.end(), [](const Measure* m) { return m->needs_scene; })) {
+    if (std::any_of(wanted.begin(), wanted.end(), [](const Measure* m) { return m->needs.scene; })) {
         const Geometry geometry = resolve(display);
         if (display.content.depth_mm) refuse_depth_in_lenses(geometry, *display.content.depth_mm, "content.depth_mm");
         scene = load_scene(display, geometry);
