@@ -45,7 +45,7 @@ class Design {
         choose_views();
         find_gap();
         make_lenses();
-        make_view();
+        make_ray_origin();
         if (const std::vector<Problem> problems = validate(d_); !problems.empty())
             throw InputError("--distance-mm", fmt::format("is {:g}, which gives no valid display: {} {}", r_.distance_mm,
                                                           problems[0].where, problems[0].what));
@@ -209,7 +209,7 @@ class Design {
         }
     }
 
-    void make_view() {
+    void make_ray_origin() {
         const double width = double(r_.pixels[0]) * a_, height = double(r_.pixels[1]) * a_;
         // Between two views an eye would see both.
         d_.camera.position_mm = {made_.two_view ? rounded(made_.view_step_mm / 2) : 0, 0, r_.distance_mm};

@@ -6,7 +6,7 @@
 #include "engine/estimator/choice.h"
 #include "engine/estimator/gaussian_parts.h"
 #include "engine/estimator/refine.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "engine/scene/tracer.h"
 #include "engine/scene/work.h"
 
@@ -266,7 +266,7 @@ Rendering render_with(const Tracer& tracer, const Display& display, const Geomet
                       const std::vector<optics::SummedImage>& planes, const RenderOptions& options, Job& job) {
     check_threads(options);
     Work work(display, geometry, planes, options);
-    work.tile.scene = &tracer.scene;
+    work.tile.display = &tracer.scene;
     begin_stage(work, 1, job);
     return render(work, tracer.name, tracer.run, options, job);
 }

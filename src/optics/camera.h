@@ -7,7 +7,7 @@
 #include "optics/lens_array.h"
 #include "optics/panel.h"
 #include "optics/sampler.h"
-#include "optics/scene.h"
+#include "optics/traced_display.h"
 #include "simd/elementary.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
@@ -36,13 +36,13 @@ constexpr std::int32_t shared_width = 4, shared_height = 4;
 
 /// The ray through the point (column, row) of the frame, in pixels: its direction, not normalised, and where it crosses the first
 /// plane, in the array's frame. A ray that goes away from the display does not cross it; it gets some finite point.
-LFDSIM_FN void follow_to_first_plane(const View& view, double column, double row, double d[3], double& x, double& y) {
+LFDSIM_FN void follow_to_first_plane(const RayOrigin& view, double column, double row, double d[3], double& x, double& y) {
     const double sx = (column - 0.5 * view.width) * view.pixel_mm, sy = (0.5 * view.height - row) * view.pixel_mm;
     for (int a = 0; a < 3; ++a) d[a] = view.forward[a] * view.distance + view.right[a] * sx + view.up[a] * sy;
     const double down = d[2] < -1e-9 * view.distance ? d[2] : -view.distance;
     const double t = (view.start_z - view.position[2]) / down;
     const Lattice<double>& lattice = view.lattice;
-    const Place<double> at =
+    const Vec2<double> at =
         to_array(lattice, view.position[0] + d[0] * t - lattice.offset[0], view.position[1] + d[1] * t - lattice.offset[1]);
     x = at.x;
     y = at.y;
@@ -57,12 +57,12 @@ struct BaseLens {
     PanelBase<S> panel;
 };
 template <class S>
-LFDSIM_FN BaseLens<S> base_lens(const View& view, double column, double row) {
+LFDSIM_FN BaseLens<S> base_lens(const RayOrigin& view, double column, double row) {
     double d[3], x0, y0;
     follow_to_first_plane(view, column, row, d, x0, y0);
     const double nx = view.lattice.count[0], ny = view.lattice.count[1];
     const auto [i, j] = base_cell(view.lattice, lens_at(view.lattice, x0, y0));
-    Place<double> axis = axis_in_array(view.lattice, Cell<double>{i, j});
+    Vec2<double> axis = axis_in_array(view.lattice, Cell<double>{i, j});
     if (view.lattice.strips) axis.y = y0;  // any point of a strip's axis serves
     S raised = 0;
     if (view.wedged) {
@@ -70,7 +70,7 @@ LFDSIM_FN BaseLens<S> base_lens(const View& view, double column, double row) {
         raised = S(along(2));
         axis = {along(0), along(1)};
     }
-    const Place<double> at = in_display(view.lattice, axis);
+    const Vec2<double> at = in_display(view.lattice, axis);
     const double u = (at.x + 0.5 * view.panel_width) * view.pixels_per_mm,
                  v = (0.5 * view.panel_height - at.y) * view.pixels_per_mm;
     const double whole_u = __builtin_floor(u), whole_v = __builtin_floor(v);
@@ -82,7 +82,7 @@ LFDSIM_FN BaseLens<S> base_lens(const View& view, double column, double row) {
 
 /// The rays of the block whose first pixel is (column, row), multiples of the block's size.
 template <class F>
-LFDSIM_FN PixelRays<F> pixel_rays(const View& view, std::int32_t column, std::int32_t row) {
+LFDSIM_FN PixelRays<F> pixel_rays(const RayOrigin& view, std::int32_t column, std::int32_t row) {
     using S = Scalar<F>;
     constexpr int N = LaneTraits<F>::width;
     const BaseLens<S> lens = base_lens<S>(view, column / shared_width * shared_width + shared_width / 2,
@@ -131,7 +131,7 @@ LFDSIM_FN void disk(F a, F b, F& x, F& y) {
 /// pinhole moved by `lens` (half pupils). With the unit direction d through the centre, m = d_xy / d_z and H the height of the
 /// plane above the camera, a change e of direction moves the ray by H (e_xy - m e_z) / (d_z + e_z): no large numbers cancel.
 template <class F>
-LFDSIM_RARE Ray<F> displaced(const View& view, const PixelRays<F>& pixels, F jitter_x, F jitter_y, F lens_x, F lens_y) {
+LFDSIM_RARE Ray<F> displaced(const RayOrigin& view, const PixelRays<F>& pixels, F jitter_x, F jitter_y, F lens_x, F lens_y) {
     using S = Scalar<F>;
     const F h = F(S(view.start_z - view.position[2])), half = F(S(0.5 * view.pixel_mm)), pupil = F(S(view.pupil_radius));
     auto along = [&](F right, F up, int axis) { return right * F(S(view.right[axis])) + up * F(S(view.up[axis])); };

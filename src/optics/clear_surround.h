@@ -8,7 +8,7 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// The nearest crossing found so far on a ray: path length to it, and the normal there, towards the outside.
+/// The nearest crossing of a ray among those tested: the path length to it, and the normal there, towards the outside.
 template <class F>
 struct Crossing {
     F t;
@@ -16,9 +16,9 @@ struct Crossing {
     Cell<F> cell;
     Mask<F> found;
 
-    LFDSIM_FN void take(Mask<F> valid, F way, Vec3<F> n, Cell<F> in) {
-        const Mask<F> nearer = valid && (way < t);
-        t = select(nearer, way, t);
+    LFDSIM_FN void take(Mask<F> valid, F path_length, Vec3<F> n, Cell<F> in) {
+        const Mask<F> nearer = valid && (path_length < t);
+        t = select(nearer, path_length, t);
         normal = {select(nearer, n.x, normal.x), select(nearer, n.y, normal.y), select(nearer, n.z, normal.z)};
         cell = {select(nearer, in.i, cell.i), select(nearer, in.j, cell.j)};
         found = found || nearer;
@@ -32,7 +32,7 @@ template <class F>
 LFDSIM_FN F slack() {
     return F(Scalar<F>(sizeof(Scalar<F>) == 4 ? 2e-6 : 1e-11));
 }
-/// Is a crossing at the path length t ahead? One slightly behind (mm) counts too: the ray stands on it, but for rounding.
+/// Is a crossing at the path length t ahead? One slightly behind (mm) counts too: the ray starts on it, but for rounding.
 template <class F>
 LFDSIM_FN Mask<F> ahead(F t) {
     return t > F(Scalar<F>(sizeof(Scalar<F>) == 4 ? -1e-4 : -1e-9));
@@ -54,7 +54,7 @@ LFDSIM_FN F root(F a, F b, F c, bool rising, Mask<F>& real) {
 }
 
 /// Path length to where a ray crosses a surface of revolution downwards (against +z) or upwards, if `valid`, and the unit normal
-/// there, towards +z; `at` is relative to the lens's axis and the vertex. Aspheres: the first change of sign of z - sag on the way
+/// there, towards +z; `at` is relative to the lens's axis and the vertex. Aspheres: the first change of sign of z - sag on the path
 /// through the cap's zone, in 32 steps, then bisected.
 template <class F, class Surface>
 LFDSIM_FN F cross_surface(const Surface& surface, Vec3<F> at, Vec3<F> to, bool downwards, Vec3<F>& up, Mask<F>& valid) {
@@ -62,7 +62,7 @@ LFDSIM_FN F cross_surface(const Surface& surface, Vec3<F> at, Vec3<F> to, bool d
     const F c = surface.curvature, k = F(surface.conic), k1 = F(1) + k, r = F(surface.semi_aperture) + slack<F>();
     F t, z, d;
     Mask<F> sheet;
-    auto stand = [&](F way) { return Vec3<F>{at.x + to.x * way, at.y + to.y * way, at.z + to.z * way}; };
+    auto point_at = [&](F length) { return Vec3<F>{at.x + to.x * length, at.y + to.y * length, at.z + to.z * length}; };
     if (surface.shape == Shape::asphere) {
         // The path through the zone between the lowest and the highest point of the cap, widened by the tolerance
         const F low = F(surface.low) - slack<F>(), high = F(surface.high) + slack<F>();
@@ -70,8 +70,8 @@ LFDSIM_FN F cross_surface(const Surface& surface, Vec3<F> at, Vec3<F> to, bool d
         const Mask<F> level = abs(to.z) < F(S(1e-7));
         const F reach = F(4) * F(surface.semi_aperture);
         const F begin = max(select(level, F(0), min(a, b)), F(0)), end = min(select(level, reach, max(a, b)), begin + reach);
-        auto height = [&](F way) {
-            const Vec3<F> p = stand(way);
+        auto height = [&](F path_length) {
+            const Vec3<F> p = point_at(path_length);
             sag(surface, p.x * p.x + p.y * p.y, z, d, sheet);
             return downwards ? p.z - z : z - p.z;
         };
@@ -99,7 +99,7 @@ LFDSIM_FN F cross_surface(const Surface& surface, Vec3<F> at, Vec3<F> to, bool d
         const F q = c * (at.x * at.x + at.y * at.y + k1 * at.z * at.z) - F(2) * at.z;
         t = root(c * (F(1) + k * to.z * to.z), b, q, downwards, valid);
     }
-    const Vec3<F> p = stand(t);
+    const Vec3<F> p = point_at(t);
     const F s2 = p.x * p.x + p.y * p.y;
     sag(surface, s2, z, d, sheet);
     const F per = F(1) / sqrt(F(1) + d * d * s2);
@@ -118,26 +118,26 @@ LFDSIM_FN F cross_cylinder(const Surface& surface, Vec3<F> at, Vec3<F> to, bool 
 
 /// The top or bottom face of the solid in one cell, crossed inwards or outwards.
 template <class F>
-LFDSIM_FN void cross_face(const Scene<Scalar<F>>& scene, bool top, Vec3<F> at, Vec3<F> to, bool inwards, Cell<F> cell,
+LFDSIM_FN void cross_face(const TracedDisplay<Scalar<F>>& display, bool top, Vec3<F> at, Vec3<F> to, bool inwards, Cell<F> cell,
                           Mask<F> active, Crossing<F>& best) {
-    const auto& surface = scene.surface[top ? 0 : scene.surface_count - 1];
-    const Place<F> axis = axis_of(scene.lattice, cell);
+    const auto& surface = display.surface[top ? 0 : display.surface_count - 1];
+    const Vec2<F> axis = axis_of(display.lattice, cell);
     const Vec3<F> local{at.x - axis.x, at.y - axis.y, at.z - F(surface.z)};
     Vec3<F> up;
     Mask<F> valid;
-    const F t = scene.lattice.strips ? cross_cylinder(surface, local, to, inwards == top, up, valid)
-                                     : cross_surface(surface, local, to, inwards == top, up, valid);
-    if (scene.aperture == Aperture::cell)
-        valid = valid && in_cell(scene.lattice, local.x + to.x * t, local.y + to.y * t, slack<F>());
+    const F t = display.lattice.strips ? cross_cylinder(surface, local, to, inwards == top, up, valid)
+                                       : cross_surface(surface, local, to, inwards == top, up, valid);
+    if (display.aperture == Aperture::cell)
+        valid = valid && in_cell(display.lattice, local.x + to.x * t, local.y + to.y * t, slack<F>());
     const F sense = F(Scalar<F>(top ? 1 : -1));
     best.take(active && valid, t, {sense * up.x, sense * up.y, sense * up.z}, cell);
 }
 
 /// Is a point of a wall between the faces of its lens? caps_only: and outside the slab, above the upper or below the lower rim.
 template <class F>
-LFDSIM_FN Mask<F> between_faces(const Scene<Scalar<F>>& scene, Vec3<F> local, bool caps_only) {
-    const auto &top = scene.surface[0], &bottom = scene.surface[scene.surface_count - 1];
-    const F y = across(scene.lattice, local.y), s2 = local.x * local.x + y * y;
+LFDSIM_FN Mask<F> between_faces(const TracedDisplay<Scalar<F>>& display, Vec3<F> local, bool caps_only) {
+    const auto &top = display.surface[0], &bottom = display.surface[display.surface_count - 1];
+    const F y = across(display.lattice, local.y), s2 = local.x * local.x + y * y;
     F high, low, d;
     Mask<F> sheet;
     sag(top, s2, high, d, sheet);
@@ -152,18 +152,18 @@ LFDSIM_FN Mask<F> between_faces(const Scene<Scalar<F>>& scene, Vec3<F> local, bo
 /// The walls of one cell: a round one, or planes. caps_only: the walls above and below a plate, at the array's border and where the
 /// cap of a neighbour in a staggered row is lower.
 template <class F>
-LFDSIM_FN void cross_walls(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, Vec3<F> at, Vec3<F> to, bool inwards,
-                           Cell<F> cell, Mask<F> active, bool caps_only, Crossing<F>& best) {
-    const Place<F> from = axis_of(scene.lattice, cell);
+LFDSIM_FN void cross_walls(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, Vec3<F> at, Vec3<F> to,
+                           bool inwards, Cell<F> cell, Mask<F> active, bool caps_only, Crossing<F>& best) {
+    const Vec2<F> from = axis_of(display.lattice, cell);
     const F x = at.x - from.x, y = at.y - from.y, zero = F(0);
-    const auto& lattice = scene.lattice;
-    if (scene.aperture == Aperture::circle && !lattice.strips) {
-        const F r = F(scene.surface[0].semi_aperture), per = F(1) / r;
+    const auto& lattice = display.lattice;
+    if (display.aperture == Aperture::circle && !lattice.strips) {
+        const F r = F(display.surface[0].semi_aperture), per = F(1) / r;
         Mask<F> real;
         const F t = root(to.x * to.x + to.y * to.y, x * to.x + y * to.y, x * x + y * y - r * r, !inwards, real);
         const Vec3<F> p{x + to.x * t, y + to.y * t, at.z + to.z * t};
         // At this distance from the axis the faces are at their rims, whose sag is known.
-        const auto &top = scene.surface[0], &bottom = scene.surface[scene.surface_count - 1];
+        const auto &top = display.surface[0], &bottom = display.surface[display.surface_count - 1];
         const Mask<F> high = (p.z <= F(top.z + top.rim) + slack<F>()) && (p.z >= F(bottom.z + bottom.rim) - slack<F>());
         best.take(active && real && ahead(t) && high, t, {p.x * per, p.y * per, zero}, cell);
         return;
@@ -171,22 +171,22 @@ LFDSIM_FN void cross_walls(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>
     const F one = F(1);
     for (int pair = 0; pair < border_pairs(lattice); ++pair) {
         const Borders<Scalar<F>> wall = borders(lattice, pair);
-        const F half = scene.aperture == Aperture::circle ? F(scene.surface[0].semi_aperture) : F(wall.half);
+        const F half = display.aperture == Aperture::circle ? F(display.surface[0].semi_aperture) : F(wall.half);
         const F nx = F(wall.x), ny = F(wall.y), slope = nx * to.x + ny * to.y;
-        const F sign = select(slope < zero, -one, one);  // of the way along the normal
+        const F sign = select(slope < zero, -one, one);  // of the path along the normal
         const F side = inwards ? -sign : sign;           // of the wall that it crosses
         const F t = (side * half - (nx * x + ny * y)) / slope;
         const Vec3<F> p{pair == 0 ? side * half : x + to.x * t, pair == 1 && !lattice.hexagonal ? side * half : y + to.y * t,
                         at.z + to.z * t};
         Mask<F> valid = active && (abs(slope) > F(Scalar<F>(1e-20))) && ahead(t) && in_cell(lattice, p.x, p.y, slack<F>()) &&
-                        between_faces(scene, p, caps_only);
+                        between_faces(display, p, caps_only);
         if (caps_only) {
             const Cell<F> beyond = cell_beyond(lattice, cell, F(Scalar<F>(pair)), side, p.x + from.x);
             Mask<F> air = !extent.holds(beyond);
             if (lattice.staggered && !lattice.hexagonal) {
-                const Place<F> axis = axis_of(lattice, beyond);
+                const Vec2<F> axis = axis_of(lattice, beyond);
                 const Vec3<F> there{p.x + from.x - axis.x, p.y + from.y - axis.y, p.z};
-                air = air || !between_faces(scene, there, false);
+                air = air || !between_faces(display, there, false);
             }
             valid = valid && air;
         }
@@ -213,42 +213,43 @@ struct GlassRays {
     Mask<F> below;  // plate: outside on the panel's side
 };
 
-/// `clear`, separate solids: rays inside one are tested against its own faces and walls, others against those of cells on the way.
+/// `clear`, separate solids: rays inside one are tested against its own faces and walls, others against those of cells on their
+/// path.
 template <class F>
-LFDSIM_FN void next_in_clear(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const GlassRays<F>& rays,
+LFDSIM_FN void next_in_clear(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, const GlassRays<F>& rays,
                              Mask<F> alive, Crossing<F>& best) {
     auto solid = [&](Cell<F> cell, Mask<F> active, bool inwards) {
-        cross_face(scene, true, rays.at, rays.to, inwards, cell, active, best);
-        cross_face(scene, false, rays.at, rays.to, inwards, cell, active, best);
-        cross_walls(scene, extent, rays.at, rays.to, inwards, cell, active, false, best);
+        cross_face(display, true, rays.at, rays.to, inwards, cell, active, best);
+        cross_face(display, false, rays.at, rays.to, inwards, cell, active, best);
+        cross_walls(display, extent, rays.at, rays.to, inwards, cell, active, false, best);
         return best.found;
     };
     const Mask<F> within = alive && rays.inside, without = alive && !rays.inside;
     if (any(within)) solid(rays.cell, within, false);
     if (none(without)) return;
     F in, out;
-    cross_slab(rays.at, rays.to, F(scene.body_bottom), F(scene.body_top), in, out);
+    cross_slab(rays.at, rays.to, F(display.body_bottom), F(display.body_top), in, out);
     const F begin = max(in, F(0));
-    walk_cells(scene, extent, rays.at.x, rays.at.y, rays.to.x, rays.to.y, begin, out, without,
+    walk_cells(display, extent, rays.at.x, rays.at.y, rays.to.x, rays.to.y, begin, out, without,
                [&](Cell<F> cell, Mask<F> active) { return solid(cell, active, true) && active; });
 }
 
 /// `plate`, one sheet: the next crossing of its top or bottom face, on the flat between the caps or on a cap of the cells on the
-/// way through their zone.
+/// path through their zone.
 template <class F>
-LFDSIM_FN void next_on_face(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, bool top, bool inwards,
+LFDSIM_FN void next_on_face(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, bool top, bool inwards,
                             const GlassRays<F>& rays, Mask<F> active, Crossing<F>& best) {
     using S = Scalar<F>;
-    const auto& surface = scene.surface[top ? 0 : scene.surface_count - 1];
+    const auto& surface = display.surface[top ? 0 : display.surface_count - 1];
     const F sense = F(S(top ? 1 : -1));
     const F flat = (F(surface.z + surface.rim) - rays.at.z) / rays.to.z;
     const Mask<F> right_way = inwards ? sense * rays.to.z < F(0) : sense * rays.to.z > F(0);
     const F x = rays.at.x + rays.to.x * flat, y = rays.at.y + rays.to.y * flat;
-    const Cell<F> under = cell_at(scene.lattice, x, y);
+    const Cell<F> under = cell_at(display.lattice, x, y);
     Mask<F> in_cap = extent.holds(under);
-    if (scene.aperture == Aperture::circle) {
-        const Place<F> axis = axis_of(scene.lattice, under);
-        const F lx = x - axis.x, ly = across(scene.lattice, y - axis.y), r = F(surface.semi_aperture);
+    if (display.aperture == Aperture::circle) {
+        const Vec2<F> axis = axis_of(display.lattice, under);
+        const F lx = x - axis.x, ly = across(display.lattice, y - axis.y), r = F(surface.semi_aperture);
         in_cap = in_cap && (lx * lx + ly * ly < r * r);
     }
     if (surface.shape == Shape::plane) in_cap = in_cap && (F(0) > F(1));
@@ -257,37 +258,38 @@ LFDSIM_FN void next_on_face(const Scene<Scalar<F>>& scene, const Extent<Scalar<F
     F in, out;
     const F edge = F(S(1e-4));  // mm: the zone's border belongs to it
     cross_slab(rays.at, rays.to, F(surface.z + surface.low) - edge, F(surface.z + surface.high) + edge, in, out);
-    walk_cells(scene, extent, rays.at.x, rays.at.y, rays.to.x, rays.to.y, max(in, F(0)), out, active,
+    walk_cells(display, extent, rays.at.x, rays.at.y, rays.to.x, rays.to.y, max(in, F(0)), out, active,
                [&](Cell<F> cell, Mask<F> here) {
                    const F before = best.t;
-                   cross_face(scene, top, rays.at, rays.to, inwards, cell, here, best);
-                   if (scene.aperture == Aperture::cell)
-                       cross_walls(scene, extent, rays.at, rays.to, inwards, cell, here, true, best);
+                   cross_face(display, top, rays.at, rays.to, inwards, cell, here, best);
+                   if (display.aperture == Aperture::cell)
+                       cross_walls(display, extent, rays.at, rays.to, inwards, cell, here, true, best);
                    return here && (best.t < before);
                });
 }
 
 template <class F>
-LFDSIM_FN void next_in_plate(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const GlassRays<F>& rays,
+LFDSIM_FN void next_in_plate(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, const GlassRays<F>& rays,
                              Mask<F> alive, Crossing<F>& best) {
     const Mask<F> within = alive && rays.inside, above = alive && !rays.inside && !rays.below,
                   below = alive && !rays.inside && rays.below;
     if (any(within)) {
-        next_on_face(scene, extent, true, false, rays, within, best);
-        next_on_face(scene, extent, false, false, rays, within, best);
+        next_on_face(display, extent, true, false, rays, within, best);
+        next_on_face(display, extent, false, false, rays, within, best);
     }
-    if (any(above)) next_on_face(scene, extent, true, true, rays, above, best);
-    if (any(below)) next_on_face(scene, extent, false, true, rays, below, best);
+    if (any(above)) next_on_face(display, extent, true, true, rays, above, best);
+    if (any(below)) next_on_face(display, extent, false, true, rays, below, best);
 }
 
-/// Snell's law at a crossing, either way; total internal reflection is followed with weight 1.
+/// Snell's law at a crossing, downwards or upwards; total internal reflection is followed with weight 1.
 template <class F>
-LFDSIM_FN void cross(const Scene<Scalar<F>>& scene, const Crossing<F>& here, Mask<F> active, GlassRays<F>& rays, F& weight) {
-    const auto& media = scene.surface[0].media;
-    const auto& last = scene.surface[scene.surface_count - 1];
+LFDSIM_FN void cross(const TracedDisplay<Scalar<F>>& display, const Crossing<F>& here, Mask<F> active, GlassRays<F>& rays,
+                     F& weight) {
+    const auto& media = display.surface[0].media;
+    const auto& last = display.surface[display.surface_count - 1];
     const F air = F(media.n_above), glass = F(media.n_below), one = F(1);
     F outside = air, schlick_t0 = F(media.schlick_t0);
-    if (scene.glued) {
+    if (display.glued) {
         outside = select(here.normal.z < F(0), F(last.media.n_below), air);
         schlick_t0 = select(here.normal.z < F(0), F(last.media.schlick_t0), schlick_t0);
     }
@@ -298,15 +300,15 @@ LFDSIM_FN void cross(const Scene<Scalar<F>>& scene, const Crossing<F>& here, Mas
     const Mask<F> reflected = !(cos2 > F(0)), refracted = active && !reflected;
     const F k = select(reflected, one, eta), m = select(reflected, F(2) * c1, eta * c1 - c2);
     const Vec3<F> to{k * i.x + m * n.x, k * i.y + m * n.y, k * i.z + m * n.z};
-    if (scene.fresnel != Fresnel::none) {
-        const F c_thin = select(scene.glued ? n2 < n1 : rays.inside, c2, c1);
-        weight = select(refracted, weight * transmittance(scene.fresnel, schlick_t0, n1, n2, c1, c2, c_thin), weight);
+    if (display.fresnel != Fresnel::none) {
+        const F c_thin = select(display.glued ? n2 < n1 : rays.inside, c2, c1);
+        weight = select(refracted, weight * transmittance(display.fresnel, schlick_t0, n1, n2, c1, c2, c_thin), weight);
     }
     rays.at = {select(active, i.x * here.t + rays.at.x, rays.at.x), select(active, i.y * here.t + rays.at.y, rays.at.y),
                select(active, i.z * here.t + rays.at.z, rays.at.z)};
     rays.to = {select(active, to.x, i.x), select(active, to.y, i.y), select(active, to.z, i.z)};
     rays.cell = {select(refracted, here.cell.i, rays.cell.i), select(refracted, here.cell.j, rays.cell.j)};
-    // Downwards out of a face, or sideways out of a wall that stands below the slab.
+    // Downwards out of a face, or sideways out of a wall below the slab.
     const Mask<F> down = (here.normal.z < F(0)) || ((here.normal.z == F(0)) && (rays.at.z < F(last.z + last.rim)));
     rays.below = (rays.below && !refracted) || (refracted && rays.inside && down);
     rays.inside = (rays.inside && !refracted) || (refracted && !rays.inside);
@@ -315,23 +317,23 @@ LFDSIM_FN void cross(const Scene<Scalar<F>>& scene, const Crossing<F>& here, Mas
 /// Surfaces at which a path may be refracted or reflected; where it meets one more it is black.
 constexpr int most_crossings = 16;
 
-/// Bodies and stops of glass that stand where the lattice has them.
+/// Bodies and stops of glass at their lattice positions.
 template <class F>
 struct InLattice {
-    const Scene<Scalar<F>>& scene;
+    const TracedDisplay<Scalar<F>>& display;
     const Extent<Scalar<F>>& extent;
 
     LFDSIM_FN void next(const GlassRays<F>& rays, Mask<F> alive, Crossing<F>& next) const {
-        if (scene.surround == Surround::clear)
-            next_in_clear(scene, extent, rays, alive, next);
+        if (display.surround == Surround::clear)
+            next_in_clear(display, extent, rays, alive, next);
         else
-            next_in_plate(scene, extent, rays, alive, next);
+            next_in_plate(display, extent, rays, alive, next);
     }
-    /// Ends rays that meet the stop beside its holes within the path length `way`.
-    LFDSIM_FN void stop(const GlassRays<F>& rays, F way, F, Mask<F>& ahead, Mask<F>& alive) const {
-        const F t = (F(scene.stop_z) - rays.at.z) / rays.to.z;
-        const Mask<F> crosses = ahead && (t >= F(0)) && (t <= way);
-        const Mask<F> through = passes_stop(scene, extent, rays.at.x + rays.to.x * t, rays.at.y + rays.to.y * t);
+    /// Ends rays that meet the stop beside its holes within the path length `path_length`.
+    LFDSIM_FN void stop(const GlassRays<F>& rays, F path_length, F, Mask<F>& ahead, Mask<F>& alive) const {
+        const F t = (F(display.stop_z) - rays.at.z) / rays.to.z;
+        const Mask<F> crosses = ahead && (t >= F(0)) && (t <= path_length);
+        const Mask<F> through = passes_stop(display, extent, rays.at.x + rays.to.x * t, rays.at.y + rays.to.y * t);
         alive = alive && (through || !crosses);
         ahead = ahead && !crosses;
     }
@@ -341,60 +343,57 @@ struct InLattice {
 /// Follows rays from above all glass until they leave it for good. `arrived`: towards the panel; `in_layer`: of these, into what
 /// the glass is glued to.
 template <class F, class Bodies>
-LFDSIM_FN void pass_glass(const Scene<Scalar<F>>& scene, const Bodies& bodies, GlassRays<F>& rays, F& weight, Mask<F> alive,
-                          Mask<F>& arrived, Mask<F>& in_layer) {
+LFDSIM_FN void pass_glass(const TracedDisplay<Scalar<F>>& display, const Bodies& bodies, GlassRays<F>& rays, F& weight,
+                          Mask<F> alive, Mask<F>& arrived, Mask<F>& in_layer) {
     using S = Scalar<F>;
     const Mask<F> no_ray = F(0) > F(1);
     Mask<F> stop_ahead = alive;
     F lowest = rays.at.z;  // that each ray has been
     arrived = in_layer = no_ray;
-    const auto& last = scene.surface[scene.surface_count - 1];
-    const bool vanishes = scene.glued && last.media.n_above == last.media.n_below;  // the glued face is none
+    const auto& last = display.surface[display.surface_count - 1];
+    const bool vanishes = display.glued && last.media.n_above == last.media.n_below;  // the glued face is none
     for (int surfaces = 0; surfaces <= most_crossings && any(alive); ++surfaces) {
         Crossing<F> next{F(S(1e30)), {F(0), F(0), F(1)}, {F(0), F(0)}, F(0) > F(1)};
         bodies.next(rays, alive, next);
         const Mask<F> leaves = alive && !next.found;
-        if (scene.has_stop) {
+        if (display.has_stop) {
             bodies.stop(rays, next.t, lowest, stop_ahead, alive);
             lowest = min(lowest, rays.at.z + rays.to.z * next.t);
         }
         arrived = arrived || (alive && leaves && !rays.inside && (rays.to.z < F(0)));
         alive = alive && next.found;
-        const Mask<F> at_glue = scene.glued ? alive && rays.inside && (next.normal.z < F(0)) : no_ray;
+        const Mask<F> at_glue = display.glued ? alive && rays.inside && (next.normal.z < F(0)) : no_ray;
         if (vanishes) {
             in_layer = in_layer || at_glue;
             alive = alive && !at_glue;
         }
         if (surfaces == most_crossings) break;
-        cross(scene, next, alive, rays, weight);
-        if (scene.glued && !vanishes) {
+        cross(display, next, alive, rays, weight);
+        if (display.glued && !vanishes) {
             in_layer = in_layer || (at_glue && !rays.inside);
             alive = alive && !(at_glue && !rays.inside);
         }
     }
     arrived = arrived || in_layer;
-    if (scene.has_stop) bodies.end(stop_ahead, arrived);
+    if (display.has_stop) bodies.end(stop_ahead, arrived);
 }
 
-/// From the vertex plane of the first surfaces, in which way.ray starts, to the panel.
+/// From the vertex plane of the first surfaces, in which passage.ray starts, to the panel.
 template <class F>
-LFDSIM_FN PanelPoint<F> trace_glass(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
-                                    const PanelBase<Scalar<F>>& base, Passage<F> way) {
+LFDSIM_FN PanelPoint<F> trace_glass(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent,
+                                    const PanelBase<Scalar<F>>& base, Passage<F> passage) {
     using S = Scalar<F>;
     // Start above all lenses.
-    const F first = F(scene.surface[0].z), up = (F(scene.body_top) - first) / way.ray.to.z;
+    const F first = F(display.surface[0].z), up = (F(display.body_top) - first) / passage.ray.to.z;
     const Mask<F> no_ray = F(0) > F(1);
-    GlassRays<F> rays{{way.ray.at.x + way.ray.to.x * up, way.ray.at.y + way.ray.to.y * up, F(scene.body_top)},
-                      way.ray.to,
-                      {F(0), F(0)},
-                      no_ray,
-                      no_ray};
-    F weight = way.weight;
+    const Vec3<F>&at = passage.ray.at, &to = passage.ray.to;
+    GlassRays<F> rays{{at.x + to.x * up, at.y + to.y * up, F(display.body_top)}, to, {F(0), F(0)}, no_ray, no_ray};
+    F weight = passage.weight;
     Mask<F> arrived, in_layer;
-    pass_glass(scene, InLattice<F>{scene, extent}, rays, weight, way.alive, arrived, in_layer);
-    const Place<F> end = down_to_panel(scene, rays.at, in_layer, rays.to, weight, arrived);
-    if (scene.emission_exponent != S(0)) weight = weight * power(abs(rays.to.z), scene.emission_exponent);
-    return panel_point(scene, scene.lattice, base, {F(0), F(0)}, end.x, end.y, weight, arrived);
+    pass_glass(display, InLattice<F>{display, extent}, rays, weight, passage.alive, arrived, in_layer);
+    const Vec2<F> end = down_to_panel(display, rays.at, in_layer, rays.to, weight, arrived);
+    if (display.emission_exponent != S(0)) weight = weight * power(abs(rays.to.z), display.emission_exponent);
+    return panel_point(display, display.lattice, base, {F(0), F(0)}, end.x, end.y, weight, arrived);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

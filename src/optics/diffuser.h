@@ -1,7 +1,7 @@
 // The diffuser: a thin plane that turns a ray by two random angles, without loss. Floor 1.
 #pragma once
-#include "optics/scene.h"
 #include "optics/surface.h"
+#include "optics/traced_display.h"
 #include "simd/elementary.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
@@ -9,24 +9,24 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 /// The angle in radians for a number uniform in [-1, 1]: box or normal distribution, the normal one cut at +-89 degrees.
 /// `box` promises the first.
 template <bool box = false, class F>
-LFDSIM_FN F diffuser_angle(const Scene<Scalar<F>>& scene, int axis, F uniform) {
-    if (box || scene.diffuser_profile == Profile::box) return uniform * F(scene.half_angle[axis]);
-    return F(scene.half_angle[axis]) * erfinv(uniform * F(scene.gaussian_tail[axis]));
+LFDSIM_FN F diffuser_angle(const TracedDisplay<Scalar<F>>& display, int axis, F uniform) {
+    if (box || display.diffuser_profile == Profile::box) return uniform * F(display.half_angle[axis]);
+    return F(display.half_angle[axis]) * erfinv(uniform * F(display.gaussian_tail[axis]));
 }
 
 /// The tangent of that angle.
 template <class F>
-LFDSIM_FN F diffuser_tangent(const Scene<Scalar<F>>& scene, int axis, F uniform) {
+LFDSIM_FN F diffuser_tangent(const TracedDisplay<Scalar<F>>& display, int axis, F uniform) {
     F sine, cosine;
-    sincos(diffuser_angle(scene, axis, uniform), scene.small_angles, sine, cosine);
+    sincos(diffuser_angle(display, axis, uniform), display.small_angles, sine, cosine);
     return sine / cosine;
 }
 
 /// The inverse of diffuser_angle, of a box: the number whose angle has this tangent; outside [-1, 1] where the diffuser does not
 /// turn a ray that far.
 template <class F>
-LFDSIM_FN F diffuser_uniform(const Scene<Scalar<F>>& scene, int axis, F tangent) {
-    return atan(tangent) / F(scene.half_angle[axis]);
+LFDSIM_FN F diffuser_uniform(const TracedDisplay<Scalar<F>>& display, int axis, F tangent) {
+    return atan(tangent) / F(display.half_angle[axis]);
 }
 
 /// t = Rx(b) Ry(a) i: about y first (spreads horizontally), then about x; right-handed. Keeps the unit length.
@@ -37,10 +37,10 @@ LFDSIM_FN Vec3<F> turn(Vec3<F> i, F sin_a, F cos_a, F sin_b, F cos_b) {
 }
 
 template <bool box = false, class F>
-LFDSIM_FN Vec3<F> scatter(const Scene<Scalar<F>>& scene, Vec3<F> to, F uniform_a, F uniform_b) {
+LFDSIM_FN Vec3<F> scatter(const TracedDisplay<Scalar<F>>& display, Vec3<F> to, F uniform_a, F uniform_b) {
     F sin_a, cos_a, sin_b, cos_b;
-    sincos(diffuser_angle<box>(scene, 0, uniform_a), scene.small_angles, sin_a, cos_a);
-    sincos(diffuser_angle<box>(scene, 1, uniform_b), scene.small_angles, sin_b, cos_b);
+    sincos(diffuser_angle<box>(display, 0, uniform_a), display.small_angles, sin_a, cos_a);
+    sincos(diffuser_angle<box>(display, 1, uniform_b), display.small_angles, sin_b, cos_b);
     return turn(to, sin_a, cos_a, sin_b, cos_b);
 }
 

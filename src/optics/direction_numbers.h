@@ -1,6 +1,6 @@
 // Direction numbers of the Sobol sequence (Joe and Kuo 2008, new-joe-kuo-6). Floor 1; for the host.
 #pragma once
-#include "optics/scene.h"
+#include "optics/traced_display.h"
 
 namespace lfdsim::optics {
 

@@ -2,9 +2,9 @@
 //
 // The tracer is written once, for any display. A copy of it for displays of which something is known asks less: the one for the
 // 2019 paper's lens has no Newton iteration, no stop and no layers. `Specialisations` lists the copies, and a display takes the
-// first whose facts hold. All copies have the same bits, so a row more or less changes speed and size alone.
+// first whose facts hold. All copies compute the same bits, so a row more or less changes speed and size alone.
 #pragma once
-#include "optics/scene.h"
+#include "optics/traced_display.h"
 #include "simd/config.h"
 
 namespace lfdsim::optics {
@@ -20,10 +20,10 @@ struct Facts {
     Known plano_convex = Known::ask;  // a spherical cap over a plane, without a stop: the 2019 paper's lens
     Known strips = Known::ask;        // lenses as strips
     Known staggered = Known::ask;     // every other row is shifted: hexagons and bricks
-    Known on_air = Known::ask;        // the lenses stand in air over a bare panel
+    Known on_air = Known::ask;        // air is between the lenses and a bare panel
     Known plain_light = Known::ask;   // has_plain_light()
     Known schlick = Known::ask;       // Fresnel's equations by Schlick's approximation
-    Known meshed = Known::no;         // triangles stand for the surfaces (src/meshed); no display says so itself
+    Known meshed = Known::no;         // triangles represent the surfaces (src/interchange/meshed); no display says so itself
 
     bool operator==(const Facts&) const = default;
     /// These facts and one more, which holds.
@@ -45,32 +45,32 @@ LFDSIM_FN constexpr bool holds(bool asked) {
 /// Whether light is what it is on most displays and cameras: a pinhole camera through pixels' centres, a box diffuser above the
 /// lenses, pixels that shine all over and in all directions alike, round lenses along the panel's axes.
 template <class S>
-LFDSIM_FN bool has_plain_light(const Scene<S>& scene) {
-    return !scene.box_filter && !scene.thin_lens && scene.has_diffuser && scene.start_above != S(0) && !scene.rotated &&
-           scene.diffuser_profile == Profile::box && scene.emission_exponent == S(0) && scene.emission.whole &&
-           scene.aperture == Aperture::circle;
+LFDSIM_FN bool has_plain_light(const TracedDisplay<S>& display) {
+    return !display.box_filter && !display.thin_lens && display.has_diffuser && display.start_above != S(0) && !display.rotated &&
+           display.diffuser_profile == Profile::box && display.emission_exponent == S(0) && display.emission.whole &&
+           display.aperture == Aperture::circle;
 }
 
 template <class S>
-LFDSIM_FN bool is_plano_convex(const Scene<S>& scene) {
-    return !scene.thin && scene.surface_count == 2 && scene.surface[0].shape == Shape::sphere &&
-           scene.surface[1].shape == Shape::plane && !scene.has_stop && !scene.dimple;
+LFDSIM_FN bool is_plano_convex(const TracedDisplay<S>& display) {
+    return !display.ideal && display.surface_count == 2 && display.surface[0].shape == Shape::sphere &&
+           display.surface[1].shape == Shape::plane && !display.has_stop && !display.concave_front;
 }
 
 template <class S>
-LFDSIM_FN bool is_lit_between(const Scene<S>& scene) {
-    return !scene.thin && scene.surround != Surround::opaque;
+LFDSIM_FN bool is_lit_between(const TracedDisplay<S>& display) {
+    return !display.ideal && display.surround != Surround::opaque;
 }
 
 /// Whether all that is known holds for a display.
 template <Facts facts, class S>
-LFDSIM_FN bool hold(const Scene<S>& scene) {
+LFDSIM_FN bool hold(const TracedDisplay<S>& display) {
     const auto agrees = [](Known known, bool answer) { return known == Known::ask || answer == (known == Known::yes); };
-    return agrees(facts.ideal, scene.thin) && agrees(facts.lit_between, is_lit_between(scene)) &&
-           agrees(facts.misaligned, scene.placement.given) && agrees(facts.plano_convex, is_plano_convex(scene)) &&
-           agrees(facts.strips, scene.lattice.strips) && agrees(facts.staggered, scene.lattice.staggered) &&
-           agrees(facts.on_air, !scene.glued && scene.layer_count == 0) && agrees(facts.plain_light, has_plain_light(scene)) &&
-           agrees(facts.schlick, scene.fresnel == Fresnel::schlick);
+    return agrees(facts.ideal, display.ideal) && agrees(facts.lit_between, is_lit_between(display)) &&
+           agrees(facts.misaligned, display.misaligned.given) && agrees(facts.plano_convex, is_plano_convex(display)) &&
+           agrees(facts.strips, display.lattice.strips) && agrees(facts.staggered, display.lattice.staggered) &&
+           agrees(facts.on_air, !display.glued && display.layer_count == 0) &&
+           agrees(facts.plain_light, has_plain_light(display)) && agrees(facts.schlick, display.fresnel == Fresnel::schlick);
 }
 
 /// The copies of the tracer, best first. LFDSIM_FEW_SPECIALISATIONS leaves the general ones, and a CPU gains nothing from plain
@@ -114,13 +114,14 @@ struct Specialisations {
 
 /// do_it.operator()<facts>() with what is known of a display: the first row that holds.
 template <int row = 0, class S, class Do>
-inline auto with_facts(const Scene<S>& scene, const Do& do_it) -> decltype(do_it.template operator()<Specialisations::row[row]>()) {
+inline auto with_facts(const TracedDisplay<S>& display, const Do& do_it)
+    -> decltype(do_it.template operator()<Specialisations::row[row]>()) {
     constexpr Facts facts = Specialisations::row[row];
     if constexpr (row + 1 == Specialisations::count) {
         return do_it.template operator()<facts>();
     } else {
-        if (hold<facts>(scene)) return do_it.template operator()<facts>();
-        return with_facts<row + 1>(scene, do_it);
+        if (hold<facts>(display)) return do_it.template operator()<facts>();
+        return with_facts<row + 1>(display, do_it);
     }
 }
 

@@ -18,7 +18,7 @@ struct Cell {
 
 /// A point or a vector of the array's frame or, where it says so, of the display's; mm.
 template <class F>
-struct Place {
+struct Vec2 {
     F x, y;
 };
 
@@ -43,7 +43,7 @@ LFDSIM_FN F stagger(const Lattice<Scalar<F>>& lattice, F j) {
 }
 
 template <class F>
-LFDSIM_FN Place<F> axis_of(const Lattice<Scalar<F>>& lattice, Cell<F> cell) {
+LFDSIM_FN Vec2<F> axis_of(const Lattice<Scalar<F>>& lattice, Cell<F> cell) {
     const F x = cell.i * F(lattice.pitch[0]);
     if (lattice.staggered) return {x + stagger(lattice, cell.j), cell.j * F(lattice.pitch[1])};
     return {x, lattice.strips ? F(0) : cell.j * F(lattice.pitch[1])};  // strips: there is one row, without end
@@ -88,7 +88,7 @@ LFDSIM_FN Cell<F> cell_beyond(const Lattice<Scalar<F>>& lattice, Cell<F> cell, F
     const Mask<F> in_row = pair == F(0);
     const F i = select(in_row, cell.i + side, cell.i), j = select(in_row, cell.j, cell.j + side);
     if (!lattice.staggered) return {i, j};
-    // In the next row a hexagon's neighbours stand half a pitch to the right and to the left.
+    // In the next row a hexagon's neighbours are shifted by half a pitch to the right and to the left.
     const F x = lattice.hexagonal ? axis_of(lattice, cell).x + select(pair == F(1), side, -side) * F(lattice.half_pitch[0]) : place;
     return {select(in_row, i, cell_along(lattice, 0, x - stagger(lattice, j))), j};
 }
@@ -119,7 +119,7 @@ LFDSIM_FN Mask<F> in_cell(const Lattice<Scalar<F>>& lattice, F x, F y, F margin 
 // From the array's middle.
 
 template <class S>
-LFDSIM_FN Place<S> axis_in_array(const Lattice<S>& lattice, Cell<S> lens) {
+LFDSIM_FN Vec2<S> axis_in_array(const Lattice<S>& lattice, Cell<S> lens) {
     const S x = (lens.i + S(0.5) - S(0.5) * lattice.count[0]) * lattice.pitch[0],
             y = (lens.j + S(0.5) - S(0.5) * lattice.count[1]) * lattice.pitch[1];
     if (lattice.staggered) return {x + (stagger(lattice, lens.j) - S(0.5) * lattice.half_pitch[0]), y};
@@ -129,7 +129,7 @@ LFDSIM_FN Place<S> axis_in_array(const Lattice<S>& lattice, Cell<S> lens) {
 template <class S>
 LFDSIM_FN Cell<S> lens_at(const Lattice<S>& lattice, S x, S y) {
     if (lattice.staggered) {  // from the axis of lens (0, 0), in an even row
-        const Place<S> first = axis_in_array(lattice, Cell<S>{S(0), S(0)});
+        const Vec2<S> first = axis_in_array(lattice, Cell<S>{S(0), S(0)});
         return cell_at(lattice, x - first.x, y - first.y);
     }
     const S i = floor(x / lattice.pitch[0] + S(0.5) * lattice.count[0]);
@@ -154,22 +154,22 @@ LFDSIM_FN Cell<S> base_cell(const Lattice<S>& lattice, Cell<S> near) {
 
 /// A vector of the display's frame in the array's.
 template <class F>
-LFDSIM_FN Place<F> to_array(const Lattice<Scalar<F>>& lattice, F x, F y) {
+LFDSIM_FN Vec2<F> to_array(const Lattice<Scalar<F>>& lattice, F x, F y) {
     const F c = F(lattice.cos_turn), s = F(lattice.sin_turn);
     return {c * x + s * y, c * y - s * x};
 }
 
 /// A vector of the array's frame in the display's.
 template <class F>
-LFDSIM_FN Place<F> to_display(const Lattice<Scalar<F>>& lattice, F x, F y) {
+LFDSIM_FN Vec2<F> to_display(const Lattice<Scalar<F>>& lattice, F x, F y) {
     const F c = F(lattice.cos_turn), s = F(lattice.sin_turn);
     return {c * x - s * y, s * x + c * y};
 }
 
 /// A point of the array, from its middle, in the display's frame.
 template <class S>
-LFDSIM_FN Place<S> in_display(const Lattice<S>& lattice, Place<S> from_middle) {
-    const Place<S> turned = to_display(lattice, from_middle.x, from_middle.y);
+LFDSIM_FN Vec2<S> in_display(const Lattice<S>& lattice, Vec2<S> from_middle) {
+    const Vec2<S> turned = to_display(lattice, from_middle.x, from_middle.y);
     return {turned.x + lattice.offset[0], turned.y + lattice.offset[1]};
 }
 

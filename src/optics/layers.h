@@ -1,27 +1,27 @@
 // The layers on the panel: plane plates, through which rays go down to it. Floor 1.
 #pragma once
 #include "optics/lattice.h"
-#include "optics/scene.h"
 #include "optics/surface.h"
+#include "optics/traced_display.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
 /// From the layers' top down to the panel: a ray that comes from air, or of the lanes in `glued` is in the top layer already.
 template <class F>
-LFDSIM_RARE Place<F> through_layers(const Scene<Scalar<F>>& scene, Place<F> at, Mask<F> glued, Vec3<F>& to, F& weight,
-                                    Mask<F>& alive) {
-    for (int k = 0; k < scene.layer_count; ++k) {
-        const Interface<Scalar<F>>& media = scene.layer[k].media;
+LFDSIM_RARE Vec2<F> through_layers(const TracedDisplay<Scalar<F>>& display, Vec2<F> at, Mask<F> glued, Vec3<F>& to, F& weight,
+                                   Mask<F>& alive) {
+    for (int k = 0; k < display.layer_count; ++k) {
+        const Interface<Scalar<F>>& media = display.layer[k].media;
         const Mask<F> enters = k > 0 ? alive : alive && !glued;
         const F eta = F(media.eta), c1 = -to.z, cos2 = (F(1) - eta * eta) + eta * eta * (c1 * c1), c2 = sqrt(max(cos2, F(0)));
         alive = alive && (!enters || (cos2 > F(0)));  // total reflection is black
-        if (scene.fresnel != Fresnel::none && media.n_above != media.n_below) {
-            const F share = transmittance(scene.fresnel, F(media.schlick_t0), F(media.n_above), F(media.n_below), c1, c2,
+        if (display.fresnel != Fresnel::none && media.n_above != media.n_below) {
+            const F share = transmittance(display.fresnel, F(media.schlick_t0), F(media.n_above), F(media.n_below), c1, c2,
                                           media.n_above < media.n_below ? c1 : c2);
             weight = select(enters, weight * share, weight);
         }
         to = {select(enters, eta * to.x, to.x), select(enters, eta * to.y, to.y), select(enters, -c2, to.z)};
-        const F t = F(-scene.layer[k].thickness) / to.z;
+        const F t = F(-display.layer[k].thickness) / to.z;
         at = {at.x + to.x * t, at.y + to.y * t};
     }
     return at;
@@ -29,10 +29,11 @@ LFDSIM_RARE Place<F> through_layers(const Scene<Scalar<F>>& scene, Place<F> at, 
 
 /// Where a ray that has left its lens at `at`, z from the panel, reaches the panel; `to` is its direction there.
 template <class F>
-LFDSIM_FN Place<F> down_to_panel(const Scene<Scalar<F>>& scene, Vec3<F> at, Mask<F> glued, Vec3<F>& to, F& weight, Mask<F>& alive) {
-    const F t = (scene.layer_count == 0 ? -at.z : F(scene.layers_top) - at.z) / to.z;
-    const Place<F> below{at.x + to.x * t, at.y + to.y * t};
-    return scene.layer_count == 0 ? below : through_layers(scene, below, glued, to, weight, alive);
+LFDSIM_FN Vec2<F> down_to_panel(const TracedDisplay<Scalar<F>>& display, Vec3<F> at, Mask<F> glued, Vec3<F>& to, F& weight,
+                                Mask<F>& alive) {
+    const F t = (display.layer_count == 0 ? -at.z : F(display.layers_top) - at.z) / to.z;
+    const Vec2<F> below{at.x + to.x * t, at.y + to.y * t};
+    return display.layer_count == 0 ? below : through_layers(display, below, glued, to, weight, alive);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

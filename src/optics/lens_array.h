@@ -4,8 +4,8 @@
 // are counted from that lens.
 #pragma once
 #include "optics/lattice.h"
-#include "optics/scene.h"
 #include "optics/surface.h"
+#include "optics/traced_display.h"
 #include "simd/lane.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
@@ -22,25 +22,25 @@ struct Extent {
 
 /// A ray that crosses the plane of the stops at (x, y): does it pass a hole?
 template <class F>
-LFDSIM_FN Mask<F> passes_stop(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, F x, F y) {
-    const Cell<F> cell = cell_at(scene.lattice, x, y);
-    const Place<F> axis = axis_of(scene.lattice, cell);
-    const F lx = x - axis.x, ly = across(scene.lattice, y - axis.y);
-    return (lx * lx + ly * ly <= F(scene.stop_radius2)) && extent.holds(cell);
+LFDSIM_FN Mask<F> passes_stop(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, F x, F y) {
+    const Cell<F> cell = cell_at(display.lattice, x, y);
+    const Vec2<F> axis = axis_of(display.lattice, cell);
+    const F lx = x - axis.x, ly = across(display.lattice, y - axis.y);
+    return (lx * lx + ly * ly <= F(display.stop_radius2)) && extent.holds(cell);
 }
 
 /// Where rows are staggered, for walk_cells(). The array has notches then: a line may pass cells without lenses between its lenses.
 template <class F, class Try>
-LFDSIM_FN void walk_staggered(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, F x, F y, F mx, F my, F begin, F end,
-                              Mask<F> active, Try try_cell) {
+LFDSIM_FN void walk_staggered(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, F x, F y, F mx, F my,
+                              F begin, F end, Mask<F> active, Try try_cell) {
     using S = Scalar<F>;
     const F huge = F(S(1e30)), zero = F(0), one = F(1);
-    const auto& lattice = scene.lattice;
+    const auto& lattice = display.lattice;
     Cell<F> cell = cell_at(lattice, x + mx * begin, y + my * begin);
     while (any(active)) {
         active = active && !try_cell(cell, active && extent.holds(cell));
         // The first border ahead: s there, the pair of borders, and on which side.
-        const Place<F> axis = axis_of(lattice, cell);
+        const Vec2<F> axis = axis_of(lattice, cell);
         F next = huge, pair = zero, side = one;
         for (int k = 0; k < border_pairs(lattice); ++k) {
             const Borders<S> of = borders(lattice, k);
@@ -61,10 +61,10 @@ LFDSIM_FN void walk_staggered(const Scene<Scalar<F>>& scene, const Extent<Scalar
 /// calls try_cell(cell, active) in each that holds a lens; it returns the lanes that are done. Exact at any slope: no cell is
 /// skipped. s is depth in z or path length, as the caller likes; m is the lateral displacement per s.
 template <class F, class Try>
-LFDSIM_FN void walk_cells(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, F x, F y, F mx, F my, F from, F depth,
-                          Mask<F> active, Try try_cell) {
+LFDSIM_FN void walk_cells(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, F x, F y, F mx, F my, F from,
+                          F depth, Mask<F> active, Try try_cell) {
     const F huge = F(Scalar<F>(1e30)), zero = F(0), one = F(1);
-    const auto& lattice = scene.lattice;
+    const auto& lattice = display.lattice;
     const F px = F(lattice.pitch[0]), py = F(lattice.pitch[1]), half_x = F(lattice.half_pitch[0]),
             half_y = F(lattice.half_pitch[1]);
     // s at the borders of a box about all cells, so that a ray from outside starts where it enters.
@@ -81,7 +81,7 @@ LFDSIM_FN void walk_cells(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>
     axis(y, my, F(extent.low_j) * py - beyond, F(extent.high_j) * py + beyond, in_y, out_y);
     const F begin = max(max(in_x, in_y), from), end = min(min(out_x, out_y), depth);
     active = active && (begin <= end);
-    if (lattice.staggered) return walk_staggered(scene, extent, x, y, mx, my, begin, end, active, try_cell);
+    if (lattice.staggered) return walk_staggered(display, extent, x, y, mx, my, begin, end, active, try_cell);
 
     const F step_i = select(mx < zero, -one, one), step_j = select(my < zero, -one, one);
     Cell<F> cell{min(max(cell_along(lattice, 0, x + mx * begin), F(extent.low_i)), F(extent.high_i)),

@@ -1,15 +1,15 @@
-// How a lens of an array with errors stands, and its surfaces, which may be more or less curved than those of others. Floor 1.
+// The pose of a misaligned lens, and its surfaces, which may be more or less curved than those of others. Floor 1.
 //
-// The array's frame and the lens's own are those of misaligned.h.
+// The frames of the array and of the lens are those of misaligned.h.
 #pragma once
 #include "optics/lens.h"
 #include "optics/lens_array.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// How the lenses of a packet's rays stand.
+/// The poses of the lenses that a packet's rays meet, relative to their lattice positions (array frame).
 template <class F>
-struct Stand {
+struct LensPose {
     F x, y, z, curvature, cos_x, sin_x, cos_y, sin_y;
 
     /// A vector of the array's frame in the lens's, and back.
@@ -23,21 +23,22 @@ struct Stand {
     }
 };
 
-/// Those of lenses in these cells; where `there` is false, of any.
+/// The poses of lenses in these cells; where `there` is false, of any.
 template <class F>
-LFDSIM_FN Stand<F> stand_of(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, Cell<F> cell, Mask<F> there) {
+LFDSIM_FN LensPose<F> pose_of(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, Cell<F> cell,
+                              Mask<F> there) {
     using S = Scalar<F>;
     constexpr int N = LaneTraits<F>::width;
-    const Placement<S>& placement = scene.placement;
+    const MisalignedArray<S>& misaligned = display.misaligned;
     const F zero = F(0), one = F(1);
-    if (!placement.lens) return {zero, zero, zero, one, one, zero, one, zero};
-    const F number = (cell.j - F(extent.low_j)) * F(scene.lattice.count[0]) + (cell.i - F(extent.low_i));
+    if (!misaligned.lens) return {zero, zero, zero, one, one, zero, one, zero};
+    const F number = (cell.j - F(extent.low_j)) * F(display.lattice.count[0]) + (cell.i - F(extent.low_i));
     std::uint32_t row[N];  // a lens is two rows of four numbers
     store(to_int(select(there, number, zero)) << 1, row);
     F place[4], turn[4];
-    load_rows(placement.lens->place, row, place);
-    if (!placement.tilted) return {place[0], place[1], place[2], place[3], one, zero, one, zero};
-    load_rows(placement.lens->turn, row, turn);
+    load_rows(misaligned.lens->place, row, place);
+    if (!misaligned.tilted) return {place[0], place[1], place[2], place[3], one, zero, one, zero};
+    load_rows(misaligned.lens->turn, row, turn);
     return {place[0], place[1], place[2], place[3], turn[0], turn[1], turn[2], turn[3]};
 }
 
@@ -66,24 +67,24 @@ struct CurvedSurface {
     }
 };
 
-/// Where a ray meets surface k of lenses that stand like this.
+/// Where a ray meets surface k of lenses whose curvature is multiplied by `factor`.
 template <Facts facts, class F>
-LFDSIM_FN Hit<F> meet_curved(const Scene<Scalar<F>>& scene, int k, const Ray<F>& in_vertex_plane, F factor) {
-    const Shape shape = shape_of<facts>(scene, k);
-    if (!scene.placement.curved || shape == Shape::plane) return meet<facts>(scene, k, in_vertex_plane);
-    const CurvedSurface<F> surface(scene.surface[k], factor);
-    return holds<facts.strips>(scene.lattice.strips) ? meet_cylinder(shape, surface, in_vertex_plane)
-                                                     : meet(shape, surface, in_vertex_plane);
+LFDSIM_FN Hit<F> meet_curved(const TracedDisplay<Scalar<F>>& display, int k, const Ray<F>& in_vertex_plane, F factor) {
+    const Shape shape = shape_of<facts>(display, k);
+    if (!display.misaligned.curved || shape == Shape::plane) return meet<facts>(display, k, in_vertex_plane);
+    const CurvedSurface<F> surface(display.surface[k], factor);
+    return holds<facts.strips>(display.lattice.strips) ? meet_cylinder(shape, surface, in_vertex_plane)
+                                                       : meet(shape, surface, in_vertex_plane);
 }
 
 /// z of the highest rim of a lens's surfaces, or of the lowest.
 template <class F>
-LFDSIM_FN F outmost_rim(const Scene<Scalar<F>>& scene, bool highest, F factor) {
-    if (!scene.placement.curved) return F(highest ? scene.zone_top : scene.wall_bottom);
+LFDSIM_FN F outmost_rim(const TracedDisplay<Scalar<F>>& display, bool highest, F factor) {
+    if (!display.misaligned.curved) return F(highest ? display.zone_top : display.wall_bottom);
     F rim = F(Scalar<F>(highest ? -1e30 : 1e30)), z, d;
     Mask<F> sheet;
-    for (int k = 0; k < scene.surface_count; ++k) {
-        const auto& surface = scene.surface[k];
+    for (int k = 0; k < display.surface_count; ++k) {
+        const auto& surface = display.surface[k];
         sag(CurvedSurface<F>(surface, factor), F(surface.semi_aperture) * F(surface.semi_aperture), z, d, sheet);
         z = z + F(surface.z);
         rim = highest ? max(rim, z) : min(rim, z);

@@ -1,4 +1,4 @@
-// Arrays with errors: each lens stands where it was put, and the array as a whole may not be parallel to the panel. Opaque
+// Misaligned arrays: each lens has a pose of its own, and the array as a whole may not be parallel to the panel. Opaque
 // surrounds, ideal lenses and pinholes. docs/model.md, "Errors". Floor 1.
 //
 // Three frames: the array's turned about z alone, in which the camera's rays come and go, from the base lens's vertex (x, y) and
@@ -10,54 +10,54 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// A lens, and where a ray meets it: in the lens's frame. The ray enters it at the path length `way` from where it starts: on its
-/// first surface, or, if that is hollow, through the hole over it, from where it may miss the surface.
+/// A lens, and where a ray meets it: in the lens's frame. The ray enters it at the path length `path_length` from where it starts:
+/// on its first surface, or, if that is concave, through the hole over it, from where it may miss the surface.
 template <class F>
 struct Encounter {
     Cell<F> cell;
-    Stand<F> stand;
+    LensPose<F> pose;
     Ray<F> entering;  // in the vertex plane of the first surface, or in a thin lens
     Hit<F> hit;
-    F way;
+    F path_length;
     Mask<F> enters;
 };
 
 /// `ray` in the array's frame, z from the vertex plane; fall = 1 / ray.to.z.
 template <Facts facts, class F>
-LFDSIM_FN Encounter<F> meet_placed(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F fall,
-                                   Cell<F> cell) {
+LFDSIM_FN Encounter<F> meet_misaligned(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, const Ray<F>& ray,
+                                       F fall, Cell<F> cell) {
     using S = Scalar<F>;
     const Mask<F> there = extent.holds(cell);
-    Encounter<F> at{cell, stand_of(scene, extent, cell, there), {}, {}, F(0), there};
-    const Place<F> axis = axis_of(scene.lattice, cell);
-    Vec3<F> from{ray.at.x - axis.x - at.stand.x, ray.at.y - axis.y - at.stand.y, ray.at.z - at.stand.z}, to = ray.to;
-    if (scene.placement.tilted) {
-        from = at.stand.turned_in(from);
-        to = at.stand.turned_in(to);
+    Encounter<F> at{cell, pose_of(display, extent, cell, there), {}, {}, F(0), there};
+    const Vec2<F> axis = axis_of(display.lattice, cell);
+    Vec3<F> from{ray.at.x - axis.x - at.pose.x, ray.at.y - axis.y - at.pose.y, ray.at.z - at.pose.z}, to = ray.to;
+    if (display.misaligned.tilted) {
+        from = at.pose.turned_in(from);
+        to = at.pose.turned_in(to);
         fall = F(1) / to.z;
     }
     const Mask<F> comes = there && (to.z < F(0));
-    const bool thin = holds<facts.ideal>(scene.thin);
-    const S vertex = thin ? scene.ideal_z : scene.surface[0].z;
-    at.way = (F(vertex - scene.placement.vertex_z) - from.z) * fall;
-    at.entering = {{from.x + to.x * at.way, from.y + to.y * at.way, F(0)}, to};
+    const bool thin = holds<facts.ideal>(display.ideal);
+    const S vertex = thin ? display.ideal_z : display.surface[0].z;
+    at.path_length = (F(vertex - display.misaligned.vertex_z) - from.z) * fall;
+    at.entering = {{from.x + to.x * at.path_length, from.y + to.y * at.path_length, F(0)}, to};
     const Vec3<F>& p = at.entering.at;
     if (thin) {
-        const F across_y = across(scene.lattice, p.y), r = F(scene.aperture_radius);
+        const F across_y = across(display.lattice, p.y), r = F(display.aperture_radius);
         at.hit = {p, {F(0), F(0), F(1)}, -to.z, to.z * to.z, p.x * p.x + across_y * across_y <= r * r};
-        if (scene.aperture == Aperture::cell) at.hit.ok = in_cell(scene.lattice, p.x, p.y);
+        if (display.aperture == Aperture::cell) at.hit.ok = in_cell(display.lattice, p.x, p.y);
         at.enters = comes && at.hit.ok;
     } else {
-        at.hit = meet_curved<facts>(scene, 0, at.entering, at.stand.curvature);
-        at.hit.ok = inside_cell<Facts{}>(scene, at.hit.at, at.hit.ok);
-        if (facts.plano_convex != Known::yes && scene.dimple) {  // the entrance is the rim
-            const F down = (outmost_rim(scene, true, at.stand.curvature) - F(vertex)) * fall;
-            const F x = p.x + to.x * down, y = across(scene.lattice, p.y + to.y * down), r = F(scene.surface[0].semi_aperture);
-            at.enters = inside_cell<Facts{}>(scene, Vec3<F>{x, p.y + to.y * down, F(0)}, comes && (x * x + y * y <= r * r));
-            at.way = at.way + down;
+        at.hit = meet_curved<facts>(display, 0, at.entering, at.pose.curvature);
+        at.hit.ok = inside_cell<Facts{}>(display, at.hit.at, at.hit.ok);
+        if (facts.plano_convex != Known::yes && display.concave_front) {  // the entrance is the rim
+            const F down = (outmost_rim(display, true, at.pose.curvature) - F(vertex)) * fall;
+            const F x = p.x + to.x * down, y = across(display.lattice, p.y + to.y * down), r = F(display.surface[0].semi_aperture);
+            at.enters = inside_cell<Facts{}>(display, Vec3<F>{x, p.y + to.y * down, F(0)}, comes && (x * x + y * y <= r * r));
+            at.path_length = at.path_length + down;
         } else {
             at.enters = comes && at.hit.ok;
-            at.way = at.way + at.hit.at.z * fall;
+            at.path_length = at.path_length + at.hit.at.z * fall;
         }
     }
     at.hit.ok = at.hit.ok && at.enters;
@@ -72,14 +72,14 @@ LFDSIM_FN Vec3<F> choose(Mask<F> first, Vec3<F> a, Vec3<F> b) {
 template <class F>
 LFDSIM_FN void take(Mask<F> taken, const Encounter<F>& from, Encounter<F>& to) {
     const auto one = [&](F a, F b) { return select(taken, a, b); };
-    const Stand<F>&a = from.stand, &b = to.stand;
-    to.stand = {one(a.x, b.x),         one(a.y, b.y),         one(a.z, b.z),         one(a.curvature, b.curvature),
-                one(a.cos_x, b.cos_x), one(a.sin_x, b.sin_x), one(a.cos_y, b.cos_y), one(a.sin_y, b.sin_y)};
+    const LensPose<F>&a = from.pose, &b = to.pose;
+    to.pose = {one(a.x, b.x),         one(a.y, b.y),         one(a.z, b.z),         one(a.curvature, b.curvature),
+               one(a.cos_x, b.cos_x), one(a.sin_x, b.sin_x), one(a.cos_y, b.cos_y), one(a.sin_y, b.sin_y)};
     to.cell = {one(from.cell.i, to.cell.i), one(from.cell.j, to.cell.j)};
     to.entering = {choose(taken, from.entering.at, to.entering.at), choose(taken, from.entering.to, to.entering.to)};
     to.hit = {choose(taken, from.hit.at, to.hit.at), choose(taken, from.hit.normal, to.hit.normal), one(from.hit.cos, to.hit.cos),
               one(from.hit.cos2, to.hit.cos2), (taken && from.hit.ok) || (!taken && to.hit.ok)};
-    to.way = one(from.way, to.way);
+    to.path_length = one(from.path_length, to.path_length);
     to.enters = to.enters || taken;
 }
 
@@ -91,19 +91,19 @@ LFDSIM_FN void around(const Lattice<Scalar<F>>& lattice, Cell<F> cell, const Do&
         for (int i = -1; i <= 1; ++i) do_it(Cell<F>{cell.i + F(S(i)), cell.j + F(S(j))});
 }
 
-/// Takes what rays of `near` meet in a cell, if they meet its lens before the one at hand.
+/// Replaces `first` by what rays of `near` meet in a cell, where they meet its lens before that.
 template <Facts facts, class F>
-LFDSIM_FN void meet_in(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F fall, Cell<F> cell,
-                       Mask<F> near, Encounter<F>& first) {
-    const Encounter<F> next = meet_placed<facts>(scene, extent, ray, fall, cell);
-    take(near && next.enters && (!first.enters || (next.way < first.way)), next, first);
+LFDSIM_FN void meet_in(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F fall,
+                       Cell<F> cell, Mask<F> near, Encounter<F>& first) {
+    const Encounter<F> next = meet_misaligned<facts>(display, extent, ray, fall, cell);
+    take(near && next.enters && (!first.enters || (next.path_length < first.path_length)), next, first);
 }
 
-/// Which ways, seen from above and from the axis of their own cell, come near one of its borders only? Lenses stand out of theirs
-/// by up to `reach`: such a way leads past no other lens than that of the cell beyond the border, `other`. (Of hexagons, the part
-/// between the other borders' lines is in that cell; low bricks may have two beyond a border.)
+/// Which paths, seen from above and from the axis of their cell, come near one of its borders only? Lenses stand out of theirs
+/// by up to `overhang`: such a path leads past no other lens than that of the cell beyond the border, `other`. (Of hexagons, the
+/// part between the other borders' lines is in that cell; low bricks may have two beyond a border.)
 template <class F>
-LFDSIM_FN Mask<F> nears_one_border(const Lattice<Scalar<F>>& lattice, Cell<F> own, Place<F> from, Place<F> end, F reach,
+LFDSIM_FN Mask<F> nears_one_border(const Lattice<Scalar<F>>& lattice, Cell<F> own, Vec2<F> from, Vec2<F> end, F overhang,
                                    Cell<F>& other) {
     using S = Scalar<F>;
     const F zero = F(0), one = F(1);
@@ -112,7 +112,7 @@ LFDSIM_FN Mask<F> nears_one_border(const Lattice<Scalar<F>>& lattice, Cell<F> ow
     for (int k = 0; k < border_pairs(lattice); ++k) {
         const Borders<S> of = borders(lattice, k);
         const F a = F(of.x) * from.x + F(of.y) * from.y, b = F(of.x) * end.x + F(of.y) * end.y;
-        const F low = min(a, b), high = max(a, b), inside = F(of.half) - reach;
+        const F low = min(a, b), high = max(a, b), inside = F(of.half) - overhang;
         const Mask<F> below = -inside > low, above = inside < high;
         borders_near = borders_near + (select(below, one, zero) + select(above, one, zero));
         pair = select(below || above, F(S(k)), pair);
@@ -124,35 +124,35 @@ LFDSIM_FN Mask<F> nears_one_border(const Lattice<Scalar<F>>& lattice, Cell<F> ow
 }
 
 /// The rays of `astray` pass cells whose neighbours' lenses may stand out into them: finds the lens that each meets first, if it
-/// meets any before the one at hand. `from`, `end`: where they come down to search_top, and where their ways end, from the axis of
+/// meets any before `first`. `from`, `end`: where they come down to search_top, and where their paths end, from the axis of
 /// their own cell; `at`: the former from the base lens's axis.
 template <Facts facts, class F>
-LFDSIM_RARE void meet_others(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F fall,
-                             Place<F> from, Place<F> end, Place<F> at, Mask<F> astray, Encounter<F>& first) {
+LFDSIM_RARE void meet_others(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F fall,
+                             Vec2<F> from, Vec2<F> end, Vec2<F> at, Mask<F> astray, Encounter<F>& first) {
     using S = Scalar<F>;
-    const Placement<S>& placement = scene.placement;
+    const MisalignedArray<S>& misaligned = display.misaligned;
     const Cell<F> own = first.cell;
     Cell<F> other = own;
-    if (!(scene.lattice.staggered && !scene.lattice.hexagonal) &&
-        none(astray && !nears_one_border(scene.lattice, own, from, end, F(max(placement.reach, S(0))), other)))
-        return meet_in<facts>(scene, extent, ray, fall, other, astray, first);
+    if (!(display.lattice.staggered && !display.lattice.hexagonal) &&
+        none(astray && !nears_one_border(display.lattice, own, from, end, F(max(misaligned.overhang, S(0))), other)))
+        return meet_in<facts>(display, extent, ray, fall, other, astray, first);
 
-    const F depth = F(placement.search_top - placement.search_bottom), r2 = F(placement.radius * placement.radius);
-    const Place<F> m{-(ray.to.x * fall), -(ray.to.y * fall)};  // lateral displacement per mm of descent
+    const F depth = F(misaligned.search_top - misaligned.search_bottom), r2 = F(misaligned.radius * misaligned.radius);
+    const Vec2<F> m{-(ray.to.x * fall), -(ray.to.y * fall)};  // lateral displacement per mm of descent
     const F length2 = max(m.x * m.x + m.y * m.y, F(S(1e-20)));
     // Lenses at the array's border may stand out of all cells.
     const Extent<S> wider{extent.low_i - 1, extent.high_i + 1, extent.low_j - 1, extent.high_j + 1};
-    walk_cells(scene, wider, at.x, at.y, m.x, m.y, F(0), depth, astray, [&](Cell<F> cell, Mask<F> active) {
-        around(scene.lattice, cell, [&](Cell<F> here) {
-            // The point of the way that is nearest to the axis
-            const Place<F> axis = axis_of(scene.lattice, here);
-            const F dx = axis.x - at.x, dy = across(scene.lattice, axis.y - at.y);
+    walk_cells(display, wider, at.x, at.y, m.x, m.y, F(0), depth, astray, [&](Cell<F> cell, Mask<F> active) {
+        around(display.lattice, cell, [&](Cell<F> here) {
+            // The point of the path that is nearest to the axis
+            const Vec2<F> axis = axis_of(display.lattice, here);
+            const F dx = axis.x - at.x, dy = across(display.lattice, axis.y - at.y);
             const F s = min(max((dx * m.x + dy * m.y) / length2, F(0)), depth);
-            const F ex = dx - m.x * s, ey = across(scene.lattice, dy - m.y * s);
+            const F ex = dx - m.x * s, ey = across(display.lattice, dy - m.y * s);
             const Mask<F> known = (here.i == own.i) && (here.j == own.j),
                           near = active && !known && extent.holds(here) && (ex * ex + ey * ey <= r2);
             if (none(near)) return;
-            meet_in<facts>(scene, extent, ray, fall, here, near, first);
+            meet_in<facts>(display, extent, ray, fall, here, near, first);
         });
         return F(0) > F(1);
     });
@@ -160,7 +160,7 @@ LFDSIM_RARE void meet_others(const Scene<Scalar<F>>& scene, const Extent<Scalar<
 
 /// Whether a point, from its own lens's axis and within a pitch of it, comes as near to the axis of another lens as sqrt(reach2).
 template <class F>
-LFDSIM_FN Mask<F> nears_another(const Lattice<Scalar<F>>& lattice, Place<F> at, F reach2) {
+LFDSIM_FN Mask<F> nears_another(const Lattice<Scalar<F>>& lattice, Vec2<F> at, F reach2) {
     const F x = abs(at.x), y = across(lattice, abs(at.y)), px = F(lattice.pitch[0]), py = F(lattice.pitch[1]);
     const F ax = x - px, ay = y - py;
     F nearest = ax * ax + y * y;
@@ -176,187 +176,191 @@ LFDSIM_FN Mask<F> nears_another(const Lattice<Scalar<F>>& lattice, Place<F> at, 
 
 /// The first lens that a ray meets; `ray` in the array's frame, z from the vertex plane.
 template <Facts facts, class F>
-LFDSIM_FN Encounter<F> enter_placed(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const Ray<F>& ray,
-                                    Mask<F> alive) {
-    const Placement<Scalar<F>>& placement = scene.placement;
+LFDSIM_FN Encounter<F> enter_misaligned(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, const Ray<F>& ray,
+                                        Mask<F> alive) {
+    const MisalignedArray<Scalar<F>>& misaligned = display.misaligned;
     const F fall = F(1) / ray.to.z;
-    const F up = (F(placement.search_top) - ray.at.z) * fall, down = (F(placement.search_bottom) - ray.at.z) * fall;
+    const F up = (F(misaligned.search_top) - ray.at.z) * fall, down = (F(misaligned.search_bottom) - ray.at.z) * fall;
     const F x = ray.at.x + ray.to.x * up, y = ray.at.y + ray.to.y * up;
-    const Cell<F> cell = cell_at(scene.lattice, x, y);
-    Encounter<F> first = meet_placed<facts>(scene, extent, ray, fall, cell);
-    // A way from there to the lens, or to below all lenses, that is further from the cell's border than lenses stand out of their
-    // own cells leads past no other one. Nor does one that is further from other lenses than they are wide.
-    const Place<F> axis = axis_of(scene.lattice, cell);
-    const F way = select(first.enters, first.way, down), end_x = ray.at.x + ray.to.x * way, end_y = ray.at.y + ray.to.y * way;
-    const F margin = F(-placement.reach);
-    const Place<F> from_axis{x - axis.x, y - axis.y}, end{end_x - axis.x, end_y - axis.y};
-    const Mask<F> alone = in_cell(scene.lattice, from_axis.x, from_axis.y, margin) && in_cell(scene.lattice, end.x, end.y, margin);
+    const Cell<F> cell = cell_at(display.lattice, x, y);
+    Encounter<F> first = meet_misaligned<facts>(display, extent, ray, fall, cell);
+    // A path from there to the lens, or to below all lenses, that is further from the cell's border than lenses stand out of their
+    // cells leads past no other one. Nor does one that is further from other lenses than they are wide.
+    const Vec2<F> axis = axis_of(display.lattice, cell);
+    const F path_length = select(first.enters, first.path_length, down), end_x = ray.at.x + ray.to.x * path_length,
+            end_y = ray.at.y + ray.to.y * path_length;
+    const F margin = F(-misaligned.overhang);
+    const Vec2<F> from_axis{x - axis.x, y - axis.y}, end{end_x - axis.x, end_y - axis.y};
+    const Mask<F> alone =
+        in_cell(display.lattice, from_axis.x, from_axis.y, margin) && in_cell(display.lattice, end.x, end.y, margin);
     Mask<F> astray = alive && !alone;
     if (any(astray)) {
         // One that comes within r of another axis begins there, ends there, or has passed the foot of the perpendicular from it,
         // and moves on by less than its length.
-        const F ex = end.x - from_axis.x, ey = across(scene.lattice, end.y - from_axis.y),
-                r2 = F(placement.radius * placement.radius);
-        astray =
-            astray && (nears_another(scene.lattice, end, r2 + (ex * ex + ey * ey)) || nears_another(scene.lattice, from_axis, r2));
+        const F ex = end.x - from_axis.x, ey = across(display.lattice, end.y - from_axis.y),
+                r2 = F(misaligned.radius * misaligned.radius);
+        astray = astray &&
+                 (nears_another(display.lattice, end, r2 + (ex * ex + ey * ey)) || nears_another(display.lattice, from_axis, r2));
     }
     if (any(astray)) {
         const Ray<F> here = ray;
         Encounter<F> found = first;
-        meet_others<facts>(scene, extent, here, fall, from_axis, end, {x, y}, astray, found);
+        meet_others<facts>(display, extent, here, fall, from_axis, end, {x, y}, astray, found);
         first = found;
     }
     return first;
 }
 
-/// Does a straight part of a ray's way pass the stop's hole of a lens in one of these cells? `p` in the array's frame, z from the
+/// Does a straight part of a ray's path pass the stop's hole of a lens in one of these cells? `p` in the array's frame, z from the
 /// vertex plane; `from` and `end` are path lengths from there.
 template <class F>
-LFDSIM_FN Mask<F> passes_hole(const Scene<Scalar<F>>& scene, Cell<F> cell, const Stand<F>& stand, Vec3<F> p, Vec3<F> d, F from,
-                              F end) {
-    const Place<F> centre = axis_of(scene.lattice, cell);
-    const F t = (F(scene.stop_z - scene.placement.vertex_z) + stand.z - p.z) / d.z;
-    const F x = p.x + d.x * t - centre.x - stand.x, y = across(scene.lattice, p.y + d.y * t - centre.y - stand.y);
-    return (t >= from) && (t <= end) && (x * x + y * y <= F(scene.stop_radius2));
+LFDSIM_FN Mask<F> passes_hole(const TracedDisplay<Scalar<F>>& display, Cell<F> cell, const LensPose<F>& pose, Vec3<F> p, Vec3<F> d,
+                              F from, F end) {
+    const Vec2<F> centre = axis_of(display.lattice, cell);
+    const F t = (F(display.stop_z - display.misaligned.vertex_z) + pose.z - p.z) / d.z;
+    const F x = p.x + d.x * t - centre.x - pose.x, y = across(display.lattice, p.y + d.y * t - centre.y - pose.y);
+    return (t >= from) && (t <= end) && (x * x + y * y <= F(display.stop_radius2));
 }
 
-/// The same of any lens near the point at `near` along that way.
+/// Does it pass the hole of any lens near the point at the path length `near`?
 template <class F>
-LFDSIM_RARE Mask<F> passes_any_hole(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, Vec3<F> p, Vec3<F> d, F near,
-                                    F from, F end, Mask<F> active) {
+LFDSIM_RARE Mask<F> passes_any_hole(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, Vec3<F> p, Vec3<F> d,
+                                    F near, F from, F end, Mask<F> active) {
     Mask<F> through = F(0) > F(1);
-    around(scene.lattice, cell_at(scene.lattice, p.x + d.x * near, p.y + d.y * near), [&](Cell<F> cell) {
+    around(display.lattice, cell_at(display.lattice, p.x + d.x * near, p.y + d.y * near), [&](Cell<F> cell) {
         const Mask<F> there = active && extent.holds(cell);
         if (any(there))
-            through = through || (there && passes_hole(scene, cell, stand_of(scene, extent, cell, there), p, d, from, end));
+            through = through || (there && passes_hole(display, cell, pose_of(display, extent, cell, there), p, d, from, end));
     });
     return through;
 }
 
-/// The rules of pass_lens() for a lens that stands by itself. Its stop's hole stands in the array's frame, moved with the lens but
+/// The rules of pass_lens() for a misaligned lens. Its stop's hole lies in the array's frame, moved with the lens but
 /// not turned; a ray may pass that of any lens.
 template <Facts facts, class F>
-struct Placed : InArray<Facts{}, F> {
-    const Stand<F> stand;
+struct InMisalignedArray : InArray<Facts{}, F> {
+    const LensPose<F> pose;
 
-    LFDSIM_FN Place<F> axis() const { return {F(0), F(0)}; }
+    LFDSIM_FN Vec2<F> axis() const { return {F(0), F(0)}; }
     LFDSIM_FN Hit<F> meet(int k, const Ray<F>& in_vertex_plane) const {
-        return meet_curved<facts>(this->scene, k, in_vertex_plane, stand.curvature);
+        return meet_curved<facts>(this->display, k, in_vertex_plane, pose.curvature);
     }
 
-    LFDSIM_FN F wall_bottom() const { return outmost_rim(this->scene, false, stand.curvature); }
+    LFDSIM_FN F wall_bottom() const { return outmost_rim(this->display, false, pose.curvature); }
 
-    /// Takes the rays from `ahead` that pass a hole on a straight part of their way: from `at`, in the lens's frame, z from the
+    /// Takes the rays from `ahead` that pass a hole on a straight part of their path: from `at`, in the lens's frame, z from the
     /// panel, between these path lengths.
     LFDSIM_FN void stop_between(F from, F end, Vec3<F> at, Vec3<F> to, Mask<F>& ahead) const {
-        const auto& here = this->scene;
-        Vec3<F> p{at.x, at.y, at.z - F(here.placement.vertex_z)}, d = to;
-        if (here.placement.tilted) {
-            p = stand.turned_out(p);
-            d = stand.turned_out(d);
+        const auto& here = this->display;
+        Vec3<F> p{at.x, at.y, at.z - F(here.misaligned.vertex_z)}, d = to;
+        if (here.misaligned.tilted) {
+            p = pose.turned_out(p);
+            d = pose.turned_out(d);
         }
-        const Place<F> axis = axis_of(here.lattice, this->cell);
-        p = {p.x + axis.x + stand.x, p.y + axis.y + stand.y, p.z + stand.z};
-        ahead = ahead && !passes_hole(here, this->cell, stand, p, d, from, end);
+        const Vec2<F> axis = axis_of(here.lattice, this->cell);
+        p = {p.x + axis.x + pose.x, p.y + axis.y + pose.y, p.z + pose.z};
+        ahead = ahead && !passes_hole(here, this->cell, pose, p, d, from, end);
         if (none(ahead)) return;
-        const F near = (F(here.stop_z - here.placement.vertex_z) + stand.z - p.z) / d.z;
+        const F near = (F(here.stop_z - here.misaligned.vertex_z) + pose.z - p.z) / d.z;
         const Vec3<F> start = p, along = d;
         ahead = ahead && !passes_any_hole(here, this->extent, start, along, near, from, end, ahead);
     }
 };
 
-/// A thin lens or a pinhole: way.ray leaves it in the lens's frame.
+/// A thin lens or a pinhole: passage.ray leaves it in the lens's frame.
 template <Facts facts, class F>
-LFDSIM_FN void pass_thin(const Scene<Scalar<F>>& scene, const Placed<facts, F>& rules, const Encounter<F>& met, Passage<F>& way) {
+LFDSIM_FN void pass_thin(const TracedDisplay<Scalar<F>>& display, const InMisalignedArray<facts, F>& rules, const Encounter<F>& met,
+                         Passage<F>& passage) {
     const Vec3<F> to = met.entering.to;
-    const F fall = F(1) / to.z, power = F(scene.ideal_power) * met.stand.curvature;
-    const F mx = to.x * fall + met.hit.at.x * power, my = to.y * fall + across(scene.lattice, met.hit.at.y) * power;
+    const F fall = F(1) / to.z, power = F(display.ideal_power) * met.pose.curvature;
+    const F mx = to.x * fall + met.hit.at.x * power, my = to.y * fall + across(display.lattice, met.hit.at.y) * power;
     const F per = F(1) / sqrt(F(1) + mx * mx + my * my);
-    way.ray = {met.hit.at, {-(mx * per), -(my * per), -per}};
-    if (!scene.has_stop) return;
+    passage.ray = {met.hit.at, {-(mx * per), -(my * per), -per}};
+    if (!display.has_stop) return;
     const F endless = F(Scalar<F>(1e30));
-    const Vec3<F> at{met.hit.at.x, met.hit.at.y, F(scene.ideal_z)};
-    Mask<F> ahead = way.alive;
+    const Vec3<F> at{met.hit.at.x, met.hit.at.y, F(display.ideal_z)};
+    Mask<F> ahead = passage.alive;
     rules.stop_between(-endless, F(0), at, to, ahead);
-    if (any(ahead)) rules.stop_between(F(0), endless, at, way.ray.to, ahead);
-    way.alive = way.alive && !ahead;
+    if (any(ahead)) rules.stop_between(F(0), endless, at, passage.ray.to, ahead);
+    passage.alive = passage.alive && !ahead;
 }
 
-/// A vector of the frame turned about z in the array's (`in`), or the other way round.
+/// A vector of the frame turned about z in the array's (`in`), or the reverse.
 template <class F>
-LFDSIM_FN Vec3<F> wedged(const Placement<Scalar<F>>& placement, bool in, Vec3<F> v) {
+LFDSIM_FN Vec3<F> wedged(const MisalignedArray<Scalar<F>>& misaligned, bool in, Vec3<F> v) {
     const auto row = [&](int k) {
-        const auto of = [&](int l) { return F(in ? placement.wedge[l][k] : placement.wedge[k][l]); };
+        const auto of = [&](int l) { return F(in ? misaligned.wedge[l][k] : misaligned.wedge[k][l]); };
         return v.x * of(0) + v.y * of(1) + v.z * of(2);
     };
     return {row(0), row(1), row(2)};
 }
 
-/// The middle of a lens's hole, so far below the vertex, about which the lens tilts, or of a cell without a lens; z from the
-/// array's vertex plane. y: of any point of a strip's axis.
+/// The middle of a lens's hole, `below_vertex` mm below the vertex about which the lens tilts, or of a cell without a lens; z from
+/// the array's vertex plane. y: of any point of a strip's axis.
 template <class S>
-LFDSIM_FN Vec3<S> middle_of_hole(const Scene<S>& scene, const Extent<S>& extent, Cell<S> lens, S y, S below_vertex) {
+LFDSIM_FN Vec3<S> middle_of_hole(const TracedDisplay<S>& display, const Extent<S>& extent, Cell<S> lens, S y, S below_vertex) {
     const bool there = extent.holds(lens);
-    const Stand<S> stand = there ? stand_of<S>(scene, extent, lens, there) : Stand<S>{0, 0, 0, 1, 1, 0, 1, 0};
-    const Place<S> axis = axis_of(scene.lattice, lens);
-    const Vec3<S> off = stand.turned_out({S(0), S(0), -below_vertex});
-    const Vec3<S> at{axis.x + stand.x + off.x, scene.lattice.strips ? y : axis.y + stand.y + off.y, stand.z + off.z};
-    return scene.placement.wedged ? wedged<S>(scene.placement, false, at) : at;
+    const LensPose<S> pose = there ? pose_of<S>(display, extent, lens, there) : LensPose<S>{0, 0, 0, 1, 1, 0, 1, 0};
+    const Vec2<S> axis = axis_of(display.lattice, lens);
+    const Vec3<S> off = pose.turned_out({S(0), S(0), -below_vertex});
+    const Vec3<S> at{axis.x + pose.x + off.x, display.lattice.strips ? y : axis.y + pose.y + off.y, pose.z + off.z};
+    return display.misaligned.wedged ? wedged<S>(display.misaligned, false, at) : at;
 }
 
 /// A ray in the plane z = entrance, of the frame turned about z, in the array's, z from the vertex plane.
 template <class F>
-LFDSIM_FN Ray<F> in_array(const Scene<Scalar<F>>& scene, const PanelBase<Scalar<F>>& base, const Ray<F>& ray) {
-    const Placement<Scalar<F>>& placement = scene.placement;
-    const Scalar<F> entrance = scene.thin ? scene.ideal_z : scene.surface[0].z;
-    const Ray<F> here{{ray.at.x, ray.at.y, F((entrance - placement.vertex_z) - base.raised)}, ray.to};
-    return placement.wedged ? Ray<F>{wedged(placement, true, here.at), wedged(placement, true, here.to)} : here;
+LFDSIM_FN Ray<F> in_array(const TracedDisplay<Scalar<F>>& display, const PanelBase<Scalar<F>>& base, const Ray<F>& ray) {
+    const MisalignedArray<Scalar<F>>& misaligned = display.misaligned;
+    const Scalar<F> entrance = display.ideal ? display.ideal_z : display.surface[0].z;
+    const Ray<F> here{{ray.at.x, ray.at.y, F((entrance - misaligned.vertex_z) - base.raised)}, ray.to};
+    return misaligned.wedged ? Ray<F>{wedged(misaligned, true, here.at), wedged(misaligned, true, here.to)} : here;
 }
 
 /// From where a ray leaves the lenses, in the array's frame, z from the vertex plane, to the panel. `glued`: it is in the top
 /// layer.
 template <class F>
-LFDSIM_FN PanelPoint<F> out_of_array(const Scene<Scalar<F>>& scene, const PanelBase<Scalar<F>>& base, Ray<F> ray, Mask<F> glued,
-                                     F weight, Mask<F> alive) {
-    const Placement<Scalar<F>>& placement = scene.placement;
-    if (placement.wedged) ray = {wedged(placement, false, ray.at), wedged(placement, false, ray.to)};
+LFDSIM_FN PanelPoint<F> out_of_array(const TracedDisplay<Scalar<F>>& display, const PanelBase<Scalar<F>>& base, Ray<F> ray,
+                                     Mask<F> glued, F weight, Mask<F> alive) {
+    const MisalignedArray<Scalar<F>>& misaligned = display.misaligned;
+    if (misaligned.wedged) ray = {wedged(misaligned, false, ray.at), wedged(misaligned, false, ray.to)};
     alive = alive && (ray.to.z < F(0));
-    ray.at.z = ray.at.z + F(placement.vertex_z + base.raised);
-    const Place<F> end = down_to_panel(scene, ray.at, glued, ray.to, weight, alive);
-    if (scene.emission_exponent != Scalar<F>(0)) weight = weight * power(abs(ray.to.z), scene.emission_exponent);
-    return panel_point(scene, scene.lattice, base, Cell<F>{F(0), F(0)}, end.x, end.y, weight, alive);
+    ray.at.z = ray.at.z + F(misaligned.vertex_z + base.raised);
+    const Vec2<F> end = down_to_panel(display, ray.at, glued, ray.to, weight, alive);
+    if (display.emission_exponent != Scalar<F>(0)) weight = weight * power(abs(ray.to.z), display.emission_exponent);
+    return panel_point(display, display.lattice, base, Cell<F>{F(0), F(0)}, end.x, end.y, weight, alive);
 }
 
-/// From the plane z = entrance, in which way.ray starts, to the panel.
+/// From the plane z = entrance, in which passage.ray starts, to the panel.
 template <Facts facts, class F>
-LFDSIM_FN PanelPoint<F> trace_placed(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
-                                     const PanelBase<Scalar<F>>& base, Passage<F> way) {
+LFDSIM_FN PanelPoint<F> trace_misaligned(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent,
+                                         const PanelBase<Scalar<F>>& base, Passage<F> passage) {
     using S = Scalar<F>;
-    const Placement<S>& placement = scene.placement;
-    const Ray<F> ray = in_array(scene, base, way.ray);
-    way.alive = way.alive && (ray.to.z < F(S(-1e-9)));
-    const Encounter<F> met = enter_placed<facts>(scene, extent, ray, way.alive);
-    way.alive = way.alive && met.hit.ok;
-    way.cell = met.cell;
-    way.ray = met.entering;
-    assume<facts>(scene);
-    const Placed<facts, F> rules{{scene, extent, way.cell}, met.stand};
-    S plane = scene.ideal_z;
-    if (holds<facts.ideal>(scene.thin)) {
-        pass_thin(scene, rules, met, way);
+    const MisalignedArray<S>& misaligned = display.misaligned;
+    const Ray<F> ray = in_array(display, base, passage.ray);
+    passage.alive = passage.alive && (ray.to.z < F(S(-1e-9)));
+    const Encounter<F> met = enter_misaligned<facts>(display, extent, ray, passage.alive);
+    passage.alive = passage.alive && met.hit.ok;
+    passage.cell = met.cell;
+    passage.ray = met.entering;
+    assume<facts>(display);
+    const InMisalignedArray<facts, F> rules{{display, extent, passage.cell}, met.pose};
+    S plane = display.ideal_z;
+    if (holds<facts.ideal>(display.ideal)) {
+        pass_thin(display, rules, met, passage);
     } else {
-        pass_lens<facts>(scene, rules, met.entering, met.hit, way);
-        plane = scene.surface[facts.plano_convex == Known::yes ? 1 : scene.surface_count - 1].z;
+        pass_lens<facts>(display, rules, met.entering, met.hit, passage);
+        plane = display.surface[facts.plano_convex == Known::yes ? 1 : display.surface_count - 1].z;
     }
-    Vec3<F> at{way.ray.at.x, way.ray.at.y, way.ray.at.z + F(plane - placement.vertex_z)}, to = way.ray.to;
-    if (placement.tilted) {
-        at = met.stand.turned_out(at);
-        to = met.stand.turned_out(to);
+    Vec3<F> at{passage.ray.at.x, passage.ray.at.y, passage.ray.at.z + F(plane - misaligned.vertex_z)}, to = passage.ray.to;
+    if (misaligned.tilted) {
+        at = met.pose.turned_out(at);
+        to = met.pose.turned_out(to);
     }
-    const Place<F> axis = axis_of(scene.lattice, way.cell);
-    at = {at.x + axis.x + met.stand.x, at.y + axis.y + met.stand.y, at.z + met.stand.z};
-    PanelPoint<F> point = out_of_array(scene, base, Ray<F>{at, to}, F(scene.glued ? 1 : 0) > F(0), way.weight, way.alive);
-    point.cell = way.cell;
+    const Vec2<F> axis = axis_of(display.lattice, passage.cell);
+    at = {at.x + axis.x + met.pose.x, at.y + axis.y + met.pose.y, at.z + met.pose.z};
+    PanelPoint<F> point =
+        out_of_array(display, base, Ray<F>{at, to}, F(display.glued ? 1 : 0) > F(0), passage.weight, passage.alive);
+    point.cell = passage.cell;
     return point;
 }
 

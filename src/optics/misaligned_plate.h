@@ -1,4 +1,4 @@
-// A moulded sheet whose caps stand by themselves: its glass is the slab between the lenses' rims and what is under each cap
+// A moulded sheet with misaligned caps: its glass is the slab between the lenses' rims and what is under each cap
 // together, down to the slab. Caps are moved and curved, not turned. docs/model.md, "Errors". Floor 1.
 //
 // In the array's frame, x and y from the base lens's vertex, z from the panel.
@@ -10,36 +10,36 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 
 template <class F>
 struct MovedCaps {
-    const Scene<Scalar<F>>& scene;
+    const TracedDisplay<Scalar<F>>& display;
     const Extent<Scalar<F>>& extent;
 
     using S = Scalar<F>;
 
-    LFDSIM_FN const SurfaceData<S>& face(bool top) const { return scene.surface[top ? 0 : scene.surface_count - 1]; }
+    LFDSIM_FN const SurfaceData<S>& face(bool top) const { return display.surface[top ? 0 : display.surface_count - 1]; }
 
-    /// (x, y) from the axis of a lens that stands like this.
-    LFDSIM_FN Place<F> from_axis(Cell<F> lens, const Stand<F>& stand, F x, F y) const {
-        const Place<F> axis = axis_of(scene.lattice, lens);
-        return {x - axis.x - stand.x, y - axis.y - stand.y};
+    /// (x, y) from the axis of a lens with this pose.
+    LFDSIM_FN Vec2<F> from_axis(Cell<F> lens, const LensPose<F>& pose, F x, F y) const {
+        const Vec2<F> axis = axis_of(display.lattice, lens);
+        return {x - axis.x - pose.x, y - axis.y - pose.y};
     }
-    LFDSIM_FN Mask<F> in_aperture(const SurfaceData<S>& surface, Place<F> at, F margin) const {
-        const F y = across(scene.lattice, at.y), r = F(surface.semi_aperture) + margin;
+    LFDSIM_FN Mask<F> in_aperture(const SurfaceData<S>& surface, Vec2<F> at, F margin) const {
+        const F y = across(display.lattice, at.y), r = F(surface.semi_aperture) + margin;
         const Mask<F> round = at.x * at.x + y * y <= r * r;
-        return scene.aperture == Aperture::cell ? round && in_cell(scene.lattice, at.x, at.y, margin) : round;
+        return display.aperture == Aperture::cell ? round && in_cell(display.lattice, at.x, at.y, margin) : round;
     }
     /// Does a cell's corner lie within the semi-aperture? Those of an array that is stretched by an error may not.
     LFDSIM_FN bool holds_cell(const SurfaceData<S>& surface) const {
-        const S x = scene.lattice.half_pitch[0],
-                y = scene.lattice.hexagonal ? x * S(0.57735026918962576) : scene.lattice.half_pitch[1];
+        const S x = display.lattice.half_pitch[0],
+                y = display.lattice.hexagonal ? x * S(0.57735026918962576) : display.lattice.half_pitch[1];
         return x * x + y * y <= surface.semi_aperture * surface.semi_aperture;
     }
     /// z of a lens's cap there.
-    LFDSIM_FN F cap(const SurfaceData<S>& surface, const Stand<F>& stand, Place<F> at) const {
-        const F y = across(scene.lattice, at.y);
+    LFDSIM_FN F cap(const SurfaceData<S>& surface, const LensPose<F>& pose, Vec2<F> at) const {
+        const F y = across(display.lattice, at.y);
         F z, slope;
         Mask<F> sheet;
-        sag(CurvedSurface<F>(surface, stand.curvature), at.x * at.x + y * y, z, slope, sheet);
-        return z + F(surface.z) + stand.z;
+        sag(CurvedSurface<F>(surface, pose.curvature), at.x * at.x + y * y, z, slope, sheet);
+        return z + F(surface.z) + pose.z;
     }
 
     /// Is a point within the glass under the cap of a lens other than `but`? A point on its border is not.
@@ -47,52 +47,52 @@ struct MovedCaps {
         const auto& surface = face(top);
         const F sense = F(S(top ? 1 : -1));
         Mask<F> under = F(0) > F(1);
-        around(scene.lattice, cell_at(scene.lattice, p.x, p.y), [&](Cell<F> lens) {
+        around(display.lattice, cell_at(display.lattice, p.x, p.y), [&](Cell<F> lens) {
             const Mask<F> there = active && extent.holds(lens) && !((lens.i == but.i) && (lens.j == but.j));
             if (none(there)) return;
-            const Stand<F> stand = stand_of(scene, extent, lens, there);
-            const Place<F> at = from_axis(lens, stand, p.x, p.y);
+            const LensPose<F> pose = pose_of(display, extent, lens, there);
+            const Vec2<F> at = from_axis(lens, pose, p.x, p.y);
             under =
-                under || (there && in_aperture(surface, at, -slack<F>()) && (sense * (cap(surface, stand, at) - p.z) > slack<F>()));
+                under || (there && in_aperture(surface, at, -slack<F>()) && (sense * (cap(surface, pose, at) - p.z) > slack<F>()));
         });
         return under;
     }
 
-    /// The sides of the glass under a lens's cap, where that stands out of the slab, crossed inwards or outwards.
-    LFDSIM_FN void sides(bool top, bool inwards, const GlassRays<F>& rays, Cell<F> lens, const Stand<F>& stand, Mask<F> active,
+    /// The sides of the glass under a lens's cap, where that rises above the slab, crossed inwards or outwards.
+    LFDSIM_FN void sides(bool top, bool inwards, const GlassRays<F>& rays, Cell<F> lens, const LensPose<F>& pose, Mask<F> active,
                          Crossing<F>& best) const {
         const auto& surface = face(top);
         const F sense = F(S(top ? 1 : -1)), flat = F(surface.z + surface.rim), zero = F(0), one = F(1),
                 outside = F(S(sizeof(S) == 4 ? 1e-4 : 1e-9));
-        const Place<F> from = from_axis(lens, stand, rays.at.x, rays.at.y);
+        const Vec2<F> from = from_axis(lens, pose, rays.at.x, rays.at.y);
         const Vec3<F> to = rays.to;
-        const auto offer = [&](Mask<F> valid, F t, Vec3<F> normal, Place<F> at) {
+        const auto offer = [&](Mask<F> valid, F t, Vec3<F> normal, Vec2<F> at) {
             const F z = rays.at.z + to.z * t;
             valid = active && valid && ahead(t) && (sense * (z - flat) >= -slack<F>()) &&
-                    (sense * (cap(surface, stand, at) - z) >= -slack<F>());
+                    (sense * (cap(surface, pose, at) - z) >= -slack<F>());
             if (!inwards && any(valid)) {  // just outside: of caps that touch there is one glass
                 const F x = rays.at.x + to.x * t + outside * normal.x, y = rays.at.y + to.y * t + outside * normal.y;
                 valid = valid && !covered(top, {x, y, z}, lens, valid);
             }
             best.take(valid, t, normal, lens);
         };
-        const bool fills = scene.aperture == Aperture::cell;
-        if (!scene.lattice.strips && !(fills && holds_cell(surface))) {
+        const bool fills = display.aperture == Aperture::cell;
+        if (!display.lattice.strips && !(fills && holds_cell(surface))) {
             const F r = F(surface.semi_aperture), per = one / r;
             Mask<F> real;
             const F t = root(to.x * to.x + to.y * to.y, from.x * to.x + from.y * to.y, from.x * from.x + from.y * from.y - r * r,
                              !inwards, real);
-            const Place<F> at{from.x + to.x * t, from.y + to.y * t};
+            const Vec2<F> at{from.x + to.x * t, from.y + to.y * t};
             offer(real && in_aperture(surface, at, slack<F>()), t, {at.x * per, at.y * per, zero}, at);
         }
-        if (!scene.lattice.strips && !fills) return;
-        for (int pair = 0; pair < border_pairs(scene.lattice); ++pair) {
-            const Borders<S> wall = borders(scene.lattice, pair);
-            const S r = surface.semi_aperture, half_width = scene.lattice.strips && (!fills || r < wall.half) ? r : wall.half;
+        if (!display.lattice.strips && !fills) return;
+        for (int pair = 0; pair < border_pairs(display.lattice); ++pair) {
+            const Borders<S> wall = borders(display.lattice, pair);
+            const S r = surface.semi_aperture, half_width = display.lattice.strips && (!fills || r < wall.half) ? r : wall.half;
             const F half = F(half_width), nx = F(wall.x), ny = F(wall.y), slope = nx * to.x + ny * to.y;
             const F sign = select(slope < zero, -one, one), side = inwards ? -sign : sign;
             const F t = (side * half - (nx * from.x + ny * from.y)) / slope;
-            const Place<F> at{from.x + to.x * t, from.y + to.y * t};
+            const Vec2<F> at{from.x + to.x * t, from.y + to.y * t};
             offer((abs(slope) > F(S(1e-20))) && in_aperture(surface, at, slack<F>()), t, {side * nx, side * ny, zero}, at);
         }
     }
@@ -109,38 +109,40 @@ struct MovedCaps {
                 on_flat && !covered(top, {rays.at.x + rays.to.x * t, rays.at.y + rays.to.y * t, flat}, {nothing, nothing}, on_flat);
         best.take(on_flat, t, {F(0), F(0), sense}, Cell<F>{F(0), F(0)});
         if (plane) return;
-        const Placement<S>& placement = scene.placement;
+        const MisalignedArray<S>& misaligned = display.misaligned;
         const S edge = S(1e-4);  // mm: the zone's border belongs to it
-        const S low = surface.z + min(surface.low, surface.rim) + (placement.lowest < 0 ? placement.lowest : S(0)) - edge,
-                high = surface.z + max(surface.high, surface.rim) + (placement.highest > 0 ? placement.highest : S(0)) + edge;
+        const S low = surface.z + min(surface.low, surface.rim) + (misaligned.lowest < 0 ? misaligned.lowest : S(0)) - edge,
+                high = surface.z + max(surface.high, surface.rim) + (misaligned.highest > 0 ? misaligned.highest : S(0)) + edge;
         F in, out;
         cross_slab(rays.at, rays.to, F(low), F(high), in, out);
         in = max(in, F(0));
         const Extent<S> wider{extent.low_i - 1, extent.high_i + 1, extent.low_j - 1, extent.high_j + 1};
-        const F r2 = F(placement.radius * placement.radius),
+        const F r2 = F(misaligned.radius * misaligned.radius),
                 length2 = max(rays.to.x * rays.to.x + rays.to.y * rays.to.y, F(S(1e-20)));
-        walk_cells(scene, wider, rays.at.x, rays.at.y, rays.to.x, rays.to.y, in, out, active, [&](Cell<F> cell, Mask<F> here) {
-            around(scene.lattice, cell, [&](Cell<F> lens) {
-                const Place<F> axis = axis_of(scene.lattice, lens);
-                const F dx = axis.x - rays.at.x, dy = across(scene.lattice, axis.y - rays.at.y);
+        walk_cells(display, wider, rays.at.x, rays.at.y, rays.to.x, rays.to.y, in, out, active, [&](Cell<F> cell, Mask<F> here) {
+            around(display.lattice, cell, [&](Cell<F> lens) {
+                const Vec2<F> axis = axis_of(display.lattice, lens);
+                const F dx = axis.x - rays.at.x, dy = across(display.lattice, axis.y - rays.at.y);
                 const F s = min(max((dx * rays.to.x + dy * rays.to.y) / length2, in), out);
-                const F ex = dx - rays.to.x * s, ey = across(scene.lattice, dy - rays.to.y * s);
+                const F ex = dx - rays.to.x * s, ey = across(display.lattice, dy - rays.to.y * s);
                 const Mask<F> near = here && extent.holds(lens) && (ex * ex + ey * ey <= r2);
                 if (none(near)) return;
-                const Stand<F> stand = stand_of(scene, extent, lens, near);
-                const Place<F> from = from_axis(lens, stand, rays.at.x, rays.at.y);
-                const Vec3<F> local{from.x, from.y, rays.at.z - F(surface.z) - stand.z};
-                const CurvedSurface<F> curved(surface, stand.curvature);
+                const LensPose<F> pose = pose_of(display, extent, lens, near);
+                const Vec2<F> from = from_axis(lens, pose, rays.at.x, rays.at.y);
+                const Vec3<F> local{from.x, from.y, rays.at.z - F(surface.z) - pose.z};
+                const CurvedSurface<F> curved(surface, pose.curvature);
                 Vec3<F> up;
                 Mask<F> valid;
-                const F way = scene.lattice.strips ? cross_cylinder(curved, local, rays.to, inwards == top, up, valid)
-                                                   : cross_surface(curved, local, rays.to, inwards == top, up, valid);
-                const Vec3<F> p{rays.at.x + rays.to.x * way, rays.at.y + rays.to.y * way, rays.at.z + rays.to.z * way};
-                valid = near && valid && in_aperture(surface, {from.x + rays.to.x * way, from.y + rays.to.y * way}, slack<F>()) &&
+                const F path_length = display.lattice.strips ? cross_cylinder(curved, local, rays.to, inwards == top, up, valid)
+                                                             : cross_surface(curved, local, rays.to, inwards == top, up, valid);
+                const Vec3<F> p{rays.at.x + rays.to.x * path_length, rays.at.y + rays.to.y * path_length,
+                                rays.at.z + rays.to.z * path_length};
+                valid = near && valid &&
+                        in_aperture(surface, {from.x + rays.to.x * path_length, from.y + rays.to.y * path_length}, slack<F>()) &&
                         (sense * (p.z - flat) >= -slack<F>());
                 if (!inwards && any(valid)) valid = valid && !covered(top, p, lens, valid);
-                best.take(valid, way, {sense * up.x, sense * up.y, sense * up.z}, lens);
-                sides(top, inwards, rays, lens, stand, near, best);
+                best.take(valid, path_length, {sense * up.x, sense * up.y, sense * up.z}, lens);
+                sides(top, inwards, rays, lens, pose, near, best);
             });
             return F(0) > F(1);
         });
@@ -158,34 +160,34 @@ struct MovedCaps {
         if (any(above)) next_on_face(true, true, rays, above, next);
         if (any(below)) next_on_face(false, true, rays, below, next);
     }
-    /// Takes the rays from `ahead` that go down through a hole within the path length `way`, below the lowest that they have been:
-    /// one that comes back up has met the black beside that hole.
-    LFDSIM_FN void stop(const GlassRays<F>& rays, F way, F lowest, Mask<F>& ahead, Mask<F>&) const {
-        const Vec3<F> at{rays.at.x, rays.at.y, rays.at.z - F(scene.placement.vertex_z)}, to = rays.to;
-        const F near = (F(scene.stop_z) - rays.at.z) / to.z, start = max((lowest - rays.at.z) / to.z, F(0));
+    /// Takes the rays from `ahead` that go down through a hole within the path length `path_length`, below the lowest that they
+    /// have been: one that comes back up has met the black beside that hole.
+    LFDSIM_FN void stop(const GlassRays<F>& rays, F path_length, F lowest, Mask<F>& ahead, Mask<F>&) const {
+        const Vec3<F> at{rays.at.x, rays.at.y, rays.at.z - F(display.misaligned.vertex_z)}, to = rays.to;
+        const F near = (F(display.stop_z) - rays.at.z) / to.z, start = max((lowest - rays.at.z) / to.z, F(0));
         const Mask<F> down = ahead && (to.z < F(0));
-        if (any(down)) ahead = ahead && !passes_any_hole(scene, extent, at, to, near, start, way, down);
+        if (any(down)) ahead = ahead && !passes_any_hole(display, extent, at, to, near, start, path_length, down);
     }
     LFDSIM_FN void end(Mask<F> ahead, Mask<F>& arrived) const { arrived = arrived && !ahead; }
 };
 
-/// From the plane z = entrance, in which way.ray starts, to the panel.
+/// From the plane z = entrance, in which passage.ray starts, to the panel.
 template <class F>
-LFDSIM_FN PanelPoint<F> trace_placed_plate(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
-                                           const PanelBase<Scalar<F>>& base, const Passage<F>& way) {
+LFDSIM_FN PanelPoint<F> trace_misaligned_plate(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent,
+                                               const PanelBase<Scalar<F>>& base, const Passage<F>& passage) {
     using S = Scalar<F>;
-    const Placement<S>& placement = scene.placement;
-    const Ray<F> ray = in_array(scene, base, way.ray);
-    const Mask<F> no_ray = F(0) > F(1), alive = way.alive && (ray.to.z < F(S(-1e-9)));
+    const MisalignedArray<S>& misaligned = display.misaligned;
+    const Ray<F> ray = in_array(display, base, passage.ray);
+    const Mask<F> no_ray = F(0) > F(1), alive = passage.alive && (ray.to.z < F(S(-1e-9)));
     // Start above all caps and holes of stops, which lie in the vertex plane of the highest cap, too.
-    const S above = S(1e-3), top = scene.body_top + (placement.highest > 0 ? placement.highest : S(0)) + above;
-    const F up = (F(top - placement.vertex_z) - ray.at.z) / ray.to.z;
+    const S above = S(1e-3), top = display.body_top + (misaligned.highest > 0 ? misaligned.highest : S(0)) + above;
+    const F up = (F(top - misaligned.vertex_z) - ray.at.z) / ray.to.z;
     GlassRays<F> rays{{ray.at.x + ray.to.x * up, ray.at.y + ray.to.y * up, F(top)}, ray.to, {F(0), F(0)}, no_ray, no_ray};
-    F weight = way.weight;
+    F weight = passage.weight;
     Mask<F> arrived, in_layer;
-    pass_glass(scene, MovedCaps<F>{scene, extent}, rays, weight, alive, arrived, in_layer);
-    const Vec3<F> leaves{rays.at.x, rays.at.y, rays.at.z - F(placement.vertex_z)};
-    return out_of_array(scene, base, Ray<F>{leaves, rays.to}, in_layer, weight, arrived);
+    pass_glass(display, MovedCaps<F>{display, extent}, rays, weight, alive, arrived, in_layer);
+    const Vec3<F> leaves{rays.at.x, rays.at.y, rays.at.z - F(misaligned.vertex_z)};
+    return out_of_array(display, base, Ray<F>{leaves, rays.to}, in_layer, weight, arrived);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -1,7 +1,7 @@
 // The panel: which pixel a ray reaches. Floor 1.
 #pragma once
 #include "optics/lens_array.h"
-#include "optics/scene.h"
+#include "optics/traced_display.h"
 #include "simd/lane.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
@@ -36,12 +36,12 @@ struct PanelHit {
 /// The point (x, y), mm from the axis of the lens `cell` in the array's frame. Numbers stay small, so that the position is accurate
 /// to a few millionths of a pixel on any panel. `plain` promises that the array is not turned.
 template <bool plain = false, class F>
-LFDSIM_FN PanelPoint<F> panel_point(const Scene<Scalar<F>>& scene, const Lattice<Scalar<F>>& lattice,
+LFDSIM_FN PanelPoint<F> panel_point(const TracedDisplay<Scalar<F>>& display, const Lattice<Scalar<F>>& lattice,
                                     const PanelBase<Scalar<F>>& base, Cell<F> cell, F x, F y, F weight, Mask<F> alive) {
-    const F k = F(scene.pixels_per_mm);
-    Place<F> at{x * k + cell.i * F(scene.pitch_pixels[0]), lattice.strips ? y * k : y * k + cell.j * F(scene.pitch_pixels[1])};
+    const F k = F(display.pixels_per_mm);
+    Vec2<F> at{x * k + cell.i * F(display.pitch_pixels[0]), lattice.strips ? y * k : y * k + cell.j * F(display.pitch_pixels[1])};
     if (lattice.staggered) at.x = at.x + stagger(lattice, cell.j) * k;
-    if (!plain && scene.rotated) at = to_display(scene.lattice, at.x, at.y);
+    if (!plain && display.rotated) at = to_display(display.lattice, at.x, at.y);
     return {F(base.column_rest) + at.x, F(base.row_rest) - at.y, weight, alive, cell};
 }
 
@@ -66,17 +66,17 @@ struct InCell {
 
 /// What a subpixel under a point shows, if there is one: the pixel's number x 4 + the channel.
 template <class F>
-LFDSIM_FN PanelHit<F> subpixel_under(const Scene<Scalar<F>>& scene, const PanelBase<Scalar<F>>& base, const PanelPoint<F>& point,
-                                     Uint<F> column, Uint<F> row, Mask<F> lit) {
+LFDSIM_FN PanelHit<F> subpixel_under(const TracedDisplay<Scalar<F>>& display, const PanelBase<Scalar<F>>& base,
+                                     const PanelPoint<F>& point, Uint<F> column, Uint<F> row, Mask<F> lit) {
     PanelHit<F> hit{Uint<F>(0u), F(0), F(1) < F(0)};
-    for (int k = 0; k < scene.emission.count; ++k) {
-        const SubpixelPart<Scalar<F>>& part = scene.emission.part[k];
+    for (int k = 0; k < display.emission.count; ++k) {
+        const SubpixelPart<Scalar<F>>& part = display.emission.part[k];
         const InCell<F> across(part, 0, base.column, point.column), down(part, 1, base.row, point.row);
         const Uint<F> shown_column = column + to_int(F(Scalar<F>(part.pixel[0])) - across.before),
                       shown_row = row + to_int(F(Scalar<F>(part.pixel[1])) - down.before);
-        const Mask<F> here = lit && across.inside(part, 0) && down.inside(part, 1) && (shown_column < Uint<F>(scene.columns)) &&
-                             (shown_row < Uint<F>(scene.rows));
-        const Uint<F> pixel = shown_row * Uint<F>(scene.columns) + shown_column;
+        const Mask<F> here = lit && across.inside(part, 0) && down.inside(part, 1) && (shown_column < Uint<F>(display.columns)) &&
+                             (shown_row < Uint<F>(display.rows));
+        const Uint<F> pixel = shown_row * Uint<F>(display.columns) + shown_column;
         hit.pixel = select(here, (pixel << 2) + Uint<F>(std::uint32_t(part.channel)), hit.pixel);
         hit.weight = select(here, point.weight * F(part.share * (part.per[0] * part.per[1])), hit.weight);
         hit.lit = hit.lit || here;
@@ -86,13 +86,14 @@ LFDSIM_FN PanelHit<F> subpixel_under(const Scene<Scalar<F>>& scene, const PanelB
 
 /// The pixel under a point. `whole` promises a panel without subpixels.
 template <bool whole = false, class F>
-LFDSIM_FN PanelHit<F> panel_pixel(const Scene<Scalar<F>>& scene, const PanelBase<Scalar<F>>& base, const PanelPoint<F>& point) {
+LFDSIM_FN PanelHit<F> panel_pixel(const TracedDisplay<Scalar<F>>& display, const PanelBase<Scalar<F>>& base,
+                                  const PanelPoint<F>& point) {
     const Uint<F> column = Uint<F>(base.column) + floor_to_int(point.column);
     const Uint<F> row = Uint<F>(base.row) + floor_to_int(point.row);
-    const Mask<F> lit = point.alive && (column < Uint<F>(scene.columns)) && (row < Uint<F>(scene.rows));
-    if (!whole && !scene.emission.whole) [[unlikely]]
-        return subpixel_under(scene, base, point, column, row, lit);
-    return {row * Uint<F>(scene.columns) + column, point.weight, lit};
+    const Mask<F> lit = point.alive && (column < Uint<F>(display.columns)) && (row < Uint<F>(display.rows));
+    if (!whole && !display.emission.whole) [[unlikely]]
+        return subpixel_under(display, base, point, column, row, lit);
+    return {row * Uint<F>(display.columns) + column, point.weight, lit};
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

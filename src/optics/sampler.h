@@ -4,7 +4,7 @@
 // and dimension by a random digital shift (exclusive or with 32 random bits), so that every point is uniform: unbiased, and a net.
 // random: independent hashes. Numbers are centred: uniform in [-1, 1].
 #pragma once
-#include "optics/scene.h"
+#include "optics/traced_display.h"
 #include "simd/lane.h"
 #include "simd/pair.h"
 

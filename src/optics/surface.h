@@ -1,6 +1,6 @@
 // Refracting surfaces: where a ray meets one, the normal there, and the share of light transmitted (Fresnel). Floor 1.
 #pragma once
-#include "optics/scene.h"
+#include "optics/traced_display.h"
 #include "simd/lane.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
@@ -86,8 +86,8 @@ LFDSIM_FN Hit<F> meet_round_cylinder(const Surface& surface, Ray<F> ray, F lengt
     return hit;
 }
 
-/// The same for conics (closed form, then the normal) and even aspheres (Newton's method from the conic; each lane stops by itself,
-/// so that its bits do not depend on its neighbours).
+/// The ray meets a conic (closed form, then the normal) and even aspheres (Newton's method from the conic; each lane stops by
+/// itself, so that its bits do not depend on its neighbours).
 template <class F, class Surface>
 LFDSIM_FN Hit<F> meet_asphere(const Surface& surface, Ray<F> ray) {
     const F c = surface.curvature, k1 = F(1) + F(surface.conic);
@@ -100,17 +100,17 @@ LFDSIM_FN Hit<F> meet_asphere(const Surface& surface, Ray<F> ray) {
     F z, d;
     Mask<F> real = disc > F(0);
     Vec3<F> p{};
-    auto stand = [&](F at) {
+    auto pose = [&](F at) {
         p = {ray.at.x + ray.to.x * at, ray.at.y + ray.to.y * at, ray.to.z * at};
         Mask<F> sheet;
         sag(surface, p.x * p.x + p.y * p.y, z, d, sheet);
         return sheet;
     };
-    Mask<F> sheet = stand(t);
+    Mask<F> sheet = pose(t);
     if (surface.terms > 0) {
         // Where the ray misses the conic, start from the vertex plane.
         t = select(real, t, F(0));
-        sheet = stand(t);
+        sheet = pose(t);
         real = sheet || !sheet;
         Mask<F> moving = real;
         const F tolerance = F(Scalar<F>(sizeof(Scalar<F>) == 4 ? 1e-6 : 1e-13));
@@ -118,7 +118,7 @@ LFDSIM_FN Hit<F> meet_asphere(const Surface& surface, Ray<F> ray) {
             const F slope = ray.to.z - d * (p.x * ray.to.x + p.y * ray.to.y);
             const F change = (p.z - z) / slope;
             t = select(moving, t - change, t);
-            sheet = stand(t);
+            sheet = pose(t);
             moving = moving && (abs(change) > tolerance);
         }
         real = sheet && (abs(p.z - z) < F(Scalar<F>(1e-4)));
@@ -135,7 +135,7 @@ LFDSIM_FN Hit<F> meet_asphere(const Surface& surface, Ray<F> ray) {
 /// c_thin: the one of the two in the less dense medium.
 template <class F>
 LFDSIM_FN F transmittance(Fresnel fresnel, F schlick_t0, F n1, F n2, F c1, F c2, F c_thin) {
-    if (fresnel == Fresnel::schlick) {  // always the cosine in the less dense medium, whichever way the ray goes
+    if (fresnel == Fresnel::schlick) {  // always the cosine in the less dense medium, whether the ray goes down or up
         const F q = F(1) - c_thin, q2 = q * q;
         return schlick_t0 - schlick_t0 * (q2 * q2 * q);
     }

@@ -16,18 +16,18 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 /// Moves a ray in the first plane, with its direction after the diffuser, to the vertex plane of the first surfaces, and turns its
 /// direction into the array's frame.
 template <Facts facts = Facts{}, class F>
-LFDSIM_FN void to_first_vertex(const Scene<Scalar<F>>& scene, Passage<F>& way) {
+LFDSIM_FN void to_first_vertex(const TracedDisplay<Scalar<F>>& display, Passage<F>& passage) {
     using S = Scalar<F>;
     constexpr bool plain = facts.plain_light == Known::yes;
-    Vec3<F>&at = way.ray.at, &to = way.ray.to;
-    way.alive = way.alive && (to.z < F(S(-1e-9)));
-    if (!plain && scene.rotated) {
-        const Place<F> turned = to_array(scene.lattice, to.x, to.y);
+    Vec3<F>&at = passage.ray.at, &to = passage.ray.to;
+    passage.alive = passage.alive && (to.z < F(S(-1e-9)));
+    if (!plain && display.rotated) {
+        const Vec2<F> turned = to_array(display.lattice, to.x, to.y);
         to.x = turned.x;
         to.y = turned.y;
     }
-    if (plain || scene.start_above != S(0)) {
-        const F t = quotient(F(-scene.start_above), to.z);
+    if (plain || display.start_above != S(0)) {
+        const F t = quotient(F(-display.start_above), to.z);
         at.x = at.x + to.x * t;
         at.y = at.y + to.y * t;
     }
@@ -35,65 +35,66 @@ LFDSIM_FN void to_first_vertex(const Scene<Scalar<F>>& scene, Passage<F>& way) {
 
 /// From the first plane, where the ray starts with its direction after the diffuser, to the panel.
 template <Facts facts, class F>
-LFDSIM_FN PanelPoint<F> trace_array(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
+LFDSIM_FN PanelPoint<F> trace_array(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent,
                                     const PanelBase<Scalar<F>>& base, Ray<F> ray, Mask<F> alive) {
-    assume<facts>(scene);
+    assume<facts>(display);
     Passage<F> passage{ray, {F(0), F(0)}, F(1), alive};
-    to_first_vertex<facts>(scene, passage);
+    to_first_vertex<facts>(display, passage);
     if constexpr (facts.misaligned != Known::no)
-        if (holds<facts.misaligned>(scene.placement.given)) {
+        if (holds<facts.misaligned>(display.misaligned.given)) {
             if constexpr (facts.lit_between != Known::no)
-                if (is_lit_between(scene)) return trace_placed_plate(scene, extent, base, passage);
-            return trace_placed<facts>(scene, extent, base, passage);
+                if (is_lit_between(display)) return trace_misaligned_plate(display, extent, base, passage);
+            return trace_misaligned<facts>(display, extent, base, passage);
         }
     if constexpr (facts.lit_between != Known::no)
-        if (holds<facts.lit_between>(is_lit_between(scene))) return trace_glass(scene, extent, base, passage);
+        if (holds<facts.lit_between>(is_lit_between(display))) return trace_glass(display, extent, base, passage);
     if constexpr (facts.ideal != Known::no)
-        if (holds<facts.ideal>(scene.thin)) return trace_ideal(scene, extent, base, passage);
-    return trace_opaque<facts>(scene, extent, base, passage);
+        if (holds<facts.ideal>(display.ideal)) return trace_ideal(display, extent, base, passage);
+    return trace_opaque<facts>(display, extent, base, passage);
 }
 
 /// trace_array(), compiled as a function of its own.
 template <Facts facts, class F>
-LFDSIM_APART PanelPoint<F> trace_apart(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent,
+LFDSIM_APART PanelPoint<F> trace_apart(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent,
                                        const PanelBase<Scalar<F>>& base, const Ray<F>& ray, const Mask<F>& alive) {
-    return trace_array<facts>(scene, extent, base, ray, alive);
+    return trace_array<facts>(display, extent, base, ray, alive);
 }
 
 /// trace_array() of any display, which is asked for its facts: for code around few rays, which is compiled once.
 template <class F>
-inline PanelPoint<F> trace_any(const Scene<Scalar<F>>& scene, const Extent<Scalar<F>>& extent, const PanelBase<Scalar<F>>& base,
-                               const Ray<F>& ray, const Mask<F>& alive) {
-    return with_facts(scene, [&]<Facts facts>() { return trace_apart<facts, F>(scene, extent, base, ray, alive); });
+inline PanelPoint<F> trace_any(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent,
+                               const PanelBase<Scalar<F>>& base, const Ray<F>& ray, const Mask<F>& alive) {
+    return with_facts(display, [&]<Facts facts>() { return trace_apart<facts, F>(display, extent, base, ray, alive); });
 }
 
 /// The ray of one sample of each pixel of a packet, in the first plane and after the diffuser; sampler(d) is the sample's number of
 /// dimension d, in [-1, 1].
 template <Facts facts = Facts{}, class F, class Samples>
-LFDSIM_FN void sample_ray(const Scene<Scalar<F>>& scene, const View& view, const PixelRays<F>& pixels, const Samples& sampler,
-                          Ray<F>& ray) {
+LFDSIM_FN void sample_ray(const TracedDisplay<Scalar<F>>& display, const RayOrigin& view, const PixelRays<F>& pixels,
+                          const Samples& sampler, Ray<F>& ray) {
     constexpr bool plain = facts.plain_light == Known::yes;
     ray = {{pixels.x, pixels.y, F(0)}, pixels.to};
-    if (!plain && (scene.box_filter || scene.thin_lens)) {
+    if (!plain && (display.box_filter || display.thin_lens)) {
         F jitter_x = F(0), jitter_y = F(0), lens_x = F(0), lens_y = F(0);
-        if (scene.box_filter) {
+        if (display.box_filter) {
             jitter_x = sampler(2);
             jitter_y = sampler(3);
         }
-        if (scene.thin_lens) disk(sampler(4), sampler(5), lens_x, lens_y);
+        if (display.thin_lens) disk(sampler(4), sampler(5), lens_x, lens_y);
         const PixelRays<F> centres = pixels;  // a copy, so that the original may stay in registers
         ray = displaced(view, centres, jitter_x, jitter_y, lens_x, lens_y);
     }
-    if (plain || scene.has_diffuser) ray.to = scatter<plain>(scene, ray.to, sampler(0), sampler(1));
+    if (plain || display.has_diffuser) ray.to = scatter<plain>(display, ray.to, sampler(0), sampler(1));
 }
 
 /// The panel pixel that one sample of each pixel reaches.
 template <Facts facts, class F, class Samples>
-LFDSIM_FN PanelHit<F> trace(const Scene<Scalar<F>>& scene, const View& view, const PixelRays<F>& pixels, const Samples& sampler) {
+LFDSIM_FN PanelHit<F> trace(const TracedDisplay<Scalar<F>>& display, const RayOrigin& view, const PixelRays<F>& pixels,
+                            const Samples& sampler) {
     Ray<F> ray;
-    sample_ray<facts>(scene, view, pixels, sampler, ray);
-    const PanelPoint<F> point = trace_array<facts>(scene, pixels.extent, pixels.base, ray, pixels.alive);
-    return panel_pixel<facts.plain_light == Known::yes>(scene, pixels.base, point);
+    sample_ray<facts>(display, view, pixels, sampler, ray);
+    const PanelPoint<F> point = trace_array<facts>(display, pixels.extent, pixels.base, ray, pixels.alive);
+    return panel_pixel<facts.plain_light == Known::yes>(display, pixels.base, point);
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

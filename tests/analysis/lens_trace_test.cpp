@@ -2,7 +2,7 @@
 #include "analysis/spots/ray_fan.h"
 
 #include "base/constants.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "lenses.h"
 #include "optics/trace.h"
 
@@ -21,7 +21,9 @@ constexpr double from_75[] = {-75, 0, 75};
 class Backward {
   public:
     Backward(const Display& d, const Geometry& g)
-        : scene_(make_scene<double>(d, g)), pixel_(d.panel.pixel_pitch_mm), start_(g.entrance_z_mm - g.rear_principal_mm) {}
+        : scene_(make_traced_display<double>(d, g)),
+          pixel_(d.panel.pixel_pitch_mm),
+          start_(g.entrance_z_mm - g.rear_principal_mm) {}
 
     /// Where it brings a ray that comes back to the panel.
     std::optional<Point> panel(const LensRay& ray) const {
@@ -39,7 +41,7 @@ class Backward {
         if (!point.alive) return {};
         return Point{point.column * pixel_, -point.row * pixel_};
     }
-    optics::Scene<double> scene_;
+    optics::TracedDisplay<double> scene_;
     double pixel_, start_;
 };
 

@@ -4,7 +4,7 @@
 #include "analysis/resolution/mtf.h"
 #include "analysis/resolution/mtf_curves.h"
 #include "base/constants.h"
-#include "optics/scene.h"
+#include "optics/traced_display.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

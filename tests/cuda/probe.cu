@@ -6,7 +6,7 @@ using namespace lfdsim;
 using namespace lfdsim::optics;
 
 template <Facts facts>
-__device__ __forceinline__ void sample(const Scene<float>& scene, const View& view, const DirectionNumbers& directions,
+__device__ __forceinline__ void sample(const TracedDisplay<float>& scene, const RayOrigin& view, const DirectionNumbers& directions,
                                        const PixelRays<float>& pixels, const float* texels, std::uint32_t count, float* out) {
     Sampler<float> sampler(Sampling::sobol, 2, 0, threadIdx.x);
     Light<float> light;
@@ -18,7 +18,8 @@ __device__ __forceinline__ void sample(const Scene<float>& scene, const View& vi
 }
 
 #define PROBE(facts)                                                                                                              \
-    extern "C" __global__ void probe_##facts(const __grid_constant__ Scene<float> scene, const __grid_constant__ View view,       \
+    extern "C" __global__ void probe_##facts(const __grid_constant__ TracedDisplay<float> scene,                                  \
+                                             const __grid_constant__ RayOrigin view,                                              \
                                              const __grid_constant__ DirectionNumbers directions, const PixelRays<float>* pixels, \
                                              const float* texels, std::uint32_t count, float* out) {                              \
         sample<Specialisations::facts>(scene, view, directions, pixels[threadIdx.x], texels, count, out);                         \

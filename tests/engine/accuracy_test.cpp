@@ -11,14 +11,14 @@ namespace {
 
 using optics::Facts;
 using optics::PanelHit;
+using optics::RayOrigin;
 using optics::Sampler;
-using optics::Scene;
-using optics::View;
+using optics::TracedDisplay;
 using Rows = optics::Specialisations;
 
 /// Sample `sample` of a pixel.
 template <class F>
-PanelHit<F> trace(const Scene<F>& scene, const View& view, int column, int row, Sampling sampling, int sample) {
+PanelHit<F> trace(const TracedDisplay<F>& scene, const RayOrigin& view, int column, int row, Sampling sampling, int sample) {
     const std::uint32_t pixel = std::uint32_t(row) * std::uint32_t(view.width) + std::uint32_t(column);
     Sampler<F> sampler(sampling, optics::sampler_dimensions, view.seed, pixel);
     for (int n = 0; n < sample; ++n) sampler.next(sobol_directions());
@@ -29,10 +29,10 @@ PanelHit<F> trace(const Scene<F>& scene, const View& view, int column, int row, 
 /// Does a double-precision ray through a point at most 0.02 pixels away, in the picture, do what the single-precision one did?
 /// Paths among clear lenses may magnify a shift ten thousand times, so the steps begin small.
 template <class Same>
-bool explained(const View& view, Same same) {
+bool explained(const RayOrigin& view, Same same) {
     for (double pixels = 0.02; pixels > 1e-6; pixels /= 2) {
         for (int turn = 0; turn < 16; ++turn) {
-            View shifted = view;
+            RayOrigin shifted = view;
             const double x = pixels * view.pixel_mm * std::cos(turn * 22.5 * degree) / view.distance;
             const double y = pixels * view.pixel_mm * std::sin(turn * 22.5 * degree) / view.distance;
             for (int a = 0; a < 3; ++a) shifted.forward[a] += view.right[a] * x + view.up[a] * y;
@@ -45,15 +45,15 @@ bool explained(const View& view, Same same) {
 /// Share of rays that reach the same panel pixel, or none, in both; every other one must be explained.
 double share_alike(const Display& d) {
     const Geometry g = resolve(d);
-    const Scene<float> narrow = make_scene<float>(d, g);
-    const Scene<double> wide = make_scene<double>(d, g);
-    const View view = make_view(d, g);
+    const TracedDisplay<float> narrow = make_traced_display<float>(d, g);
+    const TracedDisplay<double> wide = make_traced_display<double>(d, g);
+    const RayOrigin view = make_ray_origin(d, g);
     int all = 0, alike = 0;
     for (int row = 3; row < view.height; row += 23) {
         for (int column = 5; column < view.width; column += 23) {
             const int sample = all % 16;
             const auto a = trace(narrow, view, column, row, d.render.sampling, sample);
-            auto same = [&](const View& seen) {
+            auto same = [&](const RayOrigin& seen) {
                 const auto b = trace(wide, seen, column, row, d.render.sampling, sample);
                 // where both are lit the light is the same too, to 1e-3 near grazing exits
                 return a.lit == b.lit && (!a.lit || (a.pixel == b.pixel && std::abs(double(a.weight) - b.weight) < 1e-3));
@@ -97,7 +97,7 @@ TEST_P(Accuracy, FloatIsAsGoodAsDouble) {
 
 /// What the kernel knows that traces a display.
 Facts known_of(const Display& d) {
-    return optics::with_facts(make_scene<float>(d, resolve(d)), []<Facts facts>() { return facts; });
+    return optics::with_facts(make_traced_display<float>(d, resolve(d)), []<Facts facts>() { return facts; });
 }
 
 /// All rays of a display have the same bits by its own specialisation of the tracer and by a general one.
@@ -105,8 +105,8 @@ template <Facts general>
 void expect_the_same_by(const Display& d) {
     ASSERT_TRUE(validate(d).empty());
     const Geometry g = resolve(d);
-    const DisplayScene<float> scene = make_scene<float>(d, g);
-    const View view = make_view(d, g);
+    const StoredDisplay<float> scene = make_traced_display<float>(d, g);
+    const RayOrigin view = make_ray_origin(d, g);
     int lit = 0;
     for (int row = 1; row < view.height; row += 7) {
         for (int column = 2; column < view.width; column += 7) {

@@ -6,7 +6,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "pictures.h"
 
 namespace lfdsim {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "files/description/display_file.h"
 #include "geometry/subpixels.h"
 #include "pictures.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "geometry/subpixels.h"
 #include "pictures.h"
 

@@ -5,7 +5,7 @@
 #include "optics/trace.h"
 
 lfdsim::HostKernel lfdsim::host_kernel(const wide::Frame& frame) {
-    return optics::with_facts(frame.scene, [&]<optics::Facts facts>() {
+    return optics::with_facts(frame.display, [&]<optics::Facts facts>() {
         const auto of = [&]<bool sobol>() {
             return HostKernel{facts, optics::Specialisations::number_of<facts>(), sobol,
                               [](const wide::Frame& f, std::int64_t i) { wide::point_item<facts, sobol>(f, i); }};

@@ -84,7 +84,7 @@ std::int64_t search(const Display& d, const Geometry& g, const V& o, const V& i)
 }
 
 template <class F>
-std::int64_t traced(const optics::Scene<F>& scene, const optics::View& view, int column, int row) {
+std::int64_t traced(const optics::TracedDisplay<F>& scene, const optics::RayOrigin& view, int column, int row) {
     const optics::Sampler<F> sampler(Sampling::sobol, optics::sampler_dimensions, 0, 0);
     const auto rays = optics::pixel_rays<F>(view, column, row);
     const auto hit =
@@ -137,9 +137,9 @@ TEST_P(LensSearch, FindsTheLensThatAFullSearchFinds) {
                 std::min(4.4 * side, 120.0) *
                 std::max(0.2, std::cos(angle * degree));  // all of the small array, 30 lenses across of the others
             const Geometry g = resolve(d);
-            const auto narrow = make_scene<float>(d, g);
-            const auto wide = make_scene<double>(d, g);
-            const optics::View view = make_view(d, g);
+            const auto narrow = make_traced_display<float>(d, g);
+            const auto wide = make_traced_display<double>(d, g);
+            const optics::RayOrigin view = make_ray_origin(d, g);
             int lit = 0, different = 0, different_float = 0;
             for (int row = 0; row < 100; ++row) {
                 for (int column = 0; column < 150; ++column) {

@@ -18,8 +18,8 @@ TEST(Means, OfManySamplesAreTheirAverage) {
     d.diffuser = Diffuser{40, {10, 10}, Profile::box};
     const Geometry g = resolve(d);
     const Texels panel = noise_panel(d);
-    const auto scene = make_scene<float>(d, g);
-    const auto view = make_view(d, g);
+    const auto scene = make_traced_display<float>(d, g);
+    const auto view = make_ray_origin(d, g);
     for (int samples : {1, 255, 256, 257, 300, 1000}) {
         d.render.samples = samples;
         const Image image = picture(d, panel, {1, "", Rect{70, 50, 90, 60}});

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "../optics/example.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "optics/camera.h"
 
 namespace lfdsim {
@@ -29,7 +29,7 @@ TEST(ScreenCorners, RaysThroughThemMeetTheArray) {
         const Geometry g = resolve(d);
         const auto corners = screen_corners(d, g).at;
         ASSERT_TRUE(corners);
-        optics::View view = make_view(d, g);
+        optics::RayOrigin view = make_ray_origin(d, g);
         view.start_z = g.vertex_plane_mm;
         for (const auto& [column, row] : *corners) {
             double direction[3], x, y;

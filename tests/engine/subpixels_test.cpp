@@ -10,7 +10,7 @@
 #include "../model/panels.h"
 #include "display/keys.h"
 #include "engine/estimator/panel_covariance.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "pictures.h"
 
 namespace lfdsim {
@@ -104,7 +104,7 @@ struct ReadPanel {
           shown(noise_panel(d)),
           summed(shown),
           reading{.planes = planes(d.panel)},
-          scene(make_scene<float>(d, resolve(d))) {
+          scene(make_traced_display<float>(d, resolve(d))) {
         light = {summed.planes(reading).data(), scene.emission.whole, &scene.emission};
     }
     double light_at(double x, double y, int c) const { return lfdsim::light_at(panel, shown, x, y, c); }
@@ -113,7 +113,7 @@ struct ReadPanel {
     Texels shown;
     SummedPanel summed;
     PanelReading reading;
-    optics::Scene<float> scene;
+    optics::TracedDisplay<float> scene;
     optics::PanelLight light;
     optics::PanelBase<float> base{40, 30, 0, 0};
 };
@@ -182,7 +182,7 @@ SpreadErrors errors_of(const Display& d, const std::function<LineOfBoxes(Random&
         const LineOfBoxes of = draw(random);
         const double x = random(20, 60), y = random(20, 60);
         const auto at_x = float(x - 40), at_y = float(y - 30);
-        optics::PanelSpread<float> line{}, box{};
+        optics::PanelCovariance<float> line{}, box{};
         line.add(float(of.columns), float(of.rows));
         box.add(float(of.wide), 0);
         box.add(0, float(of.high));

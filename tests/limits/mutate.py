@@ -41,7 +41,7 @@ class Engine:
         for entry in json.loads((build / "compile_commands.json").read_text()):
             source = pathlib.Path(entry["file"])
             text = source.read_text() if "Unity" in source.parts else str(source)
-            if source.name == "scalar.cpp" or any(f"src/engine/{name}.cpp" in text for name in ("scene/scene", "estimator/choice")):
+            if source.name == "scalar.cpp" or any(f"src/engine/{name}.cpp" in text for name in ("scene/traced_display", "estimator/choice")):
                 self.compile[source.name + ".o"] = entry
         lines = subprocess.run(["ninja", "-C", build, "-t", "commands", "engine_tests"], capture_output=True, text=True, check=True)
         self.link = next(line for line in reversed(lines.stdout.splitlines()) if "-o engine_tests" in line)

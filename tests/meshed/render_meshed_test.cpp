@@ -37,8 +37,8 @@ struct Comparison {
 Comparison compare(const Display& d, std::int64_t triangles, LensNormals normals, int step) {
     const Geometry g = resolve(d);
     const MeshedLens lens(d, g, triangles, normals);
-    const MeshedScene scene{make_scene<float>(d, g), &lens.surfaces()};
-    const optics::View view = make_view(d, g);
+    const MeshedScene scene{make_traced_display<float>(d, g), &lens.surfaces()};
+    const optics::RayOrigin view = make_ray_origin(d, g);
     Comparison found;
     int near = 0;
     for (int row = 1; row < view.height; row += step) {
@@ -46,11 +46,11 @@ Comparison compare(const Display& d, std::int64_t triangles, LensNormals normals
             const auto pixel = optics::pixel_rays<float>(view, column, row);
             optics::Sampler<float> sampler(d.render.sampling, optics::sampler_dimensions, view.seed,
                                            std::uint32_t(row * view.width + column));
-            optics::Passage<float> way{{}, {0, 0}, 1, pixel.alive};
-            optics::sample_ray(scene, view, pixel, sampler, way.ray);
-            optics::to_first_vertex(scene, way);
-            const auto a = optics::trace_opaque<optics::Specialisations::opaque>(scene, pixel.extent, pixel.base, way);
-            const auto b = optics::trace_opaque<optics::Specialisations::meshed>(scene, pixel.extent, pixel.base, way);
+            optics::Passage<float> passage{{}, {0, 0}, 1, pixel.alive};
+            optics::sample_ray(scene, view, pixel, sampler, passage.ray);
+            optics::to_first_vertex(scene, passage);
+            const auto a = optics::trace_opaque<optics::Specialisations::opaque>(scene, pixel.extent, pixel.base, passage);
+            const auto b = optics::trace_opaque<optics::Specialisations::meshed>(scene, pixel.extent, pixel.base, passage);
             found.one += a.alive != b.alive;
             if (!a.alive || !b.alive) continue;
             ++found.both;
@@ -148,7 +148,7 @@ TEST(MeshSurfaces, OnlyWaysDownCount) {
     const Display d = with_surfaces({{0.25, 0, {}, 3.9, 4, 1.5}, {0, 0, {}, 3.9}});
     const Geometry g = resolve(d);
     const MeshedLens lens(d, g, 300000, LensNormals::smooth);
-    const auto scene = make_scene<double>(d, g);
+    const auto scene = make_traced_display<double>(d, g);
     Random random(5);
     int from_behind = 0;
     for (int n = 0; n < 20000; ++n) {

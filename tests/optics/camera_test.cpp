@@ -26,7 +26,7 @@ Display oblique() {
 
 /// Where a ray is in the display's frame, given its place from the axis of its base lens in the array's.
 template <class F>
-Point3 place(const Display& d, const View& view, const PixelRays<F>& pixel, F x, F y) {
+Point3 place(const Display& d, const RayOrigin& view, const PixelRays<F>& pixel, F x, F y) {
     const double i = -double(pixel.extent.low_i), j = -double(pixel.extent.low_j);  // the base lens
     const double ax = double(x) + (i + 0.5 - 0.5 * view.lattice.count[0]) * d.array.pitch_mm[0];
     const double ay = double(y) + (j + 0.5 - 0.5 * view.lattice.count[1]) * d.array.pitch_mm[1];
@@ -62,7 +62,7 @@ template <class F>
 void check_displaced(double bound_mm, double bound) {
     const Display d = oblique();
     const Geometry g = resolve(d);
-    const View view = make_view(d, g);
+    const RayOrigin view = make_ray_origin(d, g);
     Random random(2);
     for (int n = 0; n < 2000; ++n) {
         const int column = int(random(0, 160)), row = int(random(0, 112));
@@ -87,7 +87,7 @@ void check_displaced(double bound_mm, double bound) {
 TEST(Camera, PixelCentres) {
     Display d = oblique();
     const Geometry g = resolve(d);
-    const View view = make_view(d, g);
+    const RayOrigin view = make_ray_origin(d, g);
     for (int row = 0; row < 112; row += 7) {
         for (int column = 0; column < 160; column += 7) {
             Point3 from, through;
@@ -115,7 +115,7 @@ TEST(Camera, JitterAndPupilInFloat) { check_displaced<float>(3e-6, 3e-7); }
 // The base lens's axis meets the panel where plain geometry says.
 TEST(Camera, PanelBase) {
     const Display d = oblique();
-    const View view = make_view(d, resolve(d));
+    const RayOrigin view = make_ray_origin(d, resolve(d));
     for (int column = 0; column < 160; column += 9) {
         const PixelRays<double> pixel = pixel_rays<double>(view, column, 50);
         const Point3 axis = place(d, view, pixel, 0.0, 0.0);
@@ -128,7 +128,7 @@ TEST(Camera, RaysThatLookAwayEndAtOnce) {
     Display d = example();
     d.camera.target_mm = {0, 0, 500};
     d.camera.up = {0, 1, 0};
-    const View view = make_view(d, resolve(d));
+    const RayOrigin view = make_ray_origin(d, resolve(d));
     for (int column = 0; column < 160; ++column) EXPECT_FALSE(pixel_rays<float>(view, column, 50).alive);
 }
 

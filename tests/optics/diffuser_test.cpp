@@ -54,10 +54,10 @@ TEST(Diffuser, TurnsAboutYFirst) {
 }
 
 template <class F>
-Scene<F> diffusing(Profile profile, double horizontal_deg, double vertical_deg) {
+TracedDisplay<F> diffusing(Profile profile, double horizontal_deg, double vertical_deg) {
     Display d = example();
     d.diffuser = Diffuser{100, {horizontal_deg, vertical_deg}, profile};
-    return make_scene<F>(d, resolve(d));
+    return make_traced_display<F>(d, resolve(d));
 }
 
 // scatter() by the float polynomials against double: 1e-7 of each sine and cosine, a few of them.
@@ -65,8 +65,8 @@ TEST(Diffuser, ScattersInFloatAsInDouble) {
     Random random(7);
     for (double angle : {0.5, 4.0, 30.0, 120.0, 179.0}) {
         for (Profile profile : {Profile::box, Profile::gaussian}) {
-            const Scene<float> narrow = diffusing<float>(profile, angle, angle / 2);
-            const Scene<double> wide = diffusing<double>(profile, angle, angle / 2);
+            const TracedDisplay<float> narrow = diffusing<float>(profile, angle, angle / 2);
+            const TracedDisplay<double> wide = diffusing<double>(profile, angle, angle / 2);
             for (int n = 0; n < 2000; ++n) {
                 const double u = double(float(random(-1, 1))), v = double(float(random(-1, 1)));
                 const V t = scatter(wide, {0.36, -0.48, -0.8}, u, v);
@@ -86,7 +86,7 @@ TEST(Diffuser, ScattersInFloatAsInDouble) {
 TEST(Diffuser, AnglesFollowTheirDensity) {
     for (Profile profile : {Profile::box, Profile::gaussian}) {
         for (const auto [horizontal, vertical] : {std::array{2.0, 1.0}, std::array{40.0, 4.74}, std::array{110.0, 60.0}}) {
-            const Scene<float> scene = diffusing<float>(profile, horizontal, vertical);
+            const TracedDisplay<float> scene = diffusing<float>(profile, horizontal, vertical);
             auto share = [&](double angle, double full_deg) {  // of the density below the angle
                 if (profile == Profile::box) return angle / (full_deg * degree) + 0.5;
                 const double scale = full_deg * degree / (2 * std::sqrt(2 * std::numbers::ln2)) * std::sqrt(2.0);  // sigma sqrt 2
@@ -119,7 +119,7 @@ TEST(Diffuser, AnglesFollowTheirDensity) {
 // Where the numbers are most extreme the normal distribution is cut, at +-89 degrees, however wide it is.
 TEST(Diffuser, GaussianEndsAt89Degrees) {
     for (double full : {60.0, 110.0, 170.0}) {
-        const Scene<double> scene = diffusing<double>(Profile::gaussian, full, full);
+        const TracedDisplay<double> scene = diffusing<double>(Profile::gaussian, full, full);
         for (double u : {-1.0, 1.0}) EXPECT_NEAR(diffuser_angle(scene, 0, u), u * 89 * degree, 1e-3) << full;
     }
 }
@@ -127,7 +127,7 @@ TEST(Diffuser, GaussianEndsAt89Degrees) {
 // Half the density at half the full width: the central difference of the angle as a function of the uniform number is 1 / density.
 TEST(Diffuser, GaussianHasItsFullWidthAtHalfMaximum) {
     for (double full : {1.0, 10.0, 80.0}) {
-        const Scene<double> scene = diffusing<double>(Profile::gaussian, full, full);
+        const TracedDisplay<double> scene = diffusing<double>(Profile::gaussian, full, full);
         auto spread = [&](double u) { return diffuser_angle(scene, 0, u + 1e-6) - diffuser_angle(scene, 0, u - 1e-6); };
         double low = 0, high = 1;  // the number that gives half the width
         for (int i = 0; i < 60; ++i) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/constants.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "geometry/geometry.h"
 #include "optics/trace.h"
 

@@ -98,19 +98,21 @@ TEST(Fresnel, SchlickTakesTheThinSidesCosine) {
 // right cosines to the right places.
 TEST(Fresnel, PassagesCarryTheRightWeight) {
     const Display d = with_surfaces({{0, 0, {}, 6, 5, 1.5}, {0, 0, {}, 6}});
-    Scene<double> scene = make_scene<double>(d, resolve(d));
+    TracedDisplay<double> scene = make_traced_display<double>(d, resolve(d));
     for (Fresnel kind : {Fresnel::exact, Fresnel::schlick, Fresnel::none}) {
         scene.fresnel = kind;
         for (int k = 0; k < 80; ++k) {
             const double above = k * degree, below = std::asin(std::sin(above) / 1.5);
             const double down = kind == Fresnel::none ? 1 : transmitted<double>(kind, 1, 1.5, above);
             const double up = kind == Fresnel::none ? 1 : transmitted<double>(kind, 1.5, 1, below);
-            Passage<double> way{{{0, 0, 0}, {std::sin(above), 0, -std::cos(above)}}, {0, 0}, 1, true};
-            refract_down<Facts{}>(scene, Shape::plane, scene.surface[0], meet(Shape::plane, scene.surface[0], way.ray), way);
-            EXPECT_NEAR(way.weight, down, 1e-13);
-            way.weight = 1;
-            refract_down<Facts{}>(scene, Shape::plane, scene.surface[1], meet(Shape::plane, scene.surface[1], way.ray), way);
-            EXPECT_NEAR(way.weight, up, 1e-13);
+            Passage<double> passage{{{0, 0, 0}, {std::sin(above), 0, -std::cos(above)}}, {0, 0}, 1, true};
+            refract_down<Facts{}>(scene, Shape::plane, scene.surface[0], meet(Shape::plane, scene.surface[0], passage.ray),
+                                  passage);
+            EXPECT_NEAR(passage.weight, down, 1e-13);
+            passage.weight = 1;
+            refract_down<Facts{}>(scene, Shape::plane, scene.surface[1], meet(Shape::plane, scene.surface[1], passage.ray),
+                                  passage);
+            EXPECT_NEAR(passage.weight, up, 1e-13);
 
             const Crossing<double> here{0, {0, 0, 1}, {0, 0}, true};
             GlassRays<double> rays{{0, 0, 0}, {std::sin(above), 0, -std::cos(above)}, {0, 0}, false, false};

@@ -28,9 +28,9 @@ const std::vector<Surface> first_surfaces = {
 
 /// The scene of a lens with a flat back, glass of index 1.5 and this front, which rays coming down meet first.
 template <class F>
-Scene<F> lens_with(const Surface& front) {
+TracedDisplay<F> lens_with(const Surface& front) {
     const Display d = with_surfaces({{0, 0, {}, 6, 5, 1.5}, front});
-    return make_scene<F>(d, resolve(d));
+    return make_traced_display<F>(d, resolve(d));
 }
 
 /// The unit normal by the textbook derivative of the sag, independent of the tracer's.
@@ -49,7 +49,7 @@ template <class F, class Check>
 void for_each_ray(Check check) {
     Random random(1);
     for (const Surface& front : first_surfaces) {
-        const Scene<F> scene = lens_with<F>(front);
+        const TracedDisplay<F> scene = lens_with<F>(front);
         for (int n = 0; n < 4000; ++n) {
             const double r = 5.99 * std::sqrt(random(0, 1)), turn = random(0, 360) * degree;
             const double x = r * std::cos(turn), y = r * std::sin(turn);
@@ -77,7 +77,7 @@ constexpr double bound = sizeof(F) == 4 ? 5e-6 : 1e-14;
 
 TYPED_TEST(Laws, EveryRayMeetsItsTargetOnTheSurface) {
     using F = TypeParam;
-    for_each_ray<F>([](const Surface& front, const Scene<F>& scene, V target, V normal, const Ray<F>& ray) {
+    for_each_ray<F>([](const Surface& front, const TracedDisplay<F>& scene, V target, V normal, const Ray<F>& ray) {
         const Hit<F> hit = meet(scene.surface[0].shape, scene.surface[0], ray);
         ASSERT_TRUE(hit.ok) << "missed (" << target.x << ", " << target.y << "), conic " << front.conic;
         const V at = wide(hit.at), n = wide(hit.normal);
@@ -93,12 +93,12 @@ TYPED_TEST(Laws, EveryRayMeetsItsTargetOnTheSurface) {
 TYPED_TEST(Laws, RefractionObeysSnell) {
     using F = TypeParam;
     const double n1 = 1, n2 = 1.5;
-    for_each_ray<F>([&](const Surface&, const Scene<F>& scene, V, V, const Ray<F>& ray) {
+    for_each_ray<F>([&](const Surface&, const TracedDisplay<F>& scene, V, V, const Ray<F>& ray) {
         const Hit<F> hit = meet(scene.surface[0].shape, scene.surface[0], ray);
-        Passage<F> way{ray, {F(0), F(0)}, F(1), true};
-        refract_down<Facts{}>(scene, scene.surface[0].shape, scene.surface[0], hit, way);
-        const V i = wide(ray.to), t = wide(way.ray.to), n = wide(hit.normal);
-        EXPECT_TRUE(way.alive);
+        Passage<F> passage{ray, {F(0), F(0)}, F(1), true};
+        refract_down<Facts{}>(scene, scene.surface[0].shape, scene.surface[0], hit, passage);
+        const V i = wide(ray.to), t = wide(passage.ray.to), n = wide(hit.normal);
+        EXPECT_TRUE(passage.alive);
         EXPECT_NEAR(length(t), 1, bound<F>);
         // n1 sin1 = n2 sin2 with the plane of incidence: the vectors n1 i x n and n2 t x n are equal
         const V in = cross_product(i, n), out = cross_product(t, n);
@@ -111,7 +111,7 @@ TYPED_TEST(Laws, RefractionObeysSnell) {
 
 TYPED_TEST(Laws, LightGoesBackTheWayItCame) {
     using F = TypeParam;
-    for_each_ray<F>([](const Surface&, Scene<F> scene, V, V normal, const Ray<F>& ray) {
+    for_each_ray<F>([](const Surface&, TracedDisplay<F> scene, V, V normal, const Ray<F>& ray) {
         scene.fresnel = Fresnel::exact;
         const Crossing<F> here{F(0), {F(normal.x), F(normal.y), F(normal.z)}, {F(0), F(0)}, true};
         GlassRays<F> rays{{F(0), F(0), F(0)}, ray.to, {F(0), F(0)}, false, false};
@@ -129,7 +129,7 @@ TYPED_TEST(Laws, LightGoesBackTheWayItCame) {
 
 TYPED_TEST(Laws, BeyondTheCriticalAngleLightIsMirrored) {
     using F = TypeParam;
-    Scene<F> scene = lens_with<F>(first_surfaces[0]);
+    TracedDisplay<F> scene = lens_with<F>(first_surfaces[0]);
     scene.fresnel = Fresnel::exact;
     const Crossing<F> here{F(0), {F(0), F(0), F(1)}, {F(0), F(0)}, true};
     const double critical = std::asin(1 / 1.5);
@@ -147,16 +147,16 @@ TYPED_TEST(Laws, BeyondTheCriticalAngleLightIsMirrored) {
 
 TYPED_TEST(Laws, SequentialLightEndsBeyondTheCriticalAngle) {
     using F = TypeParam;
-    Scene<F> scene = lens_with<F>(first_surfaces[0]);
+    TracedDisplay<F> scene = lens_with<F>(first_surfaces[0]);
     const SurfaceData<F>& back = scene.surface[1];  // from glass into air, going down
     const double critical = std::asin(1 / 1.5);
     for (double angle = 0.5 * degree; angle < 89.6 * degree; angle += degree) {
         const Ray<F> ray{{F(0), F(0), F(0)}, {F(std::sin(angle)), F(0), F(-std::cos(angle))}};
-        Passage<F> way{ray, {F(0), F(0)}, F(1), true};
-        refract_down<Facts{}>(scene, back.shape, back, meet(back.shape, back, ray), way);
-        EXPECT_EQ(way.alive, angle < critical) << angle / degree;
-        if (way.alive) {
-            EXPECT_NEAR(double(way.ray.to.x), 1.5 * std::sin(angle), bound<F>);
+        Passage<F> passage{ray, {F(0), F(0)}, F(1), true};
+        refract_down<Facts{}>(scene, back.shape, back, meet(back.shape, back, ray), passage);
+        EXPECT_EQ(passage.alive, angle < critical) << angle / degree;
+        if (passage.alive) {
+            EXPECT_NEAR(double(passage.ray.to.x), 1.5 * std::sin(angle), bound<F>);
         }
     }
 }
@@ -165,13 +165,13 @@ TYPED_TEST(Laws, SequentialLightEndsBeyondTheCriticalAngle) {
 // s^2/2 to first order; the normal turns by c s, the refracted ray by (n - 1)/n c s at normal incidence and at most 1.5 times it
 // here.
 TEST(PlaneLimit, SpheresFlattenIntoThePlane) {
-    const Scene<double> flat = lens_with<double>({0, 0, {}, 6});
+    const TracedDisplay<double> flat = lens_with<double>({0, 0, {}, 6});
     const Ray<double> ray{{3, -2, 0}, {0.3, 0.4, -std::sqrt(0.75)}};
-    auto pass = [&](const Scene<double>& scene, Shape shape) {
-        Passage<double> way{ray, {0, 0}, 1, true};
-        refract_down<Facts{}>(scene, shape, scene.surface[0], meet(shape, scene.surface[0], ray), way);
-        EXPECT_TRUE(way.alive);
-        return way.ray;
+    auto pass = [&](const TracedDisplay<double>& scene, Shape shape) {
+        Passage<double> passage{ray, {0, 0}, 1, true};
+        refract_down<Facts{}>(scene, shape, scene.surface[0], meet(shape, scene.surface[0], ray), passage);
+        EXPECT_TRUE(passage.alive);
+        return passage.ray;
     };
     const Ray<double> plane = pass(flat, Shape::plane);
     for (double c = 1e-2; c > 1e-12; c /= 10) {

@@ -12,10 +12,10 @@ Display shipped(const std::string& name) { return read_display(LFDSIM_SOURCE_DIR
 /// A lens by itself, as rays coming down meet it: of a display, or, mirrored in z, of the same display seen from its panel, so that
 /// the tracer, which only goes down, follows light from the panel to the viewer.
 struct Bench {
-    Scene<double> scene;
+    TracedDisplay<double> scene;
     double first_z, last_z;  // vertices, mm from the plane z = 0
 
-    explicit Bench(const Display& d) : scene(make_scene<double>(d, resolve(d))) {
+    explicit Bench(const Display& d) : scene(make_traced_display<double>(d, resolve(d))) {
         scene.fresnel = Fresnel::none;
         first_z = scene.surface[0].z;
         last_z = scene.surface[scene.surface_count - 1].z;
@@ -24,23 +24,23 @@ struct Bench {
     /// Follows a ray from its place to the vertex plane of the last surface and back out to the plane z = `end`. False if it is
     /// lost.
     bool follow(Ray<double>& ray, double end) const {
-        Passage<double> way{ray, {0, 0}, 1, true};
+        Passage<double> passage{ray, {0, 0}, 1, true};
         double vertex = 0;  // of the surface that way.ray.at.z counts from
         for (int k = 0; k < scene.surface_count; ++k) {
             const SurfaceData<double>& s = scene.surface[k];
-            stand(way.ray, vertex, s.z);
+            pose(passage.ray, vertex, s.z);
             vertex = s.z;
-            const Hit<double> hit = meet(s.shape, s, way.ray);
-            way.alive = way.alive && hit.ok;
-            refract_down<Facts{}>(scene, s.shape, s, hit, way);
+            const Hit<double> hit = meet(s.shape, s, passage.ray);
+            passage.alive = passage.alive && hit.ok;
+            refract_down<Facts{}>(scene, s.shape, s, hit, passage);
         }
-        stand(way.ray, vertex, end);
-        ray = way.ray;
-        return way.alive;
+        pose(passage.ray, vertex, end);
+        ray = passage.ray;
+        return passage.alive;
     }
 
   private:
-    static void stand(Ray<double>& ray, double origin, double z) {
+    static void pose(Ray<double>& ray, double origin, double z) {
         const double t = (z - origin - ray.at.z) / ray.to.z;
         ray.at = {ray.at.x + ray.to.x * t, ray.at.y + ray.to.y * t, 0};
     }
@@ -107,7 +107,7 @@ TEST(Lens, CapMeetsTheWall) {
         d.lens.as<PlanoConvex>().sphere_radius_mm = R;
         d.lens.as<PlanoConvex>().cylinder_height_mm = R == 2 ? 0 : 0.5;
         const Geometry g = resolve(d);
-        const Scene<double> scene = make_scene<double>(d, g);
+        const TracedDisplay<double> scene = make_traced_display<double>(d, g);
         const double centre = g.base_z_mm + d.lens.as<PlanoConvex>().cylinder_height_mm - std::sqrt(R * R - 4);
         EXPECT_NEAR(scene.surface[0].z, centre + R, 1e-12);
         EXPECT_NEAR(scene.surface[0].z + scene.surface[0].rim, g.base_z_mm + d.lens.as<PlanoConvex>().cylinder_height_mm, 1e-12);
@@ -191,7 +191,7 @@ TEST(Lens, PhaseSpaceIsPreserved) {
 
 /// One ideal lens on the axis before a fine panel; the ray's panel pixel.
 PanelHit<double> through_ideal(const Display& d, double x, double y, double slope_x, double slope_y) {
-    const Scene<double> scene = make_scene<double>(d, resolve(d));
+    const TracedDisplay<double> scene = make_traced_display<double>(d, resolve(d));
     const double length = std::sqrt(1 + slope_x * slope_x + slope_y * slope_y);
     const Extent<double> extent{0, 0, 0, 0};
     const PanelBase<double> base{std::uint32_t(d.panel.pixels[0] / 2), std::uint32_t(d.panel.pixels[1] / 2), 0, 0};

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "files/description/display_file.h"
 #include "optics/trace.h"
 
@@ -19,7 +19,7 @@ double traced(const Display& d, const SideRay& ray) {
     Display alone = d;
     alone.array.count = {1, 1};
     alone.diffuser.reset();
-    const optics::Scene<double> scene = make_scene<double>(alone, g);
+    const optics::TracedDisplay<double> scene = make_traced_display<double>(alone, g);
     const double first = g.entrance_z_mm;
     const PanelBase<double> base{0, 0, 0, 0};
     const Extent<double> extent{0, 0, 0, 0};

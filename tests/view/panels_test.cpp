@@ -7,7 +7,7 @@
 
 #include "content/models/memory.h"
 #include "display/keys.h"
-#include "optics/scene.h"
+#include "optics/traced_display.h"
 #include "visit.h"
 
 namespace lfdsim::view {

@@ -2,7 +2,7 @@
 
 #include "base/constants.h"
 #include "base/vec.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "optics/sampler.h"
 #include "optics/trace.h"
 
@@ -13,7 +13,7 @@
 namespace lfdsim {
 namespace {
 
-optics::PanelPoint<double> trace(const optics::Scene<double>& scene, const optics::Extent<double>& extent,
+optics::PanelPoint<double> trace(const optics::TracedDisplay<double>& scene, const optics::Extent<double>& extent,
                                  const optics::Ray<double>& ray, double raised) {
     const optics::PanelBase<double> base{0, 0, 0, 0,
                                          raised};  // the point is then relative to where the base lens's axis meets the panel
@@ -22,7 +22,7 @@ optics::PanelPoint<double> trace(const optics::Scene<double>& scene, const optic
 
 /// Whether a line in a glass surround meets a lens, and the first that it meets. In `clear` all glass is lenses; in `plate` what is
 /// not flat. In the array's axes, from the base lens's, z from the panel.
-bool first_lens(const optics::Scene<double>& scene, const optics::Extent<double>& extent, const optics::Ray<double>& ray,
+bool first_lens(const optics::TracedDisplay<double>& scene, const optics::Extent<double>& extent, const optics::Ray<double>& ray,
                 optics::Cell<double>& cell) {
     optics::GlassRays<double> rays{ray.at, ray.to, {0, 0}, false, false};
     double weight = 1;
@@ -57,11 +57,11 @@ std::vector<Choice> even_choices(int count, std::uint32_t set) {
 }
 
 EyeRays::EyeRays(const Display& d, const Geometry& g)
-    : scene_(make_scene<double>(d, g)),
+    : scene_(make_traced_display<double>(d, g)),
       vertex_plane_(g.vertex_plane_mm),
-      start_z_(make_view(d, g).start_z),
+      start_z_(make_ray_origin(d, g).start_z),
       panel_behind_(g),
-      stop_first_(scene_.has_stop && !scene_.placement.given && g.stop_z_mm >= g.top_z_mm - 1e-9),
+      stop_first_(scene_.has_stop && !scene_.misaligned.given && g.stop_z_mm >= g.top_z_mm - 1e-9),
       base_(optics::base_cell(g.lattice, {std::floor(g.lattice.count[0] / 2), std::floor(g.lattice.count[1] / 2)})) {}
 
 Vec3d EyeRays::point(double x, double y) const {
@@ -124,8 +124,8 @@ Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) 
     const auto [x0, y0] = optics::to_array(lattice, at[0] + up * to[0] - lattice.offset[0], at[1] + up * to[1] - lattice.offset[1]);
     Place base_axis = optics::axis_in_array(lattice, base_);
     double raised = 0;  // of the base lens, where the array is not parallel to the panel
-    if (scene_.placement.wedged) {
-        const auto vertex = optics::wedged<double>(scene_.placement, false, {base_axis.x, base_axis.y, 0});
+    if (scene_.misaligned.wedged) {
+        const auto vertex = optics::wedged<double>(scene_.misaligned, false, {base_axis.x, base_axis.y, 0});
         base_axis = {vertex.x, vertex.y};
         raised = vertex.z;
     }
@@ -152,7 +152,7 @@ Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) 
         std::abs(x) * scene_.pixels_per_mm > 0.5 * scene_.columns || std::abs(y) * scene_.pixels_per_mm > 0.5 * scene_.rows;
     optics::Cell<double> cell = end.cell;
     bool by_lens = true;
-    if (!scene_.thin && scene_.surround != Surround::opaque) {  // rays may change cells: their lens is the first that they meet
+    if (!scene_.ideal && scene_.surround != Surround::opaque) {  // rays may change cells: their lens is the first that they meet
         const auto [leaves_x, leaves_y] = come_down_to(vertex_plane_);
         cell = optics::cell_at(lattice, leaves_x, leaves_y);
         const auto [to_x, to_y] = optics::to_array(lattice, ray.to.x, ray.to.y);

@@ -1,7 +1,7 @@
 // Lines of sight from an eye through points of the screen to the panel, one by one and in double precision. Floor 3.
 #pragma once
 #include "analysis/core/subject.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "geometry/screen.h"
 #include "optics/lattice.h"
 
@@ -59,9 +59,9 @@ class EyeRays {
     int more_for(const Vec3d& eye) const;
 
   private:
-    using Place = optics::Place<double>;
+    using Place = optics::Vec2<double>;
 
-    DisplayScene<double> scene_;
+    StoredDisplay<double> scene_;
     double vertex_plane_, start_z_;
     PanelBehind panel_behind_;
     bool stop_first_;            // lines of sight meet the stop before all surfaces

@@ -51,8 +51,8 @@ std::optional<SeenAtOnce> seen_at_once(const Display& d, const Geometry& g) {
     // The line from the eye through the nodal points of the lens at C ends on the panel at e C, from where the display's axis meets
     // it.
     const double e = 1 + g.gap_mm / ((*eye)[2] - g.rear_principal_mm);
-    const optics::Place<double> offset = optics::to_array(l, l.offset[0], l.offset[1]);
-    const auto along = [&](const optics::Place<double>& p) { return axis == 0 ? p.x : p.y; };
+    const optics::Vec2<double> offset = optics::to_array(l, l.offset[0], l.offset[1]);
+    const auto along = [&](const optics::Vec2<double>& p) { return axis == 0 ? p.x : p.y; };
     const EyeRays rays(d, g);
     const ParaxialLines paraxial(d, g, *eye);
     std::vector<double> traced, theory;

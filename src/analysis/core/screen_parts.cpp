@@ -47,8 +47,8 @@ bool ScreenParts::is_inner(const LensBlock& block, const Vec3d& eye) const {
     constexpr double inner = 0.8 + 1e-9;
     std::array<double, 2> share{};  // of the way from the array's middle to its border
     for (std::size_t k = 0; k < 2; ++k) share[k] = double(block.first[k] + block.end[k]) / double(lenses_[k]) - 1;
-    const auto at = optics::in_display(lattice_, optics::Place<double>{0.5 * lattice_.count[0] * lattice_.pitch[0] * share[0],
-                                                                       0.5 * lattice_.count[1] * lattice_.pitch[1] * share[1]});
+    const auto at = optics::in_display(lattice_, optics::Vec2<double>{0.5 * lattice_.count[0] * lattice_.pitch[0] * share[0],
+                                                                      0.5 * lattice_.count[1] * lattice_.pitch[1] * share[1]});
     return std::max(std::abs(share[0]), std::abs(share[1])) <= inner && panel_behind_.meets(eye, at.x, at.y, inner);
 }
 

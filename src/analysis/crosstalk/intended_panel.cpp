@@ -82,9 +82,9 @@ double MeantPanel::slope(const Point& point) const {
     const Lattice<double>& lattice = pickup_.lattice();
     const double per_mm = (pickup_.scale - 1) / gap_mm_;  // 1/E
     // e C - P over g. Lenses that stand by themselves have gaps of their own: their lines' slope, seen from the middle.
-    const optics::Place<double> towards =
-        pickup_.irregular() ? optics::Place<double>{line.mx + line.x * per_mm, line.my + line.y * per_mm}
-                            : optics::Place<double>{(line.x * pickup_.scale - x) / gap_mm_, (line.y * pickup_.scale - y) / gap_mm_};
+    const optics::Vec2<double> towards =
+        pickup_.irregular() ? optics::Vec2<double>{line.mx + line.x * per_mm, line.my + line.y * per_mm}
+                            : optics::Vec2<double>{(line.x * pickup_.scale - x) / gap_mm_, (line.y * pickup_.scale - y) / gap_mm_};
     if (!lattice.strips) return towards.x;
     return optics::to_array(lattice, towards.x, towards.y).x /
            lattice.cos_turn;  // along the rows, which cross the strips obliquely

@@ -34,11 +34,11 @@ std::optional<ParaxialLines::Slopes> ParaxialLines::slopes(double x, double y, d
     return Slopes{slope, {to_x / to_z, to_y / to_z}};
 }
 
-std::optional<optics::Place<double>> ParaxialLines::aim_at(double x, double y, double a, double b) const {
+std::optional<optics::Vec2<double>> ParaxialLines::aim_at(double x, double y, double a, double b) const {
     const auto there = slopes(x, y, a, b);
     if (!there) return {};
-    return optics::Place<double>{x - above_ * (there->before[0] - there->turned[0]),
-                                 y - above_ * (there->before[1] - there->turned[1])};
+    return optics::Vec2<double>{x - above_ * (there->before[0] - there->turned[0]),
+                                y - above_ * (there->before[1] - there->turned[1])};
 }
 
 std::optional<ParaxialLine> ParaxialLines::look(double x, double y, double a, double b) const {
@@ -50,15 +50,15 @@ std::optional<ParaxialLine> ParaxialLines::look(double x, double y, double a, do
         optics::to_array(l, x + above_ * (slope[0] - turned[0]) - l.offset[0], y + above_ * (slope[1] - turned[1]) - l.offset[1]);
     const optics::Cell<double> lens = optics::lens_at(l, at.x, at.y);
     if (!optics::holds(l, lens)) return {};
-    const optics::Place<double> down = optics::to_array(l, turned[0], turned[1]);
-    const optics::Place<double> axis = optics::axis_in_array(l, lens);
+    const optics::Vec2<double> down = optics::to_array(l, turned[0], turned[1]);
+    const optics::Vec2<double> axis = optics::axis_in_array(l, lens);
     const double qx = at.x - axis.x, qy = l.strips ? 0 : at.y - axis.y;
-    const optics::Place<double> bent{down.x + power_per_mm_ * qx, down.y + power_per_mm_ * qy};
+    const optics::Vec2<double> bent{down.x + power_per_mm_ * qx, down.y + power_per_mm_ * qy};
     const auto reach = reach_mm(bent.x * bent.x + bent.y * bent.y);
     return ParaxialLine{axis, at, down, {at.x - reach.x * bent.x, at.y - reach.y * bent.y}, aperture_.holds(qx, qy)};
 }
 
-optics::Place<double> ParaxialLines::reach_mm(double slope_squared) const {
+optics::Vec2<double> ParaxialLines::reach_mm(double slope_squared) const {
     const Geometry& g = geometry_;
     if (display_.lens.is_thin()) {
         const double reach = reach_below_thin_lens_mm(g, slope_squared);
@@ -67,7 +67,7 @@ optics::Place<double> ParaxialLines::reach_mm(double slope_squared) const {
     return {g.gap_mm, g.lattice.strips ? g.reduced_vertex_plane_mm + g.rear_principal_mm - g.vertex_plane_mm : g.gap_mm};
 }
 
-bool ParaxialLines::on_panel(const optics::Place<double>& place) const {
+bool ParaxialLines::on_panel(const optics::Vec2<double>& place) const {
     const auto at = optics::in_display(geometry_.lattice, place);
     return 2 * std::abs(at.x) <= geometry_.panel_width_mm && 2 * std::abs(at.y) <= geometry_.panel_height_mm;
 }

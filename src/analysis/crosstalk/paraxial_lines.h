@@ -9,11 +9,11 @@ namespace lfdsim {
 
 /// A line that the diffuser has turned and that comes down to a lens. Places in the array's own axes from its middle, mm.
 struct ParaxialLine {
-    optics::Place<double> axis;   // of the lens; of strips on x' alone
-    optics::Place<double> at;     // in the plane of H'
-    optics::Place<double> slope;  // dx/dz and dy/dz as it comes down there
-    optics::Place<double> seen;   // on the panel
-    bool through;                 // it meets the clear aperture; else `seen` has no meaning
+    optics::Vec2<double> axis;   // of the lens; of strips on x' alone
+    optics::Vec2<double> at;     // in the plane of H'
+    optics::Vec2<double> slope;  // dx/dz and dy/dz as it comes down there
+    optics::Vec2<double> seen;   // on the panel
+    bool through;                // it meets the clear aperture; else `seen` has no meaning
 };
 
 /// The lenses have no thickness: lines bend by q/f in the plane of H', q from the axis (docs/model.md, "Moire" and "Crosstalk").
@@ -30,10 +30,10 @@ class ParaxialLines {
     std::optional<ParaxialLine> look(double x, double y, double a, double b) const;
 
     /// Where a line aims that comes down to the lenses at (x, y), but for how little the diffuser's shift changes on that way.
-    std::optional<optics::Place<double>> aim_at(double x, double y, double a, double b) const;
+    std::optional<optics::Vec2<double>> aim_at(double x, double y, double a, double b) const;
 
     /// Whether the panel reaches there; a place as `seen`.
-    bool on_panel(const optics::Place<double>&) const;
+    bool on_panel(const optics::Vec2<double>&) const;
 
   private:
     struct Slopes {
@@ -42,7 +42,7 @@ class ParaxialLines {
     std::optional<Slopes> slopes(double x, double y, double a, double b) const;
     double angle(double number, std::size_t axis) const;  // of the diffuser, radians
     /// How far aside, per slope, lines go below the lenses, along the array's x and y.
-    optics::Place<double> reach_mm(double slope_squared) const;
+    optics::Vec2<double> reach_mm(double slope_squared) const;
 
     const Display& display_;
     const Geometry& geometry_;

@@ -2,7 +2,7 @@
 
 #include "base/constants.h"
 #include "base/input_error.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "engine/views/screen.h"
 #include "geometry/camera.h"
 

@@ -2,7 +2,7 @@
 
 #include "analysis/core/eye_rays.h"
 #include "base/constants.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "optics/camera.h"
 #include "optics/layers.h"
 
@@ -46,7 +46,8 @@ Media media_of(const Geometry& g) {
 
 /// Basic radiance, against the panel's along its normal, of the light that comes up to a place at the lenses' lowest point against
 /// the unit vector `to`, in the medium there.
-double coming_up(const Display& d, const Geometry& g, const optics::Scene<double>& scene, const Vec3d& at, const Vec3d& to) {
+double coming_up(const Display& d, const Geometry& g, const optics::TracedDisplay<double>& scene, const Vec3d& at,
+                 const Vec3d& to) {
     optics::Vec3<double> down{to[0], to[1], to[2]};
     double weight = 1;
     bool alive = true;
@@ -63,7 +64,7 @@ std::array<LightBudget, independent_sets> light_budgets(const Display& display, 
     Geometry bare_geometry = geometry;
     bare_geometry.diffuser_z_mm.reset();
     const EyeRays lenses(bare, bare_geometry);
-    const auto scene = make_scene<double>(bare, bare_geometry);
+    const auto scene = make_traced_display<double>(bare, bare_geometry);
     const Media media = media_of(geometry);
     const double width = geometry.array_width_mm, height = geometry.array_height_mm;
     // Caps rise above their rims: light that leaves them obliquely at the border crosses the vertex plane beside the array. Where

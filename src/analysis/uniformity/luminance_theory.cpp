@@ -2,7 +2,7 @@
 
 #include "analysis/crosstalk/paraxial_lines.h"
 #include "base/constants.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "geometry/lens_misalignment.h"
 #include "geometry/screen.h"
 #include "optics/layers.h"
@@ -40,18 +40,18 @@ double beside(const Display& d, const Geometry& g) {
 class RealLens {
   public:
     RealLens(const Display& d, const Geometry& g)
-        : scene_(make_scene<double>(without_errors(d), g)), rear_principal_mm_(g.rear_principal_mm) {}
+        : scene_(make_traced_display<double>(without_errors(d), g)), rear_principal_mm_(g.rear_principal_mm) {}
 
     struct Seen {
-        optics::Place<double> place;  // on the panel, from the array's middle in its axes
-        double weight;                // 0: the line ends on its way
+        optics::Vec2<double> place;  // on the panel, from the array's middle in its axes
+        double weight;               // 0: the line ends on its way
     };
     Seen look(const ParaxialLine& line) const {
         const Lattice<double>& l = scene_.lattice;
         const double length = std::sqrt(1 + line.slope.x * line.slope.x + line.slope.y * line.slope.y),
                      down = scene_.surface[0].z - rear_principal_mm_;
         const optics::Vec3<double> to{-line.slope.x / length, -line.slope.y / length, -1 / length};
-        optics::Place<double> axis = line.axis;
+        optics::Vec2<double> axis = line.axis;
         optics::Ray<double> entering{};
         optics::Hit<double> hit{};
         // A line may meet the surface of the lens beside the one over which it passes the plane of H'.
@@ -62,38 +62,38 @@ class RealLens {
             hit = optics::meet<optics::Facts{}>(scene_, 0, entering);
             const optics::Cell<double> lens = optics::lens_at(l, hit.at.x + axis.x, hit.at.y + axis.y);
             if (!optics::holds(l, lens)) return {{}, 0};
-            const optics::Place<double> next = optics::axis_in_array(l, lens);
+            const optics::Vec2<double> next = optics::axis_in_array(l, lens);
             if (next.x == axis.x && next.y == axis.y) break;
             axis = next;
         }
-        optics::Passage<double> way{entering, {0, 0}, 1, true};
-        optics::pass_lens<optics::Facts{}>(scene_, Rules{{scene_}}, entering, hit, way);
-        if (!way.alive) return {{}, 0};
+        optics::Passage<double> passage{entering, {0, 0}, 1, true};
+        optics::pass_lens<optics::Facts{}>(scene_, Rules{{scene_}}, entering, hit, passage);
+        if (!passage.alive) return {{}, 0};
         const double z = scene_.surface[scene_.surface_count - 1].z;
-        const auto end = optics::down_to_panel(scene_, {way.ray.at.x, way.ray.at.y, way.ray.at.z + z}, scene_.glued, way.ray.to,
-                                               way.weight, way.alive);
-        return {{axis.x + end.x, (l.strips ? 0 : axis.y) + end.y}, way.alive ? way.weight : 0};
+        const auto end = optics::down_to_panel(scene_, {passage.ray.at.x, passage.ray.at.y, passage.ray.at.z + z}, scene_.glued,
+                                               passage.ray.to, passage.weight, passage.alive);
+        return {{axis.x + end.x, (l.strips ? 0 : axis.y) + end.y}, passage.alive ? passage.weight : 0};
     }
 
   private:
     /// Of pass_lens(): apertures, and the borders of its cell.
-    struct Rules : optics::Alone<double> {
+    struct Rules : optics::SingleLens<double> {
         bool within(double x, double y, bool ok) const {
-            return ok && (scene.aperture == Aperture::circle || optics::in_cell(scene.lattice, x, y));
+            return ok && (display.aperture == Aperture::circle || optics::in_cell(display.lattice, x, y));
         }
         void meets(int, const optics::Ray<double>&, const optics::Hit<double>& hit, double from_z, double z,
-                   optics::Passage<double>& way) const {
-            way.alive = way.alive && within(hit.at.x, hit.at.y, hit.ok) && z <= from_z;
+                   optics::Passage<double>& passage) const {
+            passage.alive = passage.alive && within(hit.at.x, hit.at.y, hit.ok) && z <= from_z;
         }
         void leaves(const optics::Passage<double>&) const {}
         bool passes_back(double x, double y) const {
-            const double r = scene.surface[scene.surface_count - 1].semi_aperture, up = optics::across(scene.lattice, y);
+            const double r = display.surface[display.surface_count - 1].semi_aperture, up = optics::across(display.lattice, y);
             return within(x, y, x * x + up * up <= r * r);
         }
         bool over(bool alive) const { return !alive; }
     };
 
-    optics::Scene<double> scene_;
+    optics::TracedDisplay<double> scene_;
     double rear_principal_mm_;
 };
 
@@ -119,12 +119,12 @@ Means seen_means(const Display& d, const Geometry& g, double eye_mm) {
     };
     for (const Choice& c : even_choices(count)) {
         const auto axis = optics::axis_in_array(l, optics::Cell<double>{number(c[4], 0), number(c[5], 1)});
-        optics::Place<double> in{l.half_pitch[0] * c[0], 0.5 * l.pitch[1] * c[1]};
+        optics::Vec2<double> in{l.half_pitch[0] * c[0], 0.5 * l.pitch[1] * c[1]};
         if (l.hexagonal) {  // the corners of this box belong to a neighbour's cell: the same place in the hexagon
             const auto centre = optics::axis_of(l, optics::cell_at(l, in.x, in.y));
             in = {in.x - centre.x, in.y - centre.y};
         }
-        const auto aimed = optics::in_display(l, optics::Place<double>{axis.x + in.x, axis.y + in.y});
+        const auto aimed = optics::in_display(l, optics::Vec2<double>{axis.x + in.x, axis.y + in.y});
         if (!panel.meets({0, 0, eye_mm}, aimed.x, aimed.y)) continue;
         ++all;
         const auto line = lines.look(on_to_principal * aimed.x, on_to_principal * aimed.y, c[2], c[3]);

@@ -15,7 +15,7 @@
 #include "display/keys.h"
 #include "engine/devices/devices.h"
 #include "engine/devices/memory.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

@@ -7,7 +7,7 @@
 #include "cli/program/input_files.h"
 #include "cli/program/interrupt.h"
 #include "display/keys.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "engine/views/pipelined.h"
 #include "files/description/display_file.h"
 #include "geometry/geometry.h"

@@ -116,7 +116,7 @@ class Pickup {
     /// A lens's nodal points from the array's middle, in the array's frame, mm; 1/g of that lens; how far its rear one is above
     /// those of lenses as described.
     struct Nodal {
-        optics::Place<double> front, rear;
+        optics::Vec2<double> front, rear;
         double per_gap, up;
     };
 
@@ -137,7 +137,7 @@ class Pickup {
     }
 
     /// Where on the panel the middle of that lens's elemental image is: its line goes to the viewer.
-    optics::Place<double> image_centre(optics::Cell<double> lens) const {
+    optics::Vec2<double> image_centre(optics::Cell<double> lens) const {
         const Nodal at = nodal(lens);
         const auto front = optics::in_display(lattice_, at.front), rear = optics::in_display(lattice_, at.rear);
         const double slope = 1 / (viewer_ - z_rear - at.up) / at.per_gap;  // 0 of a viewer at infinity
@@ -173,7 +173,7 @@ class Pickup {
         const bool lit = shift_of(p.x - at.front.x, p.y - at.front.y, shift);
         const double mx = (at.front.x - p.x) * at.per_gap + shift.mx, my = (at.front.y - p.y) * at.per_gap + shift.my;
         const auto through =
-            optics::in_display(lattice_, optics::Place<double>{at.rear.x + shift.x - mx * at.up, at.rear.y + shift.y - my * at.up});
+            optics::in_display(lattice_, optics::Vec2<double>{at.rear.x + shift.x - mx * at.up, at.rear.y + shift.y - my * at.up});
         const auto slope = optics::to_display(lattice_, mx, my);
         return {through.x, through.y, slope.x, slope.y, optics::holds(lattice_, lens), !lit};
     }
@@ -203,7 +203,7 @@ class Pickup {
             my = (eye.y - p.y) / (reduced_top_ + viewer_ - top_z_);
         }
         const double rise = p.y + my * (reduced_top_ - top_z_ + z_rear);
-        const auto at = optics::in_display(lattice_, optics::Place<double>{centre, rise});
+        const auto at = optics::in_display(lattice_, optics::Vec2<double>{centre, rise});
         const auto slope = optics::to_display(lattice_, mx, my);
         return {at.x, at.y, slope.x, slope.y, optics::holds(lattice_, lens), !lit};
     }

@@ -25,7 +25,7 @@ __global__ void __launch_bounds__(threads, least_blocks)
 
 template <bool sobol>
 void PointKernels<sobol>::start(const wide::Frame& frame, std::int64_t items, cudaStream_t stream) {
-    optics::with_facts(frame.scene, [&]<optics::Facts facts>() {
+    optics::with_facts(frame.display, [&]<optics::Facts facts>() {
         point_kernel<optics::Specialisations::number_of<facts>(), sobol>
             <<<thread_blocks(items), threads, 0, stream>>>(frame, items);
     });

@@ -1,6 +1,6 @@
 // A kernel's work, and the kernels compiled in. Plain data, common to all instruction sets. Floor 2.
 #pragma once
-#include "optics/scene.h"
+#include "optics/traced_display.h"
 
 #include <cstddef>
 
@@ -9,8 +9,8 @@ namespace lfdsim {
 /// A tile of the picture: pixels x0 .. x1-1, y0 .. y1-1 of the whole frame. Pixel (x, y) goes to
 /// out[((y - crop_y) crop_width + x - crop_x) 3].
 struct Tile {
-    const optics::Scene<float>* scene;
-    const optics::View* view;
+    const optics::TracedDisplay<float>* display;
+    const optics::RayOrigin* view;
     const optics::DirectionNumbers* directions;
     const float* texels;  // 4 floats a panel pixel
     optics::PanelLight panel;

@@ -1,4 +1,4 @@
-// The mean light of an image of the panel over boxes that differ from pixel to pixel. Floor 1.
+// The mean light of an image of the panel over boxes that differ from pixel to pixel. Floor 2.
 //
 // A box at most one pixel wide and high lies over 2 x 2 pixels, whose texels are added. Any other box is read from the image's
 // summed-area table (Crow 1984), which takes the same time whatever the size. Both are exact: each pixel counts with the part of it

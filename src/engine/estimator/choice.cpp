@@ -1,7 +1,7 @@
 #include "engine/estimator/choice.h"
 
 #include "engine/estimator/limits.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 
 #include <algorithm>
 #include <cmath>
@@ -146,7 +146,7 @@ Choice::Light Choice::filtered_at(Kernel kernel, const std::vector<Rect>& places
 }
 
 Choice::Light Choice::points_at(Kernel kernel, const std::vector<Rect>& places, std::uint32_t points, int repetition) const {
-    optics::View view = points_.view;
+    optics::RayOrigin view = points_.view;
     view.seed += std::uint64_t(repetition) * 0x9e3779b97f4a7c15u;  // the golden ratio, far from seeds that users count up
     Tile tile = points_.tile;
     tile.view = &view;

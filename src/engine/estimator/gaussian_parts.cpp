@@ -1,7 +1,7 @@
 #include "engine/estimator/gaussian_parts.h"
 
 #include "engine/devices/kernel.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "geometry/gaussian_boxes.h"
 
 #include <algorithm>

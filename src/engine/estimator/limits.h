@@ -1,4 +1,4 @@
-// The limits of the filtered and of the lens-by-lens estimator's shortcuts, and of the choice between them and points. Floor 1.
+// The limits of the filtered and of the lens-by-lens estimator's shortcuts, and of the choice between them and points. Floor 2.
 // docs/design.md, "The filtered estimator", explains blocks, strata and bundles.
 #pragma once
 #include <cstdint>
@@ -8,7 +8,7 @@ namespace lfdsim {
 /// The pixels of a block share the rays of a bundle as long as the result holds for all of them. Where a limit is exceeded, smaller
 /// blocks are tried, and the smallest are rendered lens by lens. Wider limits share more.
 struct FilteredLimits {
-    // A display (engine/scene/scene.cpp). Picture pixels that a diffused ray spans along each axis at least.
+    // A display (engine/scene/traced_display.cpp). Picture pixels that a diffused ray spans along each axis at least.
     static constexpr double least_span = 4;
     // A diffuser is weak where rays span less than this along both axes, in picture pixels and in lens pitches.
     static constexpr double weak_span = 20, weak = 0.5;

@@ -1,4 +1,4 @@
-// The outlines of lenses' cells as polygons, and how much of one lies in a box. Floor 1.
+// The outlines of lenses' cells as polygons, and how much of one lies in a box. Floor 2.
 #pragma once
 #include "simd/lane.h"
 

@@ -1,5 +1,5 @@
 // The mean light of the panel over what a ray spreads there: by the two numbers of the domain that outlines cut, and by others.
-// Floor 1.
+// Floor 2.
 #pragma once
 #include "engine/estimator/limits.h"
 #include "engine/estimator/panel_light.h"
@@ -9,7 +9,7 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 /// How far light spreads on the panel: twelve times the variances of column and row, and their covariance. Those of an upright box
 /// are its width and its height squared, and 0.
 template <class F>
-struct PanelSpread {
+struct PanelCovariance {
     F wide2, high2, lean2;
 
     /// Adds what spreads evenly over so many columns and rows at once.
@@ -144,8 +144,8 @@ LFDSIM_LARGE void add_lines(const PanelLight& panel, const PanelBase<Scalar<F>>&
 /// one: light is read along the line, or gaps take their exact share of two upright spreads. docs/model.md, "Black matrix and
 /// subpixels".
 template <class F>
-LFDSIM_FN void add_spread(const PanelLight& panel, const PanelBase<Scalar<F>>& base, F column, F row, const PanelSpread<F>& square,
-                          const PanelSpread<F>& others, F weight, Light<F>& light) {
+LFDSIM_FN void add_spread(const PanelLight& panel, const PanelBase<Scalar<F>>& base, F column, F row,
+                          const PanelCovariance<F>& square, const PanelCovariance<F>& others, F weight, Light<F>& light) {
     using S = Scalar<F>;
     const F zero = F(0), tiny = F(S(1e-6)), least = F(S(1.0 / 64)), upright = F(S(FilteredLimits::upright));
     const Boxes<F> all{column, row, sqrt(square.wide2 + others.wide2), sqrt(square.high2 + others.high2), weight};
@@ -154,7 +154,7 @@ LFDSIM_FN void add_spread(const PanelLight& panel, const PanelBase<Scalar<F>>& b
     const auto add_leaning = [&]<int axis>(Mask<F> some) {
         if (none(some)) return;
         F across2 = zero;  // what does not lean
-        const auto line_of = [&](const PanelSpread<F>& spread) {
+        const auto line_of = [&](const PanelCovariance<F>& spread) {
             const F along = sqrt(axis == 0 ? spread.wide2 : spread.high2), lean = quotient(spread.lean2, max(along, tiny));
             across2 = across2 + max((axis == 0 ? spread.high2 : spread.wide2) - lean * lean, zero);
             return typename LeaningLines<F>::Line{along, quotient(lean, max(along, tiny))};

@@ -1,4 +1,4 @@
-// The mean light of a panel over boxes, whether its pixels shine all over or in subpixels. Floor 1.
+// The mean light of a panel over boxes, whether its pixels shine all over or in subpixels. Floor 2.
 //
 // A rectangle that shines in each cell of some pixels is a function of column times one of row. So its light in a box is that of a
 // squeezed box of the picture in which the rectangle fills the cell: docs/model.md, "Black matrix and subpixels".

@@ -1,5 +1,5 @@
 // A number for each of a bundle's probes, in arrays of fixed length, which compilers vectorize; and what is found from all of them.
-// Every sum has a fixed order. Floor 1.
+// Every sum has a fixed order. Floor 2.
 #pragma once
 #include "simd/lane.h"
 

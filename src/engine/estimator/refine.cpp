@@ -102,7 +102,7 @@ class Refinement {
     int bottom(const RefinedBlock& b) const { return std::min(b.y + refined_side, view_.height); }
 
     BlockPainter& painter_;
-    const optics::View& view_;
+    const optics::RayOrigin& view_;
     const double target_;
     const Job& job_;
     std::vector<Block> blocks_;
@@ -134,7 +134,7 @@ class KernelPainter : public BlockPainter {
   private:
     Kernel kernel_;
     Tile tile_;
-    optics::View view_;
+    optics::RayOrigin view_;
     const Job& job_;
 };
 

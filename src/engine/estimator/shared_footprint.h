@@ -1,4 +1,4 @@
-// Bundles: a few rays that determine what a block of neighbouring pixels sees through a stratum. Floor 1.
+// SharedFootprints: a few rays that determine what a block of neighbouring pixels sees through a stratum. Floor 2.
 //
 // Neighbouring pixels look through the same point of a lens at nearly the same point of the panel. So a grid of rays, the probes,
 // is traced through a stratum from the block's middle only. Their ends on the panel give the footprint: its mean position, its
@@ -43,10 +43,10 @@ struct PixelBlock {
 /// Do all rays still go down, at no grazing angle, after the diffuser's largest turn? A ray turned past the horizontal does not
 /// meet the plane of the holes, so it has no place in a stratum.
 template <class S>
-LFDSIM_FN bool all_go_down(const Scene<S>& scene, const PixelBlock<S>& block) {
+LFDSIM_FN bool all_go_down(const TracedDisplay<S>& display, const PixelBlock<S>& block) {
     for (int a = 0; a < 2; ++a) {
         S sine, cosine;
-        sincos(diffuser_angle(scene, a, S(1)), scene.small_angles, sine, cosine);
+        sincos(diffuser_angle(display, a, S(1)), display.small_angles, sine, cosine);
         for (const Sweep<S>& sweep : block.sweep[a])
             if (!(cosine - abs(sweep.slope) * sine > S(FilteredLimits::steepest))) return false;
     }
@@ -63,11 +63,11 @@ LFDSIM_FN bool all_go_down(const Scene<S>& scene, const PixelBlock<S>& block) {
 /// plane, da db / (dx dy). With the slopes s = t_x/t_z and s' = t_y/t_z the strata take da db = dx dy / (H^2 (1 + s^2) (1 + s'^2)).
 /// `ratio` is the true density divided by that of the strata.
 template <class S>
-LFDSIM_FN bool axes_part(const Scene<S>& scene, const PixelBlock<S>& block, S most) {
+LFDSIM_FN bool axes_part(const TracedDisplay<S>& display, const PixelBlock<S>& block, S most) {
     S tangent[2];
     for (int a = 0; a < 2; ++a) {
         S sine, cosine;
-        sincos(scene.half_angle[a], scene.small_angles, sine, cosine);
+        sincos(display.half_angle[a], display.small_angles, sine, cosine);
         tangent[a] = sine / cosine;
     }
     for (int corner = 0; corner < 4; ++corner) {
@@ -84,8 +84,8 @@ LFDSIM_FN bool axes_part(const Scene<S>& scene, const PixelBlock<S>& block, S mo
 
 /// The block of side x side pixels whose first is (column, row). Blocks lie on a grid of the whole frame.
 template <class S>
-LFDSIM_FN PixelBlock<S> pixel_block(const Scene<S>& scene, const View& view, int side, S most_misjudged, std::int32_t column,
-                                    std::int32_t row) {
+LFDSIM_FN PixelBlock<S> pixel_block(const TracedDisplay<S>& display, const RayOrigin& view, int side, S most_misjudged,
+                                    std::int32_t column, std::int32_t row) {
     PixelBlock<S> block;
     block.reach = side / 2;
     const double middle_x = column + block.reach, middle_y = row + block.reach;
@@ -97,17 +97,17 @@ LFDSIM_FN PixelBlock<S> pixel_block(const Scene<S>& scene, const View& view, int
         const double inverse = 1 / __builtin_sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         const double z = d[2] * inverse;
         block.to[k] = {S(d[0] * inverse), S(d[1] * inverse), S(z)};
-        block.sweep[0][k] = {S(x - block.lens.x), S(-d[0] / d[2]), scene.holes_below[0], S(sense(0))};
-        block.sweep[1][k] = {S(y - block.lens.y), S(-d[1] / d[2]), scene.holes_below[1], S(sense(1))};
+        block.sweep[0][k] = {S(x - block.lens.x), S(-d[0] / d[2]), display.holes_below[0], S(sense(0))};
+        block.sweep[1][k] = {S(y - block.lens.y), S(-d[1] / d[2]), display.holes_below[1], S(sense(1))};
         block.alive = block.alive && z < -1e-6;
     }
     for (int a = 0; a < 2 && block.alive; ++a) {
         const Sweep<S>* s = block.sweep[a];
         const S bend = s[1].at + s[2].at + s[3].at - S(3) * s[0].at,
                 turn = s[1].slope + s[2].slope + s[3].slope - S(3) * s[0].slope;
-        block.alive = abs(bend) + abs(turn * scene.holes_below[a]) < S(FilteredLimits::bend) * scene.lattice.pitch[a];
+        block.alive = abs(bend) + abs(turn * display.holes_below[a]) < S(FilteredLimits::bend) * display.lattice.pitch[a];
     }
-    block.alive = block.alive && all_go_down(scene, block) && axes_part(scene, block, most_misjudged);
+    block.alive = block.alive && all_go_down(display, block) && axes_part(display, block, most_misjudged);
     return block;
 }
 
@@ -136,16 +136,16 @@ struct Probes {
 
 /// Traces the first `count` probes (up to a full packet more) to the panel.
 template <class F>
-LFDSIM_FN void trace_probes(const Scene<Scalar<F>>& scene, const PixelBlock<Scalar<F>>& block, Probes<Scalar<F>>& probes,
+LFDSIM_FN void trace_probes(const TracedDisplay<Scalar<F>>& display, const PixelBlock<Scalar<F>>& block, Probes<Scalar<F>>& probes,
                             int count) {
     // The holes' edges across y' may lie at another height than those across x': the displacement in y is scaled to the plane of x;
     // the factor is 1 where both are the same plane.
-    const F down = F(scene.holes_below[0]), to_plane_x = F(scene.holes_below[0] / scene.holes_below[1]);
+    const F down = F(display.holes_below[0]), to_plane_x = F(display.holes_below[0] / display.holes_below[1]);
     for (int p = 0; p < min(count, most_probes); p += LaneTraits<F>::width) {
         const F x = load<F>(probes.at_x + p), y = load<F>(probes.at_y + p), across = load<F>(probes.x + p) - x,
                 up = (load<F>(probes.y + p) - y) * to_plane_x;
         const F per = F(1) / sqrt(across * across + up * up + down * down);
-        const PanelPoint<F> point = trace_any<F>(scene, block.lens.extent, block.lens.panel,
+        const PanelPoint<F> point = trace_any<F>(display, block.lens.extent, block.lens.panel,
                                                  Ray<F>{{x, y, F(0)}, {across * per, up * per, -(down * per)}}, F(0) < F(1));
         store(point.column, probes.column + p);
         store(point.row, probes.row + p);
@@ -159,7 +159,7 @@ LFDSIM_FN void trace_probes(const Scene<Scalar<F>>& scene, const PixelBlock<Scal
 /// light. Sharp: each pixel reads one box of the panel. Soft: wider than a panel pixel, the mean over a box around each probe.
 /// Broken: pixels of the block cannot share its rays.
 template <class S>
-struct BundleShape {
+struct SharedFootprint {
     enum class State { dark, sharp, soft, broken } state;
     S column, row;  // mean position on the panel, seen from the block's middle: panel pixels from the block's base
     S column_right, row_right, column_down, row_down;  // its motion per picture pixel to the right and down
@@ -171,18 +171,18 @@ struct BundleShape {
     int nodes;                                         // soft: along an axis of the block; 1: its light is the same everywhere
 };
 template <class S>
-struct SharedBundle : BundleShape<S> {
+struct LitFootprint : SharedFootprint<S> {
     alignas(16) S colour[most_nodes * most_nodes][4];  // soft: the light at its nodes; interpolated between
 };
 
 /// The footprint of a stratum's per_axis x per_axis probes, as far as they determine it: position, spread, transmitted share. Sharp
 /// if all that reach the panel did so through one lens, dark if none reached it, else broken.
 template <class S>
-LFDSIM_FN BundleShape<S> sum_up(const Probes<S>& probes, int per_axis) {
-    using State = typename BundleShape<S>::State;
+LFDSIM_FN SharedFootprint<S> sum_up(const Probes<S>& probes, int per_axis) {
+    using State = typename SharedFootprint<S>::State;
     S lit[most_probes], t[most_probes], c[most_probes], r[most_probes];
     for (int p = 0; p < most_probes; ++p) lit[p] = probes.in[p] * probes.weight[p] > S(0) ? S(1) : S(0);
-    BundleShape<S> b;
+    SharedFootprint<S> b;
     const S part = sum_of(probes.in), count = sum_of(lit);
     b.state = part > S(0) ? State::dark : State::broken;
     if (count == S(0)) return b;
@@ -232,7 +232,7 @@ template <class S>
 struct Slopes {
     S column[2], row[2];  // along x and y
 
-    LFDSIM_FN Slopes(const Probes<S>& probes, const BundleShape<S>& b) {
+    LFDSIM_FN Slopes(const Probes<S>& probes, const SharedFootprint<S>& b) {
         S lit[most_probes], t[most_probes];
         for (int p = 0; p < most_probes; ++p) lit[p] = probes.in[p] * probes.weight[p] > S(0) ? S(1) : S(0);
         const S count = sum_of(lit);
@@ -302,7 +302,7 @@ struct ProbeBoxes {
 /// 2 and 3. The bundle becomes broken if the motion is not linear, or a ray is lost or ends under another lens, unless it is so
 /// wide that this does not matter.
 template <class S>
-LFDSIM_FN void follow(BundleShape<S>& b, const Probes<S>& rays, int p, int reach) {
+LFDSIM_FN void follow(SharedFootprint<S>& b, const Probes<S>& rays, int p, int reach) {
     const S column = b.probe_column, row = b.probe_row, per = S(1) / S(reach);
     b.column_right = (rays.column[p] - column) * per;
     b.row_right = (rays.row[p] - row) * per;
@@ -321,7 +321,7 @@ LFDSIM_FN void follow(BundleShape<S>& b, const Probes<S>& rays, int p, int reach
     b.still = stands(way_column, b.width) && stands(way_row, b.height);
     if (whole) return;
     b.still = max(b.width, b.height) > S(FilteredLimits::smeared);
-    if (!b.still) b.state = BundleShape<S>::State::broken;
+    if (!b.still) b.state = SharedFootprint<S>::State::broken;
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -1,11 +1,11 @@
-// Strata of the filtered estimator: the diffuser's square of angles, cut at the borders of the lenses. Floor 1.
+// Strata of the filtered estimator: the diffuser's square of angles, cut at the borders of the lenses. Floor 2.
 //
 // A pixel's light is a mean over the square [-1, 1]^2 of the diffuser's two numbers. The square is cut into columns and rows; a cut
 // near the border between two lenses is moved onto it, so that a stratum looks through one lens. The share of a stratum that a
 // round lens covers has a closed form. (docs/model.md, "Filtered estimator".)
 #pragma once
 #include "optics/diffuser.h"
-#include "optics/scene.h"
+#include "optics/traced_display.h"
 #include "simd/lane.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {

@@ -1,9 +1,9 @@
 #include "engine/estimator/summed_panel.h"
 
 #include "engine/devices/gpu.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "image/formats/huge_pages.h"
-#include "optics/scene.h"
+#include "optics/traced_display.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

@@ -10,7 +10,7 @@ namespace lfdsim {
 
 class GpuPanels;  // gpu.h
 
-namespace optics {  // optics/scene.h
+namespace optics {  // optics/traced_display.h
 struct SummedImage;
 }
 

@@ -24,7 +24,7 @@ constexpr int most_side = 16, place_step = FilteredLimits::place_step, most_plac
 
 /// A sharp bundle, and the share of the light at each place that comes through it.
 struct Sharp {
-    const SharedBundle* bundle;
+    const LitFootprint* bundle;
     S weight[most_lanes];
 };
 constexpr int most_sharps = 2 * (few_strata + more_strata) * (few_strata + more_strata);
@@ -32,13 +32,13 @@ constexpr int most_sharps = 2 * (few_strata + more_strata) * (few_strata + more_
 /// What a thread works on, too much for its stack.
 struct FilteredMemory {
     Axis axis[2];
-    Bundles bundles[max_strata * max_strata];  // row after row
-    Sharp sharp[most_sharps];                  // where there are places, in the order of the bundles
-    S light[most_lanes][4];                    // of soft bundles at places
-    S picture[most_side][most_side][4];        // of the block
+    SharedFootprints bundles[max_strata * max_strata];  // row after row
+    Sharp sharp[most_sharps];                           // where there are places, in the order of the bundles
+    S light[most_lanes][4];                             // of soft bundles at places
+    S picture[most_side][most_side][4];                 // of the block
     LensByLensMemory lenses;
 
-    /// Placement new, whose header of the standard library kernels do not include.
+    /// MisalignedArray new, whose header of the standard library kernels do not include.
     static void* operator new(std::size_t, void* at) noexcept { return at; }
 };
 
@@ -47,20 +47,21 @@ class FilteredBlock {
   public:
     FilteredBlock(const Tile& t, FilteredMemory& m, int side_pixels, std::int32_t x, std::int32_t y)
         : tile(t),
-          scene(*t.scene),
+          display(*t.display),
           memory(m),
           side(side_pixels),
           per_axis(t.strata > few_strata || side <= place_step ? 0 : side / place_step + 1),
           x0(x),
           y0(y),
-          block(optics::pixel_block<S>(
-              scene, *t.view, side, S(t.strata > few_strata ? FilteredLimits::misjudged_fine : FilteredLimits::misjudged), x, y)) {}
+          block(optics::pixel_block<S>(display, *t.view, side,
+                                       S(t.strata > few_strata ? FilteredLimits::misjudged_fine : FilteredLimits::misjudged), x,
+                                       y)) {}
 
     /// False: the pixels cannot share all rays, and nothing is rendered.
     bool render(const EvenCuts& even) {
         if (!block.alive) return false;
         for (int a = 0; a < 2; ++a)
-            if (!cut_axis(scene, block.sweep[a], a, even, memory.axis[a])) return false;
+            if (!cut_axis(display, block.sweep[a], a, even, memory.axis[a])) return false;
         if (!BundleMaker(tile, block, memory.axis).make_all(memory.bundles)) return false;
         if (per_axis > 0) {
             list_bundles();
@@ -77,12 +78,12 @@ class FilteredBlock {
 
   private:
     using Packet = optics::Block<F>;
-    using State = SharedBundle::State;
+    using State = LitFootprint::State;
 
     /// Lists the sharp bundles, and finds out whether there are soft ones.
     void list_bundles() {
         for (int k = 0; k < memory.axis[0].strata * memory.axis[1].strata; ++k)
-            for (const SharedBundle* b : {&memory.bundles[k].through, &memory.bundles[k].beside}) {
+            for (const LitFootprint* b : {&memory.bundles[k].through, &memory.bundles[k].beside}) {
                 any_soft = any_soft || b->state == State::soft;
                 if (b->state == State::sharp) memory.sharp[sharps++].bundle = b;
             }
@@ -100,7 +101,7 @@ class FilteredBlock {
         F flat[3] = {F(0), F(0), F(0)};
         Sharp* next = memory.sharp;
         const F dx = optics::load<F>(right) * F(per_reach), dy = optics::load<F>(down) * F(per_reach);
-        for_bundles(dx, dy, [&](const SharedBundle& b, F weight) {
+        for_bundles(dx, dy, [&](const LitFootprint& b, F weight) {
             if (b.state == State::soft) add_soft(b, dx, dy, weight, flat);
             if (b.state == State::sharp) optics::store(weight, next++->weight + k);
         });
@@ -184,7 +185,7 @@ class FilteredBlock {
     void add_all(F dx, F dy, optics::Light<F>& boxes, F (&flat)[3]) const {
         const S reach = S(block.reach), per_reach = S(1) / reach;
         const F right = dx * F(per_reach), down = dy * F(per_reach);
-        for_bundles(right, down, [&](const SharedBundle& b, F weight) {
+        for_bundles(right, down, [&](const LitFootprint& b, F weight) {
             if (b.state == State::dark || optics::none(weight > F(0))) return;
             if (b.state == State::soft) add_soft(b, right, down, weight, flat);
             if (b.state == State::sharp) add_box(b, right * F(reach), down * F(reach), weight, boxes);
@@ -192,10 +193,10 @@ class FilteredBlock {
     }
 
     /// Adds the light of a soft bundle at (dx, dy), -1 .. 1 across the block: bilinear between its nodes.
-    LFDSIM_FN static void add_soft(const SharedBundle& b, F dx, F dy, F weight, F (&to)[3]) {
+    LFDSIM_FN static void add_soft(const LitFootprint& b, F dx, F dy, F weight, F (&to)[3]) {
         for (int c = 0; c < 3; ++c) to[c] = to[c] + weight * soft_light(b, dx, dy, c);
     }
-    LFDSIM_FN static F soft_light(const SharedBundle& b, F dx, F dy, int c) {
+    LFDSIM_FN static F soft_light(const LitFootprint& b, F dx, F dy, int c) {
         const auto between = [](S low, S middle, S high, F at) {
             return F(middle) + F(high - middle) * optics::max(at, F(0)) + F(middle - low) * optics::min(at, F(0));
         };
@@ -213,12 +214,12 @@ class FilteredBlock {
     }
 
     /// Adds the box of a sharp bundle at (dx, dy) picture pixels from the block's middle.
-    LFDSIM_FN void add_box(const SharedBundle& b, F dx, F dy, F weight, optics::Light<F>& light) const {
+    LFDSIM_FN void add_box(const LitFootprint& b, F dx, F dy, F weight, optics::Light<F>& light) const {
         const F column = F(b.column) + F(b.column_right) * dx + F(b.column_down) * dy,
                 row = F(b.row) + F(b.row_right) * dx + F(b.row_down) * dy;
         const optics::Boxes<F> box{column, row, F(optics::max(b.width, S(optics::least_box))),
                                    F(optics::max(b.height, S(optics::least_box))), weight};
-        if (scene.emission.whole && optics::max(b.width, b.height) <= S(1))
+        if (display.emission.whole && optics::max(b.width, b.height) <= S(1))
             return optics::add_small_boxes(tile.panel.plane[0], block.lens.panel, box, light);
         optics::Light<F> sum = light;  // the function below wants an address: `light` itself stays in registers
         add_other_box(box, sum);
@@ -233,9 +234,9 @@ class FilteredBlock {
     LFDSIM_FN void for_bundles(F dx, F dy, const Do& f) const {
         optics::Span<F> across[max_strata];
         const Axis(&axis)[2] = memory.axis;
-        Spans columns(scene, axis[0], 0, dx, dy), rows(scene, axis[1], 1, dx, dy);
+        Spans columns(display, axis[0], 0, dx, dy), rows(display, axis[1], 1, dx, dy);
         for (int i = 0; i < axis[0].strata; ++i) across[i] = columns.next();
-        const Bundles* next = memory.bundles;
+        const SharedFootprints* next = memory.bundles;
         for (int j = 0; j < axis[1].strata; ++j) {
             const optics::Span<F> up = rows.next();
             for (int i = 0; i < axis[0].strata; ++i, ++next) {
@@ -245,7 +246,7 @@ class FilteredBlock {
                     f(next->beside, F(0));
                     continue;
                 }
-                const F cover = scene.hole_radius == 0 ? F(1) : optics::hole_cover(across[i], up);
+                const F cover = display.hole_radius == 0 ? F(1) : optics::hole_cover(across[i], up);
                 f(next->through, share * cover * F(next->through.weight));
                 f(next->beside, share * (F(1) - cover) * F(next->beside.weight));
             }
@@ -262,7 +263,7 @@ class FilteredBlock {
     }
 
     const Tile& tile;
-    const optics::Scene<S>& scene;
+    const optics::TracedDisplay<S>& display;
     FilteredMemory& memory;
     const int side, per_axis;   // places along an axis; 0: none
     const std::int32_t x0, y0;  // first pixel
@@ -276,7 +277,7 @@ class FilteredEstimator {
   public:
     explicit FilteredEstimator(const Tile& t)
         : tile(t),
-          even(*t.scene, t.strata),
+          even(*t.display, t.strata),
           memory(*new (block_memory(sizeof(FilteredMemory))) FilteredMemory),
           lens_by_lens(t, memory.lenses) {}
 

@@ -53,17 +53,17 @@ struct EvenCuts {
     int strata;
     S number[max_strata + 1], tangent[2][max_strata + 1];
 
-    EvenCuts(const optics::Scene<S>& scene, int count) : strata(count) {
+    EvenCuts(const optics::TracedDisplay<S>& display, int count) : strata(count) {
         for (int k = 0; k <= strata; ++k) {
             number[k] = S(2 * k - strata) / S(strata);
-            for (int a = 0; a < 2; ++a) tangent[a][k] = optics::diffuser_tangent(scene, a, number[k]);
+            for (int a = 0; a < 2; ++a) tangent[a][k] = optics::diffuser_tangent(display, a, number[k]);
         }
     }
 };
 
 /// Cuts one axis for a block. False: what pixels see moves too far over the block, or a stratum sees several lenses.
-bool cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>* sweep, int axis, const EvenCuts& even, Axis& a) {
-    const Lattice<S>& lattice = scene.lattice;
+bool cut_axis(const optics::TracedDisplay<S>& display, const optics::Sweep<S>* sweep, int axis, const EvenCuts& even, Axis& a) {
+    const Lattice<S>& lattice = display.lattice;
     const S pitch = lattice.pitch[axis], per_pitch = lattice.per_pitch[axis], half = lattice.half_pitch[axis],
             step = S(1) / S(even.strata);
     const auto place_of = [&](int even_cut) {
@@ -72,7 +72,7 @@ bool cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>* sweep, int 
     };
     const auto cut_at = [&](S place) {
         S number[3];
-        for (int k = 0; k < 3; ++k) number[k] = optics::diffuser_uniform(scene, axis, sweep[k].tangent(place));
+        for (int k = 0; k < 3; ++k) number[k] = optics::diffuser_uniform(display, axis, sweep[k].tangent(place));
         return Cut{Gradient::of(number[0], number[1], number[2]), place};
     };
     const Gradient start = place_of(0), end = place_of(even.strata);
@@ -122,8 +122,8 @@ bool cut_axis(const optics::Scene<S>& scene, const optics::Sweep<S>* sweep, int 
 /// -1 .. 1.
 class Spans {
   public:
-    Spans(const optics::Scene<S>& of, const Axis& direction, int number_of_axis, F right, F down)
-        : scene(of),
+    Spans(const optics::TracedDisplay<S>& of, const Axis& direction, int number_of_axis, F right, F down)
+        : display(of),
           axis(direction),
           along(number_of_axis),
           dx(right),
@@ -143,7 +143,7 @@ class Spans {
             next_place = optics::min(optics::max(F(cut.place), least), most);
         }
         span.share = F(0.5f) * (next_number - number);
-        if (scene.hole_radius > 0) cover(span, optics::min(place, next_place), optics::max(place, next_place));
+        if (display.hole_radius > 0) cover(span, optics::min(place, next_place), optics::max(place, next_place));
         number = next_number;
         place = next_place;
         ++stratum;
@@ -153,14 +153,14 @@ class Spans {
   private:
     /// What it spans of the hole.
     LFDSIM_FN void cover(optics::Span<F>& span, F from, F to) const {
-        const F per = F(1 / scene.hole_radius), at = F(axis.stratum[stratum].axis), half = F(scene.lattice.half_pitch[along]);
+        const F per = F(1 / display.hole_radius), at = F(axis.stratum[stratum].axis), half = F(display.lattice.half_pitch[along]);
         span.from = optics::max(from - at, -half) * per;
         span.to = optics::min(to - at, half) * per;
         span.part_from = optics::circle_part(span.from);
         span.part_to = optics::circle_part(span.to);
     }
 
-    const optics::Scene<S>& scene;
+    const optics::TracedDisplay<S>& display;
     const Axis& axis;
     const int along;
     const F dx, dy, start, end, least, most;

@@ -15,11 +15,11 @@ namespace lfdsim {
 
 namespace {
 
-using SharedBundle = optics::SharedBundle<S>;
+using LitFootprint = optics::LitFootprint<S>;
 
 /// What a block sees through a stratum: through its hole and, where light passes there too, beside the hole.
-struct Bundles {
-    SharedBundle through, beside;
+struct SharedFootprints {
+    LitFootprint through, beside;
 };
 
 /// A range of a stratum along one axis, mm from the axis of its lens.
@@ -59,7 +59,7 @@ class BundleMaker {
   public:
     BundleMaker(const Tile& t, const optics::PixelBlock<S>& of, const Axis (&axes)[2])
         : tile(t),
-          scene(*t.scene),
+          display(*t.display),
           block(of),
           axis(axes),
           per_axis(t.strata <= 4   ? 4
@@ -77,9 +77,11 @@ class BundleMaker {
     }
 
     /// Makes all bundles of the block, row after row. False: one is broken.
-    bool make_all(Bundles* bundles) {
+    bool make_all(SharedFootprints* bundles) {
         const int across = axis[0].strata, count = across * axis[1].strata;
-        const auto broken = [](const Bundles& b) { return b.through.state == State::broken || b.beside.state == State::broken; };
+        const auto broken = [](const SharedFootprints& b) {
+            return b.through.state == State::broken || b.beside.state == State::broken;
+        };
         for (int k = 0; k < count; ++k) {
             make(bundles[k], k % across, k / across);
             if (broken(bundles[k])) return false;
@@ -91,21 +93,21 @@ class BundleMaker {
     }
 
   private:
-    using Shape = optics::BundleShape<S>;
+    using Shape = optics::SharedFootprint<S>;
     using State = Shape::State;
     using Sums = optics::NodeSums<S, optics::most_nodes * optics::most_nodes>;
 
     /// Makes the bundles of stratum (i, j), column i and row j, and queues the rays that follow those through the hole over the
     /// block.
-    void make(Bundles& b, int i, int j) {
-        const S r = scene.hole_radius;
+    void make(SharedFootprints& b, int i, int j) {
+        const S r = display.hole_radius;
         const Stratum &across = axis[0].stratum[i], &up = axis[1].stratum[j];
         b.through.state = b.beside.state = State::dark;
-        for (int side = 0; side < (scene.leaky && r > 0 ? 2 : 1); ++side) {
+        for (int side = 0; side < (display.lit_between && r > 0 ? 2 : 1); ++side) {
             const bool inside = side == 0;
             Range x{across.from, across.to}, y{up.from, up.to};
             if (r > 0 && !(inside ? clip_to_hole(r, x, y) : clip_beside_hole(r, x, y))) continue;
-            SharedBundle& to = inside ? b.through : b.beside;
+            LitFootprint& to = inside ? b.through : b.beside;
             const Shape shape = probe(i, x, j, y, inside, to.colour);
             to.state = shape.state;
             if (shape.state == State::broken) return;
@@ -117,15 +119,15 @@ class BundleMaker {
 
     /// Traces the probes of a part of stratum (i, j): a grid over x and y, of which those inside the hole count, or those outside.
     void trace(int i, Range x, int j, Range y, bool inside) {
-        const optics::Place<S> lens{axis[0].stratum[i].axis, axis[1].stratum[j].axis};
-        const S limit = scene.hole_radius > 0 ? scene.hole_radius * scene.hole_radius : S(1e30);
+        const optics::Vec2<S> lens{axis[0].stratum[i].axis, axis[1].stratum[j].axis};
+        const S limit = display.hole_radius > 0 ? display.hole_radius * display.hole_radius : S(1e30);
         for (int p = 0; p < optics::most_probes; ++p) {
             const S px = x.from + grid_x[p] * (x.to - x.from), py = y.from + grid_y[p] * (y.to - y.from);
             probes.x[p] = lens.x + px;
             probes.y[p] = lens.y + py;
             probes.in[p] = (px * px + py * py <= limit) == inside ? counts[p] : S(0);
         }
-        optics::trace_probes<F>(scene, block, probes, per_axis * per_axis);
+        optics::trace_probes<F>(display, block, probes, per_axis * per_axis);
     }
 
     /// The bundle of a part of stratum (i, j), inside its hole or beside it. The motion of sharp ones through it is left to
@@ -136,7 +138,7 @@ class BundleMaker {
         if (b.state != State::sharp) return b;
         const S size = optics::max(b.width, b.height);
         bool soft = size > S(FilteredLimits::soft);
-        if (soft && !scene.emission.whole && size < S(FilteredLimits::masked)) {
+        if (soft && !display.emission.whole && size < S(FilteredLimits::masked)) {
             b.state = State::broken;
             return b;
         }
@@ -273,7 +275,7 @@ class BundleMaker {
     }
     /// Traces the queued rays, and completes the bundles that wait for them.
     void finish() {
-        if (waiting > 0) optics::trace_probes<F>(scene, block, rays, rays_each * waiting);
+        if (waiting > 0) optics::trace_probes<F>(display, block, rays, rays_each * waiting);
         for (int k = 0; k < waiting; ++k) {
             Shape& b = *followed[k];
             optics::follow(b, rays, rays_each * k, block.reach);
@@ -289,7 +291,7 @@ class BundleMaker {
     static constexpr S part_per_pixel = S(1) / S(FilteredLimits::pixels_a_part);
     static constexpr int rays_each = optics::block_rays - 1, most_waiting = optics::most_probes / rays_each;
     const Tile& tile;
-    const optics::Scene<S>& scene;
+    const optics::TracedDisplay<S>& display;
     const optics::PixelBlock<S>& block;
     const Axis (&axis)[2];
     int per_axis;  // probes along an axis of a stratum: more in coarser strata, as they also have to find what is dark there

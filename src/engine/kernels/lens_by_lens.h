@@ -28,7 +28,7 @@ struct LensByLensMemory {
     SeenPart part[most_divisions * most_divisions];
     SeenLens lens[most_seen_lenses];
 
-    /// Placement new, whose header of the standard library kernels do not include.
+    /// MisalignedArray new, whose header of the standard library kernels do not include.
     static void* operator new(std::size_t, void* at) noexcept { return at; }
 };
 
@@ -70,7 +70,7 @@ class LensByLens : SeenLenses {
             for (int d = 0; d < dimensions; ++d) numbers.of[d] = sampler(d);
             optics::PanelPoint<F> end = trace(pixels, numbers, pixels.alive);
             end.weight = end.weight * F(S(1) / S(samples));
-            light.add(scene.emission, tile.texels, optics::Fetch<F>(optics::panel_pixel(scene, pixels.base, end)));
+            light.add(display.emission, tile.texels, optics::Fetch<F>(optics::panel_pixel(display, pixels.base, end)));
             sampler.next(*tile.directions);
         }
         return light;
@@ -112,10 +112,10 @@ class LensByLens : SeenLenses {
         for (int k = 0; k < corners.count; ++k)
             seen = {optics::min(seen.left, corners.x[k]), optics::max(seen.right, corners.x[k]),
                     optics::min(seen.low, corners.y[k]), optics::max(seen.high, corners.y[k])};
-        if (scene.hole_radius > S(0) && !scene.leaky) {  // the ellipse's ends
-            const optics::Place<S> axis = optics::axis_of(scene.lattice, optics::Cell<S>{lens.i, lens.j});
+        if (display.hole_radius > S(0) && !display.lit_between) {  // the ellipse's ends
+            const optics::Vec2<S> axis = optics::axis_of(display.lattice, optics::Cell<S>{lens.i, lens.j});
             const F u = map.u_of(F(axis.x) - map.x, F(axis.y) - map.y), v = map.v_of(F(axis.x) - map.x, F(axis.y) - map.y),
-                    size = F(scene.hole_radius) * optics::abs(map.per_area),
+                    size = F(display.hole_radius) * optics::abs(map.per_area),
                     reach_u = size * optics::sqrt(map.x_v * map.x_v + map.y_v * map.y_v),
                     reach_v = size * optics::sqrt(map.x_u * map.x_u + map.y_u * map.y_u);
             seen = {u - reach_u, u + reach_u, v - reach_v, v + reach_v};
@@ -153,9 +153,9 @@ class LensByLens : SeenLenses {
                 numbers.of[domain + 1] = part.v;
                 part.end = trace(pixels, numbers, counts);
             }
-        const optics::Place<S> axis = optics::axis_of(scene.lattice, optics::Cell<S>{lens.i, lens.j});
+        const optics::Vec2<S> axis = optics::axis_of(display.lattice, optics::Cell<S>{lens.i, lens.j});
         // What each pair of the other numbers spreads.
-        optics::PanelSpread<F> others[3] = {};
+        optics::PanelCovariance<F> others[3] = {};
         for (int d = 0; d < dimensions; ++d)
             if (d / 2 != domain / 2) others[d / 2].add(F(lens.by.column[d] * width[d]), F(lens.by.row[d] * width[d]));
         for (int j = 0; j < all_rows; ++j)
@@ -203,11 +203,11 @@ class LensByLens : SeenLenses {
     /// Adds the light about the end of a part's ray. Where pixels shine all over, a parallelogram that leans is read as boxes side
     /// by side, and of what spreads light the widest is the box, all else two points of Gauss's rule along each axis.
     LFDSIM_FN void add_boxes(const optics::PixelRays<F>& pixels, const SeenPart& part, const F (&edge)[2][2],
-                             const optics::PanelSpread<F> (&others)[3], optics::Light<F>& light) const {
+                             const optics::PanelCovariance<F> (&others)[3], optics::Light<F>& light) const {
         using L = FilteredLimits;
         const F zero = F(0), one = F(1), half = F(S(0.5));
-        optics::PanelSpread<F> other{};
-        for (const optics::PanelSpread<F>& of : others) {
+        optics::PanelCovariance<F> other{};
+        for (const optics::PanelCovariance<F>& of : others) {
             other.wide2 = other.wide2 + of.wide2;
             other.high2 = other.high2 + of.high2;
             other.lean2 = other.lean2 + of.lean2;
@@ -227,7 +227,7 @@ class LensByLens : SeenLenses {
         pieces_v = select(by_u, one, pieces_v);
         optics::Mask<F> counts = part.end.alive;
         if (!tile.panel.whole) {  // the gaps tell a leaning line from boxes
-            optics::PanelSpread<F> own{};
+            optics::PanelCovariance<F> own{};
             for (int a = 0; a < 2; ++a) own.add(edge[a][0], edge[a][1]);
             const F area2 = (own.wide2 + other.wide2) * (own.high2 + other.high2),
                     lean = optics::abs(own.lean2) + optics::abs(other.lean2);

@@ -40,23 +40,23 @@ struct SeenPart {
 class LensDomain {
   public:
     explicit LensDomain(const Tile& t)
-        : tile(t), scene(*t.scene), view(*t.view), domain(tile.cuts_pixel ? 2 : 0), dimensions(t.dimensions) {}
+        : tile(t), display(*t.display), view(*t.view), domain(tile.cuts_pixel ? 2 : 0), dimensions(t.dimensions) {}
 
     /// Where rays with these numbers cross the plane of the holes, in the array's frame.
     template <class G>
-    LFDSIM_FN optics::Place<G> at_holes(const optics::PixelRays<G>& pixels, const SampleNumbers<G>& numbers) const {
+    LFDSIM_FN optics::Vec2<G> at_holes(const optics::PixelRays<G>& pixels, const SampleNumbers<G>& numbers) const {
         optics::Ray<G> ray;
-        optics::sample_ray(scene, view, pixels, numbers, ray);
-        optics::Place<G> to{ray.to.x, ray.to.y};
-        if (scene.rotated) to = optics::to_array(scene.lattice, to.x, to.y);
+        optics::sample_ray(display, view, pixels, numbers, ray);
+        optics::Vec2<G> to{ray.to.x, ray.to.y};
+        if (display.rotated) to = optics::to_array(display.lattice, to.x, to.y);
         const G per = G(-1) / ray.to.z;
-        return {ray.at.x + to.x * per * G(scene.holes_below[0]), ray.at.y + to.y * per * G(scene.holes_below[1])};
+        return {ray.at.x + to.x * per * G(display.holes_below[0]), ray.at.y + to.y * per * G(display.holes_below[1])};
     }
     /// By central differences at +-1/2, half way from the middle of the domain to its ends.
     template <class G>
     LFDSIM_FN DomainMap<G> map_of(const optics::PixelRays<G>& pixels, SampleNumbers<G> numbers) const {
         const G step = G(S(0.5)), zero = G(S(0));
-        optics::Place<G> at[5];
+        optics::Vec2<G> at[5];
         for (int k = 0; k < 5; ++k) {
             numbers.of[domain] = k == 1 ? -step : k == 2 ? step : zero;
             numbers.of[domain + 1] = k == 3 ? -step : k == 4 ? step : zero;
@@ -69,14 +69,14 @@ class LensDomain {
 
     /// Half the size of what the domain spans in the plane of the holes.
     template <class G>
-    LFDSIM_FN static optics::Place<G> reach_of(const DomainMap<G>& map, G width) {
+    LFDSIM_FN static optics::Vec2<G> reach_of(const DomainMap<G>& map, G width) {
         return {width * (optics::abs(map.x_u) + optics::abs(map.x_v)), width * (optics::abs(map.y_u) + optics::abs(map.y_v))};
     }
 
     /// f(i, j) for the cells of the lattice that a box about (x, y) may meet.
     template <class Do>
     void for_cells(S x, S y, S half_x, S half_y, const Do& f) const {
-        const Lattice<S>& lattice = scene.lattice;
+        const Lattice<S>& lattice = display.lattice;
         const S reach_y = optics::reach_of_cell(lattice);
         const S first_j = lattice.strips ? S(0) : optics::floor((y - half_y - reach_y) * lattice.per_pitch[1] + S(1)),
                 last_j = lattice.strips ? S(0) : optics::floor((y + half_y + reach_y) * lattice.per_pitch[1]);
@@ -91,8 +91,8 @@ class LensDomain {
     /// The outline of a lens's cell in the domain's numbers. A strip has no end.
     template <class G>
     LFDSIM_FN optics::Corners<G> corners_of(const DomainMap<G>& map, optics::Cell<S> lens) const {
-        const Lattice<S>& lattice = scene.lattice;
-        const optics::Place<S> axis = optics::axis_of(lattice, lens);
+        const Lattice<S>& lattice = display.lattice;
+        const optics::Vec2<S> axis = optics::axis_of(lattice, lens);
         const G to_x = G(axis.x) - map.x, to_y = lattice.strips ? G(S(0)) : G(axis.y) - map.y;
         optics::Corners<G> corners;
         S x[6], y[6];
@@ -104,7 +104,7 @@ class LensDomain {
             for (int k = 0; k < 6; ++k) x[k] = at_x[k], y[k] = at_y[k];
         } else {
             // Between strips light may go on beside them: their cells then meet.
-            const S wide = lattice.strips && !scene.leaky ? scene.hole_half : lattice.half_pitch[0],
+            const S wide = lattice.strips && !display.lit_between ? display.hole_half : lattice.half_pitch[0],
                     high = lattice.strips ? S(1) : lattice.half_pitch[1];
             corners.count = 4;
             for (int k = 0; k < 4; ++k) x[k] = k < 2 ? wide : -wide, y[k] = k == 1 || k == 2 ? high : -high;
@@ -121,15 +121,15 @@ class LensDomain {
     /// Where rays with these numbers end on the panel.
     optics::PanelPoint<F> trace(const optics::PixelRays<F>& pixels, const SampleNumbers<F>& numbers, optics::Mask<F> some) const {
         optics::Ray<F> ray;
-        optics::sample_ray(scene, view, pixels, numbers, ray);
-        return optics::trace_any<F>(scene, pixels.extent, pixels.base, ray, some && pixels.alive);
+        optics::sample_ray(display, view, pixels, numbers, ray);
+        return optics::trace_any<F>(display, pixels.extent, pixels.base, ray, some && pixels.alive);
     }
 
     /// The part of a cell that lies in a round hole: |(x, y)| <= r, an ellipse in the domain. Six points of Gauss's rule along v
     /// between the part's ends, each with the chord along u.
     template <class G>
     LFDSIM_FN optics::Moments<G> part_in_hole(const DomainMap<G>& map, G from_x, G from_y, const optics::Box<G>& cell) const {
-        const G zero = G(0), one = G(1), half = G(S(0.5)), radius2 = G(scene.hole_radius * scene.hole_radius);
+        const G zero = G(0), one = G(1), half = G(S(0.5)), radius2 = G(display.hole_radius * display.hole_radius);
         const G size2 = map.x_u * map.x_u + map.y_u * map.y_u, per = one / size2;
         // The ellipse's ends in v.
         const G middle = zero - map.v_of(from_x, from_y), reach = optics::sqrt(radius2 * size2) * optics::abs(map.per_area);
@@ -164,7 +164,7 @@ class LensDomain {
             const F x = from_x + map.x_u * u + map.x_v * v, y = from_y + map.y_u * u + map.y_v * v;
             most = optics::max(most, x * x + y * y);
         }
-        return most <= F(scene.hole_radius * scene.hole_radius);
+        return most <= F(display.hole_radius * display.hole_radius);
     }
 
     /// The part of a cell that lies in a lens.
@@ -173,9 +173,9 @@ class LensDomain {
         const F zero = F(0), half = F(S(0.5)), du = cell.right - cell.left, dv = cell.high - cell.low;
         SeenPart part{
             F(S(0.25)) * du * dv, half * (cell.left + cell.right), half * (cell.low + cell.high), half * du, half * dv, {}};
-        const bool round = scene.hole_radius > S(0) && !scene.leaky;
-        const optics::Place<S> axis = optics::axis_of(scene.lattice, lens);
-        const F from_x = map.x - F(axis.x), from_y = map.y - (scene.lattice.strips ? map.y : F(axis.y));
+        const bool round = display.hole_radius > S(0) && !display.lit_between;
+        const optics::Vec2<S> axis = optics::axis_of(display.lattice, lens);
+        const F from_x = map.x - F(axis.x), from_y = map.y - (display.lattice.strips ? map.y : F(axis.y));
         const optics::Mask<F> cut = there && !(round ? hole_holds(map, from_x, from_y, cell) : optics::holds(corners, cell));
         if (any(cut)) {
             const optics::Moments<F> of = round ? part_in_hole(map, from_x, from_y, cell) : optics::part_within(corners, cell);
@@ -191,8 +191,8 @@ class LensDomain {
     }
 
     const Tile& tile;
-    const optics::Scene<S>& scene;
-    const optics::View& view;
+    const optics::TracedDisplay<S>& display;
+    const optics::RayOrigin& view;
     const int domain, dimensions;  // the domain's first number; how many numbers a sample has
 };
 

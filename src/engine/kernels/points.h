@@ -14,7 +14,7 @@ constexpr std::uint32_t block_samples = 256;  // samples summed in one go (even)
 template <optics::Facts facts>
 LFDSIM_APART optics::PanelHit<F> trace_one(const Tile& tile, const optics::PixelRays<F>& pixels,
                                            const optics::Sampler<F>& sampler) {
-    return optics::trace<facts>(*tile.scene, *tile.view, pixels, sampler);
+    return optics::trace<facts>(*tile.display, *tile.view, pixels, sampler);
 }
 
 /// The light of one pixel, for a GPU's thread: there other threads hide latency, while code that does not fit into the cache of
@@ -22,7 +22,7 @@ LFDSIM_APART optics::PanelHit<F> trace_one(const Tile& tile, const optics::Pixel
 /// trace_one(), which would keep the sampler out of the registers.
 template <optics::Facts facts, bool sobol>
 LFDSIM_FN optics::Light<F> gather_one(const Tile& tile, const optics::PixelRays<F>& pixels, std::uint32_t pixel) {
-    const optics::Scene<float>& scene = *tile.scene;
+    const optics::TracedDisplay<float>& display = *tile.display;
     optics::Sampler<F> sampler(sobol ? Sampling::sobol : tile.sampling,
                                facts.plain_light == optics::Known::yes ? 2 : tile.dimensions, tile.view->seed, pixel);
     optics::Light<F> total, block;
@@ -33,11 +33,11 @@ LFDSIM_FN optics::Light<F> gather_one(const Tile& tile, const optics::PixelRays<
 #pragma unroll 1
 #endif
         for (std::uint32_t k = sample; k < end; ++k) {
-            const optics::Fetch<F> fetch(optics::trace<facts>(scene, *tile.view, pixels, sampler));
+            const optics::Fetch<F> fetch(optics::trace<facts>(display, *tile.view, pixels, sampler));
             if constexpr (facts.plain_light == optics::Known::yes)
                 pair.add(tile.texels, fetch);
             else
-                pair.add(scene.emission, tile.texels, fetch);
+                pair.add(display.emission, tile.texels, fetch);
             sampler.next(*tile.directions);
         }
         if (end == sample + 1) {  // the last of an odd number
@@ -59,7 +59,7 @@ LFDSIM_FN optics::Light<F> gather_one(const Tile& tile, const optics::PixelRays<
 template <optics::Facts facts>
 LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& pixels, optics::Uint<F> pixel) {
     if constexpr (optics::LaneTraits<F>::width == 1) return gather_one<facts, false>(tile, pixels, pixel);
-    const optics::Scene<float>& scene = *tile.scene;
+    const optics::TracedDisplay<float>& display = *tile.display;
     optics::Sampler<F> even(tile.sampling, tile.dimensions, tile.view->seed, pixel), odd = even;
     odd.next(*tile.directions);
     const auto twice = optics::twice(pixels);
@@ -69,8 +69,8 @@ LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& 
         optics::Fetch<F> first, second;  // of the last two samples
         const std::uint32_t end = tile.samples - sample < block_samples ? tile.samples : sample + block_samples;
         for (; sample + 1 < end; sample += 2) {
-            const auto hit = optics::trace<facts>(scene, *tile.view, twice, optics::SamplerPair<F>{even, odd});
-            block.add(scene.emission, tile.texels, first, second);
+            const auto hit = optics::trace<facts>(display, *tile.view, twice, optics::SamplerPair<F>{even, odd});
+            block.add(display.emission, tile.texels, first, second);
             first = optics::Fetch<F>({hit.pixel.a, hit.weight.a, hit.lit.a});
             second = optics::Fetch<F>({hit.pixel.b, hit.weight.b, hit.lit.b});
             even.next(*tile.directions);
@@ -78,10 +78,10 @@ LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& 
             odd.next(*tile.directions);
             odd.next(*tile.directions);
         }
-        block.add(scene.emission, tile.texels, first, second);
+        block.add(display.emission, tile.texels, first, second);
         total.add(block);
     }
-    if (tile.samples % 2 == 1) total.add(scene.emission, tile.texels, optics::Fetch<F>(trace_one<facts>(tile, pixels, even)));
+    if (tile.samples % 2 == 1) total.add(display.emission, tile.texels, optics::Fetch<F>(trace_one<facts>(tile, pixels, even)));
     return total;
 }
 

@@ -52,9 +52,9 @@ class SeenLenses : public LensDomain {
         if (!(optics::abs(map.per_area) < S(1e12))) return false;
         // What the group's pixels, and other numbers than the domain's, move the plane of the holes by: in mm and in the domain's
         // numbers.
-        optics::Place<S> half = reach_of(map, S(1)), more{S(0), S(0)};
+        optics::Vec2<S> half = reach_of(map, S(1)), more{S(0), S(0)};
         S widen_u = 0, widen_v = 0;
-        const auto moved = [&](optics::Place<S> to) {
+        const auto moved = [&](optics::Vec2<S> to) {
             const S dx = to.x - map.x, dy = to.y - map.y;
             more = {more.x + optics::abs(dx), more.y + optics::abs(dy)};
             widen_u = widen_u + optics::abs(map.u_of(dx, dy));
@@ -69,15 +69,15 @@ class SeenLenses : public LensDomain {
             moved(at_holes(middle, one));
         }
         half = {half.x + more.x, half.y + more.y};
-        const S columns = S(2) * half.x * scene.lattice.per_pitch[0] + S(2),
-                rows = scene.lattice.strips ? S(1) : S(2) * half.y * scene.lattice.per_pitch[1] + S(2);
+        const S columns = S(2) * half.x * display.lattice.per_pitch[0] + S(2),
+                rows = display.lattice.strips ? S(1) : S(2) * half.y * display.lattice.per_pitch[1] + S(2);
         if (!(columns * rows < S(2 * most_seen_lenses))) return false;
         const optics::Box<S> seen{-1 - widen_u, 1 + widen_u, -1 - widen_v, 1 + widen_v};
         S weight = 0;
         for_cells(map.x, map.y, half.x, half.y, [&](S i, S j) {
-            if (!scene.leaky && !base.extent.holds(optics::Cell<S>{i, j})) return;
-            const optics::Place<S> axis = optics::axis_of(scene.lattice, optics::Cell<S>{i, j});
-            optics::Moments<S> part = scene.hole_radius > S(0) && !scene.leaky
+            if (!display.lit_between && !base.extent.holds(optics::Cell<S>{i, j})) return;
+            const optics::Vec2<S> axis = optics::axis_of(display.lattice, optics::Cell<S>{i, j});
+            optics::Moments<S> part = display.hole_radius > S(0) && !display.lit_between
                                           ? part_in_hole(map, map.x - axis.x, map.y - axis.y, seen)
                                           : optics::part_within(corners_of(map, {i, j}), seen);
             if (!(part.area > 0)) return;
@@ -87,8 +87,8 @@ class SeenLenses : public LensDomain {
             lens.j = j;
             lens.by = derivatives_at(middle, part);
             if (!lens.by.known) {  // hidden by another lens, perhaps: through the lens's middle
-                part.x = map.u_of(axis.x - map.x, scene.lattice.strips ? S(0) : axis.y - map.y);
-                part.y = map.v_of(axis.x - map.x, scene.lattice.strips ? S(0) : axis.y - map.y);
+                part.x = map.u_of(axis.x - map.x, display.lattice.strips ? S(0) : axis.y - map.y);
+                part.y = map.v_of(axis.x - map.x, display.lattice.strips ? S(0) : axis.y - map.y);
                 lens.by = derivatives_at(middle, part);
             }
             if (!lens.by.known) return;

@@ -55,7 +55,7 @@ void render_points(const Tile& tile) {
 void LFDSIM_KERNEL(const Tile& tile) {
     if (tile.strata > 0 && tile.lens_by_lens) return render_lens_by_lens(tile);
     if (tile.strata > 0) return render_filtered(tile);
-    optics::with_facts(*tile.scene, [&]<optics::Facts facts>() { render_points<facts>(tile); });
+    optics::with_facts(*tile.display, [&]<optics::Facts facts>() { render_points<facts>(tile); });
 }
 
 }  // namespace lfdsim

@@ -28,7 +28,7 @@ struct Extremes {
 };
 
 template <class S>
-optics::PlacedLens<S> placed(const LensError& e) {
+optics::MisalignedLens<S> placed(const LensError& e) {
     const double x = e.tilt_deg[0] * degree, y = e.tilt_deg[1] * degree;
     return {{S(e.aside_mm[0]), S(e.aside_mm[1]), S(e.height_mm), S(1 + e.curvature)},
             {S(std::cos(x)), S(std::sin(x)), S(std::cos(y)), S(std::sin(y))}};
@@ -89,34 +89,34 @@ void wedge_of(const Errors& e, const Geometry& g, double (&wedge)[3][3]) {
 }
 
 template <class S>
-void place_lenses(const Display& d, const Geometry& g, DisplayScene<S>& scene) {
-    optics::Placement<S>& placement = scene.placement;
-    placement.wedged = is_wedged(d.errors);
-    placement.given = is_irregular(d.errors);
-    if (!placement.given) return;
+void place_lenses(const Display& d, const Geometry& g, StoredDisplay<S>& scene) {
+    optics::MisalignedArray<S>& misaligned = scene.misaligned;
+    misaligned.wedged = is_wedged(d.errors);
+    misaligned.given = is_irregular(d.errors);
+    if (!misaligned.given) return;
 
     Extremes all;
     if (lenses_differ(d.errors)) {
         const std::vector<LensError> errors = lenses_as_built(d, g.lattice);
-        auto lenses = std::make_shared<std::vector<optics::PlacedLens<S>>>();
+        auto lenses = std::make_shared<std::vector<optics::MisalignedLens<S>>>();
         lenses->reserve(errors.size());
         for (const LensError& e : errors) {
             all.add(e);
             lenses->push_back(placed<S>(e));
         }
-        placement.lens = lenses->data();
+        misaligned.lens = lenses->data();
         scene.lenses = std::move(lenses);
     }
-    placement.tilted = all.tilt != 0;
-    placement.curved = all.curvature[0] != 1 || all.curvature[1] != 1;
-    placement.lowest = S(all.low);
-    placement.highest = S(all.high);
-    placement.vertex_z = S(g.vertex_plane_mm);
+    misaligned.tilted = all.tilt != 0;
+    misaligned.curved = all.curvature[0] != 1 || all.curvature[1] != 1;
+    misaligned.lowest = S(all.low);
+    misaligned.highest = S(all.high);
+    misaligned.vertex_z = S(g.vertex_plane_mm);
     double wedge[3][3];
     wedge_of(d.errors, g, wedge);
-    for (int k = 0; k < 9; ++k) placement.wedge[k / 3][k % 3] = S(wedge[k / 3][k % 3]);
+    for (int k = 0; k < 9; ++k) misaligned.wedge[k / 3][k % 3] = S(wedge[k / 3][k % 3]);
 
-    if (placement.curved && !scene.thin)
+    if (misaligned.curved && !scene.ideal)
         for (int k = 0; k < scene.surface_count; ++k) {
             const auto [lowest, highest] = sags(g.surfaces[g.surfaces.size() - 1 - std::size_t(k)], all);
             scene.surface[k].low = S(lowest);
@@ -126,7 +126,7 @@ void place_lenses(const Display& d, const Geometry& g, DisplayScene<S>& scene) {
     const auto [low, high] = sags(first, all);
     const double entrance = first.z_mm - g.vertex_plane_mm;
     double top = entrance + high, bottom = entrance + low;
-    if (scene.dimple) {  // the entrance is the rim
+    if (scene.concave_front) {  // the entrance is the rim
         const auto [lowest, highest] = std::minmax({highest_rim_mm(g, all.curvature[0]), highest_rim_mm(g, all.curvature[1])});
         top = std::max(top, highest);
         bottom = lowest;
@@ -137,14 +137,15 @@ void place_lenses(const Display& d, const Geometry& g, DisplayScene<S>& scene) {
     constexpr double rounding = 1e-4;  // mm, of single precision near a lens
     const double aside = all.aside + swing + rounding;
     const bool round = d.array.aperture == Aperture::circle;
-    placement.reach = S(aside + (round ? first.semi_aperture_mm - std::min(g.lattice.half_pitch[0], g.lattice.half_pitch[1]) : 0));
-    placement.radius =
+    misaligned.overhang =
+        S(aside + (round ? first.semi_aperture_mm - std::min(g.lattice.half_pitch[0], g.lattice.half_pitch[1]) : 0));
+    misaligned.radius =
         S(aside + (round ? first.semi_aperture_mm : outer_radius_mm(d.array) * (g.lattice.pitch[0] / d.array.pitch_mm[0])));
-    placement.search_top = S(top + all.high + sway + rounding);
-    placement.search_bottom = S(bottom + all.low - sway - rounding);
+    misaligned.search_top = S(top + all.high + sway + rounding);
+    misaligned.search_bottom = S(bottom + all.low - sway - rounding);
 }
 
-template void place_lenses<float>(const Display&, const Geometry&, DisplayScene<float>&);
-template void place_lenses<double>(const Display&, const Geometry&, DisplayScene<double>&);
+template void place_lenses<float>(const Display&, const Geometry&, StoredDisplay<float>&);
+template void place_lenses<double>(const Display&, const Geometry&, StoredDisplay<double>&);
 
 }  // namespace lfdsim

@@ -1,6 +1,6 @@
 // The errors of an array as the tracer needs them. Floor 2.
 #pragma once
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 
 namespace lfdsim {
 
@@ -12,6 +12,6 @@ std::vector<LensError> lenses_as_built(const Display&, const Lattice<double>&);
 
 /// Fills the scene's placement, if the array has a wedge or its lenses differ.
 template <class S>
-void place_lenses(const Display&, const Geometry&, DisplayScene<S>&);
+void place_lenses(const Display&, const Geometry&, StoredDisplay<S>&);
 
 }  // namespace lfdsim

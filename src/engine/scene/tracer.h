@@ -9,7 +9,7 @@ namespace lfdsim {
 struct Tracer {
     const char* name;
     Kernel run;
-    const optics::Scene<float>& scene;
+    const optics::TracedDisplay<float>& scene;
 };
 
 /// As render(), with this kernel in place of those of the table. Throws InputError.

@@ -1,7 +1,7 @@
 #include "engine/scene/work.h"
 
 #include "engine/estimator/summed_panel.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 
 #include <fmt/format.h>
 #include <cmath>
@@ -35,8 +35,8 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
     if (options.target_error && !(*options.target_error > 0 && std::isfinite(*options.target_error)))
         throw InputError("--target-error", fmt::format("{}; allowed: more than 0", *options.target_error));
     const Rect crop = checked_crop(options.crop, display.camera);
-    scene = make_scene<float>(display, geometry);
-    view = make_view(display, geometry);
+    scene = make_traced_display<float>(display, geometry);
+    view = make_ray_origin(display, geometry);
     const int dimensions = sample_dimensions(display);
     const std::int64_t samples = samples_of(display);
 

@@ -2,7 +2,7 @@
 #pragma once
 #include "engine/devices/kernel.h"
 #include "engine/render.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 
 #include <optional>
 #include <vector>
@@ -19,8 +19,8 @@ struct Work {
     void make_pictures(bool with_error);
 
     Rendering result;  // estimator; pictures once they are made
-    DisplayScene<float> scene;
-    optics::View view;
+    StoredDisplay<float> scene;
+    optics::RayOrigin view;
     Tile tile;                           // the whole crop
     std::optional<double> target_error;  // where there is something to sample
 };

@@ -3,7 +3,7 @@
 #include "base/input_error.h"
 #include "display/colour.h"
 #include "engine/devices/gpu.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "engine/scene/work.h"
 
 #include <fmt/format.h>

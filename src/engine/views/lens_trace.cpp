@@ -1,7 +1,7 @@
 #include "engine/views/lens_trace.h"
 
 #include "base/constants.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "geometry/lens_misalignment.h"
 #include "geometry/prescription.h"
 #include "optics/lens.h"
@@ -18,7 +18,7 @@ double missed(int to_come, double excess) { return to_come + 1 + (excess >= 0 ? 
 }  // namespace
 
 LensTrace::LensTrace(const Display& display, const Geometry& geometry)
-    : scene_(make_scene<double>(without_errors(display), turned_over(geometry))),
+    : scene_(make_traced_display<double>(without_errors(display), turned_over(geometry))),
       rear_principal_mm_(geometry.rear_principal_mm),
       gap_mm_(geometry.gap_mm) {
     scene_.fresnel = Fresnel::none;
@@ -69,39 +69,39 @@ double LensTrace::blocked_by_ideal(Point panel, Point slope, LensRay& out) const
 }
 
 /// What pass_lens() calls for a search: records by how much each ray misses where it ends.
-struct LensTrace::Aim : optics::Alone<double> {
+struct LensTrace::Aim : optics::SingleLens<double> {
     const LensTrace& lens;
-    const int count = scene.surface_count;
-    const bool black = scene.surround == Surround::opaque;
+    const int count = display.surface_count;
+    const bool black = display.surround == Surround::opaque;
     double miss = 0;       // the answer; 0: it gets through
     double astray = 0;     // by how much it misses this lens's own stop, which a search must find
     double last = 0;       // by how much it misses the way out
     bool stopped = false;  // by the sheet of stops
 
-    void end(optics::Passage<double>& way, int to_come, double excess) {
+    void end(optics::Passage<double>& passage, int to_come, double excess) {
         if (miss == 0) miss = missed(to_come, std::max(excess, astray));
-        way.alive = false;
+        passage.alive = false;
     }
     bool passes_stop(bool crosses, double x, double y) {
         if (!crosses) return true;
-        astray = std::max(std::hypot(x, optics::across(scene.lattice, y)) / std::sqrt(scene.stop_radius2) - 1, 0.);
-        stopped = !Alone::passes_stop(true, x, y);
+        astray = std::max(std::hypot(x, optics::across(display.lattice, y)) / std::sqrt(display.stop_radius2) - 1, 0.);
+        stopped = !SingleLens::passes_stop(true, x, y);
         return true;  // it counts once the surface is reached, as a search needs the distance to that first
     }
     void meets(int k, const optics::Ray<double>& ray, const optics::Hit<double>& hit, double from_z, double z,
-               optics::Passage<double>& way) {
+               optics::Passage<double>& passage) {
         const int to_come = 3 * (count - k);  // to meet it, to be within its aperture, to get on
         const double radius = lens.semi_aperture_mm_[k], excess = lens.outside(hit.at.x, hit.at.y, radius);
-        const double eta = scene.surface[k].media.eta, sine2 = eta * eta * (1 - hit.cos2);
-        if (!(ray.to.z < 0)) return end(way, to_come + 1, 1 + ray.to.z);  // turned up by the previous surface
-        if (!hit.ok) return end(way, to_come, std::max(lens.outside(ray.at.x, ray.at.y, radius), 0.));
-        if (!(z <= from_z)) return end(way, to_come, z - from_z);  // it meets this surface before the previous one
-        if (stopped || !(excess <= 0)) return end(way, to_come - 1, excess);
-        if (!(sine2 < 1)) return end(way, to_come - 2, sine2 - 1);  // total internal reflection
+        const double eta = display.surface[k].media.eta, sine2 = eta * eta * (1 - hit.cos2);
+        if (!(ray.to.z < 0)) return end(passage, to_come + 1, 1 + ray.to.z);  // turned up by the previous surface
+        if (!hit.ok) return end(passage, to_come, std::max(lens.outside(ray.at.x, ray.at.y, radius), 0.));
+        if (!(z <= from_z)) return end(passage, to_come, z - from_z);  // it meets this surface before the previous one
+        if (stopped || !(excess <= 0)) return end(passage, to_come - 1, excess);
+        if (!(sine2 < 1)) return end(passage, to_come - 2, sine2 - 1);  // total internal reflection
     }
-    void leaves(optics::Passage<double>& way) {
-        if (!(way.ray.to.z < 0)) return end(way, 1, 1 + way.ray.to.z);
-        if (stopped) end(way, 0, 0);
+    void leaves(optics::Passage<double>& passage) {
+        if (!(passage.ray.to.z < 0)) return end(passage, 1, 1 + passage.ray.to.z);
+        if (stopped) end(passage, 0, 0);
     }
     bool passes_back(double x, double y) {
         const double excess = black ? lens.outside(x, y, lens.semi_aperture_mm_[count - 1]) : 0;
@@ -119,21 +119,21 @@ double LensTrace::blocked(Point panel, Point cosines, LensRay& out) const {
     const double cosine = std::sqrt(cos2);
     if (count == 0) return blocked_by_ideal(panel, {cosines[0] / cosine, cosines[1] / cosine}, out);
 
-    optics::Passage<double> way{{{panel[0], panel[1], 0}, {cosines[0], cosines[1], -cosine}}, {0, 0}, 1, true};
-    const auto &at = way.ray.at, &to = way.ray.to;
+    optics::Passage<double> passage{{{panel[0], panel[1], 0}, {cosines[0], cosines[1], -cosine}}, {0, 0}, 1, true};
+    const auto &at = passage.ray.at, &to = passage.ray.to;
     const auto place = [&](double from_z, double z) {
         const double t = (z - from_z) / to.z;
         return optics::Vec3<double>{at.x + to.x * t, at.y + to.y * t, 0};
     };
     Aim aim{{scene_}, *this};
-    if (aim.black && scene_.dimple) {  // the way in is the hole in the black part's face
+    if (aim.black && scene_.concave_front) {  // the way in is the hole in the black part's face
         const auto hole = place(top, scene_.zone_top);
         if (const double excess = outside(hole.x, hole.y, semi_aperture_mm_[0]); excess > 0) return missed(3 * count + 1, excess);
     }
     const auto& first = scene_.surface[0];
     const optics::Ray<double> entering{place(top, first.z), to};
-    optics::pass_lens<optics::Facts{}>(scene_, aim, entering, optics::meet<optics::Facts{}>(scene_, 0, entering), way);
-    if (!way.alive) return aim.miss > 0 ? aim.miss : missed(0, aim.last);
+    optics::pass_lens<optics::Facts{}>(scene_, aim, entering, optics::meet<optics::Facts{}>(scene_, 0, entering), passage);
+    if (!passage.alive) return aim.miss > 0 ? aim.miss : missed(0, aim.last);
     const auto principal = place(at.z + scene_.surface[count - 1].z, -rear_principal_mm_);
     out = {principal.x, principal.y, -to.x / to.z, -to.y / to.z};
     return 0;

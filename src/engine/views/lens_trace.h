@@ -6,7 +6,7 @@
 #pragma once
 #include "display/display.h"
 #include "geometry/geometry.h"
-#include "optics/scene.h"
+#include "optics/traced_display.h"
 
 #include <array>
 #include <optional>
@@ -58,7 +58,7 @@ class LensTrace {
     struct Aim;
 
     // The lens turned over, as the tracer's rays come down: the panel stays in z = 0, the lens is below it.
-    optics::Scene<double> scene_;
+    optics::TracedDisplay<double> scene_;
     double semi_aperture_mm_[max_surfaces];
     double rear_principal_mm_, gap_mm_;
 };

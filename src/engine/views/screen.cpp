@@ -1,7 +1,7 @@
 #include "engine/views/screen.h"
 
 #include "base/constants.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "geometry/camera.h"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace {
 class CameraPoints {
   public:
     CameraPoints(const Display& display, const Geometry& geometry)
-        : position_(display.camera.position_mm), axes_(camera_axes(display.camera)), view_(make_view(display, geometry)) {}
+        : position_(display.camera.position_mm), axes_(camera_axes(display.camera)), view_(make_ray_origin(display, geometry)) {}
     std::optional<std::array<double, 2>> of(const Vec3d& point) const {
         const Vec3d to = minus(point, position_);
         const double depth = dot(to, axes_.forward);
@@ -43,7 +43,7 @@ class CameraPoints {
   private:
     Vec3d position_;
     CameraAxes axes_;
-    optics::View view_;
+    optics::RayOrigin view_;
 };
 
 }  // namespace

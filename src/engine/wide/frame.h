@@ -1,7 +1,7 @@
 // A picture's work for a wide machine, such as a GPU: thousands of equal items, one for each thread. Plain data. Floor 2.
 #pragma once
 #include "engine/devices/kernel.h"
-#include "optics/scene.h"
+#include "optics/traced_display.h"
 
 #include <cstdint>
 
@@ -14,8 +14,8 @@ struct ListedSquare {
 
 /// The input of every item: a pixel, by point samples. Pointers are to the machine's memory.
 struct Frame {
-    optics::Scene<float> scene;
-    optics::View view;
+    optics::TracedDisplay<float> display;
+    optics::RayOrigin view;
     optics::DirectionNumbers directions;
     Tile tile;  // except for scene, view and directions, which each item takes from above
 

@@ -55,7 +55,7 @@ LFDSIM_FN float* output(const Frame& frame, std::uint32_t square, std::int32_t x
 template <optics::Facts facts, bool sobol>
 LFDSIM_FN void point_item(const Frame& frame, std::int64_t i) {
     Tile tile = frame.tile;
-    tile.scene = &frame.scene;
+    tile.display = &frame.display;
     tile.view = &frame.view;
     tile.directions = &frame.directions;
     constexpr std::uint32_t each = refined_side * refined_side;

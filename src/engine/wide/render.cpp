@@ -14,15 +14,15 @@ constexpr std::int64_t square_pixels = refined_side * refined_side;
 class Renderer {
   public:
     Renderer(Queue& queue, const DevicePanel& panel, const Tile& tile) : queue_(queue) {
-        frame_.scene = *tile.scene;
+        frame_.display = *tile.display;
         frame_.view = *tile.view;
         frame_.directions = *tile.directions;
         frame_.tile = tile;
         frame_.tile.texels = panel.texels();
-        if (auto*& lens = frame_.scene.placement.lens) {
-            const auto& count = frame_.scene.lattice.count;
+        if (auto*& lens = frame_.display.misaligned.lens) {
+            const auto& count = frame_.display.lattice.count;
             const std::size_t lenses = std::size_t(count[0]) * std::size_t(count[1]);
-            lenses_ = Buffer<optics::PlacedLens<float>>(queue_, lenses);
+            lenses_ = Buffer<optics::MisalignedLens<float>>(queue_, lenses);
             queue_.upload(lenses_.get(), lens, lenses * sizeof *lens);
             lens = lenses_.get();
         }
@@ -65,7 +65,7 @@ class Renderer {
   private:
     Queue& queue_;
     Frame frame_{};
-    Buffer<optics::PlacedLens<float>> lenses_;
+    Buffer<optics::MisalignedLens<float>> lenses_;
     std::size_t listed_room_ = 0;
     Buffer<ListedSquare> listed_;
 };

@@ -67,7 +67,7 @@ class CalibrationImport {
         find_gap();
         make_lenses();
         place_array();
-        make_view();
+        make_ray_origin();
         made.notes.insert(made.notes.end(), c.notes.begin(), c.notes.end());
         judge();
         made.display = std::move(d);
@@ -211,7 +211,7 @@ class CalibrationImport {
         if (count < 1 + fewest_lenses) note("Only {:.0f} lenses cover the panel.", count - 1);
     }
 
-    void make_view() {
+    void make_ray_origin() {
         const double W = double(c.pixels[0]), H = double(c.pixels[1]), longest = std::max(W, H);
         d.camera.position_mm = {0, 0, distance_mm};
         d.camera.frame_width_mm = to_nanometre(1.03 * W * d.panel.pixel_pitch_mm);

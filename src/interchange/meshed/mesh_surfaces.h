@@ -48,13 +48,13 @@ class MeshSurfaces {
 };
 
 /// The tracer's input: its own scene, with meshes in place of the surfaces.
-struct MeshedScene : optics::Scene<float> {
+struct MeshedScene : optics::TracedDisplay<float> {
     const MeshSurfaces* surfaces;
 };
 
 namespace optics {
 /// For trace_opaque<Specialisations::meshed>; the scene must be a MeshedScene.
-inline Hit<float> meet_mesh(const Scene<float>& scene, int k, const Ray<float>& ray) {
+inline Hit<float> meet_mesh(const TracedDisplay<float>& scene, int k, const Ray<float>& ray) {
     return static_cast<const MeshedScene&>(scene).surfaces->meet(k, ray);
 }
 }  // namespace optics

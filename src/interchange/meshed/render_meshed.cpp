@@ -2,7 +2,7 @@
 
 #include "display/colour.h"
 #include "display/keys.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "engine/scene/tracer.h"
 #include "geometry/lens_misalignment.h"
 #include "interchange/meshed/mesh_surfaces.h"
@@ -17,7 +17,7 @@ namespace {
 
 // Traces the rays of a tile one by one: Embree's time for a ray is far more than packets would save.
 void render_tile(const Tile& tile) {
-    const optics::Scene<float>& scene = *tile.scene;
+    const optics::TracedDisplay<float>& scene = *tile.display;
     for (std::int32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::int32_t x = tile.x0; x < tile.x1; ++x) {
             const auto pixel = optics::pixel_rays<float>(*tile.view, x, y);
@@ -25,11 +25,11 @@ void render_tile(const Tile& tile) {
                                            std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x));
             double sum[3] = {};
             for (std::uint32_t sample = 0; sample < tile.samples; ++sample, sampler.next(*tile.directions)) {
-                optics::Passage<float> way{{}, {0, 0}, 1, pixel.alive};
-                optics::sample_ray(scene, *tile.view, pixel, sampler, way.ray);
-                optics::to_first_vertex(scene, way);
-                if (!way.alive) continue;
-                const auto point = optics::trace_opaque<optics::Specialisations::meshed>(scene, pixel.extent, pixel.base, way);
+                optics::Passage<float> passage{{}, {0, 0}, 1, pixel.alive};
+                optics::sample_ray(scene, *tile.view, pixel, sampler, passage.ray);
+                optics::to_first_vertex(scene, passage);
+                if (!passage.alive) continue;
+                const auto point = optics::trace_opaque<optics::Specialisations::meshed>(scene, pixel.extent, pixel.base, passage);
                 optics::Light<float> light;
                 light.add(scene.emission, tile.texels, optics::Fetch<float>(optics::panel_pixel(scene, pixel.base, point)));
                 for (int c = 0; c < 3; ++c) sum[c] += double(light(0, c));
@@ -72,7 +72,7 @@ Rendering render_meshed(const Display& display, const Geometry& geometry, const 
     Display points = display;
     points.render.estimator = Estimator::point;
     const optics::SummedImage unsummed{panel.data(), nullptr, 0, std::uint32_t(panel.columns()), std::uint32_t(panel.rows())};
-    const MeshedScene scene{make_scene<float>(points, geometry), &lens.surfaces()};
+    const MeshedScene scene{make_traced_display<float>(points, geometry), &lens.surfaces()};
     return render_with({"meshed", render_tile, scene}, points, geometry, {unsummed}, options, job);
 }
 

@@ -1,6 +1,6 @@
 #include "interchange/peers/python.h"
 
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "interchange/peers/array_frame.h"
 #include "interchange/peers/cell.h"
 #include "interchange/peers/ply.h"
@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json camera(const Display& d, const Geometry& g) {
-    const optics::View view = make_view(d, g);
+    const optics::RayOrigin view = make_ray_origin(d, g);
     const auto list = [](const double* v) { return Json{v[0], v[1], v[2]}; };
     return {{"position_mm", list(view.position)}, {"forward", list(view.forward)},
             {"right", list(view.right)},          {"up", list(view.up)},

@@ -1,6 +1,6 @@
 #include "interchange/pov/pov.h"
 
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "geometry/lens_misalignment.h"
 #include "geometry/prescription.h"
 #include "interchange/peers/array_frame.h"
@@ -80,7 +80,7 @@ class Writer {
 
   private:
     std::string camera() const {
-        const optics::View view = make_view(d_, g_);
+        const optics::RayOrigin view = make_ray_origin(d_, g_);
         const double u = units_per_mm_, width = view.pixel_mm * view.width, height = view.pixel_mm * view.height;
         double at[3], right[3], up[3];
         for (int k = 0; k < 3; ++k) {

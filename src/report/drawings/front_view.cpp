@@ -27,7 +27,7 @@ void draw_front(Drawing& drawing, Point corner, double side, const Display& d, c
     const Lattice<double>& l = g.lattice;
     const double across = 2.5 * (l.strips ? l.pitch[0] : std::max(l.pitch[0], l.pitch[1])), scale = side / across;
     const optics::Cell<double> middle = optics::base_cell(l, {std::floor(l.count[0] / 2), std::floor(l.count[1] / 2)});
-    const optics::Place<double> centre = optics::axis_in_array(l, middle);
+    const optics::Vec2<double> centre = optics::axis_in_array(l, middle);
     const Corners cell = cell_of(l, 2 * across), clear = aperture_shape(d, g).corners(2 * across);
     // As many about the middle as reach into the square, however it is turned
     const auto about = [&](int axis) { return std::ceil(across / l.pitch[axis]) + 1; };
@@ -38,7 +38,7 @@ void draw_front(Drawing& drawing, Point corner, double side, const Display& d, c
         for (double i = -columns; i <= columns; ++i) {
             const optics::Cell<double> lens{middle.i + i, middle.j + j};
             if (!optics::holds(l, lens)) continue;
-            const optics::Place<double> axis = optics::axis_in_array(l, lens);
+            const optics::Vec2<double> axis = optics::axis_in_array(l, lens);
             const auto draw = [&](const Corners& corners, const std::string& style) {
                 std::vector<Point> points;
                 for (const auto& [x, y] : corners) {

@@ -1,6 +1,6 @@
 #include "report/drawings/side_rays.h"
 
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "geometry/lens_misalignment.h"
 #include "geometry/prescription.h"
 #include "optics/lens.h"
@@ -12,24 +12,24 @@ namespace lfdsim {
 namespace {
 
 /// The rules of pass_lens() for a ray that is drawn: records the points of its path.
-struct Pen : optics::Alone<double> {
+struct Pen : optics::SingleLens<double> {
     SidePath& path;
     const double sense;  // of z: -1 for the lens turned over
 
     void point(double y, double z) { path.points.push_back({y, sense * z}); }
     bool passes_stop(bool crosses, double x, double y) {
-        const bool through = !crosses || Alone::passes_stop(true, x, y);
-        if (!through) point(y, scene.stop_z);
+        const bool through = !crosses || SingleLens::passes_stop(true, x, y);
+        if (!through) point(y, display.stop_z);
         return through;
     }
     void meets(int k, const optics::Ray<double>& ray, const optics::Hit<double>& hit, double from_z, double z,
-               optics::Passage<double>& way) {
-        if (!way.alive) return;
-        const auto& surface = scene.surface[k];
-        const bool filled = scene.aperture == Aperture::cell;
-        const double cell = scene.lattice.half_pitch[1], rim = std::min(surface.semi_aperture, filled ? cell : INFINITY);
-        way.alive = hit.ok && std::abs(hit.at.y) <= rim && z <= from_z;
-        if (way.alive) return point(hit.at.y, z);
+               optics::Passage<double>& passage) {
+        if (!passage.alive) return;
+        const auto& surface = display.surface[k];
+        const bool filled = display.aperture == Aperture::cell;
+        const double cell = display.lattice.half_pitch[1], rim = std::min(surface.semi_aperture, filled ? cell : INFINITY);
+        passage.alive = hit.ok && std::abs(hit.at.y) <= rim && z <= from_z;
+        if (passage.alive) return point(hit.at.y, z);
         // A ray that passes beside the lens ends at the height of the rim.
         double sag = 0, slope;
         bool real;
@@ -38,8 +38,8 @@ struct Pen : optics::Alone<double> {
     }
     void leaves(const optics::Passage<double>&) const {}
     bool passes_back(double, double y) const {
-        const auto& last = scene.surface[scene.surface_count - 1];
-        return scene.surround != Surround::opaque || std::abs(y) <= last.semi_aperture;
+        const auto& last = display.surface[display.surface_count - 1];
+        return display.surround != Surround::opaque || std::abs(y) <= last.semi_aperture;
     }
     bool over(bool alive) const { return !alive; }
 };
@@ -84,11 +84,11 @@ SideRay side_ray(double y, double z, double to_y, double to_z) {
 SidePath through_lens(const Display& d, const Geometry& g, const SideRay& from) {
     const bool up = from.dz > 0;
     const double sense = up ? -1 : 1;
-    const auto scene = make_scene<double>(without_errors(d), up ? turned_over(g) : g);
+    const auto scene = make_traced_display<double>(without_errors(d), up ? turned_over(g) : g);
     SidePath path{{{from.y, from.z}}, from, true};
     const SideRay start = up ? up_through_layers(g, from, path) : from;
     const auto go_on = [&](double y, double z, double dy, double dz) { path.last = {y, sense * z, dy, sense * dz}; };
-    if (scene.thin) {
+    if (scene.ideal) {
         const double y = start.y_at(g.vertex_plane_mm);
         const double slope = optics::bend<double>(scene, {0, y}, {0, sense * start.dy / start.dz}).y, length = std::hypot(slope, 1);
         path.points.push_back({y, g.vertex_plane_mm});
@@ -99,11 +99,12 @@ SidePath through_lens(const Display& d, const Geometry& g, const SideRay& from) 
     }
     const auto& first = scene.surface[0];
     const optics::Ray<double> ray{{0, start.y_at(sense * first.z), 0}, {0, start.dy, sense * start.dz}};
-    optics::Passage<double> way{ray, {0, 0}, 1, true};
+    optics::Passage<double> passage{ray, {0, 0}, 1, true};
     optics::pass_lens<optics::Specialisations::opaque>(scene, Pen{{scene}, path, sense}, ray, optics::meet(first.shape, first, ray),
-                                                       way);
-    path.through = way.alive;
-    if (path.through) go_on(way.ray.at.y, way.ray.at.z + scene.surface[scene.surface_count - 1].z, way.ray.to.y, way.ray.to.z);
+                                                       passage);
+    path.through = passage.alive;
+    if (path.through)
+        go_on(passage.ray.at.y, passage.ray.at.z + scene.surface[scene.surface_count - 1].z, passage.ray.to.y, passage.ray.to.z);
     if (!up) down_through_layers(g, path);
     return path;
 }

@@ -2,7 +2,7 @@
 
 #include "base/constants.h"
 #include "display/keys.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "geometry/dark_bands.h"
 #include "geometry/geometry.h"
 #include "geometry/lattice.h"

@@ -4,7 +4,7 @@
 #include "base/constants.h"
 #include "base/counted.h"
 #include "base/vec.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "geometry/geometry.h"
 #include "report/drawings/side_scale.h"
 
@@ -22,7 +22,7 @@ using Number = std::array<std::int64_t, 2>;
 constexpr int fan_rays = 5, cone_rays = 65;
 
 /// Direction from the camera through a point of its picture, of unit length.
-Vec3d direction(const optics::View& view, Place at) {
+Vec3d direction(const optics::RayOrigin& view, Place at) {
     const double right = (at[0] - 0.5) * view.width * view.pixel_mm, up = (0.5 - at[1]) * view.height * view.pixel_mm;
     Vec3d d{};
     for (std::size_t a = 0; a < 3; ++a) d[a] = view.forward[a] * view.distance + view.right[a] * right + view.up[a] * up;
@@ -30,7 +30,7 @@ Vec3d direction(const optics::View& view, Place at) {
 }
 
 /// A point in the array's own axes, from its middle.
-optics::Place<double> in_array(const Lattice<double>& lattice, double x, double y) {
+optics::Vec2<double> in_array(const Lattice<double>& lattice, double x, double y) {
     return optics::to_array(lattice, x - lattice.offset[0], y - lattice.offset[1]);
 }
 
@@ -109,7 +109,7 @@ std::vector<std::vector<Place>> fan(const Display& d, const Geometry& g, const S
 
 Probe probe(const Display& d, Place at) {
     const Geometry g = resolve(d);
-    const Vec3d to = direction(make_view(d, g), at);
+    const Vec3d to = direction(make_ray_origin(d, g), at);
     Probe probe;
     if (!(to[2] < -1e-9)) {
         probe.says = "The line of sight does not reach the display.";

@@ -2,7 +2,7 @@
 
 #include "engine/devices/memory.h"
 #include "engine/render.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "view/painting/painter_job.h"
 
 #include <fmt/format.h>

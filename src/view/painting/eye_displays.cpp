@@ -1,6 +1,6 @@
 #include "view/painting/eye_displays.h"
 
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 #include "geometry/geometry.h"
 #include "optics/misaligned.h"
 #include "pictures.h"
@@ -28,7 +28,7 @@ Errors large(std::mt19937& random) {
 /// Rays from above the lenses, of all slopes up to 3: how many of them first enter another lens than the first of all lenses does.
 int wrong_of(const Display& d, int rays, std::mt19937& random, int& entering) {
     const Geometry g = resolve(d);
-    const DisplayScene<double> scene = make_scene<double>(d, g);
+    const StoredDisplay<double> scene = make_traced_display<double>(d, g);
     const auto& lattice = scene.lattice;
     const optics::Extent<double> extent{0, lattice.count[0] - 1, 0, lattice.count[1] - 1};
     const double width = lattice.count[0] * lattice.pitch[0], height = lattice.count[1] * lattice.pitch[1];
@@ -37,17 +37,17 @@ int wrong_of(const Display& d, int rays, std::mt19937& random, int& entering) {
     for (int k = 0; k < rays; ++k) {
         const double mx = slope(random), my = slope(random), per = 1 / std::sqrt(1 + mx * mx + my * my);
         const optics::Ray<double> ray{
-            {width * (0.5 + share(random)), height * (0.5 + share(random)), scene.placement.search_top + 1},
+            {width * (0.5 + share(random)), height * (0.5 + share(random)), scene.misaligned.search_top + 1},
             {mx * per, my * per, -per}};
-        const auto found = optics::enter_placed<optics::Facts{}>(scene, extent, ray, true);
+        const auto found = optics::enter_misaligned<optics::Facts{}>(scene, extent, ray, true);
         double first = 1e30;
         for (double j = 0; j < lattice.count[1]; ++j)
             for (double i = 0; i < lattice.count[0]; ++i) {
-                const auto met = optics::meet_placed<optics::Facts{}>(scene, extent, ray, 1 / ray.to.z, Cell<double>{i, j});
-                if (met.enters) first = std::min(first, met.way);
+                const auto met = optics::meet_misaligned<optics::Facts{}>(scene, extent, ray, 1 / ray.to.z, Cell<double>{i, j});
+                if (met.enters) first = std::min(first, met.path_length);
             }
         entering += first < 1e30;
-        wrong += found.enters ? found.way != first : first < 1e30;
+        wrong += found.enters ? found.path_length != first : first < 1e30;
     }
     return wrong;
 }

@@ -3,7 +3,7 @@
 #include "display/display.h"
 #include "engine/devices/kernel.h"
 #include "geometry/geometry.h"
-#include "optics/scene.h"
+#include "optics/traced_display.h"
 
 #include <memory>
 #include <vector>
@@ -12,17 +12,17 @@ namespace lfdsim {
 
 /// A scene and what it points to. Copies share that.
 template <class S>
-struct DisplayScene : optics::Scene<S> {
-    std::shared_ptr<const std::vector<optics::PlacedLens<S>>> lenses;
+struct StoredDisplay : optics::TracedDisplay<S> {
+    std::shared_ptr<const std::vector<optics::MisalignedLens<S>>> lenses;
 };
 
 /// The display for an S of float (kernels) or double (the accuracy reference). Throws InputError if a lens has more surfaces or
 /// asphere terms than the tracer holds.
 template <class S>
-DisplayScene<S> make_scene(const Display&, const Geometry&);
+StoredDisplay<S> make_traced_display(const Display&, const Geometry&);
 
 /// The camera, with the height of the plane where the tracer starts.
-optics::View make_view(const Display&, const Geometry&);
+optics::RayOrigin make_ray_origin(const Display&, const Geometry&);
 
 /// The estimator that a display is rendered with: the one it asks for, but points where the filtered one does not apply (neither a
 /// diffuser nor a pixel filter).
@@ -47,10 +47,10 @@ struct BlockShape {
 /// One grid serves a pinhole camera that looks through pixels' middles and a diffuser that spans lenses, in rows and columns along
 /// its axes, not too coarsely. A block spans less than a pixel sees of a lens, much less where many strata, so many along an axis,
 /// ask for a fine picture, nearly as much for a rough one.
-BlockShape block_shape(const optics::Scene<float>&, const optics::View&, int strata, bool rough = false);
+BlockShape block_shape(const optics::TracedDisplay<float>&, const optics::RayOrigin&, int strata, bool rough = false);
 
 /// Are lenses' outlines to cut the pixel's area, because the diffuser, if there is one, spreads rays over less of the lenses?
-bool cuts_pixel(const optics::Scene<float>&, const optics::View&);
+bool cuts_pixel(const optics::TracedDisplay<float>&, const optics::RayOrigin&);
 
 const optics::DirectionNumbers& sobol_directions();
 

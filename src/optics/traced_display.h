@@ -2,7 +2,7 @@
 // and ready for another device. Floor 1.
 //
 // z is in mm from the panel. Surfaces are in the order in which backward rays meet them, from the viewer's side.
-// Filled by engine/scene/scene.cpp from a Display and its Geometry.
+// Filled by engine/scene/traced_display.cpp from a Display and its Geometry.
 #pragma once
 #include <cstdint>
 
@@ -60,34 +60,34 @@ struct SubpixelPart {
 /// The parts of a panel that shine; dark around them, and so much brighter in them that a cell's mean is its pixels' light.
 template <class S>
 struct Emission {
-    bool whole;  // all of each pixel, in its own colour: no parts
+    bool whole;  // each pixel shines all over, in its colour: no parts
     std::int32_t count;
     SubpixelPart<S> part[max_subpixel_parts];
 };
 
-/// How a lens stands that is not where the lattice has it, in the array's frame.
+/// Pose of a misaligned lens relative to its lattice position (array frame).
 template <class S>
-struct PlacedLens {
+struct MisalignedLens {
     S place[4];  // x, y, z of its viewer-side vertex from there, mm; its curvature as a share of that of the others
     S turn[4];   // cosine and sine of its turn about x', and then of that about y'
 };
 
 /// An array with errors (optics/misaligned.h).
 template <class S>
-struct Placement {
-    bool given;                   // else none of the rest means anything
-    bool tilted, curved, wedged;  // some lens is; the array is not parallel to the panel
-    const PlacedLens<S>* lens;    // row by row from the lower left; null: all stand where the lattice has them
-    S vertex_z;                   // of the viewer-side vertex plane, in the array's middle
-    S wedge[3][3];                // from the array's frame to that turned about z alone
-    S reach;                      // how far a lens stands out of its cell at most; negative: it stays so far inside
-    S radius;                     // of a circle about a lens's place in the lattice in which it stays
-    S lowest, highest;            // of all lenses' z
-    S search_top, search_bottom;  // highest and lowest z from the vertex plane at which lenses are met
+struct MisalignedArray {
+    bool given;                     // else none of the rest means anything
+    bool tilted, curved, wedged;    // some lens is; the array is not parallel to the panel
+    const MisalignedLens<S>* lens;  // row by row from the lower left; null: all are at their lattice positions
+    S vertex_z;                     // of the viewer-side vertex plane, in the array's middle
+    S wedge[3][3];                  // from the array's frame to that turned about z alone
+    S overhang;                     // mm by which a lens stands out of its cell at most; negative: by which it stays inside
+    S radius;                       // of a circle about a lens's place in the lattice in which it stays
+    S lowest, highest;              // of all lenses' z
+    S search_top, search_bottom;    // highest and lowest z from the vertex plane at which lenses are met
 };
 
 template <class S>
-struct Scene {
+struct TracedDisplay {
     // panel
     std::uint32_t columns, rows;
     S pixels_per_mm;
@@ -98,7 +98,7 @@ struct Scene {
     S layers_top;
 
     // lens
-    bool thin;   // ideal or a pinhole
+    bool ideal;  // ideal or a pinhole
     bool glued;  // its last surface borders on the layers, or on the panel
     std::int32_t surface_count;
     SurfaceData<S> surface[max_surfaces];
@@ -113,19 +113,19 @@ struct Scene {
     Lattice<S> lattice;
     S pitch_pixels[2];  // the pitch in panel pixels
     bool rotated;
-    Placement<S> placement;
+    MisalignedArray<S> misaligned;
     S start_above;            // height of the first plane above the first vertex (ideal: above the lens)
     S zone_top, zone_bottom;  // where an entering ray may meet the first surface: highest and lowest z of its caps
     S body_top, body_bottom;  // highest and lowest z of a lens
     S wall_bottom;            // the lowest rim: where the black part ends
-    bool dimple;              // the first surface lies below its rim (concave to the viewer): its rim is the entrance
-    bool hollow_back;         // the last surface lies above the lowest rim (concave to the panel)
+    bool concave_front;       // the first surface lies below its rim (concave to the viewer): its rim is the entrance
+    bool concave_back;        // the last surface lies above the lowest rim (concave to the panel)
 
     // the holes through which light enters the lenses, for the filtered estimator (strata.h)
     S holes_below[2];  // height of the first plane of the display above the holes' edges across x' and y'
     S hole_radius;     // of round ones; 0: the cells themselves, or slits
     S hole_half;       // strips: half the width of what light enters
-    bool leaky;        // light goes on between them too
+    bool lit_between;  // light goes on between them too
 
     // light
     Fresnel fresnel;
@@ -140,7 +140,7 @@ struct Scene {
 };
 
 /// The camera, and what is needed to start a ray near a lens, in double precision. Units: mm.
-struct View {
+struct RayOrigin {
     double position[3], forward[3], right[3], up[3];  // orthonormal; forward looks into the picture
     double distance;                                  // to the frame, along forward
     double pixel_mm;                                  // size of a picture element in the plane of the frame
@@ -148,7 +148,7 @@ struct View {
     std::int32_t width, height;                       // of the whole frame
     double start_z;                                   // the first plane
     Lattice<double> lattice;
-    bool wedged;         // the array stands like this about its middle, at the height of its vertex plane:
+    bool wedged;         // the array is turned about its middle, at the height of its vertex plane:
     double wedge[3][3];  // from the array's frame to that turned about z alone
     double panel_width, panel_height, pixels_per_mm;
     std::uint64_t seed;
@@ -170,7 +170,7 @@ struct SummedImage {
 /// (engine/estimator/summed_panel.h).
 struct PanelLight {
     const SummedImage* plane;
-    bool whole;  // all of each pixel shines in its own colour: as `emission` says, which else has the parts
+    bool whole;  // each pixel shines all over, in its colour, as `emission` says, which else has the parts
     const Emission<float>* emission;
 };
 

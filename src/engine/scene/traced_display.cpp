@@ -1,4 +1,4 @@
-#include "engine/scene/scene.h"
+#include "engine/scene/traced_display.h"
 
 #include "base/constants.h"
 #include "engine/estimator/limits.h"
@@ -53,11 +53,11 @@ optics::SurfaceData<S> surface_data(const PlacedSurface& from) {
 }
 
 template <class S>
-void add_lens(optics::Scene<S>& scene, const Geometry& geometry) {
+void add_lens(optics::TracedDisplay<S>& scene, const Geometry& geometry) {
     const auto& surfaces = geometry.surfaces;
-    scene.thin = surfaces.front().form == SurfaceForm::thin;
+    scene.ideal = surfaces.front().form == SurfaceForm::thin;
     scene.glued = geometry.glued;
-    if (scene.thin) {
+    if (scene.ideal) {
         scene.ideal_z = S(geometry.vertex_plane_mm);
         scene.ideal_power = S(1 / surfaces.front().focal_length_mm);
         scene.zone_top = scene.zone_bottom = scene.ideal_z;
@@ -77,20 +77,20 @@ void add_lens(optics::Scene<S>& scene, const Geometry& geometry) {
     const PlacedSurface& first = surfaces.back();
     const auto [low, high] = sag_range_mm(first);
     const double rim = sag_mm(first.curvature_per_mm, first.conic, first.even_asphere, first.semi_aperture_mm);
-    scene.dimple = low < rim - 1e-9 || first.z_mm + rim < wall_top - 1e-9;
-    scene.zone_top = S(scene.dimple ? wall_top : first.z_mm + high);
-    scene.zone_bottom = S(scene.dimple ? wall_top : first.z_mm + low);
+    scene.concave_front = low < rim - 1e-9 || first.z_mm + rim < wall_top - 1e-9;
+    scene.zone_top = S(scene.concave_front ? wall_top : first.z_mm + high);
+    scene.zone_bottom = S(scene.concave_front ? wall_top : first.z_mm + low);
     scene.body_top = S(geometry.top_z_mm);
     scene.body_bottom = S(geometry.base_z_mm);
     scene.wall_bottom = S(wall_bottom);
-    scene.hollow_back = surfaces.front().z_mm + sag_range_mm(surfaces.front())[1] > wall_bottom + 1e-9;
+    scene.concave_back = surfaces.front().z_mm + sag_range_mm(surfaces.front())[1] > wall_bottom + 1e-9;
 }
 
 // The holes of the lenses (engine/estimator/strata.h). Seen from above, at angles up to the slope of its cap at the rim, a round
 // lens is the circle of its rim; one that fills its cell is the cell, each edge at the height of its middle. A stop in front of the
 // lens may be narrower.
 template <class S>
-void add_holes(optics::Scene<S>& scene, const Display& display, const Geometry& geometry, double start_z) {
+void add_holes(optics::TracedDisplay<S>& scene, const Display& display, const Geometry& geometry, double start_z) {
     const PlacedSurface& first = geometry.surfaces.back();
     std::array<double, 2> z{};
     double radius = display.array.aperture == Aperture::circle ? first.semi_aperture_mm : 0;
@@ -100,11 +100,11 @@ void add_holes(optics::Scene<S>& scene, const Display& display, const Geometry& 
     if (geometry.lattice.strips) edge[1] = edge[0];
     for (std::size_t k = 0; k < 2; ++k)
         z[k] = first.z_mm + sag_mm(first.curvature_per_mm, first.conic, first.even_asphere, radius > 0 ? radius : edge[k]);
-    scene.leaky = display.array.surround != Surround::opaque;
+    scene.lit_between = display.array.surround != Surround::opaque;
     if (stop_at_entrance(display, geometry) && (radius == 0 || *display.lens.stop_radius_mm < radius)) {
         radius = *display.lens.stop_radius_mm;
         z.fill(geometry.stop_z_mm);
-        scene.leaky = false;
+        scene.lit_between = false;
     }
     const bool strips = is_strips(display.array);
     scene.hole_radius = S(strips ? 0 : radius);
@@ -113,7 +113,7 @@ void add_holes(optics::Scene<S>& scene, const Display& display, const Geometry& 
 }
 
 template <class S>
-void add_layers(optics::Scene<S>& scene, const Geometry& geometry) {
+void add_layers(optics::TracedDisplay<S>& scene, const Geometry& geometry) {
     const std::vector<PlacedLayer>& layers = geometry.layers;
     if (layers.size() > max_layers)
         throw InputError("panel.layer", "has more than the " + std::to_string(max_layers) + " layers allowed");
@@ -156,8 +156,8 @@ optics::Emission<S> make_emission(const Panel& panel) {
 }  // namespace
 
 template <class S>
-DisplayScene<S> make_scene(const Display& display, const Geometry& geometry) {
-    DisplayScene<S> scene{};
+StoredDisplay<S> make_traced_display(const Display& display, const Geometry& geometry) {
+    StoredDisplay<S> scene{};
     const LensArray& array = display.array;
     scene.columns = std::uint32_t(display.panel.pixels[0]);
     scene.rows = std::uint32_t(display.panel.pixels[1]);
@@ -205,11 +205,11 @@ DisplayScene<S> make_scene(const Display& display, const Geometry& geometry) {
     return scene;
 }
 
-template DisplayScene<float> make_scene<float>(const Display&, const Geometry&);
-template DisplayScene<double> make_scene<double>(const Display&, const Geometry&);
+template StoredDisplay<float> make_traced_display<float>(const Display&, const Geometry&);
+template StoredDisplay<double> make_traced_display<double>(const Display&, const Geometry&);
 
-optics::View make_view(const Display& display, const Geometry& geometry) {
-    optics::View view{};
+optics::RayOrigin make_ray_origin(const Display& display, const Geometry& geometry) {
+    optics::RayOrigin view{};
     const Camera& camera = display.camera;
     const CameraAxes axes = camera_axes(camera);
     std::ranges::copy(camera.position_mm, view.position);
@@ -261,22 +261,22 @@ int sample_dimensions(const Display& display) {
 namespace {
 
 /// The width of the picture's pixels, projected along the line of sight onto the diffuser's plane; mm.
-double pixel_on_diffuser(const optics::View& view) {
+double pixel_on_diffuser(const optics::RayOrigin& view) {
     return view.pixel_mm * std::abs((view.position[2] - view.start_z) / (view.forward[2] * view.distance));
 }
 
 /// What a diffused ray spans along an axis in the plane of the holes; mm.
-double diffused_span(const optics::Scene<float>& scene, int axis) {
+double diffused_span(const optics::TracedDisplay<float>& scene, int axis) {
     return 2 * double(scene.holes_below[axis]) * std::tan(std::min(double(scene.half_angle[axis]), 1.5));
 }
 
 }  // namespace
 
-BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& view, int strata, bool rough) {
+BlockShape block_shape(const optics::TracedDisplay<float>& scene, const optics::RayOrigin& view, int strata, bool rough) {
     using L = FilteredLimits;
     constexpr BlockShape none{false, 4};
     const Lattice<float>& lattice = scene.lattice;
-    if (!scene.has_diffuser || scene.box_filter || scene.thin_lens || scene.placement.given || scene.rotated || lattice.strips ||
+    if (!scene.has_diffuser || scene.box_filter || scene.thin_lens || scene.misaligned.given || scene.rotated || lattice.strips ||
         lattice.staggered || lattice.hexagonal)
         return none;
     const double pixel = pixel_on_diffuser(view);
@@ -301,7 +301,7 @@ BlockShape block_shape(const optics::Scene<float>& scene, const optics::View& vi
     return {side > 4 || strata <= few_strata, side};
 }
 
-bool cuts_pixel(const optics::Scene<float>& scene, const optics::View& view) {
+bool cuts_pixel(const optics::TracedDisplay<float>& scene, const optics::RayOrigin& view) {
     return scene.box_filter && std::max(diffused_span(scene, 0), diffused_span(scene, 1)) < pixel_on_diffuser(view);
 }
 
