@@ -3,7 +3,7 @@
 
 #include "analysis/pictures/views.h"
 #include "analysis/uniformity/uniformity.h"
-#include "analysis/zone/zone.h"
+#include "analysis/zone/zone_search.h"
 
 #include <gtest/gtest.h>
 

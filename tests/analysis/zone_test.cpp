@@ -1,5 +1,6 @@
 // Lines of sight against closed forms of the ideal lens, and the viewing zone against theory and a count by hand.
 #include "analysis/zone/zone.h"
+#include "analysis/zone/zone_search.h"
 
 #include <gtest/gtest.h>
 

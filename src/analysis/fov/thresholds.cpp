@@ -114,6 +114,14 @@ Interval known(Interval i, double centre) {
     return i;
 }
 
+Interval mapped(const Interval& from, const std::function<double(double)>& map) {
+    const auto limit = [&](const Limit& l) {
+        return Limit{map(l.at), 0.5 * std::abs(map(l.at + l.error) - map(l.at - l.error)), l.missing};
+    };
+    const Interval to{limit(from.low), limit(from.high)};
+    return map(1.) > map(0.5) ? to : Interval{to.high, to.low};
+}
+
 Interval where_at_least(const Curve& c, double centre, double least) { return about(c, centre, least); }
 
 Interval where_steady(const Curve& c, double centre, double most) {

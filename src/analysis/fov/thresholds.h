@@ -4,6 +4,7 @@
 #pragma once
 #include "analysis/core/result.h"
 
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -29,6 +30,9 @@ struct Interval {
 
 /// Takes away each end whose error reaches back to the centre that it was sought from: an error as large as the figure leaves none.
 Interval known(Interval, double centre);
+
+/// The same limits by another measure of the place, rising or falling; errors to first order.
+Interval mapped(const Interval&, const std::function<double(double)>&);
 
 struct Curve {
     std::vector<double> at;     // rising, at least two

@@ -1,4 +1,4 @@
-#include "analysis/zone/zone.h"
+#include "analysis/zone/zone_search.h"
 
 #include <algorithm>
 #include <cmath>
