@@ -1,5 +1,6 @@
 // The measure `spot`, against closed forms and the nodal pick-up.
 #include "analysis/spots/spot.h"
+#include "analysis/spots/lens_spots.h"
 
 #include "content/pickup/pickup.h"
 #include "geometry/pupil.h"

@@ -2,31 +2,8 @@
 #pragma once
 #include "analysis/core/result.h"
 #include "analysis/core/subject.h"
-#include "analysis/spots/ray_fan.h"
-
-#include <vector>
 
 namespace lfdsim {
-
-/// The depths z from the rear principal plane at which spots are shown, rising: the marginal planes, the central depth plane and
-/// half-way between, within 0.1 to 1.9 times L. Where L is infinite: 1, 1.5, 2, 3, 4 times the marginal plane.
-std::vector<double> spot_depths_mm(const Theory&);
-
-/// Mean place of a bundle's light and root mean square of its distance from there, at depth z.
-struct Centroid {
-    double x, y, rms;
-};
-Centroid centroid_at(const Bundle&, double z);
-
-/// How far the centroid of the light of each panel pixel under a lens lands from where the nodal line of content/pickup/pickup.h
-/// goes, at the central depth plane, in images of a panel pixel. Pixels are symmetric about the axis; of more than 96 across or up,
-/// 96 places evenly spread. NaN where no light gets through.
-struct Distortion {
-    int columns, rows;
-    std::vector<double> pixel_images;  // columns x rows, row 0 at the top
-};
-/// Throws Stopped.
-Distortion distortion(const Display&, const Geometry&, const Theory&, int threads, const Job&);
 
 std::int64_t spot_steps(const Subject&);
 Result measure_spot(Subject&, Job&);

@@ -44,7 +44,7 @@ struct Coloured {
 double central_depth_mm(const Subject& s, const Coloured& c) { return theory(s.display(), c.geometry).central_depth_mm - c.lower; }
 
 /// The spots of a field in all colours at green's central depth plane.
-Plot colour_diagram(const SpotField& field, const std::array<Bundle, 3>& light, double depth, double from_vertex) {
+Plot colour_diagram(const LensField& field, const std::array<Bundle, 3>& light, double depth, double from_vertex) {
     Plot plot{fmt::format("spot_colour_{}", field.name),
               fmt::format("Colours of the spot, {}, {:.4g} mm in front of the lenses", field.title, depth + from_vertex),
               "mm",
@@ -65,7 +65,7 @@ Plot colour_diagram(const SpotField& field, const std::array<Bundle, 3>& light, 
 
 }  // namespace
 
-void tell_colours(const Subject& s, const std::vector<SpotField>& fields, Result& result) {
+void tell_colours(const Subject& s, const std::vector<LensField>& fields, Result& result) {
     if (!disperses(s.display())) return;
     const double from_vertex = s.geometry().rear_principal_mm - s.geometry().vertex_plane_mm;
     const std::array<Coloured, 3> at{Coloured(s, 0), Coloured(s, 1), Coloured(s, 2)};
@@ -84,7 +84,7 @@ void tell_colours(const Subject& s, const std::vector<SpotField>& fields, Result
     const double L = s.theory().central_depth_mm, depth = std::isinf(L) ? spot_depths_mm(s.theory())[2] : L;
     DataTable table = DataTable::of_rows("spot_colour", {"panel_x_mm", "panel_y_mm", "channel", "x_mm", "y_mm", "rms_radius_mm"});
     Json& lateral = json["lateral"] = Json::array();
-    for (const SpotField& field : fields) {
+    for (const LensField& field : fields) {
         std::array<Bundle, 3> shown;
         std::array<std::array<Centroid, colour_rays.size()>, 3> middle{};
         bool through = true;
