@@ -6,6 +6,7 @@ import copy
 import dataclasses
 import pathlib
 import random
+import shlex
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 READY = sorted(file.stem for file in (ROOT / "displays").glob("*.toml"))
@@ -273,8 +274,55 @@ REFUSED = [
     "render base.toml --pattern white -o picture.gif", "analyze colours base.toml -o report", "analyze fov base.toml --angles-deg 5,1,1 -o report",
     "analyze spot base.toml --set lens.type=pinhole -o report", "export blender base.toml -o scene", "export pov base.toml --pattern white -o scene",
     "eia base.toml --views nothing -o panel.npy", "glass unobtainium", "compare nothing.png base.toml", "errors base.toml",
+    # How each command reads its options: values that are wrong, missing or empty, and options that go with others only.
+    "new", "new --panel-inch x --pixels 10 --distance-mm 5mm --fov-deg 1,5 --pitch-mm y --lens round --depth-mm z --views 1 -o new.toml",
+    "new --panel-inch 8 --pixels 2560x1600 --distance-mm 500 --lattice round --slant-deg 3 -o new.txt",
+    "new --panel-inch 8 --pixels 2560x1600 --distance-mm 500 --slant-deg 3 --sheet-mm 1 --eye-distance-mm 65 -o base.toml",
+    "new --panel-inch 8 --pixels 2560x1600 --distance-mm 500 --lattice strips --views a --slant-deg b --sheet-mm c --eye-distance-mm d --depth-mm 3 -o ''",
+    "import", "import nothing.zmx -o base.toml --scale 0 --index 2", "import base.toml -o new.toml",
+    "import '' -o new.toml", "import displays/lens.zmx -o '' --scale x", "check ''", "check base.toml base.toml", "check base.toml --al",
+    "check base.toml --camera-mm 1 2 3", "check base.toml --samples 0 --size 0x5 --sampling any --depth-mm x --camera-mm 1,2",
+    "check base.toml --pickup best --estimator quick --seed -1 --tilt-deg 20,5 --size 5x5 --size 6x6",
+    "eia base.toml -o panel.npy --bits 12 --threads 0 --progress much --pattern stars --cell-pixels 0 --view 1,1 --edge-deg x --edge-depth-mm 1,2",
+    "eia base.toml -o panel.png --pattern white --bits 8 --cell-pixels 2 --edge-deg 1 --view 0,0 --focus-width-mm 1 --flip-views --replace",
+    "eia base.toml -o '' --views '' --model '' --mapping map.txt", "eia base.toml -o map.npy --pattern white --mapping map.npy",
+    "eia base.toml -o base.toml --pattern white", "eia base.toml --views displays --model cube.obj --depth-mm 3 -o panel.npy",
+    "eia base.toml --views displays --cone middle --baseline-mm 1,2,3 --view-cone-deg 200 --focus-width-mm 0 -o panel.npy",
+    "eia base.toml --views displays --baseline-mm -1 --camera-distance-mm 0 --focus-depth-mm x -o panel.npy",
+    "eia base.toml --views displays --baseline-mm 1 --view-cone-deg 20 -o panel.npy",
+    "views base.toml -o views --of light --views-as gif --grid 0x5", "views base.toml -o views --grid 5000x5000 --view-size 5",
+    "views base.toml -o views --grid 2x2 --view-size 2000000x2", "views base.toml -o quilt.png", "views base.toml -o quilt_qs2x2a1.5.jpg",
+    "views base.toml -o quilt_qs2x2a1.5.png --grid 3x3 --depth --resume --bits 7", "views base.toml -o '' --resume --views-as npy --bits 8",
+    "views base.toml -o views --pattern white --seed 3 --device cpu", "views base.toml -o views --of display --depth --pattern white",
+    "photo base.toml -o photo.png --samples 4", "photo base.toml -o photo.png --crop 1,2,3 --threads x --model '' --bits 9", "photo base.toml",
+    "render base.toml -o view.npy --panel-image '' --device tpu --target-error 0 --exposure -1 --lens-mesh 5 --lens-normals rough",
+    "render base.toml -o view.npy --pattern white --exposure bright --target-error x --sampling sobol --estimator filtered",
+    "render base.toml -o view.npy --pattern white --target-error 0.1 --samples 4 --lens-mesh 500 --lens-normals smooth",
+    "render base.toml -o view.npy --pattern white --lens-normals smooth --resume --frames-as png",
+    "render base.toml -o frames --pattern white --path '' --camera-mm 0,0,500 --exposure 2 --frames-as gif",
+    "render base.toml -o base.toml --pattern white --path nothing.json --frames-as npy --resume --bits 16",
+    "render base.toml --pattern white --threads 4 5 -o view.npy", "render base.toml --pattern white --bogus -o view.npy", "render --output",
+    "compare base.toml", "compare '' '' --encoding gamma --crop 1,2", "compare base.toml base.toml --crop 1,2 --fit-blur --overlay x.png",
+    "compare base.toml base.toml --corners 1,2 3,4 --view-corners 1 2 3 4 --overlay '' --difference '' --encoding gamma",
+    "compare base.toml base.toml --corners 0,0 9,0 9,9 0,9 --view-corners 1,a 2,b 3,c 4,d --overlay x.png --difference x.png --crop 1",
+    "analyze", "analyze base.toml", "analyze base.toml fov -o report", "analyze fov base.toml --depths-mm 5 --viewing-distance-mm 0 --angles-deg a",
+    "analyze fov base.toml --eye-distance-mm 5000 --compare array.gap_mm=3 -o report", "analyze fov '' --wavelength-nm x --device tpu -o report",
+    "analyze fov base.toml base.toml --compare pickup --threads 0 -o report", "analyze fov,stars base.toml --progress x -o report",
+    "sheet", "sheet base.toml --columns 0 --width-px 5 --label a --label b -o ''", "sheet '' nothing.png -o sheet.gif", "sheet nothing.png -o sheet.png",
+    "view base.toml --port 0 --token short --visitors 65 --threads 0 --pattern stars --device tpu",
+    "view base.toml --panel-image '' --model '' --folder nowhere", "view base.toml --folder nowhere",
+    "export pov", "export base.toml pov -o scene", "export pov base.toml --pattern white --normals flat -o ''",
+    "export cycles base.toml --triangles x --channel q --normals rough --pattern white -o base.toml",
+    "export pov base.toml --pattern white --panel-image nothing.png --threads x -o scene",
+    "bench stars --runs 0 --angle-deg x --threads 0 --progress x --model nothing.obj", "bench estimators --display nothing.toml --crop 1,2",
+    "bench estimators --display base.toml --crop 1,2", "glass --plot plot.svg", "glass PMMA --plot plot.png", "glass --catalogue nothing.agf",
+    "glass PMMA SF6", "errors base.toml -o ''", "errors base.toml -o lenses.txt", "errors base.toml -o base.toml", "doctor --all", "bogus --help",
+    "help", "help glass",
 ]
-TOLD = ["check base.toml --all", "glass PMMA", "export pov base.toml --pattern white --set diffuser=none -o scene"]
+TOLD = ["check base.toml --all", "glass PMMA", "errors base.toml -o lenses.csv", "errors base.toml --json -o errors.csv",
+        "new --panel-inch 8 --pixels 2560x1600 --fov-deg 30 --distance-mm 500 -o tablet.toml",
+        "new --panel-inch 10 --pixels 2560x1600 --lattice strips --views 8 --distance-mm 450 -o lenticular.toml",
+        "eia base.toml --pattern white --mapping mapping.npy --json -o white.exr", "export pov base.toml --pattern white --set diffuser=none -o scene"]
 
 
 def texts():
@@ -284,7 +332,7 @@ def texts():
     for display in ("barrier", "desktop-clear", "desktop-doublet", "hexagon", "tablet-lenticular"):
         yield Case("check", f"said/{display}", ["check", "DISPLAY"], display)
     for number, line in enumerate(REFUSED + TOLD, 1):
-        yield Case("messages", f"said/{number}", line.split())
+        yield Case("messages", f"said/{number}", shlex.split(line))
 
 
 def all_cases():
