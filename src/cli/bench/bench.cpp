@@ -36,29 +36,22 @@ std::vector<std::string> group_names() {
 }
 
 struct BenchArguments {
-    explicit BenchArguments(Command command) : work(command) {
-        command
-            .add_option("GROUP", chosen, fmt::format("What to measure; default: all. Groups: {}", fmt::join(group_names(), ", ")))
-            .type_name("");
-        command.add_option("--runs", runs, "Runs of each case, whose median is printed; default 5").type_name("N");
-        command.add_flag("--quick", quick, "One run of each case, with less work");
-        command
-            .add_option("--kernel", kernel, "Instruction set; default: environment variable LFDSIM_KERNEL, else the best available")
-            .type_name("scalar|baseline|avx2|avx512");
-        model_option =
-            command.add_option("--model", model, "Mesh file for content and estimators").type_name("FILE").capture_default_str();
-        command.add_option("--display", displays, "Estimators: descriptions to render; default: the display of the other groups")
-            .type_name("FILE");
-        command.add_option("--crop", crop, "Estimators: this part of the frame; default: its middle").type_name("X0,Y0,X1,Y1");
-        command
-            .add_option("--angle-deg", angle, "Estimators: move the camera by A degrees to the right around its target; default 0")
-            .type_name("A");
-    }
-    std::vector<std::string> chosen, displays;
-    std::string runs, kernel, crop, angle, model = "/usr/share/assimp/models/BLEND/Suzanne_248.blend";
-    bool quick = false;
-    Option model_option;
-    WorkOptions work;
+    Command command;
+    WorkOptions work{command};
+    List chosen =
+        command.list("GROUP", "", fmt::format("What to measure; default: all. Groups: {}", fmt::join(group_names(), ", ")));
+    Option runs = command.option("--runs", "N", "Runs of each case, whose median is printed; default 5");
+    Flag quick = command.flag("--quick", "One run of each case, with less work");
+    Option kernel = command.option("--kernel", "scalar|baseline|avx2|avx512",
+                                   "Instruction set; default: environment variable LFDSIM_KERNEL, else the best available");
+    Option model = command.option("--model", "FILE", "Mesh file for content and estimators")
+                       .initially("/usr/share/assimp/models/BLEND/Suzanne_248.blend")
+                       .shown();
+    List displays =
+        command.list("--display", "FILE", "Estimators: descriptions to render; default: the display of the other groups");
+    Option crop = command.option("--crop", "X0,Y0,X1,Y1", "Estimators: this part of the frame; default: its middle");
+    Option angle =
+        command.option("--angle-deg", "A", "Estimators: move the camera by A degrees to the right around its target; default 0");
 };
 
 BenchSettings settings_of(const BenchArguments& args) {
@@ -66,18 +59,18 @@ BenchSettings settings_of(const BenchArguments& args) {
     s.quick = args.quick;
     s.runs = args.quick ? 1 : s.runs;
     s.json = args.work.json();
-    s.model = args.model;
-    s.model_given = args.model_option.count() > 0;
-    s.displays = args.displays;
-    s.crop = args.crop;
+    s.model = args.model.text();
+    s.model_given = args.model.given();
+    s.displays = args.displays.texts();
+    s.crop = args.crop.text();
     Faults faults;
-    for (const std::string& name : args.chosen) faults.of([&] { word("GROUP", name, group_names()); });
-    if (!args.angle.empty()) faults.of([&] { s.angle_deg = number("--angle-deg", args.angle); });
-    if (!args.runs.empty()) faults.of([&] { s.runs = int(whole_number("--runs", args.runs, 1, 1000)); });
+    for (const std::string& name : args.chosen.texts()) faults.of([&] { word("GROUP", name, group_names()); });
+    faults.of(args.angle, [&] { s.angle_deg = args.angle.number(); });
+    faults.of(args.runs, [&] { s.runs = int(args.runs.whole_number(1, 1000)); });
     faults.of([&] { args.work.check(); });
-    faults.of([&] { s.kernel = choose_kernel(args.kernel).name; });
-    if (std::error_code error; s.model_given && !std::filesystem::exists(args.model, error))
-        faults.of([&] { throw InputError("--model", args.model + " does not exist"); });
+    faults.of([&] { s.kernel = choose_kernel(args.kernel.text()).name; });
+    if (std::error_code error; s.model_given && !std::filesystem::exists(s.model, error))
+        faults.of([&] { throw InputError("--model", s.model + " does not exist"); });
     faults.of([&] { bench_displays(s); });
     faults.of([&] {
         const Display d = bench_display();  // of the other groups, which hold two panel images at once
@@ -113,9 +106,8 @@ void run(const BenchArguments& args) {
     Bench bench(settings, progress);
     try {
         for (const Group& group : groups) {
-            const bool chosen =
-                args.chosen.empty() || std::find(args.chosen.begin(), args.chosen.end(), group.name) != args.chosen.end();
-            if (chosen && !bench.cancelled()) group.run(bench);
+            const std::vector<std::string>& chosen = args.chosen.texts();
+            if ((chosen.empty() || std::ranges::count(chosen, group.name) > 0) && !bench.cancelled()) group.run(bench);
         }
     } catch (const InputError&) {
         if (!bench.cancelled()) throw;  // else the signal stopped the reader of models, too
@@ -129,14 +121,13 @@ void run(const BenchArguments& args) {
 
 }  // namespace
 
-void add_bench(Command program) {
-    Command command =
-        program.add_subcommand("bench", "Measures how fast this machine renders, what each feature costs, and error against time");
-    const auto args = std::make_shared<BenchArguments>(command);
-    command.footer(
-        "Examples:\n  lfdsim bench --quick\n  lfdsim bench rendering kernels --threads 1\n"
-        "  lfdsim bench estimators --display displays/desktop-asphere.toml displays/desktop-ideal.toml --json");
-    command.callback([args] { run(*args); });
+CommandSpec bench_command() {
+    return {.name = "bench",
+            .summary = "Measures how fast this machine renders, what each feature costs, and error against time",
+            .examples =
+                "Examples:\n  lfdsim bench --quick\n  lfdsim bench rendering kernels --threads 1\n"
+                "  lfdsim bench estimators --display displays/desktop-asphere.toml displays/desktop-ideal.toml --json",
+            .run = with_options<BenchArguments>(run)};
 }
 
 }  // namespace lfdsim::cli

@@ -1,5 +1,7 @@
 #include "cli/bench/bench.h"
 
+#include "analysis/core/subject.h"
+
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <algorithm>
@@ -7,16 +9,6 @@
 
 namespace lfdsim::cli {
 namespace {
-
-// The bar counts runs, not the work inside each; the signal is passed on.
-class OneRun : public Job {
-  public:
-    explicit OneRun(const Job& all) : all_(all) {}
-    bool cancelled() const override { return all_.cancelled(); }
-
-  private:
-    const Job& all_;
-};
 
 double processor_seconds() {
     double sum = 0;
@@ -56,7 +48,7 @@ std::vector<Measured> Bench::measure(std::string_view stage, const std::vector<C
     std::vector<Measured> all;
     for (const Case& c : cases) all.push_back({c.name, {}, {}, 0});
     progress_.stage(stage, std::int64_t(cases.size()) * settings.runs);
-    OneRun job(progress_);
+    Quiet job(progress_);  // the bar counts runs, not the work inside each
     for (int run = 0; run < settings.runs; ++run)
         for (std::size_t i = 0; i < cases.size() && !cancelled(); ++i) {
             const double before = processor_seconds();

@@ -14,7 +14,6 @@
 #include "engine/devices/memory.h"
 #include "files/description/display_file.h"
 #include "files/description/shell.h"
-#include "image/formats/file.h"
 #include "report/folder/folder.h"
 #include "report/folder/folder_lock.h"
 #include "report/folder/run_settings.h"
@@ -33,68 +32,54 @@ namespace lfdsim::cli {
 namespace {
 
 struct AnalyzeArguments {
-    explicit AnalyzeArguments(Command command)
-        : measures_option(command.add_option("MEASURE", measures, "One or more, separated by commas; default, or all: all of them")
-                              .type_name("")
-                              .required()),
-          display(command, {content_options, camera_options, sample_options}, false),
-          model(command),
-          device(command),
-          work(command) {
-        command
-            .add_option("OTHER.toml", others,
-                        "More displays: each is measured in its own folder and shown side by side with the first")
-            .type_name("");
-        command
-            .add_option("--compare", compare,
-                        "Measures the display once for each value of a key, side by side: array.gap_mm=3.2,3.3; pickup stands for "
-                        "content.pickup=nodal,traced")
-            .type_name("KEY=VALUE,VALUE");
-        command.add_option("-o,--output", output, "Folder for the results and report.html; created if missing")
-            .type_name("DIR REQUIRED");  // told with what else is wrong
-        command.add_flag("--resume", resume, "Skip what an earlier run with the same settings has finished there");
-        command.add_flag("--replace", replace,
-                         "Remove what an earlier run with other settings has left there, and write over files of other origin");
-        command.add_option("--angles-deg", angles, "Views of the field of view; default: 61 or more, beyond the expected edges")
-            .type_name("FROM,TO,STEP");
-        command
-            .add_option("--depths-mm", depths,
-                        "Depths of the model for the depth of field; default: 31 over what theory calls sharp, through 0")
-            .type_name("FROM,TO,STEP");
-        command.add_option("--viewing-distance-mm", viewing_distance, "Distance of the eyes from the panel; default the camera's")
-            .type_name("D");
-        command.add_option("--eye-distance-mm", eye_distance, "Distance between the two eyes; default 65").type_name("E");
-        command.add_option("--wavelength-nm", wavelength, "Wavelength for diffraction; default 550").type_name("W");
-    }
-    std::string measures;
-    Option measures_option;
-    DisplayOptions display;
-    ModelOption model;
-    DeviceOption device;
-    WorkOptions work;
-    std::vector<std::string> others;
-    std::string compare, output, angles, depths, viewing_distance, eye_distance, wavelength;
-    bool resume = false, replace = false;
+    Command command;
+    Option measures = command.option("MEASURE", "", "One or more, separated by commas; default, or all: all of them").required();
+    DisplayOptions display{command, {content_options, camera_options, sample_options}, false};
+    ModelOption model{command};
+    DeviceOption device{command};
+    WorkOptions work{command};
+    List others =
+        command.list("OTHER.toml", "", "More displays: each is measured in its own folder and shown side by side with the first");
+    Option compare = command.option("--compare", "KEY=VALUE,VALUE",
+                                    "Measures the display once for each value of a key, side by side: array.gap_mm=3.2,3.3; "
+                                    "pickup stands for content.pickup=nodal,traced");
+    Option output = command.option("-o,--output", "DIR REQUIRED",  // told with what else is wrong
+                                   "Folder for the results and report.html; created if missing");
+    Flag resume = command.flag("--resume", "Skip what an earlier run with the same settings has finished there");
+    Flag replace = command.flag(
+        "--replace", "Remove what an earlier run with other settings has left there, and write over files of other origin");
+    Option angles = command.option("--angles-deg", "FROM,TO,STEP",
+                                   "Views of the field of view; default: 61 or more, beyond the expected edges");
+    Option depths =
+        command.option("--depths-mm", "FROM,TO,STEP",
+                       "Depths of the model for the depth of field; default: 31 over what theory calls sharp, through 0");
+    Option viewing_distance =
+        command.option("--viewing-distance-mm", "D", "Distance of the eyes from the panel; default the camera's");
+    Option eye_distance = command.option("--eye-distance-mm", "E", "Distance between the two eyes; default 65");
+    Option wavelength = command.option("--wavelength-nm", "W", "Wavelength for diffraction; default 550");
 };
 
 /// "-30,30,1": rising, both ends within low .. high, at most 10000 steps.
-std::vector<double> steps(const char* option, const std::string& text, double low, double high, const char* example) {
-    if (text.empty()) return {};
-    const std::vector<double> v = numbers(option, text, example, "FROM,TO,STEP");
+std::vector<double> steps(const Option& option, double low, double high, const char* example) {
+    if (option.empty()) return {};
+    const std::vector<double> v = option.numbers(example);
     if (!(v[0] < v[1] && v[2] > 0 && (v[1] - v[0]) / v[2] <= 10000 && v[0] >= low && v[1] <= high))
-        throw InputError(option,
+        throw InputError(option.name(),
                          fmt::format("is {}; give FROM,TO,STEP with {} <= FROM < TO <= {} and a STEP above 0 that makes at most "
                                      "10000 of them",
-                                     text, low, high));
+                                     option.text(), low, high));
     std::vector<double> all;
     for (int k = 0; v[0] + k * v[2] <= v[1] + 1e-9 * v[2]; ++k) all.push_back(v[0] + k * v[2]);
     return all;
 }
 
-double positive(const char* option, const std::string& text, double most) {
-    const double x = number(option, text);
-    if (!(x > 0 && x <= most)) throw InputError(option, fmt::format("is {}; allowed is more than 0, up to {}", text, most));
-    return x;
+template <class Number>
+void read_positive(const Option& option, double most, Number& to) {
+    if (option.empty()) return;
+    const double x = option.number();
+    if (!(x > 0 && x <= most))
+        throw InputError(option.name(), fmt::format("is {}; allowed is more than 0, up to {}", option.text(), most));
+    to = x;
 }
 
 std::vector<const Measure*> chosen(const std::string& names) {
@@ -190,8 +175,8 @@ struct Request {
 Request request_of(const AnalyzeArguments& args) {
     Request request;
     Faults faults;
-    std::string names = args.measures;
-    request.paths = args.others;
+    std::string names = args.measures.text();
+    request.paths = args.others.texts();
     request.paths.insert(request.paths.begin(), args.display.path());
     std::error_code none;
     if (!names_measures(names) && (names.ends_with(".toml") || std::filesystem::is_regular_file(names, none))) {
@@ -205,7 +190,7 @@ Request request_of(const AnalyzeArguments& args) {
     faults.of([&] { request.wanted = chosen(names); });
     std::vector<Variant> variants{{}};
     faults.of([&] {
-        if (!args.compare.empty()) variants = variants_of(args.compare);
+        if (!args.compare.empty()) variants = variants_of(args.compare.text());
         if (!args.compare.empty() && request.paths.size() > 1)
             throw InputError("--compare", "compares one display with itself; name one description");
     });
@@ -223,13 +208,12 @@ Request request_of(const AnalyzeArguments& args) {
     faults.of([&] { args.work.check(); });
     faults.of([&] { args.device.apply(); });
     AnalysisOptions& options = request.options;
-    faults.of([&] { options.angles_deg = steps("--angles-deg", args.angles, -80, 80, "-30,30,1"); });
-    faults.of([&] { options.depths_mm = steps("--depths-mm", args.depths, -1e6, 1e6, "10,300,10"); });
+    faults.of([&] { options.angles_deg = steps(args.angles, -80, 80, "-30,30,1"); });
+    faults.of([&] { options.depths_mm = steps(args.depths, -1e6, 1e6, "10,300,10"); });
     faults.of([&] {
-        if (!args.viewing_distance.empty())
-            options.viewing_distance_mm = positive("--viewing-distance-mm", args.viewing_distance, 1e6);
-        if (!args.eye_distance.empty()) options.eye_distance_mm = positive("--eye-distance-mm", args.eye_distance, 1000);
-        if (!args.wavelength.empty()) options.wavelength_nm = positive("--wavelength-nm", args.wavelength, 1e5);
+        read_positive(args.viewing_distance, 1e6, options.viewing_distance_mm);
+        read_positive(args.eye_distance, 1000, options.eye_distance_mm);
+        read_positive(args.wavelength, 1e5, options.wavelength_nm);
     });
     if (args.output.empty()) faults.of([] { throw InputError("--output", "is required: give a folder for the results"); });
     faults.report();
@@ -287,13 +271,14 @@ std::vector<std::string> folder_names(const Request& request) {
 
 /// Each display in a folder of its own, then all of them in one report. What is finished is kept and reported here, too.
 void side_by_side(const AnalyzeArguments& args, const Request& request) {
-    const std::filesystem::path place = args.output;
+    const std::filesystem::path place = args.output.text();
     refuse_inputs_in(place);
     const FolderLock lock(place);
     ResultFolder::keep_report_apart(place, args.replace);
     for (const Measure& m : measures())
         if (std::filesystem::exists(place / (std::string(m.name) + ".json")))
-            throw InputError("--output", fmt::format("{} holds the results of one display; give another folder", args.output));
+            throw InputError("--output",
+                             fmt::format("{} holds the results of one display; give another folder", args.output.text()));
     const std::vector<std::string> names = folder_names(request);
     std::vector<MeasuredDisplay> measured;
     std::vector<Problem> problems;
@@ -310,12 +295,9 @@ void side_by_side(const AnalyzeArguments& args, const Request& request) {
     Json all = differences(measured);
     std::string missing = interrupted ? "The run was interrupted; the same command with --resume continues it." : "";
     for (const Problem& p : problems) missing += fmt::format("{}{}: {}.", missing.empty() ? "" : " ", p.where, p.what);
-    detail::OutputFile file(place / ResultFolder::report_name);
-    const std::string html = side_by_side_html(measured, all, command_line(), missing);
-    file.write(html.data(), html.size());
-    file.commit();
+    write_text(place / ResultFolder::report_name, side_by_side_html(measured, all, command_line(), missing));
     if (interrupted) {
-        spdlog::warn("interrupted; {} holds what is finished; the same command with --resume continues it", args.output);
+        spdlog::warn("interrupted; {} holds what is finished; the same command with --resume continues it", args.output.text());
         throw Interrupted{};
     }
     if (!problems.empty()) throw InputError(problems);
@@ -330,9 +312,9 @@ void side_by_side(const AnalyzeArguments& args, const Request& request) {
 void run(const AnalyzeArguments& args) {
     const Request request = request_of(args);
     if (request.displays.size() > 1) return side_by_side(args, request);
-    const Outcome outcome = measure(args, request, request.displays.front(), args.output);
+    const Outcome outcome = measure(args, request, request.displays.front(), args.output.text());
     if (outcome.interrupted) {
-        spdlog::warn("interrupted; {} holds {} of {} measures; the same command with --resume continues it", args.output,
+        spdlog::warn("interrupted; {} holds {} of {} measures; the same command with --resume continues it", args.output.text(),
                      outcome.found.size(), request.wanted.size());
         throw Interrupted{};
     }
@@ -346,17 +328,17 @@ void run(const AnalyzeArguments& args) {
 
 }  // namespace
 
-void add_analyze(Command program) {
-    Command command = program.add_subcommand("analyze", "Measures a display: field of view, depth of field and more");
-    const auto args = std::make_shared<AnalyzeArguments>(command);
+CommandSpec analyze_command() {
     std::string list = "Measures:\n";
     for (const Measure& m : measures()) list += fmt::format("  {:<12} {}\n", m.name, m.says);
-    command.footer(list +
-                   "Examples:\n  lfdsim analyze all display.toml --model monkey.blend -o report\n"
-                   "  lfdsim analyze fov,dof display.toml --model monkey.blend --size 960x540 -o quick --json\n"
-                   "  lfdsim analyze fov,mtf flat.toml curved.toml -o both\n"
-                   "  lfdsim analyze fov display.toml --compare pickup -o pickups");
-    command.callback([args] { run(*args); });
+    return {.name = "analyze",
+            .summary = "Measures a display: field of view, depth of field and more",
+            .examples = list +
+                        "Examples:\n  lfdsim analyze all display.toml --model monkey.blend -o report\n"
+                        "  lfdsim analyze fov,dof display.toml --model monkey.blend --size 960x540 -o quick --json\n"
+                        "  lfdsim analyze fov,mtf flat.toml curved.toml -o both\n"
+                        "  lfdsim analyze fov display.toml --compare pickup -o pickups",
+            .run = with_options<AnalyzeArguments>(run)};
 }
 
 }  // namespace lfdsim::cli

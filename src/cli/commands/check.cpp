@@ -16,12 +16,10 @@ namespace lfdsim::cli {
 namespace {
 
 struct CheckArguments {
-    explicit CheckArguments(Command command) : display(command, {camera_options, sample_options, content_options}) {
-        command.add_flag("--json", json, "Print results as JSON, with all keys");
-        command.add_flag("--all", all, "Print all keys, those with their defaults too");
-    }
-    DisplayOptions display;
-    bool json = false, all = false;
+    Command command;
+    DisplayOptions display{command, {camera_options, sample_options, content_options}};
+    Flag json = command.flag("--json", "Print results as JSON, with all keys");
+    Flag all = command.flag("--all", "Print all keys, those with their defaults too");
 };
 
 std::string text_of(const Json& value) {
@@ -120,14 +118,14 @@ void run(const CheckArguments& args) {
 
 }  // namespace
 
-void add_check(Command program) {
-    Command command = program.add_subcommand(
-        "check",
-        "Validates a description; prints what is wrong with it and its remedies, the derived lengths, the paraxial theory, and "
-        "its keys");
-    const auto args = std::make_shared<CheckArguments>(command);
-    command.footer("Example:\n  lfdsim check display.toml --set array.gap_mm=17");
-    command.callback([args] { run(*args); });
+CommandSpec check_command() {
+    return {
+        .name = "check",
+        .summary =
+            "Validates a description; prints what is wrong with it and its remedies, the derived lengths, the paraxial theory, and "
+            "its keys",
+        .examples = "Example:\n  lfdsim check display.toml --set array.gap_mm=17",
+        .run = with_options<CheckArguments>(run)};
 }
 
 }  // namespace lfdsim::cli

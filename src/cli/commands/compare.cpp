@@ -16,17 +16,24 @@ namespace lfdsim::cli {
 namespace {
 
 struct CompareArguments {
-    explicit CompareArguments(Command of) : command(of) {}
     Command command;
-    std::string a, b, encoding = "srgb", crop;
-    bool json = false;
+    Option a = command.option("A", "", "Picture: .png .exr .npy .jpg").required();
+    Option b = command.option("B", "", "Picture of the same size; or a photograph: see --corners").required();
+    Option encoding = command
+                          .option("--encoding", "srgb|linear",
+                                  "Encoding of PNG and JPEG code values; default srgb; with --corners that of B, and A is sRGB")
+                          .initially("srgb");
+    Option crop = command.option("--crop", "X0,Y0,X1,Y1", "Only this part: columns X0 to X1-1, rows Y0 to Y1-1");
+    PhotoOptions photo{command};
+    Flag json = command.flag("--json", "Print results as JSON");
 };
 
-void run(const CompareArguments& args, const PhotoOptions& photo) {
+void run(const CompareArguments& args) {
     check_effects(args.command);
-    if (photo.given()) return photo.run(args.a, args.b, args.encoding, args.crop, args.json);
+    const std::string &path_a = args.a.text(), &path_b = args.b.text();
+    if (args.photo.given()) return args.photo.run(path_a, path_b, args.encoding, args.crop, args.json);
     // Errors are measured in linear light: code values have to be decoded as they were written.
-    const Encoding encoding = word("--encoding", args.encoding, {"srgb", "linear"}) == "srgb" ? Encoding::srgb : Encoding::linear;
+    const Encoding encoding = encoding_of(args.encoding);
     Image a, b;
     Faults faults;
     const auto read = [&](const char* argument, const std::string& path, Image& image) {
@@ -36,15 +43,15 @@ void run(const CompareArguments& args, const PhotoOptions& photo) {
             warn_above_white(path, image);
         });
     };
-    read("A", args.a, a);
-    read("B", args.b, b);
+    read("A", path_a, a);
+    read("B", path_b, b);
     faults.report();
     if (a.width != b.width || a.height != b.height)
-        throw InputError(args.b, fmt::format("is {} x {} pixels, {} is {} x {}; only pictures of equal size can be compared",
-                                             b.width, b.height, args.a, a.width, a.height));
+        throw InputError(path_b, fmt::format("is {} x {} pixels, {} is {} x {}; only pictures of equal size can be compared",
+                                             b.width, b.height, path_a, a.width, a.height));
     std::optional<Rect> region;
-    if (!args.crop.empty()) region = rectangle("--crop", args.crop, a.width, a.height);
-    warn_if_other_camera(args.a, args.b);
+    if (!args.crop.empty()) region = rectangle(args.crop.name(), args.crop.text(), a.width, a.height);
+    warn_if_other_camera(path_a, path_b);
     const Comparison c = compare(a, b, region);
     if (args.json)
         return print_json(Json{{"ssim", c.ssim},
@@ -65,23 +72,13 @@ void run(const CompareArguments& args, const PhotoOptions& photo) {
 
 }  // namespace
 
-void add_compare(Command program) {
-    Command command = program.add_subcommand(
-        "compare", "Compares two pictures, or a view and a photograph of a real display: SSIM, PSNR, RMSE, greatest difference");
-    const auto args = std::make_shared<CompareArguments>(command);
-    command.add_option("A", args->a, "Picture: .png .exr .npy .jpg").type_name("").required();
-    command.add_option("B", args->b, "Picture of the same size; or a photograph: see --corners").type_name("").required();
-    command
-        .add_option("--encoding", args->encoding,
-                    "Encoding of PNG and JPEG code values; default srgb; with --corners that of B, and A is sRGB")
-        .type_name("srgb|linear");
-    command.add_option("--crop", args->crop, "Only this part: columns X0 to X1-1, rows Y0 to Y1-1").type_name("X0,Y0,X1,Y1");
-    const auto photo = std::make_shared<PhotoOptions>(command);
-    command.add_flag("--json", args->json, "Print results as JSON");
-    command.footer(
-        "Examples:\n  lfdsim compare view.png photo.png --crop 800,200,1200,600\n"
-        "  lfdsim compare view.png prototype.jpg --corners 412,377 3630,402 3598,2221 440,2190 --fit-blur -o overlay.png");
-    command.callback([args, photo] { run(*args, *photo); });
+CommandSpec compare_command() {
+    return {.name = "compare",
+            .summary = "Compares two pictures, or a view and a photograph of a real display: SSIM, PSNR, RMSE, greatest difference",
+            .examples =
+                "Examples:\n  lfdsim compare view.png photo.png --crop 800,200,1200,600\n"
+                "  lfdsim compare view.png prototype.jpg --corners 412,377 3630,402 3598,2221 440,2190 --fit-blur -o overlay.png",
+            .run = with_options<CompareArguments>(run)};
 }
 
 }  // namespace lfdsim::cli

@@ -18,7 +18,9 @@
 namespace lfdsim::cli {
 namespace {
 
-Corners read_corners(const char* option, const std::vector<std::string>& texts) {
+Corners read_corners(const List& list) {
+    const std::string& option = list.name();
+    const std::vector<std::string>& texts = list.texts();
     if (texts.size() != 4)
         throw InputError(option, fmt::format("has {}; give four, X,Y each: top left, top right, bottom right, bottom left",
                                              counted(texts.size(), "corner")));
@@ -59,42 +61,20 @@ Json pairs(const Corners& corners) {
 
 }  // namespace
 
-PhotoOptions::PhotoOptions(Command command) {
-    constexpr const char* four = "X,Y X,Y X,Y X,Y";
-    corners_option_ = command.add_option(
-        "--corners", corners_,
-        "B is a photograph of the display: the outer corners of its lens array there (of the part that is lit, "
-        "where the array reaches over the panel), in pixels from the upper left corner of the picture as viewers "
-        "show it; top left, top right, bottom right, bottom left of the screen as its viewer sees it");
-    const Option view_corners =
-        command.add_option("--view-corners", view_corners_,
-                           "The same corners in A; default: from the display description stored in a picture made by lfdsim");
-    for (Option option : {corners_option_, view_corners}) option.type_name(four).expected(1, 4);
-    command.add_flag("--fit-corners", fit_corners_, "Move each corner by up to 5 pixels of the photograph for the best agreement");
-    command.add_flag("--fit-blur", fit_blur_, "Blur A by the Gaussian that makes it most similar to the photograph");
-    overlay_option_ =
-        command.add_option("-o,--overlay", overlay_, "Picture to write: both side by side, as a checkerboard and half of each");
-    difference_option_ =
-        command.add_option("--difference", difference_, "Picture to write: where the photograph is brighter or darker");
-    for (Option option : {overlay_option_, difference_option_}) option.type_name("FILE");
-}
-
-void PhotoOptions::run(const std::string& view_path, const std::string& photo_path, const std::string& encoding_name,
-                       const std::string& crop, bool json) const {
+void PhotoOptions::run(const std::string& view_path, const std::string& photo_path, const Option& encoding, const Option& crop,
+                       bool json) const {
     Faults faults;
     Corners view_corners;
     Image view;
     ScreenPhoto photo;
-    faults.of([&] {
-        photo.encoding = word("--encoding", encoding_name, {"srgb", "linear"}) == "srgb" ? Encoding::srgb : Encoding::linear;
-    });
-    faults.of([&] { photo.corners = read_corners("--corners", corners_); });
-    if (!view_corners_.empty()) faults.of([&] { view_corners = read_corners("--view-corners", view_corners_); });
+    faults.of([&] { photo.encoding = encoding_of(encoding); });
+    faults.of([&] { photo.corners = read_corners(corners_); });
+    if (view_corners_.given()) faults.of([&] { view_corners = read_corners(view_corners_); });
     faults.of([&] { check_input("A", view_path); });
     faults.of([&] { check_input("B", photo_path); });
-    if (difference_option_.count() > 0) faults.of([&] { check_output(difference_, "--difference"); });
-    if (overlay_option_.count() > 0) faults.of([&] { check_output(overlay_, "--overlay"); });
-    if (!overlay_.empty() && overlay_ == difference_)
+    for (const Option& output : {difference_, overlay_})
+        if (output.given()) faults.of([&] { check_output(output.text(), output.name()); });
+    if (!overlay_.empty() && overlay_.text() == difference_.text())
         faults.of([] { throw InputError("--overlay, --difference", "are two pictures of one name; give two names"); });
     faults.report();
     faults.of([&] {
@@ -103,7 +83,7 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
         const Metadata about = read_metadata(view_path);
         if (about.count(incomplete_mark))
             spdlog::warn("{}: is marked incomplete: the run that made it was interrupted, and the rest is black", view_path);
-        if (view_corners_.empty()) view_corners = corners_from_display(view_path, about, view);
+        if (!view_corners_.given()) view_corners = corners_from_display(view_path, about, view);
         check_near("--view-corners", view_corners, view_path, view.width, view.height, 100);
     });
     faults.of([&] {
@@ -117,21 +97,17 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
     });
     std::optional<Rect> part;
     faults.of([&] {
-        if (!crop.empty() && view.width > 0) part = rectangle("--crop", crop, view.width, view.height);
+        if (!crop.empty() && view.width > 0) part = rectangle(crop.name(), crop.text(), view.width, view.height);
     });
     faults.report();
     require_memory(view_path, fmt::format("mapping a photograph onto {} x {} pixels", view.width, view.height),
                    overlay_bytes(view.width, view.height) + picture_bytes(photo.image.width, photo.image.height));
     const auto [found, screen, m] = lay_over(view, view_corners, std::move(photo), {fit_corners_, fit_blur_, part});
 
-    const Metadata about{{"Software", "lfdsim " LFDSIM_VERSION}};
-    if (!overlay_.empty()) {
-        guard_output(overlay_);
-        write_image(overlay_, overlay_picture(m, screen), {8, Encoding::srgb, about});
-    }
-    if (!difference_.empty()) {
-        guard_output(difference_);
-        write_image(difference_, difference_picture(m, screen), {8, Encoding::srgb, about});
+    for (const auto& [output, draw] : {std::pair(overlay_, &overlay_picture), {difference_, &difference_picture}}) {
+        if (output.empty()) continue;
+        guard_output(output.text());
+        write_image(output.text(), draw(m, screen), {8, Encoding::srgb, {{"Software", software}}});
     }
     const std::int64_t pixels = screen.pixels();
     if (json) {

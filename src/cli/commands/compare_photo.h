@@ -1,28 +1,47 @@
 // lfdsim compare with --corners: a photograph of a real display laid over a simulated view. Floor 5.
 #pragma once
 #include "cli/program/command.h"
+#include "image/formats/encoding.h"
 
 #include <string>
-#include <vector>
 
 namespace lfdsim::cli {
 
 /// The options that `compare` has for photographs alone.
 class PhotoOptions {
   public:
-    explicit PhotoOptions(Command command);
+    explicit PhotoOptions(Command command) : command_(command) {}
 
-    bool given() const { return corners_option_.count() > 0; }
+    bool given() const { return corners_.given(); }
 
-    /// Compares and prints. `encoding`, of the photograph, and `crop`, of the view, are what the command's other options say.
-    void run(const std::string& view, const std::string& photograph, const std::string& encoding, const std::string& crop,
-             bool json) const;
+    /// Compares and prints. `encoding`, of the photograph, and `crop`, of the view, are the command's other options.
+    void run(const std::string& view, const std::string& photograph, const Option& encoding, const Option& crop, bool json) const;
 
   private:
-    std::vector<std::string> corners_, view_corners_;
-    std::string overlay_, difference_;
-    bool fit_blur_ = false, fit_corners_ = false;
-    Option corners_option_, overlay_option_, difference_option_;
+    static constexpr const char* four = "X,Y X,Y X,Y X,Y";
+
+    Command command_;
+    List corners_ =
+        command_
+            .list("--corners", four,
+                  "B is a photograph of the display: the outer corners of its lens array there (of the part that is lit, "
+                  "where the array reaches over the panel), in pixels from the upper left corner of the picture as viewers "
+                  "show it; top left, top right, bottom right, bottom left of the screen as its viewer sees it")
+            .expected(1, 4);
+    List view_corners_ =
+        command_
+            .list("--view-corners", four,
+                  "The same corners in A; default: from the display description stored in a picture made by lfdsim")
+            .expected(1, 4);
+    Flag fit_corners_ =
+        command_.flag("--fit-corners", "Move each corner by up to 5 pixels of the photograph for the best agreement");
+    Flag fit_blur_ = command_.flag("--fit-blur", "Blur A by the Gaussian that makes it most similar to the photograph");
+    Option overlay_ =
+        command_.option("-o,--overlay", "FILE", "Picture to write: both side by side, as a checkerboard and half of each");
+    Option difference_ = command_.option("--difference", "FILE", "Picture to write: where the photograph is brighter or darker");
 };
+
+/// Of the option --encoding.
+inline Encoding encoding_of(const Option& option) { return option.word() == "srgb" ? Encoding::srgb : Encoding::linear; }
 
 }  // namespace lfdsim::cli

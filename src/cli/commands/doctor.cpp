@@ -99,9 +99,14 @@ std::string words_of(const Json& value) {
     return text.empty() ? "-" : text;
 }
 
-void run(bool json) {
+struct DoctorArguments {
+    Command command;
+    Flag json = command.flag("--json", "Print results as JSON");
+};
+
+void run(const DoctorArguments& args) {
     const Json all = findings();
-    if (json) return print_json(all);
+    if (args.json) return print_json(all);
     std::string text;
     for (const auto& [key, value] : all.items()) {
         std::string name = key;
@@ -114,12 +119,11 @@ void run(bool json) {
 
 }  // namespace
 
-void add_doctor(Command program) {
-    const auto json = std::make_shared<bool>(false);
-    Command command = program.add_subcommand("doctor", "Reports what was found on this machine, and what is missing");
-    command.add_flag("--json", *json, "Print results as JSON");
-    command.footer("Example:\n  lfdsim doctor");
-    command.callback([json] { run(*json); });
+CommandSpec doctor_command() {
+    return {.name = "doctor",
+            .summary = "Reports what was found on this machine, and what is missing",
+            .examples = "Example:\n  lfdsim doctor",
+            .run = with_options<DoctorArguments>(run)};
 }
 
 }  // namespace lfdsim::cli

@@ -18,29 +18,21 @@ namespace lfdsim::cli {
 namespace {
 
 struct EiaArguments {
-    explicit EiaArguments(Command of)
-        : command(of),
-          display(command, {content_options}),
-          model(command),
-          pattern(command),
-          views(command),
-          output(command, ".png with the panel's encoding, or linear .exr .npy"),
-          mapping(command),
-          work(command) {}
     Command command;
-    DisplayOptions display;
-    ModelOption model;
-    PatternOption pattern;
-    ViewsOption views;
-    OutputOptions output;
-    MappingOption mapping;
-    WorkOptions work;
+    DisplayOptions display{command, {content_options}};
+    ModelOption model{command};
+    PatternOption pattern{command};
+    ViewsOption views{command};
+    OutputOptions output{command, ".png with the panel's encoding, or linear .exr .npy"};
+    MappingOption mapping{command};
+    WorkOptions work{command};
 };
 
-void run(EiaArguments& args) {
+void run(const EiaArguments& args) {
     Faults faults;
     Display display;
     PatternOptions pattern_options;
+    ViewsOption views = args.views;
     faults.of([&] {
         display = args.display.read();
         const auto [columns, rows] = display.panel.pixels;
@@ -49,7 +41,7 @@ void run(EiaArguments& args) {
     });
     faults.of([&] { pattern_options = args.pattern.read(); });
     faults.of([&] { args.model.apply(display); });
-    faults.of([&] { args.views.check(); });
+    faults.of([&] { views.check(); });
     faults.of([&] { args.work.check(); });
     faults.of([&] { args.output.check(); });
     faults.of([&] { args.mapping.check(args.output.path()); });
@@ -61,8 +53,8 @@ void run(EiaArguments& args) {
     std::string of_views;
     Json more = Json::object();
     Progress progress(args.work.progress());
-    if (args.views.given()) {
-        ViewsOption::Made made = args.views.make(display, geometry, args.work.threads(), progress);
+    if (views.given()) {
+        ViewsOption::Made made = views.make(display, geometry, args.work.threads(), progress);
         picture = std::move(made.field.picture);
         of_views = std::move(made.text);
         more["views"] = std::move(made.json);
@@ -87,15 +79,14 @@ void run(EiaArguments& args) {
 
 }  // namespace
 
-void add_eia(Command program) {
-    Command command =
-        program.add_subcommand("eia", "Makes the panel's picture: the elemental images of a model or of views, or a test pattern");
-    const auto args = std::make_shared<EiaArguments>(command);
-    command.footer(
-        "Examples:\n  lfdsim eia display.toml --model monkey.blend --height-mm 120 -o eia.png\n"
-        "  lfdsim eia display.toml --views lego --baseline-mm 12 --focus-depth-mm 0 -o eia.png\n"
-        "  lfdsim eia display.toml --pattern checkerboard --cell-pixels 8 -o eia.png");
-    command.callback([args] { run(*args); });
+CommandSpec eia_command() {
+    return {.name = "eia",
+            .summary = "Makes the panel's picture: the elemental images of a model or of views, or a test pattern",
+            .examples =
+                "Examples:\n  lfdsim eia display.toml --model monkey.blend --height-mm 120 -o eia.png\n"
+                "  lfdsim eia display.toml --views lego --baseline-mm 12 --focus-depth-mm 0 -o eia.png\n"
+                "  lfdsim eia display.toml --pattern checkerboard --cell-pixels 8 -o eia.png",
+            .run = with_options<EiaArguments>(run)};
 }
 
 }  // namespace lfdsim::cli

@@ -29,62 +29,46 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ExportArguments {
-    explicit ExportArguments(Command of)
-        : command(of),
-          peer_option(
-              command.add_option("PEER", peer, "For which program: pov (POV-Ray 3.7), cycles (Blender), mitsuba (Mitsuba 3)")
-                  .type_name("pov|cycles|mitsuba")
-                  .required()),
-          display(command, {camera_options, content_options}),
-          panel_image(command),
-          model(command),
-          pattern(command),
-          work(command) {
-        command.add_option("-o,--output", folder, "Folder for the scene; created if missing").type_name("DIR").required();
-        command
-            .add_option("--triangles", triangles,
-                        fmt::format("Triangles per lens, 100 or more; default: true surfaces for pov, {} for the others",
-                                    default_triangles))
-            .type_name("N");
-        command
-            .add_option("--channel", channel,
-                        "A scene of red, green or blue alone, with the indices of its light; needed where glass disperses")
-            .type_name("r|g|b");
-        command.add_option("--normals", normals, "The triangles' own, or the true surface's, interpolated; default flat")
-            .type_name("flat|smooth");
-        command.add_flag(
-            "--replace", replace,
-            "Write over files in the folder that are not of this display's scene; those of an earlier one by other names stay");
-    }
     Command command;
-    std::string peer, folder, triangles, normals, channel;
-    Option peer_option;
-    DisplayOptions display;
-    PanelImageOption panel_image;
-    ModelOption model;
-    PatternOption pattern;
-    WorkOptions work;
-    bool replace = false;
+    Option peer =
+        command.option("PEER", "pov|cycles|mitsuba", "For which program: pov (POV-Ray 3.7), cycles (Blender), mitsuba (Mitsuba 3)")
+            .required();
+    DisplayOptions display{command, {camera_options, content_options}};
+    PanelImageOption panel_image{command};
+    ModelOption model{command};
+    PatternOption pattern{command};
+    WorkOptions work{command};
+    Option folder = command.option("-o,--output", "DIR", "Folder for the scene; created if missing").required();
+    Option triangles = command.option(
+        "--triangles", "N",
+        fmt::format("Triangles per lens, 100 or more; default: true surfaces for pov, {} for the others", default_triangles));
+    Option channel = command.option(
+        "--channel", "r|g|b", "A scene of red, green or blue alone, with the indices of its light; needed where glass disperses");
+    Option normals =
+        command.option("--normals", "flat|smooth", "The triangles' own, or the true surface's, interpolated; default flat");
+    Flag replace = command.flag(
+        "--replace",
+        "Write over files in the folder that are not of this display's scene; those of an earlier one by other names stay");
 };
 
 bool is_peer(const std::string& name) { return name == "pov" || name == "cycles" || name == "mitsuba"; }
 
-Peer peer_of(const std::string& name, const std::string& display) {
+Peer peer_of(const ExportArguments& args) {
+    const std::string &name = args.peer.text(), &display = args.display.path();
     if (!is_peer(name) && is_peer(display))
         throw InputError("PEER", fmt::format("comes before the display: lfdsim export {} {} ...", display, shell_file(name)));
-    word("PEER", name, {"pov", "cycles", "mitsuba"});
+    args.peer.word();
     return name == "pov" ? Peer::pov : name == "cycles" ? Peer::cycles : Peer::mitsuba;
 }
 
 PeerOptions options_of(const ExportArguments& args) {
     PeerOptions options;
-    if (!args.triangles.empty())
-        options.triangles = whole_number("--triangles", args.triangles, 1, std::numeric_limits<std::int32_t>::max());
-    if (!args.channel.empty())
-        options.channel = int(std::string_view("rgb").find(word("--channel", args.channel, {"r", "g", "b"})));
+    if (!args.triangles.empty()) options.triangles = args.triangles.whole_number(1, std::numeric_limits<std::int32_t>::max());
+    if (!args.channel.empty()) options.channel = int(std::string_view("rgb").find(args.channel.word()));
     if (args.normals.empty()) return options;
-    if (args.peer == "pov" && !options.triangles) throw InputError("--normals", "are those of triangles; give --triangles N too");
-    options.normals = word("--normals", args.normals, {"flat", "smooth"}) == "flat" ? MeshNormals::flat : MeshNormals::smooth;
+    if (args.peer.text() == "pov" && !options.triangles)
+        throw InputError("--normals", "are those of triangles; give --triangles N too");
+    options.normals = args.normals.word() == "flat" ? MeshNormals::flat : MeshNormals::smooth;
     return options;
 }
 
@@ -103,13 +87,6 @@ void keep_apart(const fs::path& folder, const Json& files, const std::string& de
     if (std::error_code error; fs::exists(there, error) && !own && !replace)
         throw InputError(there.string(), "is of another display; give another folder, or --replace to write over it");
     for (const std::string file : files) check_companion(folder / file, own, replace);
-}
-
-void write_file(const fs::path& path, std::string_view bytes) {
-    guard_output(path);
-    detail::OutputFile file(path);
-    file.write(bytes.data(), bytes.size());
-    file.commit();
 }
 
 /// Lets the scene's folder hold the table of errors that its display.toml names: what is drawn is in it, too.
@@ -145,7 +122,7 @@ void run(const ExportArguments& args) {
     PatternOptions pattern_options;
     PeerOptions options;
     Peer peer{};
-    faults.of([&] { peer = peer_of(args.peer, args.display.path()); });
+    faults.of([&] { peer = peer_of(args); });
     faults.of([&] {
         display = args.display.read();
         const auto [columns, rows] = display.panel.pixels;
@@ -158,7 +135,7 @@ void run(const ExportArguments& args) {
     faults.of([&] { options = options_of(args); });
     faults.of([&] { args.model.apply(display); });
     faults.of([&] { args.work.check(); });
-    faults.of([&] { check_folder(args.folder); });
+    faults.of([&] { check_folder(args.folder.text()); });
     faults.of([&] { check_effects(args.command); });
     faults.report();
 
@@ -168,7 +145,7 @@ void run(const ExportArguments& args) {
     if (std::vector<Problem> problems = not_expressed(peer, fine.display, shown_geometry, options); !problems.empty())
         throw InputError(std::move(problems));
     Progress progress(args.work.progress());
-    const fs::path folder = args.folder;
+    const fs::path folder = args.folder.text();
     PeerScene scene = peer_scene(peer, fine.display, shown_geometry, options);
     take_lens_table(scene);
     scene.deviations.insert(scene.deviations.end(), fine.deviations.begin(), fine.deviations.end());
@@ -185,39 +162,38 @@ void run(const ExportArguments& args) {
     panel.texels = light_of_channel(std::move(panel.texels), options.channel);
     if (fine.times > 1) panel.texels = fine_image(fine, display.panel, panel.texels);
     if (const auto deviation = panel_deviation(scene, panel.texels)) scene.deviations.push_back(*deviation);
-    write_file(folder / description_file, description);
+    write_text(folder / description_file, description);
 
     const std::string lfdsims = fmt::format("lfdsim render display.toml --panel-image {} -o lfdsim.exr", scene.panel_file);
     guard_output(folder / scene.panel_file);
     write_image(folder / scene.panel_file, picture_of(panel.texels), {16, Encoding::linear, {}, {}}, &progress);
     progress.end();
-    for (const PeerFile& file : scene.files) write_file(folder / file.name, file.bytes);
-    write_file(folder / "README.txt", readme(scene, lfdsims));
+    for (const PeerFile& file : scene.files) write_text(folder / file.name, file.bytes);
+    write_text(folder / "README.txt", readme(scene, lfdsims));
 
     if (args.work.json())
-        return print_json({{"output", args.folder},
+        return print_json({{"output", args.folder.text()},
                            {"files", files},
                            {"command", scene.command},
                            {"picture", scene.picture},
                            {"lfdsim", lfdsims},
                            {"deviations", scene.deviations}});
     std::string text = fmt::format("{}: a scene for {}; render it there with\n  {}\nand lfdsim's picture of the same with\n  {}\n",
-                                   printable(args.folder), name_of(peer), scene.command, lfdsims);
+                                   printable(args.folder.text()), name_of(peer), scene.command, lfdsims);
     for (const std::string& deviation : scene.deviations) text += "deviates: " + deviation + "\n";
     print(text);
 }
 
 }  // namespace
 
-void add_export(Command program) {
-    Command command = program.add_subcommand(
-        "export", "Writes the display as a scene for another renderer, for a second opinion on what it shows");
-    const auto args = std::make_shared<ExportArguments>(command);
-    command.footer(
-        "Examples:\n  lfdsim export pov display.toml --panel-image eia.png --set diffuser=none -o scene\n"
-        "  lfdsim export cycles display.toml --panel-image eia.png --triangles 16380 --normals smooth -o scene\n"
-        "  lfdsim export mitsuba display.toml --panel-image eia.png --channel r -o red");
-    command.callback([args] { run(*args); });
+CommandSpec export_command() {
+    return {.name = "export",
+            .summary = "Writes the display as a scene for another renderer, for a second opinion on what it shows",
+            .examples =
+                "Examples:\n  lfdsim export pov display.toml --panel-image eia.png --set diffuser=none -o scene\n"
+                "  lfdsim export cycles display.toml --panel-image eia.png --triangles 16380 --normals smooth -o scene\n"
+                "  lfdsim export mitsuba display.toml --panel-image eia.png --channel r -o red",
+            .run = with_options<ExportArguments>(run)};
 }
 
 }  // namespace lfdsim::cli

@@ -18,8 +18,11 @@ namespace lfdsim::cli {
 namespace {
 
 struct GlassArguments {
-    std::string name, catalogue, plot;
-    bool json = false;
+    Command command;
+    Option name = command.option("NAME", "", "Glass, such as N-BK7 or PMMA; without it all are listed");
+    Option catalogue = command.option("--catalogue", "FILE.agf", "Take glasses from a maker's catalogue first, and list those");
+    Option plot = command.option("--plot", "OUT.svg", "Plot of the index in visible light");
+    Flag json = command.flag("--json", "Print results as JSON");
 };
 
 /// A glass and where its coefficients come from.
@@ -119,8 +122,8 @@ std::string plot(const Glass& glass) {
 void check_plot(const GlassArguments& args) {
     if (args.plot.empty()) return;
     if (args.name.empty()) throw InputError("--plot", "is of one glass; give its name");
-    const std::filesystem::path path = args.plot;
-    if (path.extension() != ".svg") throw InputError("--plot", fmt::format("{}: a plot's name ends in .svg", args.plot));
+    const std::filesystem::path path = args.plot.text();
+    if (path.extension() != ".svg") throw InputError("--plot", fmt::format("{}: a plot's name ends in .svg", args.plot.text()));
     guard_output(path);
     detail::check_replaceable(path);
 }
@@ -136,40 +139,31 @@ void warn_of(const GlassCatalogue& catalogue, const std::string& name) {
 }
 
 void run(const GlassArguments& args) {
+    const std::string& name = args.name.text();
     std::vector<GlassCatalogue> catalogues;
     if (!args.catalogue.empty()) {
-        remember_input("the catalogue", args.catalogue);
-        catalogues.push_back(read_agf(args.catalogue));
-        warn_of(catalogues.back(), args.name);
+        remember_input("the catalogue", args.catalogue.text());
+        catalogues.push_back(read_agf(args.catalogue.text()));
+        warn_of(catalogues.back(), name);
     }
     check_plot(args);
-    if (args.name.empty()) return list(all_glasses(catalogues), args.json);
-    const Glass* found = find_glass(args.name, catalogues);
-    if (!found) throw InputError("NAME", unknown_glass(args.name, catalogues));
+    if (name.empty()) return list(all_glasses(catalogues), args.json);
+    const Glass* found = find_glass(name, catalogues);
+    if (!found) throw InputError("NAME", unknown_glass(name, catalogues));
     const ShippedGlass* shipped = shipped_glass(found->name);
-    const Sourced glass = shipped && found == &shipped->glass ? sourced(*shipped) : Sourced{*found, args.catalogue};
-    if (!args.plot.empty()) {
-        detail::OutputFile file(args.plot);
-        const std::string text = plot(glass.glass);
-        file.write(text.data(), text.size());
-        file.commit();
-    }
+    const Sourced glass = shipped && found == &shipped->glass ? sourced(*shipped) : Sourced{*found, args.catalogue.text()};
+    if (!args.plot.empty()) write_text(args.plot.text(), plot(glass.glass));
     args.json ? print_json(to_json(glass)) : print(text_of(glass));
 }
 
 }  // namespace
 
-void add_glass(Command program) {
-    const auto args = std::make_shared<GlassArguments>();
-    Command command = program.add_subcommand("glass", "Prints the refractive indices of a glass or plastic, or lists all");
-    command.add_option("NAME", args->name, "Glass, such as N-BK7 or PMMA; without it all are listed").type_name("");
-    command.add_option("--catalogue", args->catalogue, "Take glasses from a maker's catalogue first, and list those")
-        .type_name("FILE.agf");
-    command.add_option("--plot", args->plot, "Plot of the index in visible light").type_name("OUT.svg");
-    command.add_flag("--json", args->json, "Print results as JSON");
-    command.footer(
-        "Examples:\n  lfdsim glass PMMA\n  lfdsim glass S-TIH11 --plot s-tih11.svg\n  lfdsim glass --catalogue maker.agf");
-    command.callback([args] { run(*args); });
+CommandSpec glass_command() {
+    return {.name = "glass",
+            .summary = "Prints the refractive indices of a glass or plastic, or lists all",
+            .examples =
+                "Examples:\n  lfdsim glass PMMA\n  lfdsim glass S-TIH11 --plot s-tih11.svg\n  lfdsim glass --catalogue maker.agf",
+            .run = with_options<GlassArguments>(run)};
 }
 
 }  // namespace lfdsim::cli

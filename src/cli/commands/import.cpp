@@ -9,7 +9,6 @@
 #include "geometry/geometry.h"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <variant>
@@ -22,57 +21,46 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ImportArguments {
-    explicit ImportArguments(Command c) : command(c), output(command) {
-        command
-            .add_option("FILE", file,
-                        "Lens of Zemax (.zmx), Optiland (.json) or ray-optics (.roa), or calibration of a Looking Glass display "
-                        "(visual.json)")
-            .type_name("")
-            .required();
-        command.add_flag("--flip", flip,
-                         "Turn the lens over: the side of the file's object faces the panel, not that of its image");
-        command.add_option("--scale", scale, "Factor for all lengths of the lens; default 1").type_name("S");
-        command
-            .add_option("--gap-mm", gap,
-                        "Panel to the lens's principal plane; default: the panel stands where the image is, or by the view cone")
-            .type_name("G");
-        command.add_option("--pitch-mm", pitch, "From lens to lens; default: as wide as the lens").type_name("P");
-        command
-            .add_option("--semi-aperture-mm", semi_aperture,
-                        "Of surfaces that have none in the file; default: what the file's beam needs")
-            .type_name("R");
-        command
-            .add_option("--glass", glasses,
-                        "What to take for a glass of the file: one of another name, its index n_d, or that and its Abbe number V_d")
-            .type_name("NAME=OTHER|ND|ND,VD")
-            .allow_extra_args(false);
-        command.add_option("--catalogue", catalogues, "Glass catalogue, looked up before the glasses that ship")
-            .type_name("FILE.agf")
-            .allow_extra_args(false);
-        command.add_option("--panel-inch", panel_inch, "Diagonal of the panel; default 24").type_name("I");
-        command.add_option("--pixels", pixels, "Pixels of the panel; default 3840x2160").type_name("WxH");
-        command
-            .add_option("--distance-mm", distance,
-                        "Distance from the panel to the eye; default 600, of a calibration where the panel is 14 degrees high")
-            .type_name("D");
-        command
-            .add_option(
-                "--index", index,
-                "For a calibration, which says nothing of the lenses: cylinders of this index in a sheet on the panel; default: "
-                "lenses without aberrations, in air")
-            .type_name("N");
-    }
     Command command;
-    NewDescription output;
-    std::string file, scale, gap, pitch, semi_aperture, panel_inch, pixels, distance, index;
-    std::vector<std::string> glasses, catalogues;
-    bool flip = false;
+    NewDescription output{command};
+    Option file = command
+                      .option("FILE", "",
+                              "Lens of Zemax (.zmx), Optiland (.json) or ray-optics (.roa), or calibration of a Looking Glass "
+                              "display (visual.json)")
+                      .required();
+    Flag flip = command.flag("--flip", "Turn the lens over: the side of the file's object faces the panel, not that of its image");
+    Option scale = command.option("--scale", "S", "Factor for all lengths of the lens; default 1");
+    Option gap = command.option(
+        "--gap-mm", "G", "Panel to the lens's principal plane; default: the panel stands where the image is, or by the view cone");
+    Option pitch = command.option("--pitch-mm", "P", "From lens to lens; default: as wide as the lens");
+    Option semi_aperture =
+        command.option("--semi-aperture-mm", "R", "Of surfaces that have none in the file; default: what the file's beam needs");
+    List glasses = command
+                       .list("--glass", "NAME=OTHER|ND|ND,VD",
+                             "What to take for a glass of the file: one of another name, its index n_d, or that and its Abbe "
+                             "number V_d")
+                       .one_each();
+    List catalogues = command.list("--catalogue", "FILE.agf", "Glass catalogue, looked up before the glasses that ship").one_each();
+    Option panel_inch = command.option("--panel-inch", "I", "Diagonal of the panel; default 24");
+    Option pixels = command.option("--pixels", "WxH", "Pixels of the panel; default 3840x2160");
+    Option distance =
+        command.option("--distance-mm", "D",
+                       "Distance from the panel to the eye; default 600, of a calibration where the panel is 14 degrees high");
+    Option index = command.option(
+        "--index", "N",
+        "For a calibration, which says nothing of the lenses: cylinders of this index in a sheet on the panel; default: lenses "
+        "without aberrations, in air");
 };
 
-double positive(const std::string& option, const std::string& text) {
-    const double value = number(option, text);
-    if (value >= 1e-6 && value <= 1e6) return value;
-    throw InputError(option, fmt::format("is {}; allowed is 1e-6 to 1e6", text));
+/// A length or factor, where one is given.
+template <class Number>
+void read_positive(const Option& option, Number& to, Faults& faults) {
+    faults.of(option, [&] {
+        const double value = option.number();
+        if (!(value >= 1e-6 && value <= 1e6))
+            throw InputError(option.name(), fmt::format("is {}; allowed is 1e-6 to 1e6", option.text()));
+        to = value;
+    });
 }
 
 GlassChoice glass_choice(const std::string& text, const std::vector<GlassCatalogue>& catalogues) {
@@ -105,14 +93,13 @@ void check_unused(const Command& command, bool calibrated, Faults& faults) {
 CalibrationRequest calibration_request(const ImportArguments& args) {
     CalibrationRequest request;
     Faults faults;
-    if (!args.gap.empty()) faults.of([&] { request.gap_mm = positive("--gap-mm", args.gap); });
-    if (!args.distance.empty()) faults.of([&] { request.distance_mm = positive("--distance-mm", args.distance); });
-    if (!args.index.empty())
-        faults.of([&] {
-            request.index = number("--index", args.index);
-            if (!(*request.index > 1 && *request.index <= 4))
-                throw InputError("--index", fmt::format("is {}; allowed is more than 1 to 4", args.index));
-        });
+    read_positive(args.gap, request.gap_mm, faults);
+    read_positive(args.distance, request.distance_mm, faults);
+    faults.of(args.index, [&] {
+        request.index = args.index.number();
+        if (!(*request.index > 1 && *request.index <= 4))
+            throw InputError(args.index.name(), fmt::format("is {}; allowed is more than 1 to 4", args.index.text()));
+    });
     faults.report();
     return request;
 }
@@ -121,21 +108,18 @@ ImportRequest lens_request(const ImportArguments& args) {
     ImportRequest request;
     request.flip = args.flip;
     Faults faults;
-    const auto read = [&](const char* option, const std::string& text, auto& to) {
-        if (!text.empty()) faults.of([&] { to = positive(option, text); });
-    };
-    read("--scale", args.scale, request.scale);
-    read("--gap-mm", args.gap, request.gap_mm);
-    read("--pitch-mm", args.pitch, request.pitch_mm);
-    read("--semi-aperture-mm", args.semi_aperture, request.semi_aperture_mm);
-    read("--panel-inch", args.panel_inch, request.panel_inch);
-    read("--distance-mm", args.distance, request.distance_mm);
-    if (!args.pixels.empty()) faults.of([&] { request.pixels = size("--pixels", args.pixels); });
-    for (const std::string& file : args.catalogues) {
+    read_positive(args.scale, request.scale, faults);
+    read_positive(args.gap, request.gap_mm, faults);
+    read_positive(args.pitch, request.pitch_mm, faults);
+    read_positive(args.semi_aperture, request.semi_aperture_mm, faults);
+    read_positive(args.panel_inch, request.panel_inch, faults);
+    read_positive(args.distance, request.distance_mm, faults);
+    faults.of(args.pixels, [&] { request.pixels = args.pixels.size(); });
+    for (const std::string& file : args.catalogues.texts()) {
         check_input("--catalogue", file);
         faults.of([&] { request.catalogues.push_back(read_agf(file)); });
     }
-    for (const std::string& text : args.glasses)
+    for (const std::string& text : args.glasses.texts())
         faults.of([&] { request.glasses.push_back(glass_choice(text, request.catalogues)); });
     faults.report();
     return request;
@@ -164,25 +148,26 @@ std::string lenticular_in_words(const Imported& made) {
 }
 
 void run(const ImportArguments& args) {
-    check_input("FILE", args.file);
+    const std::string& path = args.file.text();
+    check_input("FILE", path);
     Faults faults;
     std::optional<std::variant<DrawnLens, Calibration>> file;
     ImportRequest for_lens;
     CalibrationRequest for_calibration;
     faults.of([&] { args.output.check(); });
-    faults.of([&] { file = read_importable(args.file); });
+    faults.of([&] { file = read_importable(path); });
     const bool calibrated = file && std::holds_alternative<Calibration>(*file);
     if (file) check_unused(args.command, calibrated, faults);
     faults.of([&] { calibrated ? void(for_calibration = calibration_request(args)) : void(for_lens = lens_request(args)); });
     faults.report();
 
-    Imported made = calibrated ? import_calibration(std::get<Calibration>(*file), for_calibration, args.file)
+    Imported made = calibrated ? import_calibration(std::get<Calibration>(*file), for_calibration, path)
                                : import_lens(std::get<DrawnLens>(std::move(*file)), for_lens);
     if (made.display.name.empty()) made.display.name = fs::path(args.output.path()).stem();
     // Comments name the file, not where it lies on this machine.
-    if (const fs::path path = args.file; path.is_absolute())
+    if (fs::path(path).is_absolute())
         for (std::string& place : made.surfaces)
-            if (place.starts_with(args.file)) place.replace(0, args.file.size(), path.filename().string());
+            if (place.starts_with(path)) place.replace(0, path.size(), fs::path(path).filename().string());
     args.output.write(write_imported(made, seen_from(args.output.path(), made.catalogues), NewDescription::made_by()));
 
     std::string text = fmt::format("{}: {}\n", args.output.path(), calibrated ? lenticular_in_words(made) : lens_in_words(made));
@@ -194,15 +179,14 @@ void run(const ImportArguments& args) {
 
 }  // namespace
 
-void add_import(Command program) {
-    Command command = program.add_subcommand(
-        "import", "Makes a description with a lens from a design program, or of a calibrated lenticular display");
-    const auto args = std::make_shared<ImportArguments>(command);
-    command.footer(
-        "Examples:\n  lfdsim import triplet.zmx --scale 0.05 -o triplet.toml\n"
-        "  lfdsim import visual.json --distance-mm 650 -o portrait.toml\n"
-        "What is read, refused and assumed: docs/import.md");
-    command.callback([args] { run(*args); });
+CommandSpec import_command() {
+    return {.name = "import",
+            .summary = "Makes a description with a lens from a design program, or of a calibrated lenticular display",
+            .examples =
+                "Examples:\n  lfdsim import triplet.zmx --scale 0.05 -o triplet.toml\n"
+                "  lfdsim import visual.json --distance-mm 650 -o portrait.toml\n"
+                "What is read, refused and assumed: docs/import.md",
+            .run = with_options<ImportArguments>(run)};
 }
 
 }  // namespace lfdsim::cli

@@ -19,62 +19,49 @@ namespace lfdsim::cli {
 namespace {
 
 struct NewArguments {
-    explicit NewArguments(Command c) : command(c), output(command) {
-        command.add_option("--panel-inch", panel_inch, "Diagonal of the panel").type_name("I").required();
-        command.add_option("--pixels", pixels, "Pixels of the panel").type_name("WxH").required();
-        command.add_option("--distance-mm", distance_mm, "Distance from the panel to the eye").type_name("D").required();
-        command
-            .add_option(
-                "--lattice", lattice,
-                "Round lenses in squares or hexagons, or strips: a lenticular sheet, horizontal parallax only; default square")
-            .type_name("square|hexagon|strips");
-        command
-            .add_option("--fov-deg", fov_deg,
-                        "Field of view of whole elemental images, 2 atan(p' / 2g), of strips along the panel's rows: where an eye "
-                        "may move. What it "
-                        "sees of the screen follows from panel and distance (lfdsim check: screen_field_deg); default 30")
-            .type_name("F");
-        command
-            .add_option(
-                "--views", views,
-                "Panel pixels behind a lens along a row, in place of the rule for the pitch; 2 of strips: one view for each eye")
-            .type_name("N");
-        command.add_option("--pitch-mm", pitch_mm, "From lens to lens, in place of --views; of strips across them").type_name("P");
-        command
-            .add_option("--depth-mm", depth_mm,
-                        "Central depth plane, measured from the lenses towards the eye; default D/10, or -1000 for eyes nearer "
-                        "than 250 mm; "
-                        "strips are focused on the panel")
-            .type_name("L");
-        command
-            .add_option("--slant-deg", slant_deg,
-                        "Of strips: from the vertical, positive where upper ends lean to the viewer's right; default 18.43, 1 in "
-                        "3; 0 of two "
-                        "views")
-            .type_name("A");
-        command
-            .add_option("--sheet-mm", sheet_mm, "Thickness of strips' sheet, panel to ridges, in place of --fov-deg, which follows")
-            .type_name("T");
-        command.add_option("--eye-distance-mm", eyes_mm, "Of two views: between a viewer's eyes, in place of --fov-deg; default 65")
-            .type_name("B");
-        command.add_option("--lens", lens, "Kind of lens; default plano_convex").type_name("plano_convex|ideal");
-    }
     Command command;
-    std::string panel_inch, pixels, lattice = "square", fov_deg, distance_mm, depth_mm, views, pitch_mm, slant_deg, sheet_mm,
-                                    eyes_mm, lens = "plano_convex";
-    NewDescription output;
+    NewDescription output{command};
+    Option panel_inch = command.option("--panel-inch", "I", "Diagonal of the panel").required();
+    Option pixels = command.option("--pixels", "WxH", "Pixels of the panel").required();
+    Option distance_mm = command.option("--distance-mm", "D", "Distance from the panel to the eye").required();
+    Option lattice = command
+                         .option("--lattice", "square|hexagon|strips",
+                                 "Round lenses in squares or hexagons, or strips: a lenticular sheet, horizontal parallax only; "
+                                 "default square")
+                         .initially("square");
+    Option fov_deg = command.option(
+        "--fov-deg", "F",
+        "Field of view of whole elemental images, 2 atan(p' / 2g), of strips along the panel's rows: where an eye may move. What "
+        "it sees of the screen follows from panel and distance (lfdsim check: screen_field_deg); default 30");
+    Option views = command.option(
+        "--views", "N",
+        "Panel pixels behind a lens along a row, in place of the rule for the pitch; 2 of strips: one view for each eye");
+    Option pitch_mm = command.option("--pitch-mm", "P", "From lens to lens, in place of --views; of strips across them");
+    Option depth_mm = command.option(
+        "--depth-mm", "L",
+        "Central depth plane, measured from the lenses towards the eye; default D/10, or -1000 for eyes nearer than 250 mm; "
+        "strips are focused on the panel");
+    Option slant_deg = command.option(
+        "--slant-deg", "A",
+        "Of strips: from the vertical, positive where upper ends lean to the viewer's right; default 18.43, 1 in 3; 0 of two "
+        "views");
+    Option sheet_mm =
+        command.option("--sheet-mm", "T", "Thickness of strips' sheet, panel to ridges, in place of --fov-deg, which follows");
+    Option eyes_mm =
+        command.option("--eye-distance-mm", "B", "Of two views: between a viewer's eyes, in place of --fov-deg; default 65");
+    Option lens = command.option("--lens", "plano_convex|ideal", "Kind of lens; default plano_convex").initially("plano_convex");
 };
 
 /// What both kinds of designs are asked for.
 template <class Request>
 void read_common(const NewArguments& args, Request& request, Faults& faults) {
-    faults.of([&] { request.panel_inch = number("--panel-inch", args.panel_inch); });
-    faults.of([&] { request.pixels = size("--pixels", args.pixels); });
-    if (!args.fov_deg.empty()) faults.of([&] { request.fov_deg = number("--fov-deg", args.fov_deg); });
-    faults.of([&] { request.distance_mm = number("--distance-mm", args.distance_mm); });
-    if (!args.pitch_mm.empty()) faults.of([&] { request.pitch_mm = number("--pitch-mm", args.pitch_mm); });
+    faults.of([&] { request.panel_inch = args.panel_inch.number(); });
+    faults.of([&] { request.pixels = args.pixels.size(); });
+    faults.of(args.fov_deg, [&] { request.fov_deg = args.fov_deg.number(); });
+    faults.of([&] { request.distance_mm = args.distance_mm.number(); });
+    faults.of(args.pitch_mm, [&] { request.pitch_mm = args.pitch_mm.number(); });
     faults.of([&] {
-        if (word("--lens", args.lens, {"plano_convex", "ideal"}) == "ideal") request.lens = LensType::ideal;
+        if (args.lens.word() == "ideal") request.lens = LensType::ideal;
     });
 }
 
@@ -83,10 +70,10 @@ DesignRequest request_of(const NewArguments& args, LatticeKind lattice) {
     request.lattice = lattice;
     Faults faults;
     read_common(args, request, faults);
-    if (!args.depth_mm.empty()) faults.of([&] { request.depth_mm = number("--depth-mm", args.depth_mm); });
-    if (!args.views.empty()) faults.of([&] { request.views = whole_number("--views", args.views, 2, 10000); });
-    for (const char* option : {"--slant-deg", "--sheet-mm", "--eye-distance-mm"})
-        if (args.command.given(option)) faults.of([&] { throw InputError(option, "is for --lattice strips"); });
+    faults.of(args.depth_mm, [&] { request.depth_mm = args.depth_mm.number(); });
+    faults.of(args.views, [&] { request.views = args.views.whole_number(2, 10000); });
+    for (const Option& option : {args.slant_deg, args.sheet_mm, args.eyes_mm})
+        if (option.given()) faults.of([&] { throw InputError(option.name(), "is for --lattice strips"); });
     faults.report();
     return request;
 }
@@ -95,14 +82,11 @@ LenticularRequest lenticular_request(const NewArguments& args) {
     LenticularRequest request;
     Faults faults;
     read_common(args, request, faults);
-    const auto read = [&](const char* option, const std::string& text, std::optional<double>& to) {
-        if (!text.empty()) faults.of([&] { to = number(option, text); });
-    };
-    read("--views", args.views, request.views);
-    read("--slant-deg", args.slant_deg, request.slant_deg);
-    read("--sheet-mm", args.sheet_mm, request.sheet_mm);
-    read("--eye-distance-mm", args.eyes_mm, request.eyes_mm);
-    if (args.command.given("--depth-mm"))
+    faults.of(args.views, [&] { request.views = args.views.number(); });
+    faults.of(args.slant_deg, [&] { request.slant_deg = args.slant_deg.number(); });
+    faults.of(args.sheet_mm, [&] { request.sheet_mm = args.sheet_mm.number(); });
+    faults.of(args.eyes_mm, [&] { request.eyes_mm = args.eyes_mm.number(); });
+    if (args.depth_mm.given())
         faults.of([] { throw InputError("--depth-mm", "is not for strips, which are focused on the panel; leave it out"); });
     faults.report();
     return request;
@@ -154,7 +138,7 @@ void run(const NewArguments& args) {
     std::optional<FirstOrder> lenses;
     std::optional<Lenticular> strips;
     faults.of([&] {
-        const std::string lattice = word("--lattice", args.lattice, {"square", "hexagon", "strips"});
+        const std::string lattice = args.lattice.word();
         if (lattice == "strips")
             strips = lenticular(lenticular_request(args));
         else
@@ -183,16 +167,16 @@ void run(const NewArguments& args) {
 
 }  // namespace
 
-void add_new(Command program) {
-    Command command = program.add_subcommand("new", "Writes a commented description of a first design to start from");
-    const auto args = std::make_shared<NewArguments>(command);
-    command.footer(
-        "Examples:\n  lfdsim new --panel-inch 8 --pixels 2560x1600 --fov-deg 30 --distance-mm 500 -o tablet.toml\n"
-        "  lfdsim new --panel-inch 0.7 --pixels 1920x1080 --fov-deg 30 --distance-mm 20 --depth-mm -1000 -o near-eye.toml\n"
-        "  lfdsim new --panel-inch 100 --pixels 3840x2160 --fov-deg 40 --distance-mm 3000 -o wall.toml\n"
-        "  lfdsim new --panel-inch 10 --pixels 2560x1600 --lattice strips --views 8 --distance-mm 450 -o lenticular.toml\n"
-        "  lfdsim new --panel-inch 6 --pixels 2560x1440 --lattice strips --views 2 --distance-mm 350 -o two-view.toml");
-    command.callback([args] { run(*args); });
+CommandSpec new_command() {
+    return {.name = "new",
+            .summary = "Writes a commented description of a first design to start from",
+            .examples =
+                "Examples:\n  lfdsim new --panel-inch 8 --pixels 2560x1600 --fov-deg 30 --distance-mm 500 -o tablet.toml\n"
+                "  lfdsim new --panel-inch 0.7 --pixels 1920x1080 --fov-deg 30 --distance-mm 20 --depth-mm -1000 -o near-eye.toml\n"
+                "  lfdsim new --panel-inch 100 --pixels 3840x2160 --fov-deg 40 --distance-mm 3000 -o wall.toml\n"
+                "  lfdsim new --panel-inch 10 --pixels 2560x1600 --lattice strips --views 8 --distance-mm 450 -o lenticular.toml\n"
+                "  lfdsim new --panel-inch 6 --pixels 2560x1440 --lattice strips --views 2 --distance-mm 350 -o two-view.toml",
+            .run = with_options<NewArguments>(run)};
 }
 
 }  // namespace lfdsim::cli

@@ -11,17 +11,12 @@ namespace lfdsim::cli {
 namespace {
 
 struct PhotoArguments {
-    explicit PhotoArguments(Command command)
-        : display(command, {content_options, camera_options, point_options}),
-          model(command),
-          crop(command),
-          output(command, ".png (sRGB), or linear .exr .npy"),
-          work(command) {}
-    DisplayOptions display;
-    ModelOption model;
-    CropOption crop;
-    OutputOptions output;
-    WorkOptions work;
+    Command command;
+    DisplayOptions display{command, {content_options, camera_options, point_options}};
+    ModelOption model{command};
+    CropOption crop{command};
+    OutputOptions output{command, ".png (sRGB), or linear .exr .npy"};
+    WorkOptions work{command};
 };
 
 // A pinhole that looks through pixel centres casts one ray a pixel.
@@ -60,13 +55,13 @@ void run(const PhotoArguments& args) {
 
 }  // namespace
 
-void add_photo(Command program) {
-    Command command = program.add_subcommand("photo", "Makes the reference photograph: the model itself, seen by the same camera");
-    const auto args = std::make_shared<PhotoArguments>(command);
-    command.footer(
-        "Example:\n  lfdsim photo display.toml --model monkey.blend --camera-mm 518,0,1932 -o photo.png\n"
-        "  lfdsim photo display.toml --set camera.pupil_diameter_mm=20 camera.focus_distance_mm=1800 -o blurred.png");
-    command.callback([args] { run(*args); });
+CommandSpec photo_command() {
+    return {.name = "photo",
+            .summary = "Makes the reference photograph: the model itself, seen by the same camera",
+            .examples =
+                "Example:\n  lfdsim photo display.toml --model monkey.blend --camera-mm 518,0,1932 -o photo.png\n"
+                "  lfdsim photo display.toml --set camera.pupil_diameter_mm=20 camera.focus_distance_mm=1800 -o blurred.png",
+            .run = with_options<PhotoArguments>(run)};
 }
 
 }  // namespace lfdsim::cli

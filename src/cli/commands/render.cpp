@@ -26,41 +26,24 @@ namespace lfdsim::cli {
 namespace {
 
 struct RenderArguments {
-    explicit RenderArguments(Command of)
-        : command(of),
-          display(command, {camera_options, sample_options, content_options}),
-          panel_image(command),
-          model(command),
-          pattern(command),
-          crop(command),
-          output(command, ".png (sRGB), or linear .exr .npy (float32, H x W x 3); with --path a folder, created if missing"),
-          path(command),
-          lens_mesh(command),
-          exposure(command),
-          device(command),
-          work(command) {
-        command
-            .add_option("--kernel", kernel, "Instruction set; default: environment variable LFDSIM_KERNEL, else the best there is")
-            .type_name("scalar|baseline|avx2|avx512");
-        command
-            .add_option("--target-error", target_error,
-                        "Add samples until the estimated error of each 4 x 4 pixels is below E, in linear light; an .exr then has "
-                        "a layer \"error\"")
-            .type_name("E");
-    }
     Command command;
-    DisplayOptions display;
-    PanelImageOption panel_image;
-    ModelOption model;
-    PatternOption pattern;
-    CropOption crop;
-    OutputOptions output;
-    PathOptions path;
-    LensMeshOptions lens_mesh;
-    ExposureOption exposure;
-    DeviceOption device;
-    WorkOptions work;
-    std::string kernel, target_error;
+    DisplayOptions display{command, {camera_options, sample_options, content_options}};
+    PanelImageOption panel_image{command};
+    ModelOption model{command};
+    PatternOption pattern{command};
+    CropOption crop{command};
+    OutputOptions output{command,
+                         ".png (sRGB), or linear .exr .npy (float32, H x W x 3); with --path a folder, created if missing"};
+    PathOptions path{command};
+    LensMeshOptions lens_mesh{command};
+    ExposureOption exposure{command};
+    DeviceOption device{command};
+    WorkOptions work{command};
+    Option kernel = command.option("--kernel", "scalar|baseline|avx2|avx512",
+                                   "Instruction set; default: environment variable LFDSIM_KERNEL, else the best there is");
+    Option target_error = command.option("--target-error", "E",
+                                         "Add samples until the estimated error of each 4 x 4 pixels is below E, in linear light; "
+                                         "an .exr then has a layer \"error\"");
 };
 
 void render_frames(const RenderArguments& args, const Display& display, const CameraPath& path, const RenderOptions& options,
@@ -98,14 +81,14 @@ void run(const RenderArguments& args) {
     faults.of([&] { args.panel_image.check(); });
     faults.of([&] { pattern_options = args.pattern.read(); });
     faults.of([&] {
-        choose_kernel(args.kernel);
+        choose_kernel(args.kernel.text());
         args.device.apply();
     });
     std::optional<double> target;
-    faults.of([&] {
-        if (args.target_error.empty()) return;
-        target = number("--target-error", args.target_error);
-        if (*target <= 0) throw InputError("--target-error", fmt::format("is {}, allowed is more than 0", args.target_error));
+    faults.of(args.target_error, [&] {
+        target = args.target_error.number();
+        if (*target <= 0)
+            throw InputError(args.target_error.name(), fmt::format("is {}, allowed is more than 0", args.target_error.text()));
     });
     faults.of([&] { args.model.apply(display); });
     faults.of([&] { args.work.check(); });
@@ -127,7 +110,7 @@ void run(const RenderArguments& args) {
     const auto light = [&] {
         return shown_panel(args.panel_image, args.pattern, display, geometry, pattern_options, args.work.threads(), progress);
     };
-    const RenderOptions options{args.work.threads(), args.kernel, crop, target};
+    const RenderOptions options{args.work.threads(), args.kernel.text(), crop, target};
     if (path) return render_frames(args, display, *path, options, light, progress);
     const PanelLight panel = light();
     Rendering r = lens ? render_meshed(display, geometry, panel.texels, *lens, options, progress)
@@ -155,17 +138,18 @@ void run(const RenderArguments& args) {
 
 }  // namespace
 
-void add_render(Command program) {
-    Command command = program.add_subcommand("render", "Renders what a camera sees of the display");
-    const auto args = std::make_shared<RenderArguments>(command);
-    command.footer(
-        "Examples:\n  lfdsim render display.toml --panel-image eia.png --camera-mm -300,0,1800 -o view.png\n"
-        "  lfdsim render display.toml --panel-image eia.png --target-error 0.005 -o view.exr\n"
-        "  lfdsim render display.toml --panel-image eia.png --set panel.subpixels=rgb_stripe --exposure auto -o stripes.png\n"
-        "  lfdsim render display.toml --panel-image eia.png --path walk.json -o walk\n"
-        "  lfdsim render display.toml --panel-image eia.png --lens-mesh 3386 --lens-normals smooth -o meshed.png\n"
-        "  lfdsim render display.toml --model monkey.blend --set array.pitch_mm=8 lens.aperture_radius_mm=4 -o view.exr");
-    command.callback([args] { run(*args); });
+CommandSpec render_command() {
+    return {
+        .name = "render",
+        .summary = "Renders what a camera sees of the display",
+        .examples =
+            "Examples:\n  lfdsim render display.toml --panel-image eia.png --camera-mm -300,0,1800 -o view.png\n"
+            "  lfdsim render display.toml --panel-image eia.png --target-error 0.005 -o view.exr\n"
+            "  lfdsim render display.toml --panel-image eia.png --set panel.subpixels=rgb_stripe --exposure auto -o stripes.png\n"
+            "  lfdsim render display.toml --panel-image eia.png --path walk.json -o walk\n"
+            "  lfdsim render display.toml --panel-image eia.png --lens-mesh 3386 --lens-normals smooth -o meshed.png\n"
+            "  lfdsim render display.toml --model monkey.blend --set array.pitch_mm=8 lens.aperture_radius_mm=4 -o view.exr",
+        .run = with_options<RenderArguments>(run)};
 }
 
 }  // namespace lfdsim::cli

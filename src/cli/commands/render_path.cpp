@@ -48,26 +48,18 @@ bool named_as_frame(const fs::path& file) {
 
 }  // namespace
 
-PathOptions::PathOptions(Command command)
-    : option_(command.add_option("--path", path_, "Camera path (docs/path.md): a picture for each of its frames, in the folder -o")
-                  .type_name("FILE")) {
-    command.add_option("--frames-as", kind_, "File type of the frames; default png").type_name("png|exr|npy");
-    command.add_flag("--resume", resume_, "Skip frames that the same command has already made there from the same files");
-    command.add_flag("--replace", replace_, "Remove frames there that were made by another command or from other files");
-}
-
 void PathOptions::check(const OutputOptions& output) const {
     Faults faults;
     if (given()) {
-        faults.of([&] { word("--frames-as", kind_, {"png", "exr", "npy"}); });
-        faults.of([&] { output.check_bits("frame." + kind_); });
+        faults.of([&] { kind_.word(); });
+        faults.of([&] { output.check_bits("frame." + kind_.text()); });
         faults.of([&] {
             std::error_code error;
             if (output.path().empty()) throw InputError("--output", "the name is empty; give a folder for the frames");
             if (fs::exists(output.path(), error) && !fs::is_directory(output.path(), error))
                 throw InputError(output.path(), "is not a folder; give one for the frames of --path");
         });
-        if (resume_ && kind_ == "npy")
+        if (resume_ && kind_.text() == "npy")
             faults.of([] { throw InputError("--resume", "a .npy does not record how it was made; use png or exr"); });
     }
     faults.report();
@@ -75,8 +67,8 @@ void PathOptions::check(const OutputOptions& output) const {
 
 CameraPath PathOptions::read() const {
     if (path_.empty()) throw InputError("--path", "the name is empty; give a camera path");
-    remember_input("the camera path", path_);
-    return read_path(path_);
+    remember_input("the camera path", path_.text());
+    return read_path(path_.text());
 }
 
 void PathOptions::check(const CameraPath& path, const Display& display) const {
@@ -84,7 +76,7 @@ void PathOptions::check(const CameraPath& path, const Display& display) const {
         Display there = display;
         there.camera = camera;
         std::vector<Problem> problems = validate(there);
-        for (Problem& p : problems) p.where = fmt::format("{}: {}: {}", path_, place, p.where);
+        for (Problem& p : problems) p.where = fmt::format("{}: {}: {}", path_.text(), place, p.where);
         if (!problems.empty()) throw InputError(std::move(problems));
     };
     for (std::size_t i = 0; i < path.poses.size(); ++i) {
@@ -99,7 +91,7 @@ void PathOptions::check(const CameraPath& path, const Display& display) const {
 
 fs::path PathOptions::file(const OutputOptions& output, std::int64_t frame, std::int64_t frames) const {
     const std::size_t digits = std::max<std::size_t>(4, fmt::formatted_size("{}", frames - 1));
-    return fs::path(output.path()) / fmt::format("{:0{}}.{}", frame, digits, kind_);
+    return fs::path(output.path()) / fmt::format("{:0{}}.{}", frame, digits, kind_.text());
 }
 
 PathMade render_path(const PathWork& w, const std::function<const Texels&()>& panel, Progress& progress) {

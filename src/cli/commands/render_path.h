@@ -16,8 +16,8 @@ namespace lfdsim::cli {
 /// --path, --frames-as, --resume, --replace. With --path, --output names a folder.
 class PathOptions {
   public:
-    explicit PathOptions(Command command);
-    bool given() const { return option_.count() > 0; }
+    explicit PathOptions(Command command) : command_(command) {}
+    bool given() const { return path_.given(); }
     /// Throws InputError if there is a path and the pictures cannot be made so.
     void check(const OutputOptions&) const;
     /// Throws InputError if the file cannot be read.
@@ -30,9 +30,12 @@ class PathOptions {
     bool replace() const { return replace_; }
 
   private:
-    std::string path_, kind_ = "png";
-    bool resume_ = false, replace_ = false;
-    Option option_;
+    Command command_;
+    Option path_ =
+        command_.option("--path", "FILE", "Camera path (docs/path.md): a picture for each of its frames, in the folder -o");
+    Option kind_ = command_.option("--frames-as", "png|exr|npy", "File type of the frames; default png").initially("png");
+    Flag resume_ = command_.flag("--resume", "Skip frames that the same command has already made there from the same files");
+    Flag replace_ = command_.flag("--replace", "Remove frames there that were made by another command or from other files");
 };
 
 /// What all frames share.

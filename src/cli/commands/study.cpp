@@ -5,9 +5,9 @@
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 // lfdsim study and lfdsim tolerance: commands of the Python package, in whose process this one goes on.
@@ -57,16 +57,23 @@ void run(const Command& command) {
                                          std::generic_category().message(errno)));
 }
 
+std::function<void()> run_in_python(Command command) {
+    command.take_all_words();
+    return [command] { run(command); };
+}
+
 }  // namespace
 
-void add_study(Command program) {
-    for (const auto& [name, description] :
-         {std::pair("study", "Measures thousands of variants of a display, here or on a cluster (Python package)"),
-          std::pair("tolerance", "Draws a display's errors: percentiles of what is measured, and a budget (Python package)")}) {
-        Command command = program.add_subcommand(name, description);
-        command.take_all_words();
-        command.callback([command] { run(command); });
-    }
+CommandSpec study_command() {
+    return {.name = "study",
+            .summary = "Measures thousands of variants of a display, here or on a cluster (Python package)",
+            .run = run_in_python};
+}
+
+CommandSpec tolerance_command() {
+    return {.name = "tolerance",
+            .summary = "Draws a display's errors: percentiles of what is measured, and a budget (Python package)",
+            .run = run_in_python};
 }
 
 }  // namespace lfdsim::cli

@@ -23,31 +23,24 @@ namespace lfdsim::cli {
 namespace {
 
 struct ViewArguments {
-    explicit ViewArguments(Command of)
-        : command(of), display(command, {sample_options, content_options}), panel_image(command), model(command), device(command) {
-        pattern_option =
-            command.add_option("--pattern", pattern, fmt::format("Test pattern to show: {}", fmt::join(pattern_names(), ", ")))
-                .type_name("NAME");
-        command.add_option("--port", port, "Port to listen on; default: a free one").type_name("P");
-        command
-            .add_option(
-                "--host", host,
-                "Address to listen on; default 127.0.0.1, this machine only. With another, anyone who knows the token can connect")
-            .type_name("ADDRESS");
-        command.add_option("--token", token, "Secret that a browser must give; default: 128 random bits").type_name("T");
-        command.add_option("--folder", folder, "Displays, models and pictures that a browser may load; default: the description's")
-            .type_name("DIR");
-        command.add_option("--visitors", visitors, "Browsers at a time, 1 to 64; default 8").type_name("N");
-        command.add_option("--threads", threads, "Default: all processors").type_name("N");
-    }
     Command command;
-    DisplayOptions display;
-    PanelImageOption panel_image;
-    ModelOption model;
-    DeviceOption device;
-    std::string pattern;
-    Option pattern_option;
-    std::string port, host = "127.0.0.1", token, folder, visitors, threads;
+    DisplayOptions display{command, {sample_options, content_options}};
+    PanelImageOption panel_image{command};
+    ModelOption model{command};
+    DeviceOption device{command};
+    Option pattern = pattern_name(command);
+    Option port = command.option("--port", "P", "Port to listen on; default: a free one");
+    Option host =
+        command
+            .option(
+                "--host", "ADDRESS",
+                "Address to listen on; default 127.0.0.1, this machine only. With another, anyone who knows the token can connect")
+            .initially("127.0.0.1");
+    Option token = command.option("--token", "T", "Secret that a browser must give; default: 128 random bits");
+    Option folder =
+        command.option("--folder", "DIR", "Displays, models and pictures that a browser may load; default: the description's");
+    Option visitors = command.option("--visitors", "N", "Browsers at a time, 1 to 64; default 8");
+    Option threads = command.option("--threads", "N", "Default: all processors");
 };
 
 // A name that a browser elsewhere can use, if the program listens to more than one.
@@ -56,14 +49,12 @@ std::string address(const std::string& host) {
     return host.find(':') == host.npos ? host : "[" + host + "]";
 }
 
-int port_of(const ViewArguments& args) { return args.port.empty() ? 0 : int(whole_number("--port", args.port, 1, 65535)); }
-
 std::string token_of(const ViewArguments& args) {
-    if (args.token.empty()) return view::make_token();
-    const bool plain = std::all_of(args.token.begin(), args.token.end(), [](unsigned char c) { return std::isalnum(c); });
-    if (args.token.size() < 16 || args.token.size() > 128 || !plain)
-        throw InputError("--token", "is not 16 to 128 letters and digits");
-    return args.token;
+    const std::string& token = args.token.text();
+    if (token.empty()) return view::make_token();
+    const bool plain = std::all_of(token.begin(), token.end(), [](unsigned char c) { return std::isalnum(c); });
+    if (token.size() < 16 || token.size() > 128 || !plain) throw InputError("--token", "is not 16 to 128 letters and digits");
+    return token;
 }
 
 void run(const ViewArguments& args) {
@@ -79,26 +70,20 @@ void run(const ViewArguments& args) {
     });
     faults.of([&] { args.panel_image.check(); });
     faults.of([&] { args.model.apply(display); });
-    faults.of([&] {
-        if (args.pattern_option.count() > 0) word("--pattern", args.pattern, pattern_names());
-    });
-    faults.of([&] { options.port = port_of(args); });
+    faults.of([&] { check_pattern(args.pattern); });
+    faults.of(args.port, [&] { options.port = int(args.port.whole_number(1, 65535)); });
     faults.of([&] { options.token = token_of(args); });
-    faults.of([&] {
-        if (!args.visitors.empty()) options.most_visitors = int(whole_number("--visitors", args.visitors, 1, 64));
-    });
-    faults.of([&] {
-        if (!args.threads.empty()) threads = int(whole_number("--threads", args.threads, 1, 1024));
-    });
+    faults.of(args.visitors, [&] { options.most_visitors = int(args.visitors.whole_number(1, 64)); });
+    faults.of(args.threads, [&] { threads = int(args.threads.whole_number(1, 1024)); });
     faults.of([&] { args.device.apply(); });
     faults.of([&] { check_effects(args.command); });
     faults.report();
-    options.host = args.host;
+    options.host = args.host.text();
     start.model = args.model.path();
     start.panel_image = args.panel_image.path();
-    start.pattern = args.pattern;
+    start.pattern = args.pattern.text();
 
-    std::filesystem::path folder = args.folder.empty() ? start.display.parent_path() : std::filesystem::path(args.folder);
+    std::filesystem::path folder = args.folder.empty() ? start.display.parent_path() : std::filesystem::path(args.folder.text());
     if (folder.empty()) folder = ".";
     const view::Library library(start, folder);
     std::vector<std::filesystem::path> elsewhere{"."};
@@ -124,15 +109,14 @@ void run(const ViewArguments& args) {
 
 }  // namespace
 
-void add_view(Command program) {
-    Command command =
-        program.add_subcommand("view", "Shows the display in a browser: eye and parameters move, the picture follows");
-    const auto args = std::make_shared<ViewArguments>(command);
-    command.footer(
-        "Examples:\n  lfdsim view display.toml --model monkey.blend\n"
-        "  lfdsim view display.toml --panel-image eia.png --port 8080\n"
-        "It prints an address for a browser. docs/view.md describes the page.");
-    command.callback([args] { run(*args); });
+CommandSpec view_command() {
+    return {.name = "view",
+            .summary = "Shows the display in a browser: eye and parameters move, the picture follows",
+            .examples =
+                "Examples:\n  lfdsim view display.toml --model monkey.blend\n"
+                "  lfdsim view display.toml --panel-image eia.png --port 8080\n"
+                "It prints an address for a browser. docs/view.md describes the page.",
+            .run = with_options<ViewArguments>(run)};
 }
 
 }  // namespace lfdsim::cli

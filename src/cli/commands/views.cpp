@@ -1,3 +1,4 @@
+#include "analysis/core/subject.h"
 #include "cli/options/display_options.h"
 #include "cli/options/grid_options.h"
 #include "cli/options/panel_source.h"
@@ -34,38 +35,29 @@ constexpr std::int64_t content_rays = 4;  // of a pixel, where nothing else is a
 constexpr std::int64_t default_columns = 480;
 
 struct ViewsArguments {
-    explicit ViewsArguments(Command of)
-        : command(of),
-          display(command, {sample_options, content_options}),
-          panel_image(command),
-          model(command),
-          pattern(command),
-          grid(command),
-          output(command, "a quilt, NAME_qs8x6a0.75 with .png .exr .npy; or a folder for a grid of views, created if missing"),
-          device(command),
-          work(command) {
-        command.add_flag("--resume", resume, "Skip views in the folder that the same command has already made from the same files");
-        command.add_flag("--replace", replace,
-                         "Remove views there that another command has made, or write over the .toml beside a quilt");
-        command.add_option("--of", of_what, "Views of the content itself, or of what the simulated display shows")
-            .type_name("content|display")
-            .capture_default_str();
-        command.add_option("--grid", count, "Columns and rows of views in a folder; default 9x9, of strips 9x1").type_name("CxR");
-        command.add_option("--view-size", size, "Pixels of a view; default 480 wide").type_name("WxH");
-        command.add_option("--views-as", kind, "Files in the folder").type_name("png|exr|npy").capture_default_str();
-        command.add_flag("--depth", depth, "Write a depth map for each view of the content, too");
-    }
     Command command;
-    DisplayOptions display;
-    PanelImageOption panel_image;
-    ModelOption model;
-    PatternOption pattern;
-    GridOptions grid;
-    OutputOptions output;
-    DeviceOption device;
-    WorkOptions work;
-    std::string of_what = "content", count, size, kind = "png";
-    bool depth = false, resume = false, replace = false;
+    DisplayOptions display{command, {sample_options, content_options}};
+    PanelImageOption panel_image{command};
+    ModelOption model{command};
+    PatternOption pattern{command};
+    GridOptions grid{command};
+    OutputOptions output{command,
+                         "a quilt, NAME_qs8x6a0.75 with .png .exr .npy; or a folder for a grid of views, created if missing"};
+    DeviceOption device{command};
+    WorkOptions work{command};
+    Flag resume = command.flag("--resume", "Skip views in the folder that the same command has already made from the same files");
+    Flag replace =
+        command.flag("--replace", "Remove views there that another command has made, or write over the .toml beside a quilt");
+    Option of_what =
+        command.option("--of", "content|display", "Views of the content itself, or of what the simulated display shows")
+            .initially("content")
+            .shown();
+    Option count = command.option("--grid", "CxR", "Columns and rows of views in a folder; default 9x9, of strips 9x1");
+    Option size = command.option("--view-size", "WxH", "Pixels of a view; default 480 wide");
+    Option kind = command.option("--views-as", "png|exr|npy", "Files in the folder").initially("png").shown();
+    Flag depth = command.flag("--depth", "Write a depth map for each view of the content, too");
+
+    bool of_display() const { return of_what.text() == "display"; }
 };
 
 /// Where the views go, and how many there are.
@@ -77,23 +69,13 @@ struct Target {
     std::string how;            // the cameras of a view cone stand
 };
 
-/// One stage for all views.
-class OneOfMany : public Job {
-  public:
-    explicit OneOfMany(Job& whole) : whole_(whole) {}
-    bool cancelled() const override { return whole_.cancelled(); }
-
-  private:
-    Job& whole_;
-};
-
 Target target_of(const ViewsArguments& args, const Display& display) {
     Target target;
     const fs::path path = args.output.path();
     const std::string kind = path.extension();
     target.quilt = kind == ".png" || kind == ".exr" || kind == ".npy";
     Faults faults;
-    faults.of([&] { word("--views-as", args.kind, {"png", "exr", "npy"}); });
+    faults.of([&] { args.kind.word(); });
     if (target.quilt) {
         faults.of([&] {
             const std::optional<QuiltName> name = quilt_name(path);
@@ -106,7 +88,7 @@ Target target_of(const ViewsArguments& args, const Display& display) {
             target.rows = 1;
         });
         for (const auto& [option, given] :
-             {std::pair("--grid", !args.count.empty()), {"--depth", args.depth}, {"--resume", args.resume}})
+             {std::pair("--grid", !args.count.empty()), {"--depth", bool(args.depth)}, {"--resume", bool(args.resume)}})
             if (given) faults.of([o = option] { throw InputError(o, "is for views in a folder; a quilt's name says its own"); });
         faults.of([&] { check_output(path); });
         faults.of([&] { args.output.check_bits(path); });
@@ -116,20 +98,19 @@ Target target_of(const ViewsArguments& args, const Display& display) {
                 throw InputError(path.string(), "a quilt's name ends in .png, .exr or .npy; give one of these, or a folder");
         });
         if (is_strips(display.array)) target.rows = 1;
-        if (!args.count.empty())
-            faults.of([&] {
-                const auto [columns, rows] = size("--grid", args.count);
-                if (columns > most_views_a_side || rows > most_views_a_side || columns * rows > most_views)
-                    throw InputError("--grid", fmt::format("is {}; allowed are {} along each side and {} in all", args.count,
-                                                           most_views_a_side, most_views));
-                target.columns = int(columns);
-                target.rows = int(rows);
-            });
-        faults.of([&] { args.output.check_bits("view." + args.kind); });
+        faults.of(args.count, [&] {
+            const auto [columns, rows] = args.count.size();
+            if (columns > most_views_a_side || rows > most_views_a_side || columns * rows > most_views)
+                throw InputError("--grid", fmt::format("is {}; allowed are {} along each side and {} in all", args.count.text(),
+                                                       most_views_a_side, most_views));
+            target.columns = int(columns);
+            target.rows = int(rows);
+        });
+        faults.of([&] { args.output.check_bits("view." + args.kind.text()); });
         faults.of([&] {
             if (path.empty()) throw InputError("--output", "the name is empty; give a folder for the views, or a quilt's name");
             detail::check_folder(path);
-            if (args.resume && args.kind == "npy")
+            if (args.resume && args.kind.text() == "npy")
                 throw InputError("--resume", "a .npy does not record how it was made; use png or exr");
         });
     }
@@ -143,11 +124,11 @@ ViewGrid grid_of(const ViewsWish& wish, Target& target, const ViewsArguments& ar
     double aspect = geometry.panel_width_mm / geometry.panel_height_mm;
     if (target.quilt) aspect = target.name.aspect;
     if (!args.size.empty()) {
-        const auto [width, height] = size("--view-size", args.size);
+        const auto [width, height] = args.size.size();
         if (!target.quilt) aspect = double(width) / double(height);
         if (double(width) * double(height) >= two_to_31 || std::max(width, height) > 1 << 20)
             throw InputError("--view-size", fmt::format("is {}; allowed is up to {} along each side and a product below 2^31",
-                                                        args.size, 1 << 20));
+                                                        args.size.text(), 1 << 20));
         target.width = int(width);
         target.height = int(height);
     } else {
@@ -159,7 +140,7 @@ ViewGrid grid_of(const ViewsWish& wish, Target& target, const ViewsArguments& ar
     if (double(columns) * double(rows) >= two_to_31)
         throw InputError("--view-size",
                          fmt::format("makes a quilt of {} x {} pixels; allowed is a product below 2^31", columns, rows));
-    require_picture_memory(columns, rows, args.of_what == "display" ? texel_bytes(display) : 0);
+    require_picture_memory(columns, rows, args.of_display() ? texel_bytes(display) : 0);
 
     ViewsSource all;  // views that are to be made are placed as those that are read
     all.name = "the grid";
@@ -181,7 +162,7 @@ ViewGrid grid_of(const ViewsWish& wish, Target& target, const ViewsArguments& ar
     const ViewGrid grid = placed(all, wish, place, aspect, notes);
     // From the edge of the zone an eye sees the views of two neighbouring lenses.
     const double outermost = grid.camera(grid.columns - 1, 0)[0];
-    if (args.of_what == "display" && grid.columns > 1 && outermost > 0.499 * place.zone_width_mm)
+    if (args.of_display() && grid.columns > 1 && outermost > 0.499 * place.zone_width_mm)
         spdlog::warn(
             "the outermost cameras stand {:.4g} mm aside, at the edge of the zone of {:.4g} mm or beyond it, where the display's "
             "views "
@@ -200,7 +181,7 @@ class Maker {
                 for (int column = 0; column < grid.columns; ++column)
                     grid_camera(display, geometry, grid, column, row, target.width, target.height);
     }
-    bool of_display() const { return args_.of_what == "display"; }
+    bool of_display() const { return args_.of_display(); }
 
     /// Throws InputError, and Interrupted.
     void prepare(const PatternOptions& pattern_options, Progress& progress) {
@@ -239,13 +220,6 @@ class Maker {
     std::optional<SummedPanel> panel_;
 };
 
-void write_text(const fs::path& path, std::string_view text) {
-    guard_output(path);
-    detail::OutputFile file(path);
-    file.write(text.data(), text.size());
-    file.commit();
-}
-
 Picture& add(Picture& all, const Picture& one) {
     all.rays += one.rays;
     all.seconds += one.seconds;
@@ -259,7 +233,7 @@ Picture make_quilt(Maker& maker, const ViewsArguments& args, const Display& disp
                    Progress& progress) {
     Picture all{Image(target.width * target.name.columns, target.height * target.name.rows)};
     progress.stage("views", grid.columns);
-    OneOfMany one(progress);
+    Quiet one(progress);
     for (int n = 0; n < grid.columns; ++n) {
         const Picture view = maker.view(n, 0, one);
         if (!view.complete) end_interrupted("");
@@ -287,7 +261,7 @@ Picture make_folder(Maker& maker, const ViewsArguments& args, const Display& dis
     all.image.height = target.height;
     const auto views = std::int64_t(grid.views()), of_each = pictures.count / views;
     progress.stage("views", views);
-    OneOfMany one(progress);
+    Quiet one(progress);
     auto next = left.begin();
     for (std::int64_t view = 0; view < views; ++view, progress.advance(1))
         for (; next != left.end() && *next / of_each == view; ++next) {
@@ -314,18 +288,18 @@ void run(const ViewsArguments& args) {
     faults.of([&] { args.panel_image.check(); });
     faults.of([&] { pattern_options = args.pattern.read(); });
     faults.of([&] { wish = args.grid.read(); });
-    faults.of([&] { word("--of", args.of_what, {"content", "display"}); });
+    faults.of([&] { args.of_what.word(); });
     faults.of([&] { args.model.apply(display); });
     faults.of([&] { args.device.apply(); });
     faults.of([&] { args.work.check(); });
     faults.of([&] { check_effects(args.command); });
     faults.of([&] {
-        if (args.of_what == "content" && (args.panel_image.given() || args.pattern.given()))
+        if (!args.of_display() && (args.panel_image.given() || args.pattern.given()))
             throw InputError(args.pattern.given() ? "--pattern" : "--panel-image", "is what the display shows; add --of display");
         for (const char* option : {"--estimator", "--seed", "--sampling", "--device", "--pickup"})
-            if (args.of_what == "content" && args.command.given(option))
+            if (!args.of_display() && args.command.given(option))
                 throw InputError(option, "is for what the display shows; add --of display");
-        if (args.of_what == "display" && args.depth)
+        if (args.of_display() && args.depth)
             throw InputError("--depth", "is of the content alone; what a display shows has no depth");
     });
     faults.of([&] { target = target_of(args, display); });
@@ -333,9 +307,9 @@ void run(const ViewsArguments& args) {
 
     const Geometry geometry = resolve(display);
     const ViewGrid grid = grid_of(wish, target, args, display, geometry);
-    if (args.of_what == "display" && !args.panel_image.given()) require_panel_memory(display);
+    if (args.of_display() && !args.panel_image.given()) require_panel_memory(display);
     Maker maker(args, display, geometry, grid, target);
-    const ViewsFolder folder(args.output.path(), args.kind, args.depth, grid, target.how, write_display(display),
+    const ViewsFolder folder(args.output.path(), args.kind.text(), args.depth, grid, target.how, write_display(display),
                              shown_stamp(args.panel_image, args.pattern, display).dump(), args.resume, args.replace);
     if (target.quilt)
         check_companion(beside_quilt(args), holds(beside_quilt(args), views_toml(grid, "", "", target.how)), args.replace);
@@ -345,7 +319,7 @@ void run(const ViewsArguments& args) {
     maker.prepare(pattern_options, progress);
     const Picture made = target.quilt ? make_quilt(maker, args, display, grid, target, progress)
                                       : make_folder(maker, args, display, grid, target, folder, progress);
-    Json more{{"of", args.of_what}, {"views", grid_json(grid)}};
+    Json more{{"of", args.of_what.text()}, {"views", grid_json(grid)}};
     more.update(maker.more());
     print_made(Made{args.output.path(), made.image.width, made.image.height, maker.of_display() ? "samples" : "rays", made.rays,
                     made.seconds},
@@ -354,16 +328,15 @@ void run(const ViewsArguments& args) {
 
 }  // namespace
 
-void add_views(Command program) {
-    Command command = program.add_subcommand(
-        "views", "Writes a grid of views or a quilt: of the content, or of what the simulated display shows");
-    const auto args = std::make_shared<ViewsArguments>(command);
-    command.footer(
-        "Examples:\n  lfdsim views display.toml --model monkey.blend --grid 9x9 -o monkey\n"
-        "  lfdsim views display.toml --view-cone-deg 40 --view-size 420x560 -o monkey_qs8x6a0.75.png\n"
-        "  lfdsim views display.toml --of display --panel-image eia.png --grid 5x1 -o shown\n"
-        "Views of the content have --samples rays a pixel, 4 if neither that nor render.samples is given.");
-    command.callback([args] { run(*args); });
+CommandSpec views_command() {
+    return {.name = "views",
+            .summary = "Writes a grid of views or a quilt: of the content, or of what the simulated display shows",
+            .examples =
+                "Examples:\n  lfdsim views display.toml --model monkey.blend --grid 9x9 -o monkey\n"
+                "  lfdsim views display.toml --view-cone-deg 40 --view-size 420x560 -o monkey_qs8x6a0.75.png\n"
+                "  lfdsim views display.toml --of display --panel-image eia.png --grid 5x1 -o shown\n"
+                "Views of the content have --samples rays a pixel, 4 if neither that nor render.samples is given.",
+            .run = with_options<ViewsArguments>(run)};
 }
 
 }  // namespace lfdsim::cli

@@ -40,34 +40,27 @@ constexpr KeyOption content[] = {
 };
 
 // Within the key's own range.
-std::string count_text(const KeyOption& option, const std::string& text) {
+std::int64_t count(const KeyOption& option, const Option& value) {
     constexpr auto most = std::numeric_limits<std::int64_t>::max();
     const Range& range = key_at(option.key)->key.range;
-    return fmt::format("{}", whole_number(option.option, text, std::int64_t(range.low),
-                                          range.high < double(most) ? std::int64_t(range.high) : most));
+    return value.whole_number(std::int64_t(range.low), range.high < double(most) ? std::int64_t(range.high) : most);
 }
 
 // The option's value in TOML syntax.
-std::string toml_value(const KeyOption& option, const std::string& text) {
+std::string toml_value(const KeyOption& option, const Option& value) {
     switch (option.form) {
         case Form::number:
-            return fmt::format("{}", number(option.option, text));
+            return fmt::format("{}", value.number());
         case Form::point:
-            return fmt::format("[{}]", fmt::join(numbers(option.option, text, "0,-300,1800", "X,Y,Z"), ", "));
+            return fmt::format("[{}]", fmt::join(value.numbers("0,-300,1800"), ", "));
         case Form::size:
-            return fmt::format("[{}]", fmt::join(size(option.option, text), ", "));
+            return fmt::format("[{}]", fmt::join(value.size(), ", "));
         case Form::count:
-            return count_text(option, text);
+            return fmt::format("{}", count(option, value));
         case Form::word:
             break;
     }
-    std::vector<std::string> words;
-    for (std::string_view rest = option.value; !rest.empty();) {
-        const std::size_t end = std::min(rest.find('|'), rest.size());
-        words.emplace_back(rest.substr(0, end));
-        rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
-    return fmt::format("\"{}\"", word(option.option, text, words));
+    return fmt::format("\"{}\"", value.word());
 }
 
 }  // namespace
@@ -77,39 +70,34 @@ const std::span<const KeyOption> sample_options = sample;
 const std::span<const KeyOption> point_options = std::span(sample).subspan(1);
 const std::span<const KeyOption> content_options = content;
 
-DisplayOptions::DisplayOptions(Command command, bool required) {
-    Option path = command.add_option("DISPLAY.toml", path_, "Description of the display").type_name("");
-    if (required) path.required();
-    command
-        .add_option("--set", settings_,
-                    "Overrides a key of the description, value in TOML syntax: array.pitch_mm=8; none removes a key or table: "
-                    "diffuser=none")
-        .type_name("KEY=VALUE")
-        .allow_extra_args(false);
-}
-
 DisplayOptions::DisplayOptions(Command command, std::initializer_list<std::span<const KeyOption>> groups, bool required)
-    : DisplayOptions(command, required) {
+    : path_(command.option("DISPLAY.toml", "", "Description of the display")),
+      settings_(command
+                    .list("--set", "KEY=VALUE",
+                          "Overrides a key of the description, value in TOML syntax: array.pitch_mm=8; none removes a key or "
+                          "table: diffuser=none")
+                    .one_each()) {
+    if (required) path_.required();
     for (const auto group : groups)
         for (const KeyOption& option : group)
-            options_.emplace_back(&option, command.add_option(option.option, option.help).type_name(option.value));
+            options_.emplace_back(&option, command.option(option.option, option.value, option.help));
 }
 
 bool DisplayOptions::given(std::string_view option) const {
     return std::any_of(options_.begin(), options_.end(),
-                       [&](const auto& each) { return each.first->option == option && each.second.count() > 0; });
+                       [&](const auto& each) { return each.first->option == option && each.second.given(); });
 }
 
 // Options become overrides of the description, so that one validation judges file, --set and options together.
 std::pair<std::vector<std::string>, std::map<std::string, std::string>> DisplayOptions::all_overrides(Faults& faults) const {
-    std::vector<std::string> overrides = settings_;
+    std::vector<std::string> overrides = settings_.texts();
     std::map<std::string, std::string> written;
     for (const auto& [option, on_line] : options_) {
-        if (on_line.count() == 0) continue;
+        if (!on_line.given()) continue;
         if (option->replaces) overrides.push_back(fmt::format("{}=none", option->replaces));
-        faults.of([&, o = option, text = on_line.results().front()] {
-            overrides.push_back(fmt::format("{}={}", o->key, toml_value(*o, text)));
-            written["--set " + overrides.back()] = fmt::format("{} {}", o->option, text);
+        faults.of([&, o = option, value = on_line] {
+            overrides.push_back(fmt::format("{}={}", o->key, toml_value(*o, value)));
+            written["--set " + overrides.back()] = fmt::format("{} {}", o->option, value.text());
         });
     }
     return {std::move(overrides), std::move(written)};

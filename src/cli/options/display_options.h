@@ -33,16 +33,15 @@ extern const std::span<const KeyOption> content_options;  // where the model sta
 class DisplayOptions {
   public:
     /// Adds DISPLAY.toml and --set.
-    explicit DisplayOptions(Command command, bool required = true);
-    DisplayOptions(Command command, std::initializer_list<std::span<const KeyOption>> groups, bool required = true);
+    explicit DisplayOptions(Command command, std::initializer_list<std::span<const KeyOption>> groups = {}, bool required = true);
 
     /// The description with all overrides, validated. Throws InputError with all problems; those of an option carry its name.
-    Display read() const { return read(path_); }
+    Display read() const { return read(path()); }
     /// Another description with the same overrides, and after them one of --compare if it is not empty.
     Display read(const std::string& path, const std::string& compared = {}) const;
     /// --set and the options as "key=value", in the order in which they apply. Throws InputError.
     std::vector<std::string> overrides() const;
-    const std::string& path() const { return path_; }
+    const std::string& path() const { return path_.text(); }
     /// Whether an option of the groups was given.
     bool given(std::string_view option) const;
 
@@ -50,8 +49,8 @@ class DisplayOptions {
     // With, for each override, the place that messages give for it: what the user wrote.
     std::pair<std::vector<std::string>, std::map<std::string, std::string>> all_overrides(Faults&) const;
 
-    std::string path_;
-    std::vector<std::string> settings_;
+    Option path_;
+    List settings_;
     std::vector<std::pair<const KeyOption*, Option>> options_;
 };
 

@@ -23,25 +23,18 @@ double mean_light(const Image& image, const Region& screen) {
 
 }  // namespace
 
-ExposureOption::ExposureOption(Command command) {
-    command
-        .add_option("--exposure", text_,
-                    "Multiplies the picture's light by E; auto: so that a white panel is 1 in the mean over the screen")
-        .type_name("E|auto");
-}
-
 void ExposureOption::check() const {
-    if (text_.empty() || text_ == "auto") return;
-    const bool may_be_number = text_.find_first_not_of("0123456789.+-eE") == std::string::npos;
-    if (!may_be_number) throw InputError("--exposure", fmt::format("is \"{}\"; give a number such as 0.5, or auto", text_));
-    if (!(number("--exposure", text_) > 0))
-        throw InputError("--exposure", fmt::format("is {}, allowed is more than 0, or auto", text_));
+    const std::string& text = exposure_.text();
+    if (text.empty() || text == "auto") return;
+    const bool may_be_number = text.find_first_not_of("0123456789.+-eE") == std::string::npos;
+    if (!may_be_number) throw InputError("--exposure", fmt::format("is \"{}\"; give a number such as 0.5, or auto", text));
+    if (!(exposure_.number() > 0)) throw InputError("--exposure", fmt::format("is {}, allowed is more than 0, or auto", text));
 }
 
 std::optional<double> ExposureOption::factor(const Display& display, const Geometry& geometry, RenderOptions options,
                                              Job& job) const {
-    if (text_.empty()) return {};
-    if (text_ != "auto") return number("--exposure", text_);
+    if (exposure_.empty()) return {};
+    if (exposure_.text() != "auto") return exposure_.number();
     const auto [columns, rows] = display.panel.pixels;
     Texels white(columns, rows);
     std::fill_n(white.data(), columns * rows * 4, 1.f);

@@ -10,7 +10,10 @@ namespace lfdsim::cli {
 
 class ExposureOption {
   public:
-    explicit ExposureOption(Command);
+    explicit ExposureOption(Command command)
+        : exposure_(command.option(
+              "--exposure", "E|auto",
+              "Multiplies the picture's light by E; auto: so that a white panel is 1 in the mean over the screen")) {}
 
     /// Throws InputError for anything but a positive number or "auto".
     void check() const;
@@ -22,7 +25,7 @@ class ExposureOption {
     static void apply(double factor, Rendering&);
 
   private:
-    std::string text_;
+    Option exposure_;
 };
 
 }  // namespace lfdsim::cli

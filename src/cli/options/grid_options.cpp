@@ -13,48 +13,29 @@
 
 namespace lfdsim::cli {
 
-GridOptions::GridOptions(Command command) {
-    command.add_option("--focus-width-mm", width_, "Width of the views' focus, the rectangle without parallax").type_name("W");
-    command.add_option("--focus-depth-mm", depth_, "Its depth in front of the lenses' vertex plane").type_name("Z");
-    command.add_option("--camera-distance-mm", distance_, "From the views' cameras to their focus").type_name("D");
-    command.add_option("--baseline-mm", baseline_, "From camera to camera: along x and y, or the same along both")
-        .type_name("B|BX,BY");
-    command.add_option("--view-cone-deg", cone_, "Angle over which the cameras of a row stand, at equal angles").type_name("A");
-    command
-        .add_option(
-            "--cone", cameras_,
-            "How n cameras divide that angle A: the first and last at its ends, camera i at (i/(n-1) - 1/2) A, as the makers of "
-            "quilts write (default of quilts); or each in the middle of one of n equal parts, at ((i + 1/2)/n - 1/2) A")
-        .type_name("ends|bins");
-}
-
 ViewsWish GridOptions::read() const {
     ViewsWish wish;
     Faults faults;
-    const auto value = [&](const char* option, const std::string& text, const Range& range, std::optional<double>& to) {
-        if (text.empty()) return;
-        faults.of([&] {
-            to = number(option, text);
-            if (!range.contains(*to)) throw InputError(option, fmt::format("is {}, allowed is {}", text, range.text()));
+    const auto value = [&](const Option& option, const Range& range, std::optional<double>& to) {
+        faults.of(option, [&] {
+            to = option.number();
+            if (!range.contains(*to))
+                throw InputError(option.name(), fmt::format("is {}, allowed is {}", option.text(), range.text()));
         });
     };
-    value("--focus-width-mm", width_, positive_length, wish.width_mm);
-    value("--focus-depth-mm", depth_, any_length, wish.depth_mm);
-    value("--camera-distance-mm", distance_, positive_length, wish.distance_mm);
-    value("--view-cone-deg", cone_, Range{0, 170, true}, wish.cone_deg);
-    if (!cameras_.empty())
-        faults.of([&] {
-            wish.cone = word("--cone", cameras_, {"ends", "bins"}) == "ends" ? ConeCameras::ends : ConeCameras::bins;
-        });
-    if (!baseline_.empty())
-        faults.of([&] {
-            const bool both = baseline_.find(',') != baseline_.npos;
-            const std::vector<double> xy = numbers("--baseline-mm", baseline_, both ? "12,8" : "12", "B or BX,BY");
-            for (const double step : xy)
-                if (!positive_length.contains(step))
-                    throw InputError("--baseline-mm", fmt::format("is {}, allowed is {}", step, positive_length.text()));
-            wish.baseline_mm = {xy.front(), xy.back()};
-        });
+    value(width_, positive_length, wish.width_mm);
+    value(depth_, any_length, wish.depth_mm);
+    value(distance_, positive_length, wish.distance_mm);
+    value(cone_, Range{0, 170, true}, wish.cone_deg);
+    faults.of(cameras_, [&] { wish.cone = cameras_.word() == "ends" ? ConeCameras::ends : ConeCameras::bins; });
+    faults.of(baseline_, [&] {
+        const bool both = baseline_.text().find(',') != std::string::npos;
+        const std::vector<double> xy = numbers(baseline_.name(), baseline_.text(), both ? "12,8" : "12", "B or BX,BY");
+        for (const double step : xy)
+            if (!positive_length.contains(step))
+                throw InputError(baseline_.name(), fmt::format("is {}, allowed is {}", step, positive_length.text()));
+        wish.baseline_mm = {xy.front(), xy.back()};
+    });
     if (wish.baseline_mm && wish.cone_deg)
         faults.of([] { throw InputError("--baseline-mm, --view-cone-deg", "both say where the cameras stand; give one of them"); });
     faults.report();
@@ -96,22 +77,11 @@ Json grid_json(const ViewGrid& grid) {
             {"focus_depth_mm", grid.depth_mm}};
 }
 
-ViewsOption::ViewsOption(Command command)
-    : option_(
-          command
-              .add_option("--views", path_,
-                          "Views to show in place of a model: a folder with views.toml, HCI 4D or Stanford archive pictures, or "
-                          "a quilt NAME_qs8x6a0.75.png")
-              .type_name("FOLDER|FILE")),
-      grid_(command) {
-    command.add_flag("--flip-views", flip_, "Reverse the order of the views: makes pseudoscopic ones orthoscopic");
-}
-
 void ViewsOption::check() {
     if (!given()) return;
-    if (path_.empty()) throw InputError("--views", "the name is empty; give a folder of views or a quilt");
+    if (views_.empty()) throw InputError("--views", "the name is empty; give a folder of views or a quilt");
     wish_ = grid_.read();
-    source_ = find_views(path_);
+    source_ = find_views(views_.text());
     if (flip_) flip(source_);
     for (const auto* const files : {&source_.pictures, &source_.depths, &source_.read})
         for (const std::filesystem::path& file : *files)

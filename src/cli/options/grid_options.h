@@ -15,12 +15,21 @@ namespace lfdsim::cli {
 /// --focus-width-mm, --focus-depth-mm, --camera-distance-mm, --baseline-mm, --view-cone-deg, --cone.
 class GridOptions {
   public:
-    explicit GridOptions(Command command);
+    explicit GridOptions(Command command) : command_(command) {}
     /// Throws InputError with all that is wrong.
     ViewsWish read() const;
 
   private:
-    std::string width_, depth_, distance_, baseline_, cone_, cameras_;
+    Command command_;
+    Option width_ = command_.option("--focus-width-mm", "W", "Width of the views' focus, the rectangle without parallax");
+    Option depth_ = command_.option("--focus-depth-mm", "Z", "Its depth in front of the lenses' vertex plane");
+    Option distance_ = command_.option("--camera-distance-mm", "D", "From the views' cameras to their focus");
+    Option baseline_ = command_.option("--baseline-mm", "B|BX,BY", "From camera to camera: along x and y, or the same along both");
+    Option cone_ = command_.option("--view-cone-deg", "A", "Angle over which the cameras of a row stand, at equal angles");
+    Option cameras_ = command_.option(
+        "--cone", "ends|bins",
+        "How n cameras divide that angle A: the first and last at its ends, camera i at (i/(n-1) - 1/2) A, as the makers of quilts "
+        "write (default of quilts); or each in the middle of one of n equal parts, at ((i + 1/2)/n - 1/2) A");
 };
 
 /// Where a grid is placed that says nothing of it.
@@ -33,8 +42,8 @@ Json grid_json(const ViewGrid&);
 /// --views, --flip-views and the options of its grid.
 class ViewsOption {
   public:
-    explicit ViewsOption(Command command);
-    bool given() const { return option_.count() > 0; }
+    explicit ViewsOption(Command command) : command_(command) {}
+    bool given() const { return views_.given(); }
     /// To be called before long work: finds out what there is. No output may replace any of it. Throws InputError.
     void check();
     struct Made {
@@ -47,10 +56,13 @@ class ViewsOption {
     Made make(const Display&, const Geometry&, int threads, Progress&) const;
 
   private:
-    std::string path_;
-    bool flip_ = false;
-    Option option_;
-    GridOptions grid_;
+    Command command_;
+    Option views_ =
+        command_.option("--views", "FOLDER|FILE",
+                        "Views to show in place of a model: a folder with views.toml, HCI 4D or Stanford archive pictures, "
+                        "or a quilt NAME_qs8x6a0.75.png");
+    GridOptions grid_{command_};
+    Flag flip_ = command_.flag("--flip-views", "Reverse the order of the views: makes pseudoscopic ones orthoscopic");
     ViewsSource source_;
     ViewsWish wish_;
 };

@@ -12,8 +12,8 @@ namespace lfdsim::cli {
 /// --lens-mesh, --lens-normals.
 class LensMeshOptions {
   public:
-    explicit LensMeshOptions(Command command);
-    bool given() const { return option_.count() > 0; }
+    explicit LensMeshOptions(Command command) : command_(command) {}
+    bool given() const { return triangles_.given(); }
     /// Throws InputError with all that is wrong.
     void check() const;
     /// The display's lens in triangles, if it is asked for. Throws InputError if it cannot be made.
@@ -25,8 +25,13 @@ class LensMeshOptions {
   private:
     std::int64_t triangles() const;
 
-    std::string triangles_, normals_ = "flat";
-    Option option_;
+    Command command_;
+    Option triangles_ = command_.option("--lens-mesh", "TRIANGLES",
+                                        "Replace each lens by about so many triangles, as other renderers do (docs/meshed.md); "
+                                        "point samples, surround opaque");
+    Option normals_ =
+        command_.option("--lens-normals", "flat|smooth", "The triangles' own, or the true surface's, interpolated; default flat")
+            .initially("flat");
 };
 
 }  // namespace lfdsim::cli

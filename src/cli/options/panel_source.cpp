@@ -12,44 +12,33 @@
 
 namespace lfdsim::cli {
 
-PanelImageOption::PanelImageOption(Command command)
-    : option_(command.add_option("--panel-image", path_, "Picture that the panel shows: .png .exr .npy of its size")
-                  .type_name("FILE")) {}
-
 void PanelImageOption::check() const {
-    if (given()) check_input("--panel-image", path_);
+    if (given()) check_input(image_.name(), path());
 }
 
 bool PanelImageOption::warn(const Display& display) const {
-    const Metadata about = read_metadata(path_);
+    const Metadata about = read_metadata(path());
     const bool incomplete = about.count(incomplete_mark) > 0;
-    if (incomplete) spdlog::warn("{}: is marked incomplete: the run that made it was interrupted, and the rest is black", path_);
-    warn_if_for_another(path_, about, display);
+    if (incomplete) spdlog::warn("{}: is marked incomplete: the run that made it was interrupted, and the rest is black", path());
+    warn_if_for_another(path(), about, display);
     return incomplete;
 }
 
 PanelImageOption::Read PanelImageOption::read(const Display& display, Job& job) const {
     const Panel& panel = display.panel;
     const bool incomplete = warn(display);
-    Texels texels = read_panel_image(path_, panel.encoding, panel.pixels[0], panel.pixels[1], &job);
+    Texels texels = read_panel_image(path(), panel.encoding, panel.pixels[0], panel.pixels[1], &job);
     if (const std::string doubt = above_white(texels.data(), texels.columns() * texels.rows(), 4, LightOf::panel); !doubt.empty())
-        spdlog::warn("{}: {}", path_, doubt);
+        spdlog::warn("{}: {}", path(), doubt);
     return {std::move(texels), incomplete};
 }
-
-ModelOption::ModelOption(Command command)
-    : option_(command
-                  .add_option("--model", path_,
-                              "Mesh file to show (any format Assimp reads), or built-in:spheres; default: the description's "
-                              "content.model or its objects, or the spheres where it has none")
-                  .type_name("FILE")) {}
 
 void ModelOption::apply(Display& display) const {
     for (const ContentFile& file : content_files(display)) remember_input(file.image ? "an image" : "the model", file.path);
     if (!given()) return;
-    if (path_.empty()) throw InputError("--model", "the name is empty; give a mesh file or built-in:spheres");
-    remember_input("the model", path_);
-    display.content.model = path_;
+    if (path().empty()) throw InputError("--model", "the name is empty; give a mesh file or built-in:spheres");
+    remember_input("the model", path());
+    display.content.model = path();
     display.content.objects.clear();
 }
 
@@ -65,33 +54,29 @@ ContentScene load_scene(const Display& display, const Geometry& geometry) {
     return ContentScene(parts, display, geometry);
 }
 
-PatternOption::PatternOption(Command command)
-    : option_(command.add_option("--pattern", name_, fmt::format("Test pattern to show: {}", fmt::join(pattern_names(), ", ")))
-                  .type_name("NAME")) {
-    command.add_option("--cell-pixels", cell_, "Checkerboard: side of a square").type_name("N");
-    command.add_option("--view", view_, "View: position of the white one, -0.5 .. 0.5 of the elemental image from its centre")
-        .type_name("X,Y");
-    command.add_option("--edge-deg", edge_, "Edge: slant").type_name("A");
-    command.add_option("--edge-depth-mm", depth_, "Edge: depth in front of the lenses' vertex plane").type_name("Z");
+Option pattern_name(Command command) {
+    return command.option("--pattern", "NAME", fmt::format("Test pattern to show: {}", fmt::join(pattern_names(), ", ")));
+}
+
+void check_pattern(const Option& pattern) {
+    if (pattern.given()) word(pattern.name(), pattern.text(), pattern_names());
 }
 
 PatternOptions PatternOption::read() const {
     PatternOptions options;
     Faults faults;
-    if (given()) faults.of([&] { word("--pattern", name_, pattern_names()); });
-    const auto value = [&](const std::string& text, auto parse) {
-        if (!text.empty()) faults.of(parse);
-    };
-    value(cell_, [&] { options.cell_pixels = int(whole_number("--cell-pixels", cell_, 1, 1 << 30)); });
-    value(view_, [&] {
-        const std::vector<double> xy = numbers("--view", view_, "0.25,0", "X,Y");
+    faults.of([&] { check_pattern(pattern_); });
+    faults.of(cell_, [&] { options.cell_pixels = int(cell_.whole_number(1, 1 << 30)); });
+    faults.of(view_, [&] {
+        const std::vector<double> xy = view_.numbers("0.25,0");
         options.view_x = xy[0];
         options.view_y = xy[1];
         if (std::max(std::abs(xy[0]), std::abs(xy[1])) > 0.5)
-            throw InputError("--view", fmt::format("\"{}\" is not possible; both are -0.5 to 0.5 of the elemental image", view_));
+            throw InputError(view_.name(),
+                             fmt::format("\"{}\" is not possible; both are -0.5 to 0.5 of the elemental image", view_.text()));
     });
-    value(edge_, [&] { options.edge_deg = number("--edge-deg", edge_); });
-    value(depth_, [&] { options.depth_mm = number("--edge-depth-mm", depth_); });
+    faults.of(edge_, [&] { options.edge_deg = edge_.number(); });
+    faults.of(depth_, [&] { options.depth_mm = depth_.number(); });
     faults.report();
     return options;
 }

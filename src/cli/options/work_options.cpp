@@ -9,43 +9,24 @@
 
 namespace lfdsim::cli {
 
-WorkOptions::WorkOptions(Command command) {
-    command.add_option("--threads", threads_, "Threads to use; default: one per processor").type_name("N");
-    command.add_option("--progress", progress_, "Progress on standard error; auto: a bar on a terminal, else lines")
-        .type_name("auto|bar|lines|json|none");
-    command.add_flag("--json", json_, "Print results as JSON");
-}
-
-int WorkOptions::threads() const { return threads_.empty() ? 0 : int(whole_number("--threads", threads_, 1, 1024)); }
+int WorkOptions::threads() const { return threads_.empty() ? 0 : int(threads_.whole_number(1, 1024)); }
 
 void WorkOptions::check() const {
     Faults faults;
     faults.of([&] { threads(); });
-    faults.of([&] { word("--progress", progress_, {"auto", "bar", "lines", "json", "none"}); });
+    faults.of([&] { progress_.word(); });
     faults.report();
-}
-
-CropOption::CropOption(Command command) {
-    command.add_option("--crop", text_, "Only this part of the frame: columns X0 to X1-1, rows Y0 to Y1-1")
-        .type_name("X0,Y0,X1,Y1");
 }
 
 std::optional<Rect> CropOption::read(const Camera& camera, double panel_bytes) const {
     const auto [width, height] = camera.resolution;
     std::optional<Rect> crop;
-    if (!text_.empty()) crop = rectangle("--crop", text_, width, height);
+    if (!crop_.empty()) crop = rectangle(crop_.name(), crop_.text(), width, height);
     require_picture_memory(crop ? crop->x1 - crop->x0 : width, crop ? crop->y1 - crop->y0 : height, panel_bytes);
     return crop;
 }
 
-DeviceOption::DeviceOption(Command command) {
-    command
-        .add_option("--device", device_,
-                    "Device that renders: auto uses a GPU where one works; default: environment variable LFDSIM_DEVICE, else auto")
-        .type_name("auto|cpu|cuda|cuda:N");
-}
-
-void DeviceOption::apply() const { set_default_device(device_); }
+void DeviceOption::apply() const { set_default_device(device_.text()); }
 
 void print_made(const Made& made, bool json, const std::string& more_text, const Json& more) {
     // Time of tracing alone: files and start are the same for all kernels.

@@ -15,39 +15,48 @@ namespace lfdsim::cli {
 /// --threads, --progress, --json.
 class WorkOptions {
   public:
-    explicit WorkOptions(Command command);
+    explicit WorkOptions(Command command) : command_(command) {}
     /// Throws InputError with all that is wrong. To be called before the others.
     void check() const;
     int threads() const;  // 0: all
-    const std::string& progress() const { return progress_; }
+    const std::string& progress() const { return progress_.text(); }
     bool json() const { return json_; }
 
   private:
-    std::string threads_, progress_ = "auto";
-    bool json_ = false;
+    Command command_;
+    Option threads_ = command_.option("--threads", "N", "Threads to use; default: one per processor");
+    Option progress_ =
+        command_
+            .option("--progress", "auto|bar|lines|json|none", "Progress on standard error; auto: a bar on a terminal, else lines")
+            .initially("auto");
+    Flag json_ = command_.flag("--json", "Print results as JSON");
 };
 
 /// --crop.
 class CropOption {
   public:
-    explicit CropOption(Command command);
+    explicit CropOption(Command command)
+        : crop_(command.option("--crop", "X0,Y0,X1,Y1", "Only this part of the frame: columns X0 to X1-1, rows Y0 to Y1-1")) {}
     /// The part of the camera's frame that is wanted. Throws InputError if it is not in the frame, or if its picture, beside
     /// the panel image's bytes, is more than memory holds.
     std::optional<Rect> read(const Camera&, double panel_bytes) const;
 
   private:
-    std::string text_;
+    Option crop_;
 };
 
 /// --device.
 class DeviceOption {
   public:
-    explicit DeviceOption(Command command);
+    explicit DeviceOption(Command command)
+        : device_(command.option(
+              "--device", "auto|cpu|cuda|cuda:N",
+              "Device that renders: auto uses a GPU where one works; default: environment variable LFDSIM_DEVICE, else auto")) {}
     /// Makes it the device of all renderings that name none. Throws InputError that says what is missing.
     void apply() const;
 
   private:
-    std::string device_;
+    Option device_;
 };
 
 /// What a command has made.

@@ -7,7 +7,6 @@
 #include "cli/program/input_files.h"
 #include "content/pickup/lens_mapping.h"
 #include "geometry/lattice.h"
-#include "image/formats/file.h"
 #include "image/formats/image_file.h"
 #include "report/plots/svg.h"
 
@@ -22,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* mapping_option = "--mapping";
 constexpr const char* colours[] = {"red", "green", "blue"};
 constexpr int values_per_node = 5;  // x, y, slope x, slope y, light
 
@@ -150,12 +148,6 @@ Plot plot_of(const std::vector<LensMapping>& maps, const Geometry& g, bool strip
     return plot;
 }
 
-void write_text(const fs::path& path, const std::string& text) {
-    detail::OutputFile file(path);
-    file.write(text.data(), text.size());
-    file.commit();
-}
-
 fs::path beside(const std::string& path, const char* ending) { return fs::path(path).replace_extension(ending); }
 
 /// Whether a file is what sidecar() wrote beside a mapping of that name.
@@ -169,27 +161,17 @@ bool is_sidecar(const fs::path& path, const std::string& mapping) {
 
 }  // namespace
 
-MappingOption::MappingOption(Command command) {
-    command
-        .add_option(
-            mapping_option, path_,
-            "Also writes where the lens sends each panel point's light: .npy or .exr, and beside it a .json that says what is "
-            "what and an .svg of the distortion")
-        .type_name("FILE");
-    command.add_flag("--replace", replace_, "Write over a .json and .svg of other origin beside the file of --mapping");
-}
-
 void MappingOption::check(const std::string& output) const {
-    if (path_.empty()) return;
-    if (fs::weakly_canonical(fs::absolute(path_)) == fs::weakly_canonical(fs::absolute(output)))
+    if (!given()) return;
+    if (fs::weakly_canonical(fs::absolute(path())) == fs::weakly_canonical(fs::absolute(output)))
         throw InputError("--output, --mapping", "are two files of one name; give two names");
-    const fs::path ending = fs::path(path_).extension();
+    const fs::path ending = fs::path(path()).extension();
     if (ending != ".npy" && ending != ".exr")
-        throw InputError(mapping_option, fmt::format("{}: the name must end in .npy or .exr", path_));
-    check_output(path_, mapping_option);
+        throw InputError(mapping_.name(), fmt::format("{}: the name must end in .npy or .exr", path()));
+    check_output(path(), mapping_.name());
     // Both are those of an earlier run if the first says that it is of this file.
-    const bool own = is_sidecar(beside(path_, ".json"), fs::path(path_).filename());
-    for (const char* other : {".json", ".svg"}) check_companion(beside(path_, other), own, replace_);
+    const bool own = is_sidecar(beside(path(), ".json"), fs::path(path()).filename());
+    for (const char* other : {".json", ".svg"}) check_companion(beside(path(), other), own, replace_);
 }
 
 void MappingOption::write(const Display& display, const Geometry& geometry, int threads) const {
@@ -199,13 +181,13 @@ void MappingOption::write(const Display& display, const Geometry& geometry, int 
     const bool strips = is_strips(display.array);
     const std::vector<float> values = table_of(maps, geometry, strips);
     const std::int64_t width = maps[0].nodes()[0], height = maps[0].nodes()[1];
-    if (fs::path(path_).extension() == ".npy")
-        write_npy(path_, std::array<std::int64_t, 4>{std::int64_t(maps.size()), height, width, values_per_node}, values);
+    if (fs::path(path()).extension() == ".npy")
+        write_npy(path(), std::array<std::int64_t, 4>{std::int64_t(maps.size()), height, width, values_per_node}, values);
     else
-        write_exr(path_, maps, values);
-    write_text(beside(path_, ".json"),
-               printable_lines(sidecar(display, geometry, maps, fs::path(path_).filename()).dump(2)) + "\n");
-    write_text(beside(path_, ".svg"), svg(plot_of(maps, geometry, strips, display.name)));
+        write_exr(path(), maps, values);
+    write_text(beside(path(), ".json"),
+               printable_lines(sidecar(display, geometry, maps, fs::path(path()).filename()).dump(2)) + "\n");
+    write_text(beside(path(), ".svg"), svg(plot_of(maps, geometry, strips, display.name)));
 }
 
 }  // namespace lfdsim::cli

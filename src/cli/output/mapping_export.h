@@ -13,15 +13,20 @@ namespace lfdsim::cli {
 /// what its axes and units are, NAME.svg shows the distortion.
 class MappingOption {
   public:
-    explicit MappingOption(Command);
-    bool given() const { return !path_.empty(); }
+    explicit MappingOption(Command command) : command_(command) {}
+    bool given() const { return !mapping_.empty(); }
     /// To be called before long work. Throws InputError unless all three files can be written, and none is `output`.
     void check(const std::string& output) const;
     void write(const Display&, const Geometry&, int threads) const;
 
   private:
-    std::string path_;
-    bool replace_ = false;
+    const std::string& path() const { return mapping_.text(); }
+
+    Command command_;
+    Option mapping_ = command_.option("--mapping", "FILE",
+                                      "Also writes where the lens sends each panel point's light: .npy or .exr, and beside it a "
+                                      ".json that says what is what and an .svg of the distortion");
+    Flag replace_ = command_.flag("--replace", "Write over a .json and .svg of other origin beside the file of --mapping");
 };
 
 }  // namespace lfdsim::cli

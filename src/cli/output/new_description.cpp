@@ -11,20 +11,15 @@
 
 namespace lfdsim::cli {
 
-NewDescription::NewDescription(Command command) {
-    command.add_option("-o,--output", path_, "Description to write: .toml").type_name("FILE").required();
-    command.add_flag("--force", force_, "Replace an existing file");
-}
-
 void NewDescription::check() const {
     if (path_.empty()) throw InputError("--output", "the name is empty; give the file to write");
-    const std::filesystem::path path = path_;
-    guard_output(path);
-    detail::check_replaceable(path);
-    if (path.extension() != ".toml") throw InputError("--output", fmt::format("{}: a description's name ends in .toml", path_));
+    const std::filesystem::path file = path();
+    guard_output(file);
+    detail::check_replaceable(file);
+    if (file.extension() != ".toml") throw InputError("--output", fmt::format("{}: a description's name ends in .toml", path()));
     std::error_code error;
-    if (!force_ && std::filesystem::exists(std::filesystem::symlink_status(path, error)))
-        throw InputError("--output", fmt::format("{} already exists; --force replaces it", path_));
+    if (!force_ && std::filesystem::exists(std::filesystem::symlink_status(file, error)))
+        throw InputError("--output", fmt::format("{} already exists; --force replaces it", path()));
 }
 
 std::string NewDescription::made_by() {
@@ -42,14 +37,12 @@ std::string NewDescription::made_by() {
 
 void NewDescription::write(const std::string& text) const {
     try {
-        parse_display(text, path_, {}, std::filesystem::path(path_).parent_path());
+        parse_display(text, path(), {}, std::filesystem::path(path()).parent_path());
     } catch (const InputError& error) {  // what else is in the text has been checked
         throw InputError("--output", fmt::format("the description could not be read ({}); is a file's name not UTF-8?",
                                                  error.problems.front().what));
     }
-    detail::OutputFile file(path_);
-    file.write(text.data(), text.size());
-    file.commit();
+    write_text(path(), text);
 }
 
 }  // namespace lfdsim::cli

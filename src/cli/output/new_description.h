@@ -9,18 +9,20 @@ namespace lfdsim::cli {
 /// -o and --force.
 class NewDescription {
   public:
-    explicit NewDescription(Command command);
+    explicit NewDescription(Command command)
+        : path_(command.option("-o,--output", "FILE", "Description to write: .toml").required()),
+          force_(command.flag("--force", "Replace an existing file")) {}
     /// To be called before work. Throws InputError unless a description can be written there.
     void check() const;
     /// Writes the text, which has to read back as a description; the file is whole or not there.
     void write(const std::string& text) const;
-    const std::string& path() const { return path_; }
+    const std::string& path() const { return path_.text(); }
     /// The command line, for a comment: the program by its name, files that were given by absolute paths by theirs.
     static std::string made_by();
 
   private:
-    std::string path_;
-    bool force_ = false;
+    Option path_;
+    Flag force_;
 };
 
 }  // namespace lfdsim::cli

@@ -6,6 +6,7 @@
 #include "cli/program/interrupt.h"
 #include "files/description/display_file.h"
 #include "files/description/shell.h"
+#include "image/formats/file.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -47,6 +48,13 @@ void print(std::string_view words) {
 
 void print_json(const Json& json) { print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"); }
 
+void write_text(const std::filesystem::path& path, std::string_view text) {
+    guard_output(path);
+    detail::OutputFile file(path);
+    file.write(text.data(), text.size());
+    file.commit();
+}
+
 void check_input(const std::string& argument, const std::string& path) {
     if (path.empty()) throw InputError(argument, "the name is empty; give the file to read");
     remember_input(argument, path);
@@ -58,24 +66,17 @@ void check_output(const std::string& path, const std::string& option) {
     check_writable(path);
 }
 
-OutputOptions::OutputOptions(Command command, const std::string& kinds) {
-    command.add_option("-o,--output", path_, "Picture to write: " + kinds).type_name("FILE").required();
-    command.add_option("--bits", bits_, "Bits per channel of a .png; default 8").type_name("8|16");
-}
-
-int OutputOptions::bits() const { return bits_ == "16" ? 16 : 8; }
-
 void OutputOptions::check() const {
     Faults faults;
-    faults.of([&] { check_output(path_); });
-    faults.of([&] { check_bits(path_); });
+    faults.of([&] { check_output(path()); });
+    faults.of([&] { check_bits(path()); });
     faults.report();
 }
 
 void OutputOptions::check_bits(const std::filesystem::path& name) const {
     if (bits_.empty()) return;
     Faults faults;
-    faults.of([&] { word("--bits", bits_, {"8", "16"}); });
+    faults.of([&] { bits_.word(); });
     if (const std::string kind = name.extension(); kind == ".exr" || kind == ".npy")
         faults.of([&] { throw InputError("--bits", fmt::format("is only for .png; {} holds 32-bit floats", kind)); });
     faults.report();
@@ -85,9 +86,9 @@ void OutputOptions::write(const Image& image, Encoding encoding, const Display& 
                           Progress& progress, std::vector<ImageLayer> layers) const {
     progress.end();
     if (!complete) about[incomplete_mark] = "true";
-    save(path_, image, encoding, display, std::move(about), std::move(layers), &progress);
+    save(path(), image, encoding, display, std::move(about), std::move(layers), &progress);
     progress.end();
-    if (!complete) end_interrupted(path_);
+    if (!complete) end_interrupted(path());
 }
 
 void OutputOptions::save(const std::filesystem::path& path, const Image& image, Encoding encoding, const Display& display,

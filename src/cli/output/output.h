@@ -21,6 +21,9 @@ void print(std::string_view text);
 /// One JSON document; numbers that are not finite become null.
 void print_json(const Json&);
 
+/// Writes a text file, which is whole or not there. Throws InputError if the command reads that very file.
+void write_text(const std::filesystem::path&, std::string_view text);
+
 /// The command line as it was given, the program first; and as a shell would need it, so that it can be copied and run again.
 std::vector<std::string> command_words();
 std::string command_line();
@@ -42,7 +45,9 @@ void check_output(const std::string& path, const std::string& option = "--output
 /// -o and --bits.
 class OutputOptions {
   public:
-    OutputOptions(Command command, const std::string& kinds);
+    OutputOptions(Command command, const std::string& kinds)
+        : path_(command.option("-o,--output", "FILE", "Picture to write: " + kinds).required()),
+          bits_(command.option("--bits", "8|16", "Bits per channel of a .png; default 8")) {}
     /// To be called before long work. Throws InputError unless the picture can be written there in that depth.
     void check() const;
     /// Throws InputError unless pictures of such a file name (".png" alone will do) can have that depth.
@@ -54,11 +59,11 @@ class OutputOptions {
     /// Saves a picture as write() does, at another path; a large one is a stage of the job.
     void save(const std::filesystem::path&, const Image&, Encoding, const Display&, Metadata about, std::vector<ImageLayer> = {},
               Job* = nullptr) const;
-    const std::string& path() const { return path_; }
-    int bits() const;
+    const std::string& path() const { return path_.text(); }
+    int bits() const { return bits_.text() == "16" ? 16 : 8; }
 
   private:
-    std::string path_, bits_;
+    Option path_, bits_;
 };
 
 /// Says that the work was stopped: what has been saved, or nothing. Throws Interrupted.

@@ -116,4 +116,17 @@ std::string word(std::string_view option, std::string_view text, const std::vect
     refuse(option, text, fmt::format("give one of {}", fmt::join(allowed, ", ")));
 }
 
+double Option::number() const { return cli::number(name_, text()); }
+
+std::int64_t Option::whole_number(std::int64_t low, std::int64_t high) const { return cli::whole_number(name_, text(), low, high); }
+
+std::vector<double> Option::numbers(const std::string& example) const { return cli::numbers(name_, text(), example, form_); }
+
+std::array<std::int64_t, 2> Option::size() const { return cli::size(name_, text()); }
+
+std::string Option::word() const {
+    const std::vector<std::string_view> words = split(form_, '|');
+    return cli::word(name_, text(), {words.begin(), words.end()});
+}
+
 }  // namespace lfdsim::cli

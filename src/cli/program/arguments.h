@@ -1,6 +1,7 @@
 // Option values, read strictly: the whole text must be the value, numbers finite. Floor 5.
 #pragma once
 #include "base/input_error.h"
+#include "cli/program/command.h"
 #include "image/compare/compare.h"
 
 #include <array>
@@ -11,7 +12,8 @@
 
 namespace lfdsim::cli {
 
-// All throw InputError that names the option, what was given and what is allowed.
+// All throw InputError that names the option, what was given and what is allowed. An Option reads itself; these are for parts of a
+// value, and for values of a list.
 
 /// "12", "-0.5", "1e3".
 double number(std::string_view option, std::string_view text);
@@ -41,6 +43,11 @@ class Faults {
         } catch (const InputError& e) {
             all_.insert(all_.end(), e.problems.begin(), e.problems.end());
         }
+    }
+    /// The same where the option has a value.
+    template <class Part>
+    void of(const Option& option, Part part) {
+        if (!option.empty()) of(part);
     }
     /// Throws InputError if anything was wrong.
     void report() const {

@@ -42,30 +42,53 @@ void refuse_spaces(const CLI::App& program, std::vector<std::string> words) {
 
 }  // namespace
 
-Option Option::type_name(const std::string& text) { return Option(option_->type_name(text)); }
-Option Option::required() { return Option(option_->required()); }
-Option Option::expected(int least, int most) { return Option(option_->expected(least, most)); }
-Option Option::allow_extra_args(bool allowed) { return Option(option_->allow_extra_args(allowed)); }
-Option Option::capture_default_str() { return Option(option_->capture_default_str()); }
-std::size_t Option::count() const { return option_->count(); }
-const std::vector<std::string>& Option::results() const { return option_->results(); }
+bool Given::given() const { return option_->count() > 0; }
 
-Command Command::add_subcommand(const std::string& name, const std::string& description) {
-    return Command(app_->add_subcommand(name, description));
+Option Option::required() const {
+    option_->required();
+    return *this;
 }
-Option Command::add_option(const std::string& names, const std::string& description) {
-    return Option(app_->add_option(names, description));
+Option Option::initially(const std::string& text) const {
+    *text_ = text;
+    return *this;
 }
-Option Command::add_option(const std::string& names, std::string& variable, const std::string& description) {
-    return Option(app_->add_option(names, variable, description));
+Option Option::shown() const {
+    option_->capture_default_str();
+    return *this;
 }
-Option Command::add_option(const std::string& names, std::vector<std::string>& variable, const std::string& description) {
-    return Option(app_->add_option(names, variable, description));
+
+List List::required() const {
+    option_->required();
+    return *this;
 }
-Option Command::add_flag(const std::string& names, bool& variable, const std::string& description) {
-    return Option(app_->add_flag(names, variable, description));
+List List::one_each() const {
+    option_->allow_extra_args(false);
+    return *this;
 }
-void Command::take_all_words() { app_->prefix_command()->set_help_flag(); }
+List List::expected(int least, int most) const {
+    option_->expected(least, most);
+    return *this;
+}
+
+Option Command::option(const std::string& names, const std::string& form, const std::string& help) const {
+    Option option;
+    option.option_ = app_->add_option(names, *option.text_, help)->type_name(form);
+    option.name_ = names.substr(names.find(',') + 1);
+    option.form_ = form;
+    return option;
+}
+List Command::list(const std::string& names, const std::string& form, const std::string& help) const {
+    List list;
+    list.option_ = app_->add_option(names, *list.texts_, help)->type_name(form);
+    list.name_ = names.substr(names.find(',') + 1);
+    return list;
+}
+Flag Command::flag(const std::string& names, const std::string& help) const {
+    Flag flag;
+    app_->add_flag(names, *flag.given_, help);
+    return flag;
+}
+void Command::take_all_words() const { app_->prefix_command()->set_help_flag(); }
 std::vector<std::string> Command::words() const { return app_->remaining(); }
 std::string Command::name() const { return app_->get_name(); }
 bool Command::knows(const std::string& option) const { return app_->get_option_no_throw(option) != nullptr; }
@@ -73,8 +96,6 @@ bool Command::given(const std::string& option) const { return knows(option) && a
 std::vector<std::string> Command::values(const std::string& option) const {
     return given(option) ? app_->get_option(option)->results() : std::vector<std::string>();
 }
-void Command::footer(const std::string& text) { app_->footer(text); }
-void Command::callback(std::function<void()> function) { app_->callback(std::move(function)); }
 
 CommandLine::CommandLine(const std::string& description, const std::string& name, const std::string& version,
                          const std::string& footer)
@@ -87,7 +108,11 @@ CommandLine::CommandLine(const std::string& description, const std::string& name
 
 CommandLine::~CommandLine() = default;
 
-Command CommandLine::program() const { return Command(app_.get()); }
+void CommandLine::add(const CommandSpec& spec) {
+    CLI::App* const command = app_->add_subcommand(spec.name, spec.summary);
+    command->callback(spec.run(Command(command)));
+    command->footer(spec.examples);
+}
 
 std::string CommandLine::parse(std::vector<std::string> arguments) {
     refuse_spaces(*app_, arguments);

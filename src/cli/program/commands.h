@@ -4,24 +4,30 @@
 
 namespace lfdsim::cli {
 
-// Each adds its command, which runs when the command line has been parsed. What a command throws becomes the exit code: see
-// main.cpp.
-void add_new(Command program);
-void add_import(Command program);
-void add_check(Command program);
-void add_eia(Command program);
-void add_views(Command program);
-void add_photo(Command program);
-void add_render(Command program);
-void add_compare(Command program);
-void add_analyze(Command program);
-void add_sheet(Command program);
-void add_bench(Command program);
-void add_view(Command program);
-void add_export(Command program);
-void add_glass(Command program);
-void add_errors(Command program);
-void add_study(Command program);  // study and tolerance
-void add_doctor(Command program);
+// A line for each command, in the order of help. The file commands/NAME.cpp defines NAME_command(). What a command throws becomes
+// the exit code: see main.cpp.
+#define LFDSIM_COMMANDS(COMMAND) \
+    COMMAND(new)                 \
+    COMMAND(import)              \
+    COMMAND(check)               \
+    COMMAND(eia)                 \
+    COMMAND(views)               \
+    COMMAND(photo)               \
+    COMMAND(render)              \
+    COMMAND(compare)             \
+    COMMAND(analyze)             \
+    COMMAND(sheet)               \
+    COMMAND(view)                \
+    COMMAND(export)              \
+    COMMAND(bench)               \
+    COMMAND(glass)               \
+    COMMAND(errors)              \
+    COMMAND(study)               \
+    COMMAND(tolerance)           \
+    COMMAND(doctor)
+
+#define LFDSIM_DECLARE_COMMAND(NAME) CommandSpec NAME##_command();
+LFDSIM_COMMANDS(LFDSIM_DECLARE_COMMAND)
+#undef LFDSIM_DECLARE_COMMAND
 
 }  // namespace lfdsim::cli

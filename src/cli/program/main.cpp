@@ -48,24 +48,8 @@ void run(int argc, char** argv) {
         "First steps:\n  lfdsim check displays/desktop-asphere.toml\n  lfdsim render displays/desktop-asphere.toml --model "
         "monkey.blend "
         "-o view.png\nHelp for a command: lfdsim COMMAND --help");
-    const cli::Command program = line.program();
-    cli::add_new(program);
-    cli::add_import(program);
-    cli::add_check(program);
-    cli::add_eia(program);
-    cli::add_views(program);
-    cli::add_photo(program);
-    cli::add_render(program);
-    cli::add_compare(program);
-    cli::add_analyze(program);
-    cli::add_sheet(program);
-    cli::add_view(program);
-    cli::add_export(program);
-    cli::add_bench(program);
-    cli::add_glass(program);
-    cli::add_errors(program);
-    cli::add_study(program);
-    cli::add_doctor(program);
+#define LFDSIM_ADD_COMMAND(NAME) line.add(cli::NAME##_command());
+    LFDSIM_COMMANDS(LFDSIM_ADD_COMMAND)
     const std::string asked = line.parse(cli::arguments(argc, argv));
     if (!asked.empty()) cli::print(asked);
     for (const std::string& reason : gpus_given_up()) spdlog::warn("{}; the CPU went on", reason);
